@@ -1,0 +1,1 @@
+"""Figures and report of a result folder; run/plot is the command."""

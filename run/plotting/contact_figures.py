@@ -1,0 +1,140 @@
+"""What happens between the buildings: gap, impacts, and the energy balance."""
+
+import numpy as np
+
+from .results import Missing, Result
+from .style import (WIDTH, contact_colour, legend_above, log_scale, plot_series, plt, probe_colour,
+                    save, stacked)
+
+
+def _names(result: Result) -> list:
+    """Contacts in the order of the history, then those that only the catalogue knows."""
+    names = result.contacts + [str(name) for name in result.impacts.get("contact", [])]
+    return list(dict.fromkeys(names))
+
+
+def _impacts(result: Result) -> dict:
+    if not result.impacts:
+        raise Missing("no impacts.csv")
+    if len(result.impacts["start"]) == 0:
+        raise Missing("no impact")
+    return result.impacts
+
+
+def gaps(result: Result) -> list:
+    result.need("gap", "contacts")
+    time, impacts = result.history["time"], result.impacts
+    figure, rows = stacked(len(result.contacts), 2.1)
+    for i, (axes, name) in enumerate(zip(rows, result.contacts)):
+        plot_series(axes, time, 1e3 * result.history["gap"][:, i], lw=0.9,
+                    color=contact_colour(_names(result), name))
+        axes.axhline(0, color="black", lw=0.8)
+        title = f"{name}: smallest gap {1e3 * np.nanmin(result.history['gap'][:, i]):.3g} mm"
+        if impacts:
+            own = impacts["contact"].astype(str) == name
+            title += f", {own.sum()} impact{'' if own.sum() == 1 else 's'}"
+            if own.any():
+                size = 12 + 90 * impacts["impulse"][own] / max(impacts["impulse"].max(), 1e-300)
+                axes.scatter(impacts["start"][own], np.zeros(own.sum()), s=size, marker="v",
+                             color="#C0392B", alpha=0.75, lw=0, zorder=3,
+                             label="impact (size: impulse)")
+                legend_above(axes)
+        axes.set_title(title)
+        axes.set_ylabel("gap [mm]")
+    rows[-1].set_xlabel("time [s]")
+    return save(figure, result.folder, "gap.png", "Gap",
+                "Smallest gap over the faces of each contact; positive when open.")
+
+
+def strongest_impact(result: Result) -> list:
+    impacts = _impacts(result)
+    result.need("gap", "contact_force", "acceleration", "contacts")
+    index = int(np.argmax(impacts["impulse"]))
+    start, end = impacts["start"][index], impacts["end"][index]
+    contact = str(impacts["contact"][index])
+    if contact not in result.contacts:
+        raise Missing(f"history.h5 does not know the contact {contact}")
+    margin = max(4e-3, 1.5 * (end - start))
+    time = result.history["time"]
+    window = slice(*np.searchsorted(time, [start - margin, end + 2 * margin]))
+    if len(time[window]) < 2:
+        raise Missing("history.h5 does not cover the strongest impact")
+    figure, rows = stacked(3, 2.0)
+    for i, name in enumerate(result.contacts):
+        style = {"color": contact_colour(_names(result), name), "label": name, "lw": 1.4}
+        rows[0].plot(1e3 * (time[window] - start), 1e3 * result.history["gap"][window, i], **style)
+        force = result.history["contact_force"][window, i]
+        rows[1].plot(1e3 * (time[window] - start), 1e-3 * force, **style)
+    for probe in result.probes:
+        series = result.series("acceleration", probe, "x")
+        if series is not None:
+            rows[2].plot(1e3 * (series[0][window] - start), series[1][window], label=probe,
+                         color=probe_colour(result.probes, probe), lw=1.2)
+    rows[0].axhline(0, color="black", lw=0.8)
+    for axes, label in zip(rows, ("gap [mm]", "contact force [kN]", "acceleration x [m/s²]")):
+        axes.axvspan(0, 1e3 * (end - start), color="#C0392B", alpha=0.10, lw=0)
+        axes.set_ylabel(label)
+        if axes.get_legend_handles_labels()[0]:
+            axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    rows[0].set_title(f"{contact}, t = {start:.5g} s: impulse {impacts['impulse'][index]:.4g} N s "
+                      f"in {1e3 * impacts['duration'][index]:.3g} ms")
+    rows[2].set_xlabel(f"time after {start:.6g} s [ms]")
+    return save(figure, result.folder, "strongest_impact.png", "The strongest impact",
+                "Gap, total contact force and floor accelerations around the impact with the "
+                "largest impulse. Shaded: from its first to its last contact.")
+
+
+def impact_catalogue(result: Result) -> list:
+    impacts = _impacts(result)
+    figure, (left, right) = plt.subplots(1, 2, figsize=(WIDTH, 3.6))
+    for name in _names(result):
+        own = impacts["contact"].astype(str) == name
+        if not own.any():
+            continue
+        colour = contact_colour(_names(result), name)
+        start, impulse = impacts["start"][own], impacts["impulse"][own]
+        left.vlines(start, 0, impulse, color=colour, lw=1.2)
+        left.plot(start, impulse, "o", color=colour, ms=4, label=f"{name} ({own.sum()})")
+        right.plot(impulse, 1e3 * impacts["duration"][own], "o", color=colour, ms=4.5, alpha=0.8,
+                   label=name)
+    left.set(xlabel="time [s]", ylabel="impulse [N s]", title="impulse in time", ylim=(0, None))
+    right.set(xlabel="impulse [N s]", ylabel="duration [ms]", title="duration and impulse")
+    log_scale(right, "x", impacts["impulse"])
+    log_scale(right, "y", 1e3 * impacts["duration"])
+    left.legend(loc="best")
+    right.legend(loc="best")
+    right.grid(True, which="minor", lw=0.3)
+    return save(figure, result.folder, "impacts.png", "Impact catalogue",
+                "Every impact: impulse and duration, by contact (number of impacts in brackets).")
+
+
+def energy_balance(result: Result) -> list:
+    table = result.energy
+    if not table or len(table["time"]) == 0:
+        raise Missing("no energy.csv" if not table else "energy.csv has no line")
+    terms = (("input_work", "work of the ground", "#222222"), ("kinetic", "kinetic", "#0072B2"),
+             ("strain", "strain", "#009E73"), ("damping_loss", "damping", "#E69F00"),
+             ("contact_work", "contact", "#C0392B"))
+    figure, (upper, lower) = plt.subplots(2, 1, figsize=(WIDTH, 5.4), sharex=True,
+                                          height_ratios=(3, 2))
+    for column, label, colour in terms:
+        if column in table:
+            plot_series(upper, table["time"], table[column], color=colour, label=label, lw=1.2)
+    upper.set_ylabel("energy [J]")
+    upper.legend(loc="upper left", ncol=3)
+    low, high = upper.get_ylim()
+    upper.set_ylim(low, high + 0.28 * (high - low))
+    residual = np.abs(table["residual"])
+    residual = np.where(residual > 0, residual, np.nan)
+    scale = np.nanmax(np.abs(table["input_work"]), initial=0.0)
+    if scale > 0:
+        residual = residual / scale
+    plot_series(lower, table["time"], residual, color="#666666", lw=0.9)
+    log_scale(lower, "y", residual, plain=False)
+    lower.set_ylabel("|residual| / largest\nwork of the ground" if scale > 0 else "|residual| [J]")
+    lower.set_xlabel("time [s]")
+    return save(figure, result.folder, "energy.png", "Energy balance",
+                "Terms of the energy balance of the scheme, and what it leaves unexplained.")
+
+
+ALL = [gaps, strongest_impact, impact_catalogue, energy_balance]

@@ -1,0 +1,145 @@
+"""Reads what a run left in its result folder. SI units throughout."""
+
+import csv
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+DIRECTIONS = ("x", "y", "z")
+
+
+class ResultError(Exception):
+    """The folder or one of its files cannot be used: one line for the user."""
+
+
+class Missing(Exception):
+    """What a figure needs is not in the folder: one line for the user."""
+
+
+@dataclass
+class Result:
+    """A result folder; what the run did not leave is empty."""
+
+    folder: Path
+    summary: dict = field(default_factory=dict)
+    history: dict = field(default_factory=dict)  # dataset name -> array
+    offset: dict = field(default_factory=dict)  # dataset name -> shift of its time stamps [s]
+    spectra: dict = field(default_factory=dict)  # column -> array
+    impacts: dict = field(default_factory=dict)
+    energy: dict = field(default_factory=dict)
+    title: str = ""
+
+    @property
+    def probes(self) -> list:
+        names = [channel.rpartition(".")[0] for channel in self.history.get("channels", [])]
+        return list(dict.fromkeys(names))
+
+    @property
+    def contacts(self) -> list:
+        return list(self.history.get("contacts", []))
+
+    def series(self, quantity: str, probe: str, direction: str):
+        """Time stamps and values of one channel, or None if it was not recorded."""
+        if quantity not in self.history or f"{probe}.{direction}" not in self.history["channels"]:
+            return None
+        column = self.history["channels"].index(f"{probe}.{direction}")
+        time = self.history["time"] + self.offset.get(quantity, 0.0)
+        return time, self.history[quantity][:, column]
+
+    def need(self, *datasets: str) -> None:
+        for name in datasets:
+            if name not in self.history or len(self.history[name]) == 0:
+                raise Missing(f"history.h5 has no {name}" if self.history else "no history.h5")
+
+
+def _read_history(path: Path, result: Result) -> None:
+    with h5py.File(path, "r") as file:
+        result.title = _text(file.attrs.get("title", ""))
+        for name, dataset in file.items():
+            if not isinstance(dataset, h5py.Dataset):
+                continue
+            values = dataset[()]
+            if values.dtype.kind in "SO":
+                values = [_text(value).strip("\0 ") for value in values]
+            result.history[name] = values
+            result.offset[name] = float(np.ravel(dataset.attrs.get("time_offset", 0.0))[0])
+    history = result.history
+    if "time" not in history:
+        raise ValueError("no dataset time")
+    for name, labels in (("displacement", "channels"), ("velocity", "channels"),
+                         ("acceleration", "channels"), ("gap", "contacts"),
+                         ("contact_force", "contacts"), ("ground_acceleration", DIRECTIONS)):
+        columns = len(labels if labels is DIRECTIONS else history.get(labels, []))
+        shape = (len(history["time"]), columns)
+        if name in history and history[name].shape != shape:
+            raise ValueError(f"{name} has shape {history[name].shape}, not {shape}")
+
+
+def _text(value) -> str:
+    if isinstance(value, np.ndarray):
+        value = value.item() if value.size == 1 else ""
+    return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
+
+
+def _read_table(path: Path) -> dict:
+    """Columns of a CSV file with '#' comments: numbers where every value is one, else text."""
+    lines = [line for line in path.read_text().splitlines() if line and not line.startswith("#")]
+    if not lines:
+        raise ValueError("no header line")
+    header, *rows = csv.reader(lines)
+    if any(len(row) != len(header) for row in rows):
+        raise ValueError(f"a line does not have {len(header)} values")
+    table = {}
+    for index, name in enumerate(header):
+        values = [row[index] for row in rows]
+        try:
+            table[name.strip()] = np.array(values, dtype=float)
+        except ValueError:
+            table[name.strip()] = np.array(values, dtype=str)
+    return table
+
+
+def _need_columns(table: dict, *columns: str) -> None:
+    for name in columns:
+        if name not in table:
+            raise ValueError(f"no column {name}")
+
+
+def load(folder: Path) -> Result:
+    """Reads the folder. Throws ResultError if it is not there, holds nothing, or a file is bad."""
+    if not folder.is_dir():
+        raise ResultError(f"{folder} is not a folder; give the output folder of a run")
+    result = Result(folder)
+    found = 0
+    readers = {
+        "summary.json": lambda path: result.summary.update(json.loads(path.read_text())),
+        "history.h5": lambda path: _read_history(path, result),
+        "spectra.csv": lambda path: result.spectra.update(_read_table(path)),
+        "impacts.csv": lambda path: result.impacts.update(_read_table(path)),
+        "energy.csv": lambda path: result.energy.update(_read_table(path)),
+    }
+    columns = {
+        "spectra": ("probe", "direction", "damping", "frequency", "pseudo_acceleration"),
+        "impacts": ("contact", "start", "end", "duration", "impulse"),
+        "energy": ("time", "kinetic", "strain", "input_work", "residual"),
+    }
+    for name, read in readers.items():
+        path = folder / name
+        if not path.exists():
+            continue
+        found += 1
+        try:
+            read(path)
+            stem = path.stem
+            if stem in columns:
+                _need_columns(getattr(result, stem), *columns[stem])
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            reason = " ".join(str(error).split())
+            raise ResultError(f"{path} cannot be read: {reason}") from error
+    if not found:
+        raise ResultError(f"{folder} holds no results (summary.json, history.h5, ...)")
+    result.title = str(result.summary.get("title") or result.title or folder.name)
+    return result

@@ -1,0 +1,106 @@
+"""The look of every figure, and drawing of long series without losing their extremes."""
+
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+from matplotlib.ticker import FuncFormatter, NullFormatter  # noqa: E402
+
+G = 9.81  # [m/s2]
+WIDTH = 9.0  # of a figure [in]
+
+DIRECTION_COLOURS = {"x": "#0072B2", "y": "#E69F00", "z": "#009E73"}
+_PROBE_COLOURS = ("#7FB0D9", "#08519C", "#F4A582", "#B2182B", "#A6D96A", "#1B7837", "#C2A5CF",
+                  "#762A83")
+_CONTACT_COLOURS = ("#3B7D3B", "#9C2C77", "#B8860B", "#2F4F6F")
+
+plt.rcParams.update({
+    "figure.dpi": 140,
+    "figure.constrained_layout.use": True,
+    "font.size": 10,
+    "axes.titlesize": 10,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "grid.color": "#DDDDDD",
+    "grid.linewidth": 0.6,
+    "lines.linewidth": 1.0,
+    "legend.frameon": False,
+    "legend.fontsize": 9,
+    "agg.path.chunksize": 20000,
+})
+
+
+def probe_colour(probes: list, name: str) -> str:
+    return _PROBE_COLOURS[probes.index(name) % len(_PROBE_COLOURS)]
+
+
+def contact_colour(contacts: list, name: str) -> str:
+    index = contacts.index(name) if name in contacts else 0
+    return _CONTACT_COLOURS[index % len(_CONTACT_COLOURS)]
+
+
+def envelope(time: np.ndarray, values: np.ndarray, bins: int = 2500):
+    """The series, or if it is long the smallest and largest value of each of `bins` stretches, in
+    the order in which they occur: the picture is the same and no peak is lost."""
+    size = len(values) // bins
+    if size < 3:
+        return time, values
+    body = size * bins
+    blocks = np.nan_to_num(values[:body], nan=0.0).reshape(bins, size)
+    start = np.arange(bins) * size
+    ends = np.sort(np.stack([start + blocks.argmin(1), start + blocks.argmax(1)], 1), 1).ravel()
+    kept = np.concatenate([ends, np.arange(body, len(values))])
+    return time[kept], values[kept]
+
+
+def plot_series(axes, time, values, **options) -> None:
+    axes.plot(*envelope(np.asarray(time), np.asarray(values)), **options)
+
+
+def has_signal(values, reference: float) -> bool:
+    """Whether the series is more than round-off beside `reference`."""
+    peak = np.nanmax(np.abs(values), initial=0.0)
+    return bool(peak > 1e-6 * reference and peak > 0)
+
+
+def log_scale(axes, which: str, values, plain: bool = True) -> None:
+    """Logarithmic axis if there is a positive value to draw; plain: 0.1 1 10, not powers of ten."""
+    values = np.asarray(values)
+    positive = values[np.isfinite(values) & (values > 0)]
+    if len(positive) == 0:
+        return
+    getattr(axes, f"set_{which}scale")("log")
+    if plain:
+        axis = getattr(axes, f"{which}axis")
+        number = FuncFormatter(lambda value, _: f"{value:g}")
+        axis.set_major_formatter(number)
+        # Below one decade the only labels may be those of the minor ticks.
+        narrow = positive.max() < 10 * positive.min()
+        axis.set_minor_formatter(number if narrow else NullFormatter())
+
+
+def legend_above(axes, columns: int = 1) -> None:
+    """Legend at the right of the title, clear of the curves."""
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.98), ncol=columns, borderaxespad=0.0)
+
+
+def stacked(rows: int, height: float = 1.9, sharey: bool = False):
+    """Rows of axes over one time axis, as a flat array."""
+    figure, axes = plt.subplots(rows, 1, figsize=(WIDTH, 0.6 + height * rows), sharex=True,
+                                sharey=sharey, squeeze=False)
+    return figure, axes.ravel()
+
+
+def save(figure, folder: Path, name: str, title: str, caption: str) -> list:
+    """Writes the PNG; returns what the report needs to show it."""
+    figure.align_ylabels()
+    figure.savefig(folder / name)
+    plt.close(figure)
+    return [{"file": name, "title": title, "caption": caption}]

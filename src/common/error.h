@@ -1,0 +1,21 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace pounding {
+
+/// A mistake in the input. The message is one line: what, where (file, option, group), the value
+/// seen, what to do. It ends the run with exit status 1 on every rank.
+class UserError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A run that had to stop for its own good: divergence, not a number. Exit status 1.
+class DivergenceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace pounding

@@ -1,0 +1,79 @@
+#include "common/parallel.h"
+
+#include <stdexcept>
+
+#include "common/error.h"
+
+namespace pounding {
+namespace {
+
+enum class Failure : int { none = 0, user = 1, other = 2 };
+
+/// What `work` threw, or nothing.
+std::pair<Failure, std::string> failure_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const UserError& error) {
+    return {Failure::user, error.what()};
+  } catch (const std::exception& error) {
+    return {Failure::other, error.what()};
+  }
+  return {Failure::none, ""};
+}
+
+[[noreturn]] void raise(Failure failure, const std::string& message) {
+  if (failure == Failure::user) {
+    throw UserError(message);
+  }
+  throw std::runtime_error(message);
+}
+
+}  // namespace
+
+int rank_of(MPI_Comm comm) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  return rank;
+}
+
+int size_of(MPI_Comm comm) {
+  int size = 1;
+  MPI_Comm_size(comm, &size);
+  return size;
+}
+
+void broadcast(MPI_Comm comm, std::string& text) {
+  std::vector<char> bytes(text.begin(), text.end());
+  broadcast_array(comm, bytes);
+  text.assign(bytes.begin(), bytes.end());
+}
+
+void on_rank0(MPI_Comm comm, const std::function<void()>& work) {
+  std::pair<Failure, std::string> outcome{Failure::none, ""};
+  if (rank_of(comm) == 0) {
+    outcome = failure_of(work);
+  }
+  int kind = static_cast<int>(outcome.first);
+  MPI_Bcast(&kind, 1, MPI_INT, 0, comm);
+  if (kind != 0) {
+    broadcast(comm, outcome.second);
+    raise(static_cast<Failure>(kind), outcome.second);
+  }
+}
+
+void on_every_rank(MPI_Comm comm, const std::function<void()>& work) {
+  const auto [failure, message] = failure_of(work);
+  const int mine = failure == Failure::none ? size_of(comm) : rank_of(comm);
+  int first = 0;
+  MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, comm);
+  if (first == size_of(comm)) {
+    return;
+  }
+  int kind = static_cast<int>(failure);
+  MPI_Bcast(&kind, 1, MPI_INT, first, comm);
+  std::vector<char> bytes(message.begin(), message.end());
+  broadcast_array(comm, bytes, first);
+  raise(static_cast<Failure>(kind), std::string(bytes.begin(), bytes.end()));
+}
+
+}  // namespace pounding

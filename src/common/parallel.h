@@ -1,0 +1,62 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <mpi.h>
+
+/// Agreement between ranks: no rank fails alone inside a collective.
+namespace pounding {
+
+int rank_of(MPI_Comm comm);
+int size_of(MPI_Comm comm);
+
+/// The string of rank 0 on every rank. Collective.
+void broadcast(MPI_Comm comm, std::string& text);
+
+/// Runs `work` on rank 0 only. If it throws, every rank throws the same error (UserError stays
+/// UserError, anything else becomes std::runtime_error). Collective.
+void on_rank0(MPI_Comm comm, const std::function<void()>& work);
+
+/// Runs `work` on every rank; if any rank throws, every rank throws the error of the lowest one
+/// that did. `work` must not communicate. Collective.
+void on_every_rank(MPI_Comm comm, const std::function<void()>& work);
+
+/// Sends and receives an array of plain values of any length.
+template <typename Value>
+void send_array(MPI_Comm comm, int to, const std::vector<Value>& values) {
+  const long count = static_cast<long>(values.size());
+  MPI_Send(&count, 1, MPI_LONG, to, 0, comm);
+  const char* bytes = reinterpret_cast<const char*>(values.data());
+  const long total = count * static_cast<long>(sizeof(Value));
+  for (long sent = 0; sent < total; sent += 1L << 30) {
+    MPI_Send(bytes + sent, static_cast<int>(std::min(total - sent, 1L << 30)), MPI_CHAR, to, 1,
+             comm);
+  }
+}
+
+template <typename Value>
+void receive_array(MPI_Comm comm, int from, std::vector<Value>& values) {
+  long count = 0;
+  MPI_Recv(&count, 1, MPI_LONG, from, 0, comm, MPI_STATUS_IGNORE);
+  values.resize(static_cast<std::size_t>(count));
+  char* bytes = reinterpret_cast<char*>(values.data());
+  const long total = count * static_cast<long>(sizeof(Value));
+  for (long got = 0; got < total; got += 1L << 30) {
+    MPI_Recv(bytes + got, static_cast<int>(std::min(total - got, 1L << 30)), MPI_CHAR, from, 1,
+             comm, MPI_STATUS_IGNORE);
+  }
+}
+
+/// The array of rank `root` on every rank. Collective.
+template <typename Value>
+void broadcast_array(MPI_Comm comm, std::vector<Value>& values, int root = 0) {
+  long count = static_cast<long>(values.size());
+  MPI_Bcast(&count, 1, MPI_LONG, root, comm);
+  values.resize(static_cast<std::size_t>(count));
+  MPI_Bcast(values.data(), static_cast<int>(count * static_cast<long>(sizeof(Value))), MPI_CHAR,
+            root, comm);
+}
+
+}  // namespace pounding

@@ -1,0 +1,12 @@
+#include "common/version.h"
+
+namespace pounding {
+
+const char* program_version() {
+  return POUNDING_VERSION;
+}
+const char* program_commit() {
+  return POUNDING_GIT_HASH;
+}
+
+}  // namespace pounding

@@ -1,0 +1,70 @@
+#include "contact/contact_operator.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace pounding {
+
+LocalIndex owned_dof(const InterfaceDof& dof, std::span<const Mesh> meshes) {
+  const Mesh& mesh = meshes[static_cast<std::size_t>(dof.structure)];
+  const LocalIndex node = mesh.owned_node(dof.node);
+  return node < 0 ? -1 : mesh.dof(node, dof.component);
+}
+
+ContactOperator::ContactOperator(MPI_Comm comm, const std::vector<Constraint>& constraints,
+                                 std::span<const Mesh> meshes) {
+  std::map<std::tuple<int, GlobalIndex, int>, int> number;
+  std::vector<InterfaceDof> all;
+  for (const Constraint& constraint : constraints) {
+    for (const ConstraintTerm& term : constraint.terms) {
+      const auto [found, fresh] = number.try_emplace({term.structure, term.node, term.component},
+                                                     static_cast<int>(all.size()));
+      if (fresh) {
+        all.push_back({term.structure, term.node, term.component});
+      }
+    }
+  }
+  std::vector<int> free(all.size(), 0);
+  std::transform(all.begin(), all.end(), free.begin(),
+                 [&](const InterfaceDof& dof) { return owned_dof(dof, meshes) >= 0 ? 1 : 0; });
+  MPI_Allreduce(MPI_IN_PLACE, free.data(), static_cast<int>(free.size()), MPI_INT, MPI_MAX, comm);
+  std::vector<int> kept(all.size(), -1);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (free[i] != 0) {
+      kept[i] = static_cast<int>(dofs_.size());
+      dofs_.push_back(all[i]);
+    }
+  }
+  for (const Constraint& constraint : constraints) {
+    for (const ConstraintTerm& term : constraint.terms) {
+      const int column =
+          kept[static_cast<std::size_t>(number.at({term.structure, term.node, term.component}))];
+      if (column >= 0) {
+        row_dof_.push_back(column);
+        row_coefficient_.push_back(term.coefficient);
+      }
+    }
+    row_begin_.push_back(row_dof_.size());
+  }
+}
+
+double ContactOperator::apply(int row, std::span<const double> x) const {
+  const auto columns = row_dofs(row);
+  const auto values = row_coefficients(row);
+  double sum = 0;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    sum += values[k] * x[static_cast<std::size_t>(columns[k])];
+  }
+  return sum;
+}
+
+void ContactOperator::add_transposed(int row, double value, std::span<double> y) const {
+  const auto columns = row_dofs(row);
+  const auto values = row_coefficients(row);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    y[static_cast<std::size_t>(columns[k])] += values[k] * value;
+  }
+}
+
+}  // namespace pounding

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "contact/interface.h"
+#include "mesh/mesh.h"
+
+namespace pounding {
+
+/// A dof of the interface, by what does not depend on the partition.
+struct InterfaceDof {
+  int structure = 0;
+  GlobalIndex node = 0;  ///< file order
+  int component = 0;
+};
+
+/// The contact operator L over the interface's own list of dofs, the same on every rank: a row per
+/// constraint, a column per dof in order of first appearance. Clamped dofs are not in it.
+class ContactOperator {
+ public:
+  /// `meshes` in the order of the scene's structures; every rank knows which dofs are clamped by
+  /// asking their owners. Collective over `comm`.
+  ContactOperator(MPI_Comm comm, const std::vector<Constraint>& constraints,
+                  std::span<const Mesh> meshes);
+
+  int rows() const { return static_cast<int>(row_begin_.size()) - 1; }
+  int dofs() const { return static_cast<int>(dofs_.size()); }
+  const std::vector<InterfaceDof>& dof_list() const { return dofs_; }
+
+  std::span<const int> row_dofs(int row) const { return slice(row_dof_, row); }
+  std::span<const double> row_coefficients(int row) const { return slice(row_coefficient_, row); }
+
+  /// (L x)_row for x over the interface's dofs.
+  double apply(int row, std::span<const double> x) const;
+  /// y += value * (row of L)^T.
+  void add_transposed(int row, double value, std::span<double> y) const;
+
+ private:
+  template <typename Value>
+  std::span<const Value> slice(const std::vector<Value>& values, int row) const {
+    const auto r = static_cast<std::size_t>(row);
+    return {values.data() + row_begin_[r], row_begin_[r + 1] - row_begin_[r]};
+  }
+
+  std::vector<InterfaceDof> dofs_;
+  std::vector<std::size_t> row_begin_{0};
+  std::vector<int> row_dof_;
+  std::vector<double> row_coefficient_;
+};
+
+/// Local dof of an interface dof on the rank that owns it, -1 elsewhere.
+LocalIndex owned_dof(const InterfaceDof& dof, std::span<const Mesh> meshes);
+
+}  // namespace pounding

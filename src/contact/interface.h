@@ -1,0 +1,71 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <mpi.h>
+
+#include "mesh/global_mesh.h"
+#include "mesh/partition.h"
+#include "scene/scene.h"
+
+/// Contact geometry: which secondary node faces which place of the primary face, along what normal,
+/// at what initial gap.
+///
+/// Signs, for the whole program: the normal n points from the secondary side outwards, to the
+/// primary. The gap is g = g0 + L u with L u = n . (u_primary - u_secondary); g > 0 is open. The
+/// impulse lambda >= 0 [N s] is a compression; L^T lambda acts on the dofs, which pushes the
+/// primary along +n and the secondary along -n.
+namespace pounding {
+
+/// One term of a constraint: coefficient times the displacement component of a node.
+struct ConstraintTerm {
+  int structure = 0;
+  GlobalIndex node = 0;  ///< file order
+  int component = 0;     ///< 0-2
+  double coefficient = 0;
+};
+
+/// One row of L with its initial gap.
+struct Constraint {
+  int contact = 0;  ///< index into the scene's contacts
+  std::vector<ConstraintTerm> terms;
+  double initial_gap = 0;         ///< [m]
+  double geometric_gap = 0;       ///< as the meshes stand [m]
+  std::array<double, 2> place{};  ///< secondary node on the tangent axes [m]
+  bool matched = false;           ///< faces one primary node exactly
+};
+
+/// What was found for one contact.
+struct InterfaceReport {
+  std::string contact;
+  int pairs = 0;
+  int matched = 0;
+  int unmatched_nodes = 0;  ///< secondary nodes that face nothing
+  double smallest_gap = 0;  ///< initial [m]
+  double largest_gap = 0;
+  Vector3 normal{0, 0, 0};            ///< mean
+  std::array<int, 2> tangent_axes{};  ///< global axes of `place`
+};
+
+struct Interface {
+  std::vector<Constraint> constraints;  ///< in the order of the contacts, nodes in file order
+  std::vector<InterfaceReport> reports;
+  double model_size = 0;  ///< largest extent of the scene [m]
+};
+
+/// Finds the pairs of every contact of the scene: for each node of the secondary group the facet of
+/// the primary group that the normal through the node meets; weights are the facet's shape
+/// functions there, one node alone where it meets a node (matched). `meshes` in the order of the
+/// scene's structures. Serial, rank 0. Throws UserError (unknown group, group without facets, faces
+/// that do not face each other, no pair at all).
+Interface find_interface(const Scene& scene, std::span<const GlobalMesh> meshes);
+
+/// Facing nodes, for the partition.
+std::vector<NodeLink> facing_nodes(const Interface& interface);
+
+/// The interface of rank 0 on every rank. Collective.
+void broadcast_interface(MPI_Comm comm, Interface& interface);
+
+}  // namespace pounding

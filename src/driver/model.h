@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/profile.h"
+#include "contact/interface.h"
+#include "mesh/mesh.h"
+#include "modal/modal_analysis.h"
+#include "motion/ground_motion.h"
+#include "output/probe_set.h"
+#include "scene/scene.h"
+#include "system/linear_system.h"
+
+namespace pounding {
+
+/// Everything about a scene that is constant in time, on this rank. Vectors run over the scene's
+/// structures.
+struct Model {
+  std::vector<Mesh> meshes;
+  std::vector<LinearSystem> systems;
+  std::vector<ModalResult> modal;
+  std::vector<LargestFrequency> largest;
+  std::vector<double> stable_time_step;  ///< Eq. 12 per structure [s]
+  Interface interface;                   ///< reports on rank 0 only
+  std::vector<ResolvedProbe> probes;
+  std::unique_ptr<GroundMotion> motion;
+  double partition_imbalance = 1;
+  long partition_edge_cut = 0;
+  double time_step = 0;    ///< in force [s]
+  std::int64_t steps = 0;  ///< until the end time
+  double smallest_stable_time_step() const;
+};
+
+/// Reads, partitions, distributes and assembles; finds modes, omega_max and the time step. Throws
+/// UserError on every rank alike. Collective.
+Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile);
+
+}  // namespace pounding

@@ -1,0 +1,181 @@
+#include "driver/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "common/version.h"
+#include "dynamics/stable_time_step.h"
+
+namespace pounding {
+namespace {
+
+const char* element_name(ElementType type) {
+  switch (type) {
+    case ElementType::hex8:
+      return "hex8";
+    case ElementType::hex8_full:
+      return "hex8_full";
+    case ElementType::beam:
+      return "beam";
+    case ElementType::bar:
+      return "bar";
+  }
+  return "";
+}
+
+void print_structure(const Scene& scene, const Model& model, std::size_t s) {
+  const Mesh& mesh = model.meshes[s];
+  const LinearSystem& system = model.systems[s];
+  std::printf("\nstructure %s: %lld nodes, %lld dofs (%lld before clamping), mass %.0f kg\n",
+              system.name.c_str(), static_cast<long long>(mesh.global_nodes),
+              static_cast<long long>(mesh.global_dofs),
+              static_cast<long long>(mesh.global_dofs_unclamped), system.total_mass);
+  for (const ElementBlock& block : mesh.blocks) {
+    std::printf("  %-14s %7lld %s\n", block.group.c_str(),
+                static_cast<long long>(block.global_count), element_name(block.type));
+  }
+  const Rayleigh& damping = scene.structures[s].damping;
+  std::printf("  damping ratio at 1, 10, 100, 400 Hz:");
+  for (const double frequency : {1.0, 10.0, 100.0, 400.0}) {
+    std::printf(" %.3f %%", 100 * damping_ratio(damping, 2 * std::numbers::pi * frequency));
+  }
+  std::printf("\n  mode  frequency  direction  effective mass, share of it\n");
+  int number = 0;
+  for (const Mode& mode : model.modal[s].modes) {
+    const auto axis = static_cast<std::size_t>(
+        std::max_element(mode.effective_modal_mass.begin(), mode.effective_modal_mass.begin() + 3) -
+        mode.effective_modal_mass.begin());
+    std::printf("  %4d  %9.3f  %-9s  %8.0f kg along %s, %4.1f %% about/along %s\n", ++number,
+                mode.frequency, mode.direction.c_str(), mode.effective_modal_mass[axis],
+                direction_names[axis], 100 * mode.direction_fraction, mode.direction.c_str());
+  }
+  std::printf("  omega_max %.4e rad/s (bound from single elements %.4e)\n",
+              model.largest[s].omega_max, system.element_frequency_bound);
+  std::printf("    at %s\n    stiffest: %s\n", model.largest[s].location.c_str(),
+              system.stiffest_element.c_str());
+  std::printf(
+      "  stable time step %.4e s, without damping %.4e s (damping ratio %.2f at omega_max)\n",
+      model.stable_time_step[s], 2 / model.largest[s].omega_max,
+      damping_ratio(damping, model.largest[s].omega_max));
+}
+
+void print_impacts(const Scene& scene, const RunStatistics& statistics,
+                   const ImpactCatalogue& impacts) {
+  if (scene.contacts.empty()) {
+    return;
+  }
+  std::printf(
+      "\nimpacts: %d episodes, total impulse %.1f N s, largest %.1f N s, penetration at most "
+      "%.2e m\n",
+      statistics.all_impacts.episodes, statistics.all_impacts.total_impulse,
+      statistics.all_impacts.largest_impulse, statistics.all_impacts.max_penetration);
+  constexpr std::size_t shown = 20;
+  if (!impacts.impacts().empty()) {
+    std::printf("  contact         start s  duration ms  impulse N s   peak kN  points  lost J\n");
+  }
+  for (std::size_t i = 0; i < std::min(shown, impacts.impacts().size()); ++i) {
+    const Impact& impact = impacts.impacts()[i];
+    std::printf("  %-12s %10.5f %12.3f %12.2f %9.1f %7d %7.2f\n",
+                scene.contacts[static_cast<std::size_t>(impact.contact)].name.c_str(), impact.start,
+                1000 * impact.duration(), impact.impulse, impact.peak_force / 1000, impact.points,
+                impact.energy_lost);
+  }
+  if (impacts.impacts().size() > shown) {
+    std::printf("  ... and %zu more in impacts.csv\n", impacts.impacts().size() - shown);
+  }
+}
+
+void print_probes(const Recorder& recorder, const std::vector<ProbeSpectrum>& spectra) {
+  if (recorder.channels().empty()) {
+    return;
+  }
+  std::printf(
+      "\nprobe             peak acceleration m/s2   peak displacement mm   spectrum peak m/s2 at "
+      "Hz\n");
+  for (std::size_t channel = 0; channel < recorder.channels().size(); ++channel) {
+    std::printf("  %-18s %16.3f %22.3f", recorder.channels()[channel].c_str(),
+                recorder.peaks()[channel].acceleration,
+                1000 * recorder.peaks()[channel].displacement);
+    const std::string& probe = recorder.probes()[channel / 3].name;
+    for (const ProbeSpectrum& spectrum : spectra) {
+      if (spectrum.probe == probe && spectrum.direction == direction_names[channel % 3]) {
+        const auto peak = std::max_element(spectrum.points.begin(), spectrum.points.end(),
+                                           [](const auto& a, const auto& b) {
+                                             return a.pseudo_acceleration < b.pseudo_acceleration;
+                                           });
+        std::printf(" %14.2f at %.4g (%g %%)", peak->pseudo_acceleration, peak->frequency,
+                    100 * spectrum.damping_ratio);
+      }
+    }
+    std::printf("\n");
+  }
+}
+
+}  // namespace
+
+void print_title(const Scene& scene, int ranks) {
+  int major = 0;
+  int minor = 0;
+  int subminor = 0;
+  PetscGetVersionNumber(&major, &minor, &subminor, nullptr);
+  std::printf("pounding %s (%s), PETSc %d.%d.%d, %d rank%s\n", program_version(), program_commit(),
+              major, minor, subminor, ranks, ranks == 1 ? "" : "s");
+  if (!scene.title.empty()) {
+    std::printf("%s\n", scene.title.c_str());
+  }
+}
+
+void print_model(const Scene& scene, const Model& model) {
+  for (std::size_t s = 0; s < model.systems.size(); ++s) {
+    print_structure(scene, model, s);
+  }
+  for (const InterfaceReport& report : model.interface.reports) {
+    std::printf(
+        "\ncontact %s: %d pairs (%d node to node), %d secondary nodes face nothing, initial gap "
+        "%.4g to %.4g mm, normal (%.3g, %.3g, %.3g)\n",
+        report.contact.c_str(), report.pairs, report.matched, report.unmatched_nodes,
+        1000 * report.smallest_gap, 1000 * report.largest_gap, report.normal[0], report.normal[1],
+        report.normal[2]);
+  }
+  std::printf("\npartition: imbalance %.3f, cut edges %ld\n", model.partition_imbalance,
+              model.partition_edge_cut);
+}
+
+void print_time_step(const Scene& scene, const Model& model, double seconds_per_step) {
+  std::printf("time step %.6g s (%.3f of the stable one), %lld steps to %.6g s\n", model.time_step,
+              model.time_step / model.smallest_stable_time_step(),
+              static_cast<long long>(model.steps), scene.end_time);
+  if (seconds_per_step > 0) {
+    std::printf("expected wall time of the steps: %.1f s (%.1f microseconds per step, measured)\n",
+                seconds_per_step * static_cast<double>(model.steps), 1e6 * seconds_per_step);
+  }
+  std::fflush(stdout);
+}
+
+void print_results(const Scene& scene, const Model& model, const RunStatistics& statistics,
+                   const ImpactCatalogue& impacts, const Recorder& recorder,
+                   const std::vector<ProbeSpectrum>& spectra) {
+  std::printf("\n");
+  print_impacts(scene, statistics, impacts);
+  print_probes(recorder, spectra);
+  const EnergyLine& energy = statistics.energy;
+  std::printf(
+      "\nenergy at the end [J]: kinetic %.4g, strain %.4g, damping loss %.4g, contact work %.4g, "
+      "input work %.4g\n",
+      energy.kinetic, energy.strain, energy.damping_loss, energy.contact_work, energy.input_work);
+  std::printf("  largest residual of the energy identity: %.2e of the largest term\n",
+              statistics.energy_residual);
+  std::printf(
+      "\nwall time %.2f s, %.3f microseconds per step; by phase [s, largest over ranks]:\n",
+      statistics.wall_time,
+      1e6 * statistics.step_time / static_cast<double>(std::max<std::int64_t>(1, model.steps)));
+  for (int phase = 0; phase < static_cast<int>(Phase::count); ++phase) {
+    std::printf("  %-22s %9.3f\n", phase_name(static_cast<Phase>(phase)),
+                statistics.phase_seconds[static_cast<std::size_t>(phase)]);
+  }
+  std::printf("results in %s\n", scene.output.c_str());
+}
+
+}  // namespace pounding

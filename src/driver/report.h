@@ -1,0 +1,20 @@
+#pragma once
+
+#include "driver/floor_spectra.h"
+#include "driver/model.h"
+#include "driver/run_statistics.h"
+#include "output/impact_catalogue.h"
+#include "scene/scene.h"
+
+/// What a run prints; to be called on rank 0 only.
+namespace pounding {
+
+void print_title(const Scene& scene, int ranks);
+void print_model(const Scene& scene, const Model& model);
+/// `seconds_per_step`: measured, 0 if it was not.
+void print_time_step(const Scene& scene, const Model& model, double seconds_per_step);
+void print_results(const Scene& scene, const Model& model, const RunStatistics& statistics,
+                   const ImpactCatalogue& impacts, const Recorder& recorder,
+                   const std::vector<ProbeSpectrum>& spectra);
+
+}  // namespace pounding

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/profile.h"
+#include "dynamics/energy_balance.h"
+#include "output/impact_catalogue.h"
+#include "output/recorder.h"
+
+namespace pounding {
+
+/// What a run found, beside the model; complete on rank 0.
+struct RunStatistics {
+  double wall_time = 0;                 ///< of everything [s]
+  double step_time = 0;                 ///< of the time loop [s]
+  EnergyLine energy;                    ///< last line
+  double energy_residual = 0;           ///< largest, relative to the largest term [-]
+  double complementarity_residual = 0;  ///< largest [-]
+  int contact_rows = 0;
+  int coupled_rows = 0;
+  int interface_ranks = 0;
+  std::vector<ImpactTotals> impacts;  ///< per contact
+  ImpactTotals all_impacts;
+  std::vector<double> phase_seconds;  ///< largest over the ranks, per Phase
+};
+
+}  // namespace pounding

@@ -1,0 +1,161 @@
+#include "driver/summary.h"
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "common/version.h"
+#include "dynamics/stable_time_step.h"
+
+namespace pounding {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json describe_structure(const Model& model, std::size_t s) {
+  Json structure;
+  const Mesh& mesh = model.meshes[s];
+  structure["nodes"] = mesh.global_nodes;
+  structure["dofs"] = mesh.global_dofs;
+  structure["dofs_before_clamping"] = mesh.global_dofs_unclamped;
+  GlobalIndex elements = 0;
+  for (const ElementBlock& block : mesh.blocks) {
+    structure["groups"][block.group] = block.global_count;
+    elements += block.global_count;
+  }
+  structure["elements"] = elements;
+  structure["mass"] = model.systems[s].total_mass;
+  structure["damping"] = {{"alpha", model.systems[s].damping.alpha},
+                          {"beta", model.systems[s].damping.beta}};
+  structure["frequencies"] = Json::array();
+  for (const Mode& mode : model.modal[s].modes) {
+    double effective_mass = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+      effective_mass = std::max(effective_mass, mode.effective_modal_mass[d]);
+    }
+    structure["frequencies"].push_back({{"frequency", mode.frequency},
+                                        {"direction", mode.direction},
+                                        {"fraction", mode.direction_fraction},
+                                        {"effective_mass", effective_mass},
+                                        {"effective_modal_mass", mode.effective_modal_mass}});
+  }
+  structure["omega_max"] = model.largest[s].omega_max;
+  structure["omega_max_location"] = model.largest[s].location;
+  structure["element_frequency_bound"] = model.systems[s].element_frequency_bound;
+  structure["stiffest_element"] = model.systems[s].stiffest_element;
+  structure["stable_time_step"] = model.stable_time_step[s];
+  structure["stable_time_step_undamped"] = 2 / model.largest[s].omega_max;
+  return structure;
+}
+
+Json describe_impacts(const ImpactTotals& totals) {
+  return {{"episodes", totals.episodes},
+          {"total_impulse", totals.total_impulse},
+          {"largest_impulse", totals.largest_impulse},
+          {"max_penetration", totals.max_penetration},
+          {"energy_lost", totals.energy_lost}};
+}
+
+Json describe_energy(const RunStatistics& statistics) {
+  const EnergyLine& energy = statistics.energy;
+  return {{"relative_residual", statistics.energy_residual},
+          {"kinetic", energy.kinetic},
+          {"strain", energy.strain},
+          {"damping", energy.damping_loss},
+          {"contact", energy.contact_work},
+          {"input", energy.input_work}};
+}
+
+Json describe_probe(const Scene& scene, const Recorder& recorder, std::size_t p) {
+  const ResolvedProbe& probe = recorder.probes()[p];
+  Json description;
+  description["structure"] = scene.structures[static_cast<std::size_t>(probe.structure)].name;
+  description["position"] = probe.position;
+  description["nodes"] = probe.nodes.size();
+  description["peak_acceleration"] = Json::array();
+  description["peak_displacement"] = Json::array();
+  for (std::size_t d = 0; d < 3; ++d) {
+    description["peak_acceleration"].push_back(recorder.peaks()[3 * p + d].acceleration);
+    description["peak_displacement"].push_back(recorder.peaks()[3 * p + d].displacement);
+  }
+  return description;
+}
+
+/// The resolved options as name -> value.
+Json describe_options(const std::string& resolved) {
+  Json options = Json::object();
+  std::size_t begin = 0;
+  while (begin < resolved.size()) {
+    const std::size_t end = std::min(resolved.find('\n', begin), resolved.size());
+    const std::string line = resolved.substr(begin, end - begin);
+    const std::size_t colon = line.find(": ");
+    if (!line.empty() && line[0] != '#' && colon != std::string::npos) {
+      std::string value = line.substr(colon + 2);
+      if (value.size() >= 2 && value.front() == '"' && value.back() == '"') {
+        value = value.substr(1, value.size() - 2);
+      }
+      options[line.substr(0, colon)] = value;
+    }
+    begin = end + 1;
+  }
+  return options;
+}
+
+}  // namespace
+
+void write_summary(const std::string& path, const Scene& scene, const std::string& resolved,
+                   const Model& model, const RunStatistics& statistics, const Recorder& recorder,
+                   int ranks) {
+  Json summary;
+  summary["title"] = scene.title;
+  summary["version"] = program_version();
+  summary["commit"] = program_commit();
+  for (std::size_t s = 0; s < model.systems.size(); ++s) {
+    summary["structures"][model.systems[s].name] = describe_structure(model, s);
+  }
+  summary["time_step"] = model.time_step;
+  summary["stable_time_step"] = model.smallest_stable_time_step();
+  summary["steps"] = model.steps;
+  summary["end_time"] = scene.end_time;
+  summary["output_interval"] = recorder.interval();
+  summary["ranks"] = ranks;
+  summary["wall_time"] = statistics.wall_time;
+  summary["microseconds_per_step"] =
+      1e6 * statistics.step_time / static_cast<double>(std::max<std::int64_t>(1, model.steps));
+  for (int phase = 0; phase < static_cast<int>(Phase::count); ++phase) {
+    summary["phases"][phase_name(static_cast<Phase>(phase))] =
+        statistics.phase_seconds[static_cast<std::size_t>(phase)];
+  }
+  summary["partition"] = {{"imbalance", model.partition_imbalance},
+                          {"edge_cut", model.partition_edge_cut},
+                          {"interface_ranks", statistics.interface_ranks}};
+  summary["energy"] = describe_energy(statistics);
+  summary["impacts"] = describe_impacts(statistics.all_impacts);
+  summary["impacts"]["complementarity_residual"] = statistics.complementarity_residual;
+  summary["contacts"] = Json::object();
+  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
+    const InterfaceReport& report = model.interface.reports[c];
+    summary["impacts"][scene.contacts[c].name] = describe_impacts(statistics.impacts[c]);
+    summary["contacts"][scene.contacts[c].name] = {
+        {"pairs", report.pairs},
+        {"matched", report.matched},
+        {"unmatched_nodes", report.unmatched_nodes},
+        {"initial_gap", {report.smallest_gap, report.largest_gap}},
+        {"normal", report.normal}};
+  }
+  summary["probes"] = Json::object();
+  for (std::size_t p = 0; p < recorder.probes().size(); ++p) {
+    summary["probes"][recorder.probes()[p].name] = describe_probe(scene, recorder, p);
+  }
+  summary["options"] = describe_options(resolved);
+  std::ofstream file(path);
+  file << summary.dump(1) << '\n';
+  file.close();
+  if (!file) {
+    throw std::runtime_error(path + ": could not be written completely (is the disk full?)");
+  }
+}
+
+}  // namespace pounding

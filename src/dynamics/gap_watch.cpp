@@ -1,0 +1,58 @@
+#include "dynamics/gap_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/stable_time_step.h"
+
+namespace pounding {
+
+GapWatch::GapWatch(std::span<const LinearSystem> systems, std::span<const double> omega_max,
+                   std::span<const double> rate_norms, double peak_acceleration, double time_step)
+    : time_step_(time_step), root_energy_(systems.size(), 0.0) {
+  for (std::size_t s = 0; s < systems.size(); ++s) {
+    const double margin = energy_margin(systems[s].damping, omega_max[s], time_step);
+    possible_ = possible_ && margin > 0;
+    const double root = std::sqrt(std::max(margin, 1e-300));
+    rate_per_root_energy_.push_back(rate_norms[s] / root);
+    growth_.push_back(std::sqrt(systems[s].total_mass) * peak_acceleration * time_step / root);
+  }
+}
+
+void GapWatch::energies_known(std::int64_t step, std::span<const double> energies) {
+  energy_step_ = step;
+  for (std::size_t s = 0; s < energies.size(); ++s) {
+    // Round-off of a structure at rest must not count as knowledge that nothing moves.
+    root_energy_[s] = std::sqrt(2 * std::max(0.0, energies[s])) * (1 + 1e-6);
+  }
+}
+
+double GapWatch::rate_bound(std::int64_t step) const {
+  double rate = 0;
+  for (std::size_t s = 0; s < growth_.size(); ++s) {
+    const double root = root_energy_[s] + growth_[s] * static_cast<double>(step + 2 - energy_step_);
+    rate += rate_per_root_energy_[s] * root;
+  }
+  return rate;
+}
+
+void GapWatch::looked(std::int64_t step, double clearance, bool touching) {
+  if (touching) {
+    last_touch_ = step;
+  }
+  next_look_ = step + 1;
+  if (!possible_ || clearance <= 0 || energy_step_ <= last_touch_) {
+    return;
+  }
+  // The bound rises with time: its value at the last step holds for all steps before.
+  std::int64_t steps = 1;
+  while (steps < 100000 &&
+         time_step_ * static_cast<double>(2 * steps) * rate_bound(step + 2 * steps) < clearance) {
+    steps *= 2;
+  }
+  if (time_step_ * static_cast<double>(steps) * rate_bound(step + steps) < clearance) {
+    next_look_ = step + steps;
+  }
+}
+
+}  // namespace pounding

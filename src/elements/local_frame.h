@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+
+#include "common/types.h"
+#include "elements/matrix3.h"
+
+/// Length and local axes of two-node elements, and the turn of their matrices to global axes.
+namespace pounding {
+
+/// A segment from node 1 to node 2: unit direction and length [m].
+struct Segment {
+  Vector3 direction{};
+  double length = 0;
+};
+
+/// Segment of the two nodes in `coordinates`, shape (2, 3) [m]. Throws ElementError when its length
+/// is lost in the digits of the coordinates.
+Segment segment_between(std::span<const double> coordinates);
+
+/// Orthonormal local axes x, y, z as the rows of a matrix: x = `x_axis` (a unit vector), z the part
+/// of `z_axis` orthogonal to x, y = z cross x. Throws ElementError when z_axis is zero or parallel
+/// to x.
+Matrix3 local_frame(const Vector3& x_axis, const Vector3& z_axis);
+
+/// Turns a square matrix made of 3 x 3 blocks of local components into global ones, in place:
+/// K <- T' K T with `frame` on the diagonal of T. Row-major, size a multiple of 3.
+void rotate_to_global(const Matrix3& frame, std::span<double> matrix, int size);
+
+/// Diagonal of R' diag(local) R: a lumped mass of local axes seen from the global ones, without the
+/// coupling terms that a lumped mass cannot hold; the trace is kept.
+Vector3 rotate_diagonal_to_global(const Matrix3& frame, const Vector3& local);
+
+}  // namespace pounding

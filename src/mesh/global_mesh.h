@@ -1,0 +1,60 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/types.h"
+
+/// A whole mesh as it stands on rank 0 between reading and distribution. Nodes are numbered from 0
+/// in the order of their tags ("file order"); only nodes that an element of the scene uses exist.
+namespace pounding {
+
+/// A facet of a physical group: 3 or 4 nodes of a surface, 2 of an edge.
+struct Facet {
+  std::array<GlobalIndex, 4> nodes{-1, -1, -1, -1};
+  int count = 0;
+  std::span<const GlobalIndex> corners() const {
+    return {nodes.data(), static_cast<std::size_t>(count)};
+  }
+};
+
+/// A physical group of the file: its nodes (sorted), and its surface or edge facets.
+struct NodeGroup {
+  std::vector<GlobalIndex> nodes;
+  std::vector<Facet> facets;
+};
+
+/// The elements of one region of the scene.
+struct ElementSet {
+  std::string group;
+  ElementType type = ElementType::hex8;
+  std::vector<std::int64_t> tags;         ///< as in the file
+  std::vector<GlobalIndex> connectivity;  ///< shape (n_elements, nodes of the type)
+};
+
+struct GlobalMesh {
+  std::vector<double> coordinates;      ///< shape (n_nodes, 3) [m]
+  std::vector<std::int64_t> node_tags;  ///< as in the file
+  std::vector<ElementSet> regions;      ///< in the order of the scene's regions
+  std::map<std::string, NodeGroup> groups;
+  /// One bit per free component of a node: 0-2 translations, 3-5 rotations. Rotations exist where
+  /// an element asks for them; clamped nodes have none.
+  std::vector<std::uint8_t> free_components;
+  /// The same before clamping.
+  std::vector<std::uint8_t> components;
+
+  GlobalIndex node_count() const { return static_cast<GlobalIndex>(node_tags.size()); }
+  Vector3 position(GlobalIndex node) const {
+    const double* x = &coordinates[static_cast<std::size_t>(3 * node)];
+    return {x[0], x[1], x[2]};
+  }
+};
+
+/// Number of dofs that a component mask stands for.
+constexpr int component_count(std::uint8_t mask) {
+  return __builtin_popcount(mask);
+}
+
+}  // namespace pounding

@@ -1,0 +1,245 @@
+#include "mesh/mesh.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "common/parallel.h"
+#include "elements/element.h"
+
+namespace pounding {
+namespace {
+
+/// What travels to one rank.
+struct Parcel {
+  std::vector<GlobalIndex>
+      sizes;  ///< owned nodes, global nodes, dofs, unclamped dofs, first dof, regions
+  std::vector<GlobalIndex> file_node;
+  std::vector<double> coordinates;
+  std::vector<std::uint8_t> free_components;
+  std::vector<GlobalIndex> global_dof;
+  std::vector<GlobalIndex> region;  ///< per region: type, global count, elements here
+  std::vector<char> names;          ///< of the regions, zero-terminated
+  std::vector<std::int64_t> tags;
+  std::vector<LocalIndex> connectivity;
+  std::vector<std::uint8_t> counted;
+
+  template <typename Function>
+  void for_each_array(Function&& function) {
+    function(sizes);
+    function(file_node);
+    function(coordinates);
+    function(free_components);
+    function(global_dof);
+    function(region);
+    function(names);
+    function(tags);
+    function(connectivity);
+    function(counted);
+  }
+};
+
+/// Numbers nodes and dofs rank by rank and cuts the parcels; lives on rank 0.
+class Cutter {
+ public:
+  Cutter(const GlobalMesh& mesh, const Partition& partition, int structure)
+      : mesh_(mesh),
+        parts_(partition.parts),
+        node_owner_(partition.node_owner[static_cast<std::size_t>(structure)]) {
+    sort_nodes();
+    number_dofs();
+  }
+
+  Parcel parcel(int part) const {
+    Parcel out;
+    const auto begin = node_begin_[static_cast<std::size_t>(part)];
+    const auto end = node_begin_[static_cast<std::size_t>(part) + 1];
+    std::vector<GlobalIndex> nodes(order_.begin() + begin, order_.begin() + end);
+    std::unordered_map<GlobalIndex, LocalIndex> local;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      local[nodes[i]] = static_cast<LocalIndex>(i);
+    }
+    add_elements(part, nodes, local, out);
+    const GlobalIndex owned = end - begin;
+    for (const GlobalIndex node : nodes) {
+      const auto n = static_cast<std::size_t>(node);
+      out.file_node.push_back(node);
+      out.free_components.push_back(mesh_.free_components[n]);
+      out.global_dof.push_back(first_dof_[n]);
+      const Vector3 x = mesh_.position(node);
+      out.coordinates.insert(out.coordinates.end(), x.begin(), x.end());
+    }
+    out.sizes = {owned,
+                 mesh_.node_count(),
+                 dofs_,
+                 unclamped_dofs_,
+                 part_dof_[static_cast<std::size_t>(part)],
+                 static_cast<GlobalIndex>(mesh_.regions.size())};
+    return out;
+  }
+
+ private:
+  /// Per rank, nodes along the longest extent first: neighbours in space are neighbours in memory.
+  void sort_nodes() {
+    Vector3 low{1e300, 1e300, 1e300};
+    Vector3 high{-1e300, -1e300, -1e300};
+    for (GlobalIndex node = 0; node < mesh_.node_count(); ++node) {
+      const Vector3 x = mesh_.position(node);
+      for (std::size_t d = 0; d < 3; ++d) {
+        low[d] = std::min(low[d], x[d]);
+        high[d] = std::max(high[d], x[d]);
+      }
+    }
+    std::array<std::size_t, 3> axes{0, 1, 2};
+    std::stable_sort(axes.begin(), axes.end(), [&](std::size_t a, std::size_t b) {
+      return high[a] - low[a] > high[b] - low[b];
+    });
+    order_.resize(static_cast<std::size_t>(mesh_.node_count()));
+    std::iota(order_.begin(), order_.end(), GlobalIndex{0});
+    std::stable_sort(order_.begin(), order_.end(), [&](GlobalIndex a, GlobalIndex b) {
+      const int owner_a = node_owner_[static_cast<std::size_t>(a)];
+      const int owner_b = node_owner_[static_cast<std::size_t>(b)];
+      if (owner_a != owner_b) {
+        return owner_a < owner_b;
+      }
+      const Vector3 x = mesh_.position(a);
+      const Vector3 y = mesh_.position(b);
+      for (const std::size_t d : axes) {
+        if (x[d] != y[d]) {
+          return x[d] < y[d];
+        }
+      }
+      return false;
+    });
+  }
+
+  void number_dofs() {
+    node_begin_.assign(static_cast<std::size_t>(parts_) + 1, 0);
+    part_dof_.assign(static_cast<std::size_t>(parts_) + 1, 0);
+    first_dof_.resize(order_.size());
+    for (const GlobalIndex node : order_) {
+      const auto n = static_cast<std::size_t>(node);
+      const auto part = static_cast<std::size_t>(node_owner_[n]);
+      first_dof_[n] = dofs_;
+      dofs_ += component_count(mesh_.free_components[n]);
+      unclamped_dofs_ += component_count(mesh_.components[n]);
+      ++node_begin_[part + 1];
+      part_dof_[part + 1] = dofs_;
+    }
+    for (std::size_t p = 1; p < node_begin_.size(); ++p) {
+      node_begin_[p] += node_begin_[p - 1];
+      part_dof_[p] = std::max(part_dof_[p], part_dof_[p - 1]);
+    }
+  }
+
+  /// Elements that touch an owned node; their other nodes become ghosts, in order of appearance.
+  void add_elements(int part, std::vector<GlobalIndex>& nodes,
+                    std::unordered_map<GlobalIndex, LocalIndex>& local, Parcel& out) const {
+    std::size_t element = 0;
+    for (const ElementSet& set : mesh_.regions) {
+      const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
+      GlobalIndex here = 0;
+      for (std::size_t e = 0; e < set.tags.size(); ++e, ++element) {
+        const GlobalIndex* corner = &set.connectivity[e * width];
+        if (std::none_of(corner, corner + width, [&](GlobalIndex node) {
+              return node_owner_[static_cast<std::size_t>(node)] == part;
+            })) {
+          continue;
+        }
+        ++here;
+        out.tags.push_back(set.tags[e]);
+        // Counted where its first node is owned: that rank surely holds the element.
+        out.counted.push_back(node_owner_[static_cast<std::size_t>(corner[0])] == part ? 1 : 0);
+        for (std::size_t a = 0; a < width; ++a) {
+          const auto [found, fresh] =
+              local.try_emplace(corner[a], static_cast<LocalIndex>(nodes.size()));
+          if (fresh) {
+            nodes.push_back(corner[a]);
+          }
+          out.connectivity.push_back(found->second);
+        }
+      }
+      out.region.insert(out.region.end(), {static_cast<GlobalIndex>(set.type),
+                                           static_cast<GlobalIndex>(set.tags.size()), here});
+      out.names.insert(out.names.end(), set.group.begin(), set.group.end());
+      out.names.push_back('\0');
+    }
+  }
+
+  const GlobalMesh& mesh_;
+  int parts_;
+  const std::vector<int>& node_owner_;
+  std::vector<GlobalIndex> order_;       ///< nodes by rank, then by position
+  std::vector<GlobalIndex> node_begin_;  ///< per rank, into order_
+  std::vector<GlobalIndex> part_dof_;    ///< per rank, first dof
+  std::vector<GlobalIndex> first_dof_;   ///< per node in file order
+  GlobalIndex dofs_ = 0;
+  GlobalIndex unclamped_dofs_ = 0;
+};
+
+Mesh unpack(MPI_Comm comm, const std::string& name, Parcel&& parcel) {
+  Mesh mesh;
+  mesh.comm = comm;
+  mesh.structure = name;
+  mesh.owned_nodes = static_cast<LocalIndex>(parcel.sizes[0]);
+  mesh.global_nodes = parcel.sizes[1];
+  mesh.global_dofs = parcel.sizes[2];
+  mesh.global_dofs_unclamped = parcel.sizes[3];
+  mesh.first_owned_dof = parcel.sizes[4];
+  mesh.file_node = std::move(parcel.file_node);
+  mesh.coordinates = std::move(parcel.coordinates);
+  mesh.free_components = std::move(parcel.free_components);
+  mesh.global_dof = std::move(parcel.global_dof);
+  mesh.first_dof.resize(mesh.file_node.size());
+  for (LocalIndex node = 0; node < mesh.node_count(); ++node) {
+    const auto n = static_cast<std::size_t>(node);
+    mesh.local_node[mesh.file_node[n]] = node;
+    mesh.first_dof[n] = mesh.dof_count;
+    mesh.dof_count += component_count(mesh.free_components[n]);
+    if (node < mesh.owned_nodes) {
+      mesh.owned_dofs = mesh.dof_count;
+    }
+  }
+  std::size_t element = 0;
+  std::size_t corner = 0;
+  const char* text = parcel.names.data();
+  for (std::size_t r = 0; r < parcel.region.size(); r += 3) {
+    ElementBlock block;
+    block.group = text;
+    text += block.group.size() + 1;
+    block.type = static_cast<ElementType>(parcel.region[r]);
+    block.global_count = parcel.region[r + 1];
+    const auto count = static_cast<std::size_t>(parcel.region[r + 2]);
+    const std::size_t corners = count * static_cast<std::size_t>(element_layout(block.type).nodes);
+    const auto from = [](const auto& values, std::size_t begin, std::size_t length) {
+      return std::vector(values.begin() + static_cast<std::ptrdiff_t>(begin),
+                         values.begin() + static_cast<std::ptrdiff_t>(begin + length));
+    };
+    block.tags = from(parcel.tags, element, count);
+    block.counted = from(parcel.counted, element, count);
+    block.connectivity = from(parcel.connectivity, corner, corners);
+    element += count;
+    corner += corners;
+    mesh.blocks.push_back(std::move(block));
+  }
+  return mesh;
+}
+
+}  // namespace
+
+Mesh distribute_mesh(MPI_Comm comm, const std::string& name, const GlobalMesh& global,
+                     const Partition& partition, int structure) {
+  Parcel mine;
+  if (rank_of(comm) == 0) {
+    const Cutter cutter(global, partition, structure);
+    mine = cutter.parcel(0);
+    for (int rank = 1; rank < size_of(comm); ++rank) {
+      Parcel parcel = cutter.parcel(rank);
+      parcel.for_each_array([&](const auto& array) { send_array(comm, rank, array); });
+    }
+  } else {
+    mine.for_each_array([&](auto& array) { receive_array(comm, 0, array); });
+  }
+  return unpack(comm, name, std::move(mine));
+}
+
+}  // namespace pounding

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include <mpi.h>
+
+#include "mesh/global_mesh.h"
+#include "mesh/partition.h"
+
+namespace pounding {
+
+/// Elements of one region on this rank: every element that touches an owned node, so that this rank
+/// can build all that its owned dofs need without asking others. Sorted as in the file.
+struct ElementBlock {
+  std::string group;
+  ElementType type = ElementType::hex8;
+  std::vector<std::int64_t> tags;        ///< as in the file
+  std::vector<LocalIndex> connectivity;  ///< shape (n_elements, nodes of the type), local nodes
+  std::vector<std::uint8_t> counted;     ///< 1 on the one rank that counts the element
+  GlobalIndex global_count = 0;          ///< elements of the region over all ranks
+  std::size_t count() const { return tags.size(); }
+};
+
+/// One structure's mesh and dofs on this rank.
+///
+///   nodes:  [ owned 0 .. owned_nodes ) [ ghost .. node_count )     ghosts: of shared elements
+///   dofs:   [ owned 0 .. owned_dofs  ) [ ghost .. dof_count  )     node by node, free components
+///   only
+///
+/// Owned dofs have consecutive global numbers from `first_owned_dof` (PETSc's numbering).
+struct Mesh {
+  MPI_Comm comm = MPI_COMM_SELF;
+  std::string structure;
+  GlobalIndex global_nodes = 0;
+  GlobalIndex global_dofs = 0;            ///< free dofs over all ranks
+  GlobalIndex global_dofs_unclamped = 0;  ///< the same before clamping
+  LocalIndex owned_nodes = 0;
+  LocalIndex owned_dofs = 0;
+  GlobalIndex first_owned_dof = 0;
+  std::vector<GlobalIndex> file_node;         ///< per local node: number in the file order
+  std::vector<double> coordinates;            ///< shape (node_count, 3) [m]
+  std::vector<std::uint8_t> free_components;  ///< per local node
+  std::vector<GlobalIndex> global_dof;        ///< per local node: global number of its first dof
+  std::vector<LocalIndex> first_dof;          ///< per local node: local number of its first dof
+  LocalIndex dof_count = 0;                   ///< owned and ghost
+  std::vector<ElementBlock> blocks;
+  std::unordered_map<GlobalIndex, LocalIndex> local_node;  ///< file order -> local
+
+  LocalIndex node_count() const { return static_cast<LocalIndex>(file_node.size()); }
+  /// Local dof of a component (0-5) at a local node, -1 if it is clamped or does not exist.
+  LocalIndex dof(LocalIndex node, int component) const {
+    return offset(node, component, first_dof);
+  }
+  /// The same in global numbers.
+  GlobalIndex dof_global(LocalIndex node, int component) const {
+    return offset(node, component, global_dof);
+  }
+  Vector3 position(LocalIndex node) const {
+    const double* x = &coordinates[static_cast<std::size_t>(3 * node)];
+    return {x[0], x[1], x[2]};
+  }
+  /// Owned node with this number in the file order, or -1.
+  LocalIndex owned_node(GlobalIndex file_number) const {
+    const auto found = local_node.find(file_number);
+    return found != local_node.end() && found->second < owned_nodes ? found->second : -1;
+  }
+
+ private:
+  template <typename Index>
+  Index offset(LocalIndex node, int component, const std::vector<Index>& first) const {
+    const std::uint8_t mask = free_components[static_cast<std::size_t>(node)];
+    if ((mask >> component & 1) == 0) {
+      return -1;
+    }
+    const auto below = static_cast<std::uint8_t>(mask & ((1u << component) - 1u));
+    return first[static_cast<std::size_t>(node)] + component_count(below);
+  }
+};
+
+/// Sends each rank its part of a structure. `global` and `partition` are read on rank 0 only;
+/// `structure` is the index into the partition. Collective.
+Mesh distribute_mesh(MPI_Comm comm, const std::string& name, const GlobalMesh& global,
+                     const Partition& partition, int structure);
+
+}  // namespace pounding

@@ -1,0 +1,233 @@
+#include "mesh/partition.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include <metis.h>
+
+#include "elements/element.h"
+
+namespace pounding {
+namespace {
+
+/// Every element of every structure in one list, with global node numbers that run on from
+/// structure to structure.
+struct ElementList {
+  std::vector<idx_t> first;  ///< CSR offsets into nodes
+  std::vector<GlobalIndex> nodes;
+  std::vector<idx_t> cost;
+  std::vector<int> needed;  ///< shared nodes that make two elements neighbours
+  std::vector<GlobalIndex> node_offset;
+  std::vector<std::size_t> element_offset;
+  GlobalIndex node_count = 0;
+  idx_t count() const { return static_cast<idx_t>(cost.size()); }
+};
+
+/// Relative cost of one element's share in the stiffness product: about the entries it adds.
+idx_t element_cost(ElementType type) {
+  switch (type) {
+    case ElementType::hex8:
+    case ElementType::hex8_full:
+      return 16;
+    case ElementType::beam:
+      return 8;
+    case ElementType::bar:
+      return 2;
+  }
+  return 1;
+}
+
+ElementList list_elements(std::span<const GlobalMesh> meshes) {
+  ElementList list;
+  list.first.push_back(0);
+  for (const GlobalMesh& mesh : meshes) {
+    list.node_offset.push_back(list.node_count);
+    list.element_offset.push_back(list.cost.size());
+    for (const ElementSet& set : mesh.regions) {
+      const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
+      for (std::size_t e = 0; e < set.tags.size(); ++e) {
+        for (std::size_t a = 0; a < width; ++a) {
+          list.nodes.push_back(list.node_count + set.connectivity[e * width + a]);
+        }
+        list.first.push_back(static_cast<idx_t>(list.nodes.size()));
+        list.cost.push_back(element_cost(set.type));
+        list.needed.push_back(width == 8 ? 4 : 1);
+      }
+    }
+    list.node_count += mesh.node_count();
+  }
+  list.element_offset.push_back(list.cost.size());
+  return list;
+}
+
+/// Elements at each node, CSR.
+struct NodeElements {
+  std::vector<std::size_t> first;
+  std::vector<idx_t> elements;
+};
+
+NodeElements elements_at_nodes(const ElementList& list) {
+  NodeElements at;
+  at.first.assign(static_cast<std::size_t>(list.node_count) + 1, 0);
+  for (const GlobalIndex node : list.nodes) {
+    ++at.first[static_cast<std::size_t>(node) + 1];
+  }
+  for (std::size_t n = 1; n < at.first.size(); ++n) {
+    at.first[n] += at.first[n - 1];
+  }
+  at.elements.resize(list.nodes.size());
+  std::vector<std::size_t> next(at.first.begin(), at.first.end() - 1);
+  for (idx_t e = 0; e < list.count(); ++e) {
+    for (auto k = static_cast<std::size_t>(list.first[static_cast<std::size_t>(e)]);
+         k < static_cast<std::size_t>(list.first[static_cast<std::size_t>(e) + 1]); ++k) {
+      at.elements[next[static_cast<std::size_t>(list.nodes[k])]++] = e;
+    }
+  }
+  return at;
+}
+
+struct Graph {
+  std::vector<idx_t> first{0};
+  std::vector<idx_t> neighbours;
+  std::vector<idx_t> weights;
+};
+
+/// Cutting a contact costs a message in every step: many times a cut between two elements.
+constexpr idx_t link_weight = 64;
+
+Graph dual_graph(const ElementList& list, const NodeElements& at, std::span<const NodeLink> links) {
+  std::vector<std::map<idx_t, idx_t>> extra(static_cast<std::size_t>(list.count()));
+  for (const NodeLink& link : links) {
+    const auto global = [&](int structure, GlobalIndex node) {
+      return static_cast<std::size_t>(list.node_offset[static_cast<std::size_t>(structure)] + node);
+    };
+    const idx_t a = at.elements[at.first[global(link.structure_a, link.node_a)]];
+    const idx_t b = at.elements[at.first[global(link.structure_b, link.node_b)]];
+    if (a != b) {
+      extra[static_cast<std::size_t>(a)][b] += link_weight;
+      extra[static_cast<std::size_t>(b)][a] += link_weight;
+    }
+  }
+  Graph graph;
+  std::vector<idx_t> shared(static_cast<std::size_t>(list.count()), 0);
+  std::vector<idx_t> touched;
+  for (idx_t e = 0; e < list.count(); ++e) {
+    const auto row = static_cast<std::size_t>(e);
+    touched.clear();
+    for (auto k = static_cast<std::size_t>(list.first[row]);
+         k < static_cast<std::size_t>(list.first[row + 1]); ++k) {
+      const auto node = static_cast<std::size_t>(list.nodes[k]);
+      for (std::size_t j = at.first[node]; j < at.first[node + 1]; ++j) {
+        const idx_t other = at.elements[j];
+        if (other != e && shared[static_cast<std::size_t>(other)]++ == 0) {
+          touched.push_back(other);
+        }
+      }
+    }
+    std::sort(touched.begin(), touched.end());
+    for (const idx_t other : touched) {
+      const auto column = static_cast<std::size_t>(other);
+      if (shared[column] >= std::min(list.needed[row], list.needed[column])) {
+        graph.neighbours.push_back(other);
+        graph.weights.push_back(shared[column]);
+      }
+      shared[column] = 0;
+    }
+    for (const auto& [other, weight] : extra[row]) {
+      graph.neighbours.push_back(other);
+      graph.weights.push_back(weight);
+    }
+    graph.first.push_back(static_cast<idx_t>(graph.neighbours.size()));
+  }
+  return graph;
+}
+
+std::vector<idx_t> cut_graph(ElementList& list, Graph& graph, int parts, long& edge_cut) {
+  std::vector<idx_t> owner(list.cost.size(), 0);
+  edge_cut = 0;
+  if (parts == 1) {
+    return owner;
+  }
+  if (list.count() <= parts) {
+    for (std::size_t e = 0; e < owner.size(); ++e) {
+      owner[e] = static_cast<idx_t>(e);
+    }
+    return owner;
+  }
+  idx_t options[METIS_NOPTIONS];
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_SEED] = 1;
+  options[METIS_OPTION_UFACTOR] = 20;
+  idx_t vertices = list.count();
+  idx_t constraints = 1;
+  idx_t part_count = parts;
+  idx_t cut = 0;
+  const auto method = parts <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway;
+  const int status = method(&vertices, &constraints, graph.first.data(), graph.neighbours.data(),
+                            list.cost.data(), nullptr, graph.weights.data(), &part_count, nullptr,
+                            nullptr, options, &cut, owner.data());
+  if (status != METIS_OK) {
+    throw std::runtime_error("METIS failed with status " + std::to_string(status));
+  }
+  edge_cut = cut;
+  return owner;
+}
+
+double imbalance_of(const ElementList& list, const std::vector<idx_t>& owner, int parts) {
+  std::vector<double> cost(static_cast<std::size_t>(parts), 0);
+  double total = 0;
+  for (std::size_t e = 0; e < owner.size(); ++e) {
+    cost[static_cast<std::size_t>(owner[e])] += list.cost[e];
+    total += list.cost[e];
+  }
+  return total > 0 ? *std::max_element(cost.begin(), cost.end()) * parts / total : 1;
+}
+
+int most_frequent_owner(std::span<const idx_t> elements, const std::vector<idx_t>& owner) {
+  int best = -1;
+  int best_count = 0;
+  for (const idx_t candidate : elements) {
+    const idx_t part = owner[static_cast<std::size_t>(candidate)];
+    const int count =
+        static_cast<int>(std::count_if(elements.begin(), elements.end(), [&](idx_t e) {
+          return owner[static_cast<std::size_t>(e)] == part;
+        }));
+    if (count > best_count || (count == best_count && part < best)) {
+      best = part;
+      best_count = count;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const NodeLink> links,
+                           int parts) {
+  ElementList list = list_elements(meshes);
+  const NodeElements at = elements_at_nodes(list);
+  Graph graph;
+  if (parts > 1) {
+    graph = dual_graph(list, at, links);
+  }
+  Partition partition;
+  partition.parts = parts;
+  const std::vector<idx_t> owner = cut_graph(list, graph, parts, partition.edge_cut);
+  partition.imbalance = imbalance_of(list, owner, parts);
+  for (std::size_t s = 0; s < meshes.size(); ++s) {
+    const auto begin = owner.begin() + static_cast<std::ptrdiff_t>(list.element_offset[s]);
+    const auto end = owner.begin() + static_cast<std::ptrdiff_t>(list.element_offset[s + 1]);
+    partition.element_owner.emplace_back(begin, end);
+    std::vector<int> nodes(static_cast<std::size_t>(meshes[s].node_count()));
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      const std::size_t g = static_cast<std::size_t>(list.node_offset[s]) + n;
+      nodes[n] =
+          most_frequent_owner({&at.elements[at.first[g]], at.first[g + 1] - at.first[g]}, owner);
+    }
+    partition.node_owner.push_back(std::move(nodes));
+  }
+  return partition;
+}
+
+}  // namespace pounding

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/global_mesh.h"
+
+namespace pounding {
+
+/// Two nodes, of any two structures, that should live on one rank: facing nodes of a contact.
+struct NodeLink {
+  int structure_a = 0;
+  GlobalIndex node_a = 0;
+  int structure_b = 0;
+  GlobalIndex node_b = 0;
+};
+
+/// Which rank owns what, all structures together.
+struct Partition {
+  int parts = 1;
+  std::vector<std::vector<int>> element_owner;  ///< per structure, elements in region order
+  std::vector<std::vector<int>> node_owner;     ///< per structure
+  long edge_cut = 0;                            ///< weight of the cut edges of the dual graph
+  double imbalance = 1;                         ///< largest over mean element cost of a part
+};
+
+/// Partitions the elements of all structures with METIS on their dual graph (edges: shared nodes
+/// beyond a corner; vertex weight: cost of the element's product; heavy edges for linked nodes)
+/// with a fixed seed. A node belongs to the part of most of its elements, the lowest on a tie.
+/// Serial.
+Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const NodeLink> links,
+                           int parts);
+
+}  // namespace pounding

@@ -1,0 +1,243 @@
+#include "modal/modal_analysis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+
+#include "common/parallel.h"
+
+namespace pounding {
+namespace {
+
+constexpr std::array<const char*, 6> motion_names{"x", "y", "z", "rx", "ry", "rz"};
+
+/// A = M^-1/2 K M^-1/2, whose eigenvalues are omega^2.
+MatHandle scaled_stiffness(const LinearSystem& system) {
+  std::vector<double> scale(system.inverse_mass.size());
+  std::transform(system.inverse_mass.begin(), system.inverse_mass.end(), scale.begin(),
+                 [](double value) { return std::sqrt(value); });
+  const VecHandle diagonal = wrap_vector(system, scale);
+  MatHandle matrix;
+  POUNDING_PETSC(MatDuplicate(system.stiffness->matrix(), MAT_COPY_VALUES, matrix.out()));
+  POUNDING_PETSC(MatDiagonalScale(matrix.get(), diagonal.get(), diagonal.get()));
+  POUNDING_PETSC(MatSetOption(matrix.get(), MAT_SYMMETRIC, PETSC_TRUE));
+  return matrix;
+}
+
+/// Krylov-Schur on A with a start vector that does not depend on the number of ranks.
+EpsHandle create_solver(const LinearSystem& system, Mat matrix, const Mesh& mesh,
+                        const char* prefix) {
+  EpsHandle solver;
+  POUNDING_PETSC(EPSCreate(system.comm, solver.out()));
+  POUNDING_PETSC(EPSSetOptionsPrefix(solver.get(), prefix));
+  POUNDING_PETSC(EPSSetOperators(solver.get(), matrix, nullptr));
+  POUNDING_PETSC(EPSSetProblemType(solver.get(), EPS_HEP));
+  POUNDING_PETSC(EPSSetType(solver.get(), EPSKRYLOVSCHUR));
+  VecHandle vector;
+  double* start = nullptr;
+  POUNDING_PETSC(MatCreateVecs(matrix, vector.out(), nullptr));
+  POUNDING_PETSC(VecGetArray(vector.get(), &start));
+  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
+    for (int c = 0; c < 6; ++c) {
+      const LocalIndex dof = mesh.dof(node, c);
+      if (dof >= 0) {
+        const auto number =
+            static_cast<double>(6 * mesh.file_node[static_cast<std::size_t>(node)] + c);
+        start[dof] = std::sin(12.9898 * number + 1);
+      }
+    }
+  }
+  POUNDING_PETSC(VecRestoreArray(vector.get(), &start));
+  Vec vectors[] = {vector.get()};
+  POUNDING_PETSC(EPSSetInitialSpace(solver.get(), 1, vectors));
+  return solver;
+}
+
+/// Rigid-body motions of the free nodes: rows x, y, z, and rotations about the centre of mass.
+class RigidMotions {
+ public:
+  RigidMotions(const LinearSystem& system, const Mesh& mesh) : system_(system) {
+    std::array<double, 4> sums{};
+    for_each_translation(mesh, [&](std::size_t dof, int c, const Vector3& x) {
+      if (c == 0) {
+        const double m = system.lumped_mass[dof];
+        sums[0] += m;
+        for (std::size_t d = 0; d < 3; ++d) {
+          sums[d + 1] += m * x[d];
+        }
+      }
+    });
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), 4, MPI_DOUBLE, MPI_SUM, system.comm);
+    mass_ = sums[0];
+    for (std::size_t d = 0; d < 3; ++d) {
+      centre_[d] = mass_ > 0 ? sums[d + 1] / mass_ : 0;
+      motions_[d] = system.influence[d];
+      motions_[d + 3].assign(system.lumped_mass.size(), 0.0);
+    }
+    for_each_translation(mesh, [&](std::size_t dof, int c, const Vector3& x) {
+      // u = e_axis x (x - centre)
+      const auto component = static_cast<std::size_t>(c);
+      const std::size_t next = (component + 1) % 3;
+      const std::size_t last = (component + 2) % 3;
+      motions_[3 + next][dof] = x[last] - centre_[last];
+      motions_[3 + last][dof] = -(x[next] - centre_[next]);
+    });
+    for (std::size_t k = 0; k < 6; ++k) {
+      inertia_[k] = weighted_square(motions_[k]);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, inertia_.data(), 6, MPI_DOUBLE, MPI_SUM, system.comm);
+  }
+
+  double mass() const { return mass_; }
+  const Vector3& centre() const { return centre_; }
+
+  /// Effective masses of the mode y = M^1/2 phi, |y| = 1.
+  Mode describe(double eigenvalue, const double* y) const {
+    std::array<double, 6> participation{};
+    for (std::size_t k = 0; k < 6; ++k) {
+      for (std::size_t i = 0; i < motions_[k].size(); ++i) {
+        participation[k] += std::sqrt(system_.lumped_mass[i]) * y[i] * motions_[k][i];
+      }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, participation.data(), 6, MPI_DOUBLE, MPI_SUM, system_.comm);
+    Mode mode;
+    mode.frequency = std::sqrt(std::max(0.0, eigenvalue)) / (2 * std::numbers::pi);
+    for (std::size_t k = 0; k < 6; ++k) {
+      mode.effective_modal_mass[k] = participation[k] * participation[k];
+      const double fraction = inertia_[k] > 0 ? mode.effective_modal_mass[k] / inertia_[k] : 0;
+      if (fraction > mode.direction_fraction) {
+        mode.direction_fraction = fraction;
+        mode.direction = motion_names[k];
+      }
+    }
+    return mode;
+  }
+
+ private:
+  template <typename Visit>
+  static void for_each_translation(const Mesh& mesh, Visit&& visit) {
+    for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
+      for (int c = 0; c < 3; ++c) {
+        const LocalIndex dof = mesh.dof(node, c);
+        if (dof >= 0) {
+          visit(static_cast<std::size_t>(dof), c, mesh.position(node));
+        }
+      }
+    }
+  }
+
+  /// a^T M a on this rank.
+  double weighted_square(const std::vector<double>& a) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      sum += a[i] * a[i] * system_.lumped_mass[i];
+    }
+    return sum;
+  }
+
+  const LinearSystem& system_;
+  double mass_ = 0;
+  Vector3 centre_{0, 0, 0};
+  std::array<std::vector<double>, 6> motions_;
+  std::array<double, 6> inertia_{};
+};
+
+/// Node and component with the largest entry of y.
+std::string locate(const LinearSystem& system, const Mesh& mesh, const double* y) {
+  struct {
+    double value;
+    int rank;
+  } largest{-1, rank_of(system.comm)};
+  std::ostringstream text;
+  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
+    for (int c = 0; c < 6; ++c) {
+      const LocalIndex dof = mesh.dof(node, c);
+      if (dof >= 0 && std::abs(y[dof]) > largest.value) {
+        largest.value = std::abs(y[dof]);
+        const Vector3 x = mesh.position(node);
+        text.str("");
+        text << "node at (" << std::round(1e4 * x[0]) / 1e4 << ", " << std::round(1e4 * x[1]) / 1e4
+             << ", " << std::round(1e4 * x[2]) / 1e4 << "), component " << (c < 3 ? "u" : "r")
+             << direction_names[static_cast<std::size_t>(c % 3)];
+      }
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, system.comm);
+  const std::string mine = text.str();
+  std::vector<char> bytes(mine.begin(), mine.end());
+  broadcast_array(system.comm, bytes, largest.rank);
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count) {
+  const MatHandle matrix = scaled_stiffness(system);
+  const EpsHandle solver = create_solver(system, matrix.get(), mesh, "lowest_");
+  const int wanted = static_cast<int>(std::min<GlobalIndex>(count, system.global_dofs));
+  POUNDING_PETSC(EPSSetDimensions(solver.get(), wanted, PETSC_DEFAULT, PETSC_DEFAULT));
+  POUNDING_PETSC(EPSSetWhichEigenpairs(solver.get(), EPS_TARGET_MAGNITUDE));
+  POUNDING_PETSC(EPSSetTarget(solver.get(), -1.0));
+  POUNDING_PETSC(EPSSetTolerances(solver.get(), 1e-10, PETSC_DEFAULT));
+  ST transform = nullptr;
+  KSP factorised = nullptr;
+  PC factorisation = nullptr;
+  POUNDING_PETSC(EPSGetST(solver.get(), &transform));
+  POUNDING_PETSC(STSetType(transform, STSINVERT));
+  POUNDING_PETSC(STGetKSP(transform, &factorised));
+  POUNDING_PETSC(KSPSetType(factorised, KSPPREONLY));
+  POUNDING_PETSC(KSPGetPC(factorised, &factorisation));
+  POUNDING_PETSC(PCSetType(factorisation, PCCHOLESKY));
+  POUNDING_PETSC(PCFactorSetMatSolverType(factorisation, MATSOLVERMUMPS));
+  POUNDING_PETSC(EPSSetFromOptions(solver.get()));
+  POUNDING_PETSC(EPSSolve(solver.get()));
+  PetscInt found = 0;
+  POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
+  if (found < wanted) {
+    throw std::runtime_error("structure " + system.name + ": only " + std::to_string(found) +
+                             " of " + std::to_string(wanted) + " modes converged");
+  }
+  const RigidMotions motions(system, mesh);
+  ModalResult result;
+  result.mass = motions.mass();
+  result.centre_of_mass = motions.centre();
+  std::vector<double> storage(system.lumped_mass.size());
+  const VecHandle vector = wrap_vector(system, storage);
+  for (int i = 0; i < wanted; ++i) {
+    double eigenvalue = 0;
+    POUNDING_PETSC(EPSGetEigenpair(solver.get(), i, &eigenvalue, nullptr, vector.get(), nullptr));
+    result.modes.push_back(motions.describe(eigenvalue, storage.data()));
+  }
+  std::stable_sort(result.modes.begin(), result.modes.end(),
+                   [](const Mode& a, const Mode& b) { return a.frequency < b.frequency; });
+  return result;
+}
+
+LargestFrequency largest_frequency(const LinearSystem& system, const Mesh& mesh) {
+  const MatHandle matrix = scaled_stiffness(system);
+  const EpsHandle solver = create_solver(system, matrix.get(), mesh, "largest_");
+  POUNDING_PETSC(EPSSetDimensions(solver.get(), 1, PETSC_DEFAULT, PETSC_DEFAULT));
+  POUNDING_PETSC(EPSSetWhichEigenpairs(solver.get(), EPS_LARGEST_REAL));
+  POUNDING_PETSC(EPSSetTolerances(solver.get(), 1e-10, PETSC_DEFAULT));
+  POUNDING_PETSC(EPSSetFromOptions(solver.get()));
+  POUNDING_PETSC(EPSSolve(solver.get()));
+  PetscInt found = 0;
+  POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
+  if (found < 1) {
+    throw std::runtime_error("structure " + system.name + ": omega_max did not converge");
+  }
+  std::vector<double> storage(system.lumped_mass.size());
+  const VecHandle vector = wrap_vector(system, storage);
+  double eigenvalue = 0;
+  double error = 0;
+  POUNDING_PETSC(EPSGetEigenpair(solver.get(), 0, &eigenvalue, nullptr, vector.get(), nullptr));
+  POUNDING_PETSC(EPSComputeError(solver.get(), 0, EPS_ERROR_ABSOLUTE, &error));
+  LargestFrequency result;
+  result.omega_max = std::sqrt(eigenvalue + error);
+  result.location = locate(system, mesh, storage.data());
+  return result;
+}
+
+}  // namespace pounding

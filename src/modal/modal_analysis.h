@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "system/linear_system.h"
+
+namespace pounding {
+
+/// One natural mode of an undamped structure, mass-normalised.
+struct Mode {
+  double frequency = 0;                          ///< [Hz]
+  std::array<double, 6> effective_modal_mass{};  ///< along x, y, z [kg]; about x, y, z through
+                                                 ///< the centre of mass [kg m2]
+  std::string direction;                         ///< "x" ... "rz": where most of the mass moves
+  double direction_fraction = 0;                 ///< of the mass (rotary inertia) in that direction
+};
+
+struct ModalResult {
+  std::vector<Mode> modes;  ///< increasing frequency
+  double mass = 0;          ///< of the free dofs [kg]
+  Vector3 centre_of_mass{0, 0, 0};
+};
+
+/// The largest circular frequency and where its mode lives.
+struct LargestFrequency {
+  double omega_max = 0;  ///< [rad/s]; Ritz value plus its error bound, at most the element bound
+  std::string location;  ///< node and component with the largest share of the mode's mass
+};
+
+/// The lowest `count` modes by SLEPc's Krylov-Schur on M^-1/2 K M^-1/2, shift-and-invert with a
+/// Cholesky factorisation (MUMPS), the shift just below zero so that free structures pass.
+/// Frequencies of rigid-body modes come out as 0. Participation: Gamma = phi^T M iota, effective
+/// mass Gamma^2. Throws std::runtime_error when SLEPc finds fewer than asked. Collective.
+ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count);
+
+/// omega_max by Krylov-Schur on the same matrix, largest real. Ritz values approach from below, so
+/// the residual norm (a bound of the error in omega^2) is added. Collective.
+LargestFrequency largest_frequency(const LinearSystem& system, const Mesh& mesh);
+
+}  // namespace pounding

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <complex>
+#include <span>
+#include <vector>
+
+namespace pounding {
+
+/// Smallest size >= n that is a product of 2, 3 and 5, and even.
+int good_fourier_size(int n);
+
+/// Spectrum of a real signal: X_k = sum_j x_j exp(-2 pi i j k / n), k = 0 .. n/2. The plans are
+/// estimated, not timed, so that the same build gives the same bits.
+std::vector<std::complex<double>> fourier(std::span<const double> signal);
+
+/// Real signal of n values from its first coefficients (at most n/2 + 1; the others are zero);
+/// divided by n, so that it inverts `fourier`.
+std::vector<double> inverse_fourier(std::span<const std::complex<double>> spectrum, int n);
+
+}  // namespace pounding

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace pounding {
+
+/// One line of a response spectrum, omega = 2 pi frequency.
+struct SpectrumPoint {
+  double frequency = 0;            ///< undamped oscillator [Hz]
+  double displacement = 0;         ///< SD = max |u| [m]
+  double pseudo_velocity = 0;      ///< PSV = omega SD [m/s]
+  double pseudo_acceleration = 0;  ///< PSA = omega^2 SD [m/s2]
+};
+
+/// Exact step of u'' + 2 xi omega u' + omega^2 u = -a(t) for an acceleration linear over the step
+/// h, in the variables (u, h u') and h^2 a, so that everything depends on theta = omega h and xi:
+///
+///     | u    |            | u    |         | h^2 a_n     |
+///     | h u' |      = A   | h u' |   + B   | h^2 a_{n+1} |
+///             n+1                  n
+struct OscillatorStep {
+  std::array<std::array<double, 2>, 2> state{};  ///< A
+  std::array<std::array<double, 2>, 2> load{};   ///< B
+};
+
+/// Coefficients of the exact step (Nigam and Jennings, BSSA 59, 1969) for theta >= 0 and
+/// 0 <= xi < 1. Below theta = 1 they are summed as power series of the step, because the closed
+/// form divides differences of nearly equal numbers by theta^3; above it is used.
+OscillatorStep oscillator_step(double theta, double damping_ratio);
+
+/// Whether the maximum extends to the free vibration that follows the last sample.
+enum class AfterRecord { free_vibration, ignored };
+
+/// Response spectrum of an acceleration sampled every `time_step` [s] from t = 0, linear between
+/// samples and zero after the last one; the oscillators start at rest. The maxima are exact:
+/// extrema inside a step are searched, and the free vibration after the record is maximised in
+/// closed form. A frequency of zero gives SD = max |ground displacement| over the record.
+/// `acceleration` [m/s2], `frequencies` [Hz] >= 0, `damping_ratio` in [0, 1); one point per
+/// frequency, in their order. Throws UserError for arguments out of range or not finite.
+std::vector<SpectrumPoint> response_spectrum(std::span<const double> acceleration, double time_step,
+                                             std::span<const double> frequencies,
+                                             double damping_ratio,
+                                             AfterRecord after = AfterRecord::free_vibration);
+
+}  // namespace pounding

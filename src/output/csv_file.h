@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdio>
+#include <initializer_list>
+#include <string>
+
+namespace pounding {
+
+/// A CSV file with comment lines first ("# "), one header line, then rows of numbers with all their
+/// digits. Throws std::runtime_error if it cannot be opened or written.
+class CsvFile {
+ public:
+  explicit CsvFile(const std::string& path);
+  CsvFile(const CsvFile&) = delete;
+  CsvFile& operator=(const CsvFile&) = delete;
+  ~CsvFile();
+
+  void comment(const std::string& text);
+  void header(const std::string& names);
+  /// A row; `label` is its first field unless it is empty.
+  void row(const std::string& label, std::initializer_list<double> values);
+  void flush() { std::fflush(file_); }
+  /// Throws if anything was not written.
+  void close();
+
+ private:
+  std::string path_;
+  std::FILE* file_ = nullptr;
+};
+
+}  // namespace pounding

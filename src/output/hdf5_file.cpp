@@ -1,0 +1,130 @@
+#include "output/hdf5_file.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace pounding {
+
+Hdf5File::Hdf5File(const std::string& path) : path_(path) {
+  file_ = checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), "create");
+}
+
+Hdf5File::~Hdf5File() {
+  for (const Dataset& dataset : datasets_) {
+    H5Dclose(dataset.id);
+  }
+  H5Fclose(file_);
+}
+
+hid_t Hdf5File::checked(hid_t id, const std::string& what) const {
+  if (id < 0) {
+    throw std::runtime_error(path_ + ": HDF5 could not " + what);
+  }
+  return id;
+}
+
+Hdf5File::Dataset& Hdf5File::find(const std::string& name) {
+  const auto found = std::find_if(datasets_.begin(), datasets_.end(),
+                                  [&](const Dataset& dataset) { return dataset.name == name; });
+  if (found == datasets_.end()) {
+    throw std::runtime_error(path_ + ": no dataset " + name);
+  }
+  return *found;
+}
+
+void Hdf5File::create_dataset(const std::string& name, std::size_t columns,
+                              const std::string& unit) {
+  const int rank = columns == 0 ? 1 : 2;
+  const hsize_t now[2] = {0, columns};
+  const hsize_t most[2] = {H5S_UNLIMITED, columns};
+  const hsize_t chunk[2] = {4096, std::max<hsize_t>(1, columns)};
+  const hid_t space = checked(H5Screate_simple(rank, now, most), "describe " + name);
+  const hid_t properties = checked(H5Pcreate(H5P_DATASET_CREATE), "describe " + name);
+  H5Pset_chunk(properties, rank, chunk);
+  Dataset dataset{name, -1, columns, 0};
+  dataset.id = checked(H5Dcreate2(file_, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT,
+                                  properties, H5P_DEFAULT),
+                       "create dataset " + name);
+  H5Pclose(properties);
+  H5Sclose(space);
+  datasets_.push_back(dataset);
+  write_attribute(name, "unit", unit);
+}
+
+void Hdf5File::append(const std::string& name, std::span<const double> values) {
+  Dataset& dataset = find(name);
+  const hsize_t columns = std::max<hsize_t>(1, dataset.columns);
+  const hsize_t count[2] = {values.size() / columns, columns};
+  if (count[0] == 0) {
+    return;
+  }
+  const hsize_t total[2] = {dataset.rows + count[0], columns};
+  const hsize_t start[2] = {dataset.rows, 0};
+  const int rank = dataset.columns == 0 ? 1 : 2;
+  H5Dset_extent(dataset.id, total);
+  const hid_t space = checked(H5Dget_space(dataset.id), "extend " + name);
+  H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, count, nullptr);
+  const hid_t memory = checked(H5Screate_simple(rank, count, nullptr), "extend " + name);
+  const herr_t status =
+      H5Dwrite(dataset.id, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data());
+  H5Sclose(memory);
+  H5Sclose(space);
+  checked(status, "write " + name + " (is the disk full?)");
+  dataset.rows = total[0];
+}
+
+void Hdf5File::write_strings(const std::string& name, const std::vector<std::string>& values) {
+  std::size_t width = 1;
+  for (const std::string& value : values) {
+    width = std::max(width, value.size());
+  }
+  std::string block;
+  for (std::string value : values) {
+    value.resize(width, '\0');
+    block += value;
+  }
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, width);
+  H5Tset_strpad(type, H5T_STR_NULLPAD);
+  const hsize_t count = values.size();
+  const hid_t space = H5Screate_simple(1, &count, nullptr);
+  const hid_t dataset =
+      checked(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+              "create " + name);
+  const herr_t status =
+      values.empty() ? 0 : H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, block.data());
+  H5Dclose(dataset);
+  H5Sclose(space);
+  H5Tclose(type);
+  checked(status, "write " + name);
+}
+
+hid_t Hdf5File::attribute_owner(const std::string& dataset) {
+  return dataset == "/" ? file_ : find(dataset).id;
+}
+
+void Hdf5File::write_attribute(const std::string& dataset, const std::string& name, double value) {
+  const hid_t space = H5Screate(H5S_SCALAR);
+  const hid_t attribute = checked(H5Acreate2(attribute_owner(dataset), name.c_str(),
+                                             H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT),
+                                  "create attribute " + name);
+  H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value);
+  H5Aclose(attribute);
+  H5Sclose(space);
+}
+
+void Hdf5File::write_attribute(const std::string& dataset, const std::string& name,
+                               const std::string& value) {
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, std::max<std::size_t>(1, value.size()));
+  const hid_t space = H5Screate(H5S_SCALAR);
+  const hid_t attribute = checked(
+      H5Acreate2(attribute_owner(dataset), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+      "create attribute " + name);
+  H5Awrite(attribute, type, value.empty() ? " " : value.data());
+  H5Aclose(attribute);
+  H5Sclose(space);
+  H5Tclose(type);
+}
+
+}  // namespace pounding

@@ -1,0 +1,130 @@
+#include "output/impact_catalogue.h"
+
+#include <algorithm>
+
+#include "common/parallel.h"
+#include "output/csv_file.h"
+
+namespace pounding {
+
+void ImpactTotals::add(const Impact& impact) {
+  ++episodes;
+  total_impulse += impact.impulse;
+  largest_impulse = std::max(largest_impulse, impact.impulse);
+  max_penetration = std::max(max_penetration, impact.max_penetration);
+  energy_lost += impact.energy_lost;
+}
+
+ImpactCatalogue::ImpactCatalogue(int contacts, std::vector<int> contact_of_row,
+                                 std::vector<std::array<double, 2>> places, double merge_time)
+    : merge_time_(merge_time),
+      contact_of_row_(std::move(contact_of_row)),
+      places_(std::move(places)),
+      open_(static_cast<std::size_t>(contacts)),
+      is_open_(static_cast<std::size_t>(contacts), 0),
+      step_impulse_(static_cast<std::size_t>(contacts), 0.0),
+      touched_(contact_of_row_.size(), 0) {
+  impacts_.reserve(4096);
+}
+
+void ImpactCatalogue::add_step(double time, double duration, std::span<const double> gaps,
+                               std::span<const double> impulses, std::span<const double> works) {
+  std::fill(step_impulse_.begin(), step_impulse_.end(), 0.0);
+  for (std::size_t row = 0; row < impulses.size(); ++row) {
+    step_impulse_[static_cast<std::size_t>(contact_of_row_[row])] += impulses[row];
+  }
+  for (std::size_t c = 0; c < open_.size(); ++c) {
+    if (!(step_impulse_[c] > 0)) {
+      continue;
+    }
+    if (is_open_[c] != 0 && time - open_[c].end > merge_time_) {
+      close(c);
+    }
+    if (is_open_[c] == 0) {
+      is_open_[c] = 1;
+      open_[c] = Impact{};
+      open_[c].contact = static_cast<int>(c);
+      open_[c].start = time;
+    }
+    open_[c].end = time + duration;
+    open_[c].impulse += step_impulse_[c];
+    open_[c].peak_force = std::max(open_[c].peak_force, step_impulse_[c] / duration);
+  }
+  for (std::size_t row = 0; row < impulses.size(); ++row) {
+    Impact& impact = open_[static_cast<std::size_t>(contact_of_row_[row])];
+    if (impulses[row] > 0) {
+      impact.points += touched_[row] != 0 ? 0 : 1;
+      touched_[row] = 1;
+      impact.energy_lost -= works[row];
+      impact.max_penetration = std::max(impact.max_penetration, -gaps[row]);
+      impact.place[0] += impulses[row] * places_[row][0];
+      impact.place[1] += impulses[row] * places_[row][1];
+    }
+  }
+}
+
+int ImpactCatalogue::open_count() const {
+  return static_cast<int>(std::count(is_open_.begin(), is_open_.end(), 1));
+}
+
+void ImpactCatalogue::close(std::size_t contact) {
+  Impact impact = open_[contact];
+  impact.place[0] /= impact.impulse;
+  impact.place[1] /= impact.impulse;
+  impacts_.push_back(impact);
+  is_open_[contact] = 0;
+  for (std::size_t row = 0; row < touched_.size(); ++row) {
+    if (contact_of_row_[row] == static_cast<int>(contact)) {
+      touched_[row] = 0;
+    }
+  }
+}
+
+void ImpactCatalogue::finish(MPI_Comm comm, int root) {
+  for (std::size_t c = 0; c < open_.size(); ++c) {
+    if (is_open_[c] != 0) {
+      close(c);
+    }
+  }
+  broadcast_array(comm, impacts_, root);
+  std::stable_sort(impacts_.begin(), impacts_.end(),
+                   [](const Impact& a, const Impact& b) { return a.start < b.start; });
+}
+
+ImpactTotals ImpactCatalogue::totals(int contact) const {
+  ImpactTotals totals;
+  for (const Impact& impact : impacts_) {
+    if (impact.contact == contact) {
+      totals.add(impact);
+    }
+  }
+  return totals;
+}
+
+ImpactTotals ImpactCatalogue::totals() const {
+  ImpactTotals totals;
+  for (const Impact& impact : impacts_) {
+    totals.add(impact);
+  }
+  return totals;
+}
+
+void write_impacts(const std::string& path, const std::vector<std::string>& contacts,
+                   std::span<const Impact> impacts) {
+  CsvFile file(path);
+  file.comment("contact episodes; times [s], impulse [N s], force [N], energy [J], lengths [m];");
+  file.comment(
+      "lateral, vertical: where on the face, tangent axes of the contact in the order x, y, z");
+  file.header(
+      "contact,start,end,duration,impulse,peak_force,points,energy_lost,max_penetration,lateral,"
+      "vertical");
+  for (const Impact& impact : impacts) {
+    file.row(contacts[static_cast<std::size_t>(impact.contact)],
+             {impact.start, impact.end, impact.duration(), impact.impulse, impact.peak_force,
+              static_cast<double>(impact.points), impact.energy_lost, impact.max_penetration,
+              impact.place[0], impact.place[1]});
+  }
+  file.close();
+}
+
+}  // namespace pounding

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <mpi.h>
+
+namespace pounding {
+
+/// One contact episode: from its first to its last impulse, pauses shorter than the merge time
+/// included.
+struct Impact {
+  int contact = 0;
+  double start = 0;               ///< [s]
+  double end = 0;                 ///< end of the last step with an impulse [s]
+  double impulse = 0;             ///< [N s]
+  double peak_force = 0;          ///< largest impulse of a step over the step [N]
+  int points = 0;                 ///< constraints that carried an impulse
+  double energy_lost = 0;         ///< minus the contact work [J]
+  double max_penetration = 0;     ///< largest -gap met [m]
+  std::array<double, 2> place{};  ///< mean of the points, weighted with their impulses [m]
+  double duration() const { return end - start; }
+};
+
+/// Totals of a contact, or of all.
+struct ImpactTotals {
+  int episodes = 0;
+  double total_impulse = 0;    ///< [N s]
+  double largest_impulse = 0;  ///< of an episode [N s]
+  double max_penetration = 0;  ///< [m]
+  double energy_lost = 0;      ///< [J]
+  void add(const Impact& impact);
+};
+
+/// Collects the impacts on the rank that knows the interface.
+class ImpactCatalogue {
+ public:
+  /// `contact_of_row`, `places`: contact and tangential position of each constraint.
+  ImpactCatalogue(int contacts, std::vector<int> contact_of_row,
+                  std::vector<std::array<double, 2>> places, double merge_time);
+
+  /// One step of length `duration` at `time`, per row: gap [m], impulse [N s], contact work [J].
+  void add_step(double time, double duration, std::span<const double> gaps,
+                std::span<const double> impulses, std::span<const double> works);
+  /// Closes open episodes, and brings the list from rank `root` to every rank, sorted by start.
+  /// Collective.
+  void finish(MPI_Comm comm, int root);
+
+  const std::vector<Impact>& impacts() const { return impacts_; }
+  int episodes() const { return static_cast<int>(impacts_.size()) + open_count(); }
+  ImpactTotals totals(int contact) const;
+  ImpactTotals totals() const;
+
+ private:
+  int open_count() const;
+  void close(std::size_t contact);
+
+  double merge_time_;
+  std::vector<int> contact_of_row_;
+  std::vector<std::array<double, 2>> places_;
+  std::vector<Impact> open_;          ///< per contact
+  std::vector<char> is_open_;         ///< per contact
+  std::vector<double> step_impulse_;  ///< per contact, of the current step
+  std::vector<char> touched_;         ///< per row, in the open episode
+  std::vector<Impact> impacts_;
+};
+
+/// `impacts.csv`: one line per episode. Throws std::runtime_error if the file cannot be written.
+void write_impacts(const std::string& path, const std::vector<std::string>& contacts,
+                   std::span<const Impact> impacts);
+
+}  // namespace pounding

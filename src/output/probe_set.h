@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <mpi.h>
+
+#include "mesh/global_mesh.h"
+#include "scene/scene.h"
+
+namespace pounding {
+
+/// A probe of the scene brought to nodes of a mesh.
+struct ResolvedProbe {
+  std::string name;
+  int structure = 0;
+  std::vector<GlobalIndex> nodes;  ///< file order; what is recorded is their mean
+  Vector3 position{0, 0, 0};       ///< mean of the nodes [m]
+};
+
+/// Snaps points to their nearest nodes and looks groups up; a probe that is not averaged becomes
+/// one per node, "name.1", "name.2", ... Serial, rank 0. Throws UserError (unknown group, a point
+/// farther from the mesh than 5 % of its extent).
+std::vector<ResolvedProbe> resolve_probes(const Scene& scene, std::span<const GlobalMesh> meshes);
+
+/// The probes of rank 0 on every rank. Collective.
+void broadcast_probes(MPI_Comm comm, std::vector<ResolvedProbe>& probes);
+
+}  // namespace pounding

@@ -1,0 +1,225 @@
+#include "output/recorder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "common/parallel.h"
+
+namespace pounding {
+namespace {
+
+constexpr std::size_t buffer_records = 4096;
+
+/// Displacement and velocity, three components each.
+constexpr std::size_t values_per_node = 6;
+
+}  // namespace
+
+Recorder::Recorder(Layout layout, std::span<const Mesh> meshes) : layout_(std::move(layout)) {
+  std::vector<GlobalIndex> mine;
+  for (std::size_t p = 0; p < layout_.probes.size(); ++p) {
+    const ResolvedProbe& probe = layout_.probes[p];
+    const Mesh& mesh = meshes[static_cast<std::size_t>(probe.structure)];
+    for (std::size_t k = 0; k < probe.nodes.size(); ++k) {
+      const LocalIndex node = mesh.owned_node(probe.nodes[k]);
+      if (node >= 0) {
+        nodes_.push_back(
+            {p, k, probe.structure, {mesh.dof(node, 0), mesh.dof(node, 1), mesh.dof(node, 2)}});
+        mine.insert(mine.end(), {static_cast<GlobalIndex>(p), static_cast<GlobalIndex>(k)});
+      }
+    }
+  }
+  const bool root = rank_of(layout_.comm) == layout_.interface_root;
+  width_ = values_per_node * nodes_.size() + (root ? 2 * layout_.contacts.size() : 0);
+  buffer_.resize(buffer_records * width_);
+  ground_.resize(3 * buffer_records);
+  impulse_.assign(layout_.contacts.size(), 0.0);
+  if (rank_of(layout_.comm) != 0) {
+    send_array(layout_.comm, 0, mine);
+    send_array(layout_.comm, 0, std::vector<int>{static_cast<int>(width_)});
+    return;
+  }
+  for (int rank = 0; rank < size_of(layout_.comm); ++rank) {
+    std::vector<int> width{static_cast<int>(width_)};
+    if (rank > 0) {
+      receive_array(layout_.comm, rank, mine);
+      receive_array(layout_.comm, rank, width);
+    }
+    widths_.push_back(width[0]);
+    for (std::size_t i = 0; i < mine.size(); i += 2) {
+      order_.push_back({static_cast<std::size_t>(mine[i]), static_cast<std::size_t>(mine[i + 1])});
+    }
+  }
+  create_datasets();
+}
+
+void Recorder::create_datasets() {
+  for (const ResolvedProbe& probe : layout_.probes) {
+    for (const char* direction : direction_names) {
+      channels_.push_back(probe.name + "." + direction);
+    }
+  }
+  last_velocity_.assign(channels_.size(), 0.0);
+  peaks_.assign(channels_.size(), {});
+  file_ = std::make_unique<Hdf5File>(layout_.path);
+  file_->write_attribute("/", "title", layout_.title);
+  file_->create_dataset("time", 0, "s");
+  file_->write_strings("channels", channels_);
+  if (!channels_.empty()) {
+    file_->create_dataset("displacement", channels_.size(), "m");
+    file_->create_dataset("velocity", channels_.size(), "m/s");
+    file_->create_dataset("acceleration", channels_.size(), "m/s2");
+    const double half = layout_.time_step / 2;
+    file_->write_attribute("displacement", "frame", "relative to the ground");
+    file_->write_attribute("velocity", "frame", "relative to the ground");
+    file_->write_attribute("velocity", "time_offset", half);
+    file_->write_attribute("acceleration", "frame", "absolute, mean over the output interval");
+    file_->write_attribute("acceleration", "time_offset", half - interval() / 2);
+  }
+  file_->create_dataset("ground_acceleration", 3, "m/s2");
+  file_->write_attribute("ground_acceleration", "time_offset",
+                         layout_.time_step / 2 - interval() / 2);
+  file_->write_strings("contacts", layout_.contacts);
+  if (!layout_.contacts.empty()) {
+    file_->create_dataset("gap", layout_.contacts.size(), "m");
+    file_->create_dataset("contact_force", layout_.contacts.size(), "N");
+  }
+}
+
+void Recorder::add_step(const std::array<double, 3>& ground_velocity_step) {
+  for (std::size_t d = 0; d < 3; ++d) {
+    ground_sum_[d] += ground_velocity_step[d];
+  }
+}
+
+void Recorder::record(const State& state, std::span<const double> gaps) {
+  double* out = buffer_.data() + buffered_ * width_;
+  for (const OwnedNode& node : nodes_) {
+    const BodyState& body = state.bodies[static_cast<std::size_t>(node.structure)];
+    for (std::size_t d = 0; d < 3; ++d) {
+      const LocalIndex dof = node.dofs[d];
+      out[d] = dof < 0 ? 0 : body.displacement[static_cast<std::size_t>(dof)];
+      out[3 + d] = dof < 0 ? 0 : body.velocity_half[static_cast<std::size_t>(dof)];
+    }
+    out += values_per_node;
+  }
+  if (rank_of(layout_.comm) == layout_.interface_root) {
+    for (std::size_t c = 0; c < layout_.contacts.size(); ++c) {
+      *out++ = gaps[c];
+      *out++ = impulse_[c] / interval();
+      impulse_[c] = 0;
+    }
+  }
+  std::copy(ground_sum_.begin(), ground_sum_.end(), &ground_[3 * buffered_]);
+  ground_sum_ = {0, 0, 0};
+  if (++buffered_ == buffer_records) {
+    flush();
+  }
+}
+
+void Recorder::flush() {
+  const std::size_t rows = buffered_;
+  buffered_ = 0;
+  std::vector<int> counts;
+  std::vector<int> offsets;
+  std::vector<double> gathered;
+  if (rank_of(layout_.comm) == 0) {
+    int total = 0;
+    for (const int width : widths_) {
+      counts.push_back(width * static_cast<int>(rows));
+      offsets.push_back(total);
+      total += counts.back();
+    }
+    gathered.resize(static_cast<std::size_t>(total));
+  }
+  MPI_Gatherv(buffer_.data(), static_cast<int>(rows * width_), MPI_DOUBLE, gathered.data(),
+              counts.data(), offsets.data(), MPI_DOUBLE, 0, layout_.comm);
+  if (rank_of(layout_.comm) == 0) {
+    write_rows(rows, gathered, offsets);
+  }
+}
+
+void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
+                          const std::vector<int>& offsets) {
+  const std::size_t channels = channels_.size();
+  const std::size_t contacts = layout_.contacts.size();
+  std::vector<double> time;
+  std::vector<double> displacement;
+  std::vector<double> velocity;
+  std::vector<double> gap;
+  std::vector<double> force;
+  // Node values of one record by probe and position: means are taken in the probe's own order.
+  std::vector<std::vector<const double*>> values;
+  for (const ResolvedProbe& probe : layout_.probes) {
+    values.emplace_back(probe.nodes.size(), nullptr);
+  }
+  const std::size_t first = accelerations_.size();
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::size_t node = 0;
+    for (std::size_t rank = 0; rank < widths_.size(); ++rank) {
+      const auto width = static_cast<std::size_t>(widths_[rank]);
+      const double* from = gathered.data() + offsets[rank] + row * width;
+      const bool root = static_cast<int>(rank) == layout_.interface_root;
+      const std::size_t nodes = (width - (root ? 2 * contacts : 0)) / values_per_node;
+      for (std::size_t k = 0; k < nodes; ++k, ++node, from += values_per_node) {
+        values[order_[node][0]][order_[node][1]] = from;
+      }
+      for (std::size_t c = 0; root && c < contacts; ++c) {
+        gap.push_back(from[2 * c]);
+        force.push_back(from[2 * c + 1]);
+      }
+    }
+    time.push_back(static_cast<double>(records_++ * layout_.stride) * layout_.time_step);
+    for (std::size_t channel = 0; channel < channels; ++channel) {
+      const auto& nodes = values[channel / 3];
+      const std::size_t d = channel % 3;
+      double u = 0;
+      double v = 0;
+      for (const double* at : nodes) {
+        u += at[d];
+        v += at[3 + d];
+      }
+      u /= static_cast<double>(nodes.size());
+      v /= static_cast<double>(nodes.size());
+      const double a = (v - last_velocity_[channel] + ground_[3 * row + d]) / interval();
+      last_velocity_[channel] = v;
+      displacement.push_back(u);
+      velocity.push_back(v);
+      accelerations_.push_back(a);
+      peaks_[channel].acceleration = std::max(peaks_[channel].acceleration, std::abs(a));
+      peaks_[channel].displacement = std::max(peaks_[channel].displacement, std::abs(u));
+    }
+  }
+  file_->append("time", time);
+  if (channels > 0) {
+    file_->append("displacement", displacement);
+    file_->append("velocity", velocity);
+    file_->append("acceleration", {&accelerations_[first], accelerations_.size() - first});
+  }
+  std::vector<double> ground(ground_.begin(),
+                             ground_.begin() + static_cast<std::ptrdiff_t>(3 * rows));
+  for (double& value : ground) {
+    value /= interval();
+  }
+  file_->append("ground_acceleration", ground);
+  if (contacts > 0) {
+    file_->append("gap", gap);
+    file_->append("contact_force", force);
+  }
+}
+
+void Recorder::finish() {
+  flush();
+  file_.reset();
+}
+
+std::vector<double> Recorder::acceleration(std::size_t channel) const {
+  std::vector<double> samples;
+  for (std::size_t i = channel; i < accelerations_.size(); i += channels_.size()) {
+    samples.push_back(accelerations_[i]);
+  }
+  return samples;
+}
+
+}  // namespace pounding

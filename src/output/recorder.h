@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dynamics/state.h"
+#include "mesh/mesh.h"
+#include "output/hdf5_file.h"
+#include "output/probe_set.h"
+
+namespace pounding {
+
+/// Recorded histories of one probe and direction on rank 0.
+struct ChannelPeaks {
+  double acceleration = 0;  ///< absolute [m/s2]
+  double displacement = 0;  ///< relative to the ground [m]
+};
+
+/// Writes `history.h5`. A record is made every `stride` steps: displacement at t_n, velocity at
+/// t_n + dt/2, and as absolute acceleration the change of velocity since the last record over the
+/// interval (so that no impulse is lost between samples), ground included. Contacts: smallest gap
+/// at t_n and mean force over the interval.
+///
+/// Values wait in a buffer on the rank that owns them and travel to rank 0 a few thousand records
+/// at a time; a record itself neither allocates nor communicates.
+class Recorder {
+ public:
+  struct Layout {
+    MPI_Comm comm = MPI_COMM_SELF;
+    std::string path;
+    std::string title;
+    std::vector<ResolvedProbe> probes;
+    std::vector<std::string> contacts;
+    int interface_root = -1;  ///< rank that passes gaps and impulses, -1: none
+    int stride = 1;
+    double time_step = 0;
+  };
+
+  /// Rank 0 creates the file. Collective.
+  Recorder(Layout layout, std::span<const Mesh> meshes);
+
+  bool due(std::int64_t step) const { return step % layout_.stride == 0; }
+
+  /// Adds one step's velocity change of the ground, and on the interface root the impulse of each
+  /// contact.
+  void add_step(const std::array<double, 3>& ground_velocity_step);
+  void add_impulse(int contact, double impulse) {
+    impulse_[static_cast<std::size_t>(contact)] += impulse;
+  }
+  /// Makes a record; `gaps` per contact are read on the interface root. Collective only when the
+  /// buffer is full.
+  void record(const State& state, std::span<const double> gaps);
+  /// Sends what is left and closes the file. Collective.
+  void finish();
+
+  /// After finish, rank 0: names "probe.x", samples of absolute acceleration of a channel, peaks.
+  const std::vector<std::string>& channels() const { return channels_; }
+  std::vector<double> acceleration(std::size_t channel) const;
+  const std::vector<ChannelPeaks>& peaks() const { return peaks_; }
+  double interval() const { return layout_.time_step * layout_.stride; }
+  const std::vector<ResolvedProbe>& probes() const { return layout_.probes; }
+
+ private:
+  struct OwnedNode {
+    std::size_t probe;
+    std::size_t position;  ///< within the probe
+    int structure;
+    std::array<LocalIndex, 3> dofs;
+  };
+
+  void create_datasets();
+  void flush();
+  void write_rows(std::size_t rows, const std::vector<double>& gathered,
+                  const std::vector<int>& row_widths);
+
+  Layout layout_;
+  std::vector<OwnedNode> nodes_;
+  std::size_t width_ = 0;  ///< values of this rank per record
+  std::vector<double> buffer_;
+  std::size_t buffered_ = 0;
+  std::vector<double> ground_;  ///< velocity change per record and direction, rank 0
+  std::array<double, 3> ground_sum_{};
+  std::vector<double> impulse_;
+
+  // Rank 0
+  std::unique_ptr<Hdf5File> file_;
+  std::vector<std::string> channels_;
+  std::vector<int> widths_;                        ///< per rank
+  std::vector<std::array<std::size_t, 2>> order_;  ///< probe and position of the gathered nodes
+  std::vector<double> last_velocity_;
+  std::vector<double> accelerations_;  ///< all records, shape (records, channels)
+  std::vector<ChannelPeaks> peaks_;
+  std::int64_t records_ = 0;
+};
+
+}  // namespace pounding

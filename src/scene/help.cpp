@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <string>
+
+#include "scene/option_table.h"
+
+namespace pounding {
+namespace {
+
+const char* title_of(OptionBlock block) {
+  switch (block) {
+    case OptionBlock::run:
+      return "The run";
+    case OptionBlock::structure:
+      return "Each structure";
+    case OptionBlock::region:
+      return "Each physical group of a structure's mesh that has elements";
+    case OptionBlock::material:
+      return "Materials";
+    case OptionBlock::section:
+      return "Cross-sections of beams";
+    case OptionBlock::contact:
+      return "Contacts";
+    case OptionBlock::motion:
+      return "Ground motion";
+    case OptionBlock::probe:
+      return "Probes";
+    case OptionBlock::spectra:
+      return "Floor response spectra";
+  }
+  return "";
+}
+
+std::string preset_of(const OptionRow& row) {
+  if (row.preset.required) {
+    return "required";
+  }
+  if (!row.preset.has_value) {
+    return std::string(row.preset.text);
+  }
+  return row.preset.text.empty() ? "default: none" : "default: " + std::string(row.preset.text);
+}
+
+void append(std::string& text, const OptionRow& row) {
+  std::string line = "  -";
+  line.append(row.pattern);
+  line.resize(std::max<std::size_t>(line.size() + 1, 38), ' ');
+  line.append("[").append(row.unit).append("] ");
+  line.resize(std::max<std::size_t>(line.size(), 46), ' ');
+  line.append(row.help).append("; ").append(preset_of(row));
+  const std::string range = row.range.text();
+  if (row.kind == OptionKind::choice) {
+    line.append("; one of ").append(row.form);
+  } else if (range != "any") {
+    line.append(range[0] == '>' ? "; " : "; in ").append(range);
+  }
+  text.append(line).append("\n");
+}
+
+}  // namespace
+
+std::string help_text() {
+  std::string text =
+      "pounding: what floors feel when two buildings hit each other in an earthquake\n"
+      "\n"
+      "  mpirun -n 2 pounding -options_file case.yaml [-name value ...]\n"
+      "\n"
+      "Options come from YAML files (nested keys join with _: s1: {slab: {element: hex8}} is\n"
+      "-s1_slab_element hex8), from the files that they name as include, and from the command "
+      "line,\n"
+      "which wins. Names in <> are the user's; units are SI.\n";
+  bool first = true;
+  OptionBlock block{};
+  for (const OptionRow& row : option_table()) {
+    if (first || row.block != block) {
+      text.append("\n").append(title_of(row.block)).append("\n");
+    }
+    first = false;
+    block = row.block;
+    append(text, row);
+  }
+  text += "\nOptions of PETSc and SLEPc that pass through:\n ";
+  for (const std::string_view pattern : petsc_option_patterns()) {
+    text.append(" -").append(pattern);
+  }
+  return text + "\n";
+}
+
+}  // namespace pounding

@@ -1,0 +1,140 @@
+#include "scene/option_reader.h"
+
+#include <algorithm>
+
+#include "common/error.h"
+#include "scene/nearest_name.h"
+#include "scene/option_values.h"
+
+namespace pounding {
+
+bool OptionReader::given(std::string_view pattern, const Names& names) const {
+  return database_.contains(option_name(pattern, names));
+}
+
+std::string OptionReader::value(std::string_view pattern, const Names& names) const {
+  const OptionRow& row = option_row(pattern);
+  const auto entry = database_.find(option_name(pattern, names));
+  if (entry != database_.end()) {
+    return trimmed(entry->second);
+  }
+  if (!row.preset.has_value) {
+    throw UserError("missing option -" + option_name(pattern, names) + " (" +
+                    std::string(row.help) + "): expected " + expected_text(row));
+  }
+  return std::string(row.preset.text);
+}
+
+void OptionReader::keep(std::string_view pattern, const Names& names) {
+  const std::string name = option_name(pattern, names);
+  if (std::ranges::find(in_force_, name, &std::pair<std::string, std::string>::first) ==
+      in_force_.end()) {
+    in_force_.emplace_back(name, value(pattern, names));
+  }
+}
+
+void OptionReader::refuse(std::string_view pattern, const Names& names,
+                          const std::string& why) const {
+  const std::string shown = shown_value(value(pattern, names));
+  throw UserError("option -" + option_name(pattern, names) + " " + shown +
+                  (given(pattern, names) ? "" : " (default)") + ": " +
+                  (why.empty() ? "" : why + "; ") + "expected " +
+                  expected_text(option_row(pattern)));
+}
+
+void OptionReader::forbid(std::string_view pattern, const Names& names,
+                          const std::string& why) const {
+  if (given(pattern, names)) {
+    throw UserError("option -" + option_name(pattern, names) + " " +
+                    shown_value(value(pattern, names)) + ": " + why);
+  }
+}
+
+std::string OptionReader::text(std::string_view pattern, const Names& names) {
+  const Preset& preset = option_row(pattern).preset;
+  std::string result = value(pattern, names);
+  if (result.empty() && !(preset.has_value && preset.text.empty())) {
+    refuse(pattern, names);
+  }
+  keep(pattern, names);
+  return result;
+}
+
+std::string OptionReader::choice(std::string_view pattern, const Names& names) {
+  const std::vector<std::string> words = split(option_row(pattern).form, '|');
+  std::string word = value(pattern, names);
+  if (std::ranges::find(words, word) == words.end()) {
+    const auto near = nearest_name(word, words);
+    refuse(pattern, names, near ? "did you mean " + *near + "?" : "not supported");
+  }
+  keep(pattern, names);
+  return word;
+}
+
+double OptionReader::real(std::string_view pattern, const Names& names) {
+  const auto number = parse_real(value(pattern, names));
+  if (!number || !option_row(pattern).range.contains(*number)) {
+    refuse(pattern, names, number ? "out of range" : "not a finite number");
+  }
+  keep(pattern, names);
+  return *number;
+}
+
+int OptionReader::integer(std::string_view pattern, const Names& names) {
+  const auto number = parse_integer(value(pattern, names));
+  if (!number || !option_row(pattern).range.contains(*number)) {
+    refuse(pattern, names, number ? "out of range" : "not an integer");
+  }
+  keep(pattern, names);
+  return *number;
+}
+
+bool OptionReader::boolean(std::string_view pattern, const Names& names) {
+  const auto flag = parse_boolean(value(pattern, names));
+  if (!flag) {
+    refuse(pattern, names);
+  }
+  keep(pattern, names);
+  return *flag;
+}
+
+std::vector<std::string> OptionReader::list(std::string_view pattern, const Names& names) {
+  const bool required = option_row(pattern).preset.required;
+  const std::string whole = value(pattern, names);
+  std::vector<std::string> items = split(whole, ',');
+  if (whole == "none" && !required) {
+    items.clear();
+  }
+  for (auto item = items.begin(); item != items.end(); ++item) {
+    if (item->empty()) {
+      refuse(pattern, names, "empty name");
+    }
+    if (*item == "none") {
+      refuse(pattern, names, "none is not a name");
+    }
+    if (std::find(items.begin(), item, *item) != item) {
+      refuse(pattern, names, *item + " appears twice");
+    }
+  }
+  keep(pattern, names);
+  return items;
+}
+
+std::vector<double> OptionReader::reals(std::string_view pattern, const Names& names,
+                                        std::size_t count) {
+  const auto numbers = parse_reals(value(pattern, names));
+  if (!numbers) {
+    refuse(pattern, names, "not finite numbers between commas");
+  }
+  if (count != 0 && numbers->size() != count) {
+    refuse(pattern, names, "wrong count of numbers");
+  }
+  const Range& range = option_row(pattern).range;
+  if (!std::ranges::all_of(*numbers, [&range](double number) { return range.contains(number); })) {
+    refuse(pattern, names, "out of range");
+  }
+  keep(pattern, names);
+  return *numbers;
+}
+
+}  // namespace pounding

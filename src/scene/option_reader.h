@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scene/option_table.h"
+
+namespace pounding {
+
+/// Reads options by the pattern of the table and the names that replace its placeholders, checks
+/// kind and range, and keeps what was read (given or default) as the options in force. Every
+/// method throws UserError naming option, value and what is expected.
+class OptionReader {
+ public:
+  using Names = std::vector<std::string>;
+
+  explicit OptionReader(const OptionsDatabase& database) : database_(database) {}
+
+  bool given(std::string_view pattern, const Names& names = {}) const;
+
+  std::string text(std::string_view pattern, const Names& names = {});
+  std::string choice(std::string_view pattern, const Names& names = {});
+  double real(std::string_view pattern, const Names& names = {});
+  int integer(std::string_view pattern, const Names& names = {});
+  bool boolean(std::string_view pattern, const Names& names = {});
+  /// Without empty or repeated items; `none` is the empty list.
+  std::vector<std::string> list(std::string_view pattern, const Names& names = {});
+  /// Numbers, each in the range; `count` of them unless 0.
+  std::vector<double> reals(std::string_view pattern, const Names& names = {},
+                            std::size_t count = 0);
+
+  /// "option -name value: why; expected ...".
+  [[noreturn]] void refuse(std::string_view pattern, const Names& names,
+                           const std::string& why = "") const;
+  /// Refuses the option if it is given.
+  void forbid(std::string_view pattern, const Names& names, const std::string& why) const;
+
+  const OptionsDatabase& database() const { return database_; }
+  /// Options in force, in the order of reading.
+  const std::vector<std::pair<std::string, std::string>>& in_force() const { return in_force_; }
+
+ private:
+  /// The value in force, trimmed.
+  std::string value(std::string_view pattern, const Names& names) const;
+  void keep(std::string_view pattern, const Names& names);
+
+  const OptionsDatabase& database_;
+  std::vector<std::pair<std::string, std::string>> in_force_;
+};
+
+}  // namespace pounding

@@ -1,0 +1,203 @@
+#include "scene/option_table.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace pounding {
+namespace {
+
+using Block = OptionBlock;
+using Kind = OptionKind;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Range any{};
+constexpr Range positive{0, infinity, true, false};
+constexpr Range not_negative{0, infinity, false, false};
+constexpr Range at_least_1{1, infinity, false, false};
+constexpr Range fraction{0, 1, true, false};
+constexpr Range damping_ratio{0, 1, false, true};
+constexpr Range poisson_ratio{-1, 0.5, true, true};
+
+constexpr Preset required{false, true, "required"};
+constexpr Preset value(std::string_view text) { return {true, false, text}; }
+constexpr Preset absent(std::string_view when) { return {false, false, when}; }
+
+// clang-format off
+constexpr std::array table{
+    OptionRow{Block::run, "title", Kind::text, "text", value(""), any, "text", "one line that names the run"},
+    OptionRow{Block::run, "structures", Kind::names, "names", required, any, "", "the buildings"},
+    OptionRow{Block::run, "contacts", Kind::names, "names", value("none"), any, "", "the places where they may hit"},
+    OptionRow{Block::run, "probes", Kind::names, "names", value("none"), any, "", "where the motion is recorded"},
+    OptionRow{Block::run, "end_time", Kind::real, "s", required, positive, "", "duration of the run"},
+    OptionRow{Block::run, "courant", Kind::real, "-", value("0.9"), fraction, "", "fraction of the stable time step that is used"},
+    OptionRow{Block::run, "time_step", Kind::real, "s", value("0"), not_negative, "", "time step; 0: courant x the stable one"},
+    OptionRow{Block::run, "allow_unstable", Kind::boolean, "flag", value("false"), any, "", "accept a time step above the stable one (for studies)"},
+    OptionRow{Block::run, "modes", Kind::integer, "-", value("12"), not_negative, "", "lowest modes computed per structure"},
+    OptionRow{Block::run, "gap_tolerance", Kind::real, "-", value("1e-12"), not_negative, "", "contact where gap <= gap_tolerance x model size"},
+    OptionRow{Block::run, "impact_merge_time", Kind::real, "s", value("1e-3"), not_negative, "", "contacts separated by less are one impact"},
+    OptionRow{Block::run, "output_interval", Kind::real, "s", value("5e-5"), positive, "", "time between two samples of the probes"},
+    OptionRow{Block::run, "energy_interval", Kind::integer, "steps", value("100"), at_least_1, "", "steps between two lines of the energy balance"},
+    OptionRow{Block::run, "dry_run", Kind::boolean, "flag", value("false"), any, "", "check the model, print what a run would cost, and stop"},
+    OptionRow{Block::run, "output", Kind::text, "folder", value("results"), any, "a folder", "result folder"},
+    OptionRow{Block::run, "resampling", Kind::choice, "word", value("linear"), any, "linear|band_limited", "how records are upsampled to the time step"},
+
+    OptionRow{Block::structure, "<structure>_mesh", Kind::text, "file", required, any, "a .geo or .msh file", "geometry to mesh (.geo) or mesh"},
+    OptionRow{Block::structure, "<structure>_mesh_set", Kind::text, "pairs", value("none"), any, "name=value,name=value or none", "parameters of the .geo file"},
+    OptionRow{Block::structure, "<structure>_clamp", Kind::names, "names", value("none"), any, "", "physical groups fixed to the ground"},
+    OptionRow{Block::structure, "<structure>_fidelity", Kind::choice, "word", value("full"), any, "full", "how the structure is represented"},
+    OptionRow{Block::structure, "<structure>_damping_alpha", Kind::real, "1/s", value("0"), not_negative, "", "Rayleigh damping, mass term: C = alpha M + beta K"},
+    OptionRow{Block::structure, "<structure>_damping_beta", Kind::real, "s", value("0"), not_negative, "", "Rayleigh damping, stiffness term"},
+    OptionRow{Block::structure, "<structure>_damping_ratio", Kind::real, "-", absent("alpha, beta hold"), damping_ratio, "", "instead of alpha and beta: damping ratio at two frequencies"},
+    OptionRow{Block::structure, "<structure>_damping_frequencies", Kind::reals, "Hz", absent("required with the ratio"), positive, "two numbers f1,f2", "the two frequencies of the damping ratio"},
+
+    OptionRow{Block::region, "<structure>_<group>_element", Kind::choice, "word", required, any, "hex8|hex8_full|beam|bar", "element of the group (hex8: with incompatible modes)"},
+    OptionRow{Block::region, "<structure>_<group>_material", Kind::text, "name", required, any, "the name of a material", "its material"},
+    OptionRow{Block::region, "<structure>_<group>_section", Kind::text, "name", absent("required for beam"), any, "the name of a section", "its cross-section (beam only)"},
+    OptionRow{Block::region, "<structure>_<group>_area", Kind::real, "m2", absent("required for bar"), positive, "", "its cross-section area (bar only)"},
+
+    OptionRow{Block::material, "material_<material>_young", Kind::real, "Pa", required, positive, "", "Young's modulus"},
+    OptionRow{Block::material, "material_<material>_poisson", Kind::real, "-", required, poisson_ratio, "", "Poisson's ratio"},
+    OptionRow{Block::material, "material_<material>_density", Kind::real, "kg/m3", required, positive, "", "density"},
+
+    OptionRow{Block::section, "section_<section>_area", Kind::real, "m2", required, positive, "", "area"},
+    OptionRow{Block::section, "section_<section>_inertia_y", Kind::real, "m4", required, positive, "", "second moment about local y (bending in local x-z)"},
+    OptionRow{Block::section, "section_<section>_inertia_z", Kind::real, "m4", required, positive, "", "second moment about local z (bending in local x-y)"},
+    OptionRow{Block::section, "section_<section>_torsion", Kind::real, "m4", required, positive, "", "St-Venant torsion constant"},
+    OptionRow{Block::section, "section_<section>_z_axis", Kind::reals, "-", required, any, "three numbers x,y,z, not all zero", "direction of local z in global axes"},
+
+    OptionRow{Block::contact, "<contact>_secondary", Kind::text, "group", required, any, "structure:group", "secondary side, a surface of a structure"},
+    OptionRow{Block::contact, "<contact>_primary", Kind::text, "group", required, any, "structure:group", "primary side, the surface that it faces"},
+    OptionRow{Block::contact, "<contact>_gap", Kind::text, "m", value("geometry"), any, "geometry, or one, two or four numbers g1,g2,...", "initial gap: uniform, linear, or at the four corners"},
+
+    OptionRow{Block::motion, "motion_<x|y|z>_record", Kind::text, "file", value("none"), any, "a file or none", "recorded accelerogram; none: no motion; wins over a target"},
+    OptionRow{Block::motion, "motion_<x|y|z>_unit", Kind::choice, "word", value("auto"), any, "auto|g|m/s2|cm/s2", "unit of the record; auto: from the header of the file"},
+    OptionRow{Block::motion, "motion_<x|y|z>_time_step", Kind::real, "s", value("0"), not_negative, "", "time step of the record; 0: from the file"},
+    OptionRow{Block::motion, "motion_<x|y|z>_column", Kind::integer, "-", value("0"), not_negative, "", "column of the acceleration, from 1; 0: the last one"},
+    OptionRow{Block::motion, "motion_<x|y|z>_target", Kind::text, "file", absent("no target"), any, "a file", "synthetic motion: file of its target spectrum; needs a pga"},
+    OptionRow{Block::motion, "motion_<x|y|z>_seed", Kind::integer, "-", value("1"), not_negative, "", "synthetic motion: seed of the phases"},
+    OptionRow{Block::motion, "motion_<x|y|z>_duration", Kind::real, "s", value("25"), positive, "", "synthetic motion: duration"},
+    OptionRow{Block::motion, "motion_<x|y|z>_envelope", Kind::reals, "s", value("2,15"), not_negative, "two numbers t1,t2 with t1 <= t2 <= duration", "synthetic motion: end of the rise, start of the decay"},
+    OptionRow{Block::motion, "motion_<x|y|z>_pga", Kind::real, "m/s2", value("0"), not_negative, "", "peak ground acceleration to scale to; 0: as recorded"},
+    OptionRow{Block::motion, "motion_<x|y|z>_scale", Kind::real, "-", value("1"), any, "", "factor on the record, where no pga is given"},
+
+    OptionRow{Block::probe, "<probe>_structure", Kind::text, "name", required, any, "the name of a structure", "the structure that it sits on"},
+    OptionRow{Block::probe, "<probe>_at", Kind::text, "m", absent("this or group"), any, "points x,y,z; x,y,z", "points, each snapped to the nearest node"},
+    OptionRow{Block::probe, "<probe>_group", Kind::text, "group", absent("this or at"), any, "a physical group", "all nodes of a physical group"},
+    OptionRow{Block::probe, "<probe>_average", Kind::boolean, "flag", value("true"), any, "", "one averaged record instead of one per node"},
+
+    OptionRow{Block::spectra, "spectra_damping", Kind::reals, "-", value("0.05"), damping_ratio, "a comma-separated list of numbers", "damping ratios of the oscillators"},
+    OptionRow{Block::spectra, "spectra_frequencies", Kind::text, "Hz", value("0.5:400:200log"), positive, "start:stop:COUNTlog, start:stop:COUNTlin (COUNT 2 to 100000) or an increasing list", "frequencies of the oscillators"},
+};
+
+constexpr std::array petsc_patterns = std::to_array<std::string_view>({
+    "blas*", "bv_*", "citations*", "debugger_*", "ds_*", "eps_*", "fn_*", "fp_trap",
+    "get_total_flops", "help", "include", "info*", "ksp_*", "log_*", "malloc*", "mat_*",
+    "matmult_*", "memory_*", "mpi_*", "no_signal_handler", "nox*", "objects_*", "on_error_*",
+    "options_*", "pc_*", "petsc*", "rg_*", "sf_*", "skip_petscrc", "slepc*", "st_*",
+    "start_in_debugger", "use_gpu_aware_mpi", "vec_*", "version", "viewer_*"});
+// clang-format on
+
+}  // namespace
+
+bool Range::contains(double number) const {
+  const bool above = low_open ? number > low : number >= low;
+  const bool below = high_open ? number < high : number <= high;
+  return above && below;
+}
+
+std::string Range::text() const {
+  const auto number = [](double bound) {
+    std::string digits = std::to_string(bound);
+    digits.erase(digits.find_last_not_of('0') + 1);
+    return digits.back() == '.' ? digits.substr(0, digits.size() - 1) : digits;
+  };
+  if (low == -infinity && high == infinity) {
+    return "any";
+  }
+  if (high == infinity) {
+    return (low_open ? "> " : ">= ") + number(low);
+  }
+  return (low_open ? "(" : "[") + number(low) + ", " + number(high) + (high_open ? ")" : "]");
+}
+
+std::span<const OptionRow> option_table() { return table; }
+
+const OptionRow& option_row(std::string_view pattern) {
+  const auto row = std::ranges::find(table, pattern, &OptionRow::pattern);
+  if (row == table.end()) {
+    throw std::logic_error("no option has the pattern " + std::string(pattern));
+  }
+  return *row;
+}
+
+std::string option_name(std::string_view pattern, const std::vector<std::string>& names) {
+  std::string result;
+  auto name = names.begin();
+  while (true) {
+    const std::size_t open = pattern.find('<');
+    result += pattern.substr(0, open);
+    if (open == std::string_view::npos) {
+      break;
+    }
+    if (name == names.end()) {
+      throw std::logic_error("a placeholder without a name in " + std::string(pattern));
+    }
+    result += *name++;
+    pattern.remove_prefix(pattern.find('>') + 1);
+  }
+  if (name != names.end()) {
+    throw std::logic_error("more names than placeholders for " + result);
+  }
+  return result;
+}
+
+std::optional<std::string> match_option(std::string_view pattern, std::string_view name) {
+  const std::string_view head = pattern.substr(0, pattern.find('<'));
+  const std::string_view tail = pattern.substr(pattern.find('>') + 1);
+  if (name.size() <= head.size() + tail.size() || !name.starts_with(head) ||
+      !name.ends_with(tail)) {
+    return std::nullopt;
+  }
+  return std::string(name.substr(head.size(), name.size() - head.size() - tail.size()));
+}
+
+std::string expected_text(const OptionRow& row) {
+  const bool ranged = row.range.text() != "any";
+  const std::string unit = " [" + std::string(row.unit) + "]";
+  const std::string range = ranged ? " " + row.range.text() : "";
+  const std::string within = (ranged && range[1] != '>' ? " in" : "") + range;
+  switch (row.kind) {
+    case Kind::names:
+      return row.preset.required ? "a comma-separated list of at least one name"
+                                 : "a comma-separated list of names, or none";
+    case Kind::choice: {
+      std::string words(row.form);
+      std::ranges::replace(words, '|', ' ');
+      return words.find(' ') == std::string::npos ? words + " (the only one supported now)"
+                                                  : "one of: " + words;
+    }
+    case Kind::boolean:
+      return "true or false";
+    case Kind::integer:
+      return "an integer" + within + unit;
+    case Kind::real:
+      return "a number" + within + unit;
+    case Kind::text:
+    case Kind::reals:
+      break;
+  }
+  const bool numeric = row.kind == Kind::reals || ranged || row.unit == "m";
+  return std::string(row.form) + (ranged ? ", each" + within : "") + (numeric ? unit : "");
+}
+
+std::span<const std::string_view> petsc_option_patterns() { return petsc_patterns; }
+
+bool is_petsc_option(std::string_view name) {
+  return std::ranges::any_of(petsc_patterns, [name](std::string_view pattern) {
+    return pattern.ends_with('*') ? name.starts_with(pattern.substr(0, pattern.size() - 1))
+                                  : name == pattern;
+  });
+}
+
+}  // namespace pounding

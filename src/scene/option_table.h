@@ -1,0 +1,85 @@
+#pragma once
+
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The one place where the options of a scene are declared: reader, help, resolved options and the
+/// check for unknown names all work from this table.
+namespace pounding {
+
+/// Options as PETSc flattens them: name without the leading '-' -> value ("" for a bare flag).
+using OptionsDatabase = std::map<std::string, std::string>;
+
+/// What an option belongs to; each block but `run`, `motion` and `spectra` repeats per user's name.
+enum class OptionBlock {
+  run,
+  structure,
+  region,
+  material,
+  section,
+  contact,
+  motion,
+  probe,
+  spectra
+};
+
+enum class OptionKind { text, names, choice, boolean, integer, real, reals };
+
+/// Interval of the admitted values; infinite bounds mean "any finite value".
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false;
+  bool high_open = false;
+
+  bool contains(double value) const;
+  std::string text() const;  ///< "> 0", "(0, 1]", "any"
+};
+
+/// What holds when the user is silent: a value, or nothing (and then `text` says when it is owed).
+struct Preset {
+  bool has_value = false;
+  bool required = false;
+  std::string_view text;
+};
+
+struct OptionRow {
+  OptionBlock block;
+  std::string_view pattern;  ///< with placeholders: <structure>_<group>_element
+  OptionKind kind;
+  std::string_view unit;
+  Preset preset;
+  Range range;            ///< of the number, or of each number of a list
+  std::string_view form;  ///< choice: the words, separated by '|'; reals, text: the shape expected
+  std::string_view help;
+};
+
+/// Every option, in the order of the help.
+std::span<const OptionRow> option_table();
+
+/// The row of a pattern. Throws std::logic_error for a pattern that is not in the table.
+const OptionRow& option_row(std::string_view pattern);
+
+/// The pattern with its placeholders replaced, in order, by `names`.
+std::string option_name(std::string_view pattern, const std::vector<std::string>& names);
+
+/// The text that stands for the only placeholder of `pattern` in `name`, if it matches.
+std::optional<std::string> match_option(std::string_view pattern, std::string_view name);
+
+/// What a value must be, with range and unit: "a number in (0, 1] [-]".
+std::string expected_text(const OptionRow& row);
+
+/// Options of PETSc and SLEPc that may stand beside those of the scene; '*' ends a prefix.
+std::span<const std::string_view> petsc_option_patterns();
+bool is_petsc_option(std::string_view name);
+
+/// The text of `pounding -help`: usage, every option with unit, default, range and one line, and
+/// the admitted PETSc and SLEPc names.
+std::string help_text();
+
+}  // namespace pounding

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Values of options from their text. No locale, no exceptions: nothing comes back where the text
+/// is not wholly what is asked.
+namespace pounding {
+
+std::string trimmed(std::string_view text);
+
+/// The trimmed pieces between separators; "" is one empty piece.
+std::vector<std::string> split(std::string_view text, char separator);
+
+/// A finite number ("nan", "inf", "1e999" and trailing text are none).
+std::optional<double> parse_real(std::string_view text);
+
+/// An integer without fraction or exponent, in the range of int.
+std::optional<int> parse_integer(std::string_view text);
+
+/// true yes on 1, false no off 0, in any case; "" (a bare flag) is true.
+std::optional<bool> parse_boolean(std::string_view text);
+
+/// "1, 0,0": finite numbers between commas, at least one.
+std::optional<std::vector<double>> parse_reals(std::string_view text);
+
+/// "start:stop:COUNTlog", "start:stop:COUNTlin" (ends included exactly) or "f1,f2,...": strictly
+/// increasing finite numbers; a logarithmic range needs start > 0.
+std::optional<std::vector<double>> parse_increasing(std::string_view text);
+
+/// A value fit for a message: one line, not too long, "(no value)" when empty.
+std::string shown_value(std::string_view text);
+
+}  // namespace pounding

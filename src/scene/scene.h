@@ -1,0 +1,137 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/types.h"
+
+/// Plain structs of what the user asked, in SI units, validated; made by scene/scene_reader and
+/// constant afterwards. Identical on every rank.
+namespace pounding {
+
+struct Material {
+  std::string name;
+  double young = 0;    ///< Young's modulus [Pa]
+  double poisson = 0;  ///< Poisson's ratio [-]
+  double density = 0;  ///< [kg/m3]
+};
+
+/// Cross-section of a beam. Local x runs along the beam; local z is `z_axis` made orthogonal to x.
+struct Section {
+  std::string name;
+  double area = 0;       ///< [m2]
+  double inertia_y = 0;  ///< second moment about local y: bending in the local x-z plane [m4]
+  double inertia_z = 0;  ///< second moment about local z: bending in the local x-y plane [m4]
+  double torsion = 0;    ///< St-Venant torsion constant [m4]
+  Vector3 z_axis{0, 0, 1};
+};
+
+/// A physical group of the mesh and the element that the user gives it.
+struct Region {
+  std::string group;
+  ElementType element = ElementType::hex8;
+  Material material;
+  std::optional<Section> section;  ///< beams
+  double area = 0;                 ///< bars [m2]
+};
+
+/// Rayleigh damping C = alpha M + beta K.
+struct Rayleigh {
+  double alpha = 0;  ///< [1/s]
+  double beta = 0;   ///< [s]
+};
+
+struct Structure {
+  std::string name;
+  std::string mesh;                                           ///< .geo or .msh
+  std::vector<std::pair<std::string, std::string>> mesh_set;  ///< parameters of a .geo
+  std::vector<std::string> clamp;  ///< physical groups fixed to the ground
+  std::vector<Region> regions;
+  Rayleigh damping;
+};
+
+/// One side of a contact: a physical group (surface) of a structure.
+struct ContactSide {
+  std::string structure;
+  std::string group;
+};
+
+/// Initial gap: from the geometry, one number, two values (linear along the first tangent axis) or
+/// four (the corners of the face, going round). Tangent axes: the global axes other than the one
+/// closest to the contact normal, in the order x, y, z. Corners: (min t1, min t2), (max t1, min
+/// t2), (max t1, max t2), (min t1, max t2).
+struct InitialGap {
+  std::vector<double> values;  ///< empty: from geometry; else 1, 2 or 4 values [m]
+};
+
+struct Contact {
+  std::string name;
+  ContactSide secondary;
+  ContactSide primary;
+  InitialGap gap;
+};
+
+/// A recorded accelerogram in a file.
+struct RecordedMotion {
+  std::string file;
+  std::string unit;  ///< "", "g", "m/s2" or "cm/s2"; "" when the file's own header says it
+  double time_step =
+      0;           ///< [s]; needed for files without a time column or header; 0: from the file
+  int column = 0;  ///< column of the acceleration, 1-based; 0: the last one
+};
+
+/// A synthetic accelerogram matched to a 5 % target spectrum.
+struct SyntheticMotion {
+  std::string target;  ///< CSV of frequency [Hz], pseudo-acceleration / PGA [-]
+  int seed = 1;
+  double duration = 25;                   ///< [s]
+  std::array<double, 2> envelope{2, 15};  ///< end of the rise, start of the decay [s]
+};
+
+/// Ground motion in one direction: scaled to a peak ground acceleration, or by a factor.
+struct MotionComponent {
+  std::variant<RecordedMotion, SyntheticMotion> source;
+  double pga = 0;    ///< [m/s2]; 0: as recorded times `scale`
+  double scale = 1;  ///< [-]
+};
+
+enum class Resampling { linear, band_limited };
+
+struct Probe {
+  std::string name;
+  std::string structure;
+  std::vector<Vector3> points;  ///< each snaps to the nearest node [m]
+  std::string group;            ///< or all nodes of a physical group
+  bool average = true;          ///< one averaged channel set, or one per node
+};
+
+struct SpectraRequest {
+  std::vector<double> damping_ratios;  ///< [-]
+  std::vector<double> frequencies;     ///< [Hz], increasing
+};
+
+struct Scene {
+  std::string title;
+  std::vector<Structure> structures;
+  std::vector<Contact> contacts;
+  std::array<std::optional<MotionComponent>, 3> motion;
+  Resampling resampling = Resampling::linear;
+  std::vector<Probe> probes;
+  SpectraRequest spectra;
+  double end_time = 0;           ///< [s]
+  double courant = 0;            ///< fraction of the stable time step [-]
+  double time_step = 0;          ///< [s]; 0: courant times the stable one
+  bool allow_unstable = false;   ///< accept a time step above the stable one (for studies)
+  int modes = 0;                 ///< lowest modes to compute per structure
+  double gap_tolerance = 0;      ///< contact where gap <= gap_tolerance x model size [-]
+  double impact_merge_time = 0;  ///< contacts separated by less are one episode [s]
+  double output_interval = 0;    ///< of the probes [s]
+  int energy_interval = 0;       ///< steps between two lines of the energy ledger
+  bool dry_run = false;
+  std::string output;  ///< result folder
+};
+
+}  // namespace pounding

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "scene/option_table.h"
+#include "scene/scene.h"
+
+namespace pounding {
+
+struct ReadScene {
+  Scene scene;
+  std::string resolved;  ///< all options in force, defaults included, as YAML that reads back alike
+};
+
+/// The scene that the options describe. Throws UserError: an option missing, unknown (with the
+/// nearest known name), of the wrong kind, out of range, or at odds with another one.
+ReadScene read_scene(const OptionsDatabase& database);
+
+}  // namespace pounding

@@ -1,0 +1,321 @@
+#include "system/finite_element_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+#include <unordered_map>
+
+#include "common/error.h"
+#include "common/parallel.h"
+#include "system/dense_eigenvalues.h"
+
+namespace pounding {
+namespace {
+
+/// One element's matrices in a block's arrays, reused from element to element.
+struct ElementWork {
+  std::array<double, 3 * max_element_nodes> coordinates{};
+  std::array<double, max_element_size * max_element_size> stiffness{};
+  std::array<double, max_element_size> mass{};
+};
+
+std::string describe(const Mesh& mesh, const ElementBlock& block, std::size_t element) {
+  const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
+  Vector3 centre{0, 0, 0};
+  for (std::size_t a = 0; a < nodes; ++a) {
+    const Vector3 x = mesh.position(block.connectivity[element * nodes + a]);
+    for (std::size_t d = 0; d < 3; ++d) {
+      centre[d] += x[d] / static_cast<double>(nodes);
+    }
+  }
+  std::ostringstream text;
+  text << "element " << block.tags[element] << " of group '" << block.group << "' at ("
+       << std::round(1e4 * centre[0]) / 1e4 << ", " << std::round(1e4 * centre[1]) / 1e4 << ", "
+       << std::round(1e4 * centre[2]) / 1e4 << ")";
+  return text.str();
+}
+
+std::span<const double> gather_coordinates(const Mesh& mesh, const ElementBlock& block,
+                                           std::size_t element, ElementWork& work) {
+  const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
+  for (std::size_t a = 0; a < nodes; ++a) {
+    const Vector3 x = mesh.position(block.connectivity[element * nodes + a]);
+    std::copy(x.begin(), x.end(), &work.coordinates[3 * a]);
+  }
+  return {work.coordinates.data(), 3 * nodes};
+}
+
+/// Elements of one shape have one frequency: look at one of them.
+class FrequencyCache {
+ public:
+  double frequency(std::span<const double> stiffness, std::span<const double> mass) {
+    const std::string key = key_of(stiffness, mass);
+    const auto found = known_.find(key);
+    if (found != known_.end()) {
+      return found->second;
+    }
+    const double value = std::sqrt(std::max(0.0, largest_eigenvalue(stiffness, mass)));
+    if (known_.size() < 100000) {
+      known_[key] = value;
+    }
+    return value;
+  }
+
+ private:
+  /// Rounded to single precision, so that equal shapes at different places share a key; the
+  /// frequency of a class is good to about 1e-7.
+  static std::string key_of(std::span<const double> stiffness, std::span<const double> mass) {
+    std::string key;
+    double scale = 0;
+    for (std::size_t i = 0; i < mass.size(); ++i) {
+      scale = std::max(scale, stiffness[i * mass.size() + i]);
+    }
+    const auto append = [&key](double value) {
+      const auto rounded = static_cast<float>(value);
+      char bytes[sizeof rounded];
+      std::memcpy(bytes, &rounded, sizeof rounded);
+      key.append(bytes, sizeof rounded);
+    };
+    append(scale);
+    for (std::size_t i = 0; i < mass.size(); ++i) {
+      append(stiffness[i * mass.size() + i]);
+      append(stiffness[i]);
+      append(mass[i]);
+    }
+    return key;
+  }
+
+  std::unordered_map<std::string, double> known_;
+};
+
+/// Calls `visit(block, element, layout, work)` with the matrices of every element on this rank.
+template <typename Visit>
+void for_each_element(const Structure& structure, const Mesh& mesh, Visit&& visit) {
+  ElementWork work;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const ElementBlock& block = mesh.blocks[b];
+    const ElementProperties properties = element_properties(structure.regions[b]);
+    const ElementLayout layout = element_layout(block.type);
+    const auto size = static_cast<std::size_t>(layout.size());
+    for (std::size_t e = 0; e < block.count(); ++e) {
+      try {
+        element_matrices(block.type, gather_coordinates(mesh, block, e, work), properties,
+                         {work.stiffness.data(), size * size}, {work.mass.data(), size});
+      } catch (const ElementError& error) {
+        throw UserError("structure " + structure.name + ": " + describe(mesh, block, e) + ": " +
+                        error.what());
+      }
+      visit(block, e, layout, work);
+    }
+  }
+}
+
+/// Local dofs of an element, component by component of each node; -1 where there is none.
+std::array<LocalIndex, max_element_size> element_dofs(const Mesh& mesh, const ElementBlock& block,
+                                                      std::size_t element,
+                                                      const ElementLayout& layout) {
+  std::array<LocalIndex, max_element_size> dofs{};
+  for (int a = 0; a < layout.nodes; ++a) {
+    const LocalIndex node = block.connectivity[element * static_cast<std::size_t>(layout.nodes) +
+                                               static_cast<std::size_t>(a)];
+    for (int c = 0; c < layout.components; ++c) {
+      dofs[static_cast<std::size_t>(a * layout.components + c)] = mesh.dof(node, c);
+    }
+  }
+  return dofs;
+}
+
+/// Number of entries per owned row in the own and the other columns.
+void count_entries(const Mesh& mesh, std::vector<PetscInt>& own, std::vector<PetscInt>& other) {
+  std::vector<std::vector<LocalIndex>> neighbours(static_cast<std::size_t>(mesh.owned_nodes));
+  for (const ElementBlock& block : mesh.blocks) {
+    const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
+    for (std::size_t e = 0; e < block.count(); ++e) {
+      const LocalIndex* corner = &block.connectivity[e * nodes];
+      for (std::size_t a = 0; a < nodes; ++a) {
+        if (corner[a] < mesh.owned_nodes) {
+          auto& list = neighbours[static_cast<std::size_t>(corner[a])];
+          list.insert(list.end(), corner, corner + nodes);
+        }
+      }
+    }
+  }
+  own.assign(static_cast<std::size_t>(mesh.owned_dofs), 0);
+  other.assign(static_cast<std::size_t>(mesh.owned_dofs), 0);
+  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
+    auto& list = neighbours[static_cast<std::size_t>(node)];
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    PetscInt own_entries = 0;
+    PetscInt other_entries = 0;
+    for (const LocalIndex neighbour : list) {
+      const int dofs = component_count(mesh.free_components[static_cast<std::size_t>(neighbour)]);
+      (neighbour < mesh.owned_nodes ? own_entries : other_entries) += dofs;
+    }
+    const LocalIndex first = mesh.first_dof[static_cast<std::size_t>(node)];
+    const int rows = component_count(mesh.free_components[static_cast<std::size_t>(node)]);
+    std::fill_n(own.begin() + first, rows, own_entries);
+    std::fill_n(other.begin() + first, rows, other_entries);
+  }
+}
+
+MatHandle create_matrix(const Mesh& mesh) {
+  std::vector<PetscInt> own;
+  std::vector<PetscInt> other;
+  count_entries(mesh, own, other);
+  MatHandle matrix;
+  const LocalIndex n = mesh.owned_dofs;
+  POUNDING_PETSC(MatCreateAIJ(mesh.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 0, own.data(), 0,
+                              other.data(), matrix.out()));
+  POUNDING_PETSC(MatSetOption(matrix.get(), MAT_USE_INODES, PETSC_FALSE));
+  POUNDING_PETSC(MatSetOption(matrix.get(), MAT_SYMMETRIC, PETSC_TRUE));
+  return matrix;
+}
+
+/// Global dof numbers of all local dofs.
+std::vector<PetscInt> global_numbers(const Mesh& mesh) {
+  std::vector<PetscInt> numbers(static_cast<std::size_t>(mesh.dof_count));
+  for (LocalIndex node = 0; node < mesh.node_count(); ++node) {
+    for (int c = 0; c < 6; ++c) {
+      const LocalIndex dof = mesh.dof(node, c);
+      if (dof >= 0) {
+        numbers[static_cast<std::size_t>(dof)] = static_cast<PetscInt>(mesh.dof_global(node, c));
+      }
+    }
+  }
+  return numbers;
+}
+
+/// Everything that one sweep over the elements of this rank yields.
+class Assembly {
+ public:
+  Assembly(const Structure& structure, const Mesh& mesh, LinearSystem& system)
+      : structure_(structure), mesh_(mesh), system_(system), matrix_(create_matrix(mesh)) {}
+
+  void run() {
+    system_.lumped_mass.assign(static_cast<std::size_t>(mesh_.owned_dofs), 0.0);
+    numbers_ = global_numbers(mesh_);
+    on_every_rank(mesh_.comm, [&] {
+      for_each_element(structure_, mesh_,
+                       [&](const ElementBlock& block, std::size_t e, const ElementLayout& layout,
+                           const ElementWork& work) { add(block, e, layout, work); });
+      check_mass();
+    });
+    POUNDING_PETSC(MatAssemblyBegin(matrix_.get(), MAT_FINAL_ASSEMBLY));
+    POUNDING_PETSC(MatAssemblyEnd(matrix_.get(), MAT_FINAL_ASSEMBLY));
+    system_.stiffness = std::make_unique<AssembledStiffness>(std::move(matrix_));
+    share_totals();
+  }
+
+ private:
+  void add(const ElementBlock& block, std::size_t element, const ElementLayout& layout,
+           const ElementWork& work) {
+    const auto size = static_cast<std::size_t>(layout.size());
+    const auto dofs = element_dofs(mesh_, block, element, layout);
+    std::array<PetscInt, max_element_size> rows{};
+    std::array<PetscInt, max_element_size> columns{};
+    for (std::size_t i = 0; i < size; ++i) {
+      const LocalIndex dof = dofs[i];
+      const bool owned = dof >= 0 && dof < mesh_.owned_dofs;
+      columns[i] = dof >= 0 ? numbers_[static_cast<std::size_t>(dof)] : -1;
+      rows[i] = owned ? columns[i] : -1;
+      if (owned) {
+        system_.lumped_mass[static_cast<std::size_t>(dof)] += work.mass[i];
+      }
+      if (block.counted[element] != 0 && static_cast<int>(i) % layout.components == 0) {
+        system_.total_mass += work.mass[i];
+      }
+    }
+    const auto n = static_cast<PetscInt>(size);
+    POUNDING_PETSC(MatSetValues(matrix_.get(), n, rows.data(), n, columns.data(),
+                                work.stiffness.data(), ADD_VALUES));
+    const double frequency =
+        cache_.frequency({work.stiffness.data(), size * size}, {work.mass.data(), size});
+    if (frequency > system_.element_frequency_bound) {
+      system_.element_frequency_bound = frequency;
+      system_.stiffest_element = describe(mesh_, block, element);
+    }
+  }
+
+  void check_mass() const {
+    for (LocalIndex node = 0; node < mesh_.owned_nodes; ++node) {
+      for (int c = 0; c < 6; ++c) {
+        const LocalIndex dof = mesh_.dof(node, c);
+        if (dof >= 0 && !(system_.lumped_mass[static_cast<std::size_t>(dof)] > 0)) {
+          const Vector3 x = mesh_.position(node);
+          std::ostringstream text;
+          text << "structure " << structure_.name << ": the node at (" << x[0] << ", " << x[1]
+               << ", " << x[2] << ") has no mass in component " << c
+               << "; give its elements a density";
+          throw UserError(text.str());
+        }
+      }
+    }
+  }
+
+  /// Sums and maxima over the ranks; the element's name travels with its frequency.
+  void share_totals() {
+    MPI_Allreduce(MPI_IN_PLACE, &system_.total_mass, 1, MPI_DOUBLE, MPI_SUM, mesh_.comm);
+    struct {
+      double value;
+      int rank;
+    } largest{system_.element_frequency_bound, rank_of(mesh_.comm)};
+    MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, mesh_.comm);
+    system_.element_frequency_bound = largest.value;
+    std::vector<char> name(system_.stiffest_element.begin(), system_.stiffest_element.end());
+    broadcast_array(mesh_.comm, name, largest.rank);
+    system_.stiffest_element.assign(name.begin(), name.end());
+  }
+
+  const Structure& structure_;
+  const Mesh& mesh_;
+  LinearSystem& system_;
+  MatHandle matrix_;
+  std::vector<PetscInt> numbers_;
+  FrequencyCache cache_;
+};
+
+}  // namespace
+
+ElementProperties element_properties(const Region& region) {
+  ElementProperties properties;
+  properties.young = region.material.young;
+  properties.poisson = region.material.poisson;
+  properties.density = region.material.density;
+  properties.area = region.area;
+  if (region.section) {
+    properties.area = region.section->area;
+    properties.inertia_y = region.section->inertia_y;
+    properties.inertia_z = region.section->inertia_z;
+    properties.torsion = region.section->torsion;
+    properties.z_axis = region.section->z_axis;
+  }
+  return properties;
+}
+
+LinearSystem build_finite_element_system(const Structure& structure, const Mesh& mesh) {
+  LinearSystem system;
+  system.name = structure.name;
+  system.comm = mesh.comm;
+  system.damping = structure.damping;
+  system.global_dofs = mesh.global_dofs;
+  Assembly(structure, mesh, system).run();
+  system.inverse_mass.resize(system.lumped_mass.size());
+  for (std::size_t i = 0; i < system.lumped_mass.size(); ++i) {
+    system.inverse_mass[i] = 1 / system.lumped_mass[i];
+  }
+  for (int direction = 0; direction < 3; ++direction) {
+    auto& influence = system.influence[static_cast<std::size_t>(direction)];
+    influence.assign(system.lumped_mass.size(), 0.0);
+    for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
+      const LocalIndex dof = mesh.dof(node, direction);
+      if (dof >= 0) {
+        influence[static_cast<std::size_t>(dof)] = 1;
+      }
+    }
+  }
+  return system;
+}
+
+}  // namespace pounding

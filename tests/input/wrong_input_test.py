@@ -1,0 +1,105 @@
+"""Wrong inputs: one line from the program that says what is wrong, exit status 1 on every rank."""
+import os
+import tempfile
+import unittest
+
+import program
+
+CASE = program.COARSE_PAIR + ["-end_time", "0.001"]
+
+
+class WrongInput(unittest.TestCase):
+    def refuse(self, arguments, *words, ranks=(1, 2)):
+        """The program refuses the arguments with one line that holds all the words."""
+        for count in ranks:
+            with tempfile.TemporaryDirectory() as folder:
+                output = os.path.join(folder, "results")
+                result = program.run(list(arguments) + ["-output", output], count, timeout=120)
+                self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+                lines = program.error_lines(result)
+                self.assertEqual(len(lines), 1, result.stderr)
+                for word in words:
+                    self.assertIn(word, lines[0])
+                self.assertFalse(os.path.exists(os.path.join(output, "summary.json")))
+
+    def with_file(self, text, suffix=".txt"):
+        handle, path = tempfile.mkstemp(suffix=suffix)
+        with os.fdopen(handle, "w") as file:
+            file.write(text)
+        self.addCleanup(os.remove, path)
+        return path
+
+    def test_missing_options_file(self):
+        self.refuse(["-options_file", "nowhere.yaml"], "nowhere.yaml", "no such file")
+
+    def test_broken_yaml(self):
+        path = self.with_file("s1: {mesh: a.geo\n  b: [\n", ".yaml")
+        self.refuse(["-options_file", path], path, "YAML")
+
+    def test_no_options_at_all(self):
+        self.refuse([], "-structures")
+
+    def test_missing_mesh(self):
+        self.refuse(CASE + ["-s1_mesh", "meshes/none.geo", "-s1_mesh_set", "none"], "meshes/none.geo",
+                    "no such file")
+
+    def test_mesh_that_gmsh_cannot_read(self):
+        path = self.with_file("this is no mesh", ".msh")
+        self.refuse(CASE + ["-s1_mesh", path, "-s1_mesh_set", "none"], path)
+
+    def test_unknown_mesh_parameter(self):
+        self.refuse(CASE + ["-s1_mesh_set", "cels_x=7"], "cels_x")
+
+    def test_unknown_group_in_a_region(self):
+        self.refuse(CASE + ["-s1_slob_element", "hex8", "-s1_slob_material", "concrete"], "slob",
+                    "which has", "slab")
+
+    def test_unknown_clamp_group(self):
+        self.refuse(CASE + ["-s2_clamp", "bottom"], "bottom", "base")
+
+    def test_wrong_element_for_a_group(self):
+        self.refuse(CASE + ["-s1_column_element", "hex8", "-s1_column_section", "none"], "column")
+
+    def test_unknown_option_with_the_nearest_name(self):
+        self.refuse(CASE + ["-s1_dampng_beta", "1e-5"], "-s1_dampng_beta", "-s1_damping_beta")
+
+    def test_typo_in_a_value(self):
+        self.refuse(CASE + ["-courant", "0,9"], "-courant", "0,9")
+
+    def test_value_out_of_range(self):
+        self.refuse(CASE + ["-material_concrete_young", "-30e9"], "-material_concrete_young")
+
+    def test_not_a_number_in_an_option(self):
+        self.refuse(CASE + ["-end_time", "nan"], "-end_time", "nan")
+
+    def test_not_a_number_in_the_record(self):
+        path = self.with_file("0.0 0.0\n0.01 0.1\n0.02 nan\n0.03 0.0\n")
+        self.refuse(CASE + ["-motion_x_record", path, "-motion_x_unit", "g"], path, "3")
+
+    def test_missing_record(self):
+        self.refuse(CASE + ["-motion_x_record", "none.AT2"], "none.AT2")
+
+    def test_time_step_above_the_stable_one(self):
+        self.refuse(CASE + ["-time_step", "1e-3"], "-time_step", "stable")
+
+    def test_unknown_contact_group(self):
+        self.refuse(CASE + ["-floor1_primary", "s2:face9"], "face9", "face1")
+
+    def test_faces_that_look_away(self):
+        self.refuse(CASE + ["-floor1_primary", "s1:face1"], "floor1")
+
+    def test_clamped_contact_face(self):
+        self.refuse(CASE + ["-s2_clamp", "base,face1"], "floor1", "clamped")
+
+    def test_probe_far_from_the_mesh(self):
+        self.refuse(CASE + ["-s1_floor1_at", "50,0,0"], "-s1_floor1_at")
+
+    def test_output_that_cannot_be_written(self):
+        path = self.with_file("a file, not a folder")
+        result = program.run(CASE + ["-output", path], 2, timeout=120)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(path, program.error_lines(result)[0])
+
+
+if __name__ == "__main__":
+    unittest.main()

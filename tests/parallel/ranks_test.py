@@ -1,0 +1,65 @@
+"""The answer does not depend on the number of ranks, and a run repeats itself bit for bit."""
+import os
+import unittest
+
+import h5py
+import numpy
+
+import program
+
+# Strong enough to touch early: the first impact comes within the first half second.
+CASE = program.COARSE_PAIR + ["-motion_x_pga", "6", "-motion_x_envelope", "0.2,20",
+                              "-floor2_gap", "0.004,0.002", "-floor1_gap", "0.02", "-end_time", "0.6"]
+
+
+def history(folder, name):
+    with h5py.File(os.path.join(folder, "history.h5"), "r") as file:
+        return file[name][()]
+
+
+class Ranks(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        test = unittest.TestCase()
+        cls.runs = {ranks: program.must_run(test, CASE, ranks) for ranks in (1, 2, 3)}
+
+    def test_the_case_pounds(self):
+        for _, summary in self.runs.values():
+            self.assertGreater(summary["impacts"]["floor2"]["episodes"], 0)
+            self.assertLess(summary["energy"]["relative_residual"], 1e-10)
+            self.assertLess(summary["impacts"]["max_penetration"], 1e-4)
+
+    def test_histories_agree_until_just_after_the_first_impact(self):
+        first = float(program.read_csv(os.path.join(self.runs[1][0], "impacts.csv"))["start"][0])
+        time = history(self.runs[1][0], "time")
+        window = time <= first + 0.1
+        for name in ("displacement", "velocity", "acceleration", "gap"):
+            reference = history(self.runs[1][0], name)[window]
+            scale = abs(reference).max()
+            self.assertGreater(scale, 0)
+            for ranks in (2, 3):
+                difference = abs(history(self.runs[ranks][0], name)[window] - reference).max()
+                self.assertLessEqual(difference, 1e-9 * scale, (name, ranks))
+
+    def test_model_is_the_same(self):
+        one = self.runs[1][1]
+        for ranks in (2, 3):
+            other = self.runs[ranks][1]
+            self.assertEqual(one["time_step"], other["time_step"])
+            for name, structure in one["structures"].items():
+                self.assertEqual(structure["dofs"], other["structures"][name]["dofs"])
+                self.assertAlmostEqual(structure["mass"], other["structures"][name]["mass"], delta=1e-8)
+                self.assertAlmostEqual(structure["omega_max"] / other["structures"][name]["omega_max"],
+                                       1, delta=1e-8)
+
+    def test_a_second_run_is_bit_identical(self):
+        folder, _ = program.must_run(self, CASE, 2)
+        for name in ("time", "displacement", "velocity", "acceleration", "gap", "contact_force"):
+            self.assertTrue(numpy.array_equal(history(folder, name), history(self.runs[2][0], name)), name)
+        for name in ("impacts.csv", "spectra.csv", "energy.csv"):
+            with open(os.path.join(folder, name)) as a, open(os.path.join(self.runs[2][0], name)) as b:
+                self.assertEqual(a.read(), b.read(), name)
+
+
+if __name__ == "__main__":
+    unittest.main()

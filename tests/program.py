@@ -1,0 +1,60 @@
+"""Runs the program as a user does and reads what it leaves; shared by the tests in Python."""
+import json
+import os
+import subprocess
+import tempfile
+
+SOURCE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+BUILD = os.environ.get("POUNDING_BUILD", os.path.join(SOURCE, "build"))
+PROGRAM = os.path.join(BUILD, "pounding")
+SHARED = os.environ.get("POUNDING_SHARED", os.path.join(os.path.dirname(SOURCE), "shared"))
+
+
+def environment():
+    """The variables that run/environment sets."""
+    text = subprocess.run(["bash", "-c", "source run/environment && env -0"], cwd=SOURCE,
+                          capture_output=True, text=True, check=True).stdout
+    return dict(item.split("=", 1) for item in text.split("\0") if "=" in item)
+
+
+ENVIRONMENT = environment()
+
+
+def run(arguments, ranks=2, timeout=900):
+    """Runs `pounding` on some ranks; arguments are words after the program's name."""
+    command = ["mpirun", "-n", str(ranks), PROGRAM] + [str(word) for word in arguments]
+    return subprocess.run(command, cwd=SOURCE, env=ENVIRONMENT, capture_output=True, text=True,
+                          timeout=timeout)
+
+
+def error_lines(result):
+    """What the program itself said on stderr (mpirun adds lines of its own)."""
+    return [line for line in result.stderr.splitlines() if line.startswith("pounding: ")]
+
+
+def summary(folder):
+    with open(os.path.join(folder, "summary.json")) as file:
+        return json.load(file)
+
+
+def must_run(test, arguments, ranks=2, timeout=900):
+    """Runs into a fresh folder and returns it with the summary; fails the test on an error."""
+    folder = tempfile.mkdtemp(prefix="pounding-")
+    result = run(list(arguments) + ["-output", folder], ranks, timeout)
+    test.assertEqual(result.returncode, 0, result.stdout[-2000:] + result.stderr[-2000:])
+    return folder, summary(folder)
+
+
+def read_csv(path):
+    """Columns of one of the program's CSV files, as lists of text."""
+    with open(path) as file:
+        lines = [line.rstrip("\n") for line in file if not line.startswith("#")]
+    names = lines[0].split(",")
+    rows = [line.split(",") for line in lines[1:]]
+    return {name: [row[i] for row in rows] for i, name in enumerate(names)}
+
+
+# The two-storey pair on a coarse mesh: the same physics, a hundred times cheaper.
+COARSE_PAIR = ["-options_file", "petsc-options/azalee/gap2.yaml",
+               "-s1_mesh_set", "cells_x=7,cells_y=5,column_elements=2",
+               "-s2_mesh_set", "cells_x=5,cells_y=5,column_elements=2"]

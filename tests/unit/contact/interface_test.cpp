@@ -1,0 +1,127 @@
+#include "contact/interface.h"
+
+#include <gtest/gtest.h>
+
+#include "common/error.h"
+#include "contact/contact_face.h"
+#include "support/box_mesh.h"
+
+namespace pounding {
+namespace {
+
+Scene two_boxes(std::vector<double> gap = {}) {
+  Scene scene;
+  scene.structures = {testing::solid_structure("left", 1, 0, 1),
+                      testing::solid_structure("right", 1, 0, 1)};
+  Contact contact;
+  contact.name = "face";
+  contact.secondary = {"left", "x_max"};
+  contact.primary = {"right", "x_min"};
+  contact.gap.values = std::move(gap);
+  scene.contacts.push_back(contact);
+  return scene;
+}
+
+TEST(Interface, MatchedFacesPairNodeToNodeWithGapFromGeometry) {
+  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {2, 3, 1}, {2, 3, 1}),
+                                       testing::box_mesh({2.05, 0, 0}, {1, 3, 1}, {1, 3, 1})};
+  const Interface interface = find_interface(two_boxes(), meshes);
+  ASSERT_EQ(interface.constraints.size(), 8u);
+  EXPECT_EQ(interface.reports[0].matched, 8);
+  EXPECT_NEAR(interface.reports[0].normal[0], 1, 1e-15);
+  for (const Constraint& constraint : interface.constraints) {
+    ASSERT_EQ(constraint.terms.size(), 2u);
+    EXPECT_NEAR(constraint.initial_gap, 0.05, 1e-14);
+    EXPECT_EQ(constraint.terms[0].structure, 1);
+    EXPECT_DOUBLE_EQ(constraint.terms[0].coefficient, 1);
+    EXPECT_EQ(constraint.terms[1].structure, 0);
+    EXPECT_DOUBLE_EQ(constraint.terms[1].coefficient, -1);
+  }
+}
+
+TEST(Interface, UnmatchedFacesWeighThePrimaryNodesToOne) {
+  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 3, 3}),
+                                       testing::box_mesh({1, 0, 0}, {1, 1, 1}, {1, 2, 2})};
+  const Interface interface = find_interface(two_boxes(), meshes);
+  ASSERT_EQ(interface.constraints.size(), 16u);
+  for (const Constraint& constraint : interface.constraints) {
+    double sum = 0;
+    Vector3 place{0, 0, 0};
+    for (const ConstraintTerm& term : constraint.terms) {
+      if (term.structure == 1) {
+        sum += term.coefficient;
+        const Vector3 x = meshes[1].position(term.node);
+        place[1] += term.coefficient * x[1];
+        place[2] += term.coefficient * x[2];
+      }
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_NEAR(place[1], constraint.place[0], 1e-12);
+    EXPECT_NEAR(place[2], constraint.place[1], 1e-12);
+  }
+}
+
+TEST(Interface, CornerGapsAreBilinearOnTheFace) {
+  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {1, 2, 1}, {1, 4, 2}),
+                                       testing::box_mesh({1, 0, 0}, {1, 2, 1}, {1, 4, 2})};
+  const Interface interface = find_interface(two_boxes({0.01, 0.02, 0.05, 0.03}), meshes);
+  for (const Constraint& constraint : interface.constraints) {
+    const double s = constraint.place[0] / 2;
+    const double t = constraint.place[1];
+    const double expected = (0.01 * (1 - s) + 0.02 * s) * (1 - t) + (0.03 * (1 - s) + 0.05 * s) * t;
+    EXPECT_NEAR(constraint.initial_gap, expected, 1e-15);
+    EXPECT_NEAR(constraint.geometric_gap, 0, 1e-15);
+  }
+}
+
+TEST(Interface, OverlappingBodiesHaveANegativeGap) {
+  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1}),
+                                       testing::box_mesh({0.999, 0, 0}, {1, 1, 1}, {1, 1, 1})};
+  const Interface interface = find_interface(two_boxes(), meshes);
+  for (const Constraint& constraint : interface.constraints) {
+    EXPECT_NEAR(constraint.initial_gap, -1e-3, 1e-15);
+  }
+}
+
+TEST(Interface, EccentricFacesReportTheNodesThatFaceNothing) {
+  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {1, 4, 1}, {1, 4, 1}),
+                                       testing::box_mesh({1, 2, 0}, {1, 4, 1}, {1, 4, 1})};
+  const Interface interface = find_interface(two_boxes(), meshes);
+  EXPECT_EQ(interface.reports[0].pairs, 6);
+  EXPECT_EQ(interface.reports[0].unmatched_nodes, 4);
+}
+
+TEST(Interface, RefusesFacesThatLookAway) {
+  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1}),
+                                       testing::box_mesh({2, 0, 0}, {1, 1, 1}, {1, 1, 1})};
+  Scene scene = two_boxes();
+  scene.contacts[0].primary.group = "x_max";
+  EXPECT_THROW(find_interface(scene, meshes), UserError);
+  scene.contacts[0].primary.group = "nowhere";
+  EXPECT_THROW(find_interface(scene, meshes), UserError);
+}
+
+TEST(ContactFace, MeetsASkewedFacetWhereItsMapSays) {
+  GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
+  Facet facet = mesh.groups.at("x_max").facets[0];
+  // A corner pulled within the plane: the map is bilinear, no longer affine.
+  mesh.coordinates[static_cast<std::size_t>(3 * facet.nodes[2] + 1)] += 0.4;
+  const std::array<double, 4> weights{0.12, 0.28, 0.42, 0.18};  // xi = 0.4, eta = 0.2
+  Vector3 target{0, 0, 0};
+  for (std::size_t a = 0; a < 4; ++a) {
+    const Vector3 x = mesh.position(facet.nodes[a]);
+    for (std::size_t d = 0; d < 3; ++d) {
+      target[d] += weights[a] * x[d];
+    }
+  }
+  const auto point =
+      meet_facet(mesh, facet, {target[0] - 2, target[1], target[2]}, {1, 0, 0}, 1e-6);
+  ASSERT_TRUE(point);
+  EXPECT_NEAR(point->distance, 2, 1e-13);
+  for (std::size_t a = 0; a < 4; ++a) {
+    EXPECT_NEAR(point->weights[a], weights[a], 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace pounding

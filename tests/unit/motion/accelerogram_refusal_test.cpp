@@ -1,0 +1,136 @@
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "motion/accelerogram.h"
+#include "motion_files.h"
+
+namespace pounding {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing_support::MotionFiles;
+using testing_support::refusal;
+
+class AccelerogramRefusal : public MotionFiles {
+ protected:
+  std::string refused(const std::string& text, const std::string& unit = "", double time_step = 0,
+                      int column = 0) const {
+    const std::string file = write("record", text);
+    const std::string message = refusal([&] {
+      read_accelerogram({file, unit, time_step, column});
+    });
+    EXPECT_THAT(message, HasSubstr(file));
+    return message;
+  }
+
+  const std::string header = "A RECORD\nACCELERATION IN UNITS OF G\n";
+  const std::string six = " .1 .2 .3\n .4 .5 .6\n";
+};
+
+TEST_F(AccelerogramRefusal, MissingEmptyOrUnreadableFile) {
+  const std::string missing = (folder_ / "none.AT2").string();
+  EXPECT_THAT(refusal([&] {
+                read_accelerogram({missing, "g", 0.01, 0});
+              }),
+              AllOf(HasSubstr(missing), HasSubstr("cannot be opened")));
+  EXPECT_THAT(refusal([&] {
+                read_accelerogram({folder_.string(), "g", 0.01, 0});
+              }),
+              HasSubstr("folder"));
+  EXPECT_THAT(refused(""), HasSubstr("empty"));
+  EXPECT_THAT(refused(" \r\n\n  \n"), HasSubstr("empty"));
+  EXPECT_THAT(refused(std::string("1\n\0\n2\n", 6), "g", 0.01), HasSubstr("not a text file"));
+  EXPECT_THAT(refused("nothing but words\nand more\n", "g", 0.01), HasSubstr("no line of numbers"));
+}
+
+TEST_F(AccelerogramRefusal, HeaderThatBelongsToAnotherRecord) {
+  const std::string message = refused(header + "NPTS= 10102, DT= .02 SEC\n" + six);
+  EXPECT_THAT(message, AllOf(HasSubstr("10102"), HasSubstr("6 are found")));
+}
+
+TEST_F(AccelerogramRefusal, SurplusValuesThatAreNotZero) {
+  EXPECT_THAT(refused(header + "NPTS= 5, DT= .02\n" + six), HasSubstr("announces 5 values but 6"));
+}
+
+TEST_F(AccelerogramRefusal, HeaderThatContradictsItself) {
+  EXPECT_THAT(refused(header + "NPTS= 6, DT= .02\n6 points at equal spacing of .01 sec\n" + six),
+              HasSubstr("record:4: "));
+  EXPECT_THAT(refused(header + "NPTS= 6, DT= .02\nNPTS= 7\n" + six), HasSubstr("record:4: "));
+  EXPECT_THAT(refused(header + "NPTS= 6, DT= 0.0\n" + six), HasSubstr("record:3: "));
+}
+
+TEST_F(AccelerogramRefusal, WordsAndNumbersThatAreNotFinite) {
+  for (const std::string word :
+       {"abc", "nan", "-NaN", "inf", "1e999", "0x10", "1.2.3", "1,5", "--1"}) {
+    EXPECT_THAT(refused(header + "NPTS= 6, DT= .02\n .1 .2 .3\n .4 " + word + " .6\n"),
+                HasSubstr("record:5: "))
+        << word;
+    EXPECT_THAT(refused(header + "NPTS= 6, DT= .02\n .1 " + word + " .3\n .4 .5 .6\n"),
+                HasSubstr("record:4: "))
+        << word;
+  }
+  EXPECT_THAT(refused("0.1\nnan\n0.2\n0.3\n0.4\n", "g", 0.01), HasSubstr("record:2: 'nan'"));
+  EXPECT_THAT(refused("nan\n0.2\n0.3\n0.4\n", "g", 0.01), HasSubstr("record:1: 'nan'"));
+  EXPECT_THAT(refused("0 1\n0.1 abc\n0.2 3\n0.3 3\n", "g"), HasSubstr("record:2: 'abc'"));
+  EXPECT_THAT(refused("t,a\n0,abc\n0.1,2\n0.2,3\n", "g"), HasSubstr("record:2: 'abc'"));
+  EXPECT_THAT(refused("t,a\n0,1\n0.1,\n0.2,3\n0.3,3\n0.4,3\n", "g"), HasSubstr("record:3: "));
+}
+
+TEST_F(AccelerogramRefusal, MissingColumnsAndValues) {
+  EXPECT_THAT(refused("0 1\n0.1 2\n0.2\n0.3 4\n", "g"), HasSubstr("record:3: 1 numbers"));
+  EXPECT_THAT(refused("0 1\n0.1 2\n0.2 3\n0.3\n", "g"), HasSubstr("record:4: 1 numbers"));
+  EXPECT_THAT(refused("1 2 9\n3 4\n5 6 7\n", "g", 0.01), HasSubstr("record:2: 2 numbers"));
+  EXPECT_THAT(refused("1\n2\n\n3\n", "g", 0.01), HasSubstr("record:3: empty line"));
+  EXPECT_THAT(refused("0 1\n0.1 2\n0.2 3\n", "g", 0, 3), HasSubstr("column 3"));
+  EXPECT_THAT(refused("0 1\n0.1 2\n0.2 3\n", "g", 0, 1), HasSubstr("column 1 is the time"));
+  EXPECT_THAT(refused("7\n", "g", 0.01), HasSubstr("at least 2"));
+}
+
+TEST_F(AccelerogramRefusal, VelocityAndSpectra) {
+  EXPECT_THAT(refused("A RECORD\nVELOCITY TIME SERIES IN UNITS OF CM/S\nNPTS= 6, DT= .02\n" + six),
+              AllOf(HasSubstr("record:2: "), HasSubstr("velocity")));
+  EXPECT_THAT(refused("A RECORD\nDISPLACEMENT TIME SERIES IN UNITS OF CM\nNPTS= 6, DT= .02\n" + six,
+                      "cm/s2"),
+              HasSubstr("velocity or displacement"));
+  EXPECT_THAT(refused("# unit cm/s\n0 1\n0.1 2\n0.2 3\n", "cm/s2"), HasSubstr("velocity"));
+  EXPECT_THAT(refused("time,acc (g),vel (cm/s)\n0,1,2\n0.1,2,3\n0.2,3,4\n"), HasSubstr("velocity"));
+  EXPECT_THAT(refused("Period [s],Spectral Acceleration [g]\n0,1\n0.1,2\n0.2,3\n"),
+              HasSubstr("spectrum"));
+}
+
+TEST_F(AccelerogramRefusal, TimesThatAreNotUniform) {
+  EXPECT_THAT(refused("0 1\n0.1 2\n0.2 3\n0.4 4\n0.5 5\n0.6 6\n", "g"), HasSubstr("uniform step"));
+  EXPECT_THAT(refused("0 1\n0.1 2\n0.1 3\n0.2 4\n", "g"), HasSubstr("record:3: time 0.1"));
+  EXPECT_THAT(refused("0 1\n0.2 2\n0.1 3\n0.3 4\n", "g"), HasSubstr("times must increase"));
+  EXPECT_THAT(refused("0 1 5\n1 2 6\n3 3 7\n7 1 1\n", "g"), HasSubstr("uniform step"));
+}
+
+TEST_F(AccelerogramRefusal, OneLineMissingFromALongTimeColumn) {
+  std::string text;
+  for (int i = 0; i < 2000; ++i)
+    if (i != 700) text += std::to_string(0.01 * i) + " 1\n";
+  EXPECT_THAT(refused(text, "g"), HasSubstr("record:701: "));
+}
+
+TEST_F(AccelerogramRefusal, UnknownOrContradictoryTimeStep) {
+  EXPECT_THAT(refused("1\n2\n3\n", "g"), HasSubstr("give time_step"));
+  EXPECT_THAT(refused(header + "NPTS= 6, DT= .02\n" + six, "", 0.01), HasSubstr("contradict"));
+  EXPECT_THAT(refused("0 1\n0.1 2\n0.2 3\n", "g", 0.2), HasSubstr("contradict"));
+  EXPECT_THAT(refused("1\n2\n3\n", "g", -0.1), HasSubstr("must be positive"));
+}
+
+TEST_F(AccelerogramRefusal, UnknownOrContradictoryUnit) {
+  EXPECT_THAT(refused("1\n2\n3\n", "", 0.01), HasSubstr("give unit"));
+  EXPECT_THAT(refused(header + "NPTS= 6, DT= .02\n" + six, "cm/s2"),
+              AllOf(HasSubstr("cm/s2"), HasSubstr("header says g")));
+  EXPECT_THAT(refused("1\n2\n3\n", "inch/s2", 0.01), HasSubstr("unknown unit inch/s2"));
+  EXPECT_THAT(refused("# a in g, was in m/s2\n1\n2\n", "", 0.01), HasSubstr("several units"));
+  EXPECT_THAT(refused("100\n-800\n300\n", "g", 0.01), HasSubstr("800 g"));
+}
+
+}  // namespace
+}  // namespace pounding

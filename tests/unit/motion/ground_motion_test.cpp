@@ -1,0 +1,139 @@
+#include "motion/ground_motion.h"
+
+#include <cmath>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "motion_files.h"
+
+namespace pounding {
+namespace {
+
+using ::testing::HasSubstr;
+using testing_support::MotionFiles;
+using testing_support::refusal;
+
+class GroundMotionTest : public MotionFiles {
+ protected:
+  using Components = std::array<std::optional<MotionComponent>, 3>;
+
+  MotionComponent record(const std::string& text, double step, double pga = 0,
+                         double scale = 1) const {
+    const std::string name = "record" + std::to_string(std::hash<std::string>{}(text));
+    return {RecordedMotion{write(name, text), "m/s2", step, 0}, pga, scale};
+  }
+
+  const std::string shape = "0\n1\n-4\n2\n";
+};
+
+TEST_F(GroundMotionTest, LinearBetweenSamplesAndZeroOutside) {
+  const GroundMotion motion(Components{record(shape, 0.5), std::nullopt, std::nullopt},
+                            Resampling::linear);
+  EXPECT_DOUBLE_EQ(motion.acceleration(0, 0.25), 0.5);
+  EXPECT_DOUBLE_EQ(motion.acceleration(0, 0.5), 1);
+  EXPECT_NEAR(motion.acceleration(0, 0.6), 0, 1e-15);
+  EXPECT_DOUBLE_EQ(motion.acceleration(0, 1.25), -1);
+  EXPECT_DOUBLE_EQ(motion.acceleration(0, 1.5), 2);
+  EXPECT_EQ(motion.acceleration(0, std::nextafter(1.5, 2)), 0);
+  EXPECT_EQ(motion.acceleration(0, 1e300), 0);
+  EXPECT_EQ(motion.acceleration(0, -1e-9), 0);
+  EXPECT_EQ(motion.acceleration(0, NAN), 0);
+  EXPECT_EQ(motion.acceleration(1, 0.5), 0);
+  EXPECT_EQ(motion.end_time(), 1.5);
+  EXPECT_EQ(motion.peak_acceleration(), 4);
+  static_assert(noexcept(motion.acceleration(0, 0.0)));
+}
+
+TEST_F(GroundMotionTest, ThreeDirectionsOfTheirOwnLengthAndScale) {
+  const GroundMotion motion(
+      Components{record(shape, 0.5, 2), std::nullopt, record("1\n3\n", 0.1, 0, -0.5)},
+      Resampling::linear);
+  Vector3 a{9, 9, 9};
+  motion.evaluate(0.05, a);
+  EXPECT_DOUBLE_EQ(a[0], 0.05);
+  EXPECT_EQ(a[1], 0);
+  EXPECT_DOUBLE_EQ(a[2], -1);
+  motion.evaluate(1, a);
+  EXPECT_DOUBLE_EQ(a[0], -2);  // the peak of 4 brought to 2
+  EXPECT_EQ(a[2], 0);
+  EXPECT_TRUE(motion.active(0));
+  EXPECT_FALSE(motion.active(1));
+  EXPECT_EQ(motion.component(2).acceleration.size(), 2u);
+  EXPECT_EQ(motion.end_time(), 1.5);
+  EXPECT_EQ(motion.peak_acceleration(), 2);
+}
+
+TEST_F(GroundMotionTest, NoMotionAtAll) {
+  const GroundMotion motion(Components{}, Resampling::band_limited);
+  EXPECT_EQ(motion.acceleration(2, 1), 0);
+  EXPECT_EQ(motion.end_time(), 0);
+  EXPECT_EQ(motion.peak_acceleration(), 0);
+}
+
+TEST_F(GroundMotionTest, BandLimitedResamplingFollowsASineBetweenItsSamples) {
+  // 20 Hz sampled at 100 Hz: straight lines miss up to 1 - cos(pi f h) = 19 % of the peak.
+  std::string text;
+  for (int i = 0; i <= 1000; ++i)
+    text += std::to_string(std::sin(40 * M_PI * 0.01 * i + 0.3) *
+                           std::exp(-std::pow((i - 500) / 150.0, 2))) +
+            "\n";
+  const Components components{record(text, 0.01), std::nullopt, std::nullopt};
+  const GroundMotion linear(components, Resampling::linear);
+  const GroundMotion limited(components, Resampling::band_limited);
+  double linear_error = 0, limited_error = 0;
+  for (double t = 4.5; t < 5.5; t += 1.3e-4) {
+    const double exact = std::sin(40 * M_PI * t + 0.3) * std::exp(-std::pow((t - 5) / 1.5, 2));
+    linear_error = std::max(linear_error, std::abs(linear.acceleration(0, t) - exact));
+    limited_error = std::max(limited_error, std::abs(limited.acceleration(0, t) - exact));
+  }
+  EXPECT_GT(linear_error, 0.1);
+  EXPECT_LT(limited_error, 6e-4);  // straight lines of 5e-4 s: (omega h)^2 / 8
+  EXPECT_LE(limited.component(0).time_step, 5e-4);
+  EXPECT_EQ(limited.end_time(), linear.end_time());
+}
+
+TEST_F(GroundMotionTest, SyntheticComponent) {
+  const std::string target = write("target.csv", "# shape\nHz, ratio\n1, 1\n5, 2.5\n30, 1\n");
+  SyntheticMotion synthetic{target, 4, 10, {1, 5}};
+  const GroundMotion motion(
+      Components{std::nullopt, MotionComponent{synthetic, 1.5, 1}, std::nullopt},
+      Resampling::linear);
+  EXPECT_EQ(motion.peak_acceleration(), 1.5);
+  EXPECT_DOUBLE_EQ(motion.end_time(), 10);
+  EXPECT_THAT(refusal([&] {
+                GroundMotion(
+                    Components{MotionComponent{synthetic, 0, 1}, std::nullopt, std::nullopt},
+                    Resampling::linear);
+              }),
+              HasSubstr("motion x: a synthetic motion needs a pga"));
+}
+
+TEST_F(GroundMotionTest, ZeroRecordIsAMotionButCannotBeScaled) {
+  const GroundMotion rest(Components{std::nullopt, record("0\n0\n0\n", 0.1), std::nullopt},
+                          Resampling::band_limited);
+  EXPECT_EQ(rest.acceleration(1, 0.1), 0);
+  EXPECT_TRUE(rest.active(1));
+  EXPECT_THAT(refusal([&] {
+                GroundMotion(Components{std::nullopt, record("0\n0\n0\n", 0.1, 2), std::nullopt},
+                             Resampling::linear);
+              }),
+              HasSubstr("motion y: "));
+}
+
+TEST_F(GroundMotionTest, RefusesScalesThatMeanNothing) {
+  const auto made = [&](double pga, double scale) {
+    return refusal([&] {
+      GroundMotion(Components{std::nullopt, std::nullopt, record(shape, 0.5, pga, scale)},
+                   Resampling::linear);
+    });
+  };
+  EXPECT_THAT(made(-1, 1), HasSubstr("motion z: pga -1"));
+  EXPECT_THAT(made(NAN, 1), HasSubstr("pga"));
+  EXPECT_THAT(made(0, INFINITY), HasSubstr("scale"));
+  EXPECT_THAT(made(2, 3), HasSubstr("exclude"));
+}
+
+}  // namespace
+}  // namespace pounding

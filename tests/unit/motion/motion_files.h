@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "common/error.h"
+
+namespace pounding::testing_support {
+
+/// A file of the reference data; empty when the data are not there.
+inline std::string shared_file(const std::string& name) {
+  const char* set = std::getenv("POUNDING_SHARED");
+  const std::filesystem::path folder = set ? set : POUNDING_SOURCE_DIR "/../shared";
+  return std::filesystem::exists(folder / name) ? (folder / name).string() : std::string();
+}
+
+/// A folder of its own for the files of a test, removed afterwards.
+class MotionFiles : public ::testing::Test {
+ protected:
+  MotionFiles()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("pounding-motion-" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~MotionFiles() override { std::filesystem::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& text) const {
+    const auto path = folder_ / name;
+    std::ofstream(path, std::ios::binary) << text;
+    return path.string();
+  }
+
+  std::filesystem::path folder_;
+};
+
+/// The message of the UserError that `action` throws; it must be one line.
+template <class Action>
+std::string refusal(Action&& action) {
+  try {
+    action();
+  } catch (const UserError& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    return message;
+  }
+  ADD_FAILURE() << "accepted";
+  return {};
+}
+
+}  // namespace pounding::testing_support
