@@ -189,7 +189,7 @@ void TimeLoop::show_progress(double start) {
   std::printf("\r  %5.1f %%  t = %.3f s  %.3f s/s  remaining %.0f s", 100 * fraction, time,
               elapsed / time, elapsed * (1 / fraction - 1));
   if (now[0] < no_gap) {
-    std::printf("  gap %.2f mm  impacts %.0f", 1000 * now[0], -now[1]);
+    std::printf("  gap %.2f mm  impacts %.0f", 1000 * now[0], std::abs(now[1]));
   }
   std::printf("  energy residual %.1e   ", stepper_->energy().relative_residual());
   std::fflush(stdout);

@@ -175,9 +175,9 @@ void check(const TargetSpectrum& target, const SyntheticMotion& motion, double p
   if (!(motion.duration >= 2 / target.frequency.front() && motion.duration <= 1000))
     refuse("duration " + std::to_string(motion.duration) +
            " s must hold two periods of the lowest target frequency and not exceed 1000 s");
-  if (!(rise_end > 0 && rise_end <= decay_start && decay_start < motion.duration))
+  if (!(rise_end >= 0 && rise_end <= decay_start && decay_start <= motion.duration))
     refuse("envelope " + std::to_string(rise_end) + "," + std::to_string(decay_start) +
-           " must be 0 < end of rise <= start of decay < duration [s]");
+           " must be 0 <= end of rise <= start of decay <= duration [s]");
 }
 
 }  // namespace

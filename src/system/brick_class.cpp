@@ -13,6 +13,7 @@ constexpr std::size_t size = 3 * corner_count;
 /// Corner bits of Gmsh's node order.
 constexpr std::array<std::size_t, corner_count> gmsh_corner{0, 1, 3, 2, 4, 5, 7, 6};
 constexpr double largest_leak = 1e-13;
+constexpr std::size_t most_frames = 32;  // each new shape is tried in all of them
 
 using Matrix24 = std::array<double, size * size>;
 
@@ -33,8 +34,7 @@ std::optional<Brick> box_in(const Matrix3& axes, std::span<const double> coordin
   }
   Brick brick;
   for (std::size_t d = 0; d < 3; ++d) brick.lengths[d] = high[d] - low[d];
-  const double allowed =
-      tolerance * *std::min_element(brick.lengths.begin(), brick.lengths.end());
+  const double allowed = tolerance * *std::min_element(brick.lengths.begin(), brick.lengths.end());
   brick.corner.fill(-1);
   for (std::size_t a = 0; a < corner_count; ++a) {
     std::size_t bits = 0;
@@ -131,8 +131,7 @@ double largest(const Matrix24& matrix) {
 
 }  // namespace
 
-std::optional<Brick> BrickFrames::recognise(std::span<const double> coordinates,
-                                            double tolerance) {
+std::optional<Brick> BrickFrames::recognise(std::span<const double> coordinates, double tolerance) {
   for (std::size_t frame = 0; frame < axes_.size(); ++frame) {
     if (auto brick = box_in(axes_[frame], coordinates, tolerance)) {
       brick->frame = static_cast<int>(frame);
@@ -140,7 +139,7 @@ std::optional<Brick> BrickFrames::recognise(std::span<const double> coordinates,
     }
   }
   const auto axes = edge_axes(coordinates);
-  if (!axes) return std::nullopt;
+  if (!axes || axes_.size() >= most_frames) return std::nullopt;
   auto brick = box_in(*axes, coordinates, tolerance);
   if (brick) {
     brick->frame = static_cast<int>(axes_.size());

@@ -119,9 +119,9 @@ void add_brick_run(const BrickSplit& split, const std::array<BrickLine, 4>& line
     if (left > 0) {
       for (int c = 0; c < 3; ++c) {
         const int shift = c * line_stride + first;
-        const double* const from[4] = {
-            lines[0].displacement + shift, lines[1].displacement + shift,
-            lines[2].displacement + shift, lines[3].displacement + shift};
+        const double* const from[4] = {lines[0].displacement + shift, lines[1].displacement + shift,
+                                       lines[2].displacement + shift,
+                                       lines[3].displacement + shift};
         transform(from, v[c]);
       }
       multiply(b, v);
@@ -132,8 +132,8 @@ void add_brick_run(const BrickSplit& split, const std::array<BrickLine, 4>& line
     }
     for (int c = 0; c < 3; ++c) {
       const int shift = c * line_stride + first;
-      double* const to[4] = {lines[0].force + shift, lines[1].force + shift,
-                             lines[2].force + shift, lines[3].force + shift};
+      double* const to[4] = {lines[0].force + shift, lines[1].force + shift, lines[2].force + shift,
+                             lines[3].force + shift};
       transform_back(v[c], carry[c], to);
     }
   }

@@ -59,9 +59,9 @@ class BrickLines {
 
   LocalIndex owned_dofs_ = 0;
   bool rotated_ = false;
-  Matrix3 axes_{};                   ///< run axis first
-  std::array<int, 3> component_{};   ///< where x, y, z stand in a line
-  std::vector<BrickSplit> splits_;   ///< per shape
+  Matrix3 axes_{};                  ///< run axis first
+  std::array<int, 3> component_{};  ///< where x, y, z stand in a line
+  std::vector<BrickSplit> splits_;  ///< per shape
   std::vector<Chain> chains_;
   std::vector<LocalIndex> places_;
   std::vector<Run> runs_;

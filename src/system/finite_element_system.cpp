@@ -9,16 +9,10 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "system/dense_eigenvalues.h"
+#include "system/element_loop.h"
 
 namespace pounding {
 namespace {
-
-/// One element's matrices in a block's arrays, reused from element to element.
-struct ElementWork {
-  std::array<double, 3 * max_element_nodes> coordinates{};
-  std::array<double, max_element_size * max_element_size> stiffness{};
-  std::array<double, max_element_size> mass{};
-};
 
 std::string describe(const Mesh& mesh, const ElementBlock& block, std::size_t element) {
   const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
@@ -34,16 +28,6 @@ std::string describe(const Mesh& mesh, const ElementBlock& block, std::size_t el
        << std::round(1e4 * centre[0]) / 1e4 << ", " << std::round(1e4 * centre[1]) / 1e4 << ", "
        << std::round(1e4 * centre[2]) / 1e4 << ")";
   return text.str();
-}
-
-std::span<const double> gather_coordinates(const Mesh& mesh, const ElementBlock& block,
-                                           std::size_t element, ElementWork& work) {
-  const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
-  for (std::size_t a = 0; a < nodes; ++a) {
-    const Vector3 x = mesh.position(block.connectivity[element * nodes + a]);
-    std::copy(x.begin(), x.end(), &work.coordinates[3 * a]);
-  }
-  return {work.coordinates.data(), 3 * nodes};
 }
 
 /// Elements of one shape have one frequency: look at one of them.
@@ -109,21 +93,6 @@ void for_each_element(const Structure& structure, const Mesh& mesh, Visit&& visi
       visit(block, e, layout, work);
     }
   }
-}
-
-/// Local dofs of an element, component by component of each node; -1 where there is none.
-std::array<LocalIndex, max_element_size> element_dofs(const Mesh& mesh, const ElementBlock& block,
-                                                      std::size_t element,
-                                                      const ElementLayout& layout) {
-  std::array<LocalIndex, max_element_size> dofs{};
-  for (int a = 0; a < layout.nodes; ++a) {
-    const LocalIndex node = block.connectivity[element * static_cast<std::size_t>(layout.nodes) +
-                                               static_cast<std::size_t>(a)];
-    for (int c = 0; c < layout.components; ++c) {
-      dofs[static_cast<std::size_t>(a * layout.components + c)] = mesh.dof(node, c);
-    }
-  }
-  return dofs;
 }
 
 /// Number of entries per owned row in the own and the other columns.

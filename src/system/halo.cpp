@@ -56,8 +56,8 @@ Halo::Halo(MPI_Comm comm, GlobalIndex first_owned, LocalIndex owned_count,
   for (std::size_t r = 0; r < ranks; ++r) {
     neighbour_count_ += needed[r] > 0 || given[r] > 0 ? 1 : 0;
     if (needed[r] > 0) {
-      MPI_Recv_init(received_.data() + receive_start[r], needed[r], MPI_DOUBLE,
-                    static_cast<int>(r), tag, comm_, &requests_.emplace_back());
+      MPI_Recv_init(received_.data() + receive_start[r], needed[r], MPI_DOUBLE, static_cast<int>(r),
+                    tag, comm_, &requests_.emplace_back());
     }
   }
   for (std::size_t r = 0; r < ranks; ++r) {

@@ -36,7 +36,6 @@ class Halo {
   int neighbour_count() const { return neighbour_count_; }
 
  private:
-
   MPI_Comm comm_ = MPI_COMM_NULL;
   std::vector<LocalIndex> place_;
   std::vector<LocalIndex> sent_dofs_;  ///< owned dofs in the order of send_

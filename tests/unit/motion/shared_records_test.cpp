@@ -81,11 +81,12 @@ TEST(SharedRecords, EveryRecordHasItsKnownPeak) {
 
 TEST(SharedRecords, TwoFilesOfOneRecordAgree) {
   if (shared_file("records").empty()) GTEST_SKIP() << "no reference records";
-  const auto unix_ends = read_accelerogram({shared_file("records/northridge_1994/ARL360_lf.at2")});
+  const auto unix_ends =
+      read_accelerogram({shared_file("records/northridge_1994/ARL360_lf.at2"), ""});
   const auto odd_ends =
-      read_accelerogram({shared_file("records/northridge_1994/ARL360_crcrlf.at2")});
+      read_accelerogram({shared_file("records/northridge_1994/ARL360_crcrlf.at2"), ""});
   EXPECT_EQ(unix_ends.acceleration, odd_ends.acceleration);
-  const auto header = read_accelerogram({shared_file("records/kobe_1995/NIS090.AT2")});
+  const auto header = read_accelerogram({shared_file("records/kobe_1995/NIS090.AT2"), ""});
   auto times = read_accelerogram({shared_file("records/kobe_1995/SortedEQFile_(120712).txt"), "g"});
   times.acceleration.erase(times.acceleration.begin());
   EXPECT_EQ(header.acceleration, times.acceleration);

@@ -106,6 +106,15 @@ TEST_F(Synthetic, EnvelopeRisesStaysAndDecays) {
   EXPECT_NEAR(level(2, 8) / level(8, 15), 1, 0.3);
 }
 
+TEST_F(Synthetic, WithoutRiseOrDecayItStillStartsAndEndsAtZero) {
+  SyntheticMotion motion;
+  motion.envelope = {0, 25};
+  const auto a = generate_accelerogram(target("cadarache_like.csv"), motion, 1);
+  EXPECT_EQ(a.peak(), 1);
+  EXPECT_EQ(a.acceleration.front(), 0);
+  EXPECT_EQ(a.acceleration.back(), 0);
+}
+
 TEST_F(Synthetic, SeedDecidesTheMotionToTheBit) {
   const auto shape = target("cadarache_like.csv");
   const auto one = checksum(generate_accelerogram(shape, seeded(1), 1.47));
@@ -156,7 +165,7 @@ TEST_F(Synthetic, RefusesParametersOutOfRange) {
   motion.duration = 25;
   motion.envelope = {15, 2};
   EXPECT_THAT(refused(motion, 1), HasSubstr("envelope"));
-  motion.envelope = {2, 25};
+  motion.envelope = {2, 26};
   EXPECT_THAT(refused(motion, 1), HasSubstr("envelope"));
 }
 

@@ -1,0 +1,218 @@
+#include "system/element_sorter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "system/finite_element_system.h"
+
+namespace pounding {
+namespace {
+
+constexpr double congruence = 1e-10;  // of the shortest edge
+
+bool is_hexahedron(ElementType type) {
+  return type == ElementType::hex8 || type == ElementType::hex8_full;
+}
+
+/// Shortest distance between node 0 and another one, over the hexahedra of a block [m].
+double shortest_distance(const Mesh& mesh, const ElementBlock& block, ElementWork& work) {
+  double shortest = INFINITY;
+  for (std::size_t e = 0; e < block.count(); ++e) {
+    const auto x = gather_coordinates(mesh, block, e, work);
+    for (std::size_t a = 1; a < x.size() / 3; ++a) {
+      shortest =
+          std::min(shortest, std::hypot(x[3 * a] - x[0], x[3 * a + 1] - x[1], x[3 * a + 2] - x[2]));
+    }
+  }
+  return shortest;
+}
+
+}  // namespace
+
+ElementSorter::ElementSorter(const Structure& structure, const Mesh& mesh, const Halo& halo)
+    : structure_(structure), mesh_(mesh) {
+  places_.owned_dofs = mesh.owned_dofs;
+  places_.of_dof.resize(static_cast<std::size_t>(mesh.dof_count));
+  for (LocalIndex dof = 0; dof < mesh.dof_count; ++dof) {
+    places_.of_dof[static_cast<std::size_t>(dof)] =
+        dof < mesh.owned_dofs
+            ? dof
+            : mesh.owned_dofs + halo.place(static_cast<std::size_t>(dof - mesh.owned_dofs));
+  }
+  for (LocalIndex node = 0; node < mesh.node_count(); ++node) {
+    std::array<LocalIndex, 3> place{};
+    for (int c = 0; c < 3; ++c) {
+      const LocalIndex dof = mesh.dof(node, c);
+      place[static_cast<std::size_t>(c)] =
+          dof < 0 ? -1 : places_.of_dof[static_cast<std::size_t>(dof)];
+    }
+    places_.of_node.push_back(place);
+  }
+}
+
+void ElementSorter::sort() {
+  for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
+    if (is_hexahedron(mesh_.blocks[b].type)) {
+      sort_hexahedra(b);
+    } else {
+      for (std::size_t e = 0; e < mesh_.blocks[b].count(); ++e) others_.push_back({b, e});
+    }
+  }
+  demote_rare_shapes();
+}
+
+void ElementSorter::sort_hexahedra(std::size_t b) {
+  const ElementBlock& block = mesh_.blocks[b];
+  const ElementProperties properties = element_properties(structure_.regions[b]);
+  Snap snap(congruence * shortest_distance(mesh_, block, work_));
+  for (std::size_t e = 0; e < block.count(); ++e) {
+    if (!add_brick({b, e}, properties, snap)) add_congruent({b, e}, properties, snap);
+  }
+}
+
+bool ElementSorter::add_brick(const Element& element, const ElementProperties& properties,
+                              Snap& snap) {
+  const auto [b, e] = element;
+  const ElementBlock& block = mesh_.blocks[b];
+  const auto brick = frames_.recognise(gather_coordinates(mesh_, block, e, work_), congruence);
+  if (!brick) return false;
+  BrickShape shape{block.type, properties, brick->lengths};
+  for (double& length : shape.lengths) length = snap(length);
+  const int number = shape_number(shape, b);
+  if (number < 0) return false;
+  BrickElement entry{number, {}};
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    entry.nodes[corner] =
+        block.connectivity[8 * e + static_cast<std::size_t>(brick->corner[corner])];
+  }
+  BrickSet& set = brick_sets_[touches_ghost(element) ? 1 : 0][brick->frame];
+  set.bricks.push_back(entry);
+  set.elements.push_back(element);
+  return true;
+}
+
+int ElementSorter::shape_number(const BrickShape& shape, std::size_t block) {
+  const auto [found, fresh] = shape_numbers_.try_emplace({block, shape.lengths}, -1);
+  if (fresh && split_brick(shape.type, shape.properties, shape.lengths, 0)) {
+    found->second = static_cast<int>(shapes_.size());
+    shapes_.push_back(shape);
+  }
+  return found->second;
+}
+
+void ElementSorter::add_congruent(const Element& element, const ElementProperties& properties,
+                                  Snap& snap) {
+  const auto [b, e] = element;
+  const ElementBlock& block = mesh_.blocks[b];
+  const auto x = gather_coordinates(mesh_, block, e, work_);
+  std::vector<double> key;
+  for (std::size_t i = 3; i < x.size(); ++i) key.push_back(snap(x[i] - x[i % 3]));
+  Congruent& group = congruent_[{b, key}];
+  if (group.elements.empty()) {
+    element_matrices(block.type, x, properties, work_.stiffness, work_.mass);
+    group.stiffness.assign(work_.stiffness.begin(), work_.stiffness.end());
+  }
+  group.elements.push_back(element);
+  group.places[touches_ghost(element) ? 1 : 0].push_back(places(element));
+}
+
+/// A dense matrix for a few elements is not worth its batches.
+void ElementSorter::demote_rare_shapes() {
+  for (auto group = congruent_.begin(); group != congruent_.end();) {
+    const auto& elements = group->second.elements;
+    if (elements.size() < lane_count) {
+      others_.insert(others_.end(), elements.begin(), elements.end());
+      group = congruent_.erase(group);
+    } else {
+      ++group;
+    }
+  }
+}
+
+std::vector<BrickLines> ElementSorter::brick_lines(bool outer) {
+  std::vector<std::pair<int, BrickSet*>> sets;  // the largest first
+  for (auto& [frame, set] : brick_sets_[outer ? 1 : 0]) sets.push_back({frame, &set});
+  std::stable_sort(sets.begin(), sets.end(), [](const auto& a, const auto& b) {
+    return a.second->bricks.size() > b.second->bricks.size();
+  });
+  std::vector<BrickLines> lines;
+  for (auto& [frame, set] : sets) {
+    const BrickRows rows = best_brick_rows(set->bricks, mesh_.node_count());
+    lines.emplace_back(places_, frames_.axes(frame), shapes_, rows);
+    std::vector<Element> kept;
+    auto left = rows.left_over.begin();
+    for (std::size_t e = 0; e < set->elements.size(); ++e) {
+      const bool out = left != rows.left_over.end() && *left == e;
+      (out ? others_ : kept).push_back(set->elements[e]);
+      if (out) ++left;
+    }
+    set->elements = std::move(kept);
+  }
+  return lines;
+}
+
+std::vector<CongruentElements> ElementSorter::congruent_elements(bool outer) const {
+  std::vector<CongruentElements> result;
+  for (const auto& [key, group] : congruent_) {
+    const auto& elements = group.places[outer ? 1 : 0];
+    if (!elements.empty()) result.emplace_back(mesh_.owned_dofs, group.stiffness, elements);
+  }
+  return result;
+}
+
+SparseRows ElementSorter::sparse_rows() const {
+  std::vector<Element> elements = others_;
+  std::sort(elements.begin(), elements.end());  // sums in file order on any number of ranks
+  SparseRows::Pattern pattern(mesh_.owned_dofs);
+  const auto size_of_element = [&](const Element& element) {
+    return static_cast<std::size_t>(element_layout(mesh_.blocks[element.first].type).size());
+  };
+  for (const Element& element : elements) {
+    pattern.add({places(element).data(), size_of_element(element)});
+  }
+  SparseRows rows(std::move(pattern));
+  for (const Element& element : elements) {
+    const auto [b, e] = element;
+    const std::size_t size = size_of_element(element);
+    const std::span<double> stiffness(work_.stiffness.data(), size * size);
+    element_matrices(mesh_.blocks[b].type, gather_coordinates(mesh_, mesh_.blocks[b], e, work_),
+                     element_properties(structure_.regions[b]), stiffness,
+                     {work_.mass.data(), size});
+    rows.add({places(element).data(), size}, stiffness);
+  }
+  return rows;
+}
+
+ElementKinds ElementSorter::kinds() const {
+  const auto counted = [&](const std::vector<Element>& elements) {
+    return std::count_if(elements.begin(), elements.end(), [&](const Element& element) {
+      return mesh_.blocks[element.first].counted[element.second] != 0;
+    });
+  };
+  ElementKinds kinds;
+  for (const auto& sets : brick_sets_) {
+    for (const auto& [frame, set] : sets) kinds.bricks += counted(set.elements);
+  }
+  for (const auto& [key, group] : congruent_) kinds.congruent += counted(group.elements);
+  kinds.other = counted(others_);
+  return kinds;
+}
+
+bool ElementSorter::touches_ghost(const Element& element) const {
+  const ElementBlock& block = mesh_.blocks[element.first];
+  const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
+  const LocalIndex* const corner = &block.connectivity[element.second * nodes];
+  return std::any_of(corner, corner + nodes,
+                     [&](LocalIndex node) { return node >= mesh_.owned_nodes; });
+}
+
+CongruentElements::Places ElementSorter::places(const Element& element) const {
+  const ElementBlock& block = mesh_.blocks[element.first];
+  auto dofs = element_dofs(mesh_, block, element.second, element_layout(block.type));
+  for (LocalIndex& dof : dofs) {
+    if (dof >= 0) dof = places_.of_dof[static_cast<std::size_t>(dof)];
+  }
+  return dofs;
+}
+
+}  // namespace pounding

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "scene/scene.h"
+#include "system/brick_lines.h"
+#include "system/element_loop.h"
+#include "system/element_stiffness.h"
+
+namespace pounding {
+
+/// Values that agree to a tolerance become the first one seen.
+class Snap {
+ public:
+  explicit Snap(double tolerance) : tolerance_(tolerance) {}
+  double operator()(double value) {
+    const auto found = seen_.lower_bound(value - tolerance_);
+    if (found != seen_.end() && *found <= value + tolerance_) return *found;
+    return *seen_.insert(value).first;
+  }
+
+ private:
+  double tolerance_;
+  std::set<double> seen_;
+};
+
+/// Sorts the elements of a rank by how their product is done best. Local.
+class ElementSorter {
+ public:
+  ElementSorter(const Structure& structure, const Mesh& mesh, const Halo& halo);
+
+  void sort();
+
+  /// What came out; `outer`: elements that touch a ghost. Call in this order; rows are formed here,
+  /// and bricks that fit in none join the others.
+  std::vector<BrickLines> brick_lines(bool outer);
+  std::vector<CongruentElements> congruent_elements(bool outer) const;
+  SparseRows sparse_rows() const;
+  ElementKinds kinds() const;
+
+ private:
+  /// An element of the mesh: block, place in the block.
+  using Element = std::pair<std::size_t, std::size_t>;
+  /// Bricks of one frame, with or without ghosts.
+  struct BrickSet {
+    std::vector<BrickElement> bricks;
+    std::vector<Element> elements;
+  };
+  struct Congruent {
+    std::vector<double> stiffness;
+    std::array<std::vector<CongruentElements::Places>, 2> places;  ///< inner, outer
+    std::vector<Element> elements;
+  };
+
+  void sort_hexahedra(std::size_t block);
+  bool add_brick(const Element& element, const ElementProperties& properties, Snap& snap);
+  int shape_number(const BrickShape& shape, std::size_t block);
+  void add_congruent(const Element& element, const ElementProperties& properties, Snap& snap);
+  void demote_rare_shapes();
+  bool touches_ghost(const Element& element) const;
+  CongruentElements::Places places(const Element& element) const;
+
+  const Structure& structure_;
+  const Mesh& mesh_;
+  DofPlaces places_;
+  BrickFrames frames_;
+  mutable ElementWork work_;
+  std::vector<BrickShape> shapes_;
+  std::map<std::pair<std::size_t, Vector3>, int> shape_numbers_;  ///< -1: does not split
+  std::array<std::map<int, BrickSet>, 2> brick_sets_;             ///< inner, outer; by frame
+  std::map<std::pair<std::size_t, std::vector<double>>, Congruent> congruent_;
+  std::vector<Element> others_;
+};
+
+}  // namespace pounding

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "scene/scene.h"
+#include "system/brick_lines.h"
+#include "system/congruent_elements.h"
+#include "system/halo.h"
+#include "system/sparse_rows.h"
+#include "system/stiffness.h"
+
+namespace pounding {
+
+/// How many elements of a structure, over all ranks, are applied in which way.
+struct ElementKinds {
+  GlobalIndex bricks = 0;     ///< split by their mid-planes, in rows
+  GlobalIndex congruent = 0;  ///< other hexahedra that share a dense matrix
+  GlobalIndex other = 0;      ///< in a sparse matrix
+};
+
+/// K applied element by element, without reading a matrix: bricks and other congruent hexahedra
+/// share theirs. A rank holds every element that touches an owned node, so a product needs the
+/// ghosts of w once; they travel while the elements without ghosts are done. Each rank sums in a
+/// fixed order: the same bits on every run. Against the assembled matrix the product differs by
+/// round-off, and by the 1e-10 of the shortest edge to which shapes count as congruent.
+class ElementStiffness final : public Stiffness {
+ public:
+  /// `assembled` keeps the matrix for eigenvalues; may be null, then matrix() is. Collective.
+  ElementStiffness(const Structure& structure, const Mesh& mesh,
+                   std::unique_ptr<Stiffness> assembled);
+
+  /// q = K w. Allocates nothing. Collective.
+  void apply(Vec w, Vec q) const override;
+  /// The same on arrays of owned dofs. Collective.
+  void apply(const double* w, double* q) const;
+  Mat matrix() const override { return assembled_ != nullptr ? assembled_->matrix() : nullptr; }
+
+  const ElementKinds& kinds() const { return kinds_; }
+
+ private:
+  friend class ElementSorter;
+  /// Everything applied before, or after the ghosts are here.
+  struct Part {
+    std::vector<BrickLines> bricks;  ///< per frame
+    std::vector<CongruentElements> congruent;
+  };
+  static void add_congruent(const Part& part, const double* w, const double* ghosts, double* q);
+
+  std::unique_ptr<Stiffness> assembled_;
+  std::unique_ptr<Halo> halo_;
+  Part inner_;                          ///< elements of owned nodes only
+  Part outer_;                          ///< elements that touch a ghost
+  std::unique_ptr<SparseRows> sparse_;  ///< all others
+  std::vector<LocalIndex> untouched_;   ///< owned dofs that inner_.bricks[0] does not set
+  ElementKinds kinds_;
+};
+
+}  // namespace pounding

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "common/types.h"
+
+namespace pounding {
+
+/// A sparse matrix over the owned rows of a rank, its columns split into owned dofs and ghosts, for
+/// the few elements that nothing better fits. Rows without entries cost nothing.
+class SparseRows {
+ public:
+  /// Entries that elements will have; `places` as in DofPlaces.
+  class Pattern {
+   public:
+    explicit Pattern(LocalIndex owned_dofs) : owned_(owned_dofs) {
+      columns_.resize(static_cast<std::size_t>(owned_dofs));
+    }
+    void add(std::span<const LocalIndex> places);
+
+   private:
+    friend class SparseRows;
+    LocalIndex owned_;
+    std::vector<std::vector<LocalIndex>> columns_;
+  };
+
+  explicit SparseRows(Pattern&& pattern);
+
+  /// Adds an element matrix, shape (n, n), that the pattern knows. Entries sum in the order of the
+  /// calls.
+  void add(std::span<const LocalIndex> places, std::span<const double> matrix);
+
+  /// q += the part that owned values, or ghosts, contribute.
+  void add_owned(const double* owned, double* q) const { add_product(owned_part_, owned, q); }
+  void add_ghosts(const double* ghosts, double* q) const { add_product(ghost_part_, ghosts, q); }
+
+ private:
+  struct Part {
+    std::vector<LocalIndex> rows;
+    std::vector<std::size_t> start{0};  ///< per row, and the end
+    std::vector<LocalIndex> columns;    ///< sorted within a row
+    std::vector<double> values;
+  };
+  static void add_product(const Part& part, const double* w, double* q);
+  static void add_entry(Part& part, LocalIndex row, LocalIndex column, double value);
+
+  LocalIndex owned_dofs_;
+  Part owned_part_;
+  Part ghost_part_;
+};
+
+}  // namespace pounding
