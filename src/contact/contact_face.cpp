@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "elements/element.h"
 
@@ -30,38 +29,94 @@ Vector3 area_vector(const GlobalMesh& mesh, const Facet& facet) {
   return cross(minus(at(2), at(0)), minus(at(3), at(1)));
 }
 
-/// For every facet the centroid of the solid element that holds all its nodes.
-std::vector<Vector3> bodies_behind(const GlobalMesh& mesh, const std::vector<Facet>& facets) {
-  std::map<std::vector<GlobalIndex>, std::size_t> wanted;
-  std::set<GlobalIndex> face_nodes;
+bool carries_faces(ElementType type) {
+  return type == ElementType::hex8 || type == ElementType::hex8_full || is_shell(type);
+}
+
+/// The element behind a facet.
+struct Backing {
+  bool found = false;
+  bool same_nodes = false;  ///< the facet is a whole shell element
+  Vector3 centroid{0, 0, 0};
+};
+
+/// For every facet the solid or shell element that holds all its nodes.
+std::vector<Backing> bodies_behind(const GlobalMesh& mesh, const std::vector<Facet>& facets) {
+  std::map<GlobalIndex, std::vector<std::size_t>> facets_at;
   for (std::size_t f = 0; f < facets.size(); ++f) {
-    std::vector<GlobalIndex> key(facets[f].corners().begin(), facets[f].corners().end());
-    face_nodes.insert(key.begin(), key.end());
-    std::sort(key.begin(), key.end());
-    wanted[key] = f;
+    for (const GlobalIndex node : facets[f].corners()) {
+      facets_at[node].push_back(f);
+    }
   }
-  std::vector<Vector3> behind(facets.size());
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    behind[f] = centroid(mesh, facets[f].corners());
-  }
+  std::vector<Backing> behind(facets.size());
   for (const ElementSet& set : mesh.regions) {
+    if (!carries_faces(set.type)) {
+      continue;
+    }
     const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
     for (std::size_t e = 0; e < set.tags.size(); ++e) {
       const std::span<const GlobalIndex> nodes(&set.connectivity[e * width], width);
-      std::vector<GlobalIndex> on_face;
-      std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(on_face),
-                   [&](GlobalIndex node) { return face_nodes.count(node) != 0; });
-      if (on_face.size() < 3 || on_face.size() == width) {
-        continue;
+      std::map<std::size_t, int> shared;
+      for (const GlobalIndex node : nodes) {
+        const auto found = facets_at.find(node);
+        if (found != facets_at.end()) {
+          for (const std::size_t f : found->second) {
+            ++shared[f];
+          }
+        }
       }
-      std::sort(on_face.begin(), on_face.end());
-      const auto found = wanted.find(on_face);
-      if (found != wanted.end()) {
-        behind[found->second] = centroid(mesh, nodes);
+      for (const auto& [f, count] : shared) {
+        // A shell face is turned to the other side of the contact, an edge of a solid is no face.
+        if (count == facets[f].count && (count > 2 || is_shell(set.type))) {
+          behind[f] = {true, static_cast<std::size_t>(count) == width, centroid(mesh, nodes)};
+        }
       }
     }
   }
   return behind;
+}
+
+/// Area (length for an edge) of a facet along its outward normal.
+Vector3 outward_area(const GlobalMesh& mesh, const Facet& facet, const Backing& backing) {
+  const Vector3 out = minus(centroid(mesh, facet.corners()), backing.centroid);
+  if (facet.count == 2) {
+    const Vector3 edge = minus(mesh.position(facet.nodes[1]), mesh.position(facet.nodes[0]));
+    const double length = std::sqrt(dot(edge, edge));
+    const Vector3 along = normalised(edge);
+    const double part = dot(out, along);
+    const Vector3 normal =
+        normalised({out[0] - part * along[0], out[1] - part * along[1], out[2] - part * along[2]});
+    return {length * normal[0], length * normal[1], length * normal[2]};
+  }
+  const Vector3 area = area_vector(mesh, facet);
+  return dot(area, out) < 0 ? Vector3{-area[0], -area[1], -area[2]} : area;
+}
+
+std::optional<FacetPoint> meet_edge(const GlobalMesh& mesh, const Facet& facet,
+                                    const Vector3& origin, const Vector3& direction,
+                                    double tolerance, double reach) {
+  const auto across = [&](const Vector3& v) {
+    const double part = dot(v, direction);
+    return Vector3{v[0] - part * direction[0], v[1] - part * direction[1],
+                   v[2] - part * direction[2]};
+  };
+  const Vector3 start = minus(mesh.position(facet.nodes[0]), origin);
+  const Vector3 edge = minus(mesh.position(facet.nodes[1]), mesh.position(facet.nodes[0]));
+  const Vector3 flat_start = across(start);
+  const Vector3 flat_edge = across(edge);
+  const double square = dot(flat_edge, flat_edge);
+  if (!(square > 0)) {
+    return std::nullopt;
+  }
+  const double s = -dot(flat_start, flat_edge) / square;
+  const Vector3 miss{flat_start[0] + s * flat_edge[0], flat_start[1] + s * flat_edge[1],
+                     flat_start[2] + s * flat_edge[2]};
+  const double length = std::sqrt(square);
+  if (s < -tolerance || s > 1 + tolerance ||
+      std::sqrt(dot(miss, miss)) > reach + tolerance * length) {
+    return std::nullopt;
+  }
+  return FacetPoint{{1 - s, s, 0, 0}, dot(start, direction) + s * dot(edge, direction)};
 }
 
 }  // namespace
@@ -85,20 +140,21 @@ Vector3 normalised(const Vector3& a) {
 
 ContactFace build_contact_face(const GlobalMesh& mesh, const NodeGroup& group) {
   ContactFace face;
-  std::copy_if(group.facets.begin(), group.facets.end(), std::back_inserter(face.facets),
-               [](const Facet& facet) { return facet.count >= 3; });
-  const std::vector<Vector3> behind = bodies_behind(mesh, face.facets);
+  const std::vector<Backing> behind = bodies_behind(mesh, group.facets);
   std::map<GlobalIndex, Vector3> sums;
   Vector3 total{0, 0, 0};
-  for (std::size_t f = 0; f < face.facets.size(); ++f) {
-    Vector3 area = area_vector(mesh, face.facets[f]);
-    if (dot(area, minus(centroid(mesh, face.facets[f].corners()), behind[f])) < 0) {
-      area = {-area[0], -area[1], -area[2]};
+  for (std::size_t f = 0; f < group.facets.size(); ++f) {
+    if (!behind[f].found) {
+      continue;
     }
+    const Facet& facet = group.facets[f];
+    face.sided = face.sided && !behind[f].same_nodes;
+    const Vector3 area = outward_area(mesh, facet, behind[f]);
+    face.facets.push_back(facet);
     face.facet_normals.push_back(normalised(area));
     for (std::size_t d = 0; d < 3; ++d) {
       total[d] += area[d];
-      for (const GlobalIndex node : face.facets[f].corners()) {
+      for (const GlobalIndex node : facet.corners()) {
         sums[node][d] += area[d];
       }
     }
@@ -115,12 +171,28 @@ ContactFace build_contact_face(const GlobalMesh& mesh, const NodeGroup& group) {
     face.node_normals.push_back(normalised(normal));
   }
   face.mean_normal = normalised(total);
+  if (!face.nodes.empty()) {
+    face.centroid = centroid(mesh, face.nodes);
+  }
   return face;
+}
+
+void turn_towards(ContactFace& face, const Vector3& point) {
+  if (face.sided || dot(face.mean_normal, minus(point, face.centroid)) >= 0) {
+    return;
+  }
+  const auto turn = [](Vector3& normal) { normal = {-normal[0], -normal[1], -normal[2]}; };
+  std::for_each(face.node_normals.begin(), face.node_normals.end(), turn);
+  std::for_each(face.facet_normals.begin(), face.facet_normals.end(), turn);
+  turn(face.mean_normal);
 }
 
 std::optional<FacetPoint> meet_facet(const GlobalMesh& mesh, const Facet& facet,
                                      const Vector3& origin, const Vector3& direction,
-                                     double tolerance) {
+                                     double tolerance, double reach) {
+  if (facet.count == 2) {
+    return meet_edge(mesh, facet, origin, direction, tolerance, reach);
+  }
   // Newton on x(xi, eta) - origin - distance * direction = 0; exact in one step on a triangle.
   const bool triangle = facet.count == 3;
   double xi = triangle ? 1.0 / 3 : 0;

@@ -29,7 +29,8 @@ std::size_t structure_index(const Scene& scene, const std::string& name) {
 /// Bounding boxes of facets across the normal, so that few of them are met in earnest.
 class FacetFinder {
  public:
-  FacetFinder(const GlobalMesh& mesh, const ContactFace& face) : mesh_(mesh), face_(face) {
+  FacetFinder(const GlobalMesh& mesh, const ContactFace& face, double reach)
+      : mesh_(mesh), face_(face), reach_(reach) {
     for (const Facet& facet : face.facets) {
       Vector3 low = mesh.position(facet.nodes[0]);
       Vector3 high = low;
@@ -53,10 +54,11 @@ class FacetFinder {
       const Vector3 to = minus(centre_[f], origin);
       const double along = dot(to, direction);
       const double across = std::sqrt(std::max(0.0, dot(to, to) - along * along));
-      if (across > 1.01 * radius_[f]) {
+      if (across > 1.01 * radius_[f] + reach_) {
         continue;
       }
-      const auto point = meet_facet(mesh_, face_.facets[f], origin, direction, facet_tolerance);
+      const auto point =
+          meet_facet(mesh_, face_.facets[f], origin, direction, facet_tolerance, reach_);
       if (point && (!best || std::abs(point->distance) <
                                  std::abs(best->second.distance) - 1e-9 * radius_[f])) {
         best = {f, *point};
@@ -68,37 +70,51 @@ class FacetFinder {
  private:
   const GlobalMesh& mesh_;
   const ContactFace& face_;
+  double reach_;
   std::vector<Vector3> centre_;
   std::vector<double> radius_;
 };
+
+/// One side of a contact with what is known of its structure.
+struct Side {
+  int structure = 0;
+  const GlobalMesh* mesh = nullptr;
+  ContactFace face;
+  double thickness = 0;  ///< of its thickest shell [m]
+};
+
+double shell_thickness(const Structure& structure) {
+  double thickness = 0;
+  for (const Region& region : structure.regions) {
+    thickness = std::max(thickness, region.thickness);
+  }
+  return thickness;
+}
 
 /// Finds the pairs of one contact.
 class PairFinder {
  public:
   PairFinder(const Scene& scene, std::span<const GlobalMesh> meshes, int contact)
-      : contact_(scene.contacts[static_cast<std::size_t>(contact)]),
-        number_(contact),
-        secondary_structure_(structure_index(scene, contact_.secondary.structure)),
-        primary_structure_(structure_index(scene, contact_.primary.structure)),
-        secondary_mesh_(meshes[secondary_structure_]),
-        primary_mesh_(meshes[primary_structure_]),
-        secondary_(face_of("secondary", contact_.secondary, secondary_mesh_)),
-        primary_(face_of("primary", contact_.primary, primary_mesh_)) {
-    check_facing();
+      : contact_(scene.contacts[static_cast<std::size_t>(contact)]), number_(contact) {
+    secondary_ = side_of(scene, meshes, "secondary", contact_.secondary);
+    if (!contact_.primary.is_wall()) {
+      primary_ = side_of(scene, meshes, "primary", contact_.primary);
+      turn_towards(secondary_.face, primary_.face.centroid);
+      turn_towards(primary_.face, secondary_.face.centroid);
+      check_facing();
+    }
     find_tangent_axes();
   }
 
   void find(Interface& interface) {
     const std::size_t first = interface.constraints.size();
-    const FacetFinder finder(primary_mesh_, primary_);
-    for (std::size_t i = 0; i < secondary_.nodes.size(); ++i) {
-      const auto found =
-          finder.find(secondary_mesh_.position(secondary_.nodes[i]), secondary_.node_normals[i]);
-      if (!found) {
-        ++report_.unmatched_nodes;
-        continue;
+    if (contact_.primary.is_wall()) {
+      pair_with_wall(interface);
+    } else {
+      pair(secondary_, primary_, interface);
+      if (contact_.passes == 2) {
+        pair(primary_, secondary_, interface);
       }
-      add(i, found->first, found->second, interface);
     }
     if (interface.constraints.size() == first) {
       throw UserError(where("secondary") + ": no node of group '" + contact_.secondary.group +
@@ -107,42 +123,46 @@ class PairFinder {
     }
     set_gaps({&interface.constraints[first], interface.constraints.size() - first});
     report_.contact = contact_.name;
-    report_.normal = secondary_.mean_normal;
+    report_.normal = secondary_.face.mean_normal;
     interface.reports.push_back(report_);
   }
 
  private:
-  std::string where(const char* side) const {
-    const ContactSide& s = side == std::string("secondary") ? contact_.secondary : contact_.primary;
+  std::string where(const std::string& side) const {
+    const ContactSide& s = side == "secondary" ? contact_.secondary : contact_.primary;
     return "option -" + contact_.name + "_" + side + " " + s.structure + ":" + s.group;
   }
 
-  ContactFace face_of(const char* side, const ContactSide& s, const GlobalMesh& mesh) const {
+  Side side_of(const Scene& scene, std::span<const GlobalMesh> meshes, const std::string& name,
+               const ContactSide& s) const {
+    const std::size_t index = structure_index(scene, s.structure);
+    const GlobalMesh& mesh = meshes[index];
     const auto found = mesh.groups.find(s.group);
     if (found == mesh.groups.end()) {
       std::string names;
-      for (const auto& [name, group] : mesh.groups) {
-        names += (names.empty() ? "" : ", ") + name;
+      for (const auto& [group_name, group] : mesh.groups) {
+        names += (names.empty() ? "" : ", ") + group_name;
       }
-      throw UserError(where(side) + ": group '" + s.group + "' is not in the mesh of " +
+      throw UserError(where(name) + ": group '" + s.group + "' is not in the mesh of " +
                       s.structure + ", which has: " + names);
     }
-    ContactFace face = build_contact_face(mesh, found->second);
-    if (face.facets.empty()) {
-      throw UserError(where(side) + ": group '" + s.group +
-                      "' has no surface facets on solid elements; name a physical surface");
+    Side side{static_cast<int>(index), &mesh, build_contact_face(mesh, found->second),
+              shell_thickness(scene.structures[index])};
+    if (side.face.facets.empty()) {
+      throw UserError(where(name) + ": group '" + s.group +
+                      "' has no faces of solids or shells and no edges of shells");
     }
-    if (std::all_of(face.nodes.begin(), face.nodes.end(), [&](GlobalIndex node) {
+    if (std::all_of(side.face.nodes.begin(), side.face.nodes.end(), [&](GlobalIndex node) {
           return mesh.free_components[static_cast<std::size_t>(node)] == 0;
         })) {
-      throw UserError(where(side) + ": every node of group '" + s.group +
+      throw UserError(where(name) + ": every node of group '" + s.group +
                       "' is clamped; a contact needs a face that can move");
     }
-    return face;
+    return side;
   }
 
   void check_facing() const {
-    const double cosine = dot(secondary_.mean_normal, primary_.mean_normal);
+    const double cosine = dot(secondary_.face.mean_normal, primary_.face.mean_normal);
     if (!(cosine < -0.5)) {
       throw UserError(where("secondary") + " and -" + contact_.name + "_primary " +
                       contact_.primary.structure + ":" + contact_.primary.group +
@@ -153,21 +173,44 @@ class PairFinder {
 
   void find_tangent_axes() {
     int normal_axis = 0;
+    const Vector3& normal = secondary_.face.mean_normal;
     for (int d = 1; d < 3; ++d) {
-      if (std::abs(secondary_.mean_normal[static_cast<std::size_t>(d)]) >
-          std::abs(secondary_.mean_normal[static_cast<std::size_t>(normal_axis)]) + 1e-9) {
+      if (std::abs(normal[static_cast<std::size_t>(d)]) >
+          std::abs(normal[static_cast<std::size_t>(normal_axis)]) + 1e-9) {
         normal_axis = d;
       }
     }
     report_.tangent_axes = {normal_axis == 0 ? 1 : 0, normal_axis == 2 ? 1 : 2};
   }
 
-  void add(std::size_t i, std::size_t facet, FacetPoint point, Interface& interface) {
-    const Facet& primary = primary_.facets[facet];
-    const Vector3& normal = secondary_.node_normals[i];
+  /// Keeps the nodes of one side out of the facets of the other.
+  void pair(const Side& nodes, const Side& facets, Interface& interface) {
+    const double reach = (nodes.thickness + facets.thickness) / 2;
+    const FacetFinder finder(*facets.mesh, facets.face, reach);
+    for (std::size_t i = 0; i < nodes.face.nodes.size(); ++i) {
+      const auto found =
+          finder.find(nodes.mesh->position(nodes.face.nodes[i]), nodes.face.node_normals[i]);
+      if (found) {
+        add_pair(nodes, i, facets, facets.face.facets[found->first], found->second, interface);
+      } else {
+        ++report_.unmatched_nodes;
+      }
+    }
+  }
+
+  void pair_with_wall(Interface& interface) {
+    for (std::size_t i = 0; i < secondary_.face.nodes.size(); ++i) {
+      Constraint constraint;
+      constraint.matched = true;
+      finish(secondary_, i, std::move(constraint), interface);
+    }
+  }
+
+  void add_pair(const Side& nodes, std::size_t i, const Side& facets, const Facet& facet,
+                FacetPoint point, Interface& interface) {
+    const Vector3& normal = nodes.face.node_normals[i];
     Constraint constraint;
-    constraint.contact = number_;
-    const auto count = static_cast<std::size_t>(primary.count);
+    const auto count = static_cast<std::size_t>(facet.count);
     for (std::size_t a = 0; a < count; ++a) {
       if (point.weights[a] > 1 - snap) {
         constraint.matched = true;
@@ -177,13 +220,19 @@ class PairFinder {
     }
     for (std::size_t a = 0; a < count; ++a) {
       if (std::abs(point.weights[a]) > snap) {
-        add_terms(static_cast<int>(primary_structure_), primary.nodes[a], point.weights[a], normal,
-                  constraint);
+        add_terms(facets.structure, facet.nodes[a], point.weights[a], normal, constraint);
       }
     }
-    add_terms(static_cast<int>(secondary_structure_), secondary_.nodes[i], -1, normal, constraint);
     constraint.geometric_gap = point.distance;
-    const Vector3 x = secondary_mesh_.position(secondary_.nodes[i]);
+    finish(nodes, i, std::move(constraint), interface);
+  }
+
+  /// Adds the node's own terms and the place, and keeps the constraint.
+  void finish(const Side& nodes, std::size_t i, Constraint&& constraint, Interface& interface) {
+    const GlobalIndex node = nodes.face.nodes[i];
+    constraint.contact = number_;
+    add_terms(nodes.structure, node, -1, nodes.face.node_normals[i], constraint);
+    const Vector3 x = nodes.mesh->position(node);
     for (std::size_t t = 0; t < 2; ++t) {
       constraint.place[t] = x[static_cast<std::size_t>(report_.tangent_axes[t])];
     }
@@ -202,7 +251,7 @@ class PairFinder {
     }
   }
 
-  /// The gap that the user gave, interpolated between the corners of the face.
+  /// The gap that the user gave, interpolated between the corners of the secondary face.
   double given_gap(const std::array<double, 2>& s) const {
     const std::vector<double>& g = contact_.gap.values;
     if (g.size() == 1) {
@@ -218,8 +267,8 @@ class PairFinder {
   void set_gaps(std::span<Constraint> constraints) {
     std::array<double, 2> low{1e300, 1e300};
     std::array<double, 2> high{-1e300, -1e300};
-    for (const GlobalIndex node : secondary_.nodes) {
-      const Vector3 x = secondary_mesh_.position(node);
+    for (const GlobalIndex node : secondary_.face.nodes) {
+      const Vector3 x = secondary_.mesh->position(node);
       for (std::size_t t = 0; t < 2; ++t) {
         const double value = x[static_cast<std::size_t>(report_.tangent_axes[t])];
         low[t] = std::min(low[t], value);
@@ -242,12 +291,8 @@ class PairFinder {
 
   const Contact& contact_;
   int number_;
-  std::size_t secondary_structure_;
-  std::size_t primary_structure_;
-  const GlobalMesh& secondary_mesh_;
-  const GlobalMesh& primary_mesh_;
-  ContactFace secondary_;
-  ContactFace primary_;
+  Side secondary_;
+  Side primary_;
   InterfaceReport report_;
 };
 

@@ -80,7 +80,7 @@ Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile) {
     model.modal.push_back(lowest_modes(system, mesh, scene.modes));
     model.largest.push_back(largest_frequency(system, mesh));
     model.stable_time_step.push_back(
-        stable_time_step(system.damping, model.largest.back().omega_max));
+        stable_time_step(system.bounding_damping(), model.largest.back().omega_max));
   }
   choose_time_step(scene, model);
   return model;

@@ -11,20 +11,6 @@
 namespace pounding {
 namespace {
 
-const char* element_name(ElementType type) {
-  switch (type) {
-    case ElementType::hex8:
-      return "hex8";
-    case ElementType::hex8_full:
-      return "hex8_full";
-    case ElementType::beam:
-      return "beam";
-    case ElementType::bar:
-      return "bar";
-  }
-  return "";
-}
-
 void print_structure(const Scene& scene, const Model& model, std::size_t s) {
   const Mesh& mesh = model.meshes[s];
   const LinearSystem& system = model.systems[s];

@@ -33,10 +33,10 @@ void write_energy(const std::string& path, const std::vector<EnergyLine>& ledger
   file.comment(
       "kinetic = v^T (M - dt/2 C) v / 2, strain = u_{n+1}^T K u_n / 2; the residual closes the "
       "identity");
-  file.header("time,kinetic,strain,damping_loss,contact_work,input_work,residual");
+  file.header("time,kinetic,strain,damping_loss,contact_work,input_work,device_work,residual");
   for (const EnergyLine& line : ledger) {
     file.row("", {line.time, line.kinetic, line.strain, line.damping_loss, line.contact_work,
-                  line.input_work, line.residual});
+                  line.input_work, line.device_work, line.residual});
   }
   file.close();
 }

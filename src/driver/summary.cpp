@@ -65,7 +65,8 @@ Json describe_energy(const RunStatistics& statistics) {
           {"strain", energy.strain},
           {"damping", energy.damping_loss},
           {"contact", energy.contact_work},
-          {"input", energy.input_work}};
+          {"input", energy.input_work},
+          {"devices", energy.device_work}};
 }
 
 Json describe_probe(const Scene& scene, const Recorder& recorder, std::size_t p) {

@@ -95,6 +95,9 @@ void TimeLoop::create_recorder() {
   layout.interface_root = contact_ ? contact_->root() : -1;
   layout.stride = std::max(1, static_cast<int>(scene_.output_interval / model_.time_step));
   layout.time_step = model_.time_step;
+  for (const LinearSystem& system : model_.systems) {
+    layout.initial_velocity.push_back(system.initial_velocity);
+  }
   recorder_ = std::make_unique<Recorder>(std::move(layout), model_.meshes);
 }
 

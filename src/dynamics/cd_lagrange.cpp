@@ -1,5 +1,6 @@
 #include "dynamics/cd_lagrange.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/parallel.h"
@@ -22,6 +23,13 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
     BodyState& body = state_.bodies[b];
     arguments_.push_back(wrap_vector(systems_[b], body.stiffness_argument));
     forces_.push_back(wrap_vector(systems_[b], body.stiffness_force));
+    if (systems_[b].has_devices()) {
+      dashpot_velocities_.push_back(wrap_vector(systems_[b], body.velocity_half));
+      device_forces_.push_back(wrap_vector(systems_[b], body.device_force));
+    } else {
+      dashpot_velocities_.emplace_back();
+      device_forces_.emplace_back();
+    }
     displacements_.push_back(body.displacement.data());
     velocities_.push_back(body.velocity_half.data());
     const_velocities_.push_back(body.velocity_half.data());
@@ -37,6 +45,7 @@ void CdLagrange::step(bool look_at_gap) {
     const ScopedTimer timer(profile_, Phase::energy);
     energy_.close_previous_step(state_);
   }
+  apply_devices();
   force_duration_ = started_ ? time_step_ : time_step_ / 2;
   motion_.evaluate(time(), acceleration_);
   if (contact_ != nullptr && contact_->member()) {
@@ -74,6 +83,21 @@ void CdLagrange::apply_stiffness() {
   }
 }
 
+void CdLagrange::apply_devices() {
+  for (std::size_t b = 0; b < systems_.size(); ++b) {
+    const LinearSystem& system = systems_[b];
+    BodyState& body = state_.bodies[b];
+    if (system.dashpots) {
+      system.dashpots->apply(dashpot_velocities_[b].get(), device_forces_[b].get());
+    } else {
+      std::fill(body.device_force.begin(), body.device_force.end(), 0.0);
+    }
+    if (system.tension_bars) {
+      system.tension_bars->add_force(body.stiffness_argument.data(), body.device_force.data());
+    }
+  }
+}
+
 void CdLagrange::compute_free_velocity(double duration) {
   const ScopedTimer timer(profile_, Phase::free_velocity);
   for (std::size_t b = 0; b < systems_.size(); ++b) {
@@ -87,8 +111,11 @@ void CdLagrange::compute_free_velocity(double duration) {
     for (std::size_t i = 0; i < n; ++i) {
       v[i] = decay * v[i] - duration * (inverse_mass[i] * q[i]);
     }
+    for (std::size_t i = 0; i < body.device_force.size(); ++i) {
+      v[i] -= duration * (inverse_mass[i] * body.device_force[i]);
+    }
     for (std::size_t d = 0; d < 3; ++d) {
-      const double ground_step = duration * acceleration_[d];
+      const double ground_step = duration * (acceleration_[d] - system.gravity[d]);
       if (ground_step != 0) {
         const double* const influence = system.influence[d].data();
         for (std::size_t i = 0; i < n; ++i) {

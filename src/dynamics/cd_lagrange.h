@@ -18,8 +18,8 @@ namespace pounding {
 /// 113385; Fekak et al., Comput. Mech. 60 (2017)). Displacements are relative to the ground.
 ///
 ///     u_{n+1}   = u_n + dt v_{n+1/2}
-///     v_free    = v_{n+1/2} + dt M^-1 ( -M iota a_g(t_{n+1}) - alpha M v_{n+1/2} - K (u_{n+1} +
-///     beta v_{n+1/2}) ) A         = { i : g_i(u_{n+1}) <= g_tol } 0 <= lambda _|_ H lambda + L
+///     v_free    = v_{n+1/2} + dt M^-1 ( M (g - iota a_g(t_{n+1})) - alpha M v_{n+1/2} - K (u_{n+1}
+///     + beta v_{n+1/2}) ) A         = { i : g_i(u_{n+1}) <= g_tol } 0 <= lambda _|_ H lambda + L
 ///     v_free >= 0   on A v_{n+3/2} = v_free + M^-1 L^T lambda
 ///
 /// The first step is half a step of velocity from v_0 at t_0, which makes the scheme second order
@@ -51,6 +51,7 @@ class CdLagrange {
  private:
   void advance_displacement();
   void apply_stiffness();
+  void apply_devices();
   void compute_free_velocity(double duration);
   bool solve_contact(bool look_at_gap);
 
@@ -62,9 +63,11 @@ class CdLagrange {
   Profile& profile_;
   State state_;
   EnergyBalance energy_;
-  bool counts_work_;                  ///< this rank adds the contact work to the ledger
-  std::vector<VecHandle> arguments_;  ///< w of each structure as a PETSc vector
-  std::vector<VecHandle> forces_;     ///< q
+  bool counts_work_;                           ///< this rank adds the contact work to the ledger
+  std::vector<VecHandle> arguments_;           ///< w of each structure as a PETSc vector
+  std::vector<VecHandle> forces_;              ///< q
+  std::vector<VecHandle> dashpot_velocities_;  ///< v, for the dashpots
+  std::vector<VecHandle> device_forces_;
   std::vector<const double*> displacements_;
   std::vector<double*> velocities_;
   std::vector<const double*> const_velocities_;

@@ -62,19 +62,25 @@ void EnergyBalance::close_body(const LinearSystem& system, const BodyState& stat
   body.strain = strain / 2;
   double work = 0;
   for (std::size_t d = 0; d < 3; ++d) {
-    if (acceleration_[d] != 0) {
+    const double acceleration = acceleration_[d] - system.gravity[d];
+    if (acceleration != 0) {
       double momentum = 0;
       for (std::size_t i = 0; i < n; ++i) {
         momentum += body.momentum[d][i] * (v[i] + body.velocity[i]);
       }
-      work -= dt / 2 * acceleration_[d] * momentum;
+      work -= dt / 2 * acceleration * momentum;
     }
+  }
+  double device = 0;
+  for (std::size_t i = 0; i < state.device_force.size(); ++i) {
+    device += dt / 2 * state.device_force[i] * (v[i] + body.velocity[i]);
   }
   if (first) {
     body.initial = body.kinetic + body.strain;
   } else {
     damping_.add(dt * lost);
     input_.add(work);
+    device_.add(device);
   }
   std::copy_n(v, n, body.velocity.begin());
 }
@@ -86,13 +92,14 @@ void EnergyBalance::add_step(const std::array<double, 3>& ground_acceleration,
 }
 
 EnergyLine EnergyBalance::line(std::span<double> energies) const {
-  std::array<double, 6> sums{0, 0, 0, damping_.total(), contact_.total(), input_.total()};
+  std::array<double, 7> sums{
+      0, 0, 0, damping_.total(), contact_.total(), input_.total(), device_.total()};
   for (const Body& body : bodies_) {
     sums[0] += body.kinetic;
     sums[1] += body.strain;
     sums[2] += body.initial;
   }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 6, MPI_DOUBLE, MPI_SUM, comm_);
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 7, MPI_DOUBLE, MPI_SUM, comm_);
   if (!energies.empty()) {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       energies[b] = bodies_[b].kinetic + bodies_[b].strain;
@@ -107,15 +114,17 @@ EnergyLine EnergyBalance::line(std::span<double> energies) const {
   line.damping_loss = sums[3];
   line.contact_work = sums[4];
   line.input_work = sums[5];
-  line.residual = line.energy() - sums[2] + line.damping_loss - line.contact_work - line.input_work;
+  line.device_work = sums[6];
+  line.residual = line.energy() - sums[2] + line.damping_loss + line.device_work -
+                  line.contact_work - line.input_work;
   return line;
 }
 
 void EnergyBalance::note(const EnergyLine& line) {
   largest_residual_ = std::max(largest_residual_, std::abs(line.residual));
-  largest_term_ =
-      std::max({largest_term_, std::abs(line.kinetic), std::abs(line.strain), line.damping_loss,
-                std::abs(line.contact_work), std::abs(line.input_work)});
+  largest_term_ = std::max({largest_term_, std::abs(line.kinetic), std::abs(line.strain),
+                            std::abs(line.device_work), line.damping_loss,
+                            std::abs(line.contact_work), std::abs(line.input_work)});
 }
 
 }  // namespace pounding

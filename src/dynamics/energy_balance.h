@@ -18,18 +18,21 @@ struct EnergyLine {
   double strain = 0;   ///< 1/2 u_{n+1}^T K u_n
   double damping_loss = 0;
   double contact_work = 0;
-  double input_work = 0;
-  double residual = 0;  ///< energy - initial energy + damping loss - contact work - input work
+  double input_work = 0;   ///< of ground motion and gravity
+  double device_work = 0;  ///< taken up by dashpots and tension-only bars
+  double residual = 0;     ///< energy - initial energy + damping loss + device work - contact work
+                           ///< - input work
 
   double energy() const { return kinetic + strain; }
 };
 
 /// Exact energy identity of the scheme, with vbar = (v_{n+1/2} + v_{n-1/2}) / 2:
 ///
-///     E_{n+1/2} - E_{n-1/2} = -dt vbar^T C vbar + dt vbar^T f_n + 1/2 lambda^T L v_{n-1/2}
+///     E_{n+1/2} - E_{n-1/2} = -dt vbar^T C vbar + dt vbar^T (f_n - x_n) + 1/2 lambda^T L v_{n-1/2}
 ///     E_{n+1/2}             = 1/2 v^T (M - dt/2 C) v + 1/2 u_{n+1}^T K u_n
 ///
-/// Evaluated from q_n = K (u_n + beta v_{n-1/2}) alone, since u_n = u_{n-1} + dt v_{n-1/2}:
+/// with x the force of dashpots and tension-only bars. Evaluated from q_n = K (u_n + beta
+/// v_{n-1/2}) alone, since u_n = u_{n-1} + dt v_{n-1/2}:
 ///
 ///     K u_n       = (beta K u_{n-1} + dt q_n) / (beta + dt)
 ///     K v_{n-1/2} = (q_n - K u_{n-1}) / (beta + dt)
@@ -88,6 +91,7 @@ class EnergyBalance {
   Sum damping_;
   Sum input_;
   Sum contact_;
+  Sum device_;
   std::int64_t closed_steps_ = 0;
   double largest_term_ = 0;
   double largest_residual_ = 0;

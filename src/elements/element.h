@@ -27,6 +27,12 @@ struct ElementProperties {
   double inertia_z = 0;
   double torsion = 0;
   Vector3 z_axis{0, 0, 1};
+  double thickness = 0;
+  double rotary_inertia_factor = 0;   ///< of shells, see flat_shell.h
+  double mass = 0;                    ///< of a point
+  Vector3 rotary_inertia{0, 0, 0};    ///< of a point, about x, y, z
+  std::array<double, 6> stiffness{};  ///< of a spring: along x, y, z, about x, y, z
+  std::array<double, 6> dashpot{};    ///< of its dashpot, likewise [N s/m, N m s]
 };
 
 /// Number of nodes, and of components (3 or 6) at each of them.
@@ -41,11 +47,16 @@ inline constexpr int max_element_size = 24;
 
 ElementLayout element_layout(ElementType type);
 
-/// Stiffness matrix, shape (size, size) [N/m, N, N m], and lumped mass, shape (size) [kg, kg m2], of
-/// one element with node coordinates of shape (nodes, 3) [m]. Throws ElementError.
+/// Stiffness matrix, shape (size, size) [N/m, N, N m], and lumped mass, shape (size) [kg, kg m2],
+/// of one element with node coordinates of shape (nodes, 3) [m]. Throws ElementError.
 void element_matrices(ElementType type, std::span<const double> coordinates,
                       const ElementProperties& properties, std::span<double> stiffness,
                       std::span<double> lumped_mass);
+
+/// Damping matrix of the dashpots in springs, shape (size, size) [N s/m, N m s]; all zero for every
+/// other element.
+void element_dashpots(ElementType type, const ElementProperties& properties,
+                      std::span<double> damping);
 
 /// The same for the lumped mass alone. Throws ElementError.
 void element_lumped_mass(ElementType type, std::span<const double> coordinates,

@@ -26,9 +26,10 @@ struct NodeGroup {
   std::vector<Facet> facets;
 };
 
-/// The elements of one region of the scene.
+/// The elements of one kind in a region of the scene (a shell region may hold two kinds).
 struct ElementSet {
   std::string group;
+  int region = 0;  ///< index into the structure's regions
   ElementType type = ElementType::hex8;
   std::vector<std::int64_t> tags;         ///< as in the file
   std::vector<GlobalIndex> connectivity;  ///< shape (n_elements, nodes of the type)
@@ -37,7 +38,7 @@ struct ElementSet {
 struct GlobalMesh {
   std::vector<double> coordinates;      ///< shape (n_nodes, 3) [m]
   std::vector<std::int64_t> node_tags;  ///< as in the file
-  std::vector<ElementSet> regions;      ///< in the order of the scene's regions
+  std::vector<ElementSet> regions;      ///< in the order of the structure's regions
   std::map<std::string, NodeGroup> groups;
   /// One bit per free component of a node: 0-2 translations, 3-5 rotations. Rotations exist where
   /// an element asks for them; clamped nodes have none.

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <unistd.h>
@@ -181,16 +182,32 @@ std::string kind_of(int gmsh_type) {
   return name;
 }
 
-int gmsh_type_of(ElementType type) {
-  switch (type) {
+/// The kind of element that a Gmsh type becomes in a region, or nothing if the region takes none of
+/// it. Gmsh: 1 line, 2 triangle, 3 quadrangle, 5 hexahedron, 15 point.
+std::optional<ElementType> kind_in_region(ElementType wanted, int gmsh_type) {
+  switch (wanted) {
     case ElementType::hex8:
     case ElementType::hex8_full:
-      return 5;
+      return gmsh_type == 5 ? std::optional(wanted) : std::nullopt;
+    case ElementType::shell4:
+    case ElementType::shell3:
+      if (gmsh_type == 2) {
+        return ElementType::shell3;
+      }
+      return gmsh_type == 3 ? std::optional(ElementType::shell4) : std::nullopt;
     case ElementType::beam:
     case ElementType::bar:
-      return 1;
+    case ElementType::tension_bar:
+    case ElementType::spring:
+    case ElementType::spring6:
+      return gmsh_type == 1 ? std::optional(wanted) : std::nullopt;
+    case ElementType::point_mass:
+    case ElementType::point_mass6:
+    case ElementType::grounded_spring:
+    case ElementType::grounded_spring6:
+      return gmsh_type == 15 ? std::optional(wanted) : std::nullopt;
   }
-  return 0;
+  return std::nullopt;
 }
 
 /// Reads region by region; node tags are translated to the file order at the end.
@@ -223,36 +240,33 @@ class MeshBuilder {
     if (found == groups_.end()) {
       unknown_group(region.group, option);
     }
-    const int wanted = gmsh_type_of(region.element);
-    ElementSet set;
-    set.group = region.group;
-    set.type = region.element;
+    const std::size_t before = mesh_.regions.size();
     for (const PhysicalGroup& part : found->second) {
       for (const int entity : part.entities) {
-        read_entity(region, option, part.dimension, entity, wanted, set);
+        read_entity(region, option, part.dimension, entity);
       }
     }
-    if (set.tags.empty()) {
+    if (mesh_.regions.size() == before) {
       throw UserError("option " + option + ": group '" + region.group + "' of " + structure_.mesh +
                       " holds no elements");
     }
-    mesh_.regions.push_back(std::move(set));
   }
 
-  void read_entity(const Region& region, const std::string& option, int dimension, int entity,
-                   int wanted, ElementSet& set) {
+  void read_entity(const Region& region, const std::string& option, int dimension, int entity) {
     std::vector<int> types;
     std::vector<std::vector<std::size_t>> tags;
     std::vector<std::vector<std::size_t>> nodes;
     gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
     for (std::size_t k = 0; k < types.size(); ++k) {
-      if (types[k] != wanted) {
+      const auto kind = kind_in_region(region.element, types[k]);
+      if (!kind) {
         throw UserError("option " + option + ": group '" + region.group + "' of " +
                         structure_.mesh + " holds " + kind_of(types[k]) +
-                        " elements, but the scene asks for " + kind_of(wanted));
+                        " elements, which do not become " + element_name(region.element));
       }
+      ElementSet& set = set_of(region, *kind);
       for (const std::size_t tag : tags[k]) {
-        if (!seen_.insert(tag).second) {
+        if (!seen_.insert({tag, is_addition(*kind)}).second) {
           throw UserError("option " + option + ": element " + std::to_string(tag) + " of group '" +
                           region.group + "' already belongs to another region of " +
                           structure_.name);
@@ -263,6 +277,28 @@ class MeshBuilder {
         set.connectivity.push_back(static_cast<GlobalIndex>(tag));
       }
     }
+  }
+
+  /// Springs may share lines and points with another region (a mass on a spring).
+  static bool is_addition(ElementType type) {
+    return type == ElementType::grounded_spring || type == ElementType::grounded_spring6 ||
+           type == ElementType::spring || type == ElementType::spring6;
+  }
+
+  /// The set of this kind in the region that is being read.
+  ElementSet& set_of(const Region& region, ElementType kind) {
+    const int number = static_cast<int>(&region - structure_.regions.data());
+    for (ElementSet& set : mesh_.regions) {
+      if (set.region == number && set.type == kind) {
+        return set;
+      }
+    }
+    ElementSet set;
+    set.group = region.group;
+    set.region = number;
+    set.type = kind;
+    mesh_.regions.push_back(std::move(set));
+    return mesh_.regions.back();
   }
 
   /// File order of the nodes in use, and their coordinates.
@@ -365,7 +401,7 @@ class MeshBuilder {
   std::map<std::string, std::vector<PhysicalGroup>> groups_;
   GlobalMesh mesh_;
   std::unordered_map<std::int64_t, GlobalIndex> index_;
-  std::set<std::size_t> seen_;
+  std::set<std::pair<std::size_t, bool>> seen_;
 };
 
 }  // namespace

@@ -17,7 +17,7 @@ struct Parcel {
   std::vector<double> coordinates;
   std::vector<std::uint8_t> free_components;
   std::vector<GlobalIndex> global_dof;
-  std::vector<GlobalIndex> region;  ///< per region: type, global count, elements here
+  std::vector<GlobalIndex> region;  ///< per set: type, region, global count, elements here
   std::vector<char> names;          ///< of the regions, zero-terminated
   std::vector<std::int64_t> tags;
   std::vector<LocalIndex> connectivity;
@@ -158,7 +158,7 @@ class Cutter {
           out.connectivity.push_back(found->second);
         }
       }
-      out.region.insert(out.region.end(), {static_cast<GlobalIndex>(set.type),
+      out.region.insert(out.region.end(), {static_cast<GlobalIndex>(set.type), set.region,
                                            static_cast<GlobalIndex>(set.tags.size()), here});
       out.names.insert(out.names.end(), set.group.begin(), set.group.end());
       out.names.push_back('\0');
@@ -202,13 +202,14 @@ Mesh unpack(MPI_Comm comm, const std::string& name, Parcel&& parcel) {
   std::size_t element = 0;
   std::size_t corner = 0;
   const char* text = parcel.names.data();
-  for (std::size_t r = 0; r < parcel.region.size(); r += 3) {
+  for (std::size_t r = 0; r < parcel.region.size(); r += 4) {
     ElementBlock block;
     block.group = text;
     text += block.group.size() + 1;
     block.type = static_cast<ElementType>(parcel.region[r]);
-    block.global_count = parcel.region[r + 1];
-    const auto count = static_cast<std::size_t>(parcel.region[r + 2]);
+    block.region = static_cast<int>(parcel.region[r + 1]);
+    block.global_count = parcel.region[r + 2];
+    const auto count = static_cast<std::size_t>(parcel.region[r + 3]);
     const std::size_t corners = count * static_cast<std::size_t>(element_layout(block.type).nodes);
     const auto from = [](const auto& values, std::size_t begin, std::size_t length) {
       return std::vector(values.begin() + static_cast<std::ptrdiff_t>(begin),

@@ -10,10 +10,11 @@
 
 namespace pounding {
 
-/// Elements of one region on this rank: every element that touches an owned node, so that this rank
-/// can build all that its owned dofs need without asking others. Sorted as in the file.
+/// Elements of one kind and region on this rank: every element that touches an owned node, so that
+/// this rank can build all that its owned dofs need without asking others. Sorted as in the file.
 struct ElementBlock {
   std::string group;
+  int region = 0;  ///< index into the structure's regions
   ElementType type = ElementType::hex8;
   std::vector<std::int64_t> tags;        ///< as in the file
   std::vector<LocalIndex> connectivity;  ///< shape (n_elements, nodes of the type), local nodes

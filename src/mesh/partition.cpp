@@ -30,12 +30,14 @@ idx_t element_cost(ElementType type) {
     case ElementType::hex8:
     case ElementType::hex8_full:
       return 16;
+    case ElementType::shell4:
+    case ElementType::shell3:
+      return 24;
     case ElementType::beam:
       return 8;
-    case ElementType::bar:
+    default:
       return 2;
   }
-  return 1;
 }
 
 ElementList list_elements(std::span<const GlobalMesh> meshes) {

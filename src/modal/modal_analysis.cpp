@@ -20,7 +20,7 @@ MatHandle scaled_stiffness(const LinearSystem& system) {
                  [](double value) { return std::sqrt(value); });
   const VecHandle diagonal = wrap_vector(system, scale);
   MatHandle matrix;
-  POUNDING_PETSC(MatDuplicate(system.stiffness->matrix(), MAT_COPY_VALUES, matrix.out()));
+  POUNDING_PETSC(MatDuplicate(system.stiffest_matrix(), MAT_COPY_VALUES, matrix.out()));
   POUNDING_PETSC(MatDiagonalScale(matrix.get(), diagonal.get(), diagonal.get()));
   POUNDING_PETSC(MatSetOption(matrix.get(), MAT_SYMMETRIC, PETSC_TRUE));
   return matrix;

@@ -60,7 +60,10 @@ void Recorder::create_datasets() {
       channels_.push_back(probe.name + "." + direction);
     }
   }
-  last_velocity_.assign(channels_.size(), 0.0);
+  for (const ResolvedProbe& probe : layout_.probes) {
+    const Vector3& v = layout_.initial_velocity[static_cast<std::size_t>(probe.structure)];
+    last_velocity_.insert(last_velocity_.end(), v.begin(), v.end());
+  }
   peaks_.assign(channels_.size(), {});
   file_ = std::make_unique<Hdf5File>(layout_.path);
   file_->write_attribute("/", "title", layout_.title);

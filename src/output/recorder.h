@@ -37,6 +37,7 @@ class Recorder {
     int interface_root = -1;  ///< rank that passes gaps and impulses, -1: none
     int stride = 1;
     double time_step = 0;
+    std::vector<Vector3> initial_velocity;  ///< per structure [m/s]
   };
 
   /// Rank 0 creates the file. Collective.

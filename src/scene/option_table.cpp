@@ -20,8 +20,12 @@ constexpr Range damping_ratio{0, 1, false, true};
 constexpr Range poisson_ratio{-1, 0.5, true, true};
 
 constexpr Preset required{false, true, "required"};
-constexpr Preset value(std::string_view text) { return {true, false, text}; }
-constexpr Preset absent(std::string_view when) { return {false, false, when}; }
+constexpr Preset value(std::string_view text) {
+  return {true, false, text};
+}
+constexpr Preset absent(std::string_view when) {
+  return {false, false, when};
+}
 
 // clang-format off
 constexpr std::array table{
@@ -46,15 +50,24 @@ constexpr std::array table{
     OptionRow{Block::structure, "<structure>_mesh_set", Kind::text, "pairs", value("none"), any, "name=value,name=value or none", "parameters of the .geo file"},
     OptionRow{Block::structure, "<structure>_clamp", Kind::names, "names", value("none"), any, "", "physical groups fixed to the ground"},
     OptionRow{Block::structure, "<structure>_fidelity", Kind::choice, "word", value("full"), any, "full", "how the structure is represented"},
+    OptionRow{Block::structure, "<structure>_initial_velocity", Kind::reals, "m/s", value("0,0,0"), any, "three numbers x,y,z", "of every free node at t = 0"},
+    OptionRow{Block::structure, "<structure>_gravity", Kind::reals, "m/s2", value("0,0,0"), any, "three numbers x,y,z", "constant body acceleration, applied at once at t = 0"},
     OptionRow{Block::structure, "<structure>_damping_alpha", Kind::real, "1/s", value("0"), not_negative, "", "Rayleigh damping, mass term: C = alpha M + beta K"},
     OptionRow{Block::structure, "<structure>_damping_beta", Kind::real, "s", value("0"), not_negative, "", "Rayleigh damping, stiffness term"},
     OptionRow{Block::structure, "<structure>_damping_ratio", Kind::real, "-", absent("alpha, beta hold"), damping_ratio, "", "instead of alpha and beta: damping ratio at two frequencies"},
     OptionRow{Block::structure, "<structure>_damping_frequencies", Kind::reals, "Hz", absent("required with the ratio"), positive, "two numbers f1,f2", "the two frequencies of the damping ratio"},
 
-    OptionRow{Block::region, "<structure>_<group>_element", Kind::choice, "word", required, any, "hex8|hex8_full|beam|bar", "element of the group (hex8: with incompatible modes)"},
-    OptionRow{Block::region, "<structure>_<group>_material", Kind::text, "name", required, any, "the name of a material", "its material"},
+    OptionRow{Block::region, "<structure>_<group>_element", Kind::choice, "word", required, any, "hex8|hex8_full|shell|beam|bar|point_mass|grounded_spring|spring", "element of the group (hex8: with incompatible modes)"},
+    OptionRow{Block::region, "<structure>_<group>_material", Kind::text, "name", absent("required but for points and springs"), any, "the name of a material", "its material"},
     OptionRow{Block::region, "<structure>_<group>_section", Kind::text, "name", absent("required for beam"), any, "the name of a section", "its cross-section (beam only)"},
     OptionRow{Block::region, "<structure>_<group>_area", Kind::real, "m2", absent("required for bar"), positive, "", "its cross-section area (bar only)"},
+    OptionRow{Block::region, "<structure>_<group>_tension_only", Kind::boolean, "flag", value("false"), any, "", "bar that buckles: it resists stretching only"},
+    OptionRow{Block::region, "<structure>_<group>_thickness", Kind::real, "m", absent("required for shell"), positive, "", "its thickness (shell only)"},
+    OptionRow{Block::region, "<structure>_<group>_rotary_inertia_factor", Kind::real, "-", value("0"), not_negative, "", "shell: rotary inertia of a node at least its mass x this x element area; 0.125 frees the step from thin shells"},
+    OptionRow{Block::region, "<structure>_<group>_mass", Kind::real, "kg", absent("required for point_mass"), positive, "", "mass added at each point of the group"},
+    OptionRow{Block::region, "<structure>_<group>_rotary_inertia", Kind::reals, "kg m2", value("0,0,0"), not_negative, "three numbers about x, y, z", "point_mass: its rotary inertia"},
+    OptionRow{Block::region, "<structure>_<group>_stiffness", Kind::reals, "N/m, N m", absent("required for springs"), not_negative, "six numbers along and about x, y, z (three: no rotations)", "of grounded_spring and spring"},
+    OptionRow{Block::region, "<structure>_<group>_dashpot", Kind::reals, "N s/m, N m s", value("0,0,0,0,0,0"), not_negative, "six numbers along and about x, y, z", "dashpot beside the spring"},
 
     OptionRow{Block::material, "material_<material>_young", Kind::real, "Pa", required, positive, "", "Young's modulus"},
     OptionRow{Block::material, "material_<material>_poisson", Kind::real, "-", required, poisson_ratio, "", "Poisson's ratio"},
@@ -67,8 +80,10 @@ constexpr std::array table{
     OptionRow{Block::section, "section_<section>_z_axis", Kind::reals, "-", required, any, "three numbers x,y,z, not all zero", "direction of local z in global axes"},
 
     OptionRow{Block::contact, "<contact>_secondary", Kind::text, "group", required, any, "structure:group", "secondary side, a surface of a structure"},
-    OptionRow{Block::contact, "<contact>_primary", Kind::text, "group", required, any, "structure:group", "primary side, the surface that it faces"},
+    OptionRow{Block::contact, "<contact>_primary", Kind::text, "group", required, any, "structure:group, or wall", "primary side, the surface that it faces; wall: rigid, parallel to the secondary"},
     OptionRow{Block::contact, "<contact>_gap", Kind::text, "m", value("geometry"), any, "geometry, or one, two or four numbers g1,g2,...", "initial gap: uniform, linear, or at the four corners"},
+
+    OptionRow{Block::contact, "<contact>_passes", Kind::integer, "-", value("1"), Range{1, 2, false, false}, "", "2: nodes of the primary side are kept out of the secondary as well"},
 
     OptionRow{Block::motion, "motion_<x|y|z>_record", Kind::text, "file", value("none"), any, "a file or none", "recorded accelerogram; none: no motion; wins over a target"},
     OptionRow{Block::motion, "motion_<x|y|z>_unit", Kind::choice, "word", value("auto"), any, "auto|g|m/s2|cm/s2", "unit of the record; auto: from the header of the file"},
@@ -121,7 +136,9 @@ std::string Range::text() const {
   return (low_open ? "(" : "[") + number(low) + ", " + number(high) + (high_open ? ")" : "]");
 }
 
-std::span<const OptionRow> option_table() { return table; }
+std::span<const OptionRow> option_table() {
+  return table;
+}
 
 const OptionRow& option_row(std::string_view pattern) {
   const auto row = std::ranges::find(table, pattern, &OptionRow::pattern);
@@ -191,7 +208,9 @@ std::string expected_text(const OptionRow& row) {
   return std::string(row.form) + (ranged ? ", each" + within : "") + (numeric ? unit : "");
 }
 
-std::span<const std::string_view> petsc_option_patterns() { return petsc_patterns; }
+std::span<const std::string_view> petsc_option_patterns() {
+  return petsc_patterns;
+}
 
 bool is_petsc_option(std::string_view name) {
   return std::ranges::any_of(petsc_patterns, [name](std::string_view pattern) {

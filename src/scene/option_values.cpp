@@ -77,12 +77,14 @@ std::optional<double> parse_real(std::string_view text) {
   return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
-std::optional<int> parse_integer(std::string_view text) { return parse_number<int>(text); }
+std::optional<int> parse_integer(std::string_view text) {
+  return parse_number<int>(text);
+}
 
 std::optional<bool> parse_boolean(std::string_view text) {
   std::string word = trimmed(text);
-  std::ranges::transform(
-      word, word.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(word, word.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (word.empty() || word == "true" || word == "yes" || word == "on" || word == "1") {
     return true;
   }

@@ -34,8 +34,14 @@ struct Region {
   std::string group;
   ElementType element = ElementType::hex8;
   Material material;
-  std::optional<Section> section;  ///< beams
-  double area = 0;                 ///< bars [m2]
+  std::optional<Section> section;     ///< beams
+  double area = 0;                    ///< bars [m2]
+  double thickness = 0;               ///< shells [m]
+  double rotary_inertia_factor = 0;   ///< shells [-], see elements/flat_shell.h
+  double mass = 0;                    ///< point masses, at each node of the group [kg]
+  Vector3 rotary_inertia{0, 0, 0};    ///< point masses [kg m2]
+  std::array<double, 6> stiffness{};  ///< springs: along and about x, y, z [N/m, N m]
+  std::array<double, 6> dashpot{};    ///< springs [N s/m, N m s]
 };
 
 /// Rayleigh damping C = alpha M + beta K.
@@ -51,12 +57,16 @@ struct Structure {
   std::vector<std::string> clamp;  ///< physical groups fixed to the ground
   std::vector<Region> regions;
   Rayleigh damping;
+  Vector3 initial_velocity{0, 0, 0};  ///< of every free node [m/s]
+  Vector3 gravity{0, 0, 0};           ///< constant body acceleration [m/s2]
 };
 
-/// One side of a contact: a physical group (surface) of a structure.
+/// One side of a contact: a physical group (surface or shell edge) of a structure, or a rigid wall
+/// that follows the ground (structure "wall", primary side only).
 struct ContactSide {
   std::string structure;
   std::string group;
+  bool is_wall() const { return structure == "wall"; }
 };
 
 /// Initial gap: from the geometry, one number, two values (linear along the first tangent axis) or
@@ -72,6 +82,7 @@ struct Contact {
   ContactSide secondary;
   ContactSide primary;
   InitialGap gap;
+  int passes = 1;  ///< 2: the nodes of the primary side are constrained as well
 };
 
 /// A recorded accelerogram in a file.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -17,14 +18,18 @@ namespace {
 
 using Names = OptionReader::Names;
 
+/// The element of a word; what depends on other options is settled by the region's reader.
 ElementType element_type(const std::string& word) {
-  if (word == "hex8") {
-    return ElementType::hex8;
-  }
-  if (word == "hex8_full") {
-    return ElementType::hex8_full;
-  }
-  return word == "beam" ? ElementType::beam : ElementType::bar;
+  static const std::map<std::string, ElementType> types{
+      {"hex8", ElementType::hex8},
+      {"hex8_full", ElementType::hex8_full},
+      {"shell", ElementType::shell4},
+      {"beam", ElementType::beam},
+      {"bar", ElementType::bar},
+      {"point_mass", ElementType::point_mass},
+      {"grounded_spring", ElementType::grounded_spring},
+      {"spring", ElementType::spring}};
+  return types.at(word);
 }
 
 /// Reads a scene block by block, in the order of the table.
@@ -106,6 +111,8 @@ class SceneReader {
     structure.mesh_set = read_mesh_set(name);
     structure.clamp = options_.list("<structure>_clamp", {name});
     options_.choice("<structure>_fidelity", {name});
+    structure.initial_velocity = vector3("<structure>_initial_velocity", {name});
+    structure.gravity = vector3("<structure>_gravity", {name});
     structure.damping = read_damping(name);
     for (const std::string& group : groups_of(name)) {
       structure.regions.push_back(read_region(name, group));
@@ -115,6 +122,11 @@ class SceneReader {
                       "_GROUP_element for at least one physical group of its mesh");
     }
     return structure;
+  }
+
+  Vector3 vector3(std::string_view pattern, const Names& names) {
+    const std::vector<double> values = options_.reals(pattern, names, 3);
+    return {values[0], values[1], values[2]};
   }
 
   std::vector<std::pair<std::string, std::string>> read_mesh_set(const std::string& name) {
@@ -171,19 +183,86 @@ class SceneReader {
     region.group = group;
     const std::string element = options_.choice("<structure>_<group>_element", names);
     region.element = element_type(element);
-    region.material = read_material(names);
-    const std::string why = "not for element " + element;
-    if (region.element == ElementType::beam) {
-      region.section = read_section(names);
-    } else {
-      options_.forbid("<structure>_<group>_section", names, why);
+    forbid_others(element, names);
+    const bool shapeless = region.element == ElementType::point_mass ||
+                           region.element == ElementType::grounded_spring ||
+                           region.element == ElementType::spring;
+    if (!shapeless) {
+      region.material = read_material(names);
     }
-    if (region.element == ElementType::bar) {
-      region.area = options_.real("<structure>_<group>_area", names);
-    } else {
-      options_.forbid("<structure>_<group>_area", names, why);
+    switch (region.element) {
+      case ElementType::beam:
+        region.section = read_section(names);
+        break;
+      case ElementType::bar:
+        region.area = options_.real("<structure>_<group>_area", names);
+        if (options_.boolean("<structure>_<group>_tension_only", names)) {
+          region.element = ElementType::tension_bar;
+        }
+        break;
+      case ElementType::shell4:
+        region.thickness = options_.real("<structure>_<group>_thickness", names);
+        region.rotary_inertia_factor =
+            options_.real("<structure>_<group>_rotary_inertia_factor", names);
+        break;
+      case ElementType::point_mass:
+        region.mass = options_.real("<structure>_<group>_mass", names);
+        region.rotary_inertia = vector3("<structure>_<group>_rotary_inertia", names);
+        if (region.rotary_inertia != Vector3{0, 0, 0}) {
+          region.element = ElementType::point_mass6;
+        }
+        break;
+      case ElementType::grounded_spring:
+      case ElementType::spring:
+        read_spring(names, region);
+        break;
+      default:
+        break;
     }
     return region;
+  }
+
+  /// Options that belong to another element than the region's.
+  void forbid_others(const std::string& element, const Names& names) const {
+    static const std::map<std::string, std::set<std::string>> belongs{
+        {"section", {"beam"}},
+        {"area", {"bar"}},
+        {"tension_only", {"bar"}},
+        {"thickness", {"shell"}},
+        {"rotary_inertia_factor", {"shell"}},
+        {"mass", {"point_mass"}},
+        {"rotary_inertia", {"point_mass"}},
+        {"stiffness", {"grounded_spring", "spring"}},
+        {"dashpot", {"grounded_spring", "spring"}},
+        {"material", {"hex8", "hex8_full", "shell", "beam", "bar"}}};
+    for (const auto& [option, elements] : belongs) {
+      if (!elements.contains(element)) {
+        options_.forbid("<structure>_<group>_" + option, names, "not for element " + element);
+      }
+    }
+  }
+
+  void read_spring(const Names& names, Region& region) {
+    const auto six = [&](std::string_view pattern) {
+      std::vector<double> values = options_.reals(pattern, names);
+      if (values.size() != 3 && values.size() != 6) {
+        options_.refuse(pattern, names, "wrong count of numbers");
+      }
+      values.resize(6, 0.0);
+      std::array<double, 6> result{};
+      std::copy(values.begin(), values.end(), result.begin());
+      return result;
+    };
+    region.stiffness = six("<structure>_<group>_stiffness");
+    region.dashpot = six("<structure>_<group>_dashpot");
+    bool rotations = false;
+    for (std::size_t c = 3; c < 6; ++c) {
+      rotations = rotations || region.stiffness[c] > 0 || region.dashpot[c] > 0;
+    }
+    if (rotations) {
+      region.element = region.element == ElementType::spring ? ElementType::spring6
+                                                             : ElementType::grounded_spring6;
+    }
   }
 
   /// Refuses a name that has no option of its block.
@@ -251,7 +330,16 @@ class SceneReader {
     Contact contact;
     contact.name = name;
     contact.secondary = read_side("<contact>_secondary", name);
-    contact.primary = read_side("<contact>_primary", name);
+    contact.primary = options_.text("<contact>_primary", {name}) == "wall"
+                          ? ContactSide{"wall", ""}
+                          : read_side("<contact>_primary", name);
+    contact.passes = options_.integer("<contact>_passes", {name});
+    if (contact.primary.is_wall() && options_.text("<contact>_gap", {name}) == "geometry") {
+      options_.refuse("<contact>_gap", {name}, "a wall has no geometry, give its distance");
+    }
+    if (contact.primary.is_wall() && contact.passes != 1) {
+      options_.refuse("<contact>_passes", {name}, "a wall has no nodes");
+    }
     if (options_.text("<contact>_gap", {name}) != "geometry") {
       contact.gap.values = options_.reals("<contact>_gap", {name});
       const std::size_t count = contact.gap.values.size();

@@ -107,36 +107,49 @@ POUNDING_INLINE void transform_back(const Transformed& v, Lanes (&carry)[4],
   }
 }
 
+/// Bricks first .. first + 3 of a run, to be multiplied.
+POUNDING_INLINE void gather(const std::array<BrickLine, 4>& lines, int line_stride, int first,
+                            Transformed (&v)[3]) {
+  for (int c = 0; c < 3; ++c) {
+    const int shift = c * line_stride + first;
+    const double* const from[4] = {lines[0].displacement + shift, lines[1].displacement + shift,
+                                   lines[2].displacement + shift, lines[3].displacement + shift};
+    transform(from, v[c]);
+  }
+}
+
+/// Their forces, and those that the bricks before left in `carry`.
+POUNDING_INLINE void scatter(const Transformed (&v)[3], Lanes (&carry)[3][4],
+                             const std::array<BrickLine, 4>& lines, int line_stride, int first) {
+  for (int c = 0; c < 3; ++c) {
+    const int shift = c * line_stride + first;
+    double* const to[4] = {lines[0].force + shift, lines[1].force + shift, lines[2].force + shift,
+                           lines[3].force + shift};
+    transform_back(v[c], carry[c], to);
+  }
+}
+
 }  // namespace
 
 void add_brick_run(const BrickSplit& split, const std::array<BrickLine, 4>& lines, int line_stride,
                    int count) {
-  const BrickSplit b = split;
   Lanes carry[3][4] = {};
-  for (int first = 0; first <= count; first += lane_count) {
-    Transformed v[3] = {};
-    const int left = count - first;
-    if (left > 0) {
-      for (int c = 0; c < 3; ++c) {
-        const int shift = c * line_stride + first;
-        const double* const from[4] = {lines[0].displacement + shift, lines[1].displacement + shift,
-                                       lines[2].displacement + shift,
-                                       lines[3].displacement + shift};
-        transform(from, v[c]);
-      }
-      multiply(b, v);
-      if (left < lane_count) {
-        const LaneMask lane{0, 1, 2, 3};
-        mask(lane < LaneMask{left, left, left, left}, v);
-      }
-    }
-    for (int c = 0; c < 3; ++c) {
-      const int shift = c * line_stride + first;
-      double* const to[4] = {lines[0].force + shift, lines[1].force + shift, lines[2].force + shift,
-                             lines[3].force + shift};
-      transform_back(v[c], carry[c], to);
-    }
+  int first = 0;
+  for (; first + lane_count <= count; first += lane_count) {
+    Transformed v[3];
+    gather(lines, line_stride, first, v);
+    multiply(split, v);
+    scatter(v, carry, lines, line_stride, first);
   }
+  Transformed v[3] = {};
+  const int left = count - first;
+  if (left > 0) {
+    gather(lines, line_stride, first, v);
+    multiply(split, v);
+    const LaneMask lane{0, 1, 2, 3};
+    mask(lane < LaneMask{left, left, left, left}, v);
+  }
+  scatter(v, carry, lines, line_stride, first);
 }
 
 }  // namespace pounding

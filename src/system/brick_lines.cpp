@@ -37,15 +37,13 @@ inline void store_four(const double* x, const double* y, const double* z, const 
   load(y, b);
   const Lanes even = __builtin_shuffle(a, b, LaneMask{0, 4, 2, 6});
   const Lanes odd = __builtin_shuffle(a, b, LaneMask{1, 5, 3, 7});
-  const auto put = [q, z, place](int i, double first, double second) {
-    const HalfLanes pair{first, second};
-    std::memcpy(q + place[i], &pair, sizeof pair);
-    q[place[i] + 2] = z[i];
-  };
-  put(0, even[0], even[1]);
-  put(1, odd[0], odd[1]);
-  put(2, even[2], even[3]);
-  put(3, odd[2], odd[3]);
+  std::memcpy(q + place[0], &even, sizeof(HalfLanes));
+  std::memcpy(q + place[1], &odd, sizeof(HalfLanes));
+  const Lanes even_far = __builtin_shuffle(even, LaneMask{2, 3, 0, 1});
+  const Lanes odd_far = __builtin_shuffle(odd, LaneMask{2, 3, 0, 1});
+  std::memcpy(q + place[2], &even_far, sizeof(HalfLanes));
+  std::memcpy(q + place[3], &odd_far, sizeof(HalfLanes));
+  for (int i = 0; i < 4; ++i) q[place[i] + 2] = z[i];
 }
 
 /// Values v <- R v, or R' v, of a line's three arrays.
@@ -159,7 +157,10 @@ void BrickLines::load_chain(const Transfer& transfer, const double* owned,
     }
   }
   if (rotated_) rotate_line(axes_, false, line, line_stride_, chain.length);
-  std::fill_n(line + 3 * line_stride_, 3 * line_stride_, 0.0);
+  for (int c = 3; c < arrays_per_line; ++c) {
+    double* const force = line + c * line_stride_;
+    for (int p = 0; p < chain.length; p += lane_count) store(force + p, Lanes{});
+  }
 }
 
 void BrickLines::store_chain(const Transfer& transfer, double* q, bool add) const {

@@ -54,7 +54,7 @@ void ElementSorter::sort() {
   for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
     if (is_hexahedron(mesh_.blocks[b].type)) {
       sort_hexahedra(b);
-    } else {
+    } else if (mesh_.blocks[b].type != ElementType::tension_bar) {  // those are not linear
       for (std::size_t e = 0; e < mesh_.blocks[b].count(); ++e) others_.push_back({b, e});
     }
   }
@@ -63,7 +63,8 @@ void ElementSorter::sort() {
 
 void ElementSorter::sort_hexahedra(std::size_t b) {
   const ElementBlock& block = mesh_.blocks[b];
-  const ElementProperties properties = element_properties(structure_.regions[b]);
+  const ElementProperties properties =
+      element_properties(structure_.regions[static_cast<std::size_t>(mesh_.blocks[b].region)]);
   Snap snap(congruence * shortest_distance(mesh_, block, work_));
   for (std::size_t e = 0; e < block.count(); ++e) {
     if (!add_brick({b, e}, properties, snap)) add_congruent({b, e}, properties, snap);
@@ -175,9 +176,10 @@ SparseRows ElementSorter::sparse_rows() const {
     const auto [b, e] = element;
     const std::size_t size = size_of_element(element);
     const std::span<double> stiffness(work_.stiffness.data(), size * size);
-    element_matrices(mesh_.blocks[b].type, gather_coordinates(mesh_, mesh_.blocks[b], e, work_),
-                     element_properties(structure_.regions[b]), stiffness,
-                     {work_.mass.data(), size});
+    element_matrices(
+        mesh_.blocks[b].type, gather_coordinates(mesh_, mesh_.blocks[b], e, work_),
+        element_properties(structure_.regions[static_cast<std::size_t>(mesh_.blocks[b].region)]),
+        stiffness, {work_.mass.data(), size});
     rows.add({places(element).data(), size}, stiffness);
   }
   return rows;

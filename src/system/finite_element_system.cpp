@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <sstream>
 #include <unordered_map>
 
@@ -79,7 +80,8 @@ void for_each_element(const Structure& structure, const Mesh& mesh, Visit&& visi
   ElementWork work;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const ElementBlock& block = mesh.blocks[b];
-    const ElementProperties properties = element_properties(structure.regions[b]);
+    const ElementProperties properties =
+        element_properties(structure.regions[static_cast<std::size_t>(block.region)]);
     const ElementLayout layout = element_layout(block.type);
     const auto size = static_cast<std::size_t>(layout.size());
     for (std::size_t e = 0; e < block.count(); ++e) {
@@ -160,7 +162,16 @@ std::vector<PetscInt> global_numbers(const Mesh& mesh) {
 class Assembly {
  public:
   Assembly(const Structure& structure, const Mesh& mesh, LinearSystem& system)
-      : structure_(structure), mesh_(mesh), system_(system), matrix_(create_matrix(mesh)) {}
+      : structure_(structure), mesh_(mesh), system_(system), matrix_(create_matrix(mesh)) {
+    for (const ElementBlock& block : mesh.blocks) {
+      if (block.type == ElementType::tension_bar && taut_.get() == nullptr) {
+        taut_ = create_matrix(mesh);
+      }
+      if (has_dashpot(block) && dashpots_.get() == nullptr) {
+        dashpots_ = create_matrix(mesh);
+      }
+    }
+  }
 
   void run() {
     system_.lumped_mass.assign(static_cast<std::size_t>(mesh_.owned_dofs), 0.0);
@@ -171,9 +182,14 @@ class Assembly {
                            const ElementWork& work) { add(block, e, layout, work); });
       check_mass();
     });
-    POUNDING_PETSC(MatAssemblyBegin(matrix_.get(), MAT_FINAL_ASSEMBLY));
-    POUNDING_PETSC(MatAssemblyEnd(matrix_.get(), MAT_FINAL_ASSEMBLY));
-    system_.stiffness = std::make_unique<AssembledStiffness>(std::move(matrix_));
+    system_.stiffness = finished(std::move(matrix_));
+    if (taut_.get() != nullptr) {
+      system_.taut = finished(std::move(taut_));
+    }
+    if (dashpots_.get() != nullptr) {
+      bound_dashpot_rate();
+      system_.dashpots = finished(std::move(dashpots_));
+    }
     share_totals();
   }
 
@@ -196,11 +212,68 @@ class Assembly {
         system_.total_mass += work.mass[i];
       }
     }
-    const auto n = static_cast<PetscInt>(size);
-    POUNDING_PETSC(MatSetValues(matrix_.get(), n, rows.data(), n, columns.data(),
-                                work.stiffness.data(), ADD_VALUES));
+    const auto insert = [&](const MatHandle& matrix, const double* values) {
+      const auto n = static_cast<PetscInt>(size);
+      POUNDING_PETSC(
+          MatSetValues(matrix.get(), n, rows.data(), n, columns.data(), values, ADD_VALUES));
+    };
+    if (block.type != ElementType::tension_bar) {
+      insert(matrix_, work.stiffness.data());
+    }
+    if (taut_.get() != nullptr) {
+      insert(taut_, work.stiffness.data());
+    }
+    if (has_dashpot(block)) {
+      std::array<double, max_element_size * max_element_size> damping{};
+      element_dashpots(block.type, properties_of(block), {damping.data(), size * size});
+      insert(dashpots_, damping.data());
+    }
+    note_frequency(block, element, work, size);
+  }
+
+  std::unique_ptr<Stiffness> finished(MatHandle matrix) const {
+    POUNDING_PETSC(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
+    POUNDING_PETSC(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
+    return std::make_unique<AssembledStiffness>(std::move(matrix));
+  }
+
+  ElementProperties properties_of(const ElementBlock& block) const {
+    return element_properties(structure_.regions[static_cast<std::size_t>(block.region)]);
+  }
+
+  bool has_dashpot(const ElementBlock& block) const {
+    const auto& rates = properties_of(block).dashpot;
+    return std::any_of(rates.begin(), rates.end(), [](double rate) { return rate > 0; });
+  }
+
+  /// Gershgorin: the largest sum of |C_ij| / m_i over a row bounds the eigenvalues of M^-1 C.
+  void bound_dashpot_rate() {
+    POUNDING_PETSC(MatAssemblyBegin(dashpots_.get(), MAT_FINAL_ASSEMBLY));
+    POUNDING_PETSC(MatAssemblyEnd(dashpots_.get(), MAT_FINAL_ASSEMBLY));
+    for (LocalIndex i = 0; i < mesh_.owned_dofs; ++i) {
+      const auto row = static_cast<PetscInt>(mesh_.first_owned_dof + i);
+      PetscInt count = 0;
+      const double* values = nullptr;
+      POUNDING_PETSC(MatGetRow(dashpots_.get(), row, &count, nullptr, &values));
+      double sum = 0;
+      for (PetscInt k = 0; k < count; ++k) {
+        sum += std::abs(values[k]);
+      }
+      POUNDING_PETSC(MatRestoreRow(dashpots_.get(), row, &count, nullptr, &values));
+      system_.dashpot_rate =
+          std::max(system_.dashpot_rate, sum / system_.lumped_mass[static_cast<std::size_t>(i)]);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &system_.dashpot_rate, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm);
+  }
+
+  void note_frequency(const ElementBlock& block, std::size_t element, const ElementWork& work,
+                      std::size_t size) {
+    const bool massless =
+        *std::max_element(work.mass.begin(),
+                          work.mass.begin() + static_cast<std::ptrdiff_t>(size)) == 0;
     const double frequency =
-        cache_.frequency({work.stiffness.data(), size * size}, {work.mass.data(), size});
+        massless ? std::numeric_limits<double>::infinity()
+                 : cache_.frequency({work.stiffness.data(), size * size}, {work.mass.data(), size});
     if (frequency > system_.element_frequency_bound) {
       system_.element_frequency_bound = frequency;
       system_.stiffest_element = describe(mesh_, block, element);
@@ -240,7 +313,9 @@ class Assembly {
   const Structure& structure_;
   const Mesh& mesh_;
   LinearSystem& system_;
-  MatHandle matrix_;
+  MatHandle matrix_;  ///< linear elements
+  MatHandle taut_;    ///< tension-only bars as well
+  MatHandle dashpots_;
   std::vector<PetscInt> numbers_;
   FrequencyCache cache_;
 };
@@ -253,6 +328,12 @@ ElementProperties element_properties(const Region& region) {
   properties.poisson = region.material.poisson;
   properties.density = region.material.density;
   properties.area = region.area;
+  properties.thickness = region.thickness;
+  properties.rotary_inertia_factor = region.rotary_inertia_factor;
+  properties.mass = region.mass;
+  properties.rotary_inertia = region.rotary_inertia;
+  properties.stiffness = region.stiffness;
+  properties.dashpot = region.dashpot;
   if (region.section) {
     properties.area = region.section->area;
     properties.inertia_y = region.section->inertia_y;
@@ -268,6 +349,9 @@ LinearSystem build_finite_element_system(const Structure& structure, const Mesh&
   system.name = structure.name;
   system.comm = mesh.comm;
   system.damping = structure.damping;
+  system.initial_velocity = structure.initial_velocity;
+  system.gravity = structure.gravity;
+  system.tension_bars = TensionBars::build(structure, mesh);
   system.global_dofs = mesh.global_dofs;
   Assembly(structure, mesh, system).run();
   system.inverse_mass.resize(system.lumped_mass.size());

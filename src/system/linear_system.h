@@ -10,6 +10,7 @@
 #include "common/types.h"
 #include "scene/scene.h"
 #include "system/stiffness.h"
+#include "system/tension_bars.h"
 
 namespace pounding {
 
@@ -26,13 +27,25 @@ struct LinearSystem {
   std::vector<double> lumped_mass;               ///< M [kg, kg m2]
   std::vector<double> inverse_mass;              ///< [1/kg, 1/(kg m2)]
   std::array<std::vector<double>, 3> influence;  ///< iota per direction: 1 on its translations [-]
-  std::unique_ptr<Stiffness> stiffness;
-  double total_mass = 0;  ///< clamped nodes included [kg]
+  std::unique_ptr<Stiffness> stiffness;          ///< K of the linear elements
+  std::unique_ptr<Stiffness> taut;  ///< K with tension-only bars taut; null if there are none
+  std::unique_ptr<TensionBars> tension_bars;  ///< null if there are none
+  std::unique_ptr<Stiffness> dashpots;        ///< C beside alpha M + beta K [N s/m]; null if none
+  double dashpot_rate = 0;  ///< bound of the largest eigenvalue of M^-1 C of dashpots [1/s]
+  Vector3 initial_velocity{0, 0, 0};  ///< of every translation at t = 0 [m/s]
+  Vector3 gravity{0, 0, 0};           ///< constant body acceleration [m/s2]
+  double total_mass = 0;              ///< clamped nodes included [kg]
   /// Upper bound of omega_max from single elements, and who holds it: the element with the largest
-  /// omega of its own.
+  /// omega of its own. Infinite if an element has stiffness but no mass (springs).
   double element_frequency_bound = 0;  ///< [rad/s]
   std::string stiffest_element;
 
+  /// K for eigenvalues: every bar taut.
+  Mat stiffest_matrix() const { return taut ? taut->matrix() : stiffness->matrix(); }
+  /// Forces beside K u, alpha M v and beta K v.
+  bool has_devices() const { return tension_bars || dashpots; }
+  /// Damping that stands for all of it in a bound of the stable time step.
+  Rayleigh bounding_damping() const { return {damping.alpha + dashpot_rate, damping.beta}; }
   LocalIndex owned_dofs() const { return static_cast<LocalIndex>(lumped_mass.size()); }
 };
 

@@ -18,20 +18,6 @@ using testing_support::DenseElement;
 constexpr ElementType all_types[] = {ElementType::hex8, ElementType::hex8_full, ElementType::beam,
                                      ElementType::bar};
 
-const char* name_of(ElementType type) {
-  switch (type) {
-    case ElementType::hex8:
-      return "hex8";
-    case ElementType::hex8_full:
-      return "hex8_full";
-    case ElementType::beam:
-      return "beam";
-    case ElementType::bar:
-      return "bar";
-  }
-  return "?";
-}
-
 bool is_brick(ElementType type) {
   return type == ElementType::hex8 || type == ElementType::hex8_full;
 }
@@ -123,7 +109,7 @@ TEST(Element, StiffnessIsSymmetricToTheBit) {
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < i; ++j)
         EXPECT_EQ(e.stiffness[i * n + j], e.stiffness[j * n + i])
-            << name_of(type) << ' ' << i << ' ' << j;
+            << element_name(type) << ' ' << i << ' ' << j;
   }
 }
 
@@ -135,7 +121,7 @@ TEST(Element, RigidMotionsMakeNoForceNearAndFar) {
       const auto x = moved(coordinates_of(type), {offset + 0.1, -offset - 0.3, offset + 0.7});
       const DenseElement e = dense_element(type, x, steel());
       for (const auto& u : rigid_motions(type, x))
-        EXPECT_LE(relative_force(e.stiffness, u), 1e-12) << name_of(type) << " at " << offset;
+        EXPECT_LE(relative_force(e.stiffness, u), 1e-12) << element_name(type) << " at " << offset;
     }
   }
 }
@@ -146,8 +132,8 @@ TEST(Element, TranslationBy1e6MetresChangesNoBit) {
     const auto x = coordinates_of(type);
     const DenseElement near = dense_element(type, x, steel());
     const DenseElement far = dense_element(type, moved(x, {1e6, -1e6, 2e6}), steel());
-    EXPECT_EQ(near.stiffness, far.stiffness) << name_of(type);
-    EXPECT_EQ(near.lumped_mass, far.lumped_mass) << name_of(type);
+    EXPECT_EQ(near.stiffness, far.stiffness) << element_name(type);
+    EXPECT_EQ(near.lumped_mass, far.lumped_mass) << element_name(type);
   }
 }
 
@@ -161,9 +147,9 @@ TEST(Element, NullSpaceHoldsRigidMotionsOnly) {
     const double tiny = 1e-11 * values[n - 1];
     for (std::size_t i = 0; i < n; ++i) {
       if (i < zeros)
-        EXPECT_LE(std::abs(values[i]), tiny) << name_of(type) << ' ' << i;
+        EXPECT_LE(std::abs(values[i]), tiny) << element_name(type) << ' ' << i;
       else
-        EXPECT_GT(values[i], 1e3 * tiny) << name_of(type) << ' ' << i;
+        EXPECT_GT(values[i], 1e3 * tiny) << element_name(type) << ' ' << i;
     }
   }
 }
@@ -204,7 +190,7 @@ TEST(Element, TurnedElementHasTurnedStiffness) {
       for (std::size_t a = 0; a < n; a += 3) {
         const Vector3 expected = turned(&force[a]);
         for (std::size_t i = 0; i < 3; ++i)
-          EXPECT_NEAR(turned_force[a + i], expected[i], 1e-13 * largest) << name_of(type);
+          EXPECT_NEAR(turned_force[a + i], expected[i], 1e-13 * largest) << element_name(type);
       }
     }
   }
@@ -216,8 +202,8 @@ TEST(Element, MassAloneIsTheSameMass) {
     const DenseElement e = dense_element(type, x, steel());
     std::vector<double> mass(e.lumped_mass.size());
     element_lumped_mass(type, x, steel(), mass);
-    EXPECT_EQ(mass, e.lumped_mass) << name_of(type);
-    for (const double m : mass) EXPECT_GT(m, 0) << name_of(type);
+    EXPECT_EQ(mass, e.lumped_mass) << element_name(type);
+    for (const double m : mass) EXPECT_GT(m, 0) << element_name(type);
   }
 }
 

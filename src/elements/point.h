@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "elements/element.h"
+
+/// Elements without shape: masses on nodes, and springs or dashpots to the ground or between two
+/// nodes, uncoupled along and about the global axes.
+namespace pounding {
+
+/// Mass [kg] on the displacements and, if `lumped_mass` has six entries, inertia [kg m2] on the
+/// rotations of a node.
+void point_lumped_mass(const ElementProperties& properties, std::span<double> lumped_mass);
+
+/// Matrix of six springs (or dashpots) `values` along and about x, y, z: diagonal for one node,
+/// [k -k; -k k] for two. Shape (size, size) of the layout, row-major. The two nodes of a spring are
+/// meant to coincide: a force across its length makes no moment.
+void spring_matrix(const ElementLayout& layout, const std::array<double, 6>& values,
+                   std::span<double> matrix);
+
+}  // namespace pounding
