@@ -34,6 +34,10 @@ enum class ElementType {
   spring6
 };
 
+constexpr bool is_hexahedron(ElementType type) {
+  return type == ElementType::hex8 || type == ElementType::hex8_full;
+}
+
 constexpr bool is_shell(ElementType type) {
   return type == ElementType::shell4 || type == ElementType::shell3;
 }

@@ -73,7 +73,8 @@ Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile) {
     const Mesh& mesh = model.meshes[s];
     {
       const ScopedTimer timer(profile, Phase::assembly);
-      model.systems.push_back(build_finite_element_system(scene.structures[s], mesh));
+      model.systems.push_back(
+          build_finite_element_system(scene.structures[s], mesh, scene.stiffness));
     }
     const ScopedTimer timer(profile, Phase::modes);
     const LinearSystem& system = model.systems.back();

@@ -22,6 +22,7 @@ void print_structure(const Scene& scene, const Model& model, std::size_t s) {
     std::printf("  %-14s %7lld %s\n", block.group.c_str(),
                 static_cast<long long>(block.global_count), element_name(block.type));
   }
+  std::printf("  stiffness: %s\n", system.stiffness_method.c_str());
   const Rayleigh& damping = scene.structures[s].damping;
   std::printf("  damping ratio at 1, 10, 100, 400 Hz:");
   for (const double frequency : {1.0, 10.0, 100.0, 400.0}) {

@@ -27,6 +27,7 @@ Json describe_structure(const Model& model, std::size_t s) {
   }
   structure["elements"] = elements;
   structure["mass"] = model.systems[s].total_mass;
+  structure["stiffness"] = model.systems[s].stiffness_method;
   structure["damping"] = {{"alpha", model.systems[s].damping.alpha},
                           {"beta", model.systems[s].damping.beta}};
   structure["frequencies"] = Json::array();

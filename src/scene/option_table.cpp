@@ -44,6 +44,7 @@ constexpr std::array table{
     OptionRow{Block::run, "energy_interval", Kind::integer, "steps", value("100"), at_least_1, "", "steps between two lines of the energy balance"},
     OptionRow{Block::run, "dry_run", Kind::boolean, "flag", value("false"), any, "", "check the model, print what a run would cost, and stop"},
     OptionRow{Block::run, "output", Kind::text, "folder", value("results"), any, "a folder", "result folder"},
+    OptionRow{Block::run, "stiffness", Kind::choice, "word", value("auto"), any, "auto|assembled|element", "how K is applied: as a matrix, element by element, or by what the mesh is"},
     OptionRow{Block::run, "resampling", Kind::choice, "word", value("linear"), any, "linear|band_limited", "how records are upsampled to the time step"},
 
     OptionRow{Block::structure, "<structure>_mesh", Kind::text, "file", required, any, "a .geo or .msh file", "geometry to mesh (.geo) or mesh"},

@@ -109,6 +109,10 @@ struct MotionComponent {
   double scale = 1;  ///< [-]
 };
 
+/// How the stiffness is applied: as a sparse matrix, element by element without one, or by what the
+/// mesh is (element by element where most elements are bricks or otherwise congruent).
+enum class StiffnessMethod { automatic, assembled, element };
+
 enum class Resampling { linear, band_limited };
 
 struct Probe {
@@ -130,6 +134,7 @@ struct Scene {
   std::vector<Contact> contacts;
   std::array<std::optional<MotionComponent>, 3> motion;
   Resampling resampling = Resampling::linear;
+  StiffnessMethod stiffness = StiffnessMethod::automatic;
   std::vector<Probe> probes;
   SpectraRequest spectra;
   double end_time = 0;           ///< [s]

@@ -73,6 +73,10 @@ class SceneReader {
     scene_.energy_interval = options_.integer("energy_interval");
     scene_.dry_run = options_.boolean("dry_run");
     scene_.output = options_.text("output");
+    const std::string method = options_.choice("stiffness");
+    scene_.stiffness = method == "auto"        ? StiffnessMethod::automatic
+                       : method == "assembled" ? StiffnessMethod::assembled
+                                               : StiffnessMethod::element;
     scene_.resampling =
         options_.choice("resampling") == "linear" ? Resampling::linear : Resampling::band_limited;
   }

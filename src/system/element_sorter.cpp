@@ -10,10 +10,6 @@ namespace {
 
 constexpr double congruence = 1e-10;  // of the shortest edge
 
-bool is_hexahedron(ElementType type) {
-  return type == ElementType::hex8 || type == ElementType::hex8_full;
-}
-
 /// Shortest distance between node 0 and another one, over the hexahedra of a block [m].
 double shortest_distance(const Mesh& mesh, const ElementBlock& block, ElementWork& work) {
   double shortest = INFINITY;

@@ -11,6 +11,7 @@
 #include "common/parallel.h"
 #include "system/dense_eigenvalues.h"
 #include "system/element_loop.h"
+#include "system/element_stiffness.h"
 
 namespace pounding {
 namespace {
@@ -320,6 +321,28 @@ class Assembly {
   FrequencyCache cache_;
 };
 
+/// Puts the element-wise product in place of the matrix's where it is asked for or pays.
+void choose_stiffness(const Structure& structure, const Mesh& mesh, StiffnessMethod method,
+                      LinearSystem& system) {
+  system.stiffness_method = "assembled";
+  GlobalIndex elements = 0;
+  GlobalIndex hexahedra = 0;
+  for (const ElementBlock& block : mesh.blocks) {
+    elements += block.global_count;
+    hexahedra += is_hexahedron(block.type) ? block.global_count : 0;
+  }
+  if (method == StiffnessMethod::assembled ||
+      (method == StiffnessMethod::automatic && 4 * hexahedra < elements)) {
+    return;
+  }
+  auto product = std::make_unique<ElementStiffness>(structure, mesh, std::move(system.stiffness));
+  const ElementKinds kinds = product->kinds();
+  system.stiffness_method = "element by element (" + std::to_string(kinds.bricks) + " bricks, " +
+                            std::to_string(kinds.congruent) + " congruent, " +
+                            std::to_string(kinds.other) + " others)";
+  system.stiffness = std::move(product);
+}
+
 }  // namespace
 
 ElementProperties element_properties(const Region& region) {
@@ -344,7 +367,8 @@ ElementProperties element_properties(const Region& region) {
   return properties;
 }
 
-LinearSystem build_finite_element_system(const Structure& structure, const Mesh& mesh) {
+LinearSystem build_finite_element_system(const Structure& structure, const Mesh& mesh,
+                                         StiffnessMethod method) {
   LinearSystem system;
   system.name = structure.name;
   system.comm = mesh.comm;
@@ -354,6 +378,7 @@ LinearSystem build_finite_element_system(const Structure& structure, const Mesh&
   system.tension_bars = TensionBars::build(structure, mesh);
   system.global_dofs = mesh.global_dofs;
   Assembly(structure, mesh, system).run();
+  choose_stiffness(structure, mesh, method, system);
   system.inverse_mass.resize(system.lumped_mass.size());
   for (std::size_t i = 0; i < system.lumped_mass.size(); ++i) {
     system.inverse_mass[i] = 1 / system.lumped_mass[i];

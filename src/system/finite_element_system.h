@@ -14,6 +14,7 @@ ElementProperties element_properties(const Region& region);
 /// vectors, element bound of omega. Sums run over the elements in file order on every rank, so that
 /// mass and stiffness do not depend on the number of ranks. Throws UserError naming the element if
 /// one is impossible, and the node if a free dof has no mass. Collective.
-LinearSystem build_finite_element_system(const Structure& structure, const Mesh& mesh);
+LinearSystem build_finite_element_system(const Structure& structure, const Mesh& mesh,
+                                         StiffnessMethod method = StiffnessMethod::assembled);
 
 }  // namespace pounding

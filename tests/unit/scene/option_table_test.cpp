@@ -1,0 +1,126 @@
+#include "scene/option_table.h"
+
+#include <set>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scene/option_values.h"
+
+namespace pounding {
+namespace {
+
+TEST(OptionTable, PatternsAreUnique) {
+  std::set<std::string_view> patterns;
+  for (const OptionRow& row : option_table()) {
+    EXPECT_TRUE(patterns.insert(row.pattern).second) << row.pattern;
+  }
+}
+
+TEST(OptionTable, EveryDefaultIsAnAdmittedValue) {
+  for (const OptionRow& row : option_table()) {
+    if (!row.preset.has_value) {
+      continue;
+    }
+    switch (row.kind) {
+      case OptionKind::real:
+        ASSERT_TRUE(parse_real(row.preset.text)) << row.pattern;
+        EXPECT_TRUE(row.range.contains(*parse_real(row.preset.text))) << row.pattern;
+        break;
+      case OptionKind::integer:
+        ASSERT_TRUE(parse_integer(row.preset.text)) << row.pattern;
+        EXPECT_TRUE(row.range.contains(*parse_integer(row.preset.text))) << row.pattern;
+        break;
+      case OptionKind::boolean:
+        EXPECT_TRUE(parse_boolean(row.preset.text)) << row.pattern;
+        break;
+      case OptionKind::choice:
+        EXPECT_THAT(split(row.form, '|'), testing::Contains(row.preset.text)) << row.pattern;
+        break;
+      case OptionKind::reals:
+        EXPECT_TRUE(parse_reals(row.preset.text)) << row.pattern;
+        break;
+      case OptionKind::text:
+      case OptionKind::names:
+        break;
+    }
+  }
+}
+
+/// The line of the help that belongs to a pattern.
+std::string help_line(std::string_view pattern) {
+  std::istringstream lines(help_text());
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("  -" + std::string(pattern) + " ")) {
+      return line;
+    }
+  }
+  return "";
+}
+
+TEST(Help, ListsEveryPatternWithUnitDefaultRangeAndOneLine) {
+  for (const OptionRow& row : option_table()) {
+    const std::string line = help_line(row.pattern);
+    ASSERT_FALSE(line.empty()) << row.pattern;
+    EXPECT_FALSE(row.unit.empty()) << row.pattern;
+    EXPECT_FALSE(row.help.empty()) << row.pattern;
+    EXPECT_THAT(line, testing::HasSubstr("[" + std::string(row.unit) + "]"));
+    EXPECT_THAT(line, testing::HasSubstr(std::string(row.help)));
+    EXPECT_THAT(line, testing::HasSubstr(std::string(row.preset.text)));
+    if (row.range.text() != "any") {
+      EXPECT_THAT(line, testing::HasSubstr(row.range.text()));
+    }
+    if (row.preset.required) {
+      EXPECT_THAT(line, testing::HasSubstr("; required"));
+    }
+  }
+}
+
+TEST(Help, ShowsUsageAndTheLibrariesOptions) {
+  EXPECT_THAT(help_text(), testing::HasSubstr("mpirun -n 2 pounding -options_file case.yaml"));
+  for (const std::string_view pattern : petsc_option_patterns()) {
+    EXPECT_THAT(help_text(), testing::HasSubstr(" -" + std::string(pattern)));
+  }
+}
+
+TEST(OptionTable, RangesReadLikeMathematics) {
+  EXPECT_EQ(option_row("courant").range.text(), "(0, 1]");
+  EXPECT_EQ(option_row("end_time").range.text(), "> 0");
+  EXPECT_EQ(option_row("modes").range.text(), ">= 0");
+  EXPECT_EQ(option_row("material_<material>_poisson").range.text(), "(-1, 0.5)");
+  EXPECT_EQ(option_row("motion_<x|y|z>_scale").range.text(), "any");
+}
+
+TEST(OptionTable, RangesHoldTheirClosedEndsOnly) {
+  const Range range = option_row("courant").range;
+  EXPECT_FALSE(range.contains(0));
+  EXPECT_TRUE(range.contains(1e-300));
+  EXPECT_TRUE(range.contains(1));
+  EXPECT_FALSE(range.contains(1.0000001));
+  EXPECT_TRUE(option_row("modes").range.contains(0));
+}
+
+TEST(OptionTable, PlaceholdersTakeNamesInOrder) {
+  EXPECT_EQ(option_name("<structure>_<group>_element", {"s1", "slab"}), "s1_slab_element");
+  EXPECT_EQ(option_name("motion_<x|y|z>_pga", {"y"}), "motion_y_pga");
+  EXPECT_EQ(match_option("material_<material>_young", "material_steel_young"), "steel");
+  EXPECT_FALSE(match_option("material_<material>_young", "material__young"));
+  EXPECT_FALSE(match_option("material_<material>_young", "material_steel_density"));
+  EXPECT_THROW(option_name("courant", {"s1"}), std::logic_error);
+  EXPECT_THROW(option_name("<probe>_at", {}), std::logic_error);
+  EXPECT_THROW(option_row("damping"), std::logic_error);
+}
+
+TEST(OptionTable, OptionsOfTheLibrariesAreKnown) {
+  for (const char* name : {"log_view", "mat_mumps_icntl_14", "ksp_type", "eps_tol", "st_pc_type",
+                           "options_file", "malloc_debug", "on_error_abort", "include"}) {
+    EXPECT_TRUE(is_petsc_option(name)) << name;
+  }
+  for (const char* name : {"courant", "kspace", "end_time", "s1_mat_area", "includes"}) {
+    EXPECT_FALSE(is_petsc_option(name)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace pounding
