@@ -77,7 +77,7 @@ double TimeLoop::measure(int steps) {
   MPI_Barrier(comm_);
   const double start = MPI_Wtime();
   for (int i = 0; i < steps; ++i) {
-    stepper_->step(true);
+    stepper_->step(true, false);
   }
   MPI_Barrier(comm_);
   return (MPI_Wtime() - start) / steps;
@@ -106,17 +106,15 @@ void TimeLoop::run() {
   const double start = MPI_Wtime();
   const std::int64_t progress_interval = std::max<std::int64_t>(1, model_.steps / 200);
   for (std::int64_t n = 0; n <= model_.steps; ++n) {
-    stepper_->step(recorder_->due(n));
+    const bool ledger = n > 0 && (n % scene_.energy_interval == 0 || n == model_.steps);
+    stepper_->step(recorder_->due(n), ledger);
     observe();
-    if (n > 0 && n % scene_.energy_interval == 0) {
+    if (ledger) {
       close_ledger_line();
     }
     if (n > 0 && n % progress_interval == 0) {
       show_progress(start);
     }
-  }
-  if (model_.steps > 0) {
-    close_ledger_line();
   }
   const ScopedTimer timer(profile_, Phase::output);
   recorder_->finish();

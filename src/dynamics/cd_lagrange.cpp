@@ -17,7 +17,7 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
       time_step_(time_step),
       profile_(profile),
       state_(systems),
-      energy_(comm, systems, time_step),
+      energy_(comm, systems, {motion.active(0), motion.active(1), motion.active(2)}, time_step),
       counts_work_(contact != nullptr && contact->root() == rank_of(comm)) {
   for (std::size_t b = 0; b < systems_.size(); ++b) {
     BodyState& body = state_.bodies[b];
@@ -36,14 +36,14 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
   }
 }
 
-void CdLagrange::step(bool look_at_gap) {
+void CdLagrange::step(bool look_at_gap, bool with_energies) {
   if (started_) {
     advance_displacement();  // u_{n+1} = u_n + dt v_{n+1/2}
   }
   apply_stiffness();  // q = K (u_{n+1} + beta v_{n+1/2})
   if (started_) {
     const ScopedTimer timer(profile_, Phase::energy);
-    energy_.close_previous_step(state_);
+    energy_.close_previous_step(state_, with_energies);
   }
   apply_devices();
   force_duration_ = started_ ? time_step_ : time_step_ / 2;

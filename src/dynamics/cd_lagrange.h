@@ -32,8 +32,9 @@ class CdLagrange {
              ContactProblem* contact, GapWatch watch, double time_step, Profile& profile);
 
   /// The start at t_0 on the first call, then one step per call. `look_at_gap` makes the interface
-  /// gather whatever its distance. Collective.
-  void step(bool look_at_gap);
+  /// gather whatever its distance; `with_energies`: a line of the ledger will be asked for.
+  /// Collective.
+  void step(bool look_at_gap, bool with_energies);
 
   const State& state() const { return state_; }
   double time_step() const { return time_step_; }

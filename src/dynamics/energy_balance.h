@@ -41,16 +41,19 @@ struct EnergyLine {
 /// added up only when a line is asked for. The balance starts at E_{1/2}.
 class EnergyBalance {
  public:
-  EnergyBalance(MPI_Comm comm, std::span<const LinearSystem> systems, double time_step);
+  /// `shaken`: directions in which the ground moves.
+  EnergyBalance(MPI_Comm comm, std::span<const LinearSystem> systems, std::array<bool, 3> shaken,
+                double time_step);
 
-  /// Called in step n when q_n is known and velocities are still v_{n-1/2}: closes step n-1.
-  void close_previous_step(const State& state);
+  /// Called in step n when q_n is known and velocities are still v_{n-1/2}: closes step n-1. The
+  /// energies, which only a line of the ledger shows, are evaluated on request.
+  void close_previous_step(const State& state, bool with_energies);
   /// Called at the end of step n: its ground acceleration, and the contact work if this rank counts
   /// it (0 on the others).
   void add_step(const std::array<double, 3>& ground_acceleration, double contact_work);
 
-  /// The ledger after the last closed step; `energies`, if not empty, receives the energy of each
-  /// structure. Collective.
+  /// The ledger after the last closed step, which was closed with energies; `energies`, if not
+  /// empty, receives the energy of each structure. Collective.
   EnergyLine line(std::span<double> energies) const;
 
   /// Largest |residual| over the largest term (energies, losses, works) of all lines so far.
@@ -70,20 +73,22 @@ class EnergyBalance {
   };
 
   struct Body {
-    std::vector<double> stiffness_displacement;  ///< K u
-    std::vector<double> stiffness_velocity;      ///< K v, of the velocities below
-    std::vector<double> velocity;                ///< v of the last closed step
-    std::array<std::vector<double>, 3>
-        momentum;  ///< M iota per direction, empty if it never shakes
+    std::vector<double> stiffness_displacement;   ///< K u
+    std::vector<double> stiffness_velocity;       ///< K v, of the velocities below
+    std::vector<double> velocity;                 ///< v of the last closed step
+    std::array<std::vector<double>, 3> momentum;  ///< M iota per direction
+    std::array<double, 3> ground_momentum{};      ///< its product with `velocity`
     double kinetic = 0;
     double strain = 0;
     double initial = 0;
   };
 
+  void evaluate_energies(const LinearSystem& system, const BodyState& state, Body& body) const;
   void close_body(const LinearSystem& system, const BodyState& state, Body& body);
 
   MPI_Comm comm_;
   std::span<const LinearSystem> systems_;
+  std::array<bool, 3> shaken_;
   double time_step_;
   std::vector<Body> bodies_;
   std::array<double, 3> acceleration_{};

@@ -37,7 +37,12 @@ std::string preset_of(const OptionRow& row) {
   if (!row.preset.has_value) {
     return std::string(row.preset.text);
   }
-  return row.preset.text.empty() ? "default: none" : "default: " + std::string(row.preset.text);
+  return row.preset.text.empty() ? "default: empty" : "default: " + std::string(row.preset.text);
+}
+
+/// Whether the form tells more than the unit does.
+bool has_shape(const OptionRow& row) {
+  return row.kind != OptionKind::choice && row.form.find_first_of(",:") != std::string_view::npos;
 }
 
 void append(std::string& text, const OptionRow& row) {
@@ -50,7 +55,10 @@ void append(std::string& text, const OptionRow& row) {
   const std::string range = row.range.text();
   if (row.kind == OptionKind::choice) {
     line.append("; one of ").append(row.form);
-  } else if (range != "any") {
+  } else if (has_shape(row)) {
+    line.append("; ").append(row.form);
+  }
+  if (row.kind != OptionKind::choice && range != "any") {
     line.append(range[0] == '>' ? "; " : "; in ").append(range);
   }
   text.append(line).append("\n");
@@ -65,9 +73,8 @@ std::string help_text() {
       "  mpirun -n 2 pounding -options_file case.yaml [-name value ...]\n"
       "\n"
       "Options come from YAML files (nested keys join with _: s1: {slab: {element: hex8}} is\n"
-      "-s1_slab_element hex8), from the files that they name as include, and from the command "
-      "line,\n"
-      "which wins. Names in <> are the user's; units are SI.\n";
+      "-s1_slab_element hex8), from the files that they name as include, and from the command\n"
+      "line, which wins. -dry_run checks a case. Names in <> are the user's; units are SI.\n";
   bool first = true;
   OptionBlock block{};
   for (const OptionRow& row : option_table()) {
@@ -79,8 +86,14 @@ std::string help_text() {
     append(text, row);
   }
   text += "\nOptions of PETSc and SLEPc that pass through:\n ";
+  std::size_t width = 1;
   for (const std::string_view pattern : petsc_option_patterns()) {
+    if (width + pattern.size() + 2 > 96) {
+      text += "\n ";
+      width = 1;
+    }
     text.append(" -").append(pattern);
+    width += pattern.size() + 2;
   }
   return text + "\n";
 }

@@ -55,7 +55,7 @@ constexpr std::array table{
     OptionRow{Block::structure, "<structure>_gravity", Kind::reals, "m/s2", value("0,0,0"), any, "three numbers x,y,z", "constant body acceleration, applied at once at t = 0"},
     OptionRow{Block::structure, "<structure>_damping_alpha", Kind::real, "1/s", value("0"), not_negative, "", "Rayleigh damping, mass term: C = alpha M + beta K"},
     OptionRow{Block::structure, "<structure>_damping_beta", Kind::real, "s", value("0"), not_negative, "", "Rayleigh damping, stiffness term"},
-    OptionRow{Block::structure, "<structure>_damping_ratio", Kind::real, "-", absent("alpha, beta hold"), damping_ratio, "", "instead of alpha and beta: damping ratio at two frequencies"},
+    OptionRow{Block::structure, "<structure>_damping_ratio", Kind::real, "-", absent("optional"), damping_ratio, "", "instead of alpha and beta: damping ratio at two frequencies"},
     OptionRow{Block::structure, "<structure>_damping_frequencies", Kind::reals, "Hz", absent("required with the ratio"), positive, "two numbers f1,f2", "the two frequencies of the damping ratio"},
 
     OptionRow{Block::region, "<structure>_<group>_element", Kind::choice, "word", required, any, "hex8|hex8_full|shell|beam|bar|point_mass|grounded_spring|spring", "element of the group (hex8: with incompatible modes)"},
@@ -83,14 +83,13 @@ constexpr std::array table{
     OptionRow{Block::contact, "<contact>_secondary", Kind::text, "group", required, any, "structure:group", "secondary side, a surface of a structure"},
     OptionRow{Block::contact, "<contact>_primary", Kind::text, "group", required, any, "structure:group, or wall", "primary side, the surface that it faces; wall: rigid, parallel to the secondary"},
     OptionRow{Block::contact, "<contact>_gap", Kind::text, "m", value("geometry"), any, "geometry, or one, two or four numbers g1,g2,...", "initial gap: uniform, linear, or at the four corners"},
-
     OptionRow{Block::contact, "<contact>_passes", Kind::integer, "-", value("1"), Range{1, 2, false, false}, "", "2: nodes of the primary side are kept out of the secondary as well"},
 
     OptionRow{Block::motion, "motion_<x|y|z>_record", Kind::text, "file", value("none"), any, "a file or none", "recorded accelerogram; none: no motion; wins over a target"},
     OptionRow{Block::motion, "motion_<x|y|z>_unit", Kind::choice, "word", value("auto"), any, "auto|g|m/s2|cm/s2", "unit of the record; auto: from the header of the file"},
     OptionRow{Block::motion, "motion_<x|y|z>_time_step", Kind::real, "s", value("0"), not_negative, "", "time step of the record; 0: from the file"},
     OptionRow{Block::motion, "motion_<x|y|z>_column", Kind::integer, "-", value("0"), not_negative, "", "column of the acceleration, from 1; 0: the last one"},
-    OptionRow{Block::motion, "motion_<x|y|z>_target", Kind::text, "file", absent("no target"), any, "a file", "synthetic motion: file of its target spectrum; needs a pga"},
+    OptionRow{Block::motion, "motion_<x|y|z>_target", Kind::text, "file", absent("optional"), any, "a file", "synthetic motion: file of its target spectrum; needs a pga"},
     OptionRow{Block::motion, "motion_<x|y|z>_seed", Kind::integer, "-", value("1"), not_negative, "", "synthetic motion: seed of the phases"},
     OptionRow{Block::motion, "motion_<x|y|z>_duration", Kind::real, "s", value("25"), positive, "", "synthetic motion: duration"},
     OptionRow{Block::motion, "motion_<x|y|z>_envelope", Kind::reals, "s", value("2,15"), not_negative, "two numbers t1,t2 with t1 <= t2 <= duration", "synthetic motion: end of the rise, start of the decay"},

@@ -1,10 +1,10 @@
 #include "scene/unknown_options.h"
 
-#include <algorithm>
 #include <set>
 
 #include "common/error.h"
 #include "scene/nearest_name.h"
+#include "scene/option_blocks.h"
 #include "scene/option_values.h"
 
 namespace pounding {
@@ -12,81 +12,94 @@ namespace {
 
 using NameSet = std::set<std::string>;
 
-/// Names X for which `X + tail` (behind `prefix`) is in the database.
-NameSet defined_by(const OptionsDatabase& database, const std::string& prefix,
-                   const std::string& tail) {
+/// The listed names and those that are wholly defined.
+NameSet with_complete(const OptionsDatabase& database, OptionBlock block, NameSet names) {
+  const std::vector<std::string> complete = complete_names(database, block);
+  names.insert(complete.begin(), complete.end());
+  return names;
+}
+
+NameSet as_set(const std::vector<std::string>& names) {
+  return {names.begin(), names.end()};
+}
+
+/// Materials or sections that the regions ask for.
+NameSet referenced(const OptionsDatabase& database, const ListedNames& listed,
+                   std::string_view pattern) {
   NameSet names;
-  for (const auto& [option, value] : database) {
-    if (option.starts_with(prefix) && option.ends_with(tail) &&
-        option.size() > prefix.size() + tail.size()) {
-      names.insert(option.substr(prefix.size(), option.size() - prefix.size() - tail.size()));
+  for (const std::string& structure : listed.structures) {
+    for (const std::string& group : region_groups(database, structure)) {
+      const auto entry = database.find(option_name(pattern, {structure, group}));
+      if (entry != database.end()) {
+        names.insert(trimmed(entry->second));
+      }
     }
   }
   return names;
 }
 
-/// Every concrete option name that makes sense for what the database defines.
-std::vector<std::string> sensible_names(const OptionsDatabase& database,
-                                        const std::vector<std::string>& structures) {
-  const NameSet materials = defined_by(database, "material_", "_young");
-  const NameSet sections = defined_by(database, "section_", "_area");
-  const NameSet contacts = defined_by(database, "", "_secondary");
-  const NameSet probes = defined_by(database, "", "_structure");
-  std::vector<std::string> names;
-  const auto add = [&names](std::string_view pattern, const NameSet& owners) {
-    for (const std::string& owner : owners) {
-      names.push_back(option_name(pattern, {owner}));
+/// What may replace the placeholders of a block: one list of names per concrete option.
+std::vector<std::vector<std::string>> owners(const OptionsDatabase& database,
+                                             const ListedNames& listed, OptionBlock block) {
+  std::vector<std::vector<std::string>> result;
+  const auto add = [&result](const NameSet& names) {
+    for (const std::string& name : names) {
+      result.push_back({name});
     }
   };
-  for (const OptionRow& row : option_table()) {
-    switch (row.block) {
-      case OptionBlock::run:
-      case OptionBlock::spectra:
-        names.emplace_back(row.pattern);
-        break;
-      case OptionBlock::structure:
-        add(row.pattern, NameSet(structures.begin(), structures.end()));
-        break;
-      case OptionBlock::region:
-        for (const std::string& structure : structures) {
-          for (const std::string& group : defined_by(database, structure + "_", "_element")) {
-            names.push_back(option_name(row.pattern, {structure, group}));
-          }
+  switch (block) {
+    case OptionBlock::run:
+    case OptionBlock::spectra:
+      result.emplace_back();
+      break;
+    case OptionBlock::structure:
+      add(as_set(listed.structures));
+      break;
+    case OptionBlock::region:
+      for (const std::string& structure : listed.structures) {
+        for (const std::string& group : region_groups(database, structure)) {
+          result.push_back({structure, group});
         }
-        break;
-      case OptionBlock::material:
-        add(row.pattern, materials);
-        break;
-      case OptionBlock::section:
-        add(row.pattern, sections);
-        break;
-      case OptionBlock::contact:
-        add(row.pattern, contacts);
-        break;
-      case OptionBlock::motion:
-        add(row.pattern, {"x", "y", "z"});
-        break;
-      case OptionBlock::probe:
-        add(row.pattern, probes);
-        break;
-    }
+      }
+      break;
+    case OptionBlock::material:
+      add(with_complete(database, block,
+                        referenced(database, listed, "<structure>_<group>_material")));
+      break;
+    case OptionBlock::section:
+      add(with_complete(database, block,
+                        referenced(database, listed, "<structure>_<group>_section")));
+      break;
+    case OptionBlock::contact:
+      add(with_complete(database, block, as_set(listed.contacts)));
+      break;
+    case OptionBlock::motion:
+      add({"x", "y", "z"});
+      break;
+    case OptionBlock::probe:
+      add(with_complete(database, block, as_set(listed.probes)));
+      break;
   }
-  return names;
+  return result;
 }
 
 }  // namespace
 
-void refuse_unknown_options(const OptionsDatabase& database,
-                            const std::vector<std::string>& structures) {
-  const std::vector<std::string> known = sensible_names(database, structures);
-  const std::set<std::string> lookup(known.begin(), known.end());
+void refuse_unknown_options(const OptionsDatabase& database, const ListedNames& listed) {
+  std::vector<std::string> known;
+  for (const OptionRow& row : option_table()) {
+    for (const std::vector<std::string>& names : owners(database, listed, row.block)) {
+      known.push_back(option_name(row.pattern, names));
+    }
+  }
+  const NameSet lookup(known.begin(), known.end());
   for (const auto& [option, value] : database) {
     if (lookup.contains(option) || is_petsc_option(option)) {
       continue;
     }
     const auto near = nearest_name(option, known);
-    throw UserError("unknown option -" + option + " (value " + shown_value(value) + ")" +
-                    (near ? "; did you mean -" + *near + "?" : "; see pounding -help"));
+    throw UserError("unknown option -" + shown_value(option) + " (value " + shown_value(value) +
+                    ")" + (near ? "; did you mean -" + *near + "?" : "; see pounding -help"));
   }
 }
 

@@ -7,10 +7,17 @@
 
 namespace pounding {
 
-/// Refuses the first option that no pattern of the table explains for these structures, naming the
-/// nearest one that does. A material, section, contact or probe that is defined but not used is
-/// allowed: it may be a library, or switched off by `-contacts none`. Throws UserError.
-void refuse_unknown_options(const OptionsDatabase& database,
-                            const std::vector<std::string>& structures);
+/// What `structures`, `contacts` and `probes` list.
+struct ListedNames {
+  std::vector<std::string> structures;
+  std::vector<std::string> contacts;
+  std::vector<std::string> probes;
+};
+
+/// Refuses the first option that the table does not explain for the listed names, naming the
+/// nearest one that it does. A material, section, contact or probe that is wholly defined but not
+/// used is allowed: it may belong to a library, or be switched off by `-contacts none`. Throws
+/// UserError.
+void refuse_unknown_options(const OptionsDatabase& database, const ListedNames& listed);
 
 }  // namespace pounding

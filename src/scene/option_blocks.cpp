@@ -1,0 +1,79 @@
+#include "scene/option_blocks.h"
+
+#include <algorithm>
+#include <array>
+
+namespace pounding {
+namespace {
+
+constexpr std::array<std::string_view, 4> reserved_heads{"material", "section", "motion",
+                                                         "spectra"};
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+bool is_name_character(char c) {
+  return is_letter(c) || (c >= '0' && c <= '9') || c == '_';
+}
+
+bool is_complete(const OptionsDatabase& database, OptionBlock block, const std::string& name) {
+  const bool whole = std::ranges::all_of(option_table(), [&](const OptionRow& row) {
+    return row.block != block || !row.preset.required ||
+           database.contains(option_name(row.pattern, {name}));
+  });
+  return whole &&
+         (block != OptionBlock::probe || database.contains(option_name("<probe>_at", {name})) ||
+          database.contains(option_name("<probe>_group", {name})));
+}
+
+}  // namespace
+
+std::set<std::string> region_groups(const OptionsDatabase& database, const std::string& structure) {
+  std::set<std::string> groups;
+  for (const OptionRow& row : option_table()) {
+    if (row.block != OptionBlock::region) {
+      continue;
+    }
+    const std::string tail(row.pattern.substr(row.pattern.rfind('>') + 1));
+    for (const auto& [option, value] : database) {
+      if (const auto group = match_option(structure + "_<group>" + tail, option)) {
+        groups.insert(*group);
+      }
+    }
+  }
+  return groups;
+}
+
+std::vector<std::string> complete_names(const OptionsDatabase& database, OptionBlock block) {
+  const auto first = std::ranges::find_if(option_table(), [block](const OptionRow& row) {
+    return row.block == block && row.preset.required;
+  });
+  std::vector<std::string> names;
+  for (const auto& [option, value] : database) {
+    const auto name = match_option(first->pattern, option);
+    if (name && is_complete(database, block, *name)) {
+      names.push_back(*name);
+    }
+  }
+  return names;
+}
+
+std::optional<std::string> name_fault(const std::string& name) {
+  if (name.empty() || !is_letter(name[0]) || !std::ranges::all_of(name, is_name_character)) {
+    return "'" + name + "' is not a name (a letter, then letters, digits and _)";
+  }
+  const bool own_word =
+      name == "none" || name == "wall" ||
+      std::ranges::any_of(option_table(),
+                          [&](const OptionRow& row) { return row.pattern == name; }) ||
+      std::ranges::any_of(reserved_heads, [&](std::string_view head) {
+        return name == head || name.starts_with(std::string(head) + "_");
+      });
+  if (own_word || is_petsc_option(name) || is_petsc_option(name + "_")) {
+    return "'" + name + "' is a word of the options or of PETSc's, choose another name";
+  }
+  return std::nullopt;
+}
+
+}  // namespace pounding

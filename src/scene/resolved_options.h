@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "scene/option_reader.h"
+
+namespace pounding {
+
+/// What `options` has read, defaults included, then the options meant for PETSc and SLEPc, as flat
+/// YAML: one `name: "value"` per line. Read back, it gives the same scene.
+std::string resolved_yaml(const OptionReader& options);
+
+}  // namespace pounding

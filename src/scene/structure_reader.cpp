@@ -1,0 +1,244 @@
+#include "scene/structure_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "common/error.h"
+#include "scene/nearest_name.h"
+#include "scene/option_blocks.h"
+#include "scene/option_values.h"
+
+namespace pounding {
+namespace {
+
+using Names = OptionReader::Names;
+
+/// The element of a word; what depends on other options is settled by the region's reader.
+ElementType element_type(const std::string& word) {
+  static const std::map<std::string, ElementType> types{
+      {"hex8", ElementType::hex8},
+      {"hex8_full", ElementType::hex8_full},
+      {"shell", ElementType::shell4},
+      {"beam", ElementType::beam},
+      {"bar", ElementType::bar},
+      {"point_mass", ElementType::point_mass},
+      {"grounded_spring", ElementType::grounded_spring},
+      {"spring", ElementType::spring}};
+  return types.at(word);
+}
+
+/// Options that belong to some elements only: refused beside the others.
+void forbid_others(const OptionReader& options, const std::string& element, const Names& names) {
+  static const std::map<std::string, std::set<std::string>> belongs{
+      {"section", {"beam"}},
+      {"area", {"bar"}},
+      {"tension_only", {"bar"}},
+      {"thickness", {"shell"}},
+      {"rotary_inertia_factor", {"shell"}},
+      {"mass", {"point_mass"}},
+      {"rotary_inertia", {"point_mass"}},
+      {"stiffness", {"grounded_spring", "spring"}},
+      {"dashpot", {"grounded_spring", "spring"}},
+      {"material", {"hex8", "hex8_full", "shell", "beam", "bar"}}};
+  for (const auto& [option, elements] : belongs) {
+    if (!elements.contains(element)) {
+      options.forbid("<structure>_<group>_" + option, names,
+                     "not for the element " + element + " of this group; leave it out");
+    }
+  }
+}
+
+Vector3 read_vector(OptionReader& options, std::string_view pattern, const Names& names) {
+  const std::vector<double> values = options.reals(pattern, names, 3);
+  return {values[0], values[1], values[2]};
+}
+
+std::vector<std::pair<std::string, std::string>> read_mesh_set(OptionReader& options,
+                                                               const std::string& structure) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const std::string& item : options.list("<structure>_mesh_set", {structure})) {
+    const std::vector<std::string> sides = split(item, '=');
+    if (sides.size() != 2 || sides[0].empty() || sides[1].empty()) {
+      options.refuse("<structure>_mesh_set", {structure}, "'" + item + "' is not name=value");
+    }
+    for (const auto& [name, value] : pairs) {
+      if (name == sides[0]) {
+        options.refuse("<structure>_mesh_set", {structure}, name + " is set twice");
+      }
+    }
+    pairs.emplace_back(sides[0], sides[1]);
+  }
+  return pairs;
+}
+
+/// alpha and beta as given, or from one damping ratio xi at two circular frequencies:
+/// alpha = 2 xi w1 w2 / (w1 + w2), beta = 2 xi / (w1 + w2).
+Rayleigh read_damping(OptionReader& options, const std::string& structure) {
+  const Names names{structure};
+  if (!options.given("<structure>_damping_ratio", names)) {
+    options.forbid("<structure>_damping_frequencies", names,
+                   "goes with -" + structure + "_damping_ratio, which is not given");
+    return {options.real("<structure>_damping_alpha", names),
+            options.real("<structure>_damping_beta", names)};
+  }
+  const std::string both = "give either alpha and beta, or ratio and frequencies";
+  options.forbid("<structure>_damping_alpha", names, both);
+  options.forbid("<structure>_damping_beta", names, both);
+  const double ratio = options.real("<structure>_damping_ratio", names);
+  const std::vector<double> f = options.reals("<structure>_damping_frequencies", names, 2);
+  const double w1 = 2 * std::numbers::pi * f[0];
+  const double w2 = 2 * std::numbers::pi * f[1];
+  return {2 * ratio * w1 * w2 / (w1 + w2), 2 * ratio / (w1 + w2)};
+}
+
+/// Refuses the reference of a region to a material or section that has no option at all.
+void require_defined(const OptionReader& options, std::string_view pattern, const Names& region,
+                     OptionBlock block, const std::string& name) {
+  for (const OptionRow& row : option_table()) {
+    if (row.block == block && options.given(row.pattern, {name})) {
+      return;
+    }
+  }
+  options.refuse(pattern, region,
+                 "'" + name + "' is not defined" +
+                     suggestion(name, complete_names(options.database(), block)));
+}
+
+Material read_material(OptionReader& options, const Names& region) {
+  const std::string_view pattern = "<structure>_<group>_material";
+  const std::string name = options.text(pattern, region);
+  require_defined(options, pattern, region, OptionBlock::material, name);
+  return {name, options.real("material_<material>_young", {name}),
+          options.real("material_<material>_poisson", {name}),
+          options.real("material_<material>_density", {name})};
+}
+
+Section read_section(OptionReader& options, const Names& region) {
+  const std::string_view pattern = "<structure>_<group>_section";
+  Section section;
+  section.name = options.text(pattern, region);
+  require_defined(options, pattern, region, OptionBlock::section, section.name);
+  const Names names{section.name};
+  section.area = options.real("section_<section>_area", names);
+  section.inertia_y = options.real("section_<section>_inertia_y", names);
+  section.inertia_z = options.real("section_<section>_inertia_z", names);
+  section.torsion = options.real("section_<section>_torsion", names);
+  section.z_axis = read_vector(options, "section_<section>_z_axis", names);
+  if (section.z_axis == Vector3{0, 0, 0}) {
+    options.refuse("section_<section>_z_axis", names, "no direction");
+  }
+  return section;
+}
+
+/// Three numbers along x, y, z, or six, also about them.
+std::array<double, 6> read_six(OptionReader& options, std::string_view pattern,
+                               const Names& names) {
+  const std::vector<double> values = options.reals(pattern, names);
+  if (values.size() != 3 && values.size() != 6) {
+    options.refuse(pattern, names, "wrong count of numbers");
+  }
+  std::array<double, 6> result{};
+  std::ranges::copy(values, result.begin());
+  return result;
+}
+
+void read_spring(OptionReader& options, const Names& names, Region& region) {
+  region.stiffness = read_six(options, "<structure>_<group>_stiffness", names);
+  region.dashpot = read_six(options, "<structure>_<group>_dashpot", names);
+  bool rotations = false;
+  for (std::size_t c = 3; c < 6; ++c) {
+    rotations = rotations || region.stiffness[c] > 0 || region.dashpot[c] > 0;
+  }
+  if (rotations) {
+    region.element = region.element == ElementType::spring ? ElementType::spring6
+                                                           : ElementType::grounded_spring6;
+  }
+}
+
+void read_point_mass(OptionReader& options, const Names& names, Region& region) {
+  region.mass = options.real("<structure>_<group>_mass", names);
+  region.rotary_inertia = read_vector(options, "<structure>_<group>_rotary_inertia", names);
+  if (region.rotary_inertia != Vector3{0, 0, 0}) {
+    region.element = ElementType::point_mass6;
+  }
+}
+
+Region read_region(OptionReader& options, const Names& names) {
+  Region region;
+  region.group = names[1];
+  const std::string element = options.choice("<structure>_<group>_element", names);
+  region.element = element_type(element);
+  forbid_others(options, element, names);
+  switch (region.element) {
+    case ElementType::point_mass:
+      read_point_mass(options, names, region);
+      return region;
+    case ElementType::grounded_spring:
+    case ElementType::spring:
+      read_spring(options, names, region);
+      return region;
+    default:
+      break;
+  }
+  region.material = read_material(options, names);
+  if (region.element == ElementType::beam) {
+    region.section = read_section(options, names);
+  } else if (region.element == ElementType::bar) {
+    region.area = options.real("<structure>_<group>_area", names);
+    if (options.boolean("<structure>_<group>_tension_only", names)) {
+      region.element = ElementType::tension_bar;
+    }
+  } else if (region.element == ElementType::shell4) {
+    region.thickness = options.real("<structure>_<group>_thickness", names);
+    region.rotary_inertia_factor = options.real("<structure>_<group>_rotary_inertia_factor", names);
+  }
+  return region;
+}
+
+/// Refuses a group that has options but no element: a missing line, or a misspelt group.
+void require_elements(const OptionReader& options, const std::string& structure,
+                      const std::set<std::string>& groups) {
+  const std::string_view pattern = "<structure>_<group>_element";
+  std::vector<std::string> complete;
+  std::ranges::copy_if(groups, std::back_inserter(complete), [&](const std::string& group) {
+    return options.given(pattern, {structure, group});
+  });
+  for (const std::string& group : groups) {
+    if (!options.given(pattern, {structure, group})) {
+      throw UserError("missing option -" + option_name(pattern, {structure, group}) + ": group " +
+                      group + " of structure " + structure + " has other options; expected " +
+                      expected_text(option_row(pattern)) + suggestion(group, complete));
+    }
+  }
+  if (groups.empty()) {
+    throw UserError("structure " + structure + " has no elements: give -" +
+                    option_name(pattern, {structure, "GROUP"}) +
+                    " for at least one physical group of its mesh");
+  }
+}
+
+}  // namespace
+
+Structure read_structure(OptionReader& options, const std::string& name) {
+  Structure structure;
+  structure.name = name;
+  structure.mesh = options.text("<structure>_mesh", {name});
+  structure.mesh_set = read_mesh_set(options, name);
+  structure.clamp = options.list("<structure>_clamp", {name});
+  options.choice("<structure>_fidelity", {name});
+  structure.initial_velocity = read_vector(options, "<structure>_initial_velocity", {name});
+  structure.gravity = read_vector(options, "<structure>_gravity", {name});
+  structure.damping = read_damping(options, name);
+  const std::set<std::string> groups = region_groups(options.database(), name);
+  require_elements(options, name, groups);
+  for (const std::string& group : groups) {
+    structure.regions.push_back(read_region(options, {name, group}));
+  }
+  return structure;
+}
+
+}  // namespace pounding

@@ -1,0 +1,104 @@
+#include "scene_cases.h"
+
+/// What each kind of element asks of its group.
+namespace pounding::scene_cases {
+namespace {
+
+using testing::ElementsAre;
+
+OptionsDatabase with_group(const OptionsDatabase& group) {
+  return with(smallest(), group);
+}
+
+/// The region `extra`, which comes first in the alphabet.
+Region region(const OptionsDatabase& group) {
+  return read_scene(with_group(group)).scene.structures[0].regions[0];
+}
+
+TEST(ElementOptions, Shell) {
+  const Region shell = region({{"tower_extra_element", "shell"},
+                               {"tower_extra_material", "concrete"},
+                               {"tower_extra_thickness", "0.22"}});
+  EXPECT_EQ(shell.element, ElementType::shell4);
+  EXPECT_EQ(shell.thickness, 0.22);
+  EXPECT_EQ(shell.rotary_inertia_factor, 0);
+  expect_refused(
+      with_group({{"tower_extra_element", "shell"}, {"tower_extra_material", "concrete"}}),
+      {"-tower_extra_thickness", "[m]", "> 0"});
+}
+
+TEST(ElementOptions, TensionOnlyBar) {
+  OptionsDatabase bar{{"tower_extra_element", "bar"},
+                      {"tower_extra_material", "concrete"},
+                      {"tower_extra_area", "1e-4"}};
+  EXPECT_EQ(region(bar).element, ElementType::bar);
+  bar["tower_extra_tension_only"] = "true";
+  EXPECT_EQ(region(bar).element, ElementType::tension_bar);
+}
+
+TEST(ElementOptions, PointMassHasRotationsOnlyWithRotaryInertia) {
+  OptionsDatabase mass{{"tower_extra_element", "point_mass"}, {"tower_extra_mass", "150"}};
+  EXPECT_EQ(region(mass).element, ElementType::point_mass);
+  EXPECT_EQ(region(mass).mass, 150);
+  mass["tower_extra_rotary_inertia"] = "0,0,3";
+  EXPECT_EQ(region(mass).element, ElementType::point_mass6);
+  EXPECT_THAT(region(mass).rotary_inertia, ElementsAre(0, 0, 3));
+  mass["tower_extra_material"] = "concrete";
+  expect_refused(with_group(mass), {"-tower_extra_material", "point_mass"});
+}
+
+TEST(ElementOptions, SpringHasRotationsOnlyWithRotaryStiffness) {
+  OptionsDatabase spring{{"tower_extra_element", "spring"},
+                         {"tower_extra_stiffness", "1e6,2e6,3e6"}};
+  EXPECT_EQ(region(spring).element, ElementType::spring);
+  EXPECT_THAT(region(spring).stiffness, ElementsAre(1e6, 2e6, 3e6, 0, 0, 0));
+  spring["tower_extra_dashpot"] = "0,0,0,0,5,0";
+  EXPECT_EQ(region(spring).element, ElementType::spring6);
+  spring["tower_extra_element"] = "grounded_spring";
+  EXPECT_EQ(region(spring).element, ElementType::grounded_spring6);
+  spring["tower_extra_stiffness"] = "1,2";
+  expect_refused(with_group(spring), {"-tower_extra_stiffness 1,2", "wrong count"});
+}
+
+TEST(ElementOptions, BeamNeedsItsSectionAndOthersRefuseIt) {
+  expect_refused(without(pair(), {"tower_column_section"}),
+                 {"missing option -tower_column_section"});
+  expect_refused(with(pair(), {{"tower_slab_section", "heb120"}}),
+                 {"-tower_slab_section heb120", "hex8"});
+}
+
+TEST(ElementOptions, BarNeedsItsAreaAndOthersRefuseIt) {
+  expect_refused(without(pair(), {"tower_brace_area"}),
+                 {"missing option -tower_brace_area", "> 0", "[m2]"});
+  expect_refused(with(pair(), {{"tower_column_area", "1e-4"}}),
+                 {"-tower_column_area 1e-4", "beam"});
+}
+
+TEST(ElementOptions, GroupNeedsAnElement) {
+  expect_refused(without(pair(), {"tower_brace_element"}),
+                 {"missing option -tower_brace_element", "hex8", "bar"});
+  expect_refused(with(pair(), {{"tower_slob_material", "concrete"}}),
+                 {"missing option -tower_slob_element", "did you mean slab?"});
+}
+
+TEST(ElementOptions, StructureNeedsAGroup) {
+  expect_refused({{"structures", "tower"}, {"end_time", "1"}, {"tower_mesh", "a.msh"}},
+                 {"tower has no elements", "-tower_GROUP_element"});
+}
+
+TEST(ElementOptions, ElementIsOneOfThoseThatExist) {
+  expect_refused(with(pair(), {{"tower_slab_element", "hex20"}}),
+                 {"-tower_slab_element hex20", "hex8_full", "beam"});
+}
+
+TEST(ElementOptions, WallNeedsADistance) {
+  const OptionsDatabase wall = with(without(pair(), {"floor2_gap"}), {{"floor2_primary", "wall"}});
+  expect_refused(wall, {"-floor2_gap geometry (default)", "wall"});
+  const Scene scene = read_scene(with(wall, {{"floor2_gap", "0.03"}})).scene;
+  EXPECT_TRUE(scene.contacts[1].primary.is_wall());
+  expect_refused(with(wall, {{"floor2_gap", "0.03"}, {"floor2_passes", "2"}}),
+                 {"-floor2_passes 2", "wall"});
+}
+
+}  // namespace
+}  // namespace pounding::scene_cases
