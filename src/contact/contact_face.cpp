@@ -29,7 +29,9 @@ Vector3 area_vector(const GlobalMesh& mesh, const Facet& facet) {
   return cross(minus(at(2), at(0)), minus(at(3), at(1)));
 }
 
-bool carries_faces(ElementType type) { return is_hexahedron(type) || is_shell(type); }
+bool carries_faces(ElementType type) {
+  return is_hexahedron(type) || is_shell(type);
+}
 
 /// The element behind a facet.
 struct Backing {

@@ -48,6 +48,10 @@ void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& mo
 
 void choose_time_step(const Scene& scene, Model& model) {
   const double stable = model.smallest_stable_time_step();
+  if (!std::isfinite(stable) && !(scene.time_step > 0)) {
+    throw UserError(
+        "nothing in the scene vibrates, so nothing limits the time step: give -time_step");
+  }
   model.time_step = scene.time_step > 0 ? scene.time_step : round_down(scene.courant * stable);
   if (model.time_step > stable && !scene.allow_unstable) {
     std::ostringstream text;

@@ -97,6 +97,11 @@ Json describe_options(const std::string& resolved) {
       std::string value = line.substr(colon + 2);
       if (value.size() >= 2 && value.front() == '"' && value.back() == '"') {
         value = value.substr(1, value.size() - 2);
+        // Inside quotes a backslash stands before a quote or another backslash.
+        for (std::size_t at = value.find('\\'); at != std::string::npos;
+             at = value.find('\\', at + 1)) {
+          value.erase(at, 1);
+        }
       }
       options[line.substr(0, colon)] = value;
     }

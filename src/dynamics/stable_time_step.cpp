@@ -5,12 +5,12 @@
 namespace pounding {
 
 double damping_ratio(const Rayleigh& damping, double omega) {
-  return damping.alpha / (2 * omega) + damping.beta * omega / 2;
+  return omega > 0 ? damping.alpha / (2 * omega) + damping.beta * omega / 2 : 0;
 }
 
 double stable_time_step(const Rayleigh& damping, double omega_max) {
-  const double ratio = damping_ratio(damping, omega_max);
-  return 2 / (omega_max * (std::sqrt(1 + ratio * ratio) + ratio));
+  const double rate = (damping.alpha + damping.beta * omega_max * omega_max) / 2;  // xi omega
+  return 2 / (std::hypot(omega_max, rate) + rate);
 }
 
 double energy_margin(const Rayleigh& damping, double omega_max, double time_step) {

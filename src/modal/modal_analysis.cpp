@@ -174,6 +174,13 @@ std::string locate(const LinearSystem& system, const Mesh& mesh, const double* y
 }  // namespace
 
 ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count) {
+  const RigidMotions motions(system, mesh);
+  ModalResult result;
+  result.mass = motions.mass();
+  result.centre_of_mass = motions.centre();
+  if (count == 0) {
+    return result;
+  }
   const MatHandle matrix = scaled_stiffness(system);
   const EpsHandle solver = create_solver(system, matrix.get(), mesh, "lowest_");
   const int wanted = static_cast<int>(std::min<GlobalIndex>(count, system.global_dofs));
@@ -199,10 +206,6 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
     throw std::runtime_error("structure " + system.name + ": only " + std::to_string(found) +
                              " of " + std::to_string(wanted) + " modes converged");
   }
-  const RigidMotions motions(system, mesh);
-  ModalResult result;
-  result.mass = motions.mass();
-  result.centre_of_mass = motions.centre();
   std::vector<double> storage(system.lumped_mass.size());
   const VecHandle vector = wrap_vector(system, storage);
   for (int i = 0; i < wanted; ++i) {

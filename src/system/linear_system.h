@@ -28,7 +28,7 @@ struct LinearSystem {
   std::vector<double> inverse_mass;              ///< [1/kg, 1/(kg m2)]
   std::array<std::vector<double>, 3> influence;  ///< iota per direction: 1 on its translations [-]
   std::unique_ptr<Stiffness> stiffness;          ///< K of the linear elements
-  std::string stiffness_method;  ///< how it is applied, for the report
+  std::string stiffness_method;                  ///< how it is applied, for the report
   std::unique_ptr<Stiffness> taut;  ///< K with tension-only bars taut; null if there are none
   std::unique_ptr<TensionBars> tension_bars;  ///< null if there are none
   std::unique_ptr<Stiffness> dashpots;        ///< C beside alpha M + beta K [N s/m]; null if none

@@ -79,6 +79,11 @@ class WrongInput(unittest.TestCase):
     def test_missing_record(self):
         self.refuse(CASE + ["-motion_x_record", "none.AT2"], "none.AT2")
 
+    def test_nothing_that_vibrates(self):
+        mesh = self.with_file('Point(1) = {0, 0, 0}; Physical Point("p") = {1};', ".geo")
+        self.refuse(["-structures", "m", "-m_mesh", mesh, "-m_p_element", "point_mass",
+                     "-m_p_mass", "1", "-end_time", "1"], "-time_step")
+
     def test_time_step_above_the_stable_one(self):
         self.refuse(CASE + ["-time_step", "1e-3"], "-time_step", "stable")
 

@@ -91,6 +91,92 @@ TEST(Interface, EccentricFacesReportTheNodesThatFaceNothing) {
   EXPECT_EQ(interface.reports[0].unmatched_nodes, 4);
 }
 
+TEST(Interface, TwoPassesConstrainTheNodesOfBothSides) {
+  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 3, 3}),
+                                       testing::box_mesh({1.01, 0, 0}, {1, 1, 1}, {1, 2, 2})};
+  Scene scene = two_boxes();
+  scene.contacts[0].passes = 2;
+  const Interface interface = find_interface(scene, meshes);
+  ASSERT_EQ(interface.constraints.size(), 16u + 9u);
+  for (const Constraint& constraint : interface.constraints) {
+    // A rigid motion of the right body by +1 along x opens every constraint by 1, whoever's node.
+    double right = 0;
+    double left = 0;
+    for (const ConstraintTerm& term : constraint.terms) {
+      (term.structure == 1 ? right : left) += term.component == 0 ? term.coefficient : 0;
+    }
+    EXPECT_NEAR(right, 1, 1e-12);
+    EXPECT_NEAR(left, -1, 1e-12);
+    EXPECT_NEAR(constraint.initial_gap, 0.01, 1e-12);
+  }
+}
+
+TEST(Interface, AWallNeedsNothingButTheFaceAndItsDistance) {
+  const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 2, 2}),
+                                       testing::box_mesh({9, 0, 0}, {1, 1, 1}, {1, 1, 1})};
+  Scene scene = two_boxes({0.3});
+  scene.contacts[0].secondary.group = "x_min";
+  scene.contacts[0].primary = {"wall", ""};
+  const Interface interface = find_interface(scene, meshes);
+  ASSERT_EQ(interface.constraints.size(), 9u);
+  for (const Constraint& constraint : interface.constraints) {
+    ASSERT_EQ(constraint.terms.size(), 1u);
+    // Moving towards -x, out of the face and into the wall, closes the gap.
+    EXPECT_DOUBLE_EQ(constraint.terms[0].coefficient, 1);
+    EXPECT_DOUBLE_EQ(constraint.initial_gap, 0.3);
+  }
+}
+
+/// A strip of shell quadrangles in the plane z, with the edges "x_min" and "x_max".
+GlobalMesh shell_strip(double x, double z, double width, int cells) {
+  GlobalMesh mesh;
+  ElementSet set;
+  set.group = "slab";
+  set.type = ElementType::shell4;
+  for (int j = 0; j <= cells; ++j) {
+    for (int i = 0; i < 2; ++i) {
+      mesh.node_tags.push_back(2 * j + i + 1);
+      mesh.coordinates.insert(mesh.coordinates.end(), {x + i, width * j / cells, z});
+    }
+  }
+  for (int j = 0; j < cells; ++j) {
+    set.tags.push_back(j + 1);
+    set.connectivity.insert(set.connectivity.end(), {2 * j, 2 * j + 1, 2 * j + 3, 2 * j + 2});
+    for (int i = 0; i < 2; ++i) {
+      Facet facet;
+      facet.nodes = {2 * j + i, 2 * j + i + 2, -1, -1};
+      facet.count = 2;
+      NodeGroup& group = mesh.groups[i == 0 ? "x_min" : "x_max"];
+      group.facets.push_back(facet);
+      group.nodes.insert(group.nodes.end(), facet.nodes.begin(), facet.nodes.begin() + 2);
+    }
+  }
+  mesh.regions.push_back(std::move(set));
+  mesh.components.assign(mesh.node_tags.size(), 0x3f);
+  mesh.free_components = mesh.components;
+  return mesh;
+}
+
+TEST(Interface, ShellEdgesMeetInTheirPlaneAndWithinTheirThickness) {
+  Scene scene = two_boxes();
+  for (Structure& structure : scene.structures) {
+    structure.regions[0].thickness = 0.2;
+  }
+  // Three cells against two: node to edge; the planes 0.15 m apart, less than the mean thickness.
+  const std::vector<GlobalMesh> near{shell_strip(0, 0, 3, 3), shell_strip(1.05, 0.15, 3, 2)};
+  const Interface interface = find_interface(scene, near);
+  ASSERT_EQ(interface.constraints.size(), 4u);
+  EXPECT_EQ(interface.reports[0].matched, 2);  // the ends
+  for (const Constraint& constraint : interface.constraints) {
+    EXPECT_NEAR(constraint.initial_gap, 0.05, 1e-14);
+    for (const ConstraintTerm& term : constraint.terms) {
+      EXPECT_EQ(term.component, 0);
+    }
+  }
+  const std::vector<GlobalMesh> apart{shell_strip(0, 0, 3, 3), shell_strip(1.05, 0.25, 3, 2)};
+  EXPECT_THROW(find_interface(scene, apart), UserError);
+}
+
 TEST(Interface, RefusesFacesThatLookAway) {
   const std::vector<GlobalMesh> meshes{testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1}),
                                        testing::box_mesh({2, 0, 0}, {1, 1, 1}, {1, 1, 1})};

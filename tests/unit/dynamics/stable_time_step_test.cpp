@@ -36,6 +36,11 @@ TEST(StableTimeStep, DoesNotCancelAtHugeDamping) {
   EXPECT_NEAR(stable_time_step({1e6, 0}, 3.05e5) / 1.84216e-06, 1, 1e-5);
 }
 
+TEST(StableTimeStep, OfAFreeMassIsSetByItsDampingAlone) {
+  EXPECT_DOUBLE_EQ(stable_time_step({4, 0}, 0), 0.5);  // 2 / alpha
+  EXPECT_TRUE(std::isinf(stable_time_step({0, 1}, 0)));
+}
+
 TEST(StableTimeStep, MarginVanishesAtTheLimit) {
   const Rayleigh damping{0.1562, 1.2557e-5};
   const double omega = 1.757e5;

@@ -1,0 +1,142 @@
+"""Two elastic bars collide: Saint-Venant's impact, with equal and unequal bars.
+
+The first bar moves at v0 = 1 m/s, the second rests; section 0.01 m2, no Poisson effect. With the
+impedances Z = rho c A the force is v0 Z1 Z2 / (Z1 + Z2). Bars of equal transit time L/c: contact
+for 2 L/c, then v1' = v0 (Z1 - Z2)/(Z1 + Z2), v2' = 2 v0 Z1/(Z1 + Z2), both without vibration.
+Second bar of twice the length: contact for 2 L1/c, then no force while the faces still touch, and
+v1' = 0, v2' = v0 / 2. The scheme loses exactly half of m1 m2/(m1 + m2) v0^2, with the lumped
+masses of the two contact faces. Figures of the discrete solution: an independent one-dimensional
+code.
+"""
+import math
+import unittest
+
+from recorded import Recorded, all_nodes, assert_follows, fixture, golden, needs_fixtures
+
+CONCRETE, STEEL = (30e9, 2400.0), (210e9, 7800.0)
+GAP = 0.00010013700000000002
+STEEL_LENGTH = 2.935197542821371  # same transit time as 2 m of concrete
+
+# first bar, second bar (length, material, elements); force, duration, v1', v2' of the theory;
+# force, duration, impulse, v1', v2' of the discrete solution at Courant number 0.9
+CASES = {
+    "identical": ((2.0, CONCRETE, 100), (2.0, CONCRETE, 100),
+                  (42426.40687119285, 0.001131370849898476, 0.0, 1.0),
+                  (42426.24336873229, 0.001135330647873121, 47.79723767158577,
+                   0.004224215175296365, 0.9957757848247035)),
+    "light on heavy": ((2.0, CONCRETE, 100), (STEEL_LENGTH, STEEL, 100),
+                       (70146.178654819, 0.001131370849898476, -0.6533612867, 0.3466387133),
+                       (70145.90832618045, 0.0011353306478731208, 79.02610237763064,
+                        -0.6463771328673048, 0.3451744367821006)),
+    "heavy on light": ((STEEL_LENGTH, STEEL, 100), (2.0, CONCRETE, 100),
+                       (70146.178654819, 0.001131370849898476, 0.6533612867, 1.6533612867),
+                       (70145.90832618039, 0.0011353306478731208, 79.02610237763058,
+                        0.6548255632178999, 1.6463771328673042)),
+    "short on long": ((1.0, CONCRETE, 100), (2.0, CONCRETE, 200),
+                      (42426.40687119285, 0.000565685424949238, 0.0, 0.5),
+                      (42426.45258980296, 0.0005905755836470045, 24.075428031201643,
+                       -0.00314283463340184, 0.5015714173167004)),
+}
+
+
+def sound(material):
+    return math.sqrt(material[0] / material[1])
+
+
+def step_of(bars, courant):
+    return courant * min(length / n / sound(material) for length, material, n in bars)
+
+
+def scene(bars, time_step, end_time, gap=GAP, areas=(0.01, 0.01), *more):
+    words = ["-structures", "one,two", "-contacts", "joint", "-joint_secondary", "two:x_min",
+             "-joint_primary", "one:x_max", "-joint_gap", gap, "-time_step", repr(time_step),
+             "-end_time", repr(end_time), "-output_interval", repr(time_step / 2),
+             "-energy_interval", 1, "-impact_merge_time", 1e-4, "-one_initial_velocity", "1,0,0",
+             "-probes", "all1,all2", *all_nodes("all1", "one"), *all_nodes("all2", "two")]
+    for name, (length, material, n), area in zip(("one", "two"), bars, areas):
+        side = repr(math.sqrt(area))
+        start = -length if name == "one" else 0
+        words += [f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set",
+                  f"x0={start},lx={length},nx={n},ly={side},lz={side}",
+                  f"-{name}_body_element", "hex8_full", f"-{name}_body_material", name,
+                  f"-material_{name}_young", material[0], f"-material_{name}_poisson", 0,
+                  f"-material_{name}_density", material[1]]
+    return words + list(more)
+
+
+class TwoBars(unittest.TestCase):
+    def collide(self, case, ranks=2):
+        one, two, theory, discrete = CASES[case]
+        run = Recorded(self, scene((one, two), step_of((one, two), 0.9), 0.0024), ranks)
+        masses = [0.01 * length * material[1] for length, material, _ in (one, two)]
+        force, duration, v1, v2 = theory
+        start = run.column("start")[0]
+        mean = run.plateau("joint", start + 0.2 * duration, start + 0.8 * duration)
+        velocities = [run.mean_velocity(f"all{i}", "x") for i in (1, 2)]
+        after = [velocity[-1] for velocity in velocities]
+        with self.subTest(case, against="theory"):
+            self.assertAlmostEqual(start, GAP, delta=run.time_step)
+            self.assertAlmostEqual(mean / force, 1, delta=1e-3)
+            self.assertAlmostEqual(after[0], v1, delta=0.01)
+            self.assertAlmostEqual(after[1], v2, delta=0.01)
+            self.assertLessEqual(run.column("max_penetration")[0], run.time_step)
+        with self.subTest(case, against="discrete solution"):
+            self.assertAlmostEqual(mean / discrete[0], 1, delta=1e-4)
+            self.assertAlmostEqual(run.column("duration")[0], discrete[1], delta=1e-9)
+            self.assertAlmostEqual(run.summary["impacts"]["total_impulse"] / discrete[2], 1,
+                                   delta=1e-8)
+            self.assertAlmostEqual(after[0], discrete[3], delta=1e-9)
+            self.assertAlmostEqual(after[1], discrete[4], delta=1e-9)
+        with self.subTest(case, against="balances"):
+            momentum = masses[0] * velocities[0] + masses[1] * velocities[1]
+            self.assertLess(abs(momentum / masses[0] - 1).max(), 1e-12)
+            self.assertLess(run.energy["relative_residual"], 1e-12)
+        contact_masses = [mass / bar[2] / 2 for mass, bar in zip(masses, (one, two))]
+        lost = contact_masses[0] * contact_masses[1] / sum(contact_masses) / 2
+        return run, lost
+
+    def test_equal_transit_times(self):
+        for case in ("identical", "light on heavy", "heavy on light"):
+            run, lost = self.collide(case)
+            self.assertAlmostEqual(run.energy["contact"] / -lost, 1, delta=1e-10)
+            self.assertAlmostEqual(run.column("energy_lost").sum() / lost, 1, delta=1e-10)
+            duration = CASES[case][2][1]
+            self.assertAlmostEqual(run.column("duration")[0] / duration, 1, delta=0.01)
+
+    def test_faces_stay_together_without_force(self):
+        self.collide("short on long")
+
+    def test_damped_bars_exchange_all_momentum(self):
+        # Short on long with stiffness damping: the tail of zero force is smooth, and the impulse
+        # is that of the theory to the last digit.
+        bars = CASES["short on long"][:2]
+        ratio = 0.3  # at the highest frequency 2 c/h
+        beta = ratio * 0.01 / sound(CONCRETE)
+        time_step = step_of(bars, 0.9) * (math.sqrt(1 + ratio**2) - ratio)
+        run = Recorded(self, scene(bars, time_step, 0.0036, GAP, (0.01, 0.01),
+                                   "-one_damping_beta", repr(beta), "-two_damping_beta", repr(beta)))
+        self.assertAlmostEqual(run.summary["impacts"]["total_impulse"], 24, delta=24e-9)
+        self.assertAlmostEqual(run.mean_velocity("all1", "x")[-1], 0, delta=1e-9)
+        self.assertAlmostEqual(run.mean_velocity("all2", "x")[-1], 0.5, delta=1e-9)
+        self.assertAlmostEqual(run.energy["contact"], -0.03, delta=0.03e-9)
+
+    @needs_fixtures
+    def test_history_step_by_step(self):
+        case = fixture("A2_two_bars.json")["golden"]
+        reference = golden("A2_golden_ne10_ne7.csv")
+        bars = [(bar["Lb"], (bar["E"], bar["rho"]), bar["ne"])
+                for bar in (case["bar1"], case["bar2"])]
+        areas = (case["bar1"]["A"], case["bar2"]["A"])
+        for ranks in (1, 2, 3):
+            run = Recorded(self, scene(bars, case["dt"], case["tend"] + 2 * case["dt"], case["gap"],
+                                       areas), ranks)
+            assert_follows(self, run.time, reference["t"], 1e-12, "time")
+            impulse = run.force("joint") * run.time_step
+            assert_follows(self, impulse, reference["lambda"], 1e-9, "impulse")
+            for i in (1, 2):
+                assert_follows(self, run.mean_velocity(f"all{i}", "x"),
+                               reference[f"vcm{i}(t+dt/2)"], 1e-9, i)
+
+
+if __name__ == "__main__":
+    unittest.main()
