@@ -96,6 +96,42 @@ class WrongInput(unittest.TestCase):
     def test_clamped_contact_face(self):
         self.refuse(CASE + ["-s2_clamp", "base,face1"], "floor1", "clamped")
 
+    def test_shell_without_thickness(self):
+        self.refuse(CASE + ["-s1_mesh_set", "slab=1,cells_x=7,cells_y=5", "-s1_slab_element", "shell"],
+                    "-s1_slab_thickness")
+
+    def test_section_without_orientation(self):
+        self.refuse(CASE + ["-s1_beam_section", "bare", "-section_bare_area", "1e-3",
+                            "-section_bare_inertia_y", "1e-6", "-section_bare_inertia_z", "1e-6",
+                            "-section_bare_torsion", "1e-6"], "-section_bare_z_axis")
+
+    def test_orientation_along_the_beam(self):
+        self.refuse(CASE + ["-section_heb120_z_axis", "0,0,1"], "group 'column'", "element")
+
+    def test_option_of_another_element(self):
+        self.refuse(CASE + ["-s1_slab_area", "1"], "-s1_slab_area", "hex8")
+
+    def lines(self, second_point):
+        """A mesh of one line from the origin to a point, with the group "p" at the origin."""
+        return self.with_file(
+            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n0 1 \"p\"\n1 2 \"l\"\n"
+            f"$EndPhysicalNames\n$Nodes\n2\n1 0 0 0\n2 {second_point}\n$EndNodes\n"
+            "$Elements\n2\n1 15 2 1 1 1\n2 1 2 2 1 1 2\n$EndElements\n", ".msh")
+
+    def test_bar_of_zero_length(self):
+        self.refuse(["-structures", "m", "-m_mesh", self.lines("0 0 0"), "-m_l_element", "bar",
+                     "-m_l_material", "s", "-m_l_area", "1", "-material_s_young", "1",
+                     "-material_s_poisson", "0", "-material_s_density", "1", "-end_time", "1"],
+                    "element 2 of group 'l'", "length")
+
+    def test_spring_to_a_node_without_mass(self):
+        self.refuse(["-structures", "m", "-m_mesh", self.lines("1 0 0"), "-m_l_element", "spring",
+                     "-m_l_stiffness", "1,1,1", "-m_p_element", "point_mass", "-m_p_mass", "1",
+                     "-end_time", "1"], "(1, 0, 0)", "no mass")
+
+    def test_wall_without_a_distance(self):
+        self.refuse(CASE + ["-floor1_primary", "wall", "-floor1_gap", "geometry"], "-floor1_gap", "wall")
+
     def test_probe_far_from_the_mesh(self):
         self.refuse(CASE + ["-s1_floor1_at", "50,0,0"], "-s1_floor1_at")
 
