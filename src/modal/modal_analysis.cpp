@@ -184,7 +184,9 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
   const MatHandle matrix = scaled_stiffness(system);
   const EpsHandle solver = create_solver(system, matrix.get(), mesh, "lowest_");
   const int wanted = static_cast<int>(std::min<GlobalIndex>(count, system.global_dofs));
-  POUNDING_PETSC(EPSSetDimensions(solver.get(), wanted, PETSC_DEFAULT, PETSC_DEFAULT));
+  // A Krylov space sees the second of two equal frequencies late: look past the last one wanted.
+  const int sought = static_cast<int>(std::min<GlobalIndex>(count + 8, system.global_dofs));
+  POUNDING_PETSC(EPSSetDimensions(solver.get(), sought, PETSC_DEFAULT, PETSC_DEFAULT));
   POUNDING_PETSC(EPSSetWhichEigenpairs(solver.get(), EPS_TARGET_MAGNITUDE));
   POUNDING_PETSC(EPSSetTarget(solver.get(), -1.0));
   POUNDING_PETSC(EPSSetTolerances(solver.get(), 1e-10, PETSC_DEFAULT));
@@ -208,13 +210,14 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
   }
   std::vector<double> storage(system.lumped_mass.size());
   const VecHandle vector = wrap_vector(system, storage);
-  for (int i = 0; i < wanted; ++i) {
+  for (int i = 0; i < found; ++i) {
     double eigenvalue = 0;
     POUNDING_PETSC(EPSGetEigenpair(solver.get(), i, &eigenvalue, nullptr, vector.get(), nullptr));
     result.modes.push_back(motions.describe(eigenvalue, storage.data()));
   }
   std::stable_sort(result.modes.begin(), result.modes.end(),
                    [](const Mode& a, const Mode& b) { return a.frequency < b.frequency; });
+  result.modes.resize(static_cast<std::size_t>(wanted));
   return result;
 }
 

@@ -64,75 +64,77 @@ def plane_frame(elements_per_member, hrz=False):
     return list(numpy.sqrt(squares) / (2 * math.pi))
 
 
-class Beams(unittest.TestCase):
-    def cantilever(self, elements, ranks=2):
-        factor, side = 1e4, 0.1
-        area, inertia = side**2, side**4 / 12
-        words = modal_run.material(200e9 * factor, 0.3, 7800) + ["-b_clamp", "x_min"]
-        words += modal_run.group("line", "beam", section="s")
-        words += modal_run.section("s", area, inertia, inertia / factor, inertia)
-        return modal_run.frequencies(modal_run.structure(self, "line", words, 4, ranks, length=3, n=elements))
+def cantilever(elements):
+    factor, side = 1e4, 0.1
+    area, inertia = side**2, side**4 / 12
+    words = modal_run.material(200e9 * factor, 0.3, 7800) + ["-@_clamp", "x_min"]
+    words += modal_run.group("line", "beam", section="@")
+    words += modal_run.section("@", area, inertia, inertia / factor, inertia)
+    return modal_run.case("line", words, length=3, n=elements)
 
-    def test_cantilever(self):
-        for elements, expected in CANTILEVER_LUMPED.items():
-            modal_run.assert_close(self, self.cantilever(elements), expected, 1e-6, f"n = {elements}")
 
-    def test_cantilever_converges_from_below_at_second_order(self):
-        coarse, fine = self.cantilever(16), self.cantilever(32)
+def portal(elements):
+    words = modal_run.material(200e9, 0.3, 7800) + ["-@_clamp", "base"]
+    words += modal_run.group("columns", "beam", section="@c") + modal_run.group("girder", "beam", section="@g")
+    words += modal_run.section("@c", 5.38e-3, 1e-2, 1.673e-5, 1e-2)
+    words += modal_run.section("@g", 2.85e-3, 1e-2, 1.943e-5, 1e-2)
+    return modal_run.case("portal", words, n=elements)
+
+
+def cross(elements):
+    words = modal_run.material(200e9, 0.3, 8000) + modal_run.group("arms", "beam", section="@")
+    words += modal_run.section("@", 0.125**2, 2, 0.125**4 / 12, 2)
+    words += modal_run.group("ends", "grounded_spring", stiffness="1e14,1e14,1e14")
+    return modal_run.case("double_cross", words, n=elements)
+
+
+class Cantilever(unittest.TestCase):
+    def test_frequencies(self):
+        results = modal_run.structures(self, [cantilever(n) for n in CANTILEVER_LUMPED], modes=4)
+        for (n, expected), result in zip(CANTILEVER_LUMPED.items(), results):
+            modal_run.assert_close(self, modal_run.frequencies(result), expected, 1e-6, f"n = {n}")
+
+    def test_convergence_from_below_at_second_order(self):
+        coarse, fine = map(modal_run.frequencies,
+                           modal_run.structures(self, [cantilever(16), cantilever(32)], modes=4))
         for f16, f32, exact in zip(coarse, fine, CANTILEVER_EXACT):
             self.assertLess(f32, exact)
             self.assertAlmostEqual(math.log2((exact - f16) / (exact - f32)), 2, delta=0.06)
 
-    def test_cantilever_on_one_and_three_ranks(self):
+    def test_one_and_three_ranks(self):
         for ranks in (1, 3):
-            modal_run.assert_close(self, self.cantilever(8, ranks), CANTILEVER_LUMPED[8], 1e-6, f"{ranks} ranks")
+            result, = modal_run.structures(self, [cantilever(8)], 4, ranks)
+            modal_run.assert_close(self, modal_run.frequencies(result), CANTILEVER_LUMPED[8], 1e-6,
+                                   f"{ranks} ranks")
 
-    def portal(self, elements):
-        words = modal_run.material(200e9, 0.3, 7800) + ["-b_clamp", "base"]
-        words += modal_run.group("columns", "beam", section="c") + modal_run.group("girder", "beam", section="g")
-        words += modal_run.section("c", 5.38e-3, 1e-2, 1.673e-5, 1e-2)
-        words += modal_run.section("g", 2.85e-3, 1e-2, 1.943e-5, 1e-2)
-        modes = modal_run.structure(self, "portal", words, 12, n=elements)["frequencies"]
-        masses = [mode["effective_modal_mass"] for mode in modes]
-        return [mode["frequency"] for mode, m in zip(modes, masses)
-                if m[0] + m[1] + m[5] > 1e3 * (m[2] + m[3] + m[4])]
 
+class Portal(unittest.TestCase):
     def test_plane_frame_of_this_test_agrees_with_an_independent_code(self):
         modal_run.assert_close(self, plane_frame(4, hrz=True), PORTAL_HRZ, 1e-8, "plane frame")
 
-    def test_portal(self):
-        for elements in (4, 16):
-            modal_run.assert_close(self, self.portal(elements), plane_frame(elements)[:6], 1e-6,
-                                   f"n = {elements}")
-
-    def test_portal_near_the_exact_frequencies(self):
-        found = self.portal(16)
+    def test_frequencies(self):
+        results = modal_run.structures(self, [portal(4), portal(16)], modes=12)
+        for n, result in zip((4, 16), results):
+            found = modal_run.moving(result, (0, 1, 5))
+            modal_run.assert_close(self, found, plane_frame(n)[:6], 1e-6, f"n = {n}")
         for value, exact in zip(found, PORTAL_EXACT):
             self.assertLess(value, exact)
         modal_run.assert_close(self, found, PORTAL_EXACT, 0.015, "exact")
         self.assertAlmostEqual(found[0] / PORTAL_EXACT[0], 1, delta=1e-3)
 
-    def cross(self, elements):
-        words = modal_run.material(200e9, 0.3, 8000)
-        words += modal_run.group("arms", "beam", section="s")
-        words += modal_run.section("s", 0.125**2, 2, 0.125**4 / 12, 2)
-        words += modal_run.group("ends", "grounded_spring", stiffness="1e14,1e14,1e14")
-        return modal_run.frequencies(modal_run.structure(self, "double_cross", words, 22, n=elements))
 
-    def test_double_cross(self):
-        found = self.cross(16)
+class DoubleCross(unittest.TestCase):
+    def test_frequencies_and_lumping_error(self):
+        results = modal_run.structures(self, [cross(4), cross(16)], modes=22)
+        for n, tolerance, result in zip((4, 16), (5e-3, 1e-4), results):
+            found = modal_run.frequencies(result)
+            for number, (mode, exact) in enumerate(zip((found[0], found[8]), ARM_BENDING), start=1):
+                k = number * math.pi / 5
+                expected = exact / math.sqrt(1 + k**2 * ((5 / n)**2 + 0.125**2) / 12)
+                self.assertAlmostEqual(mode / expected, 1, delta=tolerance, msg=(n, number))
         modal_run.assert_close(self, found, CROSS, 0.01, "FV2")
         for value, exact in zip(found, CROSS):
             self.assertLess(value, exact)
-
-    def test_lumping_error_of_a_pinned_beam(self):
-        for elements, tolerance in ((4, 5e-3), (16, 1e-4)):
-            found = self.cross(elements)
-            length = 5 / elements
-            for number, (mode, exact) in enumerate(zip((found[0], found[8]), ARM_BENDING), start=1):
-                k = number * math.pi / 5
-                expected = exact / math.sqrt(1 + k**2 * (length**2 / 12 + 0.125**2 / 12))
-                self.assertAlmostEqual(mode / expected, 1, delta=tolerance, msg=(elements, number))
 
 
 if __name__ == "__main__":

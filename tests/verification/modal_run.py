@@ -1,21 +1,24 @@
-"""One structure, its modes and its largest frequency, by a run of the program that makes one step."""
+"""Modes and largest frequencies of structures that stand alone, by a run that makes one step.
+
+Several structures in one run cost little more than one. In the words of a case, @ stands for the
+name of its structure.
+"""
 import program
 
-# Elements that more than one test uses: words for the structure b.
 CONCRETE = {"young": 30e9, "poisson": 0.2, "density": 2400}
 
 
 def material(young, poisson, density):
-    return ["-material_m_young", young, "-material_m_poisson", poisson, "-material_m_density", density]
+    return ["-material_@_young", young, "-material_@_poisson", poisson, "-material_@_density", density]
 
 
 def group(name, element, **properties):
-    """Element of a group; all that have a material share one."""
-    words = [f"-b_{name}_element", element]
-    if element not in ("grounded_spring", "spring", "point_mass"):
-        words += [f"-b_{name}_material", "m"]
+    """Element of a group of the mesh, with the material of the structure if it takes one."""
+    words = [f"-@_{name}_element", element]
+    if element != "grounded_spring":
+        words += [f"-@_{name}_material", "@"]
     for key, value in properties.items():
-        words += [f"-b_{name}_{key}", value]
+        words += [f"-@_{name}_{key}", value]
     return words
 
 
@@ -25,22 +28,42 @@ def section(name, area, inertia_y, inertia_z, torsion):
             f"-section_{name}_z_axis", "0,0,1"]
 
 
-def structure(test, mesh, words, modes=1, ranks=2, **parameters):
-    """What summary.json says of the structure; parameters are those of the .geo file."""
-    arguments = ["-structures", "b", "-b_mesh", f"tests/meshes/{mesh}.geo", "-end_time", 1e-12,
-                 "-modes", modes] + list(words)
+def case(mesh, words, **parameters):
+    """A structure: its mesh in tests/meshes, its words, parameters of the .geo file."""
+    words = ["-@_mesh", f"tests/meshes/{mesh}.geo"] + list(words)
     if parameters:
-        arguments += ["-b_mesh_set", ",".join(f"{name}={value!r}" for name, value in parameters.items())]
-    return program.must_run(test, arguments, ranks)[1]["structures"]["b"]
+        words += ["-@_mesh_set", ",".join(f"{name}={value!r}" for name, value in parameters.items())]
+    return words
+
+
+def structures(test, cases, modes=1, ranks=2):
+    """What summary.json says of each structure, in the order of the cases."""
+    names = [f"b{number}" for number in range(len(cases))]
+    arguments = ["-structures", ",".join(names), "-end_time", 1e-12, "-modes", modes]
+    for name, words in zip(names, cases):
+        arguments += [str(word).replace("@", name) for word in words]
+    found = program.must_run(test, arguments, ranks)[1]["structures"]
+    return [found[name] for name in names]
 
 
 def frequencies(result):
     return [mode["frequency"] for mode in result["frequencies"]]
 
 
-def assert_close(test, found, expected, tolerance, case):
+def moving(result, components):
+    """Frequencies of the modes that take part in these components only (0-5: x, y, z, about them)."""
+    kept = []
+    for mode in result["frequencies"]:
+        masses = mode["effective_modal_mass"]
+        inside = sum(masses[c] for c in components)
+        if inside > 1e3 * (sum(masses) - inside):
+            kept.append(mode["frequency"])
+    return kept
+
+
+def assert_close(test, found, expected, tolerance, name):
     """Relative, value by value; found may hold more than expected."""
-    test.assertGreaterEqual(len(found), len(expected), case)
+    test.assertGreaterEqual(len(found), len(expected), name)
     for number, (value, reference) in enumerate(zip(found, expected), start=1):
         test.assertLessEqual(abs(value / reference - 1), tolerance,
-                             f"{case}, value {number}: {value:.6f}, expected {reference:.6f}")
+                             f"{name}, value {number}: {value:.6f}, expected {reference:.6f}")

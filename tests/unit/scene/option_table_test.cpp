@@ -113,8 +113,9 @@ TEST(OptionTable, PlaceholdersTakeNamesInOrder) {
 }
 
 TEST(OptionTable, OptionsOfTheLibrariesAreKnown) {
-  for (const char* name : {"log_view", "mat_mumps_icntl_14", "ksp_type", "eps_tol", "st_pc_type",
-                           "options_file", "malloc_debug", "on_error_abort", "include"}) {
+  for (const char* name :
+       {"log_view", "mat_mumps_icntl_14", "lowest_st_ksp_type", "largest_eps_tol",
+        "lowest_st_pc_type", "options_file", "malloc_debug", "on_error_abort", "include"}) {
     EXPECT_TRUE(is_petsc_option(name)) << name;
   }
   for (const char* name : {"courant", "kspace", "end_time", "s1_mat_area", "includes"}) {

@@ -58,9 +58,9 @@ TEST(UnknownOptions, PiecesOfAnUnusedBlockAreMistakes) {
 }
 
 TEST(UnknownOptions, OptionsOfTheLibrariesPass) {
-  EXPECT_NO_THROW(read_scene(
-      with(pair(),
-           {{"log_view", ""}, {"mat_mumps_icntl_14", "50"}, {"eps_tol", "1e-9"}, {"info", ""}})));
+  EXPECT_NO_THROW(read_scene(with(
+      pair(),
+      {{"log_view", ""}, {"mat_mumps_icntl_14", "50"}, {"lowest_eps_tol", "1e-9"}, {"info", ""}})));
 }
 
 }  // namespace

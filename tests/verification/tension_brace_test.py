@@ -1,0 +1,96 @@
+"""Free vibration of a mass held by bars that resist stretching only.
+
+Two bars on each side, inclined 3 in 4: whichever way the mass moves, one pair is taut, so it
+vibrates as if one pair always held it, with k = 2 (E A / L) (4/5)^2. One pair beside a grounded
+spring k1: half periods pi sqrt(m / (k1 + k)) and pi sqrt(m / k1), amplitudes v0 / omega on either
+side. References: closed forms; for the first case also that of the scheme itself.
+"""
+import math
+import unittest
+
+import numpy
+
+from recorded import Recorded
+
+MASS, YOUNG, AREA, SPRING, SPEED = 100.0, 2e9, 1e-4, 30000.0, 0.5
+BRACES = 2 * (YOUNG * AREA / 5) * 0.8**2
+DENSITY = 1e-9  # of the bars: without weight beside the mass
+
+
+def scene(sides, spring, time_step, end_time):
+    words = ["-structures", "frame", "-frame_mesh", "tests/meshes/braces.geo",
+             "-frame_clamp", "anchors", "-frame_initial_velocity", f"{SPEED},0,0",
+             "-material_steel_young", YOUNG, "-material_steel_poisson", 0.3,
+             "-material_steel_density", DENSITY, "-time_step", repr(time_step),
+             "-end_time", repr(end_time), "-output_interval", repr(time_step / 2),
+             "-energy_interval", 1, "-probes", "hung", "-hung_structure", "frame",
+             "-hung_at", "0,0,0", "-frame_mass_element", "point_mass", "-frame_mass_mass", MASS]
+    for side in sides:
+        words += [f"-frame_{side}_element", "bar", f"-frame_{side}_material", "steel",
+                  f"-frame_{side}_area", AREA, f"-frame_{side}_tension_only", "true"]
+    if spring:
+        words += ["-frame_support_element", "grounded_spring", "-frame_support_stiffness",
+                  f"{spring},{spring},{spring}"]
+    return words
+
+
+def crossings(run):
+    """Times at which the mass passes its place, by linear interpolation."""
+    u, t = run.displacement("hung.x"), run.time
+    at = numpy.nonzero(u[1:-1] * u[2:] < 0)[0] + 1
+    return t[at] + (t[at + 1] - t[at]) * u[at] / (u[at] - u[at + 1])
+
+
+class BracesOnBothSides(unittest.TestCase):
+    OMEGA = math.sqrt(BRACES / MASS)
+    PERIOD = 2 * math.pi / OMEGA
+
+    def test_vibrates_as_if_one_pair_always_held(self):
+        time_step = self.PERIOD / 1000
+        for ranks in (1, 2, 3):
+            run = Recorded(self, scene(("left", "right"), 0, time_step, 3.1 * self.PERIOD), ranks)
+            # Of the scheme: u_n = v0 dt sin(n theta) / sin(theta), sin(theta / 2) = omega dt / 2
+            theta = 2 * math.asin(self.OMEGA * time_step / 2)
+            steps = numpy.arange(len(run.time))
+            exact = SPEED * time_step * numpy.sin(steps * theta) / math.sin(theta)
+            u = run.displacement("hung.x")
+            self.assertLess(abs(u - exact).max(), 1e-10 * abs(exact).max())
+            self.assertAlmostEqual(u.max(), SPEED / self.OMEGA, delta=1e-5 * SPEED / self.OMEGA)
+            self.assertAlmostEqual(u.min(), -SPEED / self.OMEGA, delta=1e-5 * SPEED / self.OMEGA)
+            halves = numpy.diff(crossings(run))
+            self.assertEqual(len(halves), 5)
+            self.assertLess(abs(halves / (self.PERIOD / 2) - 1).max(), 1e-5)
+            self.assertLess(abs(run.displacement("hung.y")).max(), 1e-12 * SPEED / self.OMEGA)
+            self.assertLess(run.energy["relative_residual"], 1e-12)
+
+    def test_bars_hold_the_energy_at_the_turn(self):
+        time_step = self.PERIOD / 1000
+        run = Recorded(self, scene(("left", "right"), 0, time_step, self.PERIOD / 4))
+        held = MASS * SPEED**2 / 2
+        self.assertAlmostEqual(run.energy["devices"] / held, 1, delta=1e-4)
+        self.assertLess(run.energy["kinetic"], 1e-4 * held)
+        self.assertEqual(run.energy["strain"], 0)
+
+
+class BracesOnOneSideBesideASpring(unittest.TestCase):
+    def test_bilinear_half_periods_and_amplitudes(self):
+        stiff = math.sqrt((SPRING + BRACES) / MASS)
+        soft = math.sqrt(SPRING / MASS)
+        period = math.pi / stiff + math.pi / soft
+        for side, sign in (("left", 1), ("right", -1)):  # the bars on the left are taut when u > 0
+            run = Recorded(self, scene((side,), SPRING, period / 4000, 2.8 * period))
+            u = sign * run.displacement("hung.x")
+            self.assertAlmostEqual(u.max() * stiff / SPEED, 1, delta=1e-3)
+            self.assertAlmostEqual(u.min() * soft / SPEED, -1, delta=1e-3)
+            times = crossings(run)
+            first = math.pi / (stiff if sign > 0 else soft)
+            exact = [first, period, period + first, 2 * period, 2 * period + first]
+            self.assertEqual(len(times[:5]), 5)
+            self.assertLess(abs(times[:5] / exact - 1).max(), 1e-3)
+            self.assertLess(run.energy["relative_residual"], 1e-12)
+            energy = sum(run.energy[name] for name in ("kinetic", "strain", "devices"))
+            self.assertAlmostEqual(energy / (MASS * SPEED**2 / 2), 1, delta=1e-12)
+
+
+if __name__ == "__main__":
+    unittest.main()
