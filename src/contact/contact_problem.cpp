@@ -162,13 +162,38 @@ void ContactProblem::solve_component(const std::vector<int>& component) {
       matrix_[i * n + j] = delassus_entry(active_rows_[i], active_rows_[j]);
     }
   }
-  if (n > 0) {
-    const LcpResult result =
-        lcp_->solve({matrix_.data(), n * n}, {rate_.data(), n}, {solution_.data(), n});
-    largest_residual_ = std::max(largest_residual_, result.residual);
+  if (n == 0) {
+    return;
+  }
+  const LcpResult result =
+      lcp_->solve({matrix_.data(), n * n}, {rate_.data(), n}, {solution_.data(), n});
+  largest_residual_ = std::max(largest_residual_, result.residual);
+  for (std::size_t i = 0; i < n; ++i) {
+    operator_.add_transposed(active_rows_[i], solution_[i], dof_impulse_);
+  }
+  if (result.roundoff > correction_threshold) {
+    correct_component();
   }
   for (std::size_t i = 0; i < n; ++i) {
     impulse_[static_cast<std::size_t>(active_rows_[i])] = solution_[i];
+  }
+}
+
+void ContactProblem::correct_component() {
+  const std::size_t dofs = inverse_mass_.size();
+  const std::size_t n = active_rows_.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto columns = operator_.row_dofs(active_rows_[i]);
+    const auto values = operator_.row_coefficients(active_rows_[i]);
+    rate_[i] = 0;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const auto dof = static_cast<std::size_t>(columns[k]);
+      rate_[i] += values[k] * (all_[2 * dofs + dof] + inverse_mass_[dof] * dof_impulse_[dof]);
+    }
+  }
+  lcp_->correct({rate_.data(), n}, {solution_.data(), n}, {increment_.data(), n});
+  for (std::size_t i = 0; i < n; ++i) {
+    operator_.add_transposed(active_rows_[i], increment_[i], dof_increment_);
   }
 }
 

@@ -13,6 +13,9 @@
 namespace pounding {
 namespace {
 
+/// Part of the largest energy term beyond which the identity, exact but for round-off, is broken.
+constexpr double broken_identity = 1e-6;
+
 /// Lines of the energy ledger that are kept at most.
 constexpr std::int64_t ledger_capacity = 5000;
 
@@ -167,6 +170,13 @@ void TimeLoop::close_ledger_line() {
            << model_.stable_time_step[s] << " s)";
       throw DivergenceError(text.str());
     }
+  }
+  if (energy.relative_residual() > broken_identity) {
+    std::ostringstream text;
+    text << "the energy identity does not close at t = " << last_line_.time << " s: residual "
+         << last_line_.residual << " J is " << energy.relative_residual()
+         << " of the largest term; the run is stopped, its results cannot be trusted";
+    throw DivergenceError(text.str());
   }
   if (rank_of(comm_) == 0 && ledger_lines_ % ledger_stride_ == 0) {
     ledger_.push_back(last_line_);
