@@ -11,9 +11,11 @@ std::vector<ProbeSpectrum> compute_floor_spectra(const Scene& scene, const Recor
   for (std::size_t channel = 0; channel < recorder.channels().size(); ++channel) {
     const std::vector<double> acceleration = recorder.acceleration(channel);
     for (const double ratio : scene.spectra.damping_ratios) {
+      // A run is cut, it does not end: the floor still moves, so nothing is said of what follows.
       spectra.push_back(
           {recorder.probes()[channel / 3].name, direction_names[channel % 3], ratio,
-           response_spectrum(acceleration, recorder.interval(), scene.spectra.frequencies, ratio)});
+           response_spectrum(acceleration, recorder.interval(), scene.spectra.frequencies, ratio,
+                             AfterRecord::ignored)});
     }
   }
   return spectra;
@@ -31,6 +33,7 @@ void write_floor_spectra(const std::string& path, const std::vector<ProbeSpectru
   std::snprintf(text, sizeof text, "within 1 %% of the continuous signal up to %.0f Hz",
                 0.045 / sampling_interval);
   file.comment(text);
+  file.comment("largest response until the end of the run;");
   file.comment(
       "frequency [Hz], period [s], displacement [m], pseudo_velocity [m/s], "
       "pseudo_acceleration [m/s2]");
