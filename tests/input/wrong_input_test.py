@@ -118,6 +118,14 @@ class WrongInput(unittest.TestCase):
             f"$EndPhysicalNames\n$Nodes\n2\n1 0 0 0\n2 {second_point}\n$EndNodes\n"
             "$Elements\n2\n1 15 2 1 1 1\n2 1 2 2 1 1 2\n$EndElements\n", ".msh")
 
+    def test_tetrahedra(self):
+        mesh = self.with_file('SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 1, 1, 1};\n'
+                              'Physical Volume("body") = {1};\n', ".geo")
+        self.refuse(["-structures", "m", "-m_mesh", mesh, "-m_body_element", "hex8",
+                     "-m_body_material", "c", "-material_c_young", "1", "-material_c_poisson", "0",
+                     "-material_c_density", "1", "-end_time", "1"], "group 'body'", "Tetrahedron",
+                    "hex8")
+
     def test_bar_of_zero_length(self):
         self.refuse(["-structures", "m", "-m_mesh", self.lines("0 0 0"), "-m_l_element", "bar",
                      "-m_l_material", "s", "-m_l_area", "1", "-material_s_young", "1",
