@@ -7,6 +7,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "contact/contact_face.h"
+#include "mesh/group_names.h"
 
 namespace pounding {
 namespace {
@@ -139,12 +140,8 @@ class PairFinder {
     const GlobalMesh& mesh = meshes[index];
     const auto found = mesh.groups.find(s.group);
     if (found == mesh.groups.end()) {
-      std::string names;
-      for (const auto& [group_name, group] : mesh.groups) {
-        names += (names.empty() ? "" : ", ") + group_name;
-      }
       throw UserError(where(name) + ": group '" + s.group + "' is not in the mesh of " +
-                      s.structure + ", which has: " + names);
+                      s.structure + ", which has: " + group_names(mesh));
     }
     Side side{static_cast<int>(index), &mesh, build_contact_face(mesh, found->second),
               shell_thickness(scene.structures[index])};

@@ -18,9 +18,13 @@ namespace pounding {
 /// 113385; Fekak et al., Comput. Mech. 60 (2017)). Displacements are relative to the ground.
 ///
 ///     u_{n+1}   = u_n + dt v_{n+1/2}
-///     v_free    = v_{n+1/2} + dt M^-1 ( M (g - iota a_g(t_{n+1})) - alpha M v_{n+1/2} - K (u_{n+1}
-///     + beta v_{n+1/2}) ) A         = { i : g_i(u_{n+1}) <= g_tol } 0 <= lambda _|_ H lambda + L
-///     v_free >= 0   on A v_{n+3/2} = v_free + M^-1 L^T lambda
+///     v_free    = v_{n+1/2} + dt ( g - iota a_g(t_{n+1}) - alpha v_{n+1/2} )
+///                           - dt M^-1 ( K (u_{n+1} + beta v_{n+1/2}) + x )
+///     A         = { i : g_i(u_{n+1}) <= g_tol }
+///     0 <= lambda _|_ H lambda + L v_free >= 0   on A
+///     v_{n+3/2} = v_free + M^-1 L^T lambda
+///
+/// with x the force of dashpots and tension-only bars, if there are any.
 ///
 /// The first step is half a step of velocity from v_0 at t_0, which makes the scheme second order
 /// without damping. Times are n dt, never accumulated. Stable for dt below `stable_time_step`;

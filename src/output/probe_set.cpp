@@ -6,6 +6,7 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "mesh/group_names.h"
 
 namespace pounding {
 namespace {
@@ -52,12 +53,9 @@ std::vector<GlobalIndex> probe_nodes(const Probe& probe, const GlobalMesh& mesh)
   }
   const auto found = mesh.groups.find(probe.group);
   if (found == mesh.groups.end() || found->second.nodes.empty()) {
-    std::string names;
-    for (const auto& [name, group] : mesh.groups) {
-      names += (names.empty() ? "" : ", ") + name;
-    }
     throw UserError("option -" + probe.name + "_group: group '" + probe.group +
-                    "' is not in the mesh of " + probe.structure + ", which has: " + names);
+                    "' is not in the mesh of " + probe.structure +
+                    ", which has: " + group_names(mesh));
   }
   return found->second.nodes;
 }

@@ -7,6 +7,7 @@
 
 #include "common/parallel.h"
 #include "support/box_mesh.h"
+#include "support/built_system.h"
 #include "system/finite_element_system.h"
 
 namespace pounding {
@@ -22,13 +23,8 @@ struct Built {
 };
 
 Built build(const GlobalMesh& global, const Structure& structure) {
-  const MPI_Comm comm = PETSC_COMM_WORLD;
-  Partition partition;
-  if (rank_of(comm) == 0) {
-    partition = partition_meshes({&global, 1}, {}, size_of(comm));
-  }
-  Built built{distribute_mesh(comm, structure.name, global, partition, 0), {}, nullptr};
-  built.system = build_finite_element_system(structure, built.mesh);
+  testing::BuiltSystem assembled = testing::build_system(global, structure);
+  Built built{std::move(assembled.mesh), std::move(assembled.system), nullptr};
   built.stiffness =
       std::make_unique<ElementStiffness>(structure, built.mesh, std::move(built.system.stiffness));
   return built;

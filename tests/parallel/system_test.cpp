@@ -7,6 +7,7 @@
 #include "common/parallel.h"
 #include "modal/modal_analysis.h"
 #include "support/box_mesh.h"
+#include "support/built_system.h"
 #include "system/finite_element_system.h"
 
 namespace pounding {
@@ -15,26 +16,13 @@ namespace {
 constexpr double young = 30e9;
 constexpr double density = 2400;
 
-struct Built {
-  Mesh mesh;
-  LinearSystem system;
-};
-
-Built build(const GlobalMesh& global, const Structure& structure) {
-  const MPI_Comm comm = PETSC_COMM_WORLD;
-  Partition partition;
-  if (rank_of(comm) == 0) {
-    partition = partition_meshes({&global, 1}, {}, size_of(comm));
-  }
-  Built built{distribute_mesh(comm, structure.name, global, partition, 0), {}};
-  built.system = build_finite_element_system(structure, built.mesh);
-  return built;
-}
+using Built = testing::BuiltSystem;
+using testing::build_system;
 
 TEST(System, EveryNodeAndElementIsOwnedOnce) {
   GlobalMesh global = testing::box_mesh({0, 0, 0}, {4, 2, 1}, {8, 4, 2});
   testing::clamp(global, "x_min");
-  const Built built = build(global, testing::solid_structure("box", young, 0.2, density));
+  const Built built = build_system(global, testing::solid_structure("box", young, 0.2, density));
   std::array<long, 4> counts{built.mesh.owned_nodes, built.mesh.owned_dofs, 0, 0};
   for (const ElementBlock& block : built.mesh.blocks) {
     for (const auto counted : block.counted) {
@@ -55,14 +43,14 @@ TEST(System, EveryNodeAndElementIsOwnedOnce) {
 TEST(System, MassIsDensityTimesVolume) {
   GlobalMesh global = testing::box_mesh({0, 0, 0}, {4, 2, 1}, {4, 3, 2});
   testing::clamp(global, "x_min");
-  const Built built = build(global, testing::solid_structure("box", young, 0.2, density));
+  const Built built = build_system(global, testing::solid_structure("box", young, 0.2, density));
   EXPECT_NEAR(built.system.total_mass, density * 8, 1e-8);
 }
 
 /// Force of an affine displacement is zero inside and equals the traction resultant at the ends.
 TEST(System, ProductOfAUniaxialStretchIsTheBarForce) {
   const GlobalMesh global = testing::box_mesh({0, 0, 0}, {4, 2, 1}, {5, 3, 2});
-  Built built = build(global, testing::solid_structure("box", young, 0.0, density));
+  Built built = build_system(global, testing::solid_structure("box", young, 0.0, density));
   std::vector<double> w(built.system.lumped_mass.size(), 0.0);
   std::vector<double> q(w.size(), 0.0);
   for (LocalIndex node = 0; node < built.mesh.owned_nodes; ++node) {
@@ -98,7 +86,7 @@ TEST(System, ModesOfAFixedFreeBarAreTheLumpedClosedForm) {
   for (auto& mask : global.free_components) {
     mask &= 0x01;
   }
-  const Built built = build(global, testing::solid_structure("bar", young, 0.0, density));
+  const Built built = build_system(global, testing::solid_structure("bar", young, 0.0, density));
   const ModalResult result = lowest_modes(built.system, built.mesh, 3);
   const double speed = std::sqrt(young / density);
   for (int j = 1; j <= 3; ++j) {
@@ -119,7 +107,7 @@ TEST(System, ModesOfAFixedFreeBarAreTheLumpedClosedForm) {
 
 TEST(System, FreeBodyHasSixRigidModes) {
   const GlobalMesh global = testing::box_mesh({0, 0, 0}, {3, 2.5, 0.22}, {6, 5, 1});
-  const Built built = build(global, testing::solid_structure("slab", young, 0.2, density));
+  const Built built = build_system(global, testing::solid_structure("slab", young, 0.2, density));
   const ModalResult result = lowest_modes(built.system, built.mesh, 8);
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_LT(result.modes[i].frequency, 0.01);
@@ -131,7 +119,7 @@ TEST(System, RefusesAnImpossibleElementOnEveryRank) {
   GlobalMesh global = testing::box_mesh({0, 0, 0}, {4, 2, 1}, {4, 2, 1});
   std::swap(global.regions[0].connectivity[0], global.regions[0].connectivity[6]);
   try {
-    build(global, testing::solid_structure("box", young, 0.2, density));
+    build_system(global, testing::solid_structure("box", young, 0.2, density));
     FAIL() << "an inverted element was accepted";
   } catch (const UserError& error) {
     EXPECT_NE(std::string(error.what()).find("element 1 of group 'body'"), std::string::npos)
