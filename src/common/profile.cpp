@@ -4,17 +4,7 @@ namespace pounding {
 
 const char* phase_name(Phase phase) {
   static constexpr std::array<const char*, static_cast<std::size_t>(Phase::count)> names{
-      "mesh",
-      "partition",
-      "assembly",
-      "modes",
-      "advance_displacement",
-      "stiffness",
-      "free_velocity",
-      "contact",
-      "correct_velocity",
-      "energy",
-      "output"};
+      "mesh", "partition", "assembly", "modes", "step", "contact", "energy", "output"};
   return names[static_cast<std::size_t>(phase)];
 }
 

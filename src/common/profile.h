@@ -4,23 +4,10 @@
 
 #include <mpi.h>
 
-/// Wall time by phase. The phases of the step carry the names of the algorithm's lines.
+/// Wall time by phase. `step`: stiffness product and update of velocity and displacement, fused.
 namespace pounding {
 
-enum class Phase {
-  mesh,
-  partition,
-  assembly,
-  modes,
-  advance_displacement,
-  stiffness,
-  free_velocity,
-  contact,
-  correct_velocity,
-  energy,
-  output,
-  count
-};
+enum class Phase { mesh, partition, assembly, modes, step, contact, energy, output, count };
 
 const char* phase_name(Phase phase);
 

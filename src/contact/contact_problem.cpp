@@ -104,21 +104,7 @@ void ContactProblem::find_components() {
   }
 }
 
-void ContactProblem::remember_velocity(std::span<const double* const> velocity) {
-  const auto& owned = gather_.owned();
-  for (std::size_t i = 0; i < owned.size(); ++i) {
-    mine_[3 * i + 1] = velocity[static_cast<std::size_t>(owned[i].structure)][owned[i].dof];
-  }
-}
-
-void ContactProblem::gather(std::span<const double* const> displacement,
-                            std::span<const double* const> free_velocity) {
-  const auto& owned = gather_.owned();
-  for (std::size_t i = 0; i < owned.size(); ++i) {
-    const auto structure = static_cast<std::size_t>(owned[i].structure);
-    mine_[3 * i] = displacement[structure][owned[i].dof];
-    mine_[3 * i + 2] = free_velocity[structure][owned[i].dof];
-  }
+void ContactProblem::gather() {
   gather_.gather(3, mine_, all_);
   const std::span<const double> u(all_.data(), inverse_mass_.size());
   smallest_gap_ = std::numeric_limits<double>::max();
@@ -216,13 +202,10 @@ void ContactProblem::solve_impulse() {
   }
 }
 
-void ContactProblem::correct_velocity(std::span<double* const> velocity) const {
-  for (const InterfaceGather::Owned& owned : gather_.owned()) {
-    const auto dof = static_cast<std::size_t>(owned.interface_dof);
-    double& v = velocity[static_cast<std::size_t>(owned.structure)][owned.dof];
-    v += inverse_mass_[dof] * dof_impulse_[dof];
-    v += inverse_mass_[dof] * dof_increment_[dof];
-  }
+double ContactProblem::corrected_velocity(std::size_t i, double free_velocity) const {
+  const auto dof = static_cast<std::size_t>(gather_.owned()[i].interface_dof);
+  const double velocity = free_velocity + inverse_mass_[dof] * dof_impulse_[dof];
+  return velocity + inverse_mass_[dof] * dof_increment_[dof];
 }
 
 double ContactProblem::total_work() const {

@@ -15,7 +15,7 @@ namespace pounding {
 /// The unilateral contact problem of one step, gathered at the ranks that own the interface and
 /// solved there by each of them alike:
 ///
-///     A = { i : g_i(u_{n+1}) <= g_tol },     0 <= lambda _|_ H lambda + L v_free >= 0   on A
+///     A = { i : g_i(u_n) <= g_tol },     0 <= lambda _|_ H lambda + L v_free >= 0   on A
 ///
 /// H = L M^-1 L^T [1/kg] is built once. Rows that share no dof with another row are solved in
 /// closed form, lambda_i = max(0, -(L v_free)_i / H_ii); coupled rows by the LCP solver, component
@@ -32,17 +32,22 @@ class ContactProblem {
   int rows() const { return operator_.rows(); }
   int coupled_rows() const { return coupled_rows_; }
 
-  /// Keeps v_{n-1/2} of the owned interface dofs; `velocity` per structure, owned dofs.
-  void remember_velocity(std::span<const double* const> velocity);
-  /// Gathers u_{n+1}, v_{n+1/2}, v_free and computes the gaps. Members only, collective over them.
-  void gather(std::span<const double* const> displacement,
-              std::span<const double* const> free_velocity);
+  /// Interface dofs of this rank, in the order of the numbers below.
+  const std::vector<InterfaceGather::Owned>& owned() const { return gather_.owned(); }
+  /// u_n and v_{n-1/2}, then v_free, of owned interface dof number i.
+  void set_before(std::size_t i, double displacement, double velocity) {
+    mine_[3 * i] = displacement;
+    mine_[3 * i + 1] = velocity;
+  }
+  void set_free_velocity(std::size_t i, double velocity) { mine_[3 * i + 2] = velocity; }
+  /// Gathers what was set and computes the gaps. Members only, collective over them.
+  void gather();
   /// Active set; true if it is not empty.
   bool detect_contact();
   /// Impulses of the active rows, 0 elsewhere.
   void solve_impulse();
-  /// v = v_free + M^-1 L^T lambda on the owned dofs.
-  void correct_velocity(std::span<double* const> velocity) const;
+  /// v_free + M^-1 L^T lambda of owned interface dof number i.
+  double corrected_velocity(std::size_t i, double free_velocity) const;
 
   /// Of the last gather, per row. Members only.
   const std::vector<double>& gaps() const { return gap_; }          ///< [m]

@@ -30,7 +30,7 @@ class TimeLoop {
 
  private:
   void create_recorder();
-  void observe();
+  void observe(std::int64_t step);
   void close_ledger_line();
   void show_progress(double start);
 
@@ -43,9 +43,9 @@ class TimeLoop {
   ImpactCatalogue catalogue_;
   std::unique_ptr<Recorder> recorder_;
   std::vector<double> smallest_gaps_;  ///< per contact
-  std::vector<double> energies_;       ///< per structure
-  std::vector<EnergyLine> ledger_;     ///< rank 0
-  std::int64_t ledger_stride_ = 1;     ///< lines kept of those computed
+  std::vector<StructureEnergy> energies_;
+  std::vector<EnergyLine> ledger_;  ///< rank 0
+  std::int64_t ledger_stride_ = 1;  ///< lines kept of those computed
   std::int64_t ledger_lines_ = 0;
   EnergyLine last_line_;
 };

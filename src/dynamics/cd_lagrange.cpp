@@ -6,6 +6,21 @@
 #include "common/parallel.h"
 
 namespace pounding {
+namespace {
+
+/// Keeps a product.
+class Store final : public ForceReceiver {
+ public:
+  explicit Store(std::vector<double>& product) : product_(product) {}
+  void receive(LocalIndex begin, LocalIndex end, const double* force) override {
+    std::copy(force, force + (end - begin), product_.begin() + begin);
+  }
+
+ private:
+  std::vector<double>& product_;
+};
+
+}  // namespace
 
 CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
                        const GroundMotion& motion, ContactProblem* contact, GapWatch watch,
@@ -17,127 +32,99 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
       time_step_(time_step),
       profile_(profile),
       state_(systems),
-      energy_(comm, systems, {motion.active(0), motion.active(1), motion.active(2)}, time_step),
-      counts_work_(contact != nullptr && contact->root() == rank_of(comm)) {
+      energy_(comm, systems, time_step),
+      counts_work_(contact != nullptr && contact->root() == rank_of(comm)),
+      sums_(systems.size()) {
   for (std::size_t b = 0; b < systems_.size(); ++b) {
     BodyState& body = state_.bodies[b];
-    arguments_.push_back(wrap_vector(systems_[b], body.stiffness_argument));
-    forces_.push_back(wrap_vector(systems_[b], body.stiffness_force));
+    body_steps_.emplace_back(systems_[b], body, time_step);
+    device_velocities_.emplace_back();
+    device_forces_.emplace_back();
     if (systems_[b].has_devices()) {
-      dashpot_velocities_.push_back(wrap_vector(systems_[b], body.velocity_half));
-      device_forces_.push_back(wrap_vector(systems_[b], body.device_force));
-    } else {
-      dashpot_velocities_.emplace_back();
-      device_forces_.emplace_back();
+      device_velocities_[b] = wrap_vector(systems_[b], body.velocity);
+      device_forces_[b] = wrap_vector(systems_[b], body.device_force);
     }
-    displacements_.push_back(body.displacement.data());
-    velocities_.push_back(body.velocity_half.data());
-    const_velocities_.push_back(body.velocity_half.data());
+    Store store(body.stiffness_displacement);  // K u_0
+    systems_[b].stiffness->apply({body.displacement.data(), body.displacement.data(), 0}, store);
+  }
+  if (contact_ != nullptr) {
+    before_.resize(contact_->owned().size());
   }
 }
 
 void CdLagrange::step(bool look_at_gap, bool with_energies) {
-  if (started_) {
-    advance_displacement();  // u_{n+1} = u_n + dt v_{n+1/2}
+  const bool first = state_.step == 0;
+  interface_known_ =
+      contact_ != nullptr && contact_->member() && (look_at_gap || watch_.due(state_.step));
+  force_duration_ = first ? time_step_ / 2 : time_step_;
+  motion_.evaluate(static_cast<double>(state_.step) * time_step_, acceleration_);
+  if (interface_known_) {
+    remember_interface();
   }
-  apply_stiffness();  // q = K (u_{n+1} + beta v_{n+1/2})
-  if (started_) {
-    const ScopedTimer timer(profile_, Phase::energy);
-    energy_.close_previous_step(state_, with_energies);
+  {
+    const ScopedTimer timer(profile_, Phase::step);
+    for (std::size_t b = 0; b < systems_.size(); ++b) {
+      const BodyState& body = state_.bodies[b];
+      apply_devices(b);
+      body_steps_[b].begin(force_duration_, acceleration_, first,
+                           with_energies || energy_.needs_energies());
+      systems_[b].stiffness->apply(
+          {body.displacement.data(), body.velocity.data(), systems_[b].damping.beta},
+          body_steps_[b]);  // q, v_free, u_{n+1}
+    }
   }
-  apply_devices();
-  force_duration_ = started_ ? time_step_ : time_step_ / 2;
-  motion_.evaluate(time(), acceleration_);
-  if (contact_ != nullptr && contact_->member()) {
-    contact_->remember_velocity(const_velocities_);
+  touching_ = interface_known_ && solve_contact();  // A, lambda, v_{n+1/2}
+  for (std::size_t b = 0; b < systems_.size(); ++b) {
+    sums_[b] = body_steps_[b].sums();
   }
-  compute_free_velocity(force_duration_);  // v_free
-  touching_ = solve_contact(look_at_gap);  // A, lambda, v_{n+3/2}
-  energy_.add_step(acceleration_, touching_ && counts_work_ ? contact_->total_work() : 0);
-  started_ = true;
-}
-
-void CdLagrange::advance_displacement() {
-  const ScopedTimer timer(profile_, Phase::advance_displacement);
+  energy_.add_step(sums_, acceleration_, touching_ && counts_work_ ? contact_->total_work() : 0);
   ++state_.step;
-  for (BodyState& body : state_.bodies) {
-    const std::size_t n = body.displacement.size();
-    double* const u = body.displacement.data();
-    const double* const v = body.velocity_half.data();
-    for (std::size_t i = 0; i < n; ++i) {
-      u[i] += time_step_ * v[i];
+}
+
+void CdLagrange::apply_devices(std::size_t b) {
+  const LinearSystem& system = systems_[b];
+  BodyState& body = state_.bodies[b];
+  if (system.dashpots) {
+    system.dashpots->apply(device_velocities_[b].get(), device_forces_[b].get());
+  } else {
+    std::fill(body.device_force.begin(), body.device_force.end(), 0.0);
+  }
+  if (system.tension_bars) {
+    const StiffnessArgument w{body.displacement.data(), body.velocity.data(), system.damping.beta};
+    for (std::size_t i = 0; i < body.device_argument.size(); ++i) {
+      body.device_argument[i] = w[i];
     }
+    system.tension_bars->add_force(body.device_argument.data(), body.device_force.data());
   }
 }
 
-void CdLagrange::apply_stiffness() {
-  const ScopedTimer timer(profile_, Phase::stiffness);
-  for (std::size_t b = 0; b < systems_.size(); ++b) {
-    BodyState& body = state_.bodies[b];
-    const double beta = systems_[b].damping.beta;
-    const std::size_t n = body.displacement.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      body.stiffness_argument[i] = body.displacement[i] + beta * body.velocity_half[i];
-    }
-    systems_[b].stiffness->apply(arguments_[b].get(), forces_[b].get());
-  }
-}
-
-void CdLagrange::apply_devices() {
-  for (std::size_t b = 0; b < systems_.size(); ++b) {
-    const LinearSystem& system = systems_[b];
-    BodyState& body = state_.bodies[b];
-    if (system.dashpots) {
-      system.dashpots->apply(dashpot_velocities_[b].get(), device_forces_[b].get());
-    } else {
-      std::fill(body.device_force.begin(), body.device_force.end(), 0.0);
-    }
-    if (system.tension_bars) {
-      system.tension_bars->add_force(body.stiffness_argument.data(), body.device_force.data());
-    }
-  }
-}
-
-void CdLagrange::compute_free_velocity(double duration) {
-  const ScopedTimer timer(profile_, Phase::free_velocity);
-  for (std::size_t b = 0; b < systems_.size(); ++b) {
-    const LinearSystem& system = systems_[b];
-    BodyState& body = state_.bodies[b];
-    const std::size_t n = body.displacement.size();
-    const double* const inverse_mass = system.inverse_mass.data();
-    const double* const q = body.stiffness_force.data();
-    double* const v = body.velocity_half.data();
-    const double decay = 1 - duration * system.damping.alpha;
-    for (std::size_t i = 0; i < n; ++i) {
-      v[i] = decay * v[i] - duration * (inverse_mass[i] * q[i]);
-    }
-    for (std::size_t i = 0; i < body.device_force.size(); ++i) {
-      v[i] -= duration * (inverse_mass[i] * body.device_force[i]);
-    }
-    for (std::size_t d = 0; d < 3; ++d) {
-      const double ground_step = duration * (acceleration_[d] - system.gravity[d]);
-      if (ground_step != 0) {
-        const double* const influence = system.influence[d].data();
-        for (std::size_t i = 0; i < n; ++i) {
-          v[i] -= ground_step * influence[i];
-        }
-      }
-    }
-  }
-}
-
-bool CdLagrange::solve_contact(bool look_at_gap) {
-  interface_known_ = false;
-  if (contact_ == nullptr || !contact_->member() || !(look_at_gap || watch_.due(state_.step))) {
-    return false;
-  }
+void CdLagrange::remember_interface() {
   const ScopedTimer timer(profile_, Phase::contact);
-  contact_->gather(displacements_, const_velocities_);
-  interface_known_ = true;
+  const auto& owned = contact_->owned();
+  for (std::size_t i = 0; i < owned.size(); ++i) {
+    before_[i] = body_steps_[static_cast<std::size_t>(owned[i].structure)].before(owned[i].dof);
+    contact_->set_before(i, before_[i].displacement, before_[i].velocity);
+  }
+}
+
+bool CdLagrange::solve_contact() {
+  const ScopedTimer timer(profile_, Phase::contact);
+  const auto& owned = contact_->owned();
+  const auto body = [&](std::size_t i) { return static_cast<std::size_t>(owned[i].structure); };
+  const auto velocity = [&](std::size_t i) {
+    return state_.bodies[body(i)].velocity[static_cast<std::size_t>(owned[i].dof)];
+  };
+  for (std::size_t i = 0; i < owned.size(); ++i) {
+    contact_->set_free_velocity(i, velocity(i));
+  }
+  contact_->gather();
   const bool touching = contact_->detect_contact();
   contact_->solve_impulse();
   if (touching) {
-    contact_->correct_velocity(velocities_);
+    for (std::size_t i = 0; i < owned.size(); ++i) {
+      body_steps_[body(i)].correct(owned[i].dof, before_[i],
+                                   contact_->corrected_velocity(i, velocity(i)));
+    }
   }
   watch_.looked(state_.step, contact_->smallest_gap() - contact_->gap_tolerance(), touching);
   return touching;

@@ -5,6 +5,7 @@
 
 #include "common/profile.h"
 #include "contact/contact_problem.h"
+#include "dynamics/body_step.h"
 #include "dynamics/energy_balance.h"
 #include "dynamics/gap_watch.h"
 #include "dynamics/state.h"
@@ -17,14 +18,16 @@ namespace pounding {
 /// velocity-impulse complementarity (Ambiel, Brun, Thibon, Gravouil, Eng. Struct. 251 (2022)
 /// 113385; Fekak et al., Comput. Mech. 60 (2017)). Displacements are relative to the ground.
 ///
-///     u_{n+1}   = u_n + dt v_{n+1/2}
-///     v_free    = v_{n+1/2} + dt ( g - iota a_g(t_{n+1}) - alpha v_{n+1/2} )
-///                           - dt M^-1 ( K (u_{n+1} + beta v_{n+1/2}) + x )
-///     A         = { i : g_i(u_{n+1}) <= g_tol }
+///     v_free    = v_{n-1/2} + dt ( g - iota a_g(t_n) - alpha v_{n-1/2} )
+///                           - dt M^-1 ( K (u_n + beta v_{n-1/2}) + x )
+///     A         = { i : g_i(u_n) <= g_tol }
 ///     0 <= lambda _|_ H lambda + L v_free >= 0   on A
-///     v_{n+3/2} = v_free + M^-1 L^T lambda
+///     v_{n+1/2} = v_free + M^-1 L^T lambda
+///     u_{n+1}   = u_n + dt v_{n+1/2}
 ///
-/// with x the force of dashpots and tension-only bars, if there are any.
+/// with x the force of dashpots and tension-only bars, if there are any. The stiffness hands its
+/// forces over range by range, and BodyStep updates velocity and displacement there while they are
+/// in the nearest cache; contact then corrects the few dofs of the interface.
 ///
 /// The first step is half a step of velocity from v_0 at t_0, which makes the scheme second order
 /// without damping. Times are n dt, never accumulated. Stable for dt below `stable_time_step`;
@@ -35,14 +38,16 @@ class CdLagrange {
   CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems, const GroundMotion& motion,
              ContactProblem* contact, GapWatch watch, double time_step, Profile& profile);
 
-  /// The start at t_0 on the first call, then one step per call. `look_at_gap` makes the interface
-  /// gather whatever its distance; `with_energies`: a line of the ledger will be asked for.
-  /// Collective.
+  /// The step to t_n, n = state().step; the start at t_0 on the first call. `look_at_gap` makes the
+  /// interface gather whatever its distance; `with_energies`: the ledger's line before this step
+  /// will be asked for. Collective.
   void step(bool look_at_gap, bool with_energies);
 
+  /// What the next step starts from.
   const State& state() const { return state_; }
   double time_step() const { return time_step_; }
-  double time() const { return static_cast<double>(state_.step) * time_step_; }
+  /// Time t_n of the last step.
+  double time() const { return static_cast<double>(state_.step - 1) * time_step_; }
   EnergyBalance& energy() { return energy_; }
   GapWatch& gap_watch() { return watch_; }
   /// This rank holds the gaps and impulses of the current step.
@@ -54,11 +59,9 @@ class CdLagrange {
   double force_duration() const { return force_duration_; }
 
  private:
-  void advance_displacement();
-  void apply_stiffness();
-  void apply_devices();
-  void compute_free_velocity(double duration);
-  bool solve_contact(bool look_at_gap);
+  void apply_devices(std::size_t body);
+  void remember_interface();
+  bool solve_contact();
 
   std::span<const LinearSystem> systems_;
   const GroundMotion& motion_;
@@ -67,18 +70,15 @@ class CdLagrange {
   double time_step_;
   Profile& profile_;
   State state_;
+  std::vector<BodyStep> body_steps_;
   EnergyBalance energy_;
-  bool counts_work_;                           ///< this rank adds the contact work to the ledger
-  std::vector<VecHandle> arguments_;           ///< w of each structure as a PETSc vector
-  std::vector<VecHandle> forces_;              ///< q
-  std::vector<VecHandle> dashpot_velocities_;  ///< v, for the dashpots
+  bool counts_work_;  ///< this rank adds the contact work to the ledger
+  std::vector<StepSums> sums_;
+  std::vector<BodyStep::Before> before_;      ///< of the owned interface dofs
+  std::vector<VecHandle> device_velocities_;  ///< v of each structure as a PETSc vector
   std::vector<VecHandle> device_forces_;
-  std::vector<const double*> displacements_;
-  std::vector<double*> velocities_;
-  std::vector<const double*> const_velocities_;
   std::array<double, 3> acceleration_{};
   double force_duration_ = 0;
-  bool started_ = false;
   bool interface_known_ = false;
   bool touching_ = false;
 };

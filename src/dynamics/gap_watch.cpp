@@ -23,11 +23,11 @@ GapWatch::GapWatch(std::span<const LinearSystem> systems, std::span<const double
   }
 }
 
-void GapWatch::energies_known(std::int64_t step, std::span<const double> energies) {
+void GapWatch::energies_known(std::int64_t step, std::span<const StructureEnergy> energies) {
   energy_step_ = step;
   for (std::size_t s = 0; s < energies.size(); ++s) {
     // Round-off of a structure at rest must not count as knowledge that nothing moves.
-    root_energy_[s] = std::sqrt(2 * std::max(0.0, energies[s])) * (1 + 1e-6);
+    root_energy_[s] = std::sqrt(2 * std::max(0.0, energies[s].energy())) * (1 + 1e-6);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "dynamics/energy_balance.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -23,7 +24,7 @@ class GapWatch {
            std::span<const double> rate_norms, double peak_acceleration, double time_step);
 
   /// Energies per structure after step `step` [J].
-  void energies_known(std::int64_t step, std::span<const double> energies);
+  void energies_known(std::int64_t step, std::span<const StructureEnergy> energies);
   /// The smallest gap above the contact tolerance after a look at step `step` [m]; `touching` if
   /// an impulse acted in that step.
   void looked(std::int64_t step, double clearance, bool touching);

@@ -4,35 +4,34 @@
 #include <span>
 #include <vector>
 
-#include "common/petsc.h"
 #include "system/linear_system.h"
 
 namespace pounding {
 
-/// What evolves, for one structure; owned dofs of this rank.
+/// What evolves, for one structure; owned dofs of this rank. Before the step to t_n:
 struct BodyState {
-  std::vector<double> displacement;  ///< u_n [m, rad]
-  std::vector<double>
-      velocity_half;  ///< v_{n-1/2} before, v_{n+1/2} after the step to t_n [m/s, rad/s]
-  std::vector<double> stiffness_argument;  ///< w = u + beta v
-  std::vector<double> stiffness_force;     ///< q = K w [N, N m]
-  std::vector<double>
-      device_force;  ///< of dashpots and tension-only bars; empty without them [N, N m]
+  std::vector<double> displacement;            ///< u_n [m, rad]
+  std::vector<double> velocity;                ///< v_{n-1/2} [m/s, rad/s]
+  std::vector<double> stiffness_displacement;  ///< K u_{n-1} [N, N m]
+  /// Force of dashpots and tension-only bars in the step, and u_n + beta v_{n-1/2} for them; empty
+  /// without them.
+  std::vector<double> device_force;
+  std::vector<double> device_argument;
 };
 
 struct State {
   std::vector<BodyState> bodies;
-  std::int64_t step = 0;  ///< n: displacements stand at t_n = n dt, velocities at t_n + dt/2
+  std::int64_t step = 0;  ///< n of the next step
 
   explicit State(std::span<const LinearSystem> systems) {
     for (const LinearSystem& system : systems) {
-      const std::size_t n = system.lumped_mass.size();
-      const std::vector<double> zero(n, 0.0);
-      bodies.push_back(
-          {zero, zero, zero, zero, system.has_devices() ? zero : std::vector<double>{}});
-      for (std::size_t d = 0; d < 3; ++d) {
-        for (std::size_t i = 0; i < n; ++i) {
-          bodies.back().velocity_half[i] += system.initial_velocity[d] * system.influence[d][i];
+      const std::vector<double> zero(system.lumped_mass.size(), 0.0);
+      const std::vector<double> device = system.has_devices() ? zero : std::vector<double>{};
+      bodies.push_back({zero, zero, zero, device, device});
+      for (std::size_t i = 0; i < zero.size(); ++i) {
+        if (system.direction[i] >= 0) {
+          bodies.back().velocity[i] =
+              system.initial_velocity[static_cast<std::size_t>(system.direction[i])];
         }
       }
     }

@@ -1,6 +1,7 @@
 #include "mesh/mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "common/parallel.h"
@@ -8,6 +9,9 @@
 
 namespace pounding {
 namespace {
+
+/// Coordinates closer than this part of the longest extent lie in one plane.
+constexpr double same_plane = 1e-7;
 
 /// What travels to one rank.
 struct Parcel {
@@ -78,7 +82,9 @@ class Cutter {
   }
 
  private:
-  /// Per rank, nodes along the longest extent first: neighbours in space are neighbours in memory.
+  /// Per rank, nodes in layers across the longest extent, and in each layer in rows along the
+  /// second longest: neighbours in space are neighbours in memory, rows of elements have their
+  /// nodes side by side, and few rows are cut where a long structure is.
   void sort_nodes() {
     Vector3 low{1e300, 1e300, 1e300};
     Vector3 high{-1e300, -1e300, -1e300};
@@ -93,22 +99,23 @@ class Cutter {
     std::stable_sort(axes.begin(), axes.end(), [&](std::size_t a, std::size_t b) {
       return high[a] - low[a] > high[b] - low[b];
     });
-    order_.resize(static_cast<std::size_t>(mesh_.node_count()));
+    std::swap(axes[1], axes[2]);
+    // Coordinates of one plane differ by round-off: they are compared on a fine grid.
+    const double spacing = same_plane * (high[axes[0]] - low[axes[0]]);
+    const auto place = [&](GlobalIndex node) {
+      const Vector3 x = mesh_.position(node);
+      std::array<std::int64_t, 4> key{node_owner_[static_cast<std::size_t>(node)], 0, 0, 0};
+      for (std::size_t d = 0; d < 3 && spacing > 0; ++d) {
+        key[d + 1] = std::llround((x[axes[d]] - low[axes[d]]) / spacing);
+      }
+      return key;
+    };
+    std::vector<std::array<std::int64_t, 4>> places;
+    for (GlobalIndex node = 0; node < mesh_.node_count(); ++node) places.push_back(place(node));
+    order_.resize(places.size());
     std::iota(order_.begin(), order_.end(), GlobalIndex{0});
     std::stable_sort(order_.begin(), order_.end(), [&](GlobalIndex a, GlobalIndex b) {
-      const int owner_a = node_owner_[static_cast<std::size_t>(a)];
-      const int owner_b = node_owner_[static_cast<std::size_t>(b)];
-      if (owner_a != owner_b) {
-        return owner_a < owner_b;
-      }
-      const Vector3 x = mesh_.position(a);
-      const Vector3 y = mesh_.position(b);
-      for (const std::size_t d : axes) {
-        if (x[d] != y[d]) {
-          return x[d] < y[d];
-        }
-      }
-      return false;
+      return places[static_cast<std::size_t>(a)] < places[static_cast<std::size_t>(b)];
     });
   }
 

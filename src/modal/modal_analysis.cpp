@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/parallel.h"
+#include "mesh/location.h"
 
 namespace pounding {
 namespace {
@@ -73,7 +74,7 @@ class RigidMotions {
     mass_ = sums[0];
     for (std::size_t d = 0; d < 3; ++d) {
       centre_[d] = mass_ > 0 ? sums[d + 1] / mass_ : 0;
-      motions_[d] = system.influence[d];
+      motions_[d] = system.influence(static_cast<int>(d));
       motions_[d + 3].assign(system.lumped_mass.size(), 0.0);
     }
     for_each_translation(mesh, [&](std::size_t dof, int c, const Vector3& x) {
@@ -143,33 +144,6 @@ class RigidMotions {
   std::array<std::vector<double>, 6> motions_;
   std::array<double, 6> inertia_{};
 };
-
-/// Node and component with the largest entry of y.
-std::string locate(const LinearSystem& system, const Mesh& mesh, const double* y) {
-  struct {
-    double value;
-    int rank;
-  } largest{-1, rank_of(system.comm)};
-  std::ostringstream text;
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    for (int c = 0; c < 6; ++c) {
-      const LocalIndex dof = mesh.dof(node, c);
-      if (dof >= 0 && std::abs(y[dof]) > largest.value) {
-        largest.value = std::abs(y[dof]);
-        const Vector3 x = mesh.position(node);
-        text.str("");
-        text << "node at (" << std::round(1e4 * x[0]) / 1e4 << ", " << std::round(1e4 * x[1]) / 1e4
-             << ", " << std::round(1e4 * x[2]) / 1e4 << "), component " << (c < 3 ? "u" : "r")
-             << direction_names[static_cast<std::size_t>(c % 3)];
-      }
-    }
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, system.comm);
-  const std::string mine = text.str();
-  std::vector<char> bytes(mine.begin(), mine.end());
-  broadcast_array(system.comm, bytes, largest.rank);
-  return {bytes.begin(), bytes.end()};
-}
 
 }  // namespace
 
@@ -242,7 +216,7 @@ LargestFrequency largest_frequency(const LinearSystem& system, const Mesh& mesh)
   POUNDING_PETSC(EPSComputeError(solver.get(), 0, EPS_ERROR_ABSOLUTE, &error));
   LargestFrequency result;
   result.omega_max = std::sqrt(eigenvalue + error);
-  result.location = locate(system, mesh, storage.data());
+  result.location = locate_largest(mesh, storage);
   return result;
 }
 

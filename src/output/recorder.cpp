@@ -96,14 +96,25 @@ void Recorder::add_step(const std::array<double, 3>& ground_velocity_step) {
   }
 }
 
-void Recorder::record(const State& state, std::span<const double> gaps) {
+void Recorder::take_displacements(const State& state) {
   double* out = buffer_.data() + buffered_ * width_;
   for (const OwnedNode& node : nodes_) {
     const BodyState& body = state.bodies[static_cast<std::size_t>(node.structure)];
     for (std::size_t d = 0; d < 3; ++d) {
       const LocalIndex dof = node.dofs[d];
       out[d] = dof < 0 ? 0 : body.displacement[static_cast<std::size_t>(dof)];
-      out[3 + d] = dof < 0 ? 0 : body.velocity_half[static_cast<std::size_t>(dof)];
+    }
+    out += values_per_node;
+  }
+}
+
+void Recorder::record(const State& state, std::span<const double> gaps) {
+  double* out = buffer_.data() + buffered_ * width_;
+  for (const OwnedNode& node : nodes_) {
+    const BodyState& body = state.bodies[static_cast<std::size_t>(node.structure)];
+    for (std::size_t d = 0; d < 3; ++d) {
+      const LocalIndex dof = node.dofs[d];
+      out[3 + d] = dof < 0 ? 0 : body.velocity[static_cast<std::size_t>(dof)];
     }
     out += values_per_node;
   }

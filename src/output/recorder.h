@@ -51,8 +51,10 @@ class Recorder {
   void add_impulse(int contact, double impulse) {
     impulse_[static_cast<std::size_t>(contact)] += impulse;
   }
-  /// Makes a record; `gaps` per contact are read on the interface root. Collective only when the
-  /// buffer is full.
+  /// Before the step to be recorded: takes the displacements.
+  void take_displacements(const State& state);
+  /// After it: makes the record; `gaps` per contact are read on the interface root. Collective only
+  /// when the buffer is full.
   void record(const State& state, std::span<const double> gaps);
   /// Sends what is left and closes the file. Collective.
   void finish();

@@ -42,6 +42,18 @@ CongruentElements::CongruentElements(LocalIndex owned_dofs, const std::vector<do
   }
 }
 
+std::vector<LocalIndex> CongruentElements::touched_dofs() const {
+  std::vector<LocalIndex> dofs;
+  for (const Batch& batch : batches_) {
+    for (const auto& lanes : batch) {
+      for (const LocalIndex place : lanes) {
+        if (place >= 0 && place < owned_dofs_) dofs.push_back(place);
+      }
+    }
+  }
+  return dofs;
+}
+
 void CongruentElements::apply(const double* owned, const double* ghosts, double* q) const {
   Lanes displacement[size];
   Lanes force[size];

@@ -18,6 +18,9 @@ class CongruentElements {
   CongruentElements(LocalIndex owned_dofs, const std::vector<double>& stiffness,
                     const std::vector<Places>& elements);
 
+  /// Owned dofs of the elements, some more than once.
+  std::vector<LocalIndex> touched_dofs() const;
+
   /// q += K w on owned dofs. Allocates nothing.
   void apply(const double* owned, const double* ghosts, double* q) const;
 

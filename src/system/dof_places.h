@@ -13,10 +13,12 @@ struct DofPlaces {
   LocalIndex owned_dofs = 0;
   std::vector<LocalIndex> of_dof;                  ///< per local dof, owned then ghost
   std::vector<std::array<LocalIndex, 3>> of_node;  ///< per local node: its translations
+  std::vector<LocalIndex> node_end;                ///< per owned node: one beyond its last dof
 };
 
-/// Value at a place; 0 at -1.
-inline double value_at(LocalIndex place, LocalIndex owned_dofs, const double* owned,
+/// Value at a place; 0 at -1. `owned` is indexed by dof.
+template <typename Values>
+inline double value_at(LocalIndex place, LocalIndex owned_dofs, const Values& owned,
                        const double* ghosts) {
   if (place < 0) return 0;
   return place < owned_dofs ? owned[place] : ghosts[place - owned_dofs];

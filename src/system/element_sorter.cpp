@@ -43,6 +43,10 @@ ElementSorter::ElementSorter(const Structure& structure, const Mesh& mesh, const
           dof < 0 ? -1 : places_.of_dof[static_cast<std::size_t>(dof)];
     }
     places_.of_node.push_back(place);
+    if (node < mesh.owned_nodes) {
+      const auto n = static_cast<std::size_t>(node);
+      places_.node_end.push_back(mesh.first_dof[n] + component_count(mesh.free_components[n]));
+    }
   }
 }
 

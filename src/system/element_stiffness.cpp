@@ -1,5 +1,7 @@
 #include "system/element_stiffness.h"
 
+#include <algorithm>
+
 #include <mpi.h>
 
 #include "common/parallel.h"
@@ -8,23 +10,79 @@
 namespace pounding {
 namespace {
 
-/// Owned dofs that the first bricks leave alone.
-std::vector<LocalIndex> untouched_dofs(const std::vector<BrickLines>& bricks,
-                                       LocalIndex owned_dofs) {
-  std::vector<char> touched(static_cast<std::size_t>(owned_dofs), 0);
-  if (!bricks.empty()) bricks.front().mark_touched(touched);
-  std::vector<LocalIndex> dofs;
-  for (LocalIndex dof = 0; dof < owned_dofs; ++dof) {
-    if (touched[static_cast<std::size_t>(dof)] == 0) dofs.push_back(dof);
+/// Counts who adds to a dof, to find the last one.
+class TouchCounter {
+ public:
+  explicit TouchCounter(LocalIndex owned_dofs) : left_(static_cast<std::size_t>(owned_dofs), 0) {
+    began_ = left_;
   }
-  return dofs;
+
+  void expect(const std::vector<LocalIndex>& dofs) {
+    for (const LocalIndex dof : dofs) ++left_[static_cast<std::size_t>(dof)];
+  }
+  void happen(const std::vector<LocalIndex>& dofs) {
+    for (const LocalIndex dof : dofs) {
+      --left_[static_cast<std::size_t>(dof)];
+      began_[static_cast<std::size_t>(dof)] = 1;
+    }
+  }
+  bool untouched(DofRange range) const { return all_are(began_, range, 0); }
+  /// Nobody is left to add to them.
+  bool done(DofRange range) const { return all_are(left_, range, 0); }
+
+ private:
+  static bool all_are(const std::vector<int>& counts, DofRange range, int value) {
+    return std::all_of(counts.begin() + range.begin, counts.begin() + range.end,
+                       [value](int count) { return count == value; });
+  }
+
+  std::vector<int> left_;
+  std::vector<int> began_;
+};
+
+void append_dofs(const std::vector<CongruentElements>& groups, std::vector<LocalIndex>& dofs) {
+  for (const CongruentElements& elements : groups) {
+    const auto touched = elements.touched_dofs();
+    dofs.insert(dofs.end(), touched.begin(), touched.end());
+  }
 }
+
+/// Chains that nothing adds to after them hand over their forces.
+void decide_outcomes(std::vector<BrickLines>& all, TouchCounter& counter,
+                     std::vector<char>& handed_over) {
+  for (BrickLines& bricks : all) {
+    std::vector<BrickLines::Outcome> outcomes;
+    for (std::size_t c = 0; c < bricks.chain_count(); ++c) {
+      const DofRange range = bricks.chain_range(c);
+      const bool alone = counter.untouched(range);
+      counter.happen(bricks.chain_dofs(c));
+      auto& outcome = outcomes.emplace_back(BrickLines::Outcome::add);
+      if (!range.empty() && counter.done(range)) {
+        outcome = alone ? BrickLines::Outcome::hand_over : BrickLines::Outcome::complete;
+        std::fill(handed_over.begin() + range.begin, handed_over.begin() + range.end, 1);
+      }
+    }
+    bricks.set_outcomes(outcomes);
+  }
+}
+
+/// Copies a product to an array.
+class Copy final : public ForceReceiver {
+ public:
+  explicit Copy(double* q) : q_(q) {}
+  void receive(LocalIndex begin, LocalIndex end, const double* force) override {
+    std::copy(force, force + (end - begin), q_ + begin);
+  }
+
+ private:
+  double* q_;
+};
 
 }  // namespace
 
 ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
                                    std::unique_ptr<Stiffness> assembled)
-    : assembled_(std::move(assembled)) {
+    : owned_dofs_(mesh.owned_dofs), assembled_(std::move(assembled)) {
   std::vector<GlobalIndex> ghosts(static_cast<std::size_t>(mesh.dof_count - mesh.owned_dofs));
   for (LocalIndex node = mesh.owned_nodes; node < mesh.node_count(); ++node) {
     for (int c = 0; c < 6; ++c) {
@@ -41,11 +99,49 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
     outer_ = {sorter.brick_lines(true), sorter.congruent_elements(true)};
     sparse_ = std::make_unique<SparseRows>(sorter.sparse_rows());
     kinds_ = sorter.kinds();
-    untouched_ = untouched_dofs(inner_.bricks, mesh.owned_dofs);
+    plan();
   });
   std::array<GlobalIndex, 3> counts{kinds_.bricks, kinds_.congruent, kinds_.other};
   MPI_Allreduce(MPI_IN_PLACE, counts.data(), 3, MPI_INT64_T, MPI_SUM, mesh.comm);
   kinds_ = {counts[0], counts[1], counts[2]};
+}
+
+/// Decides which chains of bricks may hand their forces over, by going through a product.
+void ElementStiffness::plan() {
+  std::vector<LocalIndex> early = sparse_->owned_rows();
+  append_dofs(inner_.congruent, early);
+  std::vector<LocalIndex> late = sparse_->ghost_rows();
+  append_dofs(outer_.congruent, late);
+  TouchCounter counter(owned_dofs_);
+  counter.expect(early);
+  counter.expect(late);
+  for (const Part* part : {&inner_, &outer_}) {
+    for (const BrickLines& bricks : part->bricks) {
+      for (std::size_t c = 0; c < bricks.chain_count(); ++c) counter.expect(bricks.chain_dofs(c));
+    }
+  }
+  std::vector<char> handed_over(static_cast<std::size_t>(owned_dofs_), 0);
+  counter.happen(early);
+  decide_outcomes(inner_.bricks, counter, handed_over);
+  counter.happen(late);
+  decide_outcomes(outer_.bricks, counter, handed_over);
+  for (LocalIndex dof = 0; dof < owned_dofs_; ++dof) {
+    if (handed_over[static_cast<std::size_t>(dof)] != 0) continue;
+    if (late_ranges_.empty() || late_ranges_.back().end != dof) late_ranges_.push_back({dof, dof});
+    ++late_ranges_.back().end;
+  }
+  append_dofs(outer_.congruent, early);
+  std::sort(early.begin(), early.end());
+  early.erase(std::unique(early.begin(), early.end()), early.end());
+  general_dofs_ = std::move(early);
+  argument_.assign(static_cast<std::size_t>(owned_dofs_), 0.0);
+  force_ = argument_;
+}
+
+double ElementStiffness::early_share() const {
+  LocalIndex late = 0;
+  for (const DofRange& range : late_ranges_) late += range.end - range.begin;
+  return owned_dofs_ > 0 ? 1 - static_cast<double>(late) / owned_dofs_ : 1;
 }
 
 void ElementStiffness::apply(Vec w, Vec q) const {
@@ -57,23 +153,32 @@ void ElementStiffness::apply(Vec w, Vec q) const {
 }
 
 void ElementStiffness::apply(const double* w, double* q) const {
-  halo_->begin(w);
-  const double* const ghosts = halo_->ghosts();
-  for (const LocalIndex dof : untouched_) q[dof] = 0;
-  for (std::size_t i = 0; i < inner_.bricks.size(); ++i) {
-    inner_.bricks[i].apply(w, ghosts, q, i > 0);
-  }
-  add_congruent(inner_, w, ghosts, q);
-  sparse_->add_owned(w, q);
-  halo_->end();
-  for (const BrickLines& bricks : outer_.bricks) bricks.apply(w, ghosts, q, true);
-  add_congruent(outer_, w, ghosts, q);
-  sparse_->add_ghosts(ghosts, q);
+  Copy copy(q);
+  apply({w, w, 0}, copy);
 }
 
-void ElementStiffness::add_congruent(const Part& part, const double* w, const double* ghosts,
-                                     double* q) {
-  for (const CongruentElements& elements : part.congruent) elements.apply(w, ghosts, q);
+void ElementStiffness::apply(const StiffnessArgument& w, ForceReceiver& receiver) const {
+  double* const q = force_.data();
+  halo_->begin(w);
+  const double* const ghosts = halo_->ghosts();
+  for (const LocalIndex dof : general_dofs_) argument_[static_cast<std::size_t>(dof)] = w[dof];
+  sparse_->add_owned(argument_.data(), q);
+  add_congruent(inner_);
+  for (const BrickLines& bricks : inner_.bricks) bricks.apply(w, ghosts, q, receiver);
+  halo_->end();
+  add_congruent(outer_);
+  sparse_->add_ghosts(ghosts, q);
+  for (const BrickLines& bricks : outer_.bricks) bricks.apply(w, ghosts, q, receiver);
+  for (const DofRange& range : late_ranges_) {
+    receiver.receive(range.begin, range.end, q + range.begin);
+    std::fill(q + range.begin, q + range.end, 0.0);
+  }
+}
+
+void ElementStiffness::add_congruent(const Part& part) const {
+  for (const CongruentElements& elements : part.congruent) {
+    elements.apply(argument_.data(), halo_->ghosts(), force_.data());
+  }
 }
 
 }  // namespace pounding

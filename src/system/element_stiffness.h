@@ -22,39 +22,49 @@ struct ElementKinds {
 
 /// K applied element by element, without reading a matrix: bricks and other congruent hexahedra
 /// share theirs. A rank holds every element that touches an owned node, so a product needs the
-/// ghosts of w once; they travel while the elements without ghosts are done. Each rank sums in a
-/// fixed order: the same bits on every run. Against the assembled matrix the product differs by
-/// round-off, and by the 1e-10 of the shortest edge to which shapes count as congruent.
+/// ghosts of w once; they travel while the elements without ghosts are done:
+///
+///     w -> [halo begins] -> sparse rows, congruent, bricks -> [halo ends] -> those with ghosts
+///
+/// Forces that nothing adds to any more are handed over at once, the others at the end. Each rank
+/// sums in a fixed order: the same bits on every run. Against the assembled matrix the product
+/// differs by round-off, and by the 1e-10 of the shortest edge to which shapes count as congruent.
 class ElementStiffness final : public Stiffness {
  public:
   /// `assembled` keeps the matrix for eigenvalues; may be null, then matrix() is. Collective.
   ElementStiffness(const Structure& structure, const Mesh& mesh,
                    std::unique_ptr<Stiffness> assembled);
 
-  /// q = K w. Allocates nothing. Collective.
+  void apply(const StiffnessArgument& w, ForceReceiver& receiver) const override;
   void apply(Vec w, Vec q) const override;
-  /// The same on arrays of owned dofs. Collective.
+  /// q = K w on arrays of owned dofs. Collective.
   void apply(const double* w, double* q) const;
   Mat matrix() const override { return assembled_ != nullptr ? assembled_->matrix() : nullptr; }
 
   const ElementKinds& kinds() const { return kinds_; }
+  /// Share of this rank's dofs that are handed over before the end of a product.
+  double early_share() const;
 
  private:
-  friend class ElementSorter;
   /// Everything applied before, or after the ghosts are here.
   struct Part {
     std::vector<BrickLines> bricks;  ///< per frame
     std::vector<CongruentElements> congruent;
   };
-  static void add_congruent(const Part& part, const double* w, const double* ghosts, double* q);
+  void plan();
+  void add_congruent(const Part& part) const;
 
+  LocalIndex owned_dofs_ = 0;
   std::unique_ptr<Stiffness> assembled_;
   std::unique_ptr<Halo> halo_;
-  Part inner_;                          ///< elements of owned nodes only
-  Part outer_;                          ///< elements that touch a ghost
-  std::unique_ptr<SparseRows> sparse_;  ///< all others
-  std::vector<LocalIndex> untouched_;   ///< owned dofs that inner_.bricks[0] does not set
+  Part inner_;                            ///< elements of owned nodes only
+  Part outer_;                            ///< elements that touch a ghost
+  std::unique_ptr<SparseRows> sparse_;    ///< all others
+  std::vector<LocalIndex> general_dofs_;  ///< owned dofs of sparse rows and congruent elements
+  std::vector<DofRange> late_ranges_;     ///< owned dofs that bricks do not hand over
   ElementKinds kinds_;
+  mutable std::vector<double> argument_;  ///< w at general_dofs_
+  mutable std::vector<double> force_;     ///< zero between products
 };
 
 }  // namespace pounding

@@ -9,28 +9,13 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "mesh/location.h"
 #include "system/dense_eigenvalues.h"
 #include "system/element_loop.h"
 #include "system/element_stiffness.h"
 
 namespace pounding {
 namespace {
-
-std::string describe(const Mesh& mesh, const ElementBlock& block, std::size_t element) {
-  const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
-  Vector3 centre{0, 0, 0};
-  for (std::size_t a = 0; a < nodes; ++a) {
-    const Vector3 x = mesh.position(block.connectivity[element * nodes + a]);
-    for (std::size_t d = 0; d < 3; ++d) {
-      centre[d] += x[d] / static_cast<double>(nodes);
-    }
-  }
-  std::ostringstream text;
-  text << "element " << block.tags[element] << " of group '" << block.group << "' at ("
-       << std::round(1e4 * centre[0]) / 1e4 << ", " << std::round(1e4 * centre[1]) / 1e4 << ", "
-       << std::round(1e4 * centre[2]) / 1e4 << ")";
-  return text.str();
-}
 
 /// Elements of one shape have one frequency: look at one of them.
 class FrequencyCache {
@@ -90,8 +75,8 @@ void for_each_element(const Structure& structure, const Mesh& mesh, Visit&& visi
         element_matrices(block.type, gather_coordinates(mesh, block, e, work), properties,
                          {work.stiffness.data(), size * size}, {work.mass.data(), size});
       } catch (const ElementError& error) {
-        throw UserError("structure " + structure.name + ": " + describe(mesh, block, e) + ": " +
-                        error.what());
+        throw UserError("structure " + structure.name + ": " + describe_element(mesh, block, e) +
+                        ": " + error.what());
       }
       visit(block, e, layout, work);
     }
@@ -277,7 +262,7 @@ class Assembly {
                  : cache_.frequency({work.stiffness.data(), size * size}, {work.mass.data(), size});
     if (frequency > system_.element_frequency_bound) {
       system_.element_frequency_bound = frequency;
-      system_.stiffest_element = describe(mesh_, block, element);
+      system_.stiffest_element = describe_element(mesh_, block, element);
     }
   }
 
@@ -383,13 +368,12 @@ LinearSystem build_finite_element_system(const Structure& structure, const Mesh&
   for (std::size_t i = 0; i < system.lumped_mass.size(); ++i) {
     system.inverse_mass[i] = 1 / system.lumped_mass[i];
   }
-  for (int direction = 0; direction < 3; ++direction) {
-    auto& influence = system.influence[static_cast<std::size_t>(direction)];
-    influence.assign(system.lumped_mass.size(), 0.0);
-    for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-      const LocalIndex dof = mesh.dof(node, direction);
+  system.direction.assign(system.lumped_mass.size(), -1);
+  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
+    for (int d = 0; d < 3; ++d) {
+      const LocalIndex dof = mesh.dof(node, d);
       if (dof >= 0) {
-        influence[static_cast<std::size_t>(dof)] = 1;
+        system.direction[static_cast<std::size_t>(dof)] = static_cast<std::int8_t>(d);
       }
     }
   }

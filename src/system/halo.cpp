@@ -75,10 +75,7 @@ Halo::~Halo() {
   MPI_Comm_free(&comm_);
 }
 
-void Halo::begin(const double* owned) {
-  for (std::size_t i = 0; i < send_.size(); ++i) {
-    send_[i] = owned[sent_dofs_[i]];
-  }
+void Halo::start() {
   if (!requests_.empty()) {
     MPI_Startall(static_cast<int>(requests_.size()), requests_.data());
   }

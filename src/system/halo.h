@@ -25,8 +25,15 @@ class Halo {
   Halo& operator=(const Halo&) = delete;
   ~Halo();
 
-  /// Starts sending from `owned`, shape (owned_count), which may change afterwards.
-  void begin(const double* owned);
+  /// Starts sending from `owned`, values by owned dof (a pointer, or what is indexed like one),
+  /// which may change afterwards.
+  template <typename Values>
+  void begin(const Values& owned) {
+    for (std::size_t i = 0; i < send_.size(); ++i) {
+      send_[i] = owned[sent_dofs_[i]];
+    }
+    start();
+  }
   /// Waits until all ghost values are here and all messages have left.
   void end();
 
@@ -36,6 +43,8 @@ class Halo {
   int neighbour_count() const { return neighbour_count_; }
 
  private:
+  void start();
+
   MPI_Comm comm_ = MPI_COMM_NULL;
   std::vector<LocalIndex> place_;
   std::vector<LocalIndex> sent_dofs_;  ///< owned dofs in the order of send_

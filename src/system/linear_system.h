@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,12 +24,14 @@ struct LinearSystem {
   MPI_Comm comm = MPI_COMM_SELF;
   Rayleigh damping;
   GlobalIndex global_dofs = 0;
-  std::vector<double> lumped_mass;               ///< M [kg, kg m2]
-  std::vector<double> inverse_mass;              ///< [1/kg, 1/(kg m2)]
-  std::array<std::vector<double>, 3> influence;  ///< iota per direction: 1 on its translations [-]
-  std::unique_ptr<Stiffness> stiffness;          ///< K of the linear elements
-  std::string stiffness_method;                  ///< how it is applied, for the report
-  std::unique_ptr<Stiffness> taut;  ///< K with tension-only bars taut; null if there are none
+  std::vector<double> lumped_mass;   ///< M [kg, kg m2]
+  std::vector<double> inverse_mass;  ///< [1/kg, 1/(kg m2)]
+  /// Per dof, the direction (0-2) in which it is a translation, -1 for rotations: the influence
+  /// vector iota of direction d is 1 where this is d.
+  std::vector<std::int8_t> direction;
+  std::unique_ptr<Stiffness> stiffness;  ///< K of the linear elements
+  std::string stiffness_method;          ///< how it is applied, for the report
+  std::unique_ptr<Stiffness> taut;       ///< K with tension-only bars taut; null if there are none
   std::unique_ptr<TensionBars> tension_bars;  ///< null if there are none
   std::unique_ptr<Stiffness> dashpots;        ///< C beside alpha M + beta K [N s/m]; null if none
   double dashpot_rate = 0;  ///< bound of the largest eigenvalue of M^-1 C of dashpots [1/s]
@@ -47,6 +49,8 @@ struct LinearSystem {
   bool has_devices() const { return tension_bars || dashpots; }
   /// Damping that stands for all of it in a bound of the stable time step.
   Rayleigh bounding_damping() const { return {damping.alpha + dashpot_rate, damping.beta}; }
+  /// iota of a direction [-].
+  std::vector<double> influence(int d) const;
   LocalIndex owned_dofs() const { return static_cast<LocalIndex>(lumped_mass.size()); }
 };
 

@@ -31,6 +31,10 @@ class SparseRows {
   /// calls.
   void add(std::span<const LocalIndex> places, std::span<const double> matrix);
 
+  /// Rows with entries on owned columns, or on ghosts. An owned row is a column of one, too.
+  const std::vector<LocalIndex>& owned_rows() const { return owned_part_.rows; }
+  const std::vector<LocalIndex>& ghost_rows() const { return ghost_part_.rows; }
+
   /// q += the part that owned values, or ghosts, contribute.
   void add_owned(const double* owned, double* q) const { add_product(owned_part_, owned, q); }
   void add_ghosts(const double* ghosts, double* q) const { add_product(ghost_part_, ghosts, q); }

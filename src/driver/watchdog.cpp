@@ -1,0 +1,62 @@
+#include "driver/watchdog.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "common/error.h"
+#include "mesh/location.h"
+
+namespace pounding {
+namespace {
+
+/// Part of the largest energy term beyond which the identity is broken.
+constexpr double broken_identity = 1e-6;
+
+/// Part of the kinetic energy by which round-off can make the positive part negative.
+constexpr double round_off = 1e-10;
+
+/// What is wrong with the energies of a structure; empty if nothing is.
+std::string complaint(const StructureEnergy& energy) {
+  std::ostringstream text;
+  if (!std::isfinite(energy.energy()) || !std::isfinite(energy.positive_part)) {
+    text << "its energy is not a number";
+  } else if (energy.positive_part < -round_off * std::abs(energy.kinetic)) {
+    text << "v^T (M - dt/2 C - dt^2/4 K) v / 2 = " << energy.positive_part
+         << " J is negative (kinetic " << energy.kinetic << " J, strain " << energy.strain << " J)";
+  }
+  return text.str();
+}
+
+}  // namespace
+
+void watch_divergence(const Model& model, const State& state, const EnergyLine& line,
+                      std::span<const StructureEnergy> structures) {
+  for (std::size_t s = 0; s < structures.size(); ++s) {
+    const std::string wrong = complaint(structures[s]);
+    if (wrong.empty()) {
+      continue;
+    }
+    std::vector<double> motion = state.bodies[s].velocity;
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+      motion[i] *= std::sqrt(model.systems[s].lumped_mass[i]);
+    }
+    std::ostringstream text;
+    text << "the run diverged: structure " << model.systems[s].name << ": " << wrong
+         << " at t = " << line.time << " s (step " << state.step - 1 << "); it moves most at "
+         << locate_largest(model.meshes[s], motion) << "; time step " << model.time_step
+         << " s, stable " << model.stable_time_step[s] << " s";
+    throw DivergenceError(text.str());
+  }
+}
+
+void watch_identity(const EnergyLine& line, double relative_residual) {
+  if (relative_residual > broken_identity) {
+    std::ostringstream text;
+    text << "the energy identity does not close at t = " << line.time << " s: residual "
+         << line.residual << " J is " << relative_residual
+         << " of the largest term; the run is stopped, its results cannot be trusted";
+    throw DivergenceError(text.str());
+  }
+}
+
+}  // namespace pounding

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+
+#include "driver/model.h"
+#include "dynamics/energy_balance.h"
+#include "dynamics/state.h"
+
+/// Stops runs whose numbers cannot be trusted, at every line of the energy ledger.
+namespace pounding {
+
+/// Throws DivergenceError if an energy of a structure is not a number, or if its positive part is
+/// negative beyond round-off: the first sign of a step that is too long. The message names the
+/// structure, the node that moves most and an element there. Collective.
+void watch_divergence(const Model& model, const State& state, const EnergyLine& line,
+                      std::span<const StructureEnergy> structures);
+
+/// Throws DivergenceError if the energy identity, exact but for round-off, does not close: the
+/// state or the matrices are damaged. `relative_residual`: of the largest term.
+void watch_identity(const EnergyLine& line, double relative_residual);
+
+}  // namespace pounding

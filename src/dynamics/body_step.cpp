@@ -1,0 +1,217 @@
+#include "dynamics/body_step.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace pounding {
+namespace {
+
+constexpr std::size_t lanes = sizeof(Lanes) / sizeof(double);
+constexpr std::size_t pattern = 3 * lanes;  // dofs
+
+double add_up(const Lanes& values) {
+  return (values[0] + values[2]) + (values[1] + values[3]);
+}
+
+bool directions_are(const LinearSystem& system, std::size_t dof, std::array<int, 3> expected) {
+  if (dof + 3 > system.direction.size()) {
+    return false;
+  }
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (system.direction[dof + d] != expected[d]) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+BodyStep::BodyStep(const LinearSystem& system, BodyState& state, double time_step)
+    : system_(system), state_(state), time_step_(time_step) {
+  find_segments();
+}
+
+void BodyStep::find_segments() {
+  const std::size_t dofs = system_.direction.size();
+  for (std::size_t dof = 0; dof < dofs;) {
+    Order order = Order::none;
+    std::size_t length = 1;
+    if (!system_.has_devices() && directions_are(system_, dof, {0, 1, 2})) {
+      const bool turns = directions_are(system_, dof + 3, {-1, -1, -1});
+      order = turns ? Order::nodes_of_six : Order::translations;
+      length = turns ? 6 : 3;
+    }
+    if (segments_.empty() || segments_.back().order != order) {
+      segments_.push_back({static_cast<LocalIndex>(dof), static_cast<LocalIndex>(dof), order});
+    }
+    dof += length;
+    segments_.back().end = static_cast<LocalIndex>(dof);
+  }
+}
+
+void BodyStep::begin(double duration, const std::array<double, 3>& ground_acceleration, bool first,
+                     bool with_energies) {
+  duration_ = duration;
+  decay_ = 1 - duration * system_.damping.alpha;
+  inverse_ = first ? 0 : 1 / (system_.damping.beta + time_step_);
+  with_energies_ = with_energies;
+  for (std::size_t d = 0; d < 3; ++d) {
+    ground_step_[d] = duration * (ground_acceleration[d] - system_.gravity[d]);
+  }
+  sums_ = {};
+  single_ = {};
+}
+
+void BodyStep::receive(LocalIndex begin, LocalIndex end, const double* force) {
+  auto segment = std::upper_bound(segments_.begin(), segments_.end(), begin,
+                                  [](LocalIndex dof, const Segment& s) { return dof < s.end; });
+  for (LocalIndex dof = begin; dof < end; ++segment) {
+    const LocalIndex stop = std::min(end, segment->end);
+    advance_segment(dof, stop, force + (dof - begin), segment->order);
+    dof = stop;
+  }
+}
+
+void BodyStep::advance_segment(LocalIndex begin, LocalIndex end, const double* force, Order order) {
+  if (with_energies_) {
+    advance<true>(begin, end, force, order);
+  } else {
+    advance<false>(begin, end, force, order);
+  }
+}
+
+template <bool with_energies>
+void BodyStep::advance(LocalIndex begin, LocalIndex end, const double* force, Order order) {
+  const auto first = static_cast<std::size_t>(begin);
+  const auto count = static_cast<std::size_t>(end - begin);
+  std::size_t i = 0;
+  if (order != Order::none) {
+    const bool turns = order == Order::nodes_of_six;
+    Lanes ground[pattern_lanes];
+    for (std::size_t l = 0; l < pattern; ++l) {
+      ground[l / lanes][l % lanes] = turns && l % 6 >= 3 ? 0 : ground_step_[l % 3];
+    }
+    double* const displacement = state_.displacement.data() + first;
+    double* const velocity = state_.velocity.data() + first;
+    double* const stiffness = state_.stiffness_displacement.data() + first;
+    const double* const inverse_mass = system_.inverse_mass.data() + first;
+    const double* const mass = system_.lumped_mass.data() + first;
+    const double time_step = time_step_;
+    const double duration = duration_;
+    const double decay = decay_;
+    const double inverse = inverse_;
+    Sums& kept = sums_[turns ? 1 : 0];
+    Sums sums = kept;
+    const auto advance_lanes = [&](std::size_t at, std::size_t k) __attribute__((always_inline)) {
+      Lanes q, u, v, ku, weight, m;
+      load(force + at, q);
+      load(displacement + at, u);
+      load(velocity + at, v);
+      load(stiffness + at, ku);
+      load(inverse_mass + at, weight);
+      load(mass + at, m);
+      if constexpr (with_energies) {
+        sums.kinetic_before += m * v * v;
+        sums.strain_before += u * ku;
+      }
+      const Lanes kv = (q - ku) * inverse;
+      const Lanes after = decay * v - duration * (weight * q) - ground[k];
+      const Lanes sum = after + v;
+      const Lanes momentum = m * sum;
+      store(stiffness + at, ku + time_step * kv);
+      store(velocity + at, after);
+      store(displacement + at, u + time_step * after);
+      sums.stiffness_before += v * kv;
+      sums.stiffness_across += after * kv;
+      sums.mass_sum += momentum * sum;
+      sums.momentum[k] += momentum;
+    };
+    for (; i + pattern <= count; i += pattern) {
+      advance_lanes(i, 0);
+      advance_lanes(i + lanes, 1);
+      advance_lanes(i + 2 * lanes, 2);
+    }
+    for (std::size_t k = 0; i + lanes <= count; i += lanes, ++k) {
+      advance_lanes(i, k);
+    }
+    kept = sums;
+  }
+  for (; i < count; ++i) {
+    advance_dof<with_energies>(begin + static_cast<LocalIndex>(i), force[i]);
+  }
+}
+
+template <bool with_energies>
+void BodyStep::advance_dof(LocalIndex dof, double force) {
+  const auto i = static_cast<std::size_t>(dof);
+  const double before = state_.velocity[i];
+  const double mass = system_.lumped_mass[i];
+  double& ku = state_.stiffness_displacement[i];
+  if constexpr (with_energies) {
+    single_.kinetic_before += mass * before * before;
+    single_.strain_before += state_.displacement[i] * ku;
+  }
+  const double kv = (force - ku) * inverse_;
+  double after = decay_ * before - duration_ * (system_.inverse_mass[i] * force);
+  if (!state_.device_force.empty()) {
+    after -= duration_ * (system_.inverse_mass[i] * state_.device_force[i]);
+    single_.device += state_.device_force[i] * (after + before);
+  }
+  const int direction = system_.direction[i];
+  if (direction >= 0) {
+    after -= ground_step_[static_cast<std::size_t>(direction)];
+    single_.momentum[static_cast<std::size_t>(direction)] += mass * (after + before);
+  }
+  ku += time_step_ * kv;
+  state_.velocity[i] = after;
+  state_.displacement[i] += time_step_ * after;
+  single_.stiffness_before += before * kv;
+  single_.stiffness_across += after * kv;
+  single_.mass_sum += mass * (after + before) * (after + before);
+}
+
+BodyStep::Before BodyStep::before(LocalIndex dof) const {
+  const auto i = static_cast<std::size_t>(dof);
+  return {state_.displacement[i], state_.velocity[i], state_.stiffness_displacement[i]};
+}
+
+void BodyStep::correct(LocalIndex dof, const Before& before, double velocity) {
+  const auto i = static_cast<std::size_t>(dof);
+  const double free = state_.velocity[i];
+  const double change = velocity - free;
+  const double mass = system_.lumped_mass[i];
+  const double kv =
+      inverse_ > 0 ? (state_.stiffness_displacement[i] - before.stiffness_displacement) / time_step_
+                   : 0;
+  single_.stiffness_across += change * kv;
+  single_.mass_sum += mass * change * (2 * (free + before.velocity) + change);
+  if (system_.direction[i] >= 0) {
+    single_.momentum[static_cast<std::size_t>(system_.direction[i])] += mass * change;
+  }
+  if (!state_.device_force.empty()) {
+    single_.device += state_.device_force[i] * change;
+  }
+  state_.velocity[i] = velocity;
+  state_.displacement[i] = before.displacement + time_step_ * velocity;
+}
+
+StepSums BodyStep::sums() const {
+  StepSums total = single_;
+  for (std::size_t turns = 0; turns < 2; ++turns) {
+    const Sums& sums = sums_[turns];
+    total.stiffness_before += add_up(sums.stiffness_before);
+    total.stiffness_across += add_up(sums.stiffness_across);
+    total.mass_sum += add_up(sums.mass_sum);
+    total.kinetic_before += add_up(sums.kinetic_before);
+    total.strain_before += add_up(sums.strain_before);
+    for (std::size_t l = 0; l < pattern; ++l) {
+      if (turns == 0 || l % 6 < 3) {
+        total.momentum[l % 3] += sums.momentum[l / lanes][l % lanes];
+      }
+    }
+  }
+  return total;
+}
+
+}  // namespace pounding

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "dynamics/state.h"
+#include "system/lanes.h"
+#include "system/linear_system.h"
+
+namespace pounding {
+
+/// Sums over the owned dofs of a structure that one step leaves for the energy balance, with
+/// v- = v_{n-1/2}, v+ = v_{n+1/2}, s = v+ + v-.
+struct StepSums {
+  double stiffness_before = 0;       ///< v-^T K v- [W]
+  double stiffness_across = 0;       ///< v+^T K v-
+  double mass_sum = 0;               ///< s^T M s [J]
+  std::array<double, 3> momentum{};  ///< iota_d^T M s [kg m/s]
+  double device = 0;                 ///< x^T s, x the force of devices [W]
+  double kinetic_before = 0;         ///< v-^T M v- [J], if energies are asked for
+  double strain_before = 0;          ///< u_n^T K u_{n-1} [J], if energies are asked for
+};
+
+/// Takes the forces q = K (u_n + beta v-) of a structure range by range and brings the state there
+/// one step on:
+///
+///     v+      = (1 - dt alpha) v- - dt M^-1 (q + x) - dt (a_g - g) iota
+///     u_{n+1} = u_n + dt v+
+///     K v-    = (q - K u_{n-1}) / (beta + dt)
+///     K u_n   = K u_{n-1} + dt K v-
+///
+/// with half the dt in v+ at the start. All of it while the range is in the nearest cache; the sums
+/// for the energy balance are taken on the way. v+ is free of contact until `correct` is called.
+class BodyStep final : public ForceReceiver {
+ public:
+  /// References must outlive this object.
+  BodyStep(const LinearSystem& system, BodyState& state, double time_step);
+
+  /// `duration`: of the velocity's step [s]; `first`: K u_{n-1} holds K u_n already and stays.
+  void begin(double duration, const std::array<double, 3>& ground_acceleration, bool first,
+             bool with_energies);
+  void receive(LocalIndex begin, LocalIndex end, const double* force) override;
+  /// What a dof held before the step.
+  struct Before {
+    double displacement = 0;
+    double velocity = 0;
+    double stiffness_displacement = 0;
+  };
+  Before before(LocalIndex dof) const;
+  /// v+ = `velocity` at a dof, after contact; sums and displacement follow.
+  void correct(LocalIndex dof, const Before& before, double velocity);
+  /// Sums of the whole step.
+  StepSums sums() const;
+
+ private:
+  static constexpr std::size_t pattern_lanes = 3;  // vectors in which directions repeat: 12 dofs
+
+  /// Dofs whose directions repeat: x y z, or x y z and three rotations, or in no order.
+  enum class Order { translations, nodes_of_six, none };
+  struct Segment {
+    LocalIndex begin = 0;
+    LocalIndex end = 0;
+    Order order = Order::none;
+  };
+  /// Per lane.
+  struct Sums {
+    Lanes stiffness_before{};
+    Lanes stiffness_across{};
+    Lanes mass_sum{};
+    Lanes kinetic_before{};
+    Lanes strain_before{};
+    Lanes momentum[pattern_lanes]{};
+  };
+
+  void find_segments();
+  template <bool with_energies>
+  void advance(LocalIndex begin, LocalIndex end, const double* force, Order order);
+  template <bool with_energies>
+  void advance_dof(LocalIndex dof, double force);
+  void advance_segment(LocalIndex begin, LocalIndex end, const double* force, Order order);
+
+  const LinearSystem& system_;
+  BodyState& state_;
+  double time_step_;
+  std::vector<Segment> segments_;
+  double duration_ = 0;
+  double decay_ = 1;
+  double inverse_ = 0;  ///< 1 / (beta + dt), 0 in the first step
+  bool with_energies_ = false;
+  std::array<double, 3> ground_step_{};
+  std::array<Sums, 2> sums_;  ///< per order with a pattern
+  StepSums single_;           ///< of dofs taken one by one
+};
+
+}  // namespace pounding

@@ -1,0 +1,85 @@
+#include "mesh/location.h"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "common/parallel.h"
+#include "elements/element.h"
+
+namespace pounding {
+namespace {
+
+/// (x, y, z) to a tenth of a millimetre.
+std::string describe_position(const Vector3& x) {
+  std::ostringstream text;
+  text << "(" << std::round(1e4 * x[0]) / 1e4 << ", " << std::round(1e4 * x[1]) / 1e4 << ", "
+       << std::round(1e4 * x[2]) / 1e4 << ")";
+  return text.str();
+}
+
+/// The first element of the file that holds a node; empty if none does.
+std::string element_at(const Mesh& mesh, LocalIndex node) {
+  for (const ElementBlock& block : mesh.blocks) {
+    const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
+    for (std::size_t corner = 0; corner < block.connectivity.size(); ++corner) {
+      if (block.connectivity[corner] == node) {
+        return ", element " + std::to_string(block.tags[corner / nodes]) + " of group '" +
+               block.group + "'";
+      }
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string describe_element(const Mesh& mesh, const ElementBlock& block, std::size_t element) {
+  const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
+  Vector3 centre{0, 0, 0};
+  for (std::size_t a = 0; a < nodes; ++a) {
+    const Vector3 x = mesh.position(block.connectivity[element * nodes + a]);
+    for (std::size_t d = 0; d < 3; ++d) {
+      centre[d] += x[d] / static_cast<double>(nodes);
+    }
+  }
+  return "element " + std::to_string(block.tags[element]) + " of group '" + block.group + "' at " +
+         describe_position(centre);
+}
+
+std::string locate_largest(const Mesh& mesh, std::span<const double> values) {
+  struct {
+    double value;
+    int rank;
+  } largest{-1, rank_of(mesh.comm)};
+  LocalIndex place = -1;
+  int component = 0;
+  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
+    for (int c = 0; c < 6; ++c) {
+      const LocalIndex dof = mesh.dof(node, c);
+      if (dof < 0) {
+        continue;
+      }
+      const double value = values[static_cast<std::size_t>(dof)];
+      const double size =
+          std::isfinite(value) ? std::abs(value) : std::numeric_limits<double>::infinity();
+      if (size > largest.value) {
+        largest.value = size;
+        place = node;
+        component = c;
+      }
+    }
+  }
+  std::string mine;
+  if (place >= 0) {
+    mine = "node at " + describe_position(mesh.position(place)) + ", component " +
+           (component < 3 ? "u" : "r") + direction_names[static_cast<std::size_t>(component % 3)] +
+           element_at(mesh, place);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, mesh.comm);
+  std::vector<char> bytes(mine.begin(), mine.end());
+  broadcast_array(mesh.comm, bytes, largest.rank);
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace pounding
