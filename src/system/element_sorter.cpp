@@ -55,7 +55,9 @@ void ElementSorter::sort() {
     if (is_hexahedron(mesh_.blocks[b].type)) {
       sort_hexahedra(b);
     } else if (mesh_.blocks[b].type != ElementType::tension_bar) {  // those are not linear
-      for (std::size_t e = 0; e < mesh_.blocks[b].count(); ++e) others_.push_back({b, e});
+      for (std::size_t e = 0; e < mesh_.blocks[b].count(); ++e) {
+        if (!add_beam({b, e})) others_.push_back({b, e});
+      }
     }
   }
   demote_rare_shapes();
@@ -89,6 +91,18 @@ bool ElementSorter::add_brick(const Element& element, const ElementProperties& p
   BrickSet& set = brick_sets_[touches_ghost(element) ? 1 : 0][brick->frame];
   set.bricks.push_back(entry);
   set.elements.push_back(element);
+  return true;
+}
+
+bool ElementSorter::add_beam(const Element& element) {
+  if (mesh_.blocks[element.first].type != ElementType::beam) return false;
+  const auto place = places(element);
+  for (std::size_t i = 1; i < 12; ++i) {
+    // Six dofs in a row, or none.
+    const LocalIndex first = place[i - i % 6];
+    if (place[i] != (first < 0 ? -1 : first + static_cast<LocalIndex>(i % 6))) return false;
+  }
+  beams_[touches_ghost(element) ? 1 : 0].push_back(element);
   return true;
 }
 
@@ -161,6 +175,30 @@ std::vector<CongruentElements> ElementSorter::congruent_elements(bool outer) con
   return result;
 }
 
+BeamElements ElementSorter::beam_elements(bool outer, LocalIndex idle) const {
+  std::vector<BeamElements::Beam> beams;
+  for (const Element& element : beams_[outer ? 1 : 0]) {
+    const auto [b, e] = element;
+    const ElementBlock& block = mesh_.blocks[b];
+    const auto place = places(element);
+    beams.push_back(BeamElements::make(
+        {place[0] < 0 ? idle : place[0], place[6] < 0 ? idle : place[6]},
+        gather_coordinates(mesh_, block, e, work_),
+        element_properties(structure_.regions[static_cast<std::size_t>(block.region)])));
+  }
+  return {beams, idle};
+}
+
+std::vector<LocalIndex> ElementSorter::beam_dofs(bool outer) const {
+  std::vector<LocalIndex> dofs;
+  for (const Element& element : beams_[outer ? 1 : 0]) {
+    for (const LocalIndex place : places(element)) {
+      if (place >= 0 && place < mesh_.owned_dofs) dofs.push_back(place);
+    }
+  }
+  return dofs;
+}
+
 SparseRows ElementSorter::sparse_rows() const {
   std::vector<Element> elements = others_;
   std::sort(elements.begin(), elements.end());  // sums in file order on any number of ranks
@@ -196,6 +234,7 @@ ElementKinds ElementSorter::kinds() const {
     for (const auto& [frame, set] : sets) kinds.bricks += counted(set.elements);
   }
   for (const auto& [key, group] : congruent_) kinds.congruent += counted(group.elements);
+  for (const auto& beams : beams_) kinds.beams += counted(beams);
   kinds.other = counted(others_);
   return kinds;
 }

@@ -7,6 +7,7 @@
 
 #include "mesh/mesh.h"
 #include "scene/scene.h"
+#include "system/beam_elements.h"
 #include "system/brick_lines.h"
 #include "system/element_loop.h"
 #include "system/element_stiffness.h"
@@ -39,6 +40,10 @@ class ElementSorter {
   /// and bricks that fit in none join the others.
   std::vector<BrickLines> brick_lines(bool outer);
   std::vector<CongruentElements> congruent_elements(bool outer) const;
+  /// Beams between nodes that are free or clamped in all six components; `idle` as there.
+  BeamElements beam_elements(bool outer, LocalIndex idle) const;
+  /// Owned dofs of those beams, some more than once.
+  std::vector<LocalIndex> beam_dofs(bool outer) const;
   SparseRows sparse_rows() const;
   ElementKinds kinds() const;
 
@@ -58,6 +63,7 @@ class ElementSorter {
 
   void sort_hexahedra(std::size_t block);
   bool add_brick(const Element& element, const ElementProperties& properties, Snap& snap);
+  bool add_beam(const Element& element);
   int shape_number(const BrickShape& shape, std::size_t block);
   void add_congruent(const Element& element, const ElementProperties& properties, Snap& snap);
   void demote_rare_shapes();
@@ -73,6 +79,7 @@ class ElementSorter {
   std::map<std::pair<std::size_t, Vector3>, int> shape_numbers_;  ///< -1: does not split
   std::array<std::map<int, BrickSet>, 2> brick_sets_;             ///< inner, outer; by frame
   std::map<std::pair<std::size_t, std::vector<double>>, Congruent> congruent_;
+  std::array<std::vector<Element>, 2> beams_;  ///< inner, outer
   std::vector<Element> others_;
 };
 

@@ -10,6 +10,8 @@
 namespace pounding {
 namespace {
 
+constexpr LocalIndex dofs_per_node = 6;
+
 /// Counts who adds to a dof, to find the last one.
 class TouchCounter {
  public:
@@ -39,13 +41,6 @@ class TouchCounter {
   std::vector<int> left_;
   std::vector<int> began_;
 };
-
-void append_dofs(const std::vector<CongruentElements>& groups, std::vector<LocalIndex>& dofs) {
-  for (const CongruentElements& elements : groups) {
-    const auto touched = elements.touched_dofs();
-    dofs.insert(dofs.end(), touched.begin(), touched.end());
-  }
-}
 
 /// Chains that nothing adds to after them hand over their forces.
 void decide_outcomes(std::vector<BrickLines>& all, TouchCounter& counter,
@@ -95,23 +90,35 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
   on_every_rank(mesh.comm, [&] {
     ElementSorter sorter(structure, mesh, *halo_);
     sorter.sort();
-    inner_ = {sorter.brick_lines(false), sorter.congruent_elements(false)};
-    outer_ = {sorter.brick_lines(true), sorter.congruent_elements(true)};
+    const LocalIndex idle = mesh.dof_count;
+    for (const bool outer : {false, true}) {
+      Part& part = outer ? outer_ : inner_;
+      part.bricks = sorter.brick_lines(outer);
+      part.congruent = sorter.congruent_elements(outer);
+      part.beams = std::make_unique<BeamElements>(sorter.beam_elements(outer, idle));
+      part.dofs = sorter.beam_dofs(outer);
+      for (const CongruentElements& elements : part.congruent) {
+        const auto dofs = elements.touched_dofs();
+        part.dofs.insert(part.dofs.end(), dofs.begin(), dofs.end());
+      }
+    }
     sparse_ = std::make_unique<SparseRows>(sorter.sparse_rows());
+    argument_.assign(static_cast<std::size_t>(mesh.dof_count + dofs_per_node), 0.0);
+    force_ = argument_;
     kinds_ = sorter.kinds();
     plan();
   });
-  std::array<GlobalIndex, 3> counts{kinds_.bricks, kinds_.congruent, kinds_.other};
-  MPI_Allreduce(MPI_IN_PLACE, counts.data(), 3, MPI_INT64_T, MPI_SUM, mesh.comm);
-  kinds_ = {counts[0], counts[1], counts[2]};
+  std::array<GlobalIndex, 4> counts{kinds_.bricks, kinds_.congruent, kinds_.beams, kinds_.other};
+  MPI_Allreduce(MPI_IN_PLACE, counts.data(), 4, MPI_INT64_T, MPI_SUM, mesh.comm);
+  kinds_ = {counts[0], counts[1], counts[2], counts[3]};
 }
 
 /// Decides which chains of bricks may hand their forces over, by going through a product.
 void ElementStiffness::plan() {
-  std::vector<LocalIndex> early = sparse_->owned_rows();
-  append_dofs(inner_.congruent, early);
-  std::vector<LocalIndex> late = sparse_->ghost_rows();
-  append_dofs(outer_.congruent, late);
+  std::vector<LocalIndex> early = inner_.dofs;
+  early.insert(early.end(), sparse_->owned_rows().begin(), sparse_->owned_rows().end());
+  std::vector<LocalIndex> late = outer_.dofs;
+  late.insert(late.end(), sparse_->ghost_rows().begin(), sparse_->ghost_rows().end());
   TouchCounter counter(owned_dofs_);
   counter.expect(early);
   counter.expect(late);
@@ -130,12 +137,10 @@ void ElementStiffness::plan() {
     if (late_ranges_.empty() || late_ranges_.back().end != dof) late_ranges_.push_back({dof, dof});
     ++late_ranges_.back().end;
   }
-  append_dofs(outer_.congruent, early);
-  std::sort(early.begin(), early.end());
-  early.erase(std::unique(early.begin(), early.end()), early.end());
   general_dofs_ = std::move(early);
-  argument_.assign(static_cast<std::size_t>(owned_dofs_), 0.0);
-  force_ = argument_;
+  general_dofs_.insert(general_dofs_.end(), outer_.dofs.begin(), outer_.dofs.end());
+  std::sort(general_dofs_.begin(), general_dofs_.end());
+  general_dofs_.erase(std::unique(general_dofs_.begin(), general_dofs_.end()), general_dofs_.end());
 }
 
 double ElementStiffness::early_share() const {
@@ -163,10 +168,11 @@ void ElementStiffness::apply(const StiffnessArgument& w, ForceReceiver& receiver
   const double* const ghosts = halo_->ghosts();
   for (const LocalIndex dof : general_dofs_) argument_[static_cast<std::size_t>(dof)] = w[dof];
   sparse_->add_owned(argument_.data(), q);
-  add_congruent(inner_);
+  add_general(inner_);
   for (const BrickLines& bricks : inner_.bricks) bricks.apply(w, ghosts, q, receiver);
   halo_->end();
-  add_congruent(outer_);
+  std::copy(ghosts, ghosts + halo_->ghost_count(), argument_.begin() + owned_dofs_);
+  add_general(outer_);
   sparse_->add_ghosts(ghosts, q);
   for (const BrickLines& bricks : outer_.bricks) bricks.apply(w, ghosts, q, receiver);
   for (const DofRange& range : late_ranges_) {
@@ -175,10 +181,11 @@ void ElementStiffness::apply(const StiffnessArgument& w, ForceReceiver& receiver
   }
 }
 
-void ElementStiffness::add_congruent(const Part& part) const {
+void ElementStiffness::add_general(const Part& part) const {
   for (const CongruentElements& elements : part.congruent) {
     elements.apply(argument_.data(), halo_->ghosts(), force_.data());
   }
+  part.beams->apply(argument_.data(), force_.data());
 }
 
 }  // namespace pounding

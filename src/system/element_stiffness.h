@@ -5,6 +5,7 @@
 
 #include "mesh/mesh.h"
 #include "scene/scene.h"
+#include "system/beam_elements.h"
 #include "system/brick_lines.h"
 #include "system/congruent_elements.h"
 #include "system/halo.h"
@@ -17,6 +18,7 @@ namespace pounding {
 struct ElementKinds {
   GlobalIndex bricks = 0;     ///< split by their mid-planes, in rows
   GlobalIndex congruent = 0;  ///< other hexahedra that share a dense matrix
+  GlobalIndex beams = 0;      ///< from their local stiffnesses
   GlobalIndex other = 0;      ///< in a sparse matrix
 };
 
@@ -50,9 +52,11 @@ class ElementStiffness final : public Stiffness {
   struct Part {
     std::vector<BrickLines> bricks;  ///< per frame
     std::vector<CongruentElements> congruent;
+    std::unique_ptr<BeamElements> beams;
+    std::vector<LocalIndex> dofs;  ///< owned, of all but the bricks; some more than once
   };
   void plan();
-  void add_congruent(const Part& part) const;
+  void add_general(const Part& part) const;
 
   LocalIndex owned_dofs_ = 0;
   std::unique_ptr<Stiffness> assembled_;
@@ -60,11 +64,12 @@ class ElementStiffness final : public Stiffness {
   Part inner_;                            ///< elements of owned nodes only
   Part outer_;                            ///< elements that touch a ghost
   std::unique_ptr<SparseRows> sparse_;    ///< all others
-  std::vector<LocalIndex> general_dofs_;  ///< owned dofs of sparse rows and congruent elements
+  std::vector<LocalIndex> general_dofs_;  ///< owned dofs that others than bricks read
   std::vector<DofRange> late_ranges_;     ///< owned dofs that bricks do not hand over
   ElementKinds kinds_;
-  mutable std::vector<double> argument_;  ///< w at general_dofs_
-  mutable std::vector<double> force_;     ///< zero between products
+  /// Owned dofs, ghosts, and six dofs that stay at rest for the places of clamped nodes.
+  mutable std::vector<double> argument_;  ///< w at general_dofs_, and ghosts
+  mutable std::vector<double> force_;     ///< of owned dofs zero between products
 };
 
 }  // namespace pounding

@@ -324,7 +324,8 @@ void choose_stiffness(const Structure& structure, const Mesh& mesh, StiffnessMet
   const ElementKinds kinds = product->kinds();
   system.stiffness_method = "element by element (" + std::to_string(kinds.bricks) + " bricks, " +
                             std::to_string(kinds.congruent) + " congruent, " +
-                            std::to_string(kinds.other) + " others)";
+                            std::to_string(kinds.beams) + " beams, " + std::to_string(kinds.other) +
+                            " others)";
   system.stiffness = std::move(product);
 }
 

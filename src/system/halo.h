@@ -38,6 +38,7 @@ class Halo {
   void end();
 
   const double* ghosts() const { return received_.data(); }
+  std::size_t ghost_count() const { return received_.size(); }
   LocalIndex place(std::size_t ghost) const { return place_[ghost]; }
   /// Ranks that this one receives from or sends to.
   int neighbour_count() const { return neighbour_count_; }
