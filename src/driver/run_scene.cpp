@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "common/error.h"
+#include "common/floating_point.h"
 #include "common/parallel.h"
 #include "driver/floor_spectra.h"
 #include "driver/model.h"
@@ -52,6 +53,7 @@ std::vector<std::string> contact_names(const Scene& scene) {
 }  // namespace
 
 void run_scene(MPI_Comm comm, const Scene& scene, const std::string& resolved) {
+  flush_subnormal_numbers();
   const double start = MPI_Wtime();
   const bool root = rank_of(comm) == 0;
   Profile profile;

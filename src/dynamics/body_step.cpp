@@ -59,6 +59,10 @@ void BodyStep::begin(double duration, const std::array<double, 3>& ground_accele
   for (std::size_t d = 0; d < 3; ++d) {
     ground_step_[d] = duration * (ground_acceleration[d] - system_.gravity[d]);
   }
+  for (std::size_t l = 0; l < pattern; ++l) {
+    ground_[0][l / lanes][l % lanes] = ground_step_[l % 3];
+    ground_[1][l / lanes][l % lanes] = l % 6 < 3 ? ground_step_[l % 3] : 0;
+  }
   sums_ = {};
   single_ = {};
 }
@@ -82,63 +86,66 @@ void BodyStep::advance_segment(LocalIndex begin, LocalIndex end, const double* f
 }
 
 template <bool with_energies>
-void BodyStep::advance(LocalIndex begin, LocalIndex end, const double* force, Order order) {
-  const auto first = static_cast<std::size_t>(begin);
-  const auto count = static_cast<std::size_t>(end - begin);
-  std::size_t i = 0;
-  if (order != Order::none) {
-    const bool turns = order == Order::nodes_of_six;
-    Lanes ground[pattern_lanes];
-    for (std::size_t l = 0; l < pattern; ++l) {
-      ground[l / lanes][l % lanes] = turns && l % 6 >= 3 ? 0 : ground_step_[l % 3];
+void BodyStep::advance_every_third(std::size_t first, std::size_t end, const double* force,
+                                   const Lanes& ground, Lanes& momentum) {
+  double* const displacement = state_.displacement.data();
+  double* const velocity = state_.velocity.data();
+  double* const stiffness = state_.stiffness_displacement.data();
+  const double* const inverse_mass = system_.inverse_mass.data();
+  const double* const mass = system_.lumped_mass.data();
+  const double time_step = time_step_;
+  const double decay = decay_;
+  const double inverse = inverse_;
+  const Lanes ground_step = ground;
+  Lanes momentum_sum = momentum;
+  Lanes stiffness_before = sums_.stiffness_before;
+  Lanes stiffness_across = sums_.stiffness_across;
+  Lanes mass_sum = sums_.mass_sum;
+  for (std::size_t i = first; i + lanes <= end; i += pattern, force += pattern) {
+    Lanes q, u, v, ku, weight, m;
+    load(force, q);
+    load(displacement + i, u);
+    load(velocity + i, v);
+    load(stiffness + i, ku);
+    load(inverse_mass + i, weight);
+    load(mass + i, m);
+    if constexpr (with_energies) {
+      sums_.kinetic_before += m * v * v;
+      sums_.strain_before += u * ku;
     }
-    double* const displacement = state_.displacement.data() + first;
-    double* const velocity = state_.velocity.data() + first;
-    double* const stiffness = state_.stiffness_displacement.data() + first;
-    const double* const inverse_mass = system_.inverse_mass.data() + first;
-    const double* const mass = system_.lumped_mass.data() + first;
-    const double time_step = time_step_;
-    const double duration = duration_;
-    const double decay = decay_;
-    const double inverse = inverse_;
-    Sums& kept = sums_[turns ? 1 : 0];
-    Sums sums = kept;
-    const auto advance_lanes = [&](std::size_t at, std::size_t k) __attribute__((always_inline)) {
-      Lanes q, u, v, ku, weight, m;
-      load(force + at, q);
-      load(displacement + at, u);
-      load(velocity + at, v);
-      load(stiffness + at, ku);
-      load(inverse_mass + at, weight);
-      load(mass + at, m);
-      if constexpr (with_energies) {
-        sums.kinetic_before += m * v * v;
-        sums.strain_before += u * ku;
-      }
-      const Lanes kv = (q - ku) * inverse;
-      const Lanes after = decay * v - duration * (weight * q) - ground[k];
-      const Lanes sum = after + v;
-      const Lanes momentum = m * sum;
-      store(stiffness + at, ku + time_step * kv);
-      store(velocity + at, after);
-      store(displacement + at, u + time_step * after);
-      sums.stiffness_before += v * kv;
-      sums.stiffness_across += after * kv;
-      sums.mass_sum += momentum * sum;
-      sums.momentum[k] += momentum;
-    };
-    for (; i + pattern <= count; i += pattern) {
-      advance_lanes(i, 0);
-      advance_lanes(i + lanes, 1);
-      advance_lanes(i + 2 * lanes, 2);
-    }
-    for (std::size_t k = 0; i + lanes <= count; i += lanes, ++k) {
-      advance_lanes(i, k);
-    }
-    kept = sums;
+    const Lanes kv = (q - ku) * inverse;
+    const Lanes after = decay * v - time_step * (weight * q) - ground_step;
+    store(stiffness + i, ku + time_step * kv);
+    store(velocity + i, after);
+    store(displacement + i, u + time_step * after);
+    stiffness_before += v * kv;
+    stiffness_across += after * kv;
+    const Lanes sum = after + v;
+    const Lanes both = m * sum;
+    mass_sum += both * sum;
+    momentum_sum += both;
   }
-  for (; i < count; ++i) {
-    advance_dof<with_energies>(begin + static_cast<LocalIndex>(i), force[i]);
+  momentum = momentum_sum;
+  sums_.stiffness_before = stiffness_before;
+  sums_.stiffness_across = stiffness_across;
+  sums_.mass_sum = mass_sum;
+}
+
+template <bool with_energies>
+void BodyStep::advance(LocalIndex begin, LocalIndex end, const double* force, Order order) {
+  std::size_t done = static_cast<std::size_t>(begin);
+  const auto stop = static_cast<std::size_t>(end);
+  if (order != Order::none && duration_ == time_step_) {
+    const auto turns = static_cast<std::size_t>(order == Order::nodes_of_six);
+    for (std::size_t k = 0; k < pattern_lanes; ++k) {
+      advance_every_third<with_energies>(done + k * lanes, stop, force + k * lanes,
+                                         ground_[turns][k], sums_.momentum[turns][k]);
+    }
+    done += (stop - done) / lanes * lanes;
+  }
+  for (; done < stop; ++done) {
+    advance_dof<with_energies>(static_cast<LocalIndex>(done),
+                               force[done - static_cast<std::size_t>(begin)]);
   }
 }
 
@@ -198,17 +205,15 @@ void BodyStep::correct(LocalIndex dof, const Before& before, double velocity) {
 
 StepSums BodyStep::sums() const {
   StepSums total = single_;
-  for (std::size_t turns = 0; turns < 2; ++turns) {
-    const Sums& sums = sums_[turns];
-    total.stiffness_before += add_up(sums.stiffness_before);
-    total.stiffness_across += add_up(sums.stiffness_across);
-    total.mass_sum += add_up(sums.mass_sum);
-    total.kinetic_before += add_up(sums.kinetic_before);
-    total.strain_before += add_up(sums.strain_before);
-    for (std::size_t l = 0; l < pattern; ++l) {
-      if (turns == 0 || l % 6 < 3) {
-        total.momentum[l % 3] += sums.momentum[l / lanes][l % lanes];
-      }
+  total.stiffness_before += add_up(sums_.stiffness_before);
+  total.stiffness_across += add_up(sums_.stiffness_across);
+  total.mass_sum += add_up(sums_.mass_sum);
+  total.kinetic_before += add_up(sums_.kinetic_before);
+  total.strain_before += add_up(sums_.strain_before);
+  for (std::size_t l = 0; l < pattern; ++l) {
+    total.momentum[l % 3] += sums_.momentum[0][l / lanes][l % lanes];
+    if (l % 6 < 3) {
+      total.momentum[l % 3] += sums_.momentum[1][l / lanes][l % lanes];
     }
   }
   return total;

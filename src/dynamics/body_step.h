@@ -69,10 +69,14 @@ class BodyStep final : public ForceReceiver {
     Lanes mass_sum{};
     Lanes kinetic_before{};
     Lanes strain_before{};
-    Lanes momentum[pattern_lanes]{};
+    Lanes momentum[2][pattern_lanes]{};  ///< of nodes without and with rotations
   };
 
   void find_segments();
+  /// Vectors that start at first, first + 12 and so on, in which directions stand alike.
+  template <bool with_energies>
+  void advance_every_third(std::size_t first, std::size_t end, const double* force,
+                           const Lanes& ground, Lanes& momentum);
   template <bool with_energies>
   void advance(LocalIndex begin, LocalIndex end, const double* force, Order order);
   template <bool with_energies>
@@ -88,8 +92,9 @@ class BodyStep final : public ForceReceiver {
   double inverse_ = 0;  ///< 1 / (beta + dt), 0 in the first step
   bool with_energies_ = false;
   std::array<double, 3> ground_step_{};
-  std::array<Sums, 2> sums_;  ///< per order with a pattern
-  StepSums single_;           ///< of dofs taken one by one
+  Lanes ground_[2][pattern_lanes]{};  ///< of nodes without and with rotations
+  Sums sums_;
+  StepSums single_;  ///< of dofs taken one by one
 };
 
 }  // namespace pounding
