@@ -64,13 +64,13 @@ void CdLagrange::step(bool look_at_gap, bool with_energies) {
   {
     const ScopedTimer timer(profile_, Phase::step);
     for (std::size_t b = 0; b < systems_.size(); ++b) {
-      const BodyState& body = state_.bodies[b];
+      systems_[b].stiffness->start(argument(b));
+    }
+    for (std::size_t b = 0; b < systems_.size(); ++b) {
       apply_devices(b);
       body_steps_[b].begin(force_duration_, acceleration_, first,
                            with_energies || energy_.needs_energies());
-      systems_[b].stiffness->apply(
-          {body.displacement.data(), body.velocity.data(), systems_[b].damping.beta},
-          body_steps_[b]);  // q, v_free, u_{n+1}
+      systems_[b].stiffness->finish(argument(b), body_steps_[b]);  // q, v_free, u_{n+1}
     }
   }
   touching_ = interface_known_ && solve_contact();  // A, lambda, v_{n+1/2}
@@ -79,6 +79,11 @@ void CdLagrange::step(bool look_at_gap, bool with_energies) {
   }
   energy_.add_step(sums_, acceleration_, touching_ && counts_work_ ? contact_->total_work() : 0);
   ++state_.step;
+}
+
+StiffnessArgument CdLagrange::argument(std::size_t b) const {
+  const BodyState& body = state_.bodies[b];
+  return {body.displacement.data(), body.velocity.data(), systems_[b].damping.beta};
 }
 
 void CdLagrange::apply_devices(std::size_t b) {
@@ -90,7 +95,7 @@ void CdLagrange::apply_devices(std::size_t b) {
     std::fill(body.device_force.begin(), body.device_force.end(), 0.0);
   }
   if (system.tension_bars) {
-    const StiffnessArgument w{body.displacement.data(), body.velocity.data(), system.damping.beta};
+    const StiffnessArgument w = argument(b);
     for (std::size_t i = 0; i < body.device_argument.size(); ++i) {
       body.device_argument[i] = w[i];
     }

@@ -59,6 +59,7 @@ class CdLagrange {
   double force_duration() const { return force_duration_; }
 
  private:
+  StiffnessArgument argument(std::size_t body) const;
   void apply_devices(std::size_t body);
   void remember_interface();
   bool solve_contact();

@@ -159,12 +159,11 @@ void ElementStiffness::apply(Vec w, Vec q) const {
 
 void ElementStiffness::apply(const double* w, double* q) const {
   Copy copy(q);
-  apply({w, w, 0}, copy);
+  apply(StiffnessArgument{w, w, 0}, copy);
 }
 
-void ElementStiffness::apply(const StiffnessArgument& w, ForceReceiver& receiver) const {
+void ElementStiffness::finish(const StiffnessArgument& w, ForceReceiver& receiver) const {
   double* const q = force_.data();
-  halo_->begin(w);
   const double* const ghosts = halo_->ghosts();
   for (const LocalIndex dof : general_dofs_) argument_[static_cast<std::size_t>(dof)] = w[dof];
   sparse_->add_owned(argument_.data(), q);

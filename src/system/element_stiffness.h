@@ -37,7 +37,9 @@ class ElementStiffness final : public Stiffness {
   ElementStiffness(const Structure& structure, const Mesh& mesh,
                    std::unique_ptr<Stiffness> assembled);
 
-  void apply(const StiffnessArgument& w, ForceReceiver& receiver) const override;
+  using Stiffness::apply;
+  void start(const StiffnessArgument& w) const override { halo_->begin(w); }
+  void finish(const StiffnessArgument& w, ForceReceiver& receiver) const override;
   void apply(Vec w, Vec q) const override;
   /// q = K w on arrays of owned dofs. Collective.
   void apply(const double* w, double* q) const;

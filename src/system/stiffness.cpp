@@ -6,7 +6,7 @@ AssembledStiffness::AssembledStiffness(MatHandle matrix) : matrix_(std::move(mat
   POUNDING_PETSC(MatCreateVecs(matrix_.get(), argument_.out(), force_.out()));
 }
 
-void AssembledStiffness::apply(const StiffnessArgument& w, ForceReceiver& receiver) const {
+void AssembledStiffness::finish(const StiffnessArgument& w, ForceReceiver& receiver) const {
   PetscInt size = 0;
   POUNDING_PETSC(VecGetLocalSize(argument_.get(), &size));
   double* argument = nullptr;

@@ -39,8 +39,14 @@ class ForceReceiver {
 class Stiffness {
  public:
   virtual ~Stiffness() = default;
-  /// K w [N, N m], handed over range by range. Allocates nothing. Collective.
-  virtual void apply(const StiffnessArgument& w, ForceReceiver& receiver) const = 0;
+  /// K w [N, N m], handed over range by range, in two parts: `start` sends to other ranks what they
+  /// need of w, `finish` does the work with the same w. Allocates nothing. Collective.
+  virtual void start(const StiffnessArgument& w) const = 0;
+  virtual void finish(const StiffnessArgument& w, ForceReceiver& receiver) const = 0;
+  void apply(const StiffnessArgument& w, ForceReceiver& receiver) const {
+    start(w);
+    finish(w, receiver);
+  }
   /// q = K w [N, N m]. Collective.
   virtual void apply(Vec w, Vec q) const = 0;
   /// The matrix itself, for eigenvalues and export. Borrowed.
@@ -51,7 +57,9 @@ class Stiffness {
 class AssembledStiffness final : public Stiffness {
  public:
   explicit AssembledStiffness(MatHandle matrix);
-  void apply(const StiffnessArgument& w, ForceReceiver& receiver) const override;
+  using Stiffness::apply;
+  void start(const StiffnessArgument&) const override {}
+  void finish(const StiffnessArgument& w, ForceReceiver& receiver) const override;
   void apply(Vec w, Vec q) const override { POUNDING_PETSC(MatMult(matrix_.get(), w, q)); }
   Mat matrix() const override { return matrix_.get(); }
 
