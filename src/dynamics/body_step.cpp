@@ -25,6 +25,33 @@ bool directions_are(const LinearSystem& system, std::size_t dof, std::array<int,
   return true;
 }
 
+/// Masses of the vectors that follow each other at a distance of twelve dofs: from one value per
+/// node, four nodes in three vectors, `places` those of one of the vectors.
+template <int... places>
+struct NodeMasses {
+  const double* mass;
+  const double* inverse_mass;
+
+  void load_turn(std::size_t turn, Lanes& m, Lanes& inverse) const {
+    Lanes values;
+    load(mass + turn * lanes, values);
+    m = __builtin_shuffle(values, LaneMask{places...});
+    load(inverse_mass + turn * lanes, values);
+    inverse = __builtin_shuffle(values, LaneMask{places...});
+  }
+};
+
+/// The same from one value per dof.
+struct DofMasses {
+  const double* mass;
+  const double* inverse_mass;
+
+  void load_turn(std::size_t turn, Lanes& m, Lanes& inverse) const {
+    load(mass + turn * pattern, m);
+    load(inverse_mass + turn * pattern, inverse);
+  }
+};
+
 }  // namespace
 
 BodyStep::BodyStep(const LinearSystem& system, BodyState& state, double time_step)
@@ -32,22 +59,34 @@ BodyStep::BodyStep(const LinearSystem& system, BodyState& state, double time_ste
   find_segments();
 }
 
+BodyStep::Order BodyStep::order_at(std::size_t dof) const {
+  if (system_.has_devices() || !directions_are(system_, dof, {0, 1, 2})) {
+    return Order::none;
+  }
+  if (directions_are(system_, dof + 3, {-1, -1, -1})) {
+    return Order::nodes_of_six;
+  }
+  const double* const mass = &system_.lumped_mass[dof];
+  return mass[0] == mass[1] && mass[1] == mass[2] ? Order::translations : Order::none;
+}
+
 void BodyStep::find_segments() {
   const std::size_t dofs = system_.direction.size();
   for (std::size_t dof = 0; dof < dofs;) {
-    Order order = Order::none;
-    std::size_t length = 1;
-    if (!system_.has_devices() && directions_are(system_, dof, {0, 1, 2})) {
-      const bool turns = directions_are(system_, dof + 3, {-1, -1, -1});
-      order = turns ? Order::nodes_of_six : Order::translations;
-      length = turns ? 6 : 3;
-    }
+    const Order order = order_at(dof);
     if (segments_.empty() || segments_.back().order != order) {
-      segments_.push_back({static_cast<LocalIndex>(dof), static_cast<LocalIndex>(dof), order});
+      const auto begin = static_cast<LocalIndex>(dof);
+      segments_.push_back({begin, begin, order, node_mass_.size()});
     }
-    dof += length;
+    if (order == Order::translations) {
+      node_mass_.push_back(system_.lumped_mass[dof]);
+      node_inverse_mass_.push_back(system_.inverse_mass[dof]);
+    }
+    dof += order == Order::none ? 1 : order == Order::translations ? 3 : 6;
     segments_.back().end = static_cast<LocalIndex>(dof);
   }
+  node_mass_.resize(node_mass_.size() + lanes, 0.0);  // whole vectors are read
+  node_inverse_mass_.resize(node_mass_.size(), 0.0);
 }
 
 void BodyStep::begin(double duration, const std::array<double, 3>& ground_acceleration, bool first,
@@ -72,27 +111,21 @@ void BodyStep::receive(LocalIndex begin, LocalIndex end, const double* force) {
                                   [](LocalIndex dof, const Segment& s) { return dof < s.end; });
   for (LocalIndex dof = begin; dof < end; ++segment) {
     const LocalIndex stop = std::min(end, segment->end);
-    advance_segment(dof, stop, force + (dof - begin), segment->order);
+    if (with_energies_) {
+      advance<true>(*segment, dof, stop, force + (dof - begin));
+    } else {
+      advance<false>(*segment, dof, stop, force + (dof - begin));
+    }
     dof = stop;
   }
 }
 
-void BodyStep::advance_segment(LocalIndex begin, LocalIndex end, const double* force, Order order) {
-  if (with_energies_) {
-    advance<true>(begin, end, force, order);
-  } else {
-    advance<false>(begin, end, force, order);
-  }
-}
-
-template <bool with_energies>
+template <bool with_energies, typename Masses>
 void BodyStep::advance_every_third(std::size_t first, std::size_t end, const double* force,
-                                   const Lanes& ground, Lanes& momentum) {
+                                   const Masses& masses, const Lanes& ground, Lanes& momentum) {
   double* const displacement = state_.displacement.data();
   double* const velocity = state_.velocity.data();
   double* const stiffness = state_.stiffness_displacement.data();
-  const double* const inverse_mass = system_.inverse_mass.data();
-  const double* const mass = system_.lumped_mass.data();
   const double time_step = time_step_;
   const double decay = decay_;
   const double inverse = inverse_;
@@ -101,14 +134,14 @@ void BodyStep::advance_every_third(std::size_t first, std::size_t end, const dou
   Lanes stiffness_before = sums_.stiffness_before;
   Lanes stiffness_across = sums_.stiffness_across;
   Lanes mass_sum = sums_.mass_sum;
-  for (std::size_t i = first; i + lanes <= end; i += pattern, force += pattern) {
+  std::size_t turn = 0;
+  for (std::size_t i = first; i + lanes <= end; i += pattern, force += pattern, ++turn) {
     Lanes q, u, v, ku, weight, m;
     load(force, q);
     load(displacement + i, u);
     load(velocity + i, v);
     load(stiffness + i, ku);
-    load(inverse_mass + i, weight);
-    load(mass + i, m);
+    masses.load_turn(turn, m, weight);
     if constexpr (with_energies) {
       sums_.kinetic_before += m * v * v;
       sums_.strain_before += u * ku;
@@ -132,14 +165,32 @@ void BodyStep::advance_every_third(std::size_t first, std::size_t end, const dou
 }
 
 template <bool with_energies>
-void BodyStep::advance(LocalIndex begin, LocalIndex end, const double* force, Order order) {
+void BodyStep::advance(const Segment& segment, LocalIndex begin, LocalIndex end,
+                       const double* force) {
   std::size_t done = static_cast<std::size_t>(begin);
   const auto stop = static_cast<std::size_t>(end);
-  if (order != Order::none && duration_ == time_step_) {
-    const auto turns = static_cast<std::size_t>(order == Order::nodes_of_six);
+  if (segment.order == Order::translations && duration_ == time_step_) {
+    const std::size_t node =
+        segment.first_node + (done - static_cast<std::size_t>(segment.begin)) / pattern_lanes;
+    const double* const mass = &node_mass_[node];
+    const double* const inverse_mass = &node_inverse_mass_[node];
+    advance_every_third<with_energies>(done, stop, force,
+                                       NodeMasses<0, 0, 0, 1>{mass, inverse_mass}, ground_[0][0],
+                                       sums_.momentum[0][0]);
+    advance_every_third<with_energies>(done + lanes, stop, force + lanes,
+                                       NodeMasses<1, 1, 2, 2>{mass, inverse_mass}, ground_[0][1],
+                                       sums_.momentum[0][1]);
+    advance_every_third<with_energies>(done + 2 * lanes, stop, force + 2 * lanes,
+                                       NodeMasses<2, 3, 3, 3>{mass, inverse_mass}, ground_[0][2],
+                                       sums_.momentum[0][2]);
+    done += (stop - done) / lanes * lanes;
+  } else if (segment.order == Order::nodes_of_six && duration_ == time_step_) {
     for (std::size_t k = 0; k < pattern_lanes; ++k) {
-      advance_every_third<with_energies>(done + k * lanes, stop, force + k * lanes,
-                                         ground_[turns][k], sums_.momentum[turns][k]);
+      const std::size_t first = done + k * lanes;
+      advance_every_third<with_energies>(
+          first, stop, force + k * lanes,
+          DofMasses{system_.lumped_mass.data() + first, system_.inverse_mass.data() + first},
+          ground_[1][k], sums_.momentum[1][k]);
     }
     done += (stop - done) / lanes * lanes;
   }

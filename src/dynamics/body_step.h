@@ -55,12 +55,13 @@ class BodyStep final : public ForceReceiver {
  private:
   static constexpr std::size_t pattern_lanes = 3;  // vectors in which directions repeat: 12 dofs
 
-  /// Dofs whose directions repeat: x y z, or x y z and three rotations, or in no order.
+  /// Dofs whose directions repeat: x y z of one mass, or x y z and three rotations, or in no order.
   enum class Order { translations, nodes_of_six, none };
   struct Segment {
     LocalIndex begin = 0;
     LocalIndex end = 0;
     Order order = Order::none;
+    std::size_t first_node = 0;  ///< of translations, into node_mass_
   };
   /// Per lane.
   struct Sums {
@@ -73,20 +74,23 @@ class BodyStep final : public ForceReceiver {
   };
 
   void find_segments();
-  /// Vectors that start at first, first + 12 and so on, in which directions stand alike.
+  Order order_at(std::size_t dof) const;
   template <bool with_energies>
+  void advance(const Segment& segment, LocalIndex begin, LocalIndex end, const double* force);
+  /// Vectors that start at first, first + 12 and so on, in which directions stand alike: vector
+  /// number `k` of the pattern. `masses`: mass and inverse mass of the vector at a dof.
+  template <bool with_energies, typename Masses>
   void advance_every_third(std::size_t first, std::size_t end, const double* force,
-                           const Lanes& ground, Lanes& momentum);
-  template <bool with_energies>
-  void advance(LocalIndex begin, LocalIndex end, const double* force, Order order);
+                           const Masses& masses, const Lanes& ground, Lanes& momentum);
   template <bool with_energies>
   void advance_dof(LocalIndex dof, double force);
-  void advance_segment(LocalIndex begin, LocalIndex end, const double* force, Order order);
 
   const LinearSystem& system_;
   BodyState& state_;
   double time_step_;
   std::vector<Segment> segments_;
+  std::vector<double> node_mass_;  ///< per node of translations: a third of the memory
+  std::vector<double> node_inverse_mass_;
   double duration_ = 0;
   double decay_ = 1;
   double inverse_ = 0;  ///< 1 / (beta + dt), 0 in the first step
