@@ -1,0 +1,142 @@
+"""The comparison of the ways to step as Markdown, CSV, JSON and a figure."""
+
+import json
+from pathlib import Path
+
+from plotting.style import log_scale, plt
+
+from .comparison import BYTES_PER_DOF, LABELS
+from .machine import Machine
+from .tables import markdown, number, write_csv
+
+COLOURS = {"element": "#08519C", "assembled": "#B2182B", "aij": "#E69F00", "baij": "#C2A5CF",
+           "sbaij": "#762A83", "scipy": "#1B7837", "octave": "#555555"}
+
+
+def figures(rows: list) -> list:
+    """One dictionary per row of the table; what was not measured is None, with the reason."""
+    elements = {(row.dofs, row.ranks): row.seconds.median for row in rows
+                if row.way == "element" and row.seconds.values}
+    listed = []
+    for row in rows:
+        one = {"dofs": row.dofs, "cells": "x".join(str(n) for n in row.cells), "ranks": row.ranks,
+               "way": row.way, "label": LABELS[row.way], "microseconds_per_step": None,
+               "nanoseconds_per_dof": None, "lowest": None, "highest": None,
+               "ratio_to_element": None, "ratio_to_triad": None,
+               "memory_per_dof": row.memory_per_dof, "rounds": len(row.seconds.values),
+               "quiet_rounds": sum(row.seconds.quiet), "note": row.reason}
+        if row.seconds.values:
+            scale = 1e9 / row.dofs
+            median = row.seconds.median
+            one.update({"microseconds_per_step": 1e6 * median, "nanoseconds_per_dof": scale * median,
+                        "lowest": scale * row.seconds.lowest, "highest": scale * row.seconds.highest,
+                        "ratio_to_triad": median / row.bound})
+            if (row.dofs, row.ranks) in elements:
+                one["ratio_to_element"] = median / elements[row.dofs, row.ranks]
+            if row.seconds.disturbed:
+                one["note"] = "disturbed"
+        listed.append(one)
+    return listed
+
+
+def step_table(listed: list) -> str:
+    head = ["dofs", "ranks", "step", "µs per step", "ns per dof", "lowest to highest",
+            "× element", "× triad", "memory B per dof", "quiet rounds", "note"]
+    cells = []
+    for one in listed:
+        spread = "—" if one["lowest"] is None else f"{number(one['lowest'])} to {number(one['highest'])}"
+        cells.append([one["dofs"], one["ranks"], one["label"], one["microseconds_per_step"],
+                      one["nanoseconds_per_dof"], spread, one["ratio_to_element"],
+                      one["ratio_to_triad"], one["memory_per_dof"],
+                      f"{one['quiet_rounds']} of {one['rounds']}", one["note"] or "—"])
+    return markdown("Whole steps of a clamped concrete brick of hexahedra, harmonic ground motion, "
+                    "Rayleigh damping, no contact", head, cells)
+
+
+def machine_table(machine: Machine) -> str:
+    def row(label: str, series: dict) -> list:
+        cells = [f"{number(series[ranks].median / 1e9)} ({number(series[ranks].lowest / 1e9)} to "
+                 f"{number(series[ranks].highest / 1e9)})" if ranks in series else "—"
+                 for ranks in machine.ranks]
+        return [label, *cells]
+
+    names = list(dict.fromkeys(name for name, _ in machine.triad))
+    rows = [row("multiply-adds in registers [Gflop/s]", machine.flops)]
+    rows += [row(f"triad, {name} [GB/s]", {ranks: series for (where, ranks), series
+                                           in machine.triad.items() if where == name})
+             for name in names]
+    head = [""] + [f"{ranks} rank{'s' if ranks > 1 else ''}" for ranks in machine.ranks]
+    return markdown("Machine in the same run, median (lowest to highest)", head, rows)
+
+
+NOTES = f"""\
+- Medians over rounds in which every way took its turn; `lowest to highest` are single rounds.
+- A round is quiet if the multiply-adds just before and after it reached 0.9 of the best that one
+  rank did in this run, times the number of ranks (1.8 for two). Figures are medians over the quiet
+  rounds, and marked as disturbed where there is none.
+- `× triad`: over the time in which the triad of this run, on arrays of the same size, moves
+  {BYTES_PER_DOF} bytes per dof: reading and writing the two arrays of the state. Masses,
+  coordinates and element matrices can be shared by congruent bricks and are not counted.
+- `element by element` and `assembled` are the program's own step with its energy ledger; the
+  others are the same scheme written out around one product without a ledger. All have moved the
+  brick alike to 1e-9 after their first steps.
+- Memory: growth of the resident set from an empty process to a stepping one, mesh and all included,
+  over the ranks together.
+- What is compared is linear elasticity on congruent bricks, for which the first is specialised;
+  small bricks stay in cache where matrices do not. These are ratios of this case, on this machine,
+  in this run.
+"""
+
+
+def draw(listed: list, path: Path) -> None:
+    figure, axes = plt.subplots(figsize=(10, 5.5))
+    for way, label in LABELS.items():
+        for ranks in sorted({one["ranks"] for one in listed}):
+            found = [one for one in listed if one["way"] == way and one["ranks"] == ranks
+                     and one["nanoseconds_per_dof"] is not None]
+            if found:
+                draw_way(axes, found, COLOURS[way], f"{label}, {ranks} rank{'s' if ranks > 1 else ''}")
+    for ranks in sorted({one["ranks"] for one in listed}):
+        found = [one for one in listed if one["way"] == "element" and one["ranks"] == ranks
+                 and one["ratio_to_triad"]]
+        if found:
+            axes.plot([one["dofs"] for one in found],
+                      [one["nanoseconds_per_dof"] / one["ratio_to_triad"] for one in found],
+                      "-" if ranks == 1 else "--", color="#AAAAAA",
+                      label=f"triad, {BYTES_PER_DOF} B per dof, {ranks} rank{'s' if ranks > 1 else ''}")
+    log_scale(axes, "y", [one["nanoseconds_per_dof"] or 0 for one in listed])
+    axes.set_xscale("log")
+    axes.set_xticks(sorted({one["dofs"] for one in listed}), minor=False)
+    axes.xaxis.set_major_formatter(lambda value, _: f"{value:.0f}")
+    axes.xaxis.set_minor_formatter(lambda value, _: "")
+    axes.set(xlabel="dofs", ylabel="ns per dof and step", title="One step")
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    figure.savefig(path)
+    plt.close(figure)
+
+
+def draw_way(axes, found: list, colour: str, label: str) -> None:
+    """Medians with the range of single rounds; hollow for several ranks."""
+    middle = [one["nanoseconds_per_dof"] for one in found]
+    reach = ([one["nanoseconds_per_dof"] - one["lowest"] for one in found],
+             [one["highest"] - one["nanoseconds_per_dof"] for one in found])
+    single = found[0]["ranks"] == 1
+    axes.errorbar([one["dofs"] for one in found], middle, reach, color=colour, capsize=2, marker="o",
+                  markersize=5, markerfacecolor=colour if single else "none",
+                  linestyle="-" if single else "--", label=label)
+
+
+def write(folder: Path, rows: list, machine: Machine, about: dict) -> str:
+    """Writes table.md, table.csv, benchmark.json and benchmark.png; returns the table."""
+    listed = figures(rows)
+    text = "\n".join([step_table(listed), machine_table(machine),
+                      f"{about['processor']}, {about['cores']} cores, {about['date']}\n", NOTES])
+    (folder / "table.md").write_text(text)
+    write_csv(folder / "table.csv", listed)
+    measured = [{**one, "seconds_per_step": row.seconds.as_json() if row.seconds.values else None}
+                for one, row in zip(listed, rows)]
+    (folder / "benchmark.json").write_text(
+        json.dumps({**about, "bytes_per_dof": BYTES_PER_DOF, "steps": measured,
+                    "machine": machine.as_json()}, indent=1) + "\n")
+    draw(listed, folder / "benchmark.png")
+    return text

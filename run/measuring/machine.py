@@ -1,0 +1,97 @@
+"""What the machine can do at the moment, measured beside the steps."""
+
+import platform
+import sys
+from contextlib import ExitStack
+from datetime import datetime, timezone
+from pathlib import Path
+
+from .series import QUIET, Series
+from .workers import Worker, available_memory, mpirun
+
+LEVEL_2, LEVEL_3 = 2**19, 2**25  # caches of a system that does not tell [B]
+
+
+def cache_size(level: int, otherwise: int) -> int:
+    """Bytes of one cache of this level; `otherwise` if the system does not tell."""
+    for cache in Path("/sys/devices/system/cpu/cpu0/cache").glob("index*"):
+        size = (cache / "size").read_text().strip()
+        if (cache / "level").read_text().strip() == str(level) and size.endswith("K"):
+            return 1024 * int(size[:-1])
+    return otherwise
+
+
+def description() -> dict:
+    model = [line.split(":", 1)[1].strip() for line in Path("/proc/cpuinfo").read_text().splitlines()
+             if line.startswith("model name")]
+    return {"processor": model[0] if model else platform.machine(), "cores": len(model),
+            "level_2_cache": cache_size(2, LEVEL_2), "level_3_cache": cache_size(3, LEVEL_3),
+            "date": datetime.now(timezone.utc).isoformat(timespec="seconds")}
+
+
+class Machine(ExitStack):
+    """One worker per number of ranks; every figure is a Series over the rounds."""
+
+    def __init__(self, folder: Path, ranks: list):
+        super().__init__()
+        self.ranks = sorted({1, *ranks})
+        self.workers = {}
+        for number in self.ranks:
+            self.workers[number] = self.enter_context(
+                Worker(mpirun(number, folder / "tests" / "machine_limits")))
+            self.workers[number].read()
+        self.flops = {number: Series() for number in self.ranks}  # [flop/s]
+        self.triad = {}  # (name, ranks) -> Series [B/s]
+        self.messages = []  # per call
+        self.turns = []  # (calibrations, turns) of each call of take_turns
+
+    def calibrate(self) -> dict:
+        """Multiply-adds in registers per number of ranks [flop/s]: all that the cores give."""
+        rates = {number: self.workers[number].ask("fma")["flops_per_second"] for number in self.ranks}
+        for number, rate in rates.items():
+            self.flops[number].add(rate)
+        return rates
+
+    def take_turns(self, rounds: int, turns: list, title: str) -> None:
+        """Measures each of `turns`, a list of (Series, ranks, function that measures), once a round,
+        with a calibration before, between and after."""
+        rates = [self.calibrate()]
+        for number in range(rounds):
+            print(f"  {title}, round {number + 1} of {rounds}", file=sys.stderr, flush=True)
+            for series, _, measure in turns:
+                series.add(measure())
+            rates.append(self.calibrate())
+        self.turns.append((rates, turns))
+
+    def find_quiet_rounds(self) -> None:
+        """A round is quiet for a number of ranks if the calibrations before and after it are near
+        the best that one rank reached in the whole run, times that number: what is missing was
+        taken by others."""
+        best = max(self.flops[1].values)
+        for rates, turns in self.turns:
+            for series, ranks, _ in turns:
+                series.quiet = [min(before[ranks], after[ranks]) >= QUIET * ranks * best
+                                for before, after in zip(rates, rates[1:])]
+
+    def measure_triad(self, name: str, ranks: int, total_bytes: float, lasting: float) -> float:
+        rate = self.workers[ranks].ask(f"triad {total_bytes} {lasting}")["bytes_per_second"]
+        self.triad.setdefault((name, ranks), Series()).add(rate)
+        return rate
+
+    def measure_memory_levels(self, lasting: float) -> None:
+        """The triad in half of the second-level caches, and well outside of the last one."""
+        cache = cache_size(2, LEVEL_2) / 2
+        memory = min(8 * cache_size(3, LEVEL_3), available_memory() / 8)
+        for number in self.ranks:
+            self.measure_triad(f"L2, {cache / 1024:.0f} kB per rank", number, cache * number, lasting)
+            self.measure_triad(f"memory, {memory / 2**20:.0f} MB", number, memory, lasting)
+
+    def measure_messages(self) -> None:
+        """Between two ranks of the largest worker, which must have two."""
+        self.messages.append(self.workers[max(self.ranks)].ask("messages"))
+
+    def as_json(self) -> dict:
+        return {"multiply_adds": {str(ranks): series.as_json() for ranks, series in self.flops.items()},
+                "triad": [{"where": name, "ranks": ranks, **series.as_json()}
+                          for (name, ranks), series in self.triad.items()],
+                "messages": self.messages}

@@ -1,0 +1,27 @@
+"""Values of options of run/benchmark and run/scaling."""
+
+import math
+
+
+def positive(text: str) -> int:
+    value = int(text)
+    if value < 1:
+        raise ValueError
+    return value
+
+
+def integers(text: str) -> list:
+    """Positive integers, separated by commas."""
+    return [positive(word) for word in text.split(",")]
+
+
+def positive_number(text: str) -> float:
+    value = float(text)
+    if not 0 < value < math.inf:
+        raise ValueError
+    return value
+
+
+def seconds(text: str) -> float:
+    """Length of a measurement: up to a minute."""
+    return min(positive_number(text), 60.0)

@@ -1,0 +1,152 @@
+"""Scaling, measured and modelled, as Markdown, CSV, JSON and a figure."""
+
+import json
+from pathlib import Path
+
+from plotting.style import log_scale, plt
+
+from .machine import Machine
+from .scaling_model import Messages
+from .tables import markdown, number, write_csv
+
+PARTS = ("compute", "halo", "gather", "rows")
+COLOURS = ("#08519C", "#B2182B", "#1B7837", "#762A83", "#E69F00", "#555555")
+
+
+def measured_rows(points: list) -> list:
+    """Speed-up over the fewest ranks of the same case; weak and apart: at equal load per rank."""
+    rows = []
+    for point in points:
+        first = min((other for other in points if (other.kind, other.case) == (point.kind, point.case)),
+                    key=lambda other: other.ranks)
+        faster = first.seconds.median / point.seconds.median
+        growth = point.dofs / first.dofs
+        ideal = point.ranks / first.ranks
+        rows.append({"source": "measured", "kind": point.kind, "case": point.case,
+                     "dofs": point.dofs, "ranks": point.ranks,
+                     "microseconds_per_step": 1e6 * point.seconds.median,
+                     "lowest": 1e6 * point.seconds.lowest, "highest": 1e6 * point.seconds.highest,
+                     "nanoseconds_per_dof": 1e9 * point.seconds.median / point.dofs,
+                     "speed_up": faster * growth, "efficiency": faster * growth / ideal,
+                     "quiet_rounds": sum(point.seconds.quiet), "rounds": len(point.seconds.values),
+                     "contact_microseconds": 1e6 * point.contact.median if point.contact.values else None})
+    return rows
+
+
+def modelled_rows(studies: list, points: list) -> list:
+    """`studies`: (case, Model, lines of the study) per mesh."""
+    rows = []
+    for case, model, parts in studies:
+        single = model.predict(parts[0])["step"]
+        for part in parts:
+            times = model.predict(part)
+            found = [point for point in points if point.kind == "pair"
+                     and (point.case, point.ranks) == (case, part["parts"])]
+            rows.append({
+                "source": "modelled", "kind": "pair", "case": case, "dofs": part["dofs"],
+                "ranks": part["parts"], "microseconds_per_step": 1e6 * times["step"],
+                "nanoseconds_per_dof": 1e9 * times["step"] / part["dofs"],
+                "speed_up": single / times["step"],
+                "efficiency": single / times["step"] / part["parts"],
+                **{f"{name}_microseconds": 1e6 * times[name] for name in PARTS},
+                "measured_microseconds": 1e6 * found[0].seconds.median if found else None,
+                "largest_dofs": part["dofs_per_part"]["largest"],
+                "imbalance": part["elements_per_part"]["largest"] * part["parts"] / part["elements"],
+                "largest_halo": part["received"]["largest"], "mean_halo": part["received"]["mean"],
+                "largest_neighbours": part["neighbours"]["largest"],
+                "mean_neighbours": part["neighbours"]["mean"],
+                "contact_rows": part["contact_rows"], "contact_members": part["contact_members"],
+                "largest_contact_dofs": part["contact_dofs_per_part"]["largest"]})
+    return rows
+
+
+def measured_table(rows: list) -> str:
+    head = ["scaling", "case", "dofs", "ranks", "µs per step", "lowest to highest", "ns per dof",
+            "speed-up", "efficiency", "quiet rounds"]
+    cells = [[row["kind"], row["case"], row["dofs"], row["ranks"], row["microseconds_per_step"],
+              f"{number(row['lowest'])} to {number(row['highest'])}", row["nanoseconds_per_dof"],
+              row["speed_up"], row["efficiency"], f"{row['quiet_rounds']} of {row['rounds']}"]
+             for row in rows]
+    return markdown("Measured", head, cells)
+
+
+def modelled_table(rows: list) -> str:
+    head = ["dofs", "parts", "dofs of the largest part", "elements held, largest over ideal",
+            "ghost dofs, largest (mean)", "neighbours, largest (mean)", "contact rows",
+            "parts with contact", "contact dofs, largest", "compute µs", "halo µs", "gather µs",
+            "rows µs", "step µs", "efficiency", "measured µs"]
+    cells = [[row["dofs"], row["ranks"], row["largest_dofs"], row["imbalance"],
+              f"{row['largest_halo']} ({number(row['mean_halo'])})",
+              f"{row['largest_neighbours']} ({number(row['mean_neighbours'])})",
+              row["contact_rows"], row["contact_members"], row["largest_contact_dofs"],
+              *(row[f"{name}_microseconds"] for name in PARTS), row["microseconds_per_step"],
+              row["efficiency"], row["measured_microseconds"]] for row in rows]
+    return markdown("Modelled: two buildings of three storeys, the interface gathered in every step",
+                    head, cells)
+
+
+def machine_table(machine: Machine, messages: Messages) -> str:
+    rows = [[f"multiply-adds, {ranks} rank{'s' if ranks > 1 else ''} [Gflop/s]", series.median / 1e9,
+             series.lowest / 1e9, series.highest / 1e9] for ranks, series in machine.flops.items()]
+    table = markdown("Machine in the same run", ["", "median", "lowest", "highest"], rows)
+    source = "given" if messages.given else "measured between two ranks"
+    return table + (f"\nMessages, {source}: {number(1e6 * messages.latency)} µs for the shortest, "
+                    f"{number(messages.bandwidth / 1e9)} GB/s.\n")
+
+
+NOTES = """\
+- `strong`: one model on more ranks; `weak`: a model that grows with them; `apart`: every rank a
+  model of its own, nothing exchanged; `pair`: the two buildings of the model below.
+- Medians over the rounds in which the ranks had their cores (multiply-adds at 0.9 of the ideal),
+  over all where no round was quiet. All points of a case take turns.
+- The modelled times add up compute, halo, gather and constraints of the part that has most of each,
+  with nothing overlapping, at this machine's cost per dof and its messages (within one machine,
+  unless latency and bandwidth are given). They are an estimate, not a measurement; where the same
+  mesh was run, the last column has it.
+"""
+
+
+def draw(measured: list, modelled: list, path: Path) -> None:
+    figure, (times, efficiency) = plt.subplots(1, 2, figsize=(14, 4.8))
+    cases = list(dict.fromkeys((row["kind"], row["case"]) for row in measured + modelled
+                               if row["kind"] != "apart"))
+    for index, (kind, case) in enumerate(cases):
+        colour = COLOURS[index % len(COLOURS)]
+        for rows, fill, line in ((modelled, "none", ":"), (measured, colour, "-")):
+            found = [row for row in rows if (row["kind"], row["case"]) == (kind, case)]
+            if not found:
+                continue
+            ranks = [row["ranks"] for row in found]
+            look = {"color": colour, "marker": "o", "markersize": 5, "markerfacecolor": fill,
+                    "linestyle": line, "label": f"{kind}, {case} ({found[0]['source']})"}
+            times.plot(ranks, [row["microseconds_per_step"] for row in found], **look)
+            efficiency.plot(ranks, [row["efficiency"] for row in found], **look)
+    for axes in (times, efficiency):
+        axes.set_xscale("log", base=2)
+        axes.set_xticks(sorted({row["ranks"] for row in measured + modelled}))
+        axes.xaxis.set_major_formatter(lambda value, _: f"{value:.0f}")
+    log_scale(times, "y", [row["microseconds_per_step"] for row in measured + modelled])
+    times.set(xlabel="ranks", ylabel="µs per step", title="Step time (filled: measured, hollow: modelled)")
+    efficiency.set(xlabel="ranks", ylabel="efficiency", title="Parallel efficiency", ylim=(0, None))
+    efficiency.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    figure.savefig(path)
+    plt.close(figure)
+
+
+def write(folder: Path, points: list, studies: list, machine: Machine, messages: Messages,
+          about: dict) -> str:
+    """Writes table.md, table.csv, scaling.json and scaling.png; returns the tables."""
+    measured, modelled = measured_rows(points), modelled_rows(studies, points)
+    tables = [measured_table(measured), modelled_table(modelled), machine_table(machine, messages)]
+    tables += [f"- {reason}" for reason in about["skipped"]]
+    text = "\n".join([*tables, f"{about['processor']}, {about['cores']} cores, {about['date']}\n", NOTES])
+    (folder / "table.md").write_text(text)
+    write_csv(folder / "table.csv", measured + modelled)
+    rounds = [{**row, "seconds_per_step": point.seconds.as_json()}
+              for row, point in zip(measured, points)]
+    (folder / "scaling.json").write_text(json.dumps(
+        {**about, "measured": rounds, "modelled": modelled,
+         "partitions": [{"case": case, "parts": parts} for case, _, parts in studies],
+         "machine": machine.as_json()}, indent=1) + "\n")
+    draw(measured, modelled, folder / "scaling.png")
+    return text

@@ -1,0 +1,34 @@
+"""One list of rows as Markdown and CSV."""
+
+import csv
+import math
+from pathlib import Path
+
+
+def number(value, digits: int = 3) -> str:
+    """Plain digits, so many of them significant; a dash for what was not measured."""
+    if value is None or value == "":
+        return "—"
+    if isinstance(value, str):
+        return value
+    if isinstance(value, int) or float(value).is_integer() and abs(value) >= 1000:
+        return str(int(value))
+    if value == 0 or not math.isfinite(value):
+        return f"{value:g}"
+    decimals = max(0, digits - 1 - math.floor(math.log10(abs(value))))
+    return f"{value:.{decimals}f}"
+
+
+def markdown(title: str, head: list, rows: list) -> str:
+    lines = ["| " + " | ".join(str(cell) if isinstance(cell, str) else number(cell) for cell in row)
+             + " |" for row in [head, ["---"] * len(head)] + rows]
+    return "\n".join([f"**{title}**", ""] + lines) + "\n"
+
+
+def write_csv(path: Path, rows: list) -> None:
+    """`rows`: dictionaries of scalars; a column per key."""
+    columns = list(dict.fromkeys(key for row in rows for key in row))
+    with open(path, "w", newline="") as file:
+        writer = csv.DictWriter(file, columns, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)

@@ -1,0 +1,170 @@
+"""run/benchmark and run/scaling on tiny models: every row is there and every figure positive, the
+model adds up. How long a step takes is not tested."""
+import csv
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import program
+
+sys.path.insert(0, os.path.join(program.SOURCE, "run"))
+sys.dont_write_bytecode = True
+from measuring.comparison import check_agreement  # noqa: E402
+from measuring.scaling_model import CostCurve, Messages, Model  # noqa: E402
+from measuring.series import Series  # noqa: E402
+from measuring.workers import MeasuringError, block_cells, slab_cells, storey_dofs  # noqa: E402
+
+PROGRAM_WAYS = ["element", "assembled"]
+WAYS = PROGRAM_WAYS + ["aij", "baij", "sbaij", "scipy", "octave"]
+SHORT = ["--quick", "--rounds", "1", "--seconds", "0.02"]
+
+
+def script(name, *words):
+    return subprocess.run([os.path.join(program.SOURCE, "run", name), *[str(word) for word in words]],
+                          env={**os.environ, "POUNDING_BUILD": os.path.abspath(program.BUILD)},
+                          capture_output=True, text=True, timeout=1200)
+
+
+def rows_of(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+class Measured(unittest.TestCase):
+    def run_script(self, name, *words):
+        self.folder = tempfile.mkdtemp(prefix="pounding-")
+        result = script(name, *SHORT, "--output", self.folder, *words)
+        self.assertEqual(result.returncode, 0, result.stderr[-3000:])
+        with open(os.path.join(self.folder, "table.md")) as file:
+            self.assertIn(file.read(), result.stdout)
+        with open(os.path.join(self.folder, f"{name}.png"), "rb") as file:
+            self.assertGreater(len(file.read()), 10000)
+        with open(os.path.join(self.folder, f"{name}.json")) as file:
+            return rows_of(os.path.join(self.folder, "table.csv")), json.load(file)
+
+    def assert_positive(self, row, *columns):
+        for column in columns:
+            self.assertGreater(float(row[column] or "nan"), 0, (column, row))
+
+
+class Benchmark(Measured):
+    def test_every_way_on_one_rank_and_the_programs_on_two(self):
+        rows, result = self.run_script("benchmark", "--sizes", 3000)
+        dofs = 3 * 22 * 23 * 2
+        self.assertEqual([(int(row["dofs"]), int(row["ranks"]), row["way"]) for row in rows],
+                         [(dofs, 1, way) for way in WAYS] + [(dofs, 2, way) for way in WAYS[:5]])
+        for row in rows:
+            if row["way"] == "octave" and row["note"].startswith("not installed"):
+                continue
+            self.assert_positive(row, "microseconds_per_step", "nanoseconds_per_dof", "lowest",
+                                 "highest", "ratio_to_element", "ratio_to_triad")
+            self.assertAlmostEqual(float(row["microseconds_per_step"]) * 1e3 / dofs,
+                                   float(row["nanoseconds_per_dof"]), delta=1e-6 * dofs)
+            if row["way"] in PROGRAM_WAYS:
+                self.assert_positive(row, "memory_per_dof")
+        machine = result["machine"]
+        self.assertEqual(sorted(machine["multiply_adds"]), ["1", "2"])
+        self.assertEqual(len(machine["triad"]), 3 * 2)
+        for figure in [*machine["multiply_adds"].values(), *machine["triad"]]:
+            self.assertTrue(all(value > 0 for value in figure["rounds"]), figure)
+
+    def test_wrong_options_are_refused(self):
+        for words in (["--sizes", "0"], ["--rounds", "none"], ["--ranks", "1,-2"], ["--fast"]):
+            self.assertEqual(script("benchmark", *words).returncode, 2, words)
+
+
+class Scaling(Measured):
+    def test_measured_and_modelled_points(self):
+        scene = os.path.join(tempfile.mkdtemp(prefix="pounding-"), "coarse.yaml")
+        with open(scene, "w") as file:
+            file.write("include: petsc-options/azalee/gap2.yaml\n"
+                       's1: {mesh_set: "cells_x=7,cells_y=5,column_elements=2"}\n'
+                       's2: {mesh_set: "cells_x=5,cells_y=5,column_elements=2"}\n')
+        rows, result = self.run_script("scaling", "--scene", scene, "--strong", 3000, "--weak", 2000,
+                                       "--apart", "1000,3000", "--pair", 8000, "--parts", "2,4,8")
+        measured = [row for row in rows if row["source"] == "measured"]
+        self.assertEqual([(row["kind"], int(row["ranks"])) for row in measured],
+                         [(kind, ranks) for kind in ("strong", "strong", "weak", "pair", "apart", "apart")
+                          for ranks in (1, 2)])
+        for row in measured:
+            self.assert_positive(row, "dofs", "microseconds_per_step", "speed_up", "efficiency")
+        modelled = [row for row in rows if row["source"] == "modelled"]
+        self.assertEqual([int(row["ranks"]) for row in modelled], [1, 2, 4, 8])
+        pair = {int(row["ranks"]): row for row in measured if row["kind"] == "pair"}
+        self.assertEqual(int(pair[1]["dofs"]), storey_dofs(2))
+        for row in modelled:
+            parts = int(row["ranks"])
+            terms = [float(row[f"{name}_microseconds"]) for name in ("compute", "halo", "gather", "rows")]
+            self.assertAlmostEqual(sum(terms) / float(row["microseconds_per_step"]), 1, delta=1e-9)
+            self.assertEqual(terms[1] > 0, parts > 1)
+            self.assertEqual(row["dofs"], pair[1]["dofs"])
+            self.assertEqual(row["measured_microseconds"],
+                             pair[parts]["microseconds_per_step"] if parts in pair else "")
+        self.assertAlmostEqual(float(modelled[0]["microseconds_per_step"])
+                               / float(pair[1]["microseconds_per_step"]), 1, delta=1e-9)
+        self.check_partitions(result["partitions"][0]["parts"])
+
+    def check_partitions(self, lines):
+        for line in lines:
+            parts = line["parts"]
+            self.assertAlmostEqual(line["dofs_per_part"]["mean"] * parts, line["dofs"])
+            self.assertAlmostEqual(line["received"]["mean"], line["sent"]["mean"])
+            self.assertEqual(line["contact_dofs_per_part"]["mean"] * parts, 2 * line["contact_rows"])
+            self.assertLess(line["neighbours"]["largest"], parts)
+            self.assertLessEqual(line["messages"]["largest"], 2 * line["neighbours"]["largest"])
+            held = line["elements_per_part"]["mean"] * parts
+            (self.assertGreater if parts > 1 else self.assertEqual)(held, line["elements"])
+
+    def test_a_scene_that_fails_is_one_line(self):
+        result = script("scaling", *SHORT, "--scene", "nowhere.yaml", "--output", tempfile.mkdtemp())
+        self.assertEqual(result.returncode, 1)
+        said = [line for line in result.stderr.splitlines() if line.startswith("run/scaling: ")]
+        self.assertEqual(len(said), 1, result.stderr)
+        self.assertIn("nowhere.yaml", said[0])
+
+
+class Parts(unittest.TestCase):
+    def test_quiet_rounds_count_if_there_are_any(self):
+        series = Series([5.0, 1.0, 2.0, 9.0], [False, True, True, False])
+        self.assertEqual((series.median, series.lowest, series.highest), (1.5, 1, 2))
+        self.assertFalse(series.disturbed)
+        series.quiet = [False] * 4
+        self.assertEqual((series.median, series.highest, series.disturbed), (3.5, 9, True))
+
+    def test_ways_that_do_not_agree_are_refused(self):
+        check_agreement({("element", 1): 2.0, ("aij", 2): 2.0 + 1e-12})
+        for wrong in (2.0 + 1e-6, math.nan):
+            with self.assertRaisesRegex(MeasuringError, "aij on 2 ranks"):
+                check_agreement({("element", 1): 2.0, ("aij", 2): wrong})
+
+    def test_sizes(self):
+        self.assertEqual(slab_cells(36_036), (77, 77, 1))
+        self.assertEqual(block_cells(104_544), (32, 32, 32))
+
+    def test_the_model_by_hand(self):
+        messages = Messages([{"bytes": [8, 1000, 2000], "seconds": [1e-6, 2e-6, 4e-6]},
+                             {"bytes": [8, 1000, 2000], "seconds": [3e-6, 2e-6, 4e-6]}], None, None)
+        self.assertAlmostEqual(messages.time(1500), 3e-6)
+        self.assertAlmostEqual(messages.time(20000), 1e-6 + 20000 / 5e8)
+        self.assertAlmostEqual(Messages([{"bytes": [8], "seconds": [1]}], 1e-5, 1e9).time(1e4), 2e-5)
+        curve = CostCurve([100, 10000], [1e-9, 3e-9])
+        self.assertAlmostEqual(curve.step(1000), 2e-6)
+        self.assertAlmostEqual(curve.step(10), 1e-8)
+        model = Model(curve, curve, messages, factor=2, row_seconds=1e-8)
+        part = {"parts": 4, "dofs": 3000, "elements": 900, "contact_rows": 50, "contact_members": 3,
+                "elements_per_part": {"largest": 300, "mean": 250}, "messages": {"largest": 2},
+                "sent": {"largest": 200}, "received": {"largest": 250},
+                "contact_dofs_per_part": {"mean": 25}}
+        times = model.predict(part)
+        self.assertAlmostEqual(times["compute"], 2 * 2e-6)
+        self.assertAlmostEqual(times["halo"], 2 * 2e-6)
+        self.assertAlmostEqual(times["gather"], 2 * 1e-6 + 25 * 4 * 24 / 5e8)
+        self.assertAlmostEqual(times["rows"], 50 * 1e-8)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,90 @@
+#include <cmath>
+#include <stdexcept>
+
+#include "benchmark/timed_step.h"
+#include "dynamics/cd_lagrange.h"
+#include "scene/option_table.h"
+
+namespace pounding::measuring {
+namespace {
+
+constexpr double gap_tolerance = 1e-12;  // of the model's size
+
+GapWatch make_watch(const SteppedModel& model, const ContactProblem* contact) {
+  std::vector<double> omega;
+  std::vector<double> norms;
+  for (std::size_t s = 0; s < model.systems.size(); ++s) {
+    omega.push_back(model.systems[s].element_frequency_bound);
+    norms.push_back(contact == nullptr ? 0 : contact->rate_norm(static_cast<int>(s)));
+  }
+  const double peak = std::sqrt(3.0) * model.motion->peak_acceleration();
+  return {model.systems, omega, norms, peak, model.time_step};
+}
+
+class ProgramStep final : public TimedStep {
+ public:
+  explicit ProgramStep(const SteppedModel& model)
+      : contact_(make_contact(model)),
+        stepper_(model.comm, model.systems, *model.motion, contact_.get(),
+                 make_watch(model, contact_.get()), model.time_step, profile_),
+        ledger_interval_(std::stol(std::string(option_row("energy_interval").preset.text))),
+        energies_(model.systems.size()) {}
+
+  void run(long steps) override {
+    for (long i = 0; i < steps; ++i, ++step_) {
+      const bool ledger = step_ > 0 && step_ % ledger_interval_ == 0;
+      stepper_.step(true, ledger);
+      if (ledger) {
+        close_ledger_line();
+      }
+    }
+  }
+
+  double displacement_square() const override {
+    double sum = 0;
+    for (const BodyState& body : stepper_.state().bodies) {
+      for (std::size_t i = 0; i < body.displacement.size(); ++i) {
+        // The state is one step ahead of the velocities' time.
+        const double u = body.displacement[i] - stepper_.time_step() * body.velocity[i];
+        sum += u * u;
+      }
+    }
+    return sum;
+  }
+
+  double contact_seconds() const override { return profile_.seconds(Phase::contact); }
+
+ private:
+  static std::unique_ptr<ContactProblem> make_contact(const SteppedModel& model) {
+    if (model.interface.constraints.empty()) {
+      return nullptr;
+    }
+    return std::make_unique<ContactProblem>(model.comm, model.interface, model.systems,
+                                            model.meshes,
+                                            gap_tolerance * model.interface.model_size);
+  }
+
+  void close_ledger_line() {
+    EnergyBalance& energy = stepper_.energy();
+    energy.note(energy.line(energies_));
+    stepper_.gap_watch().energies_known(energy.closed_steps() - 1, energies_);
+    if (!(energy.relative_residual() < 1e-6)) {
+      throw std::runtime_error("the energy identity does not close");
+    }
+  }
+
+  Profile profile_;
+  std::unique_ptr<ContactProblem> contact_;
+  CdLagrange stepper_;
+  long ledger_interval_;
+  std::vector<StructureEnergy> energies_;
+  long step_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<TimedStep> make_program_step(const SteppedModel& model) {
+  return std::make_unique<ProgramStep>(model);
+}
+
+}  // namespace pounding::measuring
