@@ -8,6 +8,7 @@
 #include "common/parallel.h"
 #include "dynamics/stable_time_step.h"
 #include "mesh/gmsh_reader.h"
+#include "modal/stability_limit.h"
 #include "system/finite_element_system.h"
 
 namespace pounding {
@@ -62,6 +63,16 @@ void choose_time_step(const Scene& scene, Model& model) {
   model.steps = static_cast<std::int64_t>(std::ceil(scene.end_time / model.time_step - 1e-9));
 }
 
+void find_energy_margins(Model& model) {
+  for (std::size_t s = 0; s < model.systems.size(); ++s) {
+    const LinearSystem& system = model.systems[s];
+    model.energy_margin.push_back(
+        system.extra_damping
+            ? smallest_energy_margin(system, model.meshes[s], model.time_step)
+            : energy_margin(system.damping, model.largest[s].omega_max, model.time_step));
+  }
+}
+
 }  // namespace
 
 double Model::smallest_stable_time_step() const {
@@ -85,9 +96,12 @@ Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile) {
     model.modal.push_back(lowest_modes(system, mesh, scene.modes));
     model.largest.push_back(largest_frequency(system, mesh));
     model.stable_time_step.push_back(
-        stable_time_step(system.bounding_damping(), model.largest.back().omega_max));
+        system.extra_damping ? stability_limit(system, mesh)
+                             : stable_time_step(system.damping, model.largest.back().omega_max));
   }
   choose_time_step(scene, model);
+  const ScopedTimer timer(profile, Phase::modes);
+  find_energy_margins(model);
   return model;
 }
 

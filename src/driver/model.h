@@ -21,7 +21,8 @@ struct Model {
   std::vector<LinearSystem> systems;
   std::vector<ModalResult> modal;
   std::vector<LargestFrequency> largest;
-  std::vector<double> stable_time_step;  ///< Eq. 12 per structure [s]
+  std::vector<double> stable_time_step;  ///< exact, per structure [s]
+  std::vector<double> energy_margin;     ///< of the time step in force, per structure [-]
   Interface interface;                   ///< reports on rank 0 only
   std::vector<ResolvedProbe> probes;
   std::unique_ptr<GroundMotion> motion;

@@ -11,6 +11,41 @@
 namespace pounding {
 namespace {
 
+void print_damping(const Structure& structure) {
+  const auto print_ratios = [](const Rayleigh& damping) {
+    for (const double frequency : {1.0, 10.0, 100.0, 400.0}) {
+      std::printf(" %.3f %%", 100 * damping_ratio(damping, 2 * std::numbers::pi * frequency));
+    }
+    std::printf("\n");
+  };
+  std::printf("  damping ratio at 1, 10, 100, 400 Hz:");
+  print_ratios(structure.damping);
+  for (const Region& region : structure.regions) {
+    if (region.damping) {
+      std::printf("    of %s:", region.group.c_str());
+      print_ratios(*region.damping);
+    }
+  }
+}
+
+void print_time_step_limit(const Model& model, std::size_t s) {
+  const LinearSystem& system = model.systems[s];
+  std::printf("  omega_max %.4e rad/s (bound from single elements %.4e)\n",
+              model.largest[s].omega_max, system.element_frequency_bound);
+  std::printf("    at %s\n    stiffest: %s\n", model.largest[s].location.c_str(),
+              system.stiffest_element.c_str());
+  std::printf(
+      "  stable time step %.4e s (bound from single elements %.4e), without damping %.4e s\n",
+      model.stable_time_step[s], system.element_time_step_bound, 2 / model.largest[s].omega_max);
+  if (!system.limiting_element.empty()) {
+    std::printf("    limiting: %s\n", system.limiting_element.c_str());
+  }
+  if (!system.extra_damping) {
+    std::printf("    damping ratio %.2f at omega_max\n",
+                damping_ratio(system.damping, model.largest[s].omega_max));
+  }
+}
+
 void print_structure(const Scene& scene, const Model& model, std::size_t s) {
   const Mesh& mesh = model.meshes[s];
   const LinearSystem& system = model.systems[s];
@@ -23,12 +58,8 @@ void print_structure(const Scene& scene, const Model& model, std::size_t s) {
                 static_cast<long long>(block.global_count), element_name(block.type));
   }
   std::printf("  stiffness: %s\n", system.stiffness_method.c_str());
-  const Rayleigh& damping = scene.structures[s].damping;
-  std::printf("  damping ratio at 1, 10, 100, 400 Hz:");
-  for (const double frequency : {1.0, 10.0, 100.0, 400.0}) {
-    std::printf(" %.3f %%", 100 * damping_ratio(damping, 2 * std::numbers::pi * frequency));
-  }
-  std::printf("\n  mode  frequency  direction  effective mass, share of it\n");
+  print_damping(scene.structures[s]);
+  std::printf("  mode  frequency  direction  effective mass, share of it\n");
   int number = 0;
   for (const Mode& mode : model.modal[s].modes) {
     const auto axis = static_cast<std::size_t>(
@@ -38,14 +69,7 @@ void print_structure(const Scene& scene, const Model& model, std::size_t s) {
                 mode.frequency, mode.direction.c_str(), mode.effective_modal_mass[axis],
                 direction_names[axis], 100 * mode.direction_fraction, mode.direction.c_str());
   }
-  std::printf("  omega_max %.4e rad/s (bound from single elements %.4e)\n",
-              model.largest[s].omega_max, system.element_frequency_bound);
-  std::printf("    at %s\n    stiffest: %s\n", model.largest[s].location.c_str(),
-              system.stiffest_element.c_str());
-  std::printf(
-      "  stable time step %.4e s, without damping %.4e s (damping ratio %.2f at omega_max)\n",
-      model.stable_time_step[s], 2 / model.largest[s].omega_max,
-      damping_ratio(damping, model.largest[s].omega_max));
+  print_time_step_limit(model, s);
 }
 
 void print_impacts(const Scene& scene, const RunStatistics& statistics,
@@ -152,6 +176,13 @@ void print_results(const Scene& scene, const Model& model, const RunStatistics& 
       "\nenergy at the end [J]: kinetic %.4g, strain %.4g, damping loss %.4g, contact work %.4g, "
       "input work %.4g\n",
       energy.kinetic, energy.strain, energy.damping_loss, energy.contact_work, energy.input_work);
+  if (std::any_of(model.systems.begin(), model.systems.end(),
+                  [](const LinearSystem& system) { return system.has_devices(); })) {
+    std::printf(
+        "  device work %.4g: of dashpots, tension-only bars, and what regions with damping of "
+        "their own\n  lose beside the damping of their structure\n",
+        energy.device_work);
+  }
   std::printf("  largest residual of the energy identity: %.2e of the largest term\n",
               statistics.energy_residual);
   std::printf(

@@ -14,7 +14,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json describe_structure(const Model& model, std::size_t s) {
+Json describe_damping(const Rayleigh& damping) {
+  return {{"alpha", damping.alpha}, {"beta", damping.beta}};
+}
+
+Json describe_structure(const Scene& scene, const Model& model, std::size_t s) {
   Json structure;
   const Mesh& mesh = model.meshes[s];
   structure["nodes"] = mesh.global_nodes;
@@ -28,8 +32,12 @@ Json describe_structure(const Model& model, std::size_t s) {
   structure["elements"] = elements;
   structure["mass"] = model.systems[s].total_mass;
   structure["stiffness"] = model.systems[s].stiffness_method;
-  structure["damping"] = {{"alpha", model.systems[s].damping.alpha},
-                          {"beta", model.systems[s].damping.beta}};
+  structure["damping"] = describe_damping(scene.structures[s].damping);
+  for (const Region& region : scene.structures[s].regions) {
+    if (region.damping) {
+      structure["region_damping"][region.group] = describe_damping(*region.damping);
+    }
+  }
   structure["frequencies"] = Json::array();
   for (const Mode& mode : model.modal[s].modes) {
     double effective_mass = 0;
@@ -47,6 +55,8 @@ Json describe_structure(const Model& model, std::size_t s) {
   structure["element_frequency_bound"] = model.systems[s].element_frequency_bound;
   structure["stiffest_element"] = model.systems[s].stiffest_element;
   structure["stable_time_step"] = model.stable_time_step[s];
+  structure["element_time_step_bound"] = model.systems[s].element_time_step_bound;
+  structure["limiting_element"] = model.systems[s].limiting_element;
   structure["stable_time_step_undamped"] = 2 / model.largest[s].omega_max;
   return structure;
 }
@@ -120,7 +130,7 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
   summary["version"] = program_version();
   summary["commit"] = program_commit();
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    summary["structures"][model.systems[s].name] = describe_structure(model, s);
+    summary["structures"][model.systems[s].name] = describe_structure(scene, model, s);
   }
   summary["time_step"] = model.time_step;
   summary["stable_time_step"] = model.smallest_stable_time_step();

@@ -43,15 +43,13 @@ std::unique_ptr<ContactProblem> make_contact(MPI_Comm comm, const Scene& scene,
 }
 
 GapWatch make_watch(const Model& model, const ContactProblem* contact) {
-  std::vector<double> omega;
   std::vector<double> norms;
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    omega.push_back(model.largest[s].omega_max);
     norms.push_back(contact == nullptr ? 0 : contact->rate_norm(static_cast<int>(s)));
   }
   // The three components may peak together.
   const double peak = std::sqrt(3.0) * model.motion->peak_acceleration();
-  return {model.systems, omega, norms, peak, model.time_step};
+  return {model.systems, model.energy_margin, norms, peak, model.time_step};
 }
 
 }  // namespace

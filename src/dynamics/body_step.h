@@ -19,6 +19,7 @@ struct StepSums {
   double device = 0;                 ///< x^T s, x the force of devices [W]
   double kinetic_before = 0;         ///< v-^T M v- [J], if energies are asked for
   double strain_before = 0;          ///< u_n^T K u_{n-1} [J], if energies are asked for
+  double extra_damping_before = 0;   ///< v-^T D v- [W], D the damping beside alpha M + beta K
 };
 
 /// Takes the forces q = K (u_n + beta v-) of a structure range by range and brings the state there

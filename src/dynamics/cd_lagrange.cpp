@@ -1,6 +1,7 @@
 #include "dynamics/cd_lagrange.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "common/parallel.h"
@@ -67,7 +68,7 @@ void CdLagrange::step(bool look_at_gap, bool with_energies) {
       systems_[b].stiffness->start(argument(b));
     }
     for (std::size_t b = 0; b < systems_.size(); ++b) {
-      apply_devices(b);
+      sums_[b].extra_damping_before = apply_devices(b);
       body_steps_[b].begin(force_duration_, acceleration_, first,
                            with_energies || energy_.needs_energies());
       systems_[b].stiffness->finish(argument(b), body_steps_[b]);  // q, v_free, u_{n+1}
@@ -75,7 +76,9 @@ void CdLagrange::step(bool look_at_gap, bool with_energies) {
   }
   touching_ = interface_known_ && solve_contact();  // A, lambda, v_{n+1/2}
   for (std::size_t b = 0; b < systems_.size(); ++b) {
+    const double extra_damping = sums_[b].extra_damping_before;
     sums_[b] = body_steps_[b].sums();
+    sums_[b].extra_damping_before = extra_damping;
   }
   energy_.add_step(sums_, acceleration_, touching_ && counts_work_ ? contact_->total_work() : 0);
   ++state_.step;
@@ -86,11 +89,14 @@ StiffnessArgument CdLagrange::argument(std::size_t b) const {
   return {body.displacement.data(), body.velocity.data(), systems_[b].damping.beta};
 }
 
-void CdLagrange::apply_devices(std::size_t b) {
+double CdLagrange::apply_devices(std::size_t b) {
   const LinearSystem& system = systems_[b];
   BodyState& body = state_.bodies[b];
-  if (system.dashpots) {
-    system.dashpots->apply(device_velocities_[b].get(), device_forces_[b].get());
+  double extra_damping = 0;  // v-^T D v-
+  if (system.extra_damping) {
+    system.extra_damping->apply(device_velocities_[b].get(), device_forces_[b].get());
+    extra_damping = std::inner_product(body.velocity.begin(), body.velocity.end(),
+                                       body.device_force.begin(), 0.0);
   } else {
     std::fill(body.device_force.begin(), body.device_force.end(), 0.0);
   }
@@ -101,6 +107,7 @@ void CdLagrange::apply_devices(std::size_t b) {
     }
     system.tension_bars->add_force(body.device_argument.data(), body.device_force.data());
   }
+  return extra_damping;
 }
 
 void CdLagrange::remember_interface() {

@@ -60,7 +60,8 @@ class CdLagrange {
 
  private:
   StiffnessArgument argument(std::size_t body) const;
-  void apply_devices(std::size_t body);
+  /// Forces of dashpots, extra damping D and tension-only bars; returns v-^T D v-.
+  double apply_devices(std::size_t body);
   void remember_interface();
   bool solve_contact();
 

@@ -17,12 +17,17 @@ EnergyBalance::EnergyBalance(MPI_Comm comm, std::span<const LinearSystem> system
 void EnergyBalance::add_step(std::span<const StepSums> sums,
                              const std::array<double, 3>& ground_acceleration,
                              double contact_work) {
+  lagged_damping_ = 0;
   for (std::size_t b = 0; b < systems_.size(); ++b) {
+    lagged_damping_ += time_step_ / 4 * sums[b].extra_damping_before;
     energies_[b] = energy(systems_[b], sums[b]);
     if (steps_ == 1) {
       initial_ += energies_[b].energy();
     }
     open_.damping += time_step_ * systems_[b].damping.beta / 4 * sums[b].stiffness_before;
+  }
+  if (steps_ == 1) {
+    initial_lagged_damping_ = lagged_damping_;
   }
   if (steps_ > 1) {
     damping_.add(open_.damping);
@@ -57,7 +62,8 @@ EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
 StructureEnergy EnergyBalance::energy(const LinearSystem& system, const StepSums& sums) const {
   const double dt = time_step_;
   const double inertia = (1 - dt / 2 * system.damping.alpha) * sums.kinetic_before;
-  const double damped = inertia - dt / 2 * system.damping.beta * sums.stiffness_before;
+  const double damped =
+      inertia - dt / 2 * (system.damping.beta * sums.stiffness_before + sums.extra_damping_before);
   return {damped / 2, sums.strain_before / 2, (damped - dt * dt / 4 * sums.stiffness_before) / 2};
 }
 
@@ -67,7 +73,7 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   MPI_Allreduce(MPI_IN_PLACE, structures.data(), static_cast<int>(values * structures.size()),
                 MPI_DOUBLE, MPI_SUM, comm_);
   std::array<double, 5> sums{initial_, damping_.total(), contact_.total(), input_.total(),
-                             device_.total()};
+                             device_.total() + lagged_damping_ - initial_lagged_damping_};
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), 5, MPI_DOUBLE, MPI_SUM, comm_);
   EnergyLine line;
   line.time = static_cast<double>(closed_steps() - 1) * time_step_;

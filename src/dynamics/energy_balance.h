@@ -19,10 +19,12 @@ struct EnergyLine {
   double strain = 0;   ///< 1/2 u_{n+1}^T K u_n
   double damping_loss = 0;
   double contact_work = 0;
-  double input_work = 0;   ///< of ground motion and gravity
-  double device_work = 0;  ///< taken up by dashpots and tension-only bars
-  double residual = 0;     ///< energy - initial energy + damping loss + device work - contact work
-                           ///< - input work
+  double input_work = 0;  ///< of ground motion and gravity
+  /// Taken up by dashpots, by what regions with damping of their own have beside the structure's,
+  /// and by tension-only bars.
+  double device_work = 0;
+  double residual = 0;  ///< energy - initial energy + damping loss + device work - contact work
+                        ///< - input work
 
   double energy() const { return kinetic + strain; }
 };
@@ -43,7 +45,12 @@ struct StructureEnergy {
 ///     E_{n+1/2} - E_{n-1/2} = -dt vbar^T C vbar + dt vbar^T (f_n - x_n) + 1/2 lambda^T L v_{n-1/2}
 ///     E_{n+1/2}             = 1/2 v^T (M - dt/2 C) v + 1/2 u_{n+1}^T K u_n
 ///
-/// with x the force of dashpots and tension-only bars. The steps leave all terms as sums over dofs;
+/// with x the force of tension-only bars, and C all damping, alpha M + beta K + D. The forces of D
+/// lag like the others: they come as D v_{n-1/2}, and
+///
+///     vbar^T D vbar = vbar^T D v- + (v+^T D v+ - v-^T D v-) / 4
+///
+/// The steps leave all terms as sums over dofs;
 /// v_{n+1/2}^T K v_{n+1/2} comes with the step after, and so does the balance of step n:
 ///
 ///     4 vbar^T K vbar = v+^T K v+ + 2 v+^T K v- + v-^T K v-
@@ -98,6 +105,8 @@ class EnergyBalance {
   double time_step_;
   std::vector<StructureEnergy> energies_;
   double initial_ = 0;
+  double lagged_damping_ = 0;  ///< dt/4 v^T D v now and at the start [J]
+  double initial_lagged_damping_ = 0;
   Works open_;
   Sum damping_;
   Sum input_;

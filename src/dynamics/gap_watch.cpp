@@ -3,19 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/stable_time_step.h"
-
 namespace pounding {
 
-GapWatch::GapWatch(std::span<const LinearSystem> systems, std::span<const double> omega_max,
+GapWatch::GapWatch(std::span<const LinearSystem> systems, std::span<const double> margins,
                    std::span<const double> rate_norms, double peak_acceleration, double time_step)
     : time_step_(time_step), root_energy_(systems.size(), 0.0) {
   for (std::size_t s = 0; s < systems.size(); ++s) {
-    // Dashpots and tension-only bars hold or move energy that the bound does not know of.
-    possible_ = possible_ && !systems[s].has_devices();
-    const double margin = energy_margin(systems[s].damping, omega_max[s], time_step);
-    possible_ = possible_ && margin > 0;
-    const double root = std::sqrt(std::max(margin, 1e-300));
+    // Tension-only bars hold energy that the bound does not know of.
+    possible_ = possible_ && !systems[s].tension_bars;
+    possible_ = possible_ && margins[s] > 0;
+    const double root = std::sqrt(std::max(margins[s], 1e-300));
     rate_per_root_energy_.push_back(rate_norms[s] / root);
     const Vector3& g = systems[s].gravity;
     const double acceleration = peak_acceleration + std::hypot(g[0], g[1], g[2]);

@@ -18,9 +18,9 @@ namespace pounding {
 /// missed.
 class GapWatch {
  public:
-  /// `omega_max` per structure [rad/s]; `rate_norms` per structure [kg^-1/2]; `peak_acceleration`:
-  /// largest norm of the ground acceleration [m/s2].
-  GapWatch(std::span<const LinearSystem> systems, std::span<const double> omega_max,
+  /// `margins`: energy margin of the time step per structure [-]; `rate_norms` per structure
+  /// [kg^-1/2]; `peak_acceleration`: largest norm of the ground acceleration [m/s2].
+  GapWatch(std::span<const LinearSystem> systems, std::span<const double> margins,
            std::span<const double> rate_norms, double peak_acceleration, double time_step);
 
   /// Energies per structure after step `step` [J].

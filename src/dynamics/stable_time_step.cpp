@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "system/critical_time_step.h"
+
 namespace pounding {
 
 double damping_ratio(const Rayleigh& damping, double omega) {
@@ -9,8 +11,8 @@ double damping_ratio(const Rayleigh& damping, double omega) {
 }
 
 double stable_time_step(const Rayleigh& damping, double omega_max) {
-  const double rate = (damping.alpha + damping.beta * omega_max * omega_max) / 2;  // xi omega
-  return 2 / (std::hypot(omega_max, rate) + rate);
+  const double square = omega_max * omega_max;
+  return critical_time_step(damping.alpha + damping.beta * square, square);
 }
 
 double energy_margin(const Rayleigh& damping, double omega_max, double time_step) {

@@ -9,7 +9,8 @@ double damping_ratio(const Rayleigh& damping, double omega);
 
 /// Critical time step [s] of central differences with lagged Rayleigh damping at omega_max [rad/s]:
 /// Eq. 12 of Ambiel et al. 2022, which is exact for this scheme, in the form that does not cancel,
-/// 2 / (sqrt(omega^2 + (xi omega)^2) + xi omega). Infinite where nothing vibrates.
+/// 2 / (sqrt(omega^2 + (xi omega)^2) + xi omega). Infinite where nothing vibrates. For a structure
+/// whose damping is Rayleigh's everywhere; see modal/stability_limit.h for the others.
 double stable_time_step(const Rayleigh& damping, double omega_max);
 
 /// Smallest eigenvalue of M^-1 (M - dt/2 C - dt^2/4 K) [-], reached at omega_max: the part of the

@@ -30,8 +30,9 @@ struct State {
       bodies.push_back({zero, zero, zero, device, device});
       for (std::size_t i = 0; i < zero.size(); ++i) {
         if (system.direction[i] >= 0) {
-          bodies.back().velocity[i] =
-              system.initial_velocity[static_cast<std::size_t>(system.direction[i])];
+          const auto d = static_cast<std::size_t>(system.direction[i]);
+          bodies.back().displacement[i] = system.initial_displacement[d];
+          bodies.back().velocity[i] = system.initial_velocity[d];
         }
       }
     }

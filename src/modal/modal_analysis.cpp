@@ -8,53 +8,12 @@
 
 #include "common/parallel.h"
 #include "mesh/location.h"
+#include "modal/eigen_solver.h"
 
 namespace pounding {
 namespace {
 
 constexpr std::array<const char*, 6> motion_names{"x", "y", "z", "rx", "ry", "rz"};
-
-/// A = M^-1/2 K M^-1/2, whose eigenvalues are omega^2.
-MatHandle scaled_stiffness(const LinearSystem& system) {
-  std::vector<double> scale(system.inverse_mass.size());
-  std::transform(system.inverse_mass.begin(), system.inverse_mass.end(), scale.begin(),
-                 [](double value) { return std::sqrt(value); });
-  const VecHandle diagonal = wrap_vector(system, scale);
-  MatHandle matrix;
-  POUNDING_PETSC(MatDuplicate(system.stiffest_matrix(), MAT_COPY_VALUES, matrix.out()));
-  POUNDING_PETSC(MatDiagonalScale(matrix.get(), diagonal.get(), diagonal.get()));
-  POUNDING_PETSC(MatSetOption(matrix.get(), MAT_SYMMETRIC, PETSC_TRUE));
-  return matrix;
-}
-
-/// Krylov-Schur on A with a start vector that does not depend on the number of ranks.
-EpsHandle create_solver(const LinearSystem& system, Mat matrix, const Mesh& mesh,
-                        const char* prefix) {
-  EpsHandle solver;
-  POUNDING_PETSC(EPSCreate(system.comm, solver.out()));
-  POUNDING_PETSC(EPSSetOptionsPrefix(solver.get(), prefix));
-  POUNDING_PETSC(EPSSetOperators(solver.get(), matrix, nullptr));
-  POUNDING_PETSC(EPSSetProblemType(solver.get(), EPS_HEP));
-  POUNDING_PETSC(EPSSetType(solver.get(), EPSKRYLOVSCHUR));
-  VecHandle vector;
-  double* start = nullptr;
-  POUNDING_PETSC(MatCreateVecs(matrix, vector.out(), nullptr));
-  POUNDING_PETSC(VecGetArray(vector.get(), &start));
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    for (int c = 0; c < 6; ++c) {
-      const LocalIndex dof = mesh.dof(node, c);
-      if (dof >= 0) {
-        const auto number =
-            static_cast<double>(6 * mesh.file_node[static_cast<std::size_t>(node)] + c);
-        start[dof] = std::sin(12.9898 * number + 1);
-      }
-    }
-  }
-  POUNDING_PETSC(VecRestoreArray(vector.get(), &start));
-  Vec vectors[] = {vector.get()};
-  POUNDING_PETSC(EPSSetInitialSpace(solver.get(), 1, vectors));
-  return solver;
-}
 
 /// Rigid-body motions of the free nodes: rows x, y, z, and rotations about the centre of mass.
 class RigidMotions {
@@ -155,8 +114,8 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
   if (count == 0) {
     return result;
   }
-  const MatHandle matrix = scaled_stiffness(system);
-  const EpsHandle solver = create_solver(system, matrix.get(), mesh, "lowest_");
+  const MatHandle matrix = mass_scaled(system, system.stiffest_matrix());
+  const EpsHandle solver = create_eigen_solver(system, mesh, matrix.get(), "lowest_");
   const int wanted = static_cast<int>(std::min<GlobalIndex>(count, system.global_dofs));
   // A Krylov space sees the second of two equal frequencies late: look past the last one wanted.
   const int sought = static_cast<int>(std::min<GlobalIndex>(count + 8, system.global_dofs));
@@ -196,27 +155,11 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
 }
 
 LargestFrequency largest_frequency(const LinearSystem& system, const Mesh& mesh) {
-  const MatHandle matrix = scaled_stiffness(system);
-  const EpsHandle solver = create_solver(system, matrix.get(), mesh, "largest_");
-  POUNDING_PETSC(EPSSetDimensions(solver.get(), 1, PETSC_DEFAULT, PETSC_DEFAULT));
-  POUNDING_PETSC(EPSSetWhichEigenpairs(solver.get(), EPS_LARGEST_REAL));
-  POUNDING_PETSC(EPSSetTolerances(solver.get(), 1e-10, PETSC_DEFAULT));
-  POUNDING_PETSC(EPSSetFromOptions(solver.get()));
-  POUNDING_PETSC(EPSSolve(solver.get()));
-  PetscInt found = 0;
-  POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
-  if (found < 1) {
-    throw std::runtime_error("structure " + system.name + ": omega_max did not converge");
-  }
-  std::vector<double> storage(system.lumped_mass.size());
-  const VecHandle vector = wrap_vector(system, storage);
-  double eigenvalue = 0;
-  double error = 0;
-  POUNDING_PETSC(EPSGetEigenpair(solver.get(), 0, &eigenvalue, nullptr, vector.get(), nullptr));
-  POUNDING_PETSC(EPSComputeError(solver.get(), 0, EPS_ERROR_ABSOLUTE, &error));
+  const MatHandle matrix = mass_scaled(system, system.stiffest_matrix());
+  const LargestEigenpair pair = largest_eigenpair(system, mesh, matrix.get(), "omega_max");
   LargestFrequency result;
-  result.omega_max = std::sqrt(eigenvalue + error);
-  result.location = locate_largest(mesh, storage);
+  result.omega_max = std::sqrt(pair.value + pair.error);
+  result.location = locate_largest(mesh, pair.vector);
   return result;
 }
 

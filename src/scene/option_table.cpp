@@ -51,6 +51,7 @@ constexpr std::array table{
     OptionRow{Block::structure, "<structure>_mesh_set", Kind::text, "pairs", value("none"), any, "name=value,name=value or none", "parameters of the .geo file"},
     OptionRow{Block::structure, "<structure>_clamp", Kind::names, "names", value("none"), any, "", "physical groups fixed to the ground"},
     OptionRow{Block::structure, "<structure>_fidelity", Kind::choice, "word", value("full"), any, "full", "how the structure is represented"},
+    OptionRow{Block::structure, "<structure>_initial_displacement", Kind::reals, "m", value("0,0,0"), any, "three numbers x,y,z", "of every free node at t = 0"},
     OptionRow{Block::structure, "<structure>_initial_velocity", Kind::reals, "m/s", value("0,0,0"), any, "three numbers x,y,z", "of every free node at t = 0"},
     OptionRow{Block::structure, "<structure>_gravity", Kind::reals, "m/s2", value("0,0,0"), any, "three numbers x,y,z", "constant body acceleration, applied at once at t = 0"},
     OptionRow{Block::structure, "<structure>_damping_alpha", Kind::real, "1/s", value("0"), not_negative, "", "Rayleigh damping, mass term: C = alpha M + beta K"},
@@ -69,6 +70,10 @@ constexpr std::array table{
     OptionRow{Block::region, "<structure>_<group>_rotary_inertia", Kind::reals, "kg m2", value("0,0,0"), not_negative, "three numbers about x, y, z", "point_mass: its rotary inertia"},
     OptionRow{Block::region, "<structure>_<group>_stiffness", Kind::reals, "N/m, N m", absent("required for springs"), not_negative, "six numbers along and about x, y, z (three: no rotations)", "of grounded_spring and spring"},
     OptionRow{Block::region, "<structure>_<group>_dashpot", Kind::reals, "N s/m, N m s", value("0,0,0,0,0,0"), not_negative, "six numbers along and about x, y, z", "dashpot beside the spring"},
+    OptionRow{Block::region, "<structure>_<group>_damping_alpha", Kind::real, "1/s", absent("left out: that of the structure"), not_negative, "", "Rayleigh damping of its elements, mass term"},
+    OptionRow{Block::region, "<structure>_<group>_damping_beta", Kind::real, "s", absent("left out: that of the structure"), not_negative, "", "Rayleigh damping of its elements, stiffness term"},
+    OptionRow{Block::region, "<structure>_<group>_damping_ratio", Kind::real, "-", absent("optional"), damping_ratio, "", "instead of alpha and beta: damping ratio at two frequencies"},
+    OptionRow{Block::region, "<structure>_<group>_damping_frequencies", Kind::reals, "Hz", absent("required with the ratio"), positive, "two numbers f1,f2", "the two frequencies of the damping ratio"},
 
     OptionRow{Block::material, "material_<material>_young", Kind::real, "Pa", required, positive, "", "Young's modulus"},
     OptionRow{Block::material, "material_<material>_poisson", Kind::real, "-", required, poisson_ratio, "", "Poisson's ratio"},

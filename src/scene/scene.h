@@ -29,6 +29,12 @@ struct Section {
   Vector3 z_axis{0, 0, 1};
 };
 
+/// Rayleigh damping C = alpha M + beta K.
+struct Rayleigh {
+  double alpha = 0;  ///< [1/s]
+  double beta = 0;   ///< [s]
+};
+
 /// A physical group of the mesh and the element that the user gives it.
 struct Region {
   std::string group;
@@ -42,12 +48,7 @@ struct Region {
   Vector3 rotary_inertia{0, 0, 0};    ///< point masses [kg m2]
   std::array<double, 6> stiffness{};  ///< springs: along and about x, y, z [N/m, N m]
   std::array<double, 6> dashpot{};    ///< springs [N s/m, N m s]
-};
-
-/// Rayleigh damping C = alpha M + beta K.
-struct Rayleigh {
-  double alpha = 0;  ///< [1/s]
-  double beta = 0;   ///< [s]
+  std::optional<Rayleigh> damping;    ///< in place of the structure's
 };
 
 struct Structure {
@@ -57,8 +58,12 @@ struct Structure {
   std::vector<std::string> clamp;  ///< physical groups fixed to the ground
   std::vector<Region> regions;
   Rayleigh damping;
-  Vector3 initial_velocity{0, 0, 0};  ///< of every free node [m/s]
-  Vector3 gravity{0, 0, 0};           ///< constant body acceleration [m/s2]
+  Vector3 initial_displacement{0, 0, 0};  ///< of every free node [m]
+  Vector3 initial_velocity{0, 0, 0};      ///< of every free node [m/s]
+  Vector3 gravity{0, 0, 0};               ///< constant body acceleration [m/s2]
+
+  /// The damping of a region's elements.
+  Rayleigh damping_of(const Region& region) const { return region.damping.value_or(damping); }
 };
 
 /// One side of a contact: a physical group (surface or shell edge) of a structure, or a rigid wall

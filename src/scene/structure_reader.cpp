@@ -4,10 +4,10 @@
 #include <array>
 #include <iterator>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "common/error.h"
+#include "scene/damping_reader.h"
 #include "scene/nearest_name.h"
 #include "scene/option_blocks.h"
 #include "scene/option_values.h"
@@ -73,26 +73,6 @@ std::vector<std::pair<std::string, std::string>> read_mesh_set(OptionReader& opt
     pairs.emplace_back(sides[0], sides[1]);
   }
   return pairs;
-}
-
-/// alpha and beta as given, or from one damping ratio xi at two circular frequencies:
-/// alpha = 2 xi w1 w2 / (w1 + w2), beta = 2 xi / (w1 + w2).
-Rayleigh read_damping(OptionReader& options, const std::string& structure) {
-  const Names names{structure};
-  if (!options.given("<structure>_damping_ratio", names)) {
-    options.forbid("<structure>_damping_frequencies", names,
-                   "goes with -" + structure + "_damping_ratio, which is not given");
-    return {options.real("<structure>_damping_alpha", names),
-            options.real("<structure>_damping_beta", names)};
-  }
-  const std::string both = "give either alpha and beta, or ratio and frequencies";
-  options.forbid("<structure>_damping_alpha", names, both);
-  options.forbid("<structure>_damping_beta", names, both);
-  const double ratio = options.real("<structure>_damping_ratio", names);
-  const std::vector<double> f = options.reals("<structure>_damping_frequencies", names, 2);
-  const double w1 = 2 * std::numbers::pi * f[0];
-  const double w2 = 2 * std::numbers::pi * f[1];
-  return {2 * ratio * w1 * w2 / (w1 + w2), 2 * ratio / (w1 + w2)};
 }
 
 /// Refuses the reference of a region to a material or section that has no option at all.
@@ -167,23 +147,8 @@ void read_point_mass(OptionReader& options, const Names& names, Region& region) 
   }
 }
 
-Region read_region(OptionReader& options, const Names& names) {
-  Region region;
-  region.group = names[1];
-  const std::string element = options.choice("<structure>_<group>_element", names);
-  region.element = element_type(element);
-  forbid_others(options, element, names);
-  switch (region.element) {
-    case ElementType::point_mass:
-      read_point_mass(options, names, region);
-      return region;
-    case ElementType::grounded_spring:
-    case ElementType::spring:
-      read_spring(options, names, region);
-      return region;
-    default:
-      break;
-  }
+/// What elements with a shape need.
+void read_solid(OptionReader& options, const Names& names, Region& region) {
   region.material = read_material(options, names);
   if (region.element == ElementType::beam) {
     region.section = read_section(options, names);
@@ -196,6 +161,26 @@ Region read_region(OptionReader& options, const Names& names) {
     region.thickness = options.real("<structure>_<group>_thickness", names);
     region.rotary_inertia_factor = options.real("<structure>_<group>_rotary_inertia_factor", names);
   }
+}
+
+Region read_region(OptionReader& options, const Names& names, const Rayleigh& inherited) {
+  Region region;
+  region.group = names[1];
+  const std::string element = options.choice("<structure>_<group>_element", names);
+  region.element = element_type(element);
+  forbid_others(options, element, names);
+  switch (region.element) {
+    case ElementType::point_mass:
+      read_point_mass(options, names, region);
+      break;
+    case ElementType::grounded_spring:
+    case ElementType::spring:
+      read_spring(options, names, region);
+      break;
+    default:
+      read_solid(options, names, region);
+  }
+  region.damping = read_region_damping(options, names, region, inherited);
   return region;
 }
 
@@ -230,13 +215,14 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   structure.mesh_set = read_mesh_set(options, name);
   structure.clamp = options.list("<structure>_clamp", {name});
   options.choice("<structure>_fidelity", {name});
+  structure.initial_displacement = read_vector(options, "<structure>_initial_displacement", {name});
   structure.initial_velocity = read_vector(options, "<structure>_initial_velocity", {name});
   structure.gravity = read_vector(options, "<structure>_gravity", {name});
-  structure.damping = read_damping(options, name);
+  structure.damping = read_structure_damping(options, name);
   const std::set<std::string> groups = region_groups(options.database(), name);
   require_elements(options, name, groups);
   for (const std::string& group : groups) {
-    structure.regions.push_back(read_region(options, {name, group}));
+    structure.regions.push_back(read_region(options, {name, group}, structure.damping));
   }
   return structure;
 }

@@ -1,64 +1,17 @@
 #include "system/finite_element_system.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <limits>
 #include <sstream>
-#include <unordered_map>
 
 #include "common/error.h"
 #include "common/parallel.h"
 #include "mesh/location.h"
-#include "system/dense_eigenvalues.h"
+#include "system/element_bounds.h"
 #include "system/element_loop.h"
 #include "system/element_stiffness.h"
 
 namespace pounding {
 namespace {
-
-/// Elements of one shape have one frequency: look at one of them.
-class FrequencyCache {
- public:
-  double frequency(std::span<const double> stiffness, std::span<const double> mass) {
-    const std::string key = key_of(stiffness, mass);
-    const auto found = known_.find(key);
-    if (found != known_.end()) {
-      return found->second;
-    }
-    const double value = std::sqrt(std::max(0.0, largest_eigenvalue(stiffness, mass)));
-    if (known_.size() < 100000) {
-      known_[key] = value;
-    }
-    return value;
-  }
-
- private:
-  /// Rounded to single precision, so that equal shapes at different places share a key; the
-  /// frequency of a class is good to about 1e-7.
-  static std::string key_of(std::span<const double> stiffness, std::span<const double> mass) {
-    std::string key;
-    double scale = 0;
-    for (std::size_t i = 0; i < mass.size(); ++i) {
-      scale = std::max(scale, stiffness[i * mass.size() + i]);
-    }
-    const auto append = [&key](double value) {
-      const auto rounded = static_cast<float>(value);
-      char bytes[sizeof rounded];
-      std::memcpy(bytes, &rounded, sizeof rounded);
-      key.append(bytes, sizeof rounded);
-    };
-    append(scale);
-    for (std::size_t i = 0; i < mass.size(); ++i) {
-      append(stiffness[i * mass.size() + i]);
-      append(stiffness[i]);
-      append(mass[i]);
-    }
-    return key;
-  }
-
-  std::unordered_map<std::string, double> known_;
-};
 
 /// Calls `visit(block, element, layout, work)` with the matrices of every element on this rank.
 template <typename Visit>
@@ -148,13 +101,17 @@ std::vector<PetscInt> global_numbers(const Mesh& mesh) {
 class Assembly {
  public:
   Assembly(const Structure& structure, const Mesh& mesh, LinearSystem& system)
-      : structure_(structure), mesh_(mesh), system_(system), matrix_(create_matrix(mesh)) {
+      : structure_(structure),
+        mesh_(mesh),
+        system_(system),
+        matrix_(create_matrix(mesh)),
+        bounds_(structure, mesh) {
     for (const ElementBlock& block : mesh.blocks) {
       if (block.type == ElementType::tension_bar && taut_.get() == nullptr) {
         taut_ = create_matrix(mesh);
       }
-      if (has_dashpot(block) && dashpots_.get() == nullptr) {
-        dashpots_ = create_matrix(mesh);
+      if (has_extra_damping(block) && extra_damping_.get() == nullptr) {
+        extra_damping_ = create_matrix(mesh);
       }
     }
   }
@@ -172,11 +129,11 @@ class Assembly {
     if (taut_.get() != nullptr) {
       system_.taut = finished(std::move(taut_));
     }
-    if (dashpots_.get() != nullptr) {
-      bound_dashpot_rate();
-      system_.dashpots = finished(std::move(dashpots_));
+    if (extra_damping_.get() != nullptr) {
+      system_.extra_damping = finished(std::move(extra_damping_));
     }
-    share_totals();
+    bounds_.finish(system_);
+    MPI_Allreduce(MPI_IN_PLACE, &system_.total_mass, 1, MPI_DOUBLE, MPI_SUM, mesh_.comm);
   }
 
  private:
@@ -209,12 +166,21 @@ class Assembly {
     if (taut_.get() != nullptr) {
       insert(taut_, work.stiffness.data());
     }
-    if (has_dashpot(block)) {
-      std::array<double, max_element_size * max_element_size> damping{};
-      element_dashpots(block.type, properties_of(block), {damping.data(), size * size});
-      insert(dashpots_, damping.data());
+    const std::span<const double> stiffness(work.stiffness.data(), size * size);
+    const std::span<const double> mass(work.mass.data(), size);
+    const std::span<double> damping(damping_.data(), size * size);
+    element_dashpots(block.type, properties_of(block), damping);
+    bounds_.add(block, stiffness, mass, damping, {dofs.data(), size});
+    if (has_extra_damping(block)) {
+      const Rayleigh extra = extra_rayleigh(block);
+      for (std::size_t i = 0; i < damping.size(); ++i) {
+        damping[i] += extra.beta * stiffness[i];
+      }
+      for (std::size_t i = 0; i < size; ++i) {
+        damping[i * size + i] += extra.alpha * mass[i];
+      }
+      insert(extra_damping_, damping.data());
     }
-    note_frequency(block, element, work, size);
   }
 
   std::unique_ptr<Stiffness> finished(MatHandle matrix) const {
@@ -227,43 +193,18 @@ class Assembly {
     return element_properties(structure_.regions[static_cast<std::size_t>(block.region)]);
   }
 
-  bool has_dashpot(const ElementBlock& block) const {
+  /// What the damping of a block's region has beside the structure's.
+  Rayleigh extra_rayleigh(const ElementBlock& block) const {
+    const Rayleigh own =
+        structure_.damping_of(structure_.regions[static_cast<std::size_t>(block.region)]);
+    return {own.alpha - structure_.damping.alpha, own.beta - structure_.damping.beta};
+  }
+
+  bool has_extra_damping(const ElementBlock& block) const {
     const auto& rates = properties_of(block).dashpot;
-    return std::any_of(rates.begin(), rates.end(), [](double rate) { return rate > 0; });
-  }
-
-  /// Gershgorin: the largest sum of |C_ij| / m_i over a row bounds the eigenvalues of M^-1 C.
-  void bound_dashpot_rate() {
-    POUNDING_PETSC(MatAssemblyBegin(dashpots_.get(), MAT_FINAL_ASSEMBLY));
-    POUNDING_PETSC(MatAssemblyEnd(dashpots_.get(), MAT_FINAL_ASSEMBLY));
-    for (LocalIndex i = 0; i < mesh_.owned_dofs; ++i) {
-      const auto row = static_cast<PetscInt>(mesh_.first_owned_dof + i);
-      PetscInt count = 0;
-      const double* values = nullptr;
-      POUNDING_PETSC(MatGetRow(dashpots_.get(), row, &count, nullptr, &values));
-      double sum = 0;
-      for (PetscInt k = 0; k < count; ++k) {
-        sum += std::abs(values[k]);
-      }
-      POUNDING_PETSC(MatRestoreRow(dashpots_.get(), row, &count, nullptr, &values));
-      system_.dashpot_rate =
-          std::max(system_.dashpot_rate, sum / system_.lumped_mass[static_cast<std::size_t>(i)]);
-    }
-    MPI_Allreduce(MPI_IN_PLACE, &system_.dashpot_rate, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm);
-  }
-
-  void note_frequency(const ElementBlock& block, std::size_t element, const ElementWork& work,
-                      std::size_t size) {
-    const bool massless =
-        *std::max_element(work.mass.begin(),
-                          work.mass.begin() + static_cast<std::ptrdiff_t>(size)) == 0;
-    const double frequency =
-        massless ? std::numeric_limits<double>::infinity()
-                 : cache_.frequency({work.stiffness.data(), size * size}, {work.mass.data(), size});
-    if (frequency > system_.element_frequency_bound) {
-      system_.element_frequency_bound = frequency;
-      system_.stiffest_element = describe_element(mesh_, block, element);
-    }
+    const Rayleigh extra = extra_rayleigh(block);
+    return extra.alpha != 0 || extra.beta != 0 ||
+           std::any_of(rates.begin(), rates.end(), [](double rate) { return rate > 0; });
   }
 
   void check_mass() const {
@@ -282,28 +223,15 @@ class Assembly {
     }
   }
 
-  /// Sums and maxima over the ranks; the element's name travels with its frequency.
-  void share_totals() {
-    MPI_Allreduce(MPI_IN_PLACE, &system_.total_mass, 1, MPI_DOUBLE, MPI_SUM, mesh_.comm);
-    struct {
-      double value;
-      int rank;
-    } largest{system_.element_frequency_bound, rank_of(mesh_.comm)};
-    MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, mesh_.comm);
-    system_.element_frequency_bound = largest.value;
-    std::vector<char> name(system_.stiffest_element.begin(), system_.stiffest_element.end());
-    broadcast_array(mesh_.comm, name, largest.rank);
-    system_.stiffest_element.assign(name.begin(), name.end());
-  }
-
   const Structure& structure_;
   const Mesh& mesh_;
   LinearSystem& system_;
   MatHandle matrix_;  ///< linear elements
   MatHandle taut_;    ///< tension-only bars as well
-  MatHandle dashpots_;
+  MatHandle extra_damping_;
   std::vector<PetscInt> numbers_;
-  FrequencyCache cache_;
+  ElementBounds bounds_;
+  std::array<double, max_element_size * max_element_size> damping_{};
 };
 
 /// Puts the element-wise product in place of the matrix's where it is asked for or pays.
@@ -359,6 +287,7 @@ LinearSystem build_finite_element_system(const Structure& structure, const Mesh&
   system.name = structure.name;
   system.comm = mesh.comm;
   system.damping = structure.damping;
+  system.initial_displacement = structure.initial_displacement;
   system.initial_velocity = structure.initial_velocity;
   system.gravity = structure.gravity;
   system.tension_bars = TensionBars::build(structure, mesh);

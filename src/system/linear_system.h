@@ -16,8 +16,9 @@ namespace pounding {
 
 /// One building as a linear second-order system in the ground frame, whatever its origin:
 ///
-///     M u'' + C u' + K u = -M iota a_g(t) + L^T r,      C = alpha M + beta K,  M diagonal
+///     M u'' + C u' + K u = -M iota a_g(t) + L^T r,      C = alpha M + beta K + D,  M diagonal
 ///
+/// with D the damping that alpha and beta do not tell: dashpots, and regions damped otherwise.
 /// Arrays hold this rank's owned dofs. Constant during a run.
 struct LinearSystem {
   std::string name;
@@ -33,22 +34,24 @@ struct LinearSystem {
   std::string stiffness_method;          ///< how it is applied, for the report
   std::unique_ptr<Stiffness> taut;       ///< K with tension-only bars taut; null if there are none
   std::unique_ptr<TensionBars> tension_bars;  ///< null if there are none
-  std::unique_ptr<Stiffness> dashpots;        ///< C beside alpha M + beta K [N s/m]; null if none
-  double dashpot_rate = 0;  ///< bound of the largest eigenvalue of M^-1 C of dashpots [1/s]
-  Vector3 initial_velocity{0, 0, 0};  ///< of every translation at t = 0 [m/s]
-  Vector3 gravity{0, 0, 0};           ///< constant body acceleration [m/s2]
-  double total_mass = 0;              ///< clamped nodes included [kg]
+  std::unique_ptr<Stiffness> extra_damping;   ///< D [N s/m, N m s]; null if there is none
+  Vector3 initial_displacement{0, 0, 0};      ///< of every translation at t = 0 [m]
+  Vector3 initial_velocity{0, 0, 0};          ///< of every translation at t = 0 [m/s]
+  Vector3 gravity{0, 0, 0};                   ///< constant body acceleration [m/s2]
+  double total_mass = 0;                      ///< clamped nodes included [kg]
   /// Upper bound of omega_max from single elements, and who holds it: the element with the largest
   /// omega of its own. Infinite if an element has stiffness but no mass (springs).
   double element_frequency_bound = 0;  ///< [rad/s]
   std::string stiffest_element;
+  /// Lower bound of the stable time step from single elements, and which one holds it; infinite
+  /// where nothing limits it.
+  double element_time_step_bound = 0;  ///< [s]
+  std::string limiting_element;
 
   /// K for eigenvalues: every bar taut.
   Mat stiffest_matrix() const { return taut ? taut->matrix() : stiffness->matrix(); }
   /// Forces beside K u, alpha M v and beta K v.
-  bool has_devices() const { return tension_bars || dashpots; }
-  /// Damping that stands for all of it in a bound of the stable time step.
-  Rayleigh bounding_damping() const { return {damping.alpha + dashpot_rate, damping.beta}; }
+  bool has_devices() const { return tension_bars || extra_damping; }
   /// iota of a direction [-].
   std::vector<double> influence(int d) const;
   LocalIndex owned_dofs() const { return static_cast<LocalIndex>(lumped_mass.size()); }

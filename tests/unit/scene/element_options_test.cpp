@@ -74,10 +74,63 @@ TEST(ElementOptions, BarNeedsItsAreaAndOthersRefuseIt) {
                  {"-tower_column_area 1e-4", "beam"});
 }
 
+TEST(ElementOptions, GroupMayHaveDampingOfItsOwn) {
+  const auto slab = [](const OptionsDatabase& damping) {
+    const Structure tower = read_scene(with(pair(), damping)).scene.structures[0];
+    EXPECT_EQ(tower.regions[2].group, "slab");
+    return std::pair{tower, tower.regions[2]};
+  };
+  const auto [tower, without_its_own] = slab({});
+  EXPECT_FALSE(without_its_own.damping);
+  EXPECT_EQ(tower.damping_of(without_its_own).beta, 1.2557e-5);
+  const auto [both_tower, both] =
+      slab({{"tower_slab_damping_alpha", "0"}, {"tower_slab_damping_beta", "3e-5"}});
+  EXPECT_EQ(both_tower.damping_of(both).alpha, 0);
+  EXPECT_EQ(both_tower.damping_of(both).beta, 3e-5);
+  EXPECT_EQ(both_tower.damping.beta, 1.2557e-5);
+  EXPECT_FALSE(both_tower.regions[1].damping);
+  // What is not given is the structure's.
+  const auto [beta_tower, beta] = slab({{"tower_slab_damping_beta", "3e-5"}});
+  EXPECT_EQ(beta_tower.damping_of(beta).alpha, 0.1562);
+  EXPECT_EQ(beta_tower.damping_of(beta).beta, 3e-5);
+  const auto [alpha_tower, alpha] = slab({{"tower_slab_damping_alpha", "2"}});
+  EXPECT_EQ(alpha_tower.damping_of(alpha).alpha, 2);
+  EXPECT_EQ(alpha_tower.damping_of(alpha).beta, 1.2557e-5);
+}
+
+TEST(ElementOptions, DampingRatioOfAGroupIsThatOfAStructure) {
+  const Structure annex = read_scene(with(pair(), {{"annex_slab_damping_ratio", "0.006"},
+                                                   {"annex_slab_damping_frequencies", "2.1,150"}}))
+                              .scene.structures[1];
+  ASSERT_TRUE(annex.regions[0].damping);
+  EXPECT_EQ(annex.regions[0].damping->alpha, annex.damping.alpha);
+  EXPECT_EQ(annex.regions[0].damping->beta, annex.damping.beta);
+}
+
+TEST(ElementOptions, DampingOfAGroupHasOneForm) {
+  const OptionsDatabase ratio = with(
+      pair(), {{"tower_slab_damping_ratio", "0.05"}, {"tower_slab_damping_frequencies", "1,9"}});
+  expect_refused(with(ratio, {{"tower_slab_damping_beta", "1e-5"}}),
+                 {"-tower_slab_damping_beta 1e-5", "either alpha and beta"});
+  expect_refused(without(ratio, {"tower_slab_damping_frequencies"}),
+                 {"missing option -tower_slab_damping_frequencies"});
+  expect_refused(without(ratio, {"tower_slab_damping_ratio"}),
+                 {"-tower_slab_damping_frequencies 1,9", "-tower_slab_damping_ratio"});
+}
+
+TEST(ElementOptions, BarsThatBuckleTakeTheDampingOfTheirStructure) {
+  const OptionsDatabase bar = with(pair(), {{"tower_brace_damping_beta", "1e-5"}});
+  EXPECT_TRUE(read_scene(bar).scene.structures[0].regions[0].damping);
+  expect_refused(with(bar, {{"tower_brace_tension_only", "true"}}),
+                 {"-tower_brace_damping_beta 1e-5", "tension_only"});
+}
+
 TEST(ElementOptions, GroupNeedsAnElement) {
   expect_refused(without(pair(), {"tower_brace_element"}),
                  {"missing option -tower_brace_element", "hex8", "bar"});
   expect_refused(with(pair(), {{"tower_slob_material", "concrete"}}),
+                 {"missing option -tower_slob_element", "did you mean slab?"});
+  expect_refused(with(pair(), {{"tower_slob_damping_beta", "1e-5"}}),
                  {"missing option -tower_slob_element", "did you mean slab?"});
 }
 

@@ -17,6 +17,7 @@ void describe(std::ostream& out, const Structure& structure) {
     out << group << ' ';
   }
   out << structure.damping.alpha << ' ' << structure.damping.beta << '\n';
+  out << structure.initial_displacement[0] << ' ' << structure.initial_velocity[0] << '\n';
   for (const Region& region : structure.regions) {
     out << region.group << ' ' << static_cast<int>(region.element) << ' ' << region.material.name
         << ' ' << region.material.young << ' ' << region.material.poisson << ' '
@@ -25,6 +26,9 @@ void describe(std::ostream& out, const Structure& structure) {
       out << region.section->name << ' ' << region.section->area << ' ' << region.section->inertia_y
           << ' ' << region.section->inertia_z << ' ' << region.section->torsion << ' '
           << region.section->z_axis[0];
+    }
+    if (region.damping) {
+      out << region.damping->alpha << ' ' << region.damping->beta;
     }
     out << '\n';
   }
@@ -99,6 +103,14 @@ TEST(ResolvedOptions, PairReadsBackAlike) {
 }
 
 /// A synthetic motion must not come back as `record: none`, which would take it away.
+TEST(ResolvedOptions, DampingOfGroupsAndTheStartReadBackAlike) {
+  expect_round_trip(with(pair(), {{"tower_slab_damping_beta", "3e-5"},
+                                  {"tower_column_damping_ratio", "0.02"},
+                                  {"tower_column_damping_frequencies", "2,40"},
+                                  {"tower_initial_displacement", "0.01,0,0"},
+                                  {"tower_initial_velocity", "1,0,0"}}));
+}
+
 TEST(ResolvedOptions, SyntheticMotionStays) {
   const ReadScene first = read_scene(pair());
   const ReadScene second = read_scene(read_flat_yaml(first.resolved));

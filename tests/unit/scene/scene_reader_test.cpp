@@ -39,6 +39,8 @@ TEST(SceneReader, SmallestSceneHoldsTheDefaults) {
   EXPECT_TRUE(tower.clamp.empty());
   EXPECT_EQ(tower.damping.alpha, 0);
   EXPECT_EQ(tower.damping.beta, 0);
+  EXPECT_THAT(tower.initial_displacement, ElementsAre(0, 0, 0));
+  EXPECT_THAT(tower.initial_velocity, ElementsAre(0, 0, 0));
 }
 
 TEST(SceneReader, StructuresOfThePair) {
@@ -115,6 +117,15 @@ TEST(SceneReader, DampingRatioHoldsAtBothFrequencies) {
   }
   const double between = 2 * std::numbers::pi * 20;
   EXPECT_LT(damping.alpha / (2 * between) + damping.beta * between / 2, 0.006);
+}
+
+TEST(SceneReader, StartOfAStructure) {
+  const Structure tower =
+      read_scene(with(smallest(), {{"tower_initial_displacement", "0.1,0,-2e-3"},
+                                   {"tower_initial_velocity", "0,3,0"}}))
+          .scene.structures[0];
+  EXPECT_THAT(tower.initial_displacement, ElementsAre(0.1, 0, -2e-3));
+  EXPECT_THAT(tower.initial_velocity, ElementsAre(0, 3, 0));
 }
 
 TEST(SceneReader, GapHasOneTwoOrFourValues) {

@@ -1,0 +1,70 @@
+#include "modal/eigen_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace pounding {
+
+MatHandle mass_scaled(const LinearSystem& system, Mat matrix) {
+  std::vector<double> scale(system.inverse_mass.size());
+  std::transform(system.inverse_mass.begin(), system.inverse_mass.end(), scale.begin(),
+                 [](double value) { return std::sqrt(value); });
+  const VecHandle diagonal = wrap_vector(system, scale);
+  MatHandle scaled;
+  POUNDING_PETSC(MatDuplicate(matrix, MAT_COPY_VALUES, scaled.out()));
+  POUNDING_PETSC(MatDiagonalScale(scaled.get(), diagonal.get(), diagonal.get()));
+  POUNDING_PETSC(MatSetOption(scaled.get(), MAT_SYMMETRIC, PETSC_TRUE));
+  return scaled;
+}
+
+EpsHandle create_eigen_solver(const LinearSystem& system, const Mesh& mesh, Mat matrix,
+                              const char* prefix) {
+  EpsHandle solver;
+  POUNDING_PETSC(EPSCreate(system.comm, solver.out()));
+  POUNDING_PETSC(EPSSetOptionsPrefix(solver.get(), prefix));
+  POUNDING_PETSC(EPSSetOperators(solver.get(), matrix, nullptr));
+  POUNDING_PETSC(EPSSetProblemType(solver.get(), EPS_HEP));
+  POUNDING_PETSC(EPSSetType(solver.get(), EPSKRYLOVSCHUR));
+  VecHandle vector;
+  double* start = nullptr;
+  POUNDING_PETSC(MatCreateVecs(matrix, vector.out(), nullptr));
+  POUNDING_PETSC(VecGetArray(vector.get(), &start));
+  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
+    for (int c = 0; c < 6; ++c) {
+      const LocalIndex dof = mesh.dof(node, c);
+      if (dof >= 0) {
+        const auto number =
+            static_cast<double>(6 * mesh.file_node[static_cast<std::size_t>(node)] + c);
+        start[dof] = std::sin(12.9898 * number + 1);
+      }
+    }
+  }
+  POUNDING_PETSC(VecRestoreArray(vector.get(), &start));
+  Vec vectors[] = {vector.get()};
+  POUNDING_PETSC(EPSSetInitialSpace(solver.get(), 1, vectors));
+  return solver;
+}
+
+LargestEigenpair largest_eigenpair(const LinearSystem& system, const Mesh& mesh, Mat matrix,
+                                   const std::string& what) {
+  const EpsHandle solver = create_eigen_solver(system, mesh, matrix, "largest_");
+  POUNDING_PETSC(EPSSetDimensions(solver.get(), 1, PETSC_DEFAULT, PETSC_DEFAULT));
+  POUNDING_PETSC(EPSSetWhichEigenpairs(solver.get(), EPS_LARGEST_REAL));
+  POUNDING_PETSC(EPSSetTolerances(solver.get(), 1e-10, PETSC_DEFAULT));
+  POUNDING_PETSC(EPSSetFromOptions(solver.get()));
+  POUNDING_PETSC(EPSSolve(solver.get()));
+  PetscInt found = 0;
+  POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
+  if (found < 1) {
+    throw std::runtime_error("structure " + system.name + ": " + what + " did not converge");
+  }
+  LargestEigenpair pair;
+  pair.vector.resize(system.lumped_mass.size());
+  const VecHandle vector = wrap_vector(system, pair.vector);
+  POUNDING_PETSC(EPSGetEigenpair(solver.get(), 0, &pair.value, nullptr, vector.get(), nullptr));
+  POUNDING_PETSC(EPSComputeError(solver.get(), 0, EPS_ERROR_ABSOLUTE, &pair.error));
+  return pair;
+}
+
+}  // namespace pounding

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/petsc.h"
+#include "mesh/mesh.h"
+#include "system/linear_system.h"
+
+/// Symmetric eigenvalue problems of a structure in y = M^1/2 x, by SLEPc.
+namespace pounding {
+
+/// M^-1/2 A M^-1/2, a new matrix. Collective.
+MatHandle mass_scaled(const LinearSystem& system, Mat matrix);
+
+/// Krylov-Schur on a symmetric matrix, with a start vector that does not depend on the number of
+/// ranks; which eigenvalues and how many is the caller's. Collective.
+EpsHandle create_eigen_solver(const LinearSystem& system, const Mesh& mesh, Mat matrix,
+                              const char* prefix);
+
+/// An eigenvalue, bound of its error, and its vector, |y| = 1, over the owned dofs.
+struct LargestEigenpair {
+  double value = 0;
+  double error = 0;
+  std::vector<double> vector;
+};
+
+/// The largest eigenvalue of a symmetric matrix, which a Ritz value approaches from below; PETSc's
+/// options with the prefix largest_ hold. Throws std::runtime_error that `what` of the structure
+/// did not converge. Collective.
+LargestEigenpair largest_eigenpair(const LinearSystem& system, const Mesh& mesh, Mat matrix,
+                                   const std::string& what);
+
+}  // namespace pounding

@@ -1,0 +1,79 @@
+#include "scene/damping_reader.h"
+
+#include <numbers>
+#include <string_view>
+
+namespace pounding {
+namespace {
+
+using Names = OptionReader::Names;
+
+/// The options of Rayleigh damping of a structure or of a region.
+struct DampingPatterns {
+  std::string_view alpha;
+  std::string_view beta;
+  std::string_view ratio;
+  std::string_view frequencies;
+};
+
+constexpr DampingPatterns structure_damping{"<structure>_damping_alpha", "<structure>_damping_beta",
+                                            "<structure>_damping_ratio",
+                                            "<structure>_damping_frequencies"};
+constexpr DampingPatterns region_damping{
+    "<structure>_<group>_damping_alpha", "<structure>_<group>_damping_beta",
+    "<structure>_<group>_damping_ratio", "<structure>_<group>_damping_frequencies"};
+
+/// alpha and beta from one damping ratio xi at two circular frequencies:
+/// alpha = 2 xi w1 w2 / (w1 + w2), beta = 2 xi / (w1 + w2).
+Rayleigh read_damping_ratio(OptionReader& options, const DampingPatterns& patterns,
+                            const Names& names) {
+  const std::string both = "give either alpha and beta, or ratio and frequencies";
+  options.forbid(patterns.alpha, names, both);
+  options.forbid(patterns.beta, names, both);
+  const double ratio = options.real(patterns.ratio, names);
+  const std::vector<double> f = options.reals(patterns.frequencies, names, 2);
+  const double w1 = 2 * std::numbers::pi * f[0];
+  const double w2 = 2 * std::numbers::pi * f[1];
+  return {2 * ratio * w1 * w2 / (w1 + w2), 2 * ratio / (w1 + w2)};
+}
+
+/// Rayleigh damping as given; an alpha or beta that is neither given nor has a default of its own
+/// is that of `inherited`.
+Rayleigh read_damping(OptionReader& options, const DampingPatterns& patterns, const Names& names,
+                      const Rayleigh& inherited) {
+  if (options.given(patterns.ratio, names)) {
+    return read_damping_ratio(options, patterns, names);
+  }
+  options.forbid(patterns.frequencies, names,
+                 "goes with -" + option_name(patterns.ratio, names) + ", which is not given");
+  const auto number = [&](std::string_view pattern, double otherwise) {
+    const bool known = options.given(pattern, names) || option_row(pattern).preset.has_value;
+    return known ? options.real(pattern, names) : otherwise;
+  };
+  return {number(patterns.alpha, inherited.alpha), number(patterns.beta, inherited.beta)};
+}
+
+}  // namespace
+
+Rayleigh read_structure_damping(OptionReader& options, const std::string& structure) {
+  return read_damping(options, structure_damping, {structure}, {});
+}
+
+std::optional<Rayleigh> read_region_damping(OptionReader& options, const Names& names,
+                                            const Region& region, const Rayleigh& inherited) {
+  bool given = false;
+  for (const std::string_view pattern : {region_damping.alpha, region_damping.beta,
+                                         region_damping.ratio, region_damping.frequencies}) {
+    if (region.element == ElementType::tension_bar) {
+      options.forbid(pattern, names,
+                     "bars with tension_only take the damping of their structure; leave it out");
+    }
+    given = given || options.given(pattern, names);
+  }
+  if (!given) {
+    return std::nullopt;
+  }
+  return read_damping(options, region_damping, names, inherited);
+}
+
+}  // namespace pounding

@@ -1,0 +1,148 @@
+#include "system/element_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <sstream>
+
+#include "common/parallel.h"
+#include "mesh/location.h"
+#include "system/critical_time_step.h"
+#include "system/dense_eigenvalues.h"
+#include "system/element_loop.h"
+
+namespace pounding {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Rounded to single precision, so that equal shapes at different places share a key; the frequency
+/// of a class is good to about 1e-7.
+std::string shape_key(std::span<const double> stiffness, std::span<const double> mass) {
+  std::string key;
+  double scale = 0;
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    scale = std::max(scale, stiffness[i * mass.size() + i]);
+  }
+  const auto append = [&key](double value) {
+    const auto rounded = static_cast<float>(value);
+    char bytes[sizeof rounded];
+    std::memcpy(bytes, &rounded, sizeof rounded);
+    key.append(bytes, sizeof rounded);
+  };
+  append(scale);
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    append(stiffness[i * mass.size() + i]);
+    append(stiffness[i]);
+    append(mass[i]);
+  }
+  return key;
+}
+
+/// The extreme value over the ranks, MPI_MAXLOC or MPI_MINLOC, and the name that belongs to it.
+void share_extreme(MPI_Comm comm, MPI_Op extreme, double& value, std::string& name) {
+  struct {
+    double value;
+    int rank;
+  } found{value, rank_of(comm)};
+  MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_DOUBLE_INT, extreme, comm);
+  value = found.value;
+  std::vector<char> letters(name.begin(), name.end());
+  broadcast_array(comm, letters, found.rank);
+  name.assign(letters.begin(), letters.end());
+}
+
+}  // namespace
+
+double ElementBounds::frequency(std::span<const double> stiffness, std::span<const double> mass) {
+  const std::string key = shape_key(stiffness, mass);
+  const auto found = known_.find(key);
+  if (found != known_.end()) {
+    return found->second;
+  }
+  const double value = std::sqrt(std::max(0.0, largest_eigenvalue(stiffness, mass)));
+  if (known_.size() < 100000) {
+    known_[key] = value;
+  }
+  return value;
+}
+
+void ElementBounds::add(const ElementBlock& block, std::span<const double> stiffness,
+                        std::span<const double> mass, std::span<const double> dashpots,
+                        std::span<const LocalIndex> dofs) {
+  if (*std::max_element(mass.begin(), mass.end()) > 0) {
+    frequencies_.push_back(frequency(stiffness, mass));
+    return;
+  }
+  frequencies_.push_back(infinity);
+  device_damping_.resize(static_cast<std::size_t>(mesh_.owned_dofs));
+  device_stiffness_.resize(device_damping_.size());
+  const double beta = damping_of(block).beta;
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    if (dofs[i] < 0 || dofs[i] >= mesh_.owned_dofs) {
+      continue;
+    }
+    for (std::size_t j = 0; j < dofs.size(); ++j) {
+      if (dofs[j] >= 0) {
+        const double k = stiffness[i * dofs.size() + j];
+        device_stiffness_[static_cast<std::size_t>(dofs[i])] += std::abs(k);
+        device_damping_[static_cast<std::size_t>(dofs[i])] +=
+            std::abs(beta * k + dashpots[i * dofs.size() + j]);
+      }
+    }
+  }
+}
+
+void ElementBounds::finish(LinearSystem& system) {
+  system.element_frequency_bound = 0;
+  system.element_time_step_bound = infinity;
+  auto frequency = frequencies_.begin();
+  for (const ElementBlock& block : mesh_.blocks) {
+    for (std::size_t e = 0; e < block.count(); ++e, ++frequency) {
+      if (*frequency > system.element_frequency_bound) {
+        system.element_frequency_bound = *frequency;
+        system.stiffest_element = describe_element(mesh_, block, e);
+      }
+      const double dt = time_step(block, e, *frequency, system.lumped_mass);
+      if (dt < system.element_time_step_bound) {
+        system.element_time_step_bound = dt;
+        system.limiting_element = describe_element(mesh_, block, e);
+      }
+    }
+  }
+  share_extreme(mesh_.comm, MPI_MAXLOC, system.element_frequency_bound, system.stiffest_element);
+  share_extreme(mesh_.comm, MPI_MINLOC, system.element_time_step_bound, system.limiting_element);
+}
+
+/// Of an element with the devices at its owned dofs; the other ranks that hold it see to the rest.
+double ElementBounds::time_step(const ElementBlock& block, std::size_t element, double frequency,
+                                std::span<const double> lumped_mass) const {
+  if (std::isinf(frequency)) {
+    return infinity;  // without mass: the others carry it
+  }
+  const Rayleigh damping = damping_of(block);
+  const double square = frequency * frequency;
+  const double rate = damping.alpha + damping.beta * square;
+  double smallest = critical_time_step(rate, square);
+  if (device_damping_.empty()) {
+    return smallest;
+  }
+  const ElementLayout layout = element_layout(block.type);
+  const auto dofs = element_dofs(mesh_, block, element, layout);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(layout.size()); ++i) {
+    if (dofs[i] >= 0 && dofs[i] < mesh_.owned_dofs) {
+      const auto dof = static_cast<std::size_t>(dofs[i]);
+      smallest = std::min(smallest,
+                          critical_time_step(rate + device_damping_[dof] / lumped_mass[dof],
+                                             square + device_stiffness_[dof] / lumped_mass[dof]));
+    }
+  }
+  return smallest;
+}
+
+Rayleigh ElementBounds::damping_of(const ElementBlock& block) const {
+  return structure_.damping_of(structure_.regions[static_cast<std::size_t>(block.region)]);
+}
+
+}  // namespace pounding

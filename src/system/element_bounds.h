@@ -1,0 +1,53 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "scene/scene.h"
+#include "system/linear_system.h"
+
+namespace pounding {
+
+/// What single elements say of the whole: the largest omega of an element bounds omega_max from
+/// above, and the smallest stable time step of an element bounds that of the structure from below:
+///
+///     x^T (4 M - 2 dt C - dt^2 K) x  =  sum over elements e of x^T (4 M_e - 2 dt C_e - dt^2 K_e) x
+///
+/// with C_e = alpha M_e + beta K_e of the element's region. Springs and dashpots have no mass: by
+/// Gershgorin, theirs are at most diagonal matrices of the sums of their |C_ij| and |K_ij| over
+/// each row, which the elements with mass carry in proportion to the mass that they give to the
+/// row.
+class ElementBounds {
+ public:
+  ElementBounds(const Structure& structure, const Mesh& mesh)
+      : structure_(structure), mesh_(mesh) {}
+
+  /// Every element of this rank in the order of the mesh: stiffness and dashpots of shape (n, n),
+  /// lumped mass and local dofs (-1: none) of shape (n).
+  void add(const ElementBlock& block, std::span<const double> stiffness,
+           std::span<const double> mass, std::span<const double> dashpots,
+           std::span<const LocalIndex> dofs);
+
+  /// After every element, with the lumped mass complete: fills in the bounds of `system`.
+  /// Collective.
+  void finish(LinearSystem& system);
+
+ private:
+  /// Elements of one shape have one frequency: look at one of them.
+  double frequency(std::span<const double> stiffness, std::span<const double> mass);
+  double time_step(const ElementBlock& block, std::size_t element, double frequency,
+                   std::span<const double> lumped_mass) const;
+  Rayleigh damping_of(const ElementBlock& block) const;
+
+  const Structure& structure_;
+  const Mesh& mesh_;
+  std::unordered_map<std::string, double> known_;  ///< frequency by shape
+  std::vector<double> frequencies_;                ///< per element [rad/s]; infinite without mass
+  std::vector<double> device_damping_;             ///< row sums over elements without mass [N s/m]
+  std::vector<double> device_stiffness_;           ///< likewise [N/m]
+};
+
+}  // namespace pounding
