@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <unordered_map>
 
 #include "common/parallel.h"
 #include "elements/element.h"
@@ -199,13 +200,18 @@ Mesh unpack(MPI_Comm comm, const std::string& name, Parcel&& parcel) {
   mesh.first_dof.resize(mesh.file_node.size());
   for (LocalIndex node = 0; node < mesh.node_count(); ++node) {
     const auto n = static_cast<std::size_t>(node);
-    mesh.local_node[mesh.file_node[n]] = node;
     mesh.first_dof[n] = mesh.dof_count;
     mesh.dof_count += component_count(mesh.free_components[n]);
     if (node < mesh.owned_nodes) {
       mesh.owned_dofs = mesh.dof_count;
     }
   }
+  mesh.by_file_node.resize(static_cast<std::size_t>(mesh.owned_nodes));
+  std::iota(mesh.by_file_node.begin(), mesh.by_file_node.end(), LocalIndex{0});
+  std::sort(mesh.by_file_node.begin(), mesh.by_file_node.end(), [&](LocalIndex a, LocalIndex b) {
+    return mesh.file_node[static_cast<std::size_t>(a)] <
+           mesh.file_node[static_cast<std::size_t>(b)];
+  });
   std::size_t element = 0;
   std::size_t corner = 0;
   const char* text = parcel.names.data();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <unordered_map>
+#include <algorithm>
 #include <vector>
 
 #include <mpi.h>
@@ -46,7 +46,7 @@ struct Mesh {
   std::vector<LocalIndex> first_dof;          ///< per local node: local number of its first dof
   LocalIndex dof_count = 0;                   ///< owned and ghost
   std::vector<ElementBlock> blocks;
-  std::unordered_map<GlobalIndex, LocalIndex> local_node;  ///< file order -> local
+  std::vector<LocalIndex> by_file_node;  ///< owned nodes in file order
 
   LocalIndex node_count() const { return static_cast<LocalIndex>(file_node.size()); }
   /// Local dof of a component (0-5) at a local node, -1 if it is clamped or does not exist.
@@ -63,8 +63,13 @@ struct Mesh {
   }
   /// Owned node with this number in the file order, or -1.
   LocalIndex owned_node(GlobalIndex file_number) const {
-    const auto found = local_node.find(file_number);
-    return found != local_node.end() && found->second < owned_nodes ? found->second : -1;
+    const auto number = [this](LocalIndex node) {
+      return file_node[static_cast<std::size_t>(node)];
+    };
+    const auto found = std::lower_bound(
+        by_file_node.begin(), by_file_node.end(), file_number,
+        [&](LocalIndex node, GlobalIndex wanted) { return number(node) < wanted; });
+    return found != by_file_node.end() && number(*found) == file_number ? *found : -1;
   }
 
  private:
