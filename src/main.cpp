@@ -21,7 +21,8 @@ bool wants_help(int count, char** words) {
   return false;
 }
 
-/// Exit status of the job; errors are one line from rank 0.
+/// Exit status of the job: 0, 1 after an error, 2 stopped by a signal; messages are one line from
+/// rank 0.
 int run_job(MPI_Comm comm, const std::vector<std::string>& option_files) {
   const bool root = pounding::rank_of(comm) == 0;
   try {
@@ -37,6 +38,11 @@ int run_job(MPI_Comm comm, const std::vector<std::string>& option_files) {
     if (root) {
       std::fprintf(stderr, "pounding: %s\n", error.what());
     }
+  } catch (const pounding::StoppedBySignal& stop) {
+    if (root) {
+      std::fprintf(stderr, "pounding: %s\n", stop.what());
+    }
+    return 2;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "pounding: internal error on rank %d: %s\n", pounding::rank_of(comm),
                  error.what());

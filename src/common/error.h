@@ -12,6 +12,12 @@ class UserError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A run that a signal stopped and that can be continued. Exit status 2.
+class StoppedBySignal : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// A run that had to stop for its own good: divergence, not a number. Exit status 1.
 class DivergenceError : public std::runtime_error {
  public:

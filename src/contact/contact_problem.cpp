@@ -208,6 +208,16 @@ double ContactProblem::corrected_velocity(std::size_t i, double free_velocity) c
   return velocity + inverse_mass_[dof] * dof_increment_[dof];
 }
 
+void ContactProblem::save(SavedState& saved) const {
+  saved.put("contact_impulse", impulse_);
+  saved.put("contact_largest_residual", {largest_residual_});
+}
+
+void ContactProblem::load(const SavedState& saved) {
+  saved.get("contact_impulse", impulse_);
+  largest_residual_ = saved.number("contact_largest_residual");
+}
+
 double ContactProblem::total_work() const {
   double sum = 0;
   for (const double work : work_) {

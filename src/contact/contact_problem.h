@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "common/saved_state.h"
 #include "contact/contact_operator.h"
 #include "contact/interface.h"
 #include "contact/interface_gather.h"
@@ -61,6 +62,10 @@ class ContactProblem {
   /// by that structure's kinetic energy [kg^-1/2].
   double rate_norm(int structure) const { return rate_norm_[static_cast<std::size_t>(structure)]; }
   double gap_tolerance() const { return gap_tolerance_; }
+
+  /// The impulses of the last solve, from which the LCP starts, and the largest residual.
+  void save(SavedState& saved) const;
+  void load(const SavedState& saved);
 
  private:
   void build_delassus(std::span<const LinearSystem> systems);

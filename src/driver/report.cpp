@@ -165,7 +165,13 @@ void print_time_step(const Scene& scene, const Model& model, double seconds_per_
   std::fflush(stdout);
 }
 
-void print_results(const Scene& scene, const Model& model, const RunStatistics& statistics,
+void print_restart(const Scene& scene, const Model& model, std::int64_t step) {
+  std::printf("continuing %s after step %lld, t = %.6g s\n", scene.restart.c_str(),
+              static_cast<long long>(step), static_cast<double>(step) * model.time_step);
+  std::fflush(stdout);
+}
+
+void print_results(const Scene& scene, const RunStatistics& statistics,
                    const ImpactCatalogue& impacts, const Recorder& recorder,
                    const std::vector<ProbeSpectrum>& spectra) {
   std::printf("\n");
@@ -176,8 +182,7 @@ void print_results(const Scene& scene, const Model& model, const RunStatistics& 
       "\nenergy at the end [J]: kinetic %.4g, strain %.4g, damping loss %.4g, contact work %.4g, "
       "input work %.4g\n",
       energy.kinetic, energy.strain, energy.damping_loss, energy.contact_work, energy.input_work);
-  if (std::any_of(model.systems.begin(), model.systems.end(),
-                  [](const LinearSystem& system) { return system.has_devices(); })) {
+  if (energy.device_work != 0) {
     std::printf(
         "  device work %.4g: of dashpots, tension-only bars, and what regions with damping of "
         "their own\n  lose beside the damping of their structure\n",
@@ -185,10 +190,10 @@ void print_results(const Scene& scene, const Model& model, const RunStatistics& 
   }
   std::printf("  largest residual of the energy identity: %.2e of the largest term\n",
               statistics.energy_residual);
-  std::printf(
-      "\nwall time %.2f s, %.3f microseconds per step; by phase [s, largest over ranks]:\n",
-      statistics.wall_time,
-      1e6 * statistics.step_time / static_cast<double>(std::max<std::int64_t>(1, model.steps)));
+  std::printf("\nwall time %.2f s, %.3f microseconds per step; by phase [s, largest over ranks]:\n",
+              statistics.wall_time,
+              1e6 * statistics.step_time /
+                  static_cast<double>(std::max<std::int64_t>(1, statistics.steps)));
   for (int phase = 0; phase < static_cast<int>(Phase::count); ++phase) {
     std::printf("  %-22s %9.3f\n", phase_name(static_cast<Phase>(phase)),
                 statistics.phase_seconds[static_cast<std::size_t>(phase)]);

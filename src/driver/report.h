@@ -13,7 +13,9 @@ void print_title(const Scene& scene, int ranks);
 void print_model(const Scene& scene, const Model& model);
 /// `seconds_per_step`: measured, 0 if it was not.
 void print_time_step(const Scene& scene, const Model& model, double seconds_per_step);
-void print_results(const Scene& scene, const Model& model, const RunStatistics& statistics,
+/// `step`: that of the checkpoint from which the run continues.
+void print_restart(const Scene& scene, const Model& model, std::int64_t step);
+void print_results(const Scene& scene, const RunStatistics& statistics,
                    const ImpactCatalogue& impacts, const Recorder& recorder,
                    const std::vector<ProbeSpectrum>& spectra);
 

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <sstream>
 
 #include "common/error.h"
 #include "common/floating_point.h"
@@ -9,9 +11,11 @@
 #include "driver/floor_spectra.h"
 #include "driver/model.h"
 #include "driver/report.h"
+#include "driver/run_identity.h"
+#include "driver/stop_signal.h"
 #include "driver/summary.h"
 #include "driver/time_loop.h"
-#include "output/csv_file.h"
+#include "output/energy_ledger.h"
 
 namespace pounding {
 namespace {
@@ -28,26 +32,40 @@ void prepare_output(const Scene& scene, const std::string& resolved) {
   }
 }
 
-void write_energy(const std::string& path, const std::vector<EnergyLine>& ledger) {
-  CsvFile file(path);
-  file.comment("energy ledger of all structures [J] at time + half a time step [s];");
-  file.comment(
-      "kinetic = v^T (M - dt/2 C) v / 2, strain = u_{n+1}^T K u_n / 2; the residual closes the "
-      "identity");
-  file.header("time,kinetic,strain,damping_loss,contact_work,input_work,device_work,residual");
-  for (const EnergyLine& line : ledger) {
-    file.row("", {line.time, line.kinetic, line.strain, line.damping_loss, line.contact_work,
-                  line.input_work, line.device_work, line.residual});
-  }
-  file.close();
-}
-
 std::vector<std::string> contact_names(const Scene& scene) {
   std::vector<std::string> names;
   for (const Contact& contact : scene.contacts) {
     names.push_back(contact.name);
   }
   return names;
+}
+
+[[noreturn]] void stop(const Scene& scene, const Model& model, int signal, std::int64_t step) {
+  std::ostringstream text;
+  text << "stopped by " << signal_name(signal) << " after step " << step << " of " << model.steps
+       << ", t = " << static_cast<double>(step) * model.time_step << " s; continue with -restart "
+       << scene.output << "/checkpoint.h5";
+  throw StoppedBySignal(text.str());
+}
+
+/// The state to continue from; none for a new run. Collective.
+std::optional<SavedState> read_restart(MPI_Comm comm, const Scene& scene, const Model& model,
+                                       const RunIdentity& identity) {
+  if (scene.restart.empty()) {
+    return std::nullopt;
+  }
+  SavedState saved = read_checkpoint(comm, scene.restart, identity, model.meshes);
+  const std::int64_t step = saved.integer("step");
+  if (step > model.steps) {
+    std::ostringstream text;
+    text << "option -end_time " << scene.end_time << " s: the checkpoint " << scene.restart
+         << " stands at " << static_cast<double>(step) * model.time_step << " s already";
+    throw UserError(text.str());
+  }
+  if (rank_of(comm) == 0) {
+    print_restart(scene, model, step);
+  }
+  return saved;
 }
 
 }  // namespace
@@ -60,10 +78,15 @@ void run_scene(MPI_Comm comm, const Scene& scene, const std::string& resolved) {
   if (root) {
     print_title(scene, size_of(comm));
   }
+  if (!scene.restart.empty()) {
+    check_checkpoint(comm, scene.restart, lasting_options(resolved));
+  }
   const Model model = build_model(comm, scene, profile);
   if (root) {
     print_model(scene, model);
   }
+  const RunIdentity identity = identity_of(resolved, model);
+  const std::optional<SavedState> restart = read_restart(comm, scene, model, identity);
   if (scene.dry_run) {
     const double seconds = TimeLoop(comm, scene, model, profile).measure(200);
     if (root) {
@@ -78,19 +101,24 @@ void run_scene(MPI_Comm comm, const Scene& scene, const std::string& resolved) {
   }
   TimeLoop loop(comm, scene, model, profile);
   const double step_start = MPI_Wtime();
-  loop.run();
+  const int signal = loop.run(identity, restart ? &*restart : nullptr);
   RunStatistics statistics;
   statistics.step_time = MPI_Wtime() - step_start;
   loop.fill(statistics);
   on_rank0(comm, [&] {
+    write_impacts(scene.output + "/impacts.csv", contact_names(scene), loop.impacts().impacts());
+    write_energy(scene.output + "/energy.csv", loop.ledger().lines());
+  });
+  if (signal != 0) {
+    stop(scene, model, signal, loop.step());
+  }
+  on_rank0(comm, [&] {
     const std::vector<ProbeSpectrum> spectra = compute_floor_spectra(scene, loop.recorder());
     write_floor_spectra(scene.output + "/spectra.csv", spectra, loop.recorder().interval());
-    write_impacts(scene.output + "/impacts.csv", contact_names(scene), loop.impacts().impacts());
-    write_energy(scene.output + "/energy.csv", loop.ledger());
     statistics.wall_time = MPI_Wtime() - start;
     write_summary(scene.output + "/summary.json", scene, resolved, model, statistics,
                   loop.recorder(), size_of(comm));
-    print_results(scene, model, statistics, loop.impacts(), loop.recorder(), spectra);
+    print_results(scene, statistics, loop.impacts(), loop.recorder(), spectra);
   });
 }
 

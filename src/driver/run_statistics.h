@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace pounding {
 struct RunStatistics {
   double wall_time = 0;                 ///< of everything [s]
   double step_time = 0;                 ///< of the time loop [s]
+  std::int64_t steps = 0;               ///< that it made: after the checkpoint if it continues one
   EnergyLine energy;                    ///< last line
   double energy_residual = 0;           ///< largest, relative to the largest term [-]
   double complementarity_residual = 0;  ///< largest [-]

@@ -8,6 +8,7 @@
 
 #include "common/version.h"
 #include "dynamics/stable_time_step.h"
+#include "scene/resolved_options.h"
 
 namespace pounding {
 namespace {
@@ -95,31 +96,6 @@ Json describe_probe(const Scene& scene, const Recorder& recorder, std::size_t p)
   return description;
 }
 
-/// The resolved options as name -> value.
-Json describe_options(const std::string& resolved) {
-  Json options = Json::object();
-  std::size_t begin = 0;
-  while (begin < resolved.size()) {
-    const std::size_t end = std::min(resolved.find('\n', begin), resolved.size());
-    const std::string line = resolved.substr(begin, end - begin);
-    const std::size_t colon = line.find(": ");
-    if (!line.empty() && line[0] != '#' && colon != std::string::npos) {
-      std::string value = line.substr(colon + 2);
-      if (value.size() >= 2 && value.front() == '"' && value.back() == '"') {
-        value = value.substr(1, value.size() - 2);
-        // Inside quotes a backslash stands before a quote or another backslash.
-        for (std::size_t at = value.find('\\'); at != std::string::npos;
-             at = value.find('\\', at + 1)) {
-          value.erase(at, 1);
-        }
-      }
-      options[line.substr(0, colon)] = value;
-    }
-    begin = end + 1;
-  }
-  return options;
-}
-
 }  // namespace
 
 void write_summary(const std::string& path, const Scene& scene, const std::string& resolved,
@@ -140,7 +116,7 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
   summary["ranks"] = ranks;
   summary["wall_time"] = statistics.wall_time;
   summary["microseconds_per_step"] =
-      1e6 * statistics.step_time / static_cast<double>(std::max<std::int64_t>(1, model.steps));
+      1e6 * statistics.step_time / static_cast<double>(std::max<std::int64_t>(1, statistics.steps));
   for (int phase = 0; phase < static_cast<int>(Phase::count); ++phase) {
     summary["phases"][phase_name(static_cast<Phase>(phase))] =
         statistics.phase_seconds[static_cast<std::size_t>(phase)];
@@ -166,7 +142,10 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
   for (std::size_t p = 0; p < recorder.probes().size(); ++p) {
     summary["probes"][recorder.probes()[p].name] = describe_probe(scene, recorder, p);
   }
-  summary["options"] = describe_options(resolved);
+  summary["options"] = Json::object();
+  for (const auto& [name, value] : resolved_values(resolved)) {
+    summary["options"][name] = value;
+  }
   std::ofstream file(path);
   file << summary.dump(1) << '\n';
   file.close();

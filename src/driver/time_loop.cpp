@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <sstream>
 #include <unistd.h>
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "driver/checkpoint_schedule.h"
+#include "driver/stop_signal.h"
 #include "driver/watchdog.h"
 
 namespace pounding {
 namespace {
-
-/// Lines of the energy ledger that are kept at most.
-constexpr std::int64_t ledger_capacity = 5000;
 
 std::vector<int> contacts_of(const Interface& interface) {
   std::vector<int> contacts;
@@ -63,13 +63,11 @@ TimeLoop::TimeLoop(MPI_Comm comm, const Scene& scene, const Model& model, Profil
       catalogue_(static_cast<int>(scene.contacts.size()), contacts_of(model.interface),
                  places_of(model.interface), scene.impact_merge_time),
       smallest_gaps_(scene.contacts.size(), 0.0),
-      energies_(model.systems.size()) {
+      energies_(model.systems.size()),
+      ledger_(model.steps / scene.energy_interval + 2) {
   stepper_ =
       std::make_unique<CdLagrange>(comm, model.systems, *model.motion, contact_.get(),
                                    make_watch(model, contact_.get()), model.time_step, profile);
-  const std::int64_t lines = model.steps / scene.energy_interval + 2;
-  ledger_stride_ = (lines + ledger_capacity - 1) / ledger_capacity;
-  ledger_.reserve(static_cast<std::size_t>(lines / ledger_stride_ + 2));
 }
 
 double TimeLoop::measure(int steps) {
@@ -82,10 +80,13 @@ double TimeLoop::measure(int steps) {
   return (MPI_Wtime() - start) / steps;
 }
 
-void TimeLoop::create_recorder() {
+void TimeLoop::create_recorder(bool continued) {
   Recorder::Layout layout;
   layout.comm = comm_;
   layout.path = scene_.output + "/history.h5";
+  if (continued) {
+    layout.continued = std::filesystem::path(scene_.restart).replace_filename("history.h5");
+  }
   layout.title = scene_.title;
   layout.probes = model_.probes;
   for (const Contact& contact : scene_.contacts) {
@@ -100,11 +101,18 @@ void TimeLoop::create_recorder() {
   recorder_ = std::make_unique<Recorder>(std::move(layout), model_.meshes);
 }
 
-void TimeLoop::run() {
-  create_recorder();
+int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
+  const StopSignal stop_signal;
+  create_recorder(restart != nullptr);
+  if (restart != nullptr) {
+    load(*restart);
+  }
+  CheckpointSchedule schedule(comm_, scene_.checkpoint_interval, scene_.checkpoint_steps,
+                              first_step_);
+  int signal = 0;
   const double start = MPI_Wtime();
   const std::int64_t progress_interval = std::max<std::int64_t>(1, model_.steps / 200);
-  for (std::int64_t n = 0; n <= model_.steps; ++n) {
+  for (std::int64_t n = first_step_; n <= model_.steps && signal == 0; ++n) {
     const bool ledger = n > 0 && (n % scene_.energy_interval == 0 || n == model_.steps);
     if (recorder_->due(n)) {
       recorder_->take_displacements(stepper_->state());
@@ -117,10 +125,16 @@ void TimeLoop::run() {
     if (n > 0 && n % progress_interval == 0) {
       show_progress(start);
     }
+    const CheckpointSchedule::Decision decision = schedule.after_step(n);
+    if (decision.write) {
+      write_checkpoint(identity);
+    }
+    signal = decision.signal;
   }
   const ScopedTimer timer(profile_, Phase::output);
   recorder_->finish();
   catalogue_.finish(comm_, contact_ ? contact_->root() : 0);
+  return step() < model_.steps ? signal : 0;
 }
 
 void TimeLoop::observe(std::int64_t step) {
@@ -155,15 +169,41 @@ void TimeLoop::observe(std::int64_t step) {
 void TimeLoop::close_ledger_line() {
   const ScopedTimer timer(profile_, Phase::energy);
   EnergyBalance& energy = stepper_->energy();
-  last_line_ = energy.line(energies_);
-  energy.note(last_line_);
-  watch_divergence(model_, stepper_->state(), last_line_, energies_);
-  watch_identity(last_line_, energy.relative_residual());
+  const EnergyLine line = energy.line(energies_);
+  energy.note(line);
+  watch_divergence(model_, stepper_->state(), line, energies_);
+  watch_identity(line, energy.relative_residual());
   stepper_->gap_watch().energies_known(energy.closed_steps() - 1, energies_);
-  if (rank_of(comm_) == 0 && ledger_lines_ % ledger_stride_ == 0) {
-    ledger_.push_back(last_line_);
+  ledger_.add(line);
+}
+
+void TimeLoop::write_checkpoint(const RunIdentity& identity) {
+  const ScopedTimer timer(profile_, Phase::output);
+  SavedState saved;
+  stepper_->save(saved);
+  int finite = saved.dofs_are_finite() ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &finite, 1, MPI_INT, MPI_MIN, comm_);
+  if (finite == 0) {
+    throw DivergenceError("the run diverged: not a number at step " + std::to_string(step()) +
+                          "; the checkpoint before is kept");
   }
-  ++ledger_lines_;
+  recorder_->save(saved);
+  if (rank_of(comm_) == (contact_ ? contact_->root() : 0)) {
+    catalogue_.save(saved);
+  }
+  if (rank_of(comm_) == 0) {
+    ledger_.save(saved);
+  }
+  pounding::write_checkpoint(comm_, scene_.output + "/checkpoint.h5", identity, model_.meshes,
+                             saved);
+}
+
+void TimeLoop::load(const SavedState& saved) {
+  stepper_->load(saved);
+  recorder_->load(saved);
+  catalogue_.load(saved);
+  ledger_.load(saved);
+  first_step_ = step() + 1;
 }
 
 void TimeLoop::show_progress(double start) {
@@ -178,9 +218,10 @@ void TimeLoop::show_progress(double start) {
   }
   const double elapsed = MPI_Wtime() - start;
   const double time = stepper_->time();
-  const double fraction = time / scene_.end_time;
-  std::printf("\r  %5.1f %%  t = %.3f s  %.3f s/s  remaining %.0f s", 100 * fraction, time,
-              elapsed / time, elapsed * (1 / fraction - 1));
+  const double done = time - static_cast<double>(first_step_) * model_.time_step;
+  const double cost = elapsed / std::max(done, model_.time_step);
+  std::printf("\r  %5.1f %%  t = %.3f s  %.3f s/s  remaining %.0f s", 100 * time / scene_.end_time,
+              time, cost, cost * (scene_.end_time - time));
   if (now[0] < no_gap) {
     std::printf("  gap %.2f mm  impacts %.0f", 1000 * now[0], std::abs(now[1]));
   }
@@ -189,7 +230,8 @@ void TimeLoop::show_progress(double start) {
 }
 
 void TimeLoop::fill(RunStatistics& statistics) const {
-  statistics.energy = last_line_;
+  statistics.steps = step() + 1 - first_step_;
+  statistics.energy = ledger_.last();
   statistics.energy_residual = stepper_->energy().relative_residual();
   if (contact_) {
     statistics.contact_rows = contact_->rows();

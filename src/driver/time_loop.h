@@ -6,6 +6,8 @@
 #include "driver/model.h"
 #include "driver/run_statistics.h"
 #include "dynamics/cd_lagrange.h"
+#include "output/checkpoint.h"
+#include "output/energy_ledger.h"
 #include "output/impact_catalogue.h"
 #include "output/recorder.h"
 
@@ -19,17 +21,22 @@ class TimeLoop {
 
   /// Mean wall time of a step [s], measured on `steps` of them, nothing recorded. Collective.
   double measure(int steps);
-  /// From t_0 to the end time; results into the scene's output folder. Throws DivergenceError.
-  /// Collective.
-  void run();
+  /// From t_0, or from after the step of `restart` unless it is null, to the end time; histories
+  /// and checkpoints, which carry `identity`, into the scene's output folder. Returns 0, or the
+  /// signal that stopped the run after a checkpoint. Throws DivergenceError, UserError. Collective.
+  int run(const RunIdentity& identity, const SavedState* restart);
 
   const ImpactCatalogue& impacts() const { return catalogue_; }
-  const std::vector<EnergyLine>& ledger() const { return ledger_; }
+  /// The last step made.
+  std::int64_t step() const { return stepper_->state().step - 1; }
+  const EnergyLedger& ledger() const { return ledger_; }
   Recorder& recorder() { return *recorder_; }
   void fill(RunStatistics& statistics) const;
 
  private:
-  void create_recorder();
+  void create_recorder(bool continued);
+  void load(const SavedState& saved);
+  void write_checkpoint(const RunIdentity& identity);
   void observe(std::int64_t step);
   void close_ledger_line();
   void show_progress(double start);
@@ -44,10 +51,8 @@ class TimeLoop {
   std::unique_ptr<Recorder> recorder_;
   std::vector<double> smallest_gaps_;  ///< per contact
   std::vector<StructureEnergy> energies_;
-  std::vector<EnergyLine> ledger_;  ///< rank 0
-  std::int64_t ledger_stride_ = 1;  ///< lines kept of those computed
-  std::int64_t ledger_lines_ = 0;
-  EnergyLine last_line_;
+  EnergyLedger ledger_;
+  std::int64_t first_step_ = 0;
 };
 
 }  // namespace pounding

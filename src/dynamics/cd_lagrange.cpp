@@ -84,6 +84,24 @@ void CdLagrange::step(bool look_at_gap, bool with_energies) {
   ++state_.step;
 }
 
+void CdLagrange::save(SavedState& saved) const {
+  state_.save(saved);
+  energy_.save(saved);
+  if (counts_work_) {
+    watch_.save(saved);
+    contact_->save(saved);
+  }
+}
+
+void CdLagrange::load(const SavedState& saved) {
+  state_.load(saved);
+  energy_.load(saved);
+  if (contact_ != nullptr) {
+    watch_.load(saved);
+    contact_->load(saved);
+  }
+}
+
 StiffnessArgument CdLagrange::argument(std::size_t b) const {
   const BodyState& body = state_.bodies[b];
   return {body.displacement.data(), body.velocity.data(), systems_[b].damping.beta};

@@ -43,6 +43,10 @@ class CdLagrange {
   /// will be asked for. Collective.
   void step(bool look_at_gap, bool with_energies);
 
+  /// Everything that the next step needs, contact and ledger included, between two steps.
+  void save(SavedState& saved) const;
+  void load(const SavedState& saved);
+
   /// What the next step starts from.
   const State& state() const { return state_; }
   double time_step() const { return time_step_; }

@@ -90,6 +90,41 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   return line;
 }
 
+template <typename Balance, typename Function>
+void EnergyBalance::for_each_sum(Balance& balance, Function&& function) {
+  for (auto* sum : {&balance.damping_, &balance.input_, &balance.contact_, &balance.device_}) {
+    function(sum->value);
+    function(sum->correction);
+  }
+  function(balance.initial_);
+  function(balance.initial_lagged_damping_);
+  for (auto* work : {&balance.open_.damping, &balance.open_.input, &balance.open_.contact,
+                     &balance.open_.device}) {
+    function(*work);
+  }
+}
+
+void EnergyBalance::save(SavedState& saved) const {
+  std::vector<double> sums;
+  for_each_sum(*this, [&](double value) { sums.push_back(value); });
+  saved.put_sums("energy", sums);
+  saved.put("energy", {static_cast<double>(steps_), largest_term_, largest_residual_});
+}
+
+void EnergyBalance::load(const SavedState& saved) {
+  std::size_t count = 0;
+  for_each_sum(*this, [&](double) { ++count; });
+  std::vector<double> sums(count);
+  saved.get_sums("energy", sums);
+  std::size_t next = 0;
+  for_each_sum(*this, [&](double& value) { value = sums[next++]; });
+  std::array<double, 3> numbers{};
+  saved.get("energy", numbers);
+  steps_ = static_cast<std::int64_t>(numbers[0]);
+  largest_term_ = numbers[1];
+  largest_residual_ = numbers[2];
+}
+
 void EnergyBalance::note(const EnergyLine& line) {
   largest_residual_ = std::max(largest_residual_, std::abs(line.residual));
   largest_term_ = std::max({largest_term_, std::abs(line.kinetic), std::abs(line.strain),

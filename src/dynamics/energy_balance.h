@@ -80,6 +80,9 @@ class EnergyBalance {
   std::int64_t closed_steps() const { return steps_ - 1; }
   void note(const EnergyLine& line);
 
+  void save(SavedState& saved) const;
+  void load(const SavedState& saved);
+
  private:
   /// Sum that does not lose what is added over millions of steps (Neumaier).
   struct Sum {
@@ -95,6 +98,9 @@ class EnergyBalance {
     double contact = 0;
     double device = 0;
   };
+  /// Calls `function` with each number of this rank that adds up over ranks.
+  template <typename Balance, typename Function>
+  static void for_each_sum(Balance& balance, Function&& function);
 
   Works works(std::span<const StepSums> sums, const std::array<double, 3>& ground_acceleration,
               double contact_work) const;

@@ -1,6 +1,7 @@
 #include "dynamics/gap_watch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pounding {
@@ -18,6 +19,21 @@ GapWatch::GapWatch(std::span<const LinearSystem> systems, std::span<const double
     const double acceleration = peak_acceleration + std::hypot(g[0], g[1], g[2]);
     growth_.push_back(std::sqrt(systems[s].total_mass) * acceleration * time_step / root);
   }
+}
+
+void GapWatch::save(SavedState& saved) const {
+  saved.put("gap_watch_root_energy", root_energy_);
+  saved.put("gap_watch_steps", {static_cast<double>(energy_step_), static_cast<double>(last_touch_),
+                                static_cast<double>(next_look_)});
+}
+
+void GapWatch::load(const SavedState& saved) {
+  saved.get("gap_watch_root_energy", root_energy_);
+  std::array<double, 3> steps{};
+  saved.get("gap_watch_steps", steps);
+  energy_step_ = static_cast<std::int64_t>(steps[0]);
+  last_touch_ = static_cast<std::int64_t>(steps[1]);
+  next_look_ = static_cast<std::int64_t>(steps[2]);
 }
 
 void GapWatch::energies_known(std::int64_t step, std::span<const StructureEnergy> energies) {

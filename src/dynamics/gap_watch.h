@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "common/saved_state.h"
 #include "dynamics/energy_balance.h"
 #include "system/linear_system.h"
 
@@ -30,6 +31,9 @@ class GapWatch {
   void looked(std::int64_t step, double clearance, bool touching);
 
   bool due(std::int64_t step) const { return step >= next_look_; }
+
+  void save(SavedState& saved) const;
+  void load(const SavedState& saved);
 
  private:
   /// Bound of the sum of all gap rates at a step [m/s].

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "common/saved_state.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -35,6 +36,25 @@ struct State {
           bodies.back().velocity[i] = system.initial_velocity[d];
         }
       }
+    }
+  }
+
+  void save(SavedState& saved) const {
+    saved.put("step", {static_cast<double>(step)});
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      saved.put_dofs(static_cast<int>(b), "displacement", bodies[b].displacement);
+      saved.put_dofs(static_cast<int>(b), "velocity", bodies[b].velocity);
+      saved.put_dofs(static_cast<int>(b), "stiffness_displacement",
+                     bodies[b].stiffness_displacement);
+    }
+  }
+  void load(const SavedState& saved) {
+    step = saved.integer("step");
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      saved.get_dofs(static_cast<int>(b), "displacement", bodies[b].displacement);
+      saved.get_dofs(static_cast<int>(b), "velocity", bodies[b].velocity);
+      saved.get_dofs(static_cast<int>(b), "stiffness_displacement",
+                     bodies[b].stiffness_displacement);
     }
   }
 };

@@ -1,19 +1,57 @@
 #include "output/hdf5_file.h"
 
 #include <algorithm>
+#include <fcntl.h>
+#include <filesystem>
 #include <stdexcept>
+#include <unistd.h>
 
 namespace pounding {
 
 Hdf5File::Hdf5File(const std::string& path) : path_(path) {
-  file_ = checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), "create");
+  const hid_t access = checked(H5Pcreate(H5P_FILE_ACCESS), "create");
+  H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
+  file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  H5Pclose(access);
+  checked(file_, "create");
 }
 
 Hdf5File::~Hdf5File() {
+  close_handles();
+}
+
+herr_t Hdf5File::close_handles() {
+  herr_t status = 0;
   for (const Dataset& dataset : datasets_) {
-    H5Dclose(dataset.id);
+    status = std::min(status, H5Dclose(dataset.id));
   }
-  H5Fclose(file_);
+  datasets_.clear();
+  if (file_ >= 0) {
+    status = std::min(status, H5Fclose(file_));
+  }
+  file_ = -1;
+  return status;
+}
+
+void Hdf5File::stay_readable() {
+  checked(H5Fstart_swmr_write(file_), "open for readers");
+}
+
+void Hdf5File::flush() {
+  checked(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write (is the disk full?)");
+}
+
+void Hdf5File::move_to(const std::string& path) {
+  std::filesystem::rename(path_, path);
+  path_ = path;
+}
+
+void Hdf5File::close() {
+  checked(close_handles(), "write (is the disk full?)");
+  const int file = open(path_.c_str(), O_RDONLY);
+  const int status = fsync(file);
+  ::close(file);
+  checked(status, "write to the disk");
 }
 
 hid_t Hdf5File::checked(hid_t id, const std::string& what) const {
@@ -73,6 +111,32 @@ void Hdf5File::append(const std::string& name, std::span<const double> values) {
   dataset.rows = total[0];
 }
 
+void Hdf5File::write_array(const std::string& name, std::size_t columns,
+                           std::span<const double> values) {
+  const int rank = columns == 0 ? 1 : 2;
+  const hsize_t width = std::max<hsize_t>(1, columns);
+  const hsize_t size[2] = {values.size() / width, width};
+  const hid_t space = checked(H5Screate_simple(rank, size, nullptr), "describe " + name);
+  const hid_t links = checked(H5Pcreate(H5P_LINK_CREATE), "describe " + name);
+  H5Pset_create_intermediate_group(links, 1);
+  const hid_t properties = checked(H5Pcreate(H5P_DATASET_CREATE), "describe " + name);
+  if (size[0] > 0) {
+    const hsize_t chunk[2] = {std::min<hsize_t>(size[0], 65536), width};
+    H5Pset_chunk(properties, rank, chunk);
+    H5Pset_fletcher32(properties);
+  }
+  const hid_t dataset =
+      H5Dcreate2(file_, name.c_str(), H5T_NATIVE_DOUBLE, space, links, properties, H5P_DEFAULT);
+  H5Pclose(properties);
+  H5Pclose(links);
+  H5Sclose(space);
+  checked(dataset, "create dataset " + name);
+  const herr_t status =
+      H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  H5Dclose(dataset);
+  checked(status, "write " + name + " (is the disk full?)");
+}
+
 void Hdf5File::write_strings(const std::string& name, const std::vector<std::string>& values) {
   std::size_t width = 1;
   for (const std::string& value : values) {
@@ -99,32 +163,31 @@ void Hdf5File::write_strings(const std::string& name, const std::vector<std::str
   checked(status, "write " + name);
 }
 
-hid_t Hdf5File::attribute_owner(const std::string& dataset) {
-  return dataset == "/" ? file_ : find(dataset).id;
-}
-
-void Hdf5File::write_attribute(const std::string& dataset, const std::string& name, double value) {
+void Hdf5File::write_attribute(const std::string& object, const std::string& name, double value) {
+  const hid_t owner = checked(H5Oopen(file_, object.c_str(), H5P_DEFAULT), "open " + object);
   const hid_t space = H5Screate(H5S_SCALAR);
-  const hid_t attribute = checked(H5Acreate2(attribute_owner(dataset), name.c_str(),
-                                             H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT),
-                                  "create attribute " + name);
-  H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value);
+  const hid_t attribute =
+      H5Acreate2(owner, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT);
+  const herr_t status = H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value);
   H5Aclose(attribute);
   H5Sclose(space);
+  H5Oclose(owner);
+  checked(status, "write attribute " + name);
 }
 
-void Hdf5File::write_attribute(const std::string& dataset, const std::string& name,
+void Hdf5File::write_attribute(const std::string& object, const std::string& name,
                                const std::string& value) {
+  const hid_t owner = checked(H5Oopen(file_, object.c_str(), H5P_DEFAULT), "open " + object);
   const hid_t type = H5Tcopy(H5T_C_S1);
   H5Tset_size(type, std::max<std::size_t>(1, value.size()));
   const hid_t space = H5Screate(H5S_SCALAR);
-  const hid_t attribute = checked(
-      H5Acreate2(attribute_owner(dataset), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
-      "create attribute " + name);
-  H5Awrite(attribute, type, value.empty() ? " " : value.data());
+  const hid_t attribute = H5Acreate2(owner, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT);
+  const herr_t status = H5Awrite(attribute, type, value.empty() ? " " : value.data());
   H5Aclose(attribute);
   H5Sclose(space);
   H5Tclose(type);
+  H5Oclose(owner);
+  checked(status, "write attribute " + name);
 }
 
 }  // namespace pounding

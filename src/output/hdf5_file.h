@@ -8,8 +8,8 @@
 
 namespace pounding {
 
-/// An HDF5 file written by one rank: two-dimensional datasets that grow by rows. Errors throw
-/// std::runtime_error naming file and dataset.
+/// An HDF5 file written by one rank: two-dimensional datasets that grow by rows, and arrays written
+/// at once. Its metadata carry checksums. Errors throw std::runtime_error naming file and dataset.
 class Hdf5File {
  public:
   explicit Hdf5File(const std::string& path);
@@ -22,10 +22,25 @@ class Hdf5File {
   void create_dataset(const std::string& name, std::size_t columns, const std::string& unit);
   /// Appends rows; `values` has shape (rows, columns).
   void append(const std::string& name, std::span<const double> values);
+  /// A dataset of final size with a checksum, shape (rows, columns) or a plain vector if `columns`
+  /// is 0; groups in its name come into being.
+  void write_array(const std::string& name, std::size_t columns, std::span<const double> values);
   void write_strings(const std::string& name, const std::vector<std::string>& values);
-  void write_attribute(const std::string& dataset, const std::string& name, double value);
-  void write_attribute(const std::string& dataset, const std::string& name,
+  /// Attribute of a dataset, of a group, or of the file ("/").
+  void write_attribute(const std::string& object, const std::string& name, double value);
+  void write_attribute(const std::string& object, const std::string& name,
                        const std::string& value);
+
+  /// From now on rows are appended only, in an order in which the file is readable at any moment,
+  /// by other programs at the same time and after this one is killed (single writer, multiple
+  /// readers).
+  void stay_readable();
+  /// Hands all that was written to the operating system.
+  void flush();
+  /// Another name in the same file system.
+  void move_to(const std::string& path);
+  /// Everything stands on the disk, or this throws.
+  void close();
 
  private:
   struct Dataset {
@@ -36,7 +51,7 @@ class Hdf5File {
   };
   Dataset& find(const std::string& name);
   hid_t checked(hid_t id, const std::string& what) const;
-  hid_t attribute_owner(const std::string& dataset);
+  herr_t close_handles();
 
   std::string path_;
   hid_t file_ = -1;

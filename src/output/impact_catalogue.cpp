@@ -6,6 +6,39 @@
 #include "output/csv_file.h"
 
 namespace pounding {
+namespace {
+
+constexpr std::size_t impact_columns = 10;
+
+/// Impacts as rows of numbers.
+std::vector<double> to_table(std::span<const Impact> impacts) {
+  std::vector<double> table;
+  for (const Impact& i : impacts) {
+    table.insert(table.end(), {static_cast<double>(i.contact), i.start, i.end, i.impulse,
+                               i.peak_force, static_cast<double>(i.points), i.energy_lost,
+                               i.max_penetration, i.place[0], i.place[1]});
+  }
+  return table;
+}
+
+std::vector<Impact> from_table(const std::vector<double>& table) {
+  std::vector<Impact> impacts;
+  for (std::size_t i = 0; i < table.size(); i += impact_columns) {
+    const double* v = &table[i];
+    impacts.push_back({static_cast<int>(v[0]),
+                       v[1],
+                       v[2],
+                       v[3],
+                       v[4],
+                       static_cast<int>(v[5]),
+                       v[6],
+                       v[7],
+                       {v[8], v[9]}});
+  }
+  return impacts;
+}
+
+}  // namespace
 
 void ImpactTotals::add(const Impact& impact) {
   ++episodes;
@@ -89,6 +122,27 @@ void ImpactCatalogue::finish(MPI_Comm comm, int root) {
   broadcast_array(comm, impacts_, root);
   std::stable_sort(impacts_.begin(), impacts_.end(),
                    [](const Impact& a, const Impact& b) { return a.start < b.start; });
+}
+
+void ImpactCatalogue::save(SavedState& saved) const {
+  saved.put("impacts", to_table(impacts_), impact_columns);
+  saved.put("impacts_open", to_table(open_), impact_columns);
+  saved.put("impacts_is_open", std::vector<double>(is_open_.begin(), is_open_.end()));
+  saved.put("impacts_touched_rows", std::vector<double>(touched_.begin(), touched_.end()));
+}
+
+void ImpactCatalogue::load(const SavedState& saved) {
+  std::vector<double> open(impact_columns * open_.size());
+  std::vector<double> is_open(is_open_.size());
+  std::vector<double> touched(touched_.size());
+  saved.get("impacts_open", open);
+  saved.get("impacts_is_open", is_open);
+  saved.get("impacts_touched_rows", touched);
+  impacts_ = from_table(saved.table("impacts", impact_columns));
+  open_ = from_table(open);
+  const auto is_set = [](double value) { return static_cast<char>(value != 0); };
+  std::ranges::transform(is_open, is_open_.begin(), is_set);
+  std::ranges::transform(touched, touched_.begin(), is_set);
 }
 
 ImpactTotals ImpactCatalogue::totals(int contact) const {

@@ -7,6 +7,8 @@
 
 #include <mpi.h>
 
+#include "common/saved_state.h"
+
 namespace pounding {
 
 /// One contact episode: from its first to its last impulse, pauses shorter than the merge time
@@ -47,6 +49,10 @@ class ImpactCatalogue {
   /// Closes open episodes, and brings the list from rank `root` to every rank, sorted by start.
   /// Collective.
   void finish(MPI_Comm comm, int root);
+
+  /// Closed and open episodes; `save` on the rank that knows the interface.
+  void save(SavedState& saved) const;
+  void load(const SavedState& saved);
 
   const std::vector<Impact>& impacts() const { return impacts_; }
   int episodes() const { return static_cast<int>(impacts_.size()) + open_count(); }

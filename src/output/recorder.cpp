@@ -51,43 +51,55 @@ Recorder::Recorder(Layout layout, std::span<const Mesh> meshes) : layout_(std::m
       order_.push_back({static_cast<std::size_t>(mine[i]), static_cast<std::size_t>(mine[i + 1])});
     }
   }
-  create_datasets();
+  name_channels();
+  if (layout_.continued.empty()) {
+    create_file(layout_.path);
+  }
 }
 
-void Recorder::create_datasets() {
+void Recorder::name_channels() {
   for (const ResolvedProbe& probe : layout_.probes) {
     for (const char* direction : direction_names) {
       channels_.push_back(probe.name + "." + direction);
     }
-  }
-  for (const ResolvedProbe& probe : layout_.probes) {
     const Vector3& v = layout_.initial_velocity[static_cast<std::size_t>(probe.structure)];
     last_velocity_.insert(last_velocity_.end(), v.begin(), v.end());
   }
   peaks_.assign(channels_.size(), {});
-  file_ = std::make_unique<Hdf5File>(layout_.path);
-  file_->write_attribute("/", "title", layout_.title);
-  file_->create_dataset("time", 0, "s");
-  file_->write_strings("channels", channels_);
+}
+
+std::vector<Recorder::Quantity> Recorder::quantities() const {
+  std::vector<Quantity> list{{"time", 0, "s"}, {"ground_acceleration", 3, "m/s2"}};
   if (!channels_.empty()) {
-    file_->create_dataset("displacement", channels_.size(), "m");
-    file_->create_dataset("velocity", channels_.size(), "m/s");
-    file_->create_dataset("acceleration", channels_.size(), "m/s2");
-    const double half = layout_.time_step / 2;
+    list.push_back({"displacement", channels_.size(), "m"});
+    list.push_back({"velocity", channels_.size(), "m/s"});
+    list.push_back({"acceleration", channels_.size(), "m/s2"});
+  }
+  if (!layout_.contacts.empty()) {
+    list.push_back({"gap", layout_.contacts.size(), "m"});
+    list.push_back({"contact_force", layout_.contacts.size(), "N"});
+  }
+  return list;
+}
+
+void Recorder::create_file(const std::string& path) {
+  file_ = std::make_unique<Hdf5File>(path);
+  file_->write_attribute("/", "title", layout_.title);
+  file_->write_strings("channels", channels_);
+  file_->write_strings("contacts", layout_.contacts);
+  for (const Quantity& quantity : quantities()) {
+    file_->create_dataset(quantity.name, quantity.columns, quantity.unit);
+  }
+  const double half = layout_.time_step / 2;
+  if (!channels_.empty()) {
     file_->write_attribute("displacement", "frame", "relative to the ground");
     file_->write_attribute("velocity", "frame", "relative to the ground");
     file_->write_attribute("velocity", "time_offset", half);
     file_->write_attribute("acceleration", "frame", "absolute, mean over the output interval");
     file_->write_attribute("acceleration", "time_offset", half - interval() / 2);
   }
-  file_->create_dataset("ground_acceleration", 3, "m/s2");
-  file_->write_attribute("ground_acceleration", "time_offset",
-                         layout_.time_step / 2 - interval() / 2);
-  file_->write_strings("contacts", layout_.contacts);
-  if (!layout_.contacts.empty()) {
-    file_->create_dataset("gap", layout_.contacts.size(), "m");
-    file_->create_dataset("contact_force", layout_.contacts.size(), "N");
-  }
+  file_->write_attribute("ground_acceleration", "time_offset", half - interval() / 2);
+  file_->stay_readable();
 }
 
 void Recorder::add_step(const std::array<double, 3>& ground_velocity_step) {
@@ -168,7 +180,7 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
   for (const ResolvedProbe& probe : layout_.probes) {
     values.emplace_back(probe.nodes.size(), nullptr);
   }
-  const std::size_t first = accelerations_.size();
+  const auto first = static_cast<std::ptrdiff_t>(accelerations_.size());
   for (std::size_t row = 0; row < rows; ++row) {
     std::size_t node = 0;
     for (std::size_t rank = 0; rank < widths_.size(); ++rank) {
@@ -201,15 +213,15 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
       displacement.push_back(u);
       velocity.push_back(v);
       accelerations_.push_back(a);
-      peaks_[channel].acceleration = std::max(peaks_[channel].acceleration, std::abs(a));
-      peaks_[channel].displacement = std::max(peaks_[channel].displacement, std::abs(u));
     }
   }
+  const std::span<const double> acceleration(accelerations_.begin() + first, accelerations_.end());
+  note_peaks(displacement, acceleration);
   file_->append("time", time);
   if (channels > 0) {
     file_->append("displacement", displacement);
     file_->append("velocity", velocity);
-    file_->append("acceleration", {&accelerations_[first], accelerations_.size() - first});
+    file_->append("acceleration", acceleration);
   }
   std::vector<double> ground(ground_.begin(),
                              ground_.begin() + static_cast<std::ptrdiff_t>(3 * rows));
@@ -223,9 +235,20 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
   }
 }
 
+void Recorder::note_peaks(std::span<const double> displacement,
+                          std::span<const double> acceleration) {
+  for (std::size_t i = 0; i < displacement.size(); ++i) {
+    ChannelPeaks& peaks = peaks_[i % channels_.size()];
+    peaks.acceleration = std::max(peaks.acceleration, std::abs(acceleration[i]));
+    peaks.displacement = std::max(peaks.displacement, std::abs(displacement[i]));
+  }
+}
+
 void Recorder::finish() {
   flush();
-  file_.reset();
+  if (file_) {
+    file_->close();
+  }
 }
 
 std::vector<double> Recorder::acceleration(std::size_t channel) const {

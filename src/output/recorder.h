@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "common/saved_state.h"
 #include "dynamics/state.h"
 #include "mesh/mesh.h"
 #include "output/hdf5_file.h"
+#include "output/hdf5_reader.h"
 #include "output/probe_set.h"
 
 namespace pounding {
@@ -25,12 +27,14 @@ struct ChannelPeaks {
 /// at t_n and mean force over the interval.
 ///
 /// Values wait in a buffer on the rank that owns them and travel to rank 0 a few thousand records
-/// at a time; a record itself neither allocates nor communicates.
+/// at a time; a record itself neither allocates nor communicates. The file can be read by others at
+/// any moment, also after the program was killed.
 class Recorder {
  public:
   struct Layout {
     MPI_Comm comm = MPI_COMM_SELF;
     std::string path;
+    std::string continued;  ///< history of the run that this one continues; empty: a new one
     std::string title;
     std::vector<ResolvedProbe> probes;
     std::vector<std::string> contacts;
@@ -40,7 +44,7 @@ class Recorder {
     std::vector<Vector3> initial_velocity;  ///< per structure [m/s]
   };
 
-  /// Rank 0 creates the file. Collective.
+  /// Rank 0 creates the file, unless the run is a continued one. Collective.
   Recorder(Layout layout, std::span<const Mesh> meshes);
 
   bool due(std::int64_t step) const { return step % layout_.stride == 0; }
@@ -59,6 +63,12 @@ class Recorder {
   /// Sends what is left and closes the file. Collective.
   void finish();
 
+  /// Writes all records to the file and keeps what the next one needs. Collective.
+  void save(SavedState& saved);
+  /// Takes the records known to `saved` over from the history continued, which may be the file that
+  /// is then replaced. Throws UserError on every rank alike. Collective.
+  void load(const SavedState& saved);
+
   /// After finish, rank 0: names "probe.x", samples of absolute acceleration of a channel, peaks.
   const std::vector<std::string>& channels() const { return channels_; }
   std::vector<double> acceleration(std::size_t channel) const;
@@ -74,7 +84,19 @@ class Recorder {
     std::array<LocalIndex, 3> dofs;
   };
 
-  void create_datasets();
+  /// A dataset of the file; `columns` 0: a plain vector.
+  struct Quantity {
+    const char* name;
+    std::size_t columns;
+    const char* unit;
+  };
+
+  void name_channels();
+  std::vector<Quantity> quantities() const;
+  void create_file(const std::string& path);
+  void check_history(const Hdf5Reader& history) const;
+  void copy_history(const Hdf5Reader& history);
+  void note_peaks(std::span<const double> displacement, std::span<const double> acceleration);
   void flush();
   void write_rows(std::size_t rows, const std::vector<double>& gathered,
                   const std::vector<int>& row_widths);

@@ -44,6 +44,9 @@ constexpr std::array table{
     OptionRow{Block::run, "energy_interval", Kind::integer, "steps", value("100"), at_least_1, "", "steps between two lines of the energy balance"},
     OptionRow{Block::run, "dry_run", Kind::boolean, "flag", value("false"), any, "", "check the model, print what a run would cost, and stop"},
     OptionRow{Block::run, "output", Kind::text, "folder", value("results"), any, "a folder", "result folder"},
+    OptionRow{Block::run, "checkpoint_interval", Kind::real, "s", value("0"), not_negative, "", "wall time between two checkpoints; 0: one only when a signal stops the run"},
+    OptionRow{Block::run, "checkpoint_steps", Kind::integer, "steps", value("0"), not_negative, "", "steps between two checkpoints; 0: none"},
+    OptionRow{Block::run, "restart", Kind::text, "file", value("none"), any, "a checkpoint.h5 or none", "checkpoint to continue from, with the history.h5 beside it"},
     OptionRow{Block::run, "stiffness", Kind::choice, "word", value("auto"), any, "auto|assembled|element", "how K is applied: as a matrix, element by element, or by what the mesh is"},
     OptionRow{Block::run, "resampling", Kind::choice, "word", value("linear"), any, "linear|band_limited", "how records are upsampled to the time step"},
 
@@ -117,6 +120,11 @@ constexpr std::array petsc_patterns = std::to_array<std::string_view>({
     "no_signal_handler", "nox*", "objects_*", "on_error_*", "options_*", "petsc*", "sf_*",
     "skip_petscrc", "slepc*", "start_in_debugger", "use_gpu_aware_mpi", "vec_*", "version",
     "viewer_*"});
+
+// What does not touch the motion nor its records; the time step itself is compared, not its options.
+constexpr std::array changeable_on_restart = std::to_array<std::string_view>({
+    "title", "end_time", "courant", "time_step", "allow_unstable", "modes", "dry_run", "output",
+    "checkpoint_interval", "checkpoint_steps", "restart", "spectra_damping", "spectra_frequencies"});
 // clang-format on
 
 }  // namespace
@@ -216,6 +224,11 @@ std::string expected_text(const OptionRow& row) {
 
 std::span<const std::string_view> petsc_option_patterns() {
   return petsc_patterns;
+}
+
+bool may_change_on_restart(std::string_view name) {
+  return is_petsc_option(name) ||
+         std::ranges::find(changeable_on_restart, name) != changeable_on_restart.end();
 }
 
 bool is_petsc_option(std::string_view name) {

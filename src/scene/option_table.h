@@ -78,6 +78,10 @@ std::string expected_text(const OptionRow& row);
 std::span<const std::string_view> petsc_option_patterns();
 bool is_petsc_option(std::string_view name);
 
+/// A run that continues another may have another value of this option: when it ends, what is
+/// written where, and those of PETSc and SLEPc.
+bool may_change_on_restart(std::string_view name);
+
 /// The text of `pounding -help`: usage, every option with unit, default, range and one line, and
 /// the admitted PETSc and SLEPc names.
 std::string help_text();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <sstream>
 
 namespace pounding {
 namespace {
@@ -47,6 +48,28 @@ std::string resolved_yaml(const OptionReader& options) {
     }
   }
   return text;
+}
+
+std::vector<std::pair<std::string, std::string>> resolved_values(const std::string& yaml) {
+  std::vector<std::pair<std::string, std::string>> values;
+  std::istringstream lines(yaml);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t colon = line.find(": ");
+    if (line.empty() || line[0] == '#' || colon == std::string::npos) {
+      continue;
+    }
+    std::string value = line.substr(colon + 2);
+    if (value.size() >= 2 && value.front() == '"' && value.back() == '"') {
+      value = value.substr(1, value.size() - 2);
+      // Inside quotes a backslash stands before a quote or another backslash.
+      for (std::size_t at = value.find('\\'); at != std::string::npos;
+           at = value.find('\\', at + 1)) {
+        value.erase(at, 1);
+      }
+    }
+    values.emplace_back(line.substr(0, colon), value);
+  }
+  return values;
 }
 
 }  // namespace pounding

@@ -152,7 +152,10 @@ struct Scene {
   double output_interval = 0;    ///< of the probes [s]
   int energy_interval = 0;       ///< steps between two lines of the energy ledger
   bool dry_run = false;
-  std::string output;  ///< result folder
+  double checkpoint_interval = 0;  ///< wall time between checkpoints [s]; 0: none
+  int checkpoint_steps = 0;        ///< steps between checkpoints; 0: none
+  std::string restart;             ///< checkpoint to continue from; empty: a new run
+  std::string output;              ///< result folder
 };
 
 }  // namespace pounding

@@ -59,6 +59,10 @@ class SceneReader {
     scene_.energy_interval = options_.integer("energy_interval");
     scene_.dry_run = options_.boolean("dry_run");
     scene_.output = options_.text("output");
+    scene_.checkpoint_interval = options_.real("checkpoint_interval");
+    scene_.checkpoint_steps = options_.integer("checkpoint_steps");
+    const std::string restart = options_.text("restart");
+    scene_.restart = restart == "none" ? "" : restart;
     const std::string method = options_.choice("stiffness");
     scene_.stiffness = method == "auto"        ? StiffnessMethod::automatic
                        : method == "assembled" ? StiffnessMethod::assembled

@@ -123,5 +123,15 @@ TEST(OptionTable, OptionsOfTheLibrariesAreKnown) {
   }
 }
 
+TEST(OptionTable, ContinuedRunKeepsWhatTouchesTheMotion) {
+  for (const char* name : {"end_time", "output", "restart", "checkpoint_steps", "log_view"}) {
+    EXPECT_TRUE(may_change_on_restart(name)) << name;
+  }
+  for (const char* name : {"structures", "tower_mesh", "tower_damping_beta", "output_interval",
+                           "energy_interval", "impact_merge_time", "motion_x_pga"}) {
+    EXPECT_FALSE(may_change_on_restart(name)) << name;
+  }
+}
+
 }  // namespace
 }  // namespace pounding

@@ -83,7 +83,8 @@ std::string description(const Scene& scene) {
       << static_cast<int>(scene.stiffness) << ' ' << scene.end_time << ' ' << scene.courant << ' '
       << scene.time_step << ' ' << scene.allow_unstable << ' ' << scene.modes << ' '
       << scene.gap_tolerance << ' ' << scene.impact_merge_time << ' ' << scene.output_interval
-      << ' ' << scene.energy_interval << ' ' << scene.dry_run << ' ' << scene.output;
+      << ' ' << scene.energy_interval << ' ' << scene.dry_run << ' ' << scene.output << ' '
+      << scene.checkpoint_interval << ' ' << scene.checkpoint_steps << ' ' << scene.restart;
   return out.str();
 }
 
@@ -125,6 +126,21 @@ TEST(ResolvedOptions, MotionThatWasTakenAwayStaysAway) {
 
 TEST(ResolvedOptions, BareFlagReadsBackAlike) {
   expect_round_trip(with(smallest(), {{"dry_run", ""}, {"allow_unstable", "yes"}}));
+}
+
+TEST(ResolvedOptions, CheckpointsReadBackAlike) {
+  expect_round_trip(with(smallest(), {{"checkpoint_interval", "600"},
+                                      {"checkpoint_steps", "1000"},
+                                      {"restart", "results/checkpoint.h5"}}));
+  EXPECT_EQ(read_scene(smallest()).scene.restart, "");
+}
+
+TEST(ResolvedOptions, SplitIntoNamesAndValues) {
+  const auto values =
+      resolved_values("# a comment: no option\nend_time: \"25\"\ntitle: \"a: \\\"b\\\" \\\\ c\"\n");
+  ASSERT_EQ(values.size(), 2u);
+  EXPECT_EQ(values[0], std::make_pair(std::string("end_time"), std::string("25")));
+  EXPECT_EQ(values[1].second, "a: \"b\" \\ c");
 }
 
 TEST(ResolvedOptions, AwkwardTextReadsBackAlike) {

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pounding {
+
+/// What a run must remember to be continued: numbers by name, in memory. Whoever has a state puts
+/// it in here and gets it back; `output/checkpoint.h` brings it to a file and back.
+///
+/// Three kinds, by how they lie on the ranks:
+///   tables  known to one rank, or alike to several: the lowest rank that puts one is believed;
+///           every rank gets it back
+///   sums    a part per rank that add up: every rank gets its own part back on the same number of
+///           ranks, else rank 0 the totals and the others zeros
+///   dofs    one value per owned dof of a structure: every rank gets those of the dofs it owns
+class SavedState {
+ public:
+  /// Rows of `columns` values; a plain vector if `columns` is 0.
+  struct Table {
+    std::size_t columns = 0;
+    std::vector<double> values;
+  };
+  using DofKey = std::pair<int, std::string>;  ///< structure and name
+
+  SavedState() = default;
+  /// `source`: where it comes from, for messages.
+  explicit SavedState(std::string source) : source_(std::move(source)) {}
+
+  void put(const std::string& name, std::span<const double> values, std::size_t columns = 0);
+  void put(const std::string& name, std::initializer_list<double> values);
+  void put_sums(const std::string& name, std::span<const double> values);
+  void put_dofs(int structure, const std::string& name, std::span<const double> values);
+
+  /// What was put. Throw UserError if it is not there in that size.
+  void get(const std::string& name, std::span<double> values) const;
+  double number(const std::string& name) const;
+  std::int64_t integer(const std::string& name) const;
+  const std::vector<double>& table(const std::string& name, std::size_t columns) const;
+  void get_sums(const std::string& name, std::span<double> values) const;
+  void get_dofs(int structure, const std::string& name, std::span<double> values) const;
+
+  /// No dof of this rank holds an infinity or a NaN.
+  bool dofs_are_finite() const;
+
+  const std::map<std::string, Table>& tables() const { return tables_; }
+  const std::map<std::string, std::vector<double>>& sums() const { return sums_; }
+  const std::map<DofKey, std::vector<double>>& dofs() const { return dofs_; }
+  const std::string& source() const { return source_; }
+
+ private:
+  [[noreturn]] void refuse(const std::string& name) const;
+
+  std::string source_;
+  std::map<std::string, Table> tables_;
+  std::map<std::string, std::vector<double>> sums_;
+  std::map<DofKey, std::vector<double>> dofs_;
+};
+
+}  // namespace pounding

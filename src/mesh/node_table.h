@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+/// Values of a structure as a table that does not depend on the partition: shape (global_nodes,
+/// columns) on rank 0, nodes in file order, the components x, y, z, then the rotations about them.
+namespace pounding {
+
+/// Components that a table of this structure needs: 6 if any node rotates, else 3. Collective.
+std::size_t component_columns(const Mesh& mesh);
+
+/// The table of values over owned dofs, 0 where there is no free dof; empty on the other ranks.
+/// Collective.
+std::vector<double> gather_by_node(const Mesh& mesh, std::span<const double> values,
+                                   std::size_t columns);
+
+/// Values over owned dofs from a table, which is read on rank 0 only. Collective.
+std::vector<double> scatter_by_node(const Mesh& mesh, const std::vector<double>& table,
+                                    std::size_t columns);
+
+/// Positions of all nodes [m], shape (global_nodes, 3); empty on the other ranks. Collective.
+std::vector<double> gather_coordinates(const Mesh& mesh);
+
+}  // namespace pounding

@@ -1,0 +1,116 @@
+#include "output/checkpoint.h"
+
+#include <optional>
+
+#include "common/error.h"
+#include "common/parallel.h"
+#include "common/version.h"
+#include "mesh/node_table.h"
+#include "output/checkpoint_format.h"
+#include "output/hdf5_file.h"
+#include "output/saved_state_exchange.h"
+
+namespace pounding {
+namespace checkpoint_format {
+
+void on_rank0_for_user(MPI_Comm comm, const std::string& prefix,
+                       const std::function<void()>& work) {
+  on_rank0(comm, [&] {
+    try {
+      work();
+    } catch (const std::exception& error) {
+      throw UserError(prefix + error.what());
+    }
+  });
+}
+
+}  // namespace checkpoint_format
+
+namespace {
+
+namespace format = checkpoint_format;
+
+/// A file in the making on rank 0; every method is collective.
+class CheckpointWriter {
+ public:
+  CheckpointWriter(MPI_Comm comm, const std::string& path) : comm_(comm), path_(path) {
+    on_root([&] { file_.emplace(path_ + ".new"); });
+  }
+
+  void write_identity(const RunIdentity& identity) {
+    on_root([&] {
+      file_->write_attribute("/", "format", format::name);
+      file_->write_attribute("/", "version", format::version);
+      file_->write_attribute("/", "program", program_version());
+      file_->write_attribute("/", "time_step", identity.time_step);
+      file_->write_attribute("/", "ground_motion", identity.ground_motion);
+      std::vector<std::string> lines;
+      for (const auto& [name, value] : identity.options) {
+        lines.push_back(name + ": " + value);
+      }
+      file_->write_strings("options", lines);
+    });
+  }
+
+  void write_structure(int structure, const Mesh& mesh, const SavedState& saved) {
+    const std::string folder = format::folder(mesh);
+    const std::size_t columns = component_columns(mesh);
+    write_table(folder + "/coordinates", 3, gather_coordinates(mesh));
+    for (const auto& [key, values] : saved.dofs()) {
+      if (key.first == structure) {
+        write_table(folder + "/" + key.second, columns, gather_by_node(mesh, values, columns));
+      }
+    }
+    on_root([&] {
+      file_->write_attribute(folder, "dofs", static_cast<double>(mesh.global_dofs));
+      file_->write_attribute(folder, "elements", static_cast<double>(format::element_count(mesh)));
+    });
+  }
+
+  void write_tables(const SavedState& saved) {
+    const SavedTables tables = collect_tables(comm_, saved.tables());
+    on_root([&] {
+      for (const auto& [name, table] : tables) {
+        file_->write_array("tables/" + name, table.columns, table.values);
+      }
+    });
+    for (const auto& [name, parts] : saved.sums()) {
+      write_table("sums/" + name, parts.size(), gather_parts(comm_, parts));
+    }
+  }
+
+  /// The file stands on the disk under its final name.
+  void finish() {
+    on_root([&] {
+      file_->close();
+      file_->move_to(path_);
+    });
+  }
+
+ private:
+  void on_root(const std::function<void()>& work) {
+    format::on_rank0_for_user(comm_, "the checkpoint cannot be written: ", work);
+  }
+  void write_table(const std::string& name, std::size_t columns, const std::vector<double>& table) {
+    on_root([&] { file_->write_array(name, columns, table); });
+  }
+
+  MPI_Comm comm_;
+  std::string path_;
+  std::optional<Hdf5File> file_;  ///< rank 0
+};
+
+}  // namespace
+
+void write_checkpoint(MPI_Comm comm, const std::string& path, const RunIdentity& identity,
+                      std::span<const Mesh> meshes, const SavedState& saved) {
+  CheckpointWriter writer(comm, path);
+  writer.write_identity(identity);
+  for (std::size_t s = 0; s < meshes.size(); ++s) {
+    writer.write_structure(static_cast<int>(s), meshes[s], saved);
+  }
+  writer.write_tables(saved);
+  writer.finish();
+}
+
+}  // namespace pounding

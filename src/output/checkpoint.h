@@ -1,0 +1,63 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+
+#include <mpi.h>
+
+#include "common/saved_state.h"
+#include "mesh/mesh.h"
+
+/// `checkpoint.h5`: all that a run needs to go on as if it had never stopped. The file says nothing
+/// about ranks but for the parts of sums, so any number of them may read it.
+///
+///     /                            attributes: format "pounding checkpoint", version 1, program,
+///                                  time_step [s], ground_motion (hash of its samples)
+///     /options                     strings "name: value", those that may not change
+///     /structures/S                attributes: dofs (free ones), elements
+///     /structures/S/coordinates    (nodes, 3) [m]
+///     /structures/S/displacement   (nodes, 3 or 6) u_n [m, rad]
+///     /structures/S/velocity       (nodes, 3 or 6) v_{n+1/2} [m/s, rad/s]
+///     /structures/S/...            (nodes, 3 or 6) other values per dof
+///     /tables/step                 n; displacements stand at n dt, velocities half a step later
+///     /tables/...                  vectors and tables of whoever keeps a state
+///     /sums/...                    (ranks, n) numbers that add up over the ranks
+///
+/// S is the name of a structure. Nodes come in the order of their tags in the mesh, of those that
+/// the scene uses; columns are x, y, z and, if a node of the structure rotates, the rotations about
+/// them; the value of a clamped or missing component is 0 and not read. Datasets carry checksums.
+/// Python reads and writes it:
+///
+///     with h5py.File("results/checkpoint.h5", "r+") as file:
+///         x = file["structures/left/coordinates"][:]
+///         file["structures/left/velocity"][x[:, 2] > 5, 0] += 0.1      # dataset[...] = keeps sums
+///
+/// `stiffness_displacement` is K u and `stiffness_velocity` is K v of `closed_velocity`, the
+/// velocity half a step before n: whoever changes a displacement has to change them alike, or the
+/// energy identity no longer closes and the run stops.
+namespace pounding {
+
+/// What a checkpoint has in common with the runs that may continue it, beside the meshes.
+struct RunIdentity {
+  std::map<std::string, std::string> options;  ///< that may not change, by name
+  double time_step = 0;                        ///< [s]
+  std::string ground_motion;                   ///< hash of the samples
+};
+
+/// Writes beside `path`, then renames, so that there is a whole file at any moment. Throws
+/// UserError (no space). Collective.
+void write_checkpoint(MPI_Comm comm, const std::string& path, const RunIdentity& identity,
+                      std::span<const Mesh> meshes, const SavedState& saved);
+
+/// Refuses a file that is no checkpoint or was written under other options, before any work is
+/// done. Throws UserError on every rank alike. Collective.
+void check_checkpoint(MPI_Comm comm, const std::string& path,
+                      const std::map<std::string, std::string>& options);
+
+/// What `write_checkpoint` was given. Throws UserError on every rank alike: no checkpoint, damaged,
+/// of another version, of another scene. Collective.
+SavedState read_checkpoint(MPI_Comm comm, const std::string& path, const RunIdentity& identity,
+                           std::span<const Mesh> meshes);
+
+}  // namespace pounding

@@ -1,0 +1,202 @@
+#include <optional>
+#include <sstream>
+
+#include "common/error.h"
+#include "common/parallel.h"
+#include "mesh/node_table.h"
+#include "output/checkpoint.h"
+#include "output/checkpoint_format.h"
+#include "output/hdf5_reader.h"
+#include "output/saved_state_exchange.h"
+
+namespace pounding {
+namespace {
+
+namespace format = checkpoint_format;
+
+const std::string option = "option -restart ";
+
+using Options = std::map<std::string, std::string>;
+
+/// A file that was written by the program; its methods are collective, the file is on rank 0.
+class CheckpointReader {
+ public:
+  CheckpointReader(MPI_Comm comm, const std::string& path) : comm_(comm), path_(path) {
+    on_root([&] {
+      file_.emplace(path);
+      if (!is_checkpoint()) {
+        refuse("an HDF5 file, but not a checkpoint");
+      }
+      if (const double version = file_->number("/", "version"); version != format::version) {
+        std::ostringstream text;
+        text << "a checkpoint of format " << version << ", this program reads format "
+             << format::version << "; continue it with the program that wrote it ("
+             << file_->text("/", "program") << ")";
+        refuse(text.str());
+      }
+    });
+  }
+
+  void check_options(const Options& options) {
+    on_root([&] {
+      Options written;
+      for (const std::string& line : file_->strings("options")) {
+        const std::size_t colon = line.find(": ");
+        written[line.substr(0, colon)] =
+            colon == std::string::npos ? std::string() : line.substr(colon + 2);
+      }
+      for (const auto& [name, value] : options) {
+        const auto before = written.find(name);
+        if (before == written.end()) {
+          refuse("written without the option -" + name + " " + value);
+        }
+        if (before->second != value) {
+          refuse("written with -" + name + " " + before->second + ", now it is " + value +
+                 "; give the same or start anew");
+        }
+      }
+      for (const auto& [name, value] : written) {
+        if (!options.contains(name)) {
+          refuse("written with -" + name + " " + value + ", now it is not there");
+        }
+      }
+    });
+  }
+
+  void check_motion(const RunIdentity& identity) {
+    on_root([&] {
+      const double before = file_->number("/", "time_step");
+      if (before != identity.time_step) {
+        std::ostringstream text;
+        text.precision(17);
+        text << "written with the time step " << before << " s, now it is " << identity.time_step
+             << " s; give -time_step " << before;
+        refuse(text.str());
+      }
+      if (file_->text("/", "ground_motion") != identity.ground_motion) {
+        refuse("written under another ground motion; give the same records or start anew");
+      }
+    });
+  }
+
+  void read_structure(int structure, const Mesh& mesh, SavedState& saved) {
+    const std::string folder = format::folder(mesh);
+    const std::size_t columns = component_columns(mesh);
+    const std::vector<double> coordinates = gather_coordinates(mesh);
+    on_root([&] {
+      check_count(mesh, "nodes", file_->shape(folder + "/coordinates").rows, mesh.global_nodes);
+      check_count(mesh, "free dofs", file_->number(folder, "dofs"), mesh.global_dofs);
+      check_count(mesh, "elements", file_->number(folder, "elements"), format::element_count(mesh));
+      if (file_->array(folder + "/coordinates") != coordinates) {
+        refuse("structure " + mesh.structure + " has its nodes elsewhere: another mesh");
+      }
+    });
+    for (const std::string& name : names(folder)) {
+      if (name == "coordinates") {
+        continue;
+      }
+      std::vector<double> table;
+      on_root([&] {
+        const std::string place = folder + "/" + name;
+        table = file_->array(place);
+        if (table.size() != static_cast<std::size_t>(mesh.global_nodes) * columns) {
+          refuse("'" + place + "' does not have one row per node");
+        }
+      });
+      saved.put_dofs(structure, name, scatter_by_node(mesh, table, columns));
+    }
+  }
+
+  void read_tables(SavedState& saved) {
+    SavedTables tables;
+    on_root([&] {
+      for (const std::string& name : file_->names("tables")) {
+        const std::string place = "tables/" + name;
+        tables[name] = {file_->shape(place).columns, file_->array(place)};
+      }
+    });
+    broadcast_tables(comm_, tables);
+    for (const auto& [name, table] : tables) {
+      saved.put(name, table.values, table.columns);
+    }
+    for (const std::string& name : names("sums")) {
+      std::vector<double> table;
+      std::uint64_t columns = 0;
+      on_root([&] {
+        table = file_->array("sums/" + name);
+        columns = file_->shape("sums/" + name).columns;
+        if (columns == 0) {
+          refuse("'sums/" + name + "' does not have one row per rank");
+        }
+      });
+      MPI_Bcast(&columns, 1, MPI_UINT64_T, 0, comm_);
+      saved.put_sums(name, scatter_parts(comm_, table, columns));
+    }
+  }
+
+ private:
+  void on_root(const std::function<void()>& work) {
+    format::on_rank0_for_user(comm_, option, work);
+  }
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw std::runtime_error(path_ + ": " + why);
+  }
+
+  bool is_checkpoint() const {
+    try {
+      return file_->text("/", "format") == format::name;
+    } catch (const std::exception&) {
+      return false;
+    }
+  }
+
+  template <typename Found>
+  void check_count(const Mesh& mesh, const char* what, Found found, GlobalIndex now) const {
+    if (static_cast<GlobalIndex>(found) != now) {
+      refuse("structure " + mesh.structure + " has " +
+             std::to_string(static_cast<GlobalIndex>(found)) + " " + what + " in it, now " +
+             std::to_string(now) + ": another mesh");
+    }
+  }
+
+  /// Names of a group, on every rank.
+  std::vector<std::string> names(const std::string& group) {
+    SavedTables tables;
+    on_root([&] {
+      for (const std::string& name : file_->names(group)) {
+        tables[name] = {};
+      }
+    });
+    broadcast_tables(comm_, tables);
+    std::vector<std::string> result;
+    for (const auto& entry : tables) {
+      result.push_back(entry.first);
+    }
+    return result;
+  }
+
+  MPI_Comm comm_;
+  std::string path_;
+  std::optional<Hdf5Reader> file_;
+};
+
+}  // namespace
+
+void check_checkpoint(MPI_Comm comm, const std::string& path, const Options& options) {
+  CheckpointReader(comm, path).check_options(options);
+}
+
+SavedState read_checkpoint(MPI_Comm comm, const std::string& path, const RunIdentity& identity,
+                           std::span<const Mesh> meshes) {
+  CheckpointReader reader(comm, path);
+  reader.check_options(identity.options);
+  reader.check_motion(identity);
+  SavedState saved(option + path);
+  for (std::size_t s = 0; s < meshes.size(); ++s) {
+    reader.read_structure(static_cast<int>(s), meshes[s], saved);
+  }
+  reader.read_tables(saved);
+  return saved;
+}
+
+}  // namespace pounding

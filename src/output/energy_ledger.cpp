@@ -1,0 +1,80 @@
+#include "output/energy_ledger.h"
+
+#include <array>
+#include <span>
+
+#include "output/csv_file.h"
+
+namespace pounding {
+namespace {
+
+/// Lines that are kept at most.
+constexpr std::int64_t capacity = 5000;
+
+/// A line as numbers, in the order of its members.
+constexpr std::size_t columns = 8;
+
+void append_numbers(const EnergyLine& line, std::vector<double>& numbers) {
+  numbers.insert(numbers.end(),
+                 {line.time, line.kinetic, line.strain, line.damping_loss, line.contact_work,
+                  line.input_work, line.device_work, line.residual});
+}
+
+EnergyLine line_of_numbers(std::span<const double> v) {
+  return {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]};
+}
+
+}  // namespace
+
+EnergyLedger::EnergyLedger(std::int64_t expected_lines)
+    : stride_((expected_lines + capacity - 1) / capacity) {
+  lines_.reserve(static_cast<std::size_t>(expected_lines / stride_ + 2));
+}
+
+void EnergyLedger::add(const EnergyLine& line) {
+  last_ = line;
+  if (added_ % stride_ == 0) {
+    lines_.push_back(line);
+  }
+  ++added_;
+}
+
+void EnergyLedger::save(SavedState& saved) const {
+  std::vector<double> numbers;
+  for (const EnergyLine& line : lines_) {
+    append_numbers(line, numbers);
+  }
+  saved.put("ledger", numbers, columns);
+  numbers.clear();
+  append_numbers(last_, numbers);
+  saved.put("ledger_last", numbers);
+  saved.put("ledger_added", {static_cast<double>(added_)});
+}
+
+void EnergyLedger::load(const SavedState& saved) {
+  const std::vector<double>& numbers = saved.table("ledger", columns);
+  lines_.clear();
+  for (std::size_t i = 0; i < numbers.size(); i += columns) {
+    lines_.push_back(line_of_numbers({&numbers[i], columns}));
+  }
+  std::array<double, columns> last{};
+  saved.get("ledger_last", last);
+  last_ = line_of_numbers(last);
+  added_ = saved.integer("ledger_added");
+}
+
+void write_energy(const std::string& path, const std::vector<EnergyLine>& lines) {
+  CsvFile file(path);
+  file.comment("energy ledger of all structures [J] at time + half a time step [s];");
+  file.comment(
+      "kinetic = v^T (M - dt/2 C) v / 2, strain = u_{n+1}^T K u_n / 2; the residual closes the "
+      "identity");
+  file.header("time,kinetic,strain,damping_loss,contact_work,input_work,device_work,residual");
+  for (const EnergyLine& line : lines) {
+    file.row("", {line.time, line.kinetic, line.strain, line.damping_loss, line.contact_work,
+                  line.input_work, line.device_work, line.residual});
+  }
+  file.close();
+}
+
+}  // namespace pounding

@@ -1,0 +1,86 @@
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+#include "common/error.h"
+#include "common/parallel.h"
+#include "output/recorder.h"
+
+namespace pounding {
+namespace {
+
+/// Records taken over at a time from an earlier history.
+constexpr std::size_t copied_records = 16384;
+
+}  // namespace
+
+void Recorder::save(SavedState& saved) {
+  flush();
+  saved.put("recorder_ground_velocity", ground_sum_);
+  if (rank_of(layout_.comm) == layout_.interface_root) {
+    saved.put("recorder_impulse", impulse_);
+  }
+  if (rank_of(layout_.comm) == 0) {
+    file_->flush();
+    saved.put("recorder_records", {static_cast<double>(records_)});
+    saved.put("recorder_last_velocity", last_velocity_);
+  }
+}
+
+void Recorder::load(const SavedState& saved) {
+  saved.get("recorder_ground_velocity", ground_sum_);
+  if (layout_.interface_root >= 0) {
+    saved.get("recorder_impulse", impulse_);
+  }
+  records_ = saved.integer("recorder_records");
+  on_rank0(layout_.comm, [&] {
+    saved.get("recorder_last_velocity", last_velocity_);
+    std::optional<Hdf5Reader> history;
+    try {
+      history.emplace(layout_.continued, true);
+      check_history(*history);
+    } catch (const std::runtime_error& error) {
+      throw UserError(saved.source() + ": the history beside it cannot be continued, " +
+                      error.what());
+    }
+    create_file(layout_.path + ".new");
+    copy_history(*history);
+    file_->move_to(layout_.path);
+  });
+}
+
+void Recorder::check_history(const Hdf5Reader& history) const {
+  const auto records = static_cast<std::size_t>(records_);
+  const auto refuse_unless = [&](bool same) {
+    if (!same) {
+      throw std::runtime_error(layout_.continued + ": written by another run than the checkpoint");
+    }
+  };
+  refuse_unless(history.strings("channels") == channels_ &&
+                history.strings("contacts") == layout_.contacts);
+  for (const Quantity& quantity : quantities()) {
+    const Hdf5Reader::Shape shape = history.shape(quantity.name);
+    refuse_unless(shape.columns == quantity.columns && shape.rows >= records);
+  }
+  if (records > 0 && !channels_.empty()) {
+    refuse_unless(history.rows("velocity", records - 1, 1) == last_velocity_);
+  }
+}
+
+void Recorder::copy_history(const Hdf5Reader& history) {
+  const auto records = static_cast<std::size_t>(records_);
+  for (std::size_t first = 0; first < records; first += copied_records) {
+    const std::size_t count = std::min(copied_records, records - first);
+    for (const Quantity& quantity : quantities()) {
+      file_->append(quantity.name, history.rows(quantity.name, first, count));
+    }
+    if (!channels_.empty()) {
+      const std::vector<double> acceleration = history.rows("acceleration", first, count);
+      note_peaks(history.rows("displacement", first, count), acceleration);
+      accelerations_.insert(accelerations_.end(), acceleration.begin(), acceleration.end());
+    }
+  }
+  file_->flush();
+}
+
+}  // namespace pounding

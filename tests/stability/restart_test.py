@@ -1,0 +1,427 @@
+"""A run that was stopped and continued leaves what the uninterrupted run leaves, to the last bit."""
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import h5py
+import numpy
+
+import program
+
+# A damped bar falls on a wall again and again: long impacts, short ones, rest.
+BAR = ["-structures", "bar", "-bar_mesh", "tests/meshes/box.geo", "-bar_mesh_set", "lz=10,nz=20",
+       "-bar_body_element", "hex8_full", "-bar_body_material", "soft", "-material_soft_young", 900,
+       "-material_soft_poisson", 0.2, "-material_soft_density", 1, "-bar_damping_beta", 1e-4,
+       "-bar_gravity", "0.1,0,-10", "-contacts", "stop", "-stop_secondary", "bar:z_min",
+       "-stop_primary", "wall", "-stop_gap", 0.5, "-output_interval", 0.05, "-energy_interval", 7,
+       "-probes", "ends,top", "-top_structure", "bar", "-top_group", "z_max", "-ends_structure", "bar",
+       "-ends_at", "0,0,0; 1,1,10", "-ends_average", "false", "-modes", 1,
+       "-spectra_frequencies", "1:20:5lin"]
+
+# Two storeys, beams and bricks, with coupled contact rows (nodes on faces, both sides).
+PAIR = program.COARSE_PAIR + ["-s2_mesh_set", "cells_x=5,cells_y=4,column_elements=2",
+                              "-floor2_passes", 2, "-floor2_gap", "4e-4,2e-4", "-floor1_gap", 0.02,
+                              "-motion_x_pga", 20, "-motion_x_envelope", "0.02,20", "-modes", 1,
+                              "-output_interval", 2e-4]
+
+TABLES = ("impacts.csv", "energy.csv", "spectra.csv")
+
+
+def history(folder):
+    with h5py.File(os.path.join(folder, "history.h5"), "r") as file:
+        return {name: file[name][()] for name in file}
+
+
+def checkpoint(folder):
+    return os.path.join(folder, "checkpoint.h5")
+
+
+def content(folder, name):
+    with open(os.path.join(folder, name), "rb") as file:
+        return file.read()
+
+
+def checkpoint_step(folder):
+    with h5py.File(checkpoint(folder), "r") as file:
+        return int(file["tables/step"][0])
+
+
+class RestartCase(unittest.TestCase):
+    def folder(self):
+        folder = tempfile.mkdtemp(prefix="pounding-")
+        self.addCleanup(shutil.rmtree, folder)
+        return folder
+
+    def complete(self, arguments, ranks=2, folder=None):
+        """Runs to the end; the folder of the results."""
+        folder = folder or self.folder()
+        result = program.run(list(arguments) + ["-output", folder], ranks)
+        self.assertEqual(result.returncode, 0, result.stdout[-2000:] + result.stderr[-2000:])
+        return folder
+
+    def cut(self, arguments, step, time_step, ranks=2):
+        """A run whose only checkpoint stands at a step, and which goes on a little."""
+        end_time = (step + step // 20) * time_step
+        folder = self.complete([*arguments, "-checkpoint_steps", step, "-end_time", end_time], ranks)
+        self.assertEqual(checkpoint_step(folder), step)
+        return folder
+
+    def assert_same_results(self, one, other):
+        first, second = history(one), history(other)
+        self.assertEqual(set(first), set(second))
+        for name, values in first.items():
+            self.assertTrue(numpy.array_equal(values, second[name]), name)
+        for name in TABLES:
+            self.assertEqual(content(one, name), content(other, name), name)
+        one, other = program.summary(one), program.summary(other)
+        for part in ("energy", "impacts", "probes", "steps"):
+            self.assertEqual(one[part], other[part], part)
+
+    def middle_of_an_impact(self, folder, number):
+        """A step inside an episode, with an impulse before and after it, and the time step."""
+        impacts = program.read_csv(os.path.join(folder, "impacts.csv"))
+        time_step = program.summary(folder)["time_step"]
+        start, end = float(impacts["start"][number]), float(impacts["end"][number])
+        self.assertGreater(end - start, 10 * time_step)
+        return round((start + end) / 2 / time_step), time_step
+
+
+class BitIdentity(RestartCase):
+    def test_bar_in_the_middle_of_an_impact_and_between_two(self):
+        case = BAR + ["-end_time", 6]
+        for ranks in (1, 2, 3):
+            whole = self.complete(case, ranks)
+            inside, time_step = self.middle_of_an_impact(whole, 1)
+            impacts = program.read_csv(os.path.join(whole, "impacts.csv"))
+            between = round((float(impacts["end"][4]) + float(impacts["start"][5])) / 2 / time_step)
+            for step in (inside, between):
+                cut = self.cut(case, step, time_step, ranks)
+                with self.subTest(ranks=ranks, step=step, into="another folder"):
+                    other = self.complete([*case, "-restart", checkpoint(cut)], ranks)
+                    self.assert_same_results(whole, other)
+                with self.subTest(ranks=ranks, step=step, into="the same folder"):
+                    self.complete([*case, "-restart", checkpoint(cut)], ranks, cut)
+                    self.assert_same_results(whole, cut)
+
+    def test_pair_with_coupled_contact_rows(self):
+        case = PAIR + ["-end_time", 0.3]
+        whole = self.complete(case)
+        step, time_step = self.middle_of_an_impact(whole, 1)
+        cut = self.cut(case, step, time_step)
+        with h5py.File(checkpoint(cut), "r") as file:
+            self.assertEqual(file["tables/impacts_is_open"][()].sum(), 1)
+            self.assertGreater(file["tables/contact_impulse"][()].max(), 0)
+        self.complete([*case, "-restart", checkpoint(cut)], folder=cut)
+        self.assert_same_results(whole, cut)
+
+    def test_checkpoints_change_nothing(self):
+        case = BAR + ["-end_time", 3]
+        whole = self.complete(case)
+        self.assert_same_results(whole, self.complete([*case, "-checkpoint_steps", 1]))
+
+    def test_restart_of_a_restart_and_at_the_end(self):
+        case = BAR + ["-end_time", 6]
+        whole = self.complete(case)
+        steps = program.summary(whole)["steps"]
+        folder = self.folder()
+        for part in (3, 2):
+            restart = [] if part == 3 else ["-restart", checkpoint(folder)]
+            self.complete([*case, *restart, "-end_time", 6 / part, "-checkpoint_steps", steps // 10],
+                          folder=folder)
+        self.complete([*case, "-restart", checkpoint(folder), "-checkpoint_steps", steps],
+                      folder=folder)
+        self.assert_same_results(whole, folder)
+        self.assertEqual(checkpoint_step(folder), steps)
+        self.complete([*case, "-restart", checkpoint(folder)], folder=folder)
+        self.assert_same_results(whole, folder)
+
+
+class OtherNumberOfRanks(RestartCase):
+    def follow(self, case, number, tolerance):
+        whole = self.complete(case, 2)
+        step, time_step = self.middle_of_an_impact(whole, number)
+        cut = self.cut(case, step, time_step, 2)
+        reference = history(whole)
+        for ranks in (1, 3):
+            other = history(self.complete([*case, "-restart", checkpoint(cut)], ranks))
+            self.assertTrue(numpy.array_equal(other["time"], reference["time"]))
+            for name in ("displacement", "velocity", "gap", "contact_force"):
+                scale = abs(reference[name]).max()
+                self.assertGreater(scale, 0)
+                self.assertLessEqual(abs(other[name] - reference[name]).max(), tolerance * scale,
+                                     (name, ranks))
+        return whole
+
+    def test_bar_follows_to_round_off(self):
+        whole = self.follow(BAR + ["-end_time", 6], 1, 1e-10)
+        self.assertLess(program.summary(whole)["energy"]["relative_residual"], 1e-11)
+
+    def test_pair_follows_to_round_off(self):
+        self.follow(PAIR + ["-end_time", 0.265], 0, 1e-9)
+
+    def test_energies_add_up(self):
+        case = BAR + ["-end_time", 6]
+        whole = program.summary(self.complete(case, 2))
+        cut = self.cut(case, whole["steps"] // 2, whole["time_step"], 2)
+        for ranks in (1, 3):
+            other = program.summary(self.complete([*case, "-restart", checkpoint(cut)], ranks))
+            self.assertLess(other["energy"]["relative_residual"], 1e-11)
+            for term in ("kinetic", "strain", "damping", "contact", "input"):
+                self.assertAlmostEqual(other["energy"][term], whole["energy"][term], delta=1e-8)
+
+
+def children(pid):
+    with open(f"/proc/{pid}/task/{pid}/children") as file:
+        return [int(child) for child in file.read().split()]
+
+
+class Running:
+    """The program at work, to be interrupted."""
+
+    def __init__(self, arguments, ranks=2):
+        self.command = ["mpirun", "-n", str(ranks), program.PROGRAM] + [str(word) for word in arguments]
+        self.process = subprocess.Popen(self.command, cwd=program.SOURCE, env=program.ENVIRONMENT,
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def wait_for_step(self, folder, step):
+        """Until there is a checkpoint at this step or a later one."""
+        while self.process.poll() is None:
+            if os.path.exists(checkpoint(folder)) and checkpoint_step(folder) >= step:
+                return
+            time.sleep(0.002)
+        raise AssertionError(f"the run was over before a checkpoint at step {step}")
+
+    def finish(self):
+        out, error = self.process.communicate(timeout=300)
+        return subprocess.CompletedProcess(self.command, self.process.returncode, out, error)
+
+
+class Signals(RestartCase):
+    CASE = BAR + ["-end_time", 5000, "-output_interval", 0.1, "-energy_interval", 400]
+
+    def interrupted(self, send):
+        """Starts the case, calls `send` with mpirun's number in the middle of it."""
+        folder = self.folder()
+        running = Running([*self.CASE, "-output", folder, "-checkpoint_steps", 20000])
+        running.wait_for_step(folder, 20000)
+        send(running.process.pid)
+        return folder, running.finish()
+
+    def assert_stopped(self, folder, result, name):
+        lines = program.error_lines(result)
+        self.assertEqual(len(lines), 1, result.stderr)
+        self.assertRegex(lines[0], f"stopped by {name} after step [0-9]+ of [0-9]+")
+        self.assertIn(f"-restart {checkpoint(folder)}", lines[0])
+        self.assertFalse(os.path.exists(os.path.join(folder, "summary.json")))
+        step = checkpoint_step(folder)
+        self.assertIn(f"after step {step} ", lines[0])
+        samples = len(history(folder)["time"])
+        self.assertGreater(samples, 1)
+        for name in ("impacts.csv", "energy.csv"):
+            self.assertGreater(len(program.read_csv(os.path.join(folder, name))), 1)
+
+    def test_signal_to_one_rank_then_restart(self):
+        whole = self.complete(self.CASE)
+        for number in (signal.SIGTERM, signal.SIGINT):
+            folder, result = self.interrupted(lambda pid: os.kill(children(pid)[-1], number))
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assert_stopped(folder, result, number.name)
+            self.complete([*self.CASE, "-restart", checkpoint(folder)], folder=folder)
+            self.assert_same_results(whole, folder)
+
+    def test_signals_to_mpirun(self):
+        for number, name in ((signal.SIGTERM, "SIGTERM"), (signal.SIGUSR1, "SIGUSR1")):
+            folder, result = self.interrupted(lambda pid: os.kill(pid, number))
+            self.assertNotEqual(result.returncode, 0)
+            self.assert_stopped(folder, result, name)
+
+    def test_checkpoints_by_wall_time(self):
+        folder = self.folder()
+        running = Running([*self.CASE, "-end_time", 1e6, "-checkpoint_interval", 0.2,
+                           "-output", folder])
+        running.wait_for_step(folder, 1)
+        first = checkpoint_step(folder)
+        self.assertGreater(first, 0)
+        os.kill(children(running.process.pid)[0], signal.SIGTERM)
+        self.assertEqual(running.finish().returncode, 2)
+        self.assertGreater(checkpoint_step(folder), first)
+
+    def test_killed_again_and_again(self):
+        whole = self.complete(self.CASE)
+        folder = self.folder()
+        arguments = [*self.CASE, "-output", folder, "-checkpoint_steps", 3000]
+
+        def kill_all(pid):
+            for process in [*children(pid), pid]:
+                os.kill(process, signal.SIGKILL)
+
+        restart = []
+        step = 0
+        for _ in range(4):
+            running = Running(arguments + restart)
+            running.wait_for_step(folder, step + 15000)
+            kill_all(running.process.pid)
+            running.finish()
+            step = checkpoint_step(folder)
+            restart = ["-restart", checkpoint(folder)]
+        self.complete(arguments + restart, folder=folder)
+        self.assert_same_results(whole, folder)
+
+
+class Divergence(RestartCase):
+    def test_last_good_checkpoint_stays(self):
+        folder = self.folder()
+        result = program.run(BAR + ["-time_step", 0.025, "-allow_unstable", "-end_time", 1000,
+                                    "-energy_interval", 1000000, "-checkpoint_steps", 10,
+                                    "-output", folder])
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(len(program.error_lines(result)), 1, result.stderr)
+        self.assertIn("diverged", program.error_lines(result)[0])
+        with h5py.File(checkpoint(folder), "r") as file:
+            self.assertTrue(numpy.isfinite(file["structures/bar/velocity"][()]).all())
+
+
+class Refusals(RestartCase):
+    CASE = BAR + ["-end_time", 2]
+
+    @classmethod
+    def setUpClass(cls):
+        cls.origin = tempfile.mkdtemp(prefix="pounding-")
+        result = program.run(cls.CASE + ["-end_time", 1, "-checkpoint_steps", 10,
+                                         "-output", cls.origin])
+        assert result.returncode == 0, result.stderr
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.origin)
+
+    def copy(self, change=None):
+        """A copy of the results, its checkpoint changed in Python."""
+        folder = self.folder()
+        for name in ("checkpoint.h5", "history.h5"):
+            shutil.copy(os.path.join(self.origin, name), folder)
+        if change:
+            with h5py.File(checkpoint(folder), "r+") as file:
+                change(file)
+        return folder
+
+    def refuse(self, folder, words, more=(), case=None, name="checkpoint.h5", ranks=(2,)):
+        before = {file: content(folder, file) for file in os.listdir(folder)}
+        path = os.path.join(folder, name)
+        for count in ranks:
+            result = program.run([*(case or self.CASE), "-restart", path, "-output", folder, *more],
+                                 count, timeout=120)
+            self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+            lines = program.error_lines(result)
+            self.assertEqual(len(lines), 1, result.stderr)
+            self.assertNotIn("HDF5-DIAG", result.stderr)
+            for word in (path, *words):
+                self.assertIn(word, lines[0])
+        for file, bytes_before in before.items():
+            self.assertEqual(content(folder, file), bytes_before, file)
+
+    def write(self, folder, name, data):
+        with open(os.path.join(folder, name), "wb") as file:
+            file.write(data)
+
+    def test_the_original_is_accepted(self):
+        self.complete([*self.CASE, "-restart", checkpoint(self.copy())])
+
+    def test_no_such_file(self):
+        self.refuse(self.copy(), ["no such file"], name="nothing.h5")
+
+    def test_no_hdf5(self):
+        folder = self.copy()
+        self.write(folder, "checkpoint.h5", b"this is no checkpoint\n" * 100)
+        self.refuse(folder, ["not an HDF5 file"], ranks=(1, 2, 3))
+
+    def test_history_is_no_checkpoint(self):
+        self.refuse(self.copy(), ["not a checkpoint"], name="history.h5")
+
+    def test_truncated(self):
+        folder = self.copy()
+        data = content(folder, "checkpoint.h5")
+        for size in (len(data) // 4, len(data) // 2, len(data) - 1):
+            self.write(folder, "checkpoint.h5", data[:size])
+            self.refuse(folder, ["truncated"])
+
+    def test_one_bit_of_a_velocity(self):
+        folder = self.copy()
+        with h5py.File(checkpoint(folder), "r") as file:
+            place = file["structures/bar/velocity"].id.get_chunk_info(0).byte_offset
+        data = bytearray(content(folder, "checkpoint.h5"))
+        data[place + 17] ^= 4
+        self.write(folder, "checkpoint.h5", bytes(data))
+        self.refuse(folder, ["structures/bar/velocity", "damaged"])
+
+    def test_other_version_of_the_format(self):
+        self.refuse(self.copy(lambda file: file.attrs.modify("version", 99.0)), ["format 99", "0.1.0"])
+
+    def test_missing_part(self):
+        def remove(file):
+            del file["tables/contact_impulse"]
+
+        self.refuse(self.copy(remove), ["contact_impulse"])
+
+    def test_other_options(self):
+        self.refuse(self.copy(), ["-bar_damping_beta 0.0001", "2e-4"], ["-bar_damping_beta", "2e-4"])
+        self.refuse(self.copy(), ["-contacts stop", "stop,spare"], ["-contacts", "stop,spare", "-spare_secondary",
+                                                     "bar:z_max", "-spare_primary", "wall",
+                                                     "-spare_gap", 9])
+
+    def test_other_time_step(self):
+        self.refuse(self.copy(), ["time step", "give -time_step"], ["-courant", 0.8])
+
+    def test_end_time_before_the_checkpoint(self):
+        folder = self.copy()
+        result = program.run([*self.CASE, "-restart", checkpoint(folder), "-end_time", 0.1,
+                              "-output", folder])
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("-end_time", program.error_lines(result)[0])
+
+    def test_other_mesh_of_the_same_name(self):
+        folder = self.folder()
+        mesh = os.path.join(folder, "bar.geo")
+        with open(os.path.join(program.SOURCE, "tests/meshes/box.geo")) as file:
+            text = file.read()
+        case = self.CASE + ["-bar_mesh", mesh]
+
+        def write_mesh(more):
+            self.write(folder, "bar.geo", (text + more).encode())
+
+        write_mesh("")
+        self.complete([*case, "-checkpoint_steps", 10], folder=folder)
+        write_mesh("Translate {0.25, 0, 0} { Volume{1}; }\n")
+        self.refuse(folder, ["structure bar", "another mesh"], case=case)
+
+    def test_other_record_of_the_same_name(self):
+        folder = self.folder()
+        record = os.path.join(folder, "record.txt")
+        case = self.CASE + ["-motion_x_record", record, "-motion_x_unit", "m/s2"]
+        self.write(folder, "record.txt", b"0.0 0.0\n0.5 0.1\n1.0 0.0\n")
+        self.complete([*case, "-checkpoint_steps", 10], folder=folder)
+        self.write(folder, "record.txt", b"0.0 0.0\n0.5 0.2\n1.0 0.0\n")
+        self.refuse(folder, ["ground motion"], case=case)
+
+    def test_history_beside_it(self):
+        folder = self.copy()
+        os.remove(os.path.join(folder, "history.h5"))
+        self.refuse(folder, ["history.h5: no such file"])
+        folder = self.copy()
+        with h5py.File(os.path.join(folder, "history.h5"), "r+") as file:
+            file["velocity"][:] += 1
+        self.refuse(folder, ["history.h5", "another run"])
+
+    def test_what_may_change(self):
+        other = self.complete([*self.CASE, "-restart", checkpoint(self.copy()), "-title", "another",
+                               "-end_time", 3, "-spectra_damping", "0.02", "-modes", 2,
+                               "-time_step", repr(program.summary(self.origin)["time_step"])])
+        self.assertGreater(program.summary(other)["end_time"], 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
