@@ -1,0 +1,129 @@
+"""Elements at the end of what a mesh may hold: slivers run, broken ones are refused by their number.
+
+A brick of 1 x 1 x h m of concrete has the largest frequency of its eight nodes in closed form only for
+h = 1; the others come from an independent code and approach 2 c_p / h. In a column one thin layer
+between cubes of side a costs the step its root only: sqrt(h a) / c.
+"""
+import math
+import os
+import re
+import shutil
+import tempfile
+import unittest
+
+from history import History, refused, scenes
+from small_meshes import Mesh, brick
+
+BRICKS = {1.0: 9128.70929175277, 0.1: 74582.69848302077, 0.01: 745360.6514844532, 1e-4: 74535599.29657775}
+CUBE = brick((0, 0, 0), (1, 1, 1), (1, 1, 1))
+SECTION = ["-section_tube_area", 1e-3, "-section_tube_inertia_y", 1e-6, "-section_tube_inertia_z", 1e-6,
+           "-section_tube_torsion", 1e-6, "-section_tube_z_axis", "0,0,1"]
+
+
+class Slivers(unittest.TestCase):
+    def test_step_is_that_of_the_element(self):
+        words = ["-structures", ",".join(f"b{i}" for i in range(len(BRICKS))), "-end_time", 1e-12, "-modes", 0,
+                 *scenes.material("concrete", *scenes.CONCRETE)]
+        for i, thickness in enumerate(BRICKS):
+            words += [f"-b{i}_mesh", "tests/meshes/box.geo", f"-b{i}_mesh_set", f"lz={thickness!r}",
+                      f"-b{i}_body_element", "hex8_full", f"-b{i}_body_material", "concrete"]
+        structures = History(self, words, 2).summary["structures"]
+        wave = math.sqrt(30e9 * 0.8 / (1.2 * 0.6) / 2400)
+        for i, (thickness, omega) in enumerate(BRICKS.items()):
+            self.assertAlmostEqual(structures[f"b{i}"]["omega_max"] / omega, 1, delta=1e-9)
+            self.assertAlmostEqual(structures[f"b{i}"]["stable_time_step"] * omega / 2, 1, delta=1e-9)
+            if thickness <= 0.01:
+                self.assertAlmostEqual(omega * thickness / (2 * wave), 1, delta=1e-4)
+
+    def test_thin_layer_in_a_column_runs_and_is_named(self):
+        wave, side = math.sqrt(30e9 / 2400), 0.1
+        for thickness in (1e-3, 1e-5):
+            run = History(self, scenes.column(thickness), 2)
+            column = run.summary["structures"]["column"]
+            self.assertAlmostEqual(run.summary["stable_time_step"] * wave / math.sqrt(thickness * side), 1, delta=0.01)
+            named = float(re.search(r"group 'body' at .*, ([^,]+)\)$", column["stiffest_element"])[1])
+            self.assertAlmostEqual(named, 0.5 + thickness / 2, delta=1e-5)  # the next ones are 0.05 m away
+            self.assertAlmostEqual(run.summary["impacts"]["total_impulse"] / (2 * column["mass"]), 1, delta=0.05)
+            self.assertLess(run.energy["relative_residual"], 1e-12)
+
+
+class Broken(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="pounding-")
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def refuse(self, mesh, element, *words, group="body", more=()):
+        path = mesh.write(os.path.join(self.folder, "broken.msh"))
+        return refused(self, ["-structures", "part", "-part_mesh", path, f"-part_{group}_element", element,
+                              f"-part_{group}_material", "concrete", *scenes.material("concrete", *scenes.CONCRETE),
+                              "-end_time", 1e-9, *more], *words, ranks=2)
+
+    def brick_with(self, nodes):
+        return Mesh(CUBE.nodes, {"body": ("hexahedron", [CUBE.groups["body"][1][0], nodes])})
+
+    def test_inverted_brick(self):
+        row = CUBE.groups["body"][1][0]
+        swapped = [row[1], row[0], *row[2:]]
+        for element in ("hex8", "hex8_full"):
+            line = self.refuse(self.brick_with(swapped), element, "structure part", "element 2 of group 'body'")
+            self.assertIn("Jacobian -0.0305021", line)
+            self.refuse(self.brick_with(row[4:] + row[:4]), element, "element 2 of group 'body'", "Jacobian")
+
+    def test_brick_without_thickness(self):
+        for thickness in (0, 1e-13):
+            flat = CUBE.placed(lambda nodes, h=thickness: nodes * (1, 1, h))
+            self.refuse(flat, "hex8", "element 1 of group 'body'", "Jacobian")
+
+    def test_beam_without_length(self):
+        lines = Mesh([(0, 0, 0), (1, 0, 0), (1, 0, 0)], {"line": ("line", [[0, 1], [1, 2]])})
+        self.refuse(lines, "beam", "element 2 of group 'line'", "length", group="line",
+                    more=["-part_line_section", "tube", *SECTION])
+
+    def test_shell_without_area_or_turned_over_itself(self):
+        square = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+        for corners, word in (([0, 1, 1, 0], "area"), ([0, 2, 1, 3], "area")):
+            plate = Mesh(square, {"plate": ("quadrangle", [[0, 1, 2, 3], corners])})
+            self.refuse(plate, "shell", "element 2 of group 'plate'", word, group="plate",
+                        more=["-part_plate_thickness", 0.1])
+        dented = Mesh([*square[:2], (0.2, 0.2, 0), square[3]], {"plate": ("quadrangle", [[0, 1, 2, 3]])})
+        self.refuse(dented, "shell", "element 1 of group 'plate'", "convex", group="plate",
+                    more=["-part_plate_thickness", 0.1])
+
+    def test_shell_of_no_thickness(self):
+        plate = Mesh([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], {"plate": ("quadrangle", [[0, 1, 2, 3]])})
+        for thickness in (0, -0.1):
+            self.refuse(plate, "shell", "-part_plate_thickness", "> 0", group="plate",
+                        more=["-part_plate_thickness", thickness])
+
+    def test_everything_clamped(self):
+        self.refuse(CUBE, "hex8", "structure part", "clamped", more=["-part_clamp", "z_min,z_max"])
+
+
+class WithoutMass(unittest.TestCase):
+    def test_node_that_no_element_uses_is_left_out(self):
+        folder = tempfile.mkdtemp(prefix="pounding-")
+        self.addCleanup(shutil.rmtree, folder)
+        found = []
+        for number, nodes in enumerate((CUBE.nodes, [*CUBE.nodes.tolist(), [7, 7, 7]])):
+            path = Mesh(nodes, CUBE.groups).write(os.path.join(folder, f"{number}.msh"))
+            run = History(self, ["-structures", "part", "-part_mesh", path, "-part_body_element", "hex8",
+                                 "-part_body_material", "concrete", "-end_time", 1e-6, "-modes", 0,
+                                 *scenes.material("concrete", *scenes.CONCRETE)], 2)
+            found.append({key: run.summary["structures"]["part"][key] for key in ("nodes", "mass", "omega_max")})
+        self.assertEqual(found[0], found[1])
+        self.assertEqual(found[0]["nodes"], 8)
+
+    def test_rotation_without_inertia(self):
+        words = ["-structures", "mass", "-mass_mesh", "tests/meshes/chain.geo", "-mass_first_element", "point_mass",
+                 "-mass_first_mass", 1, "-mass_support_element", "grounded_spring", "-mass_support_stiffness",
+                 "1,1,1,1,1,1", "-end_time", 1e-3]
+        refused(self, words, "structure mass", "(1, 0, 0)", "no mass", ranks=2)
+
+    def test_drilling_rotation_of_a_flat_shell_has_inertia(self):
+        run = History(self, [*scenes.lone_elements(["plate"]), "-plate_initial_velocity", "0,0,1"])
+        self.assertEqual(run.summary["structures"]["plate"]["dofs"], 24)
+        self.assertLess(run.energy["relative_residual"], 1e-12)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,76 @@
+"""A run of the program with all that it recorded, and the scenes of run/stability."""
+import os
+import shutil
+import sys
+import tempfile
+
+import h5py
+import numpy
+
+import program
+
+sys.path.append(os.path.join(program.SOURCE, "run"))
+from extremes import scenes  # noqa: E402, F401  (for the tests of this folder)
+
+
+class History:
+    """`data`: the data sets of history.h5 by name; `summary`; `impacts`: columns of impacts.csv."""
+
+    def __init__(self, test, words, ranks=1, timeout=900):
+        folder, self.summary = program.must_run(test, words, ranks, timeout)
+        with h5py.File(os.path.join(folder, "history.h5"), "r") as file:
+            self.data = {name: file[name][()] for name in file}
+        self.impacts = program.read_csv(os.path.join(folder, "impacts.csv"))
+        self.ledger = program.read_csv(os.path.join(folder, "energy.csv"))
+        self.spectra = program.read_csv(os.path.join(folder, "spectra.csv"))
+        shutil.rmtree(folder)
+        self.time = self.data["time"]
+        self.energy = self.summary["energy"]
+        self._place = {name.decode(): i for i, name in enumerate(self.data["channels"])}
+
+    def channel(self, quantity, name):
+        """A column of displacement, velocity or acceleration: "probe.x"."""
+        return self.data[quantity][:, self._place[name]]
+
+    def column(self, name):
+        """A column of impacts.csv as numbers."""
+        return numpy.array([float(value) for value in self.impacts[name]])
+
+
+def refused(test, words, *expected, ranks=1):
+    """The program ends with exit status 1 and one line that holds all the words; returns the line."""
+    with tempfile.TemporaryDirectory() as folder:
+        output = os.path.join(folder, "results")
+        result = program.run([*words, "-output", output], ranks, timeout=300)
+        test.assertEqual(result.returncode, 1, result.stdout[-2000:] + result.stderr[-2000:])
+        lines = program.error_lines(result)
+        test.assertEqual(len(lines), 1, result.stderr)
+        for word in expected:
+            test.assertIn(word, lines[0])
+        test.assertFalse(os.path.exists(os.path.join(output, "summary.json")))
+        assert_finite(test, output)
+        return lines[0]
+
+
+def assert_finite(test, folder):
+    """No file that a stopped run left holds a value that is not a number."""
+    for name in os.listdir(folder) if os.path.isdir(folder) else ():
+        path = os.path.join(folder, name)
+        if name.endswith(".csv"):
+            with open(path) as file:
+                words = file.read().replace(",", " ").lower().split()
+            for word in ("nan", "-nan", "inf", "-inf"):
+                test.assertNotIn(word, words, name)
+        elif name.endswith(".h5") and h5py.is_hdf5(path):
+            with h5py.File(path, "r") as file:
+                for key in file:
+                    if file[key].dtype.kind == "f":
+                        test.assertTrue(numpy.isfinite(file[key][()]).all(), key)
+
+
+def probes(**groups):
+    """Options of averaged probes: name=("structure", "group")."""
+    words = ["-probes", ",".join(groups)]
+    for name, (structure, group) in groups.items():
+        words += [f"-{name}_structure", structure, f"-{name}_group", group]
+    return words
