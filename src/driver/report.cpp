@@ -124,6 +124,21 @@ void print_probes(const Recorder& recorder, const std::vector<ProbeSpectrum>& sp
   }
 }
 
+/// Small displacements: the geometry of contacts and elements is that of the mesh.
+void warn_large_displacements(const Model& model, const Recorder& recorder) {
+  constexpr double small = 0.05;  // of the model
+  double largest = 0;
+  for (const ChannelPeaks& peak : recorder.peaks()) {
+    largest = std::max(largest, peak.displacement);
+  }
+  if (largest > small * model.interface.model_size) {
+    std::printf(
+        "\nwarning: displacements reach %.3g m in a model of %.3g m; the theory is one of small "
+        "displacements\n",
+        largest, model.interface.model_size);
+  }
+}
+
 }  // namespace
 
 void print_title(const Scene& scene, int ranks) {
@@ -171,12 +186,13 @@ void print_restart(const Scene& scene, const Model& model, std::int64_t step) {
   std::fflush(stdout);
 }
 
-void print_results(const Scene& scene, const RunStatistics& statistics,
+void print_results(const Scene& scene, const Model& model, const RunStatistics& statistics,
                    const ImpactCatalogue& impacts, const Recorder& recorder,
                    const std::vector<ProbeSpectrum>& spectra) {
   std::printf("\n");
   print_impacts(scene, statistics, impacts);
   print_probes(recorder, spectra);
+  warn_large_displacements(model, recorder);
   const EnergyLine& energy = statistics.energy;
   std::printf(
       "\nenergy at the end [J]: kinetic %.4g, strain %.4g, damping loss %.4g, contact work %.4g, "

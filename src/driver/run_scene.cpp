@@ -118,7 +118,7 @@ void run_scene(MPI_Comm comm, const Scene& scene, const std::string& resolved) {
     statistics.wall_time = MPI_Wtime() - start;
     write_summary(scene.output + "/summary.json", scene, resolved, model, statistics,
                   loop.recorder(), size_of(comm));
-    print_results(scene, statistics, loop.impacts(), loop.recorder(), spectra);
+    print_results(scene, model, statistics, loop.impacts(), loop.recorder(), spectra);
   });
 }
 

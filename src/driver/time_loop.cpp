@@ -172,7 +172,7 @@ void TimeLoop::close_ledger_line() {
   const EnergyLine line = energy.line(energies_);
   energy.note(line);
   watch_divergence(model_, stepper_->state(), line, energies_);
-  watch_identity(line, energy.relative_residual());
+  watch_identity(model_, line, energies_, energy.largest_term());
   stepper_->gap_watch().energies_known(energy.closed_steps() - 1, energies_);
   ledger_.add(line);
 }

@@ -145,6 +145,7 @@ void BodyStep::advance_every_third(std::size_t first, std::size_t end, const dou
     if constexpr (with_energies) {
       sums_.kinetic_before += m * v * v;
       sums_.strain_before += u * ku;
+      sums_.displacement_mass += m * u * u;
     }
     const Lanes kv = (q - ku) * inverse;
     const Lanes after = decay * v - time_step * (weight * q) - ground_step;
@@ -209,6 +210,7 @@ void BodyStep::advance_dof(LocalIndex dof, double force) {
   if constexpr (with_energies) {
     single_.kinetic_before += mass * before * before;
     single_.strain_before += state_.displacement[i] * ku;
+    single_.displacement_mass += mass * state_.displacement[i] * state_.displacement[i];
   }
   const double kv = (force - ku) * inverse_;
   double after = decay_ * before - duration_ * (system_.inverse_mass[i] * force);
@@ -261,6 +263,7 @@ StepSums BodyStep::sums() const {
   total.mass_sum += add_up(sums_.mass_sum);
   total.kinetic_before += add_up(sums_.kinetic_before);
   total.strain_before += add_up(sums_.strain_before);
+  total.displacement_mass += add_up(sums_.displacement_mass);
   for (std::size_t l = 0; l < pattern; ++l) {
     total.momentum[l % 3] += sums_.momentum[0][l / lanes][l % lanes];
     if (l % 6 < 3) {

@@ -19,6 +19,7 @@ struct StepSums {
   double device = 0;                 ///< x^T s, x the force of devices [W]
   double kinetic_before = 0;         ///< v-^T M v- [J], if energies are asked for
   double strain_before = 0;          ///< u_n^T K u_{n-1} [J], if energies are asked for
+  double displacement_mass = 0;      ///< u_n^T M u_n [kg m2] likewise
   double extra_damping_before = 0;   ///< v-^T D v- [W], D the damping beside alpha M + beta K
 };
 
@@ -71,6 +72,7 @@ class BodyStep final : public ForceReceiver {
     Lanes mass_sum{};
     Lanes kinetic_before{};
     Lanes strain_before{};
+    Lanes displacement_mass{};
     Lanes momentum[2][pattern_lanes]{};  ///< of nodes without and with rotations
   };
 

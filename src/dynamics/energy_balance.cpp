@@ -64,11 +64,12 @@ StructureEnergy EnergyBalance::energy(const LinearSystem& system, const StepSums
   const double inertia = (1 - dt / 2 * system.damping.alpha) * sums.kinetic_before;
   const double damped =
       inertia - dt / 2 * (system.damping.beta * sums.stiffness_before + sums.extra_damping_before);
-  return {damped / 2, sums.strain_before / 2, (damped - dt * dt / 4 * sums.stiffness_before) / 2};
+  return {damped / 2, sums.strain_before / 2, (damped - dt * dt / 4 * sums.stiffness_before) / 2,
+          sums.displacement_mass};
 }
 
 EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
-  constexpr std::size_t values = 3;  // of a StructureEnergy
+  constexpr std::size_t values = 4;  // of a StructureEnergy
   std::copy(energies_.begin(), energies_.end(), structures.begin());
   MPI_Allreduce(MPI_IN_PLACE, structures.data(), static_cast<int>(values * structures.size()),
                 MPI_DOUBLE, MPI_SUM, comm_);

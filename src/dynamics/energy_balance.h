@@ -36,6 +36,8 @@ struct StructureEnergy {
   /// 1/2 v^T (M - dt/2 C - dt^2/4 K) v: positive for every motion if and only if the step is
   /// stable; the first to turn negative when it is not.
   double positive_part = 0;
+  /// u^T M u [kg m2]; omega_max^2 times this bounds the parts of u^T K u, and so its round-off.
+  double displacement_mass = 0;
 
   double energy() const { return kinetic + strain; }
 };
@@ -77,6 +79,8 @@ class EnergyBalance {
   double relative_residual() const {
     return largest_term_ > 0 ? largest_residual_ / largest_term_ : 0;
   }
+  /// Largest energy, loss or work of all lines so far [J].
+  double largest_term() const { return largest_term_; }
   std::int64_t closed_steps() const { return steps_ - 1; }
   void note(const EnergyLine& line);
 

@@ -40,7 +40,7 @@ struct State {
   }
 
   void save(SavedState& saved) const {
-    saved.put("step", {static_cast<double>(step)});
+    saved.put("step", {static_cast<double>(step - 1)});  // the last one made
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       saved.put_dofs(static_cast<int>(b), "displacement", bodies[b].displacement);
       saved.put_dofs(static_cast<int>(b), "velocity", bodies[b].velocity);
@@ -49,7 +49,7 @@ struct State {
     }
   }
   void load(const SavedState& saved) {
-    step = saved.integer("step");
+    step = saved.integer("step") + 1;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       saved.get_dofs(static_cast<int>(b), "displacement", bodies[b].displacement);
       saved.get_dofs(static_cast<int>(b), "velocity", bodies[b].velocity);

@@ -15,6 +15,7 @@
 
 #include "common/error.h"
 #include "elements/element.h"
+#include "mesh/element_sizes.h"
 
 namespace pounding {
 namespace {
@@ -225,6 +226,7 @@ class MeshBuilder {
       read_group(name, parts);
     }
     mark_components();
+    check_element_sizes(structure_.name, mesh_);
     return std::move(mesh_);
   }
 

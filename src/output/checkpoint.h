@@ -17,10 +17,10 @@
 ///     /options                     strings "name: value", those that may not change
 ///     /structures/S                attributes: dofs (free ones), elements
 ///     /structures/S/coordinates    (nodes, 3) [m]
-///     /structures/S/displacement   (nodes, 3 or 6) u_n [m, rad]
+///     /structures/S/displacement   (nodes, 3 or 6) u_{n+1} [m, rad]
 ///     /structures/S/velocity       (nodes, 3 or 6) v_{n+1/2} [m/s, rad/s]
 ///     /structures/S/...            (nodes, 3 or 6) other values per dof
-///     /tables/step                 n; displacements stand at n dt, velocities half a step later
+///     /tables/step                 n, the last step made
 ///     /tables/...                  vectors and tables of whoever keeps a state
 ///     /sums/...                    (ranks, n) numbers that add up over the ranks
 ///
@@ -33,8 +33,7 @@
 ///         x = file["structures/left/coordinates"][:]
 ///         file["structures/left/velocity"][x[:, 2] > 5, 0] += 0.1      # dataset[...] = keeps sums
 ///
-/// `stiffness_displacement` is K u and `stiffness_velocity` is K v of `closed_velocity`, the
-/// velocity half a step before n: whoever changes a displacement has to change them alike, or the
+/// `stiffness_displacement` is K u_n: whoever changes a displacement has to change it alike, or the
 /// energy identity no longer closes and the run stops.
 namespace pounding {
 

@@ -1,0 +1,67 @@
+#include "mesh/element_sizes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "common/error.h"
+#include "elements/element.h"
+
+namespace pounding {
+namespace {
+
+constexpr double smallest_edge = 1e-12;  // of the diagonal of the mesh
+
+double distance(const Vector3& x, const Vector3& y) {
+  return std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
+}
+
+double diagonal(const GlobalMesh& mesh) {
+  Vector3 low{1e300, 1e300, 1e300};
+  Vector3 high{-1e300, -1e300, -1e300};
+  for (GlobalIndex node = 0; node < mesh.node_count(); ++node) {
+    const Vector3 x = mesh.position(node);
+    for (std::size_t d = 0; d < 3; ++d) {
+      low[d] = std::min(low[d], x[d]);
+      high[d] = std::max(high[d], x[d]);
+    }
+  }
+  return distance(low, high);
+}
+
+bool has_extent(ElementType type) {
+  return is_hexahedron(type) || is_shell(type) || type == ElementType::beam ||
+         type == ElementType::bar || type == ElementType::tension_bar;
+}
+
+/// The smallest distance between two nodes of an element [m].
+double smallest_distance(const GlobalMesh& mesh, const GlobalIndex* corner, std::size_t nodes) {
+  double smallest = INFINITY;
+  for (std::size_t a = 1; a < nodes; ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      smallest = std::min(smallest, distance(mesh.position(corner[a]), mesh.position(corner[b])));
+    }
+  }
+  return smallest;
+}
+
+}  // namespace
+
+void check_element_sizes(const std::string& structure, const GlobalMesh& mesh) {
+  const double least = smallest_edge * diagonal(mesh);
+  for (const ElementSet& set : mesh.regions) {
+    const auto nodes = static_cast<std::size_t>(element_layout(set.type).nodes);
+    for (std::size_t e = 0; has_extent(set.type) && e < set.tags.size(); ++e) {
+      const double found = smallest_distance(mesh, &set.connectivity[e * nodes], nodes);
+      if (!(found > least)) {
+        std::ostringstream text;
+        text << "structure " << structure << ": element " << set.tags[e] << " of group '"
+             << set.group << "': two of its nodes are " << found
+             << " m apart, nothing beside the size of the mesh; mend the mesh";
+        throw UserError(text.str());
+      }
+    }
+  }
+}
+
+}  // namespace pounding
