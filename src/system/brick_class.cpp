@@ -13,7 +13,6 @@ constexpr std::size_t size = 3 * corner_count;
 /// Corner bits of Gmsh's node order.
 constexpr std::array<std::size_t, corner_count> gmsh_corner{0, 1, 3, 2, 4, 5, 7, 6};
 constexpr double largest_leak = 1e-13;
-constexpr std::size_t most_frames = 32;  // each new shape is tried in all of them
 
 using Matrix24 = std::array<double, size * size>;
 
@@ -131,28 +130,26 @@ double largest(const Matrix24& matrix) {
 
 }  // namespace
 
-std::optional<Brick> BrickFrames::recognise(std::span<const double> coordinates, double tolerance) {
+std::optional<Brick> BrickFrames::recognise(std::span<const double> coordinates,
+                                            double tolerance) const {
   for (std::size_t frame = 0; frame < axes_.size(); ++frame) {
     if (auto brick = box_in(axes_[frame], coordinates, tolerance)) {
       brick->frame = static_cast<int>(frame);
       return brick;
     }
   }
+  return std::nullopt;
+}
+
+std::optional<Matrix3> BrickFrames::axes_of_box(std::span<const double> coordinates,
+                                                double tolerance) {
   const auto axes = edge_axes(coordinates);
-  if (!axes || axes_.size() >= most_frames) return std::nullopt;
-  auto brick = box_in(*axes, coordinates, tolerance);
-  if (brick) {
-    brick->frame = static_cast<int>(axes_.size());
-    axes_.push_back(*axes);
-  }
-  return brick;
+  return axes && box_in(*axes, coordinates, tolerance) ? axes : std::nullopt;
 }
 
 std::optional<BrickSplit> split_brick(ElementType type, const ElementProperties& properties,
-                                      const Vector3& lengths, int run_axis) {
-  const auto r = static_cast<std::size_t>(run_axis);
-  Matrix24 b = transformed_stiffness(type, properties,
-                                     {lengths[r], lengths[(r + 1) % 3], lengths[(r + 2) % 3]});
+                                      const Vector3& lengths) {
+  Matrix24 b = transformed_stiffness(type, properties, lengths);
   const double scale = largest(b);
   Picker picker(b);
   BrickSplit split;

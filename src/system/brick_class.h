@@ -25,17 +25,22 @@ struct Brick {
 /// Orthonormal axes (rows) in which bricks of one structure lie. Frame 0: the global axes.
 class BrickFrames {
  public:
-  /// The box that eight nodes in Gmsh's order, shape (8, 3) [m], form to `tolerance` of its
-  /// shortest edge; a box that fits no known frame adds its own. Nothing for other shapes.
-  std::optional<Brick> recognise(std::span<const double> coordinates, double tolerance);
+  /// The box that eight nodes in Gmsh's order, shape (8, 3) [m], form in one of the frames, to
+  /// `tolerance` of its shortest edge. Nothing for other shapes.
+  std::optional<Brick> recognise(std::span<const double> coordinates, double tolerance) const;
+  /// Axes along the edges of a box; nothing for other shapes.
+  static std::optional<Matrix3> axes_of_box(std::span<const double> coordinates, double tolerance);
+
+  void add(const Matrix3& axes) { axes_.push_back(axes); }
+  /// Each new shape is tried in all of them: there cannot be many.
+  bool full() const { return axes_.size() >= 32; }
   const Matrix3& axes(int frame) const { return axes_[static_cast<std::size_t>(frame)]; }
 
  private:
   std::vector<Matrix3> axes_{{Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}}};
 };
 
-/// A brick's stiffness split by parity. Axis 0 is the one along which bricks follow each other in a
-/// run, 1 and 2 are the next ones in cyclic order. H is the 8-point Walsh-Hadamard transform,
+/// A brick's stiffness split by parity in axes 0, 1, 2. H is the 8-point Walsh-Hadamard transform,
 /// entries prod_d of -1 (near) or +1 (far) over the axes d of a row; value "c|s" stands for
 /// component c in row s of H. With B = H K H' / 64, K = H' B H and B holds only
 ///
@@ -52,9 +57,9 @@ struct BrickSplit {
   std::array<double, 3> hourglass{};
 };
 
-/// Splits the stiffness of a hex8 or hex8_full box with edges `lengths` [m], axis `run_axis` taking
-/// the place of axis 0. Nothing when entries outside the pattern exceed 1e-13 of the largest.
+/// Splits the stiffness of a hex8 or hex8_full box with edges `lengths` [m] along axes 0, 1, 2.
+/// Nothing when entries outside the pattern exceed 1e-13 of the largest.
 std::optional<BrickSplit> split_brick(ElementType type, const ElementProperties& properties,
-                                      const Vector3& lengths, int run_axis);
+                                      const Vector3& lengths);
 
 }  // namespace pounding

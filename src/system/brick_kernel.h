@@ -1,26 +1,28 @@
 #pragma once
 
-#include <array>
+#include <cstddef>
 
-#include "system/brick_class.h"
+#include "system/brick_stencil.h"
 
 namespace pounding {
 
-/// Elements that one vector instruction takes at once.
-inline constexpr int lane_count = 4;
-
-/// One line of nodes: displacements and forces, component by component (axis 0 of the split first);
-/// array c starts c * line_stride doubles further.
-struct BrickLine {
-  const double* displacement = nullptr;
-  double* force = nullptr;
+/// A line of node pairs: sums and differences of their displacements, each three arrays (axis 0 of
+/// the split first) followed by three arrays of forces; array c starts c * stride doubles further.
+struct PairLine {
+  double* sum = nullptr;
+  double* difference = nullptr;
 };
 
-/// Adds the forces of `count` congruent bricks in a row: brick i lies between the nodes i and i + 1
-/// of four lines, line 0 on the near side of the axes 1 and 2, line 1 beyond axis 1, line 2 beyond
-/// axis 2, line 3 beyond both. Up to lane_count values beyond node `count` are read, and zero is
-/// added to as many forces there. The order of the sums does not depend on lane_count.
-void add_brick_run(const BrickSplit& split, const std::array<BrickLine, 4>& lines, int line_stride,
-                   int count);
+/// On which sides of a line the bricks lie, along axis 1.
+enum class Sides { before, behind, both };
+
+/// Adds the forces that the displacements of `line` cause through `count` congruent bricks in a row
+/// along axis 0, on each of the `sides`: on itself and on the lines `before` and `behind`, those of
+/// them that bound the bricks. Brick i lies between the pairs i and i + 1 of each line. With
+/// `first_behind` the forces of the line behind are set instead. Up to lane_count - 1 values beyond
+/// pair `count` are read, and zero is added to (or set in) as many forces there.
+void add_line_forces(const BrickStencil& stencil, Sides sides, bool first_behind,
+                     const PairLine& line, const PairLine& before, const PairLine& behind,
+                     std::ptrdiff_t stride, int count);
 
 }  // namespace pounding

@@ -5,7 +5,9 @@
 
 #include "system/brick_class.h"
 #include "system/brick_rows.h"
+#include "system/chain_line.h"
 #include "system/dof_places.h"
+#include "system/line_schedule.h"
 #include "system/stiffness.h"
 
 namespace pounding {
@@ -17,12 +19,15 @@ struct BrickShape {
   Vector3 lengths{};
 };
 
-/// The product of the bricks of one frame. It visits their runs in the order of the mesh's
-/// numbering and keeps in a small buffer only the chains of nodes that are in use:
+/// The product of the bricks of one frame. It visits the rows of bricks in the order of the mesh's
+/// numbering and keeps in a small buffer only the chains of nodes, and the pairs of chains, that
+/// are in use:
 ///
-///     w -> [load chain] -> x[] y[] z[] -> runs -> fx[] fy[] fz[] -> [store chain] -> q
+///     w -> [load chain] -> x[] y[] z[] -> [split pair] -> sums, differences -> [steps]
+///       -> forces of sums, differences -> [join pair] -> fx[] fy[] fz[] -> [store chain] -> q
 ///
-/// so that w is read and q written once, and what the runs work on stays in the nearest cache. The
+/// so that w is read and q written once, and what the steps work on stays in the nearest cache. The
+/// chains of a layer one brick thick hold the sums and differences of their pair themselves. The
 /// forces of a chain whose dofs nothing else touches later need not go to q: they are handed over.
 class BrickLines {
  public:
@@ -45,7 +50,7 @@ class BrickLines {
   /// else an empty range.
   DofRange chain_range(std::size_t place) const;
   /// Decides for every chain; other outcomes than `add` for those with a range only. Ranges
-  /// finished by the same run that lie side by side are handed over as one. Call once.
+  /// finished by the same step that lie side by side are handed over as one. Call once.
   void set_outcomes(const std::vector<Outcome>& outcomes);
 
   /// q += K w on the owned dofs that these bricks touch, but see Outcome. Allocates nothing.
@@ -57,40 +62,41 @@ class BrickLines {
     int begin = 0;  ///< into places_: one per node if plain, else x, y, z of each node
     int length = 0;
     bool plain = false;  ///< every node owns x, y, z in a row, and one more dof follows
+    bool row = false;    ///< plain, and the nodes' dofs follow each other, no rotations between
     DofRange range;      ///< as in chain_range
   };
-  struct Run {
-    int split = 0;
-    int count = 0;
-    std::array<int, 4> start{};  ///< of the first nodes, into buffer_
-    int loads_end = 0;           ///< loads_ up to here come before this run
-    int stores_end = 0;          ///< stores_ up to here come after it
-  };
-  struct Transfer {
-    int chain = 0;
-    int start = 0;  ///< of the chain's line, into buffer_
+  struct Store {
+    ChainStore place;
     Outcome outcome = Outcome::add;
     LocalIndex begin = 0;  ///< first dof of what is handed over with this chain
     LocalIndex end = 0;    ///< one beyond its last if this chain completes it, else 0
   };
 
   void add_chain(const DofPlaces& places, const std::vector<LocalIndex>& nodes);
-  void schedule(const BrickRows& rows);
-  void load_chain(const Transfer& transfer, const StiffnessArgument& w, const double* ghosts) const;
-  void store_chain(const Transfer& transfer, double* q, ForceReceiver& receiver) const;
-  void add_forces(const Chain& chain, const std::array<const double*, 3>& force, double* q) const;
-  void complete_range(const Transfer& transfer, double* q) const;
+  void unite_ranges(std::size_t begin, std::size_t end);
+  void find_deferred();
+  void load_chain(const ChainLoad& load, const StiffnessArgument& w, const double* ghosts) const;
+  void split_chains(const PairSplit& split, const StiffnessArgument& w) const;
+  void apply_step(const LineStep& step) const;
+  void join_chains(std::size_t join) const;
+  void store_chain(const Store& store, double* q, ForceReceiver& receiver) const;
+  void add_forces(const Chain& chain, const ComponentArrays& force, double* q) const;
+  void collect_forces(const Store& store, double* range) const;
+  const Chain& chain_of(int number) const { return chains_[static_cast<std::size_t>(number)]; }
+  ComponentArrays displacements(int start) const;
+  ComponentArrays forces(int start) const;
+  void clear_forces(int start, int length) const;
 
   LocalIndex owned_dofs_ = 0;
   bool rotated_ = false;
-  Matrix3 axes_{};                  ///< run axis first
-  std::array<int, 3> component_{};  ///< where x, y, z stand in a line
-  std::vector<BrickSplit> splits_;  ///< per shape
+  Matrix3 axes_{};                      ///< those of the pairs
+  std::array<int, 3> component_{};      ///< where x, y, z stand in a line
+  std::vector<BrickStencil> stencils_;  ///< per shape
   std::vector<Chain> chains_;
   std::vector<LocalIndex> places_;
-  std::vector<Run> runs_;
-  std::vector<Transfer> loads_;
-  std::vector<Transfer> stores_;
+  LineSchedule schedule_;
+  std::vector<Store> stores_;   ///< those of schedule_
+  std::vector<char> deferred_;  ///< per join: done as the two rows are stored
   int line_stride_ = 0;
   /// Lines of shape (6, line_stride): displacement, force. Work space of `apply`.
   mutable std::vector<double> buffer_;

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <tuple>
 
-#include "system/brick_kernel.h"
+#include "system/lanes.h"
 
 namespace pounding {
 namespace {
@@ -121,10 +121,10 @@ class RowFinder {
 
 /// Expected time of a product, in cycles of a processor with vectors of lane_count doubles.
 double expected_cycles(const BrickRows& rows) {
-  constexpr double per_batch = 100;
-  constexpr double per_run = 60;
-  constexpr double per_near_node = 3;
-  constexpr double per_far_node = 6;
+  constexpr double per_batch = 50;
+  constexpr double per_run = 200;
+  constexpr double per_near_node = 5;
+  constexpr double per_far_node = 12;
   constexpr LocalIndex near_step = 8;  // nodes; beyond, each node opens cache lines of its own
   double cycles = 400.0 * static_cast<double>(rows.left_over.size());
   for (const BrickRun& run : rows.runs) {

@@ -5,7 +5,7 @@
 
 #include "common/types.h"
 #include "elements/element.h"
-#include "system/brick_kernel.h"
+#include "system/lanes.h"
 
 namespace pounding {
 

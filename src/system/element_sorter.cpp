@@ -1,32 +1,13 @@
 #include "system/element_sorter.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "system/finite_element_system.h"
 
 namespace pounding {
-namespace {
-
-constexpr double congruence = 1e-10;  // of the shortest edge
-
-/// Shortest distance between node 0 and another one, over the hexahedra of a block [m].
-double shortest_distance(const Mesh& mesh, const ElementBlock& block, ElementWork& work) {
-  double shortest = INFINITY;
-  for (std::size_t e = 0; e < block.count(); ++e) {
-    const auto x = gather_coordinates(mesh, block, e, work);
-    for (std::size_t a = 1; a < x.size() / 3; ++a) {
-      shortest =
-          std::min(shortest, std::hypot(x[3 * a] - x[0], x[3 * a + 1] - x[1], x[3 * a + 2] - x[2]));
-    }
-  }
-  return shortest;
-}
-
-}  // namespace
-
-ElementSorter::ElementSorter(const Structure& structure, const Mesh& mesh, const Halo& halo)
-    : structure_(structure), mesh_(mesh) {
+ElementSorter::ElementSorter(const Structure& structure, const Mesh& mesh,
+                             const ElementShapes& shapes, const Halo& halo)
+    : structure_(structure), mesh_(mesh), element_shapes_(shapes) {
   places_.owned_dofs = mesh.owned_dofs;
   places_.of_dof.resize(static_cast<std::size_t>(mesh.dof_count));
   for (LocalIndex dof = 0; dof < mesh.dof_count; ++dof) {
@@ -67,21 +48,17 @@ void ElementSorter::sort_hexahedra(std::size_t b) {
   const ElementBlock& block = mesh_.blocks[b];
   const ElementProperties properties =
       element_properties(structure_.regions[static_cast<std::size_t>(mesh_.blocks[b].region)]);
-  Snap snap(congruence * shortest_distance(mesh_, block, work_));
   for (std::size_t e = 0; e < block.count(); ++e) {
-    if (!add_brick({b, e}, properties, snap)) add_congruent({b, e}, properties, snap);
+    if (!add_brick({b, e}, properties)) add_congruent({b, e}, properties);
   }
 }
 
-bool ElementSorter::add_brick(const Element& element, const ElementProperties& properties,
-                              Snap& snap) {
+bool ElementSorter::add_brick(const Element& element, const ElementProperties& properties) {
   const auto [b, e] = element;
   const ElementBlock& block = mesh_.blocks[b];
-  const auto brick = frames_.recognise(gather_coordinates(mesh_, block, e, work_), congruence);
-  if (!brick) return false;
-  BrickShape shape{block.type, properties, brick->lengths};
-  for (double& length : shape.lengths) length = snap(length);
-  const int number = shape_number(shape, b);
+  const Brick* const brick = element_shapes_.brick(b, e);
+  if (brick == nullptr) return false;
+  const int number = shape_number({block.type, properties, brick->lengths}, b);
   if (number < 0) return false;
   BrickElement entry{number, {}};
   for (std::size_t corner = 0; corner < 8; ++corner) {
@@ -108,23 +85,19 @@ bool ElementSorter::add_beam(const Element& element) {
 
 int ElementSorter::shape_number(const BrickShape& shape, std::size_t block) {
   const auto [found, fresh] = shape_numbers_.try_emplace({block, shape.lengths}, -1);
-  if (fresh && split_brick(shape.type, shape.properties, shape.lengths, 0)) {
+  if (fresh && split_brick(shape.type, shape.properties, shape.lengths)) {
     found->second = static_cast<int>(shapes_.size());
     shapes_.push_back(shape);
   }
   return found->second;
 }
 
-void ElementSorter::add_congruent(const Element& element, const ElementProperties& properties,
-                                  Snap& snap) {
+void ElementSorter::add_congruent(const Element& element, const ElementProperties& properties) {
   const auto [b, e] = element;
-  const ElementBlock& block = mesh_.blocks[b];
-  const auto x = gather_coordinates(mesh_, block, e, work_);
-  std::vector<double> key;
-  for (std::size_t i = 3; i < x.size(); ++i) key.push_back(snap(x[i] - x[i % 3]));
-  Congruent& group = congruent_[{b, key}];
+  const auto coordinates = element_shapes_.coordinates(b, e);
+  Congruent& group = congruent_[{b, coordinates}];
   if (group.elements.empty()) {
-    element_matrices(block.type, x, properties, work_.stiffness, work_.mass);
+    element_matrices(mesh_.blocks[b].type, coordinates, properties, work_.stiffness, work_.mass);
     group.stiffness.assign(work_.stiffness.begin(), work_.stiffness.end());
   }
   group.elements.push_back(element);
@@ -153,7 +126,7 @@ std::vector<BrickLines> ElementSorter::brick_lines(bool outer) {
   std::vector<BrickLines> lines;
   for (auto& [frame, set] : sets) {
     const BrickRows rows = best_brick_rows(set->bricks, mesh_.node_count());
-    lines.emplace_back(places_, frames_.axes(frame), shapes_, rows);
+    lines.emplace_back(places_, element_shapes_.axes(frame), shapes_, rows);
     std::vector<Element> kept;
     auto left = rows.left_over.begin();
     for (std::size_t e = 0; e < set->elements.size(); ++e) {
@@ -213,11 +186,18 @@ SparseRows ElementSorter::sparse_rows() const {
   for (const Element& element : elements) {
     const auto [b, e] = element;
     const std::size_t size = size_of_element(element);
+    const ElementBlock& block = mesh_.blocks[b];
     const std::span<double> stiffness(work_.stiffness.data(), size * size);
-    element_matrices(
-        mesh_.blocks[b].type, gather_coordinates(mesh_, mesh_.blocks[b], e, work_),
-        element_properties(structure_.regions[static_cast<std::size_t>(mesh_.blocks[b].region)]),
-        stiffness, {work_.mass.data(), size});
+    if (is_hexahedron(block.type)) {
+      const auto shape = element_shapes_.coordinates(b, e);
+      std::copy(shape.begin(), shape.end(), work_.coordinates.begin());
+    } else {
+      gather_coordinates(mesh_, block, e, work_);
+    }
+    const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
+    element_matrices(block.type, {work_.coordinates.data(), 3 * nodes},
+                     element_properties(structure_.regions[static_cast<std::size_t>(block.region)]),
+                     stiffness, {work_.mass.data(), size});
     rows.add({places(element).data(), size}, stiffness);
   }
   return rows;

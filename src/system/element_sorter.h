@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -10,29 +9,17 @@
 #include "system/beam_elements.h"
 #include "system/brick_lines.h"
 #include "system/element_loop.h"
+#include "system/element_shapes.h"
 #include "system/element_stiffness.h"
 
 namespace pounding {
 
-/// Values that agree to a tolerance become the first one seen.
-class Snap {
- public:
-  explicit Snap(double tolerance) : tolerance_(tolerance) {}
-  double operator()(double value) {
-    const auto found = seen_.lower_bound(value - tolerance_);
-    if (found != seen_.end() && *found <= value + tolerance_) return *found;
-    return *seen_.insert(value).first;
-  }
-
- private:
-  double tolerance_;
-  std::set<double> seen_;
-};
-
 /// Sorts the elements of a rank by how their product is done best. Local.
 class ElementSorter {
  public:
-  ElementSorter(const Structure& structure, const Mesh& mesh, const Halo& halo);
+  /// References must outlive this object.
+  ElementSorter(const Structure& structure, const Mesh& mesh, const ElementShapes& shapes,
+                const Halo& halo);
 
   void sort();
 
@@ -62,23 +49,23 @@ class ElementSorter {
   };
 
   void sort_hexahedra(std::size_t block);
-  bool add_brick(const Element& element, const ElementProperties& properties, Snap& snap);
+  bool add_brick(const Element& element, const ElementProperties& properties);
   bool add_beam(const Element& element);
   int shape_number(const BrickShape& shape, std::size_t block);
-  void add_congruent(const Element& element, const ElementProperties& properties, Snap& snap);
+  void add_congruent(const Element& element, const ElementProperties& properties);
   void demote_rare_shapes();
   bool touches_ghost(const Element& element) const;
   CongruentElements::Places places(const Element& element) const;
 
   const Structure& structure_;
   const Mesh& mesh_;
+  const ElementShapes& element_shapes_;
   DofPlaces places_;
-  BrickFrames frames_;
   mutable ElementWork work_;
   std::vector<BrickShape> shapes_;
   std::map<std::pair<std::size_t, Vector3>, int> shape_numbers_;  ///< -1: does not split
   std::array<std::map<int, BrickSet>, 2> brick_sets_;             ///< inner, outer; by frame
-  std::map<std::pair<std::size_t, std::vector<double>>, Congruent> congruent_;
+  std::map<std::pair<std::size_t, std::array<double, 24>>, Congruent> congruent_;
   std::array<std::vector<Element>, 2> beams_;  ///< inner, outer
   std::vector<Element> others_;
 };

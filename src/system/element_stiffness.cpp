@@ -87,8 +87,9 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
     }
   }
   halo_ = std::make_unique<Halo>(mesh.comm, mesh.first_owned_dof, mesh.owned_dofs, ghosts);
+  const ElementShapes shapes(mesh);
   on_every_rank(mesh.comm, [&] {
-    ElementSorter sorter(structure, mesh, *halo_);
+    ElementSorter sorter(structure, mesh, shapes, *halo_);
     sorter.sort();
     const LocalIndex idle = mesh.dof_count;
     for (const bool outer : {false, true}) {

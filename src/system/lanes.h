@@ -3,9 +3,16 @@
 #include <cstdint>
 #include <cstring>
 
+#ifdef __FMA__
+#include <immintrin.h>
+#endif
+
 /// Four doubles at once, by the compiler's vector types: AVX where the build allows it, two SSE
 /// halves elsewhere.
 namespace pounding {
+
+/// Doubles that one vector instruction takes at once.
+inline constexpr int lane_count = 4;
 
 using Lanes = double __attribute__((vector_size(32)));
 using LaneMask = std::int64_t __attribute__((vector_size(32)));
@@ -16,6 +23,26 @@ static inline __attribute__((always_inline)) void load(const double* from, Lanes
 }
 static inline __attribute__((always_inline)) void store(double* to, const Lanes& from) {
   std::memcpy(to, &from, sizeof from);
+}
+
+/// c += a b, rounded once where the machine can: by the source, not by the compiler's choice.
+static inline __attribute__((always_inline)) void add_product(const Lanes& a, const Lanes& b,
+                                                              Lanes& c) {
+#ifdef __FMA__
+  c = _mm256_fmadd_pd(a, b, c);
+#else
+  c += a * b;
+#endif
+}
+
+/// c -= a b, likewise.
+static inline __attribute__((always_inline)) void subtract_product(const Lanes& a, const Lanes& b,
+                                                                   Lanes& c) {
+#ifdef __FMA__
+  c = _mm256_fnmadd_pd(a, b, c);
+#else
+  c -= a * b;
+#endif
 }
 
 }  // namespace pounding

@@ -1,6 +1,7 @@
 // Time of K w per dof: element by element against PETSc's assembled matrix without inodes (the
-// faster of its two). Not part of the tests: a person runs it on a quiet machine, on one rank, and
-// compares figures of one run only. Link with pounding_core and benchmark::benchmark.
+// faster of its two), and of the bricks' kernel per brick in the nearest cache. Not part of the
+// tests: a person runs it on a quiet machine, on one rank, and compares figures of one run only.
+// Link with pounding_core and benchmark::benchmark.
 
 #include <benchmark/benchmark.h>
 
@@ -8,6 +9,7 @@
 
 #include "common/parallel.h"
 #include "support/box_mesh.h"
+#include "system/brick_kernel.h"
 #include "system/element_stiffness.h"
 #include "system/finite_element_system.h"
 
@@ -63,6 +65,31 @@ void assembled_product(benchmark::State& state) {
   block.report(state);
 }
 
+/// The middle one of three lines of pairs, with bricks on both sides.
+void brick_kernel(benchmark::State& state) {
+  const auto count = static_cast<int>(state.range(0));
+  const std::ptrdiff_t stride = (count + 2 * lane_count) / lane_count * lane_count;
+  ElementProperties concrete;
+  concrete.young = 30e9;
+  concrete.poisson = 0.2;
+  concrete.density = 2400;
+  const auto split = split_brick(ElementType::hex8, concrete, {0.25, 0.3, 0.22});
+  const BrickStencil stencil = brick_stencil(split.value());
+  std::vector<double> memory(static_cast<std::size_t>(36 * stride), 1e-3);
+  std::array<PairLine, 3> lines;
+  for (std::size_t l = 0; l < 3; ++l) {
+    double* const line = memory.data() + static_cast<std::ptrdiff_t>(l) * 12 * stride;
+    lines[l] = {line, line + 6 * stride};
+  }
+  for (auto _ : state) {
+    add_line_forces(stencil, Sides::both, true, lines[1], lines[0], lines[2], stride, count);
+    benchmark::ClobberMemory();
+  }
+  using benchmark::Counter;
+  state.counters["per_brick"] =
+      Counter(count, Counter::kIsIterationInvariantRate | Counter::kInvert);
+}
+
 void sizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->ArgNames({"x", "y", "z"});
   benchmark->Args({28, 19, 1})->Args({18, 19, 1})->Args({77, 77, 1})->Args({46, 46, 46});
@@ -71,6 +98,7 @@ void sizes(benchmark::internal::Benchmark* benchmark) {
 
 BENCHMARK(element_product)->Apply(sizes);
 BENCHMARK(assembled_product)->Apply(sizes);
+BENCHMARK(brick_kernel)->ArgName("count")->Arg(1)->Arg(5)->Arg(18)->Arg(77)->Arg(200);
 
 }  // namespace
 }  // namespace pounding

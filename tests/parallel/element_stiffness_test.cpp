@@ -1,90 +1,30 @@
 #include "system/element_stiffness.h"
 
 #include <cmath>
-#include <random>
 
 #include <gtest/gtest.h>
 
-#include "common/parallel.h"
 #include "support/box_mesh.h"
-#include "support/built_system.h"
-#include "system/finite_element_system.h"
+#include "support/built_stiffness.h"
 
 namespace pounding {
 namespace {
 
-constexpr double young = 30e9;
-constexpr double density = 2400;
-
-struct Built {
-  Mesh mesh;
-  LinearSystem system;
-  std::unique_ptr<ElementStiffness> stiffness;
-};
-
-Built build(const GlobalMesh& global, const Structure& structure) {
-  testing::BuiltSystem assembled = testing::build_system(global, structure);
-  Built built{std::move(assembled.mesh), std::move(assembled.system), nullptr};
-  built.stiffness =
-      std::make_unique<ElementStiffness>(structure, built.mesh, std::move(built.system.stiffness));
-  return built;
-}
+using testing::build_stiffness;
+using testing::difference_to_assembled;
+using testing::move_nodes;
+using testing::random_field;
 
 Structure concrete(ElementType type = ElementType::hex8) {
-  return testing::solid_structure("box", young, 0.2, density, type);
-}
-
-/// One value per node of the file and component, whatever the number of ranks.
-std::vector<double> random_field(const Mesh& mesh, unsigned seed) {
-  std::vector<double> field(static_cast<std::size_t>(mesh.owned_dofs));
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    const auto number = static_cast<unsigned>(mesh.file_node[static_cast<std::size_t>(node)]);
-    std::mt19937 generator(seed + 7919 * number);
-    std::uniform_real_distribution<double> values(-1, 1);
-    for (int c = 0; c < 6; ++c) {
-      const double value = values(generator);
-      const LocalIndex dof = mesh.dof(node, c);
-      if (dof >= 0) field[static_cast<std::size_t>(dof)] = value;
-    }
-  }
-  return field;
-}
-
-/// Largest difference to the assembled product, over the largest force, on all ranks.
-double difference_to_assembled(const Built& built) {
-  std::array<double, 2> largest{0, 0};
-  for (unsigned seed = 1; seed <= 3; ++seed) {
-    std::vector<double> w = random_field(built.mesh, seed);
-    std::vector<double> expected(w.size(), 0.0);
-    std::vector<double> found(w.size(), NAN);
-    const VecHandle argument = wrap_vector(built.system, w);
-    const VecHandle assembled = wrap_vector(built.system, expected);
-    const VecHandle force = wrap_vector(built.system, found);
-    POUNDING_PETSC(MatMult(built.stiffness->matrix(), argument.get(), assembled.get()));
-    built.stiffness->apply(argument.get(), force.get());
-    for (std::size_t i = 0; i < w.size(); ++i) {
-      const double error = std::abs(found[i] - expected[i]);
-      largest[0] = std::isfinite(error) ? std::max(largest[0], error) : INFINITY;
-      largest[1] = std::max(largest[1], std::abs(expected[i]));
-    }
-  }
-  MPI_Allreduce(MPI_IN_PLACE, largest.data(), 2, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
-  return largest[0] / largest[1];
-}
-
-void move_nodes(GlobalMesh& mesh, const std::function<Vector3(Vector3)>& map) {
-  for (GlobalIndex node = 0; node < mesh.node_count(); ++node) {
-    const Vector3 x = map(mesh.position(node));
-    std::copy(x.begin(), x.end(), &mesh.coordinates[static_cast<std::size_t>(3 * node)]);
-  }
+  return testing::solid_structure("box", 30e9, 0.2, 2400, type);
 }
 
 constexpr double tolerance = 1e-13;
 
 TEST(ElementStiffness, FreeSlabOfBricks) {
   for (const ElementType type : {ElementType::hex8, ElementType::hex8_full}) {
-    const auto built =
-        build(testing::box_mesh({0, 0, 0}, {3, 2.4, 0.22}, {6, 5, 1}, type), concrete(type));
+    const auto built = build_stiffness(
+        testing::box_mesh({0, 0, 0}, {3, 2.4, 0.22}, {6, 5, 1}, type), concrete(type));
     EXPECT_EQ(built.stiffness->kinds().bricks, 30);
     EXPECT_EQ(built.stiffness->kinds().other, 0);
     EXPECT_LT(difference_to_assembled(built), tolerance);
@@ -93,8 +33,8 @@ TEST(ElementStiffness, FreeSlabOfBricks) {
 
 TEST(ElementStiffness, RowsOfEveryLength) {
   for (int cells = 1; cells <= 9; ++cells) {
-    const auto built =
-        build(testing::box_mesh({-1, 2, 0}, {0.3 * cells, 0.6, 0.5}, {cells, 2, 2}), concrete());
+    const auto built = build_stiffness(
+        testing::box_mesh({-1, 2, 0}, {0.3 * cells, 0.6, 0.5}, {cells, 2, 2}), concrete());
     EXPECT_LT(difference_to_assembled(built), tolerance) << cells << " cells";
   }
 }
@@ -103,7 +43,7 @@ TEST(ElementStiffness, ClampedFace) {
   for (const char* face : {"x_min", "z_min"}) {
     GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {2, 1, 1.5}, {7, 4, 5});
     testing::clamp(mesh, face);
-    const auto built = build(mesh, concrete());
+    const auto built = build_stiffness(mesh, concrete());
     EXPECT_EQ(built.stiffness->kinds().bricks, 140);
     EXPECT_LT(difference_to_assembled(built), tolerance);
   }
@@ -114,7 +54,7 @@ TEST(ElementStiffness, SingleComponentsClamped) {
   for (std::size_t i = 0; i < mesh.free_components.size(); ++i) {
     mesh.free_components[i] = static_cast<std::uint8_t>(1 + i % 7);
   }
-  EXPECT_LT(difference_to_assembled(build(mesh, concrete())), tolerance);
+  EXPECT_LT(difference_to_assembled(build_stiffness(mesh, concrete())), tolerance);
 }
 
 TEST(ElementStiffness, CellsOfTwoSizes) {
@@ -122,7 +62,7 @@ TEST(ElementStiffness, CellsOfTwoSizes) {
   move_nodes(mesh, [](Vector3 x) {
     return Vector3{x[0] + (x[0] > 2.5 ? 0.5 : 0), 0.5 * x[1] + (x[1] > 3.5 ? 0.1 : 0), x[2]};
   });
-  const auto built = build(mesh, concrete());
+  const auto built = build_stiffness(mesh, concrete());
   EXPECT_EQ(built.stiffness->kinds().bricks, 40);
   EXPECT_LT(difference_to_assembled(built), tolerance);
 }
@@ -134,7 +74,7 @@ TEST(ElementStiffness, NodesListedFromAnotherCorner) {
     std::rotate(&list[e], &list[e + 1], &list[e + 4]);
     std::rotate(&list[e + 4], &list[e + 5], &list[e + 8]);
   }
-  const auto built = build(mesh, concrete());
+  const auto built = build_stiffness(mesh, concrete());
   EXPECT_EQ(built.stiffness->kinds().bricks, 30);
   EXPECT_LT(difference_to_assembled(built), tolerance);
 }
@@ -147,7 +87,7 @@ TEST(ElementStiffness, BricksTurnedInSpace) {
     const Vector3 y{c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]};
     return Vector3{y[0], c * y[1] - s * y[2], s * y[1] + c * y[2]};
   });
-  const auto built = build(mesh, concrete());
+  const auto built = build_stiffness(mesh, concrete());
   EXPECT_EQ(built.stiffness->kinds().bricks, 70);
   EXPECT_LT(difference_to_assembled(built), tolerance);
 }
@@ -156,7 +96,7 @@ TEST(ElementStiffness, ShearedMeshSharesADenseMatrix) {
   GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {3, 2, 1}, {7, 5, 2});
   move_nodes(mesh, [](Vector3 x) { return Vector3{x[0] + 0.3 * x[1], x[1], x[2]}; });
   testing::clamp(mesh, "z_min");
-  const auto built = build(mesh, concrete());
+  const auto built = build_stiffness(mesh, concrete());
   EXPECT_GE(built.stiffness->kinds().congruent, 60);  // small ranks may hold too few of them
   EXPECT_EQ(built.stiffness->kinds().bricks, 0);
   EXPECT_LT(difference_to_assembled(built), tolerance);
@@ -168,7 +108,7 @@ TEST(ElementStiffness, DistortedMesh) {
     return Vector3{x[0] + 0.1 * std::sin(3 * x[1] + x[2]), x[1] + 0.1 * std::cos(2 * x[0] * x[2]),
                    x[2] + 0.05 * std::sin(5 * x[0])};
   });
-  const auto built = build(mesh, concrete());
+  const auto built = build_stiffness(mesh, concrete());
   EXPECT_EQ(built.stiffness->kinds().other, 60);
   EXPECT_LT(difference_to_assembled(built), tolerance);
 }
@@ -203,7 +143,7 @@ GlobalMesh slab_with_beams(Structure& structure) {
 TEST(ElementStiffness, SlabWithBeamsOnItsEdges) {
   Structure structure = concrete();
   const GlobalMesh mesh = slab_with_beams(structure);
-  const auto built = build(mesh, structure);
+  const auto built = build_stiffness(mesh, structure);
   EXPECT_EQ(built.stiffness->kinds().bricks, 63 - 4);
   EXPECT_EQ(built.stiffness->kinds().other, 4);
   EXPECT_EQ(built.stiffness->kinds().beams, 16);
@@ -213,8 +153,8 @@ TEST(ElementStiffness, SlabWithBeamsOnItsEdges) {
 TEST(ElementStiffness, SameBitsOnEveryProduct) {
   Structure structure = concrete();
   const GlobalMesh mesh = slab_with_beams(structure);
-  const auto built = build(mesh, structure);
-  const auto again = build(mesh, structure);
+  const auto built = build_stiffness(mesh, structure);
+  const auto again = build_stiffness(mesh, structure);
   const std::vector<double> w = random_field(built.mesh, 5);
   std::vector<double> first(w.size(), 1.0);
   std::vector<double> second(w.size(), 2.0);
@@ -228,7 +168,8 @@ TEST(ElementStiffness, SameBitsOnEveryProduct) {
 
 /// A structure of fewer nodes than ranks have room for leaves some ranks empty.
 TEST(ElementStiffness, OneBrickOnAllRanks) {
-  const auto built = build(testing::box_mesh({0, 0, 0}, {1, 2, 3}, {1, 1, 1}), concrete());
+  const auto built =
+      build_stiffness(testing::box_mesh({0, 0, 0}, {1, 2, 3}, {1, 1, 1}), concrete());
   EXPECT_EQ(built.stiffness->kinds().bricks, 1);
   EXPECT_LT(difference_to_assembled(built), tolerance);
 }

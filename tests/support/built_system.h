@@ -11,6 +11,14 @@ struct BuiltSystem {
   LinearSystem system;
 };
 
+/// Assembles one structure over all ranks of a communicator. Collective.
+inline BuiltSystem build_system(MPI_Comm comm, const GlobalMesh& global, const Structure& structure,
+                                const Partition& partition) {
+  BuiltSystem built{distribute_mesh(comm, structure.name, global, partition, 0), {}};
+  built.system = build_finite_element_system(structure, built.mesh);
+  return built;
+}
+
 /// Partitions and assembles one structure over all ranks, as the program does. Collective.
 inline BuiltSystem build_system(const GlobalMesh& global, const Structure& structure) {
   const MPI_Comm comm = PETSC_COMM_WORLD;
@@ -18,9 +26,7 @@ inline BuiltSystem build_system(const GlobalMesh& global, const Structure& struc
   if (rank_of(comm) == 0) {
     partition = partition_meshes({&global, 1}, {}, size_of(comm));
   }
-  BuiltSystem built{distribute_mesh(comm, structure.name, global, partition, 0), {}};
-  built.system = build_finite_element_system(structure, built.mesh);
-  return built;
+  return build_system(comm, global, structure, partition);
 }
 
 }  // namespace pounding::testing

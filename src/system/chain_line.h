@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+
+#include "elements/matrix3.h"
+#include "system/brick_kernel.h"
+#include "system/stiffness.h"
+
+/// Moves values between the dofs of nodes and the arrays that the bricks work on. Arrays are
+/// written up to lane_count - 1 values beyond their length.
+namespace pounding {
+
+/// Three arrays, one per component.
+struct ComponentArrays {
+  double* x = nullptr;
+  double* y = nullptr;
+  double* z = nullptr;
+};
+
+/// w of `count` nodes with dofs x, y, z in a row from places[p]. Reads one dof beyond each node.
+void load_nodes(const StiffnessArgument& w, const LocalIndex* places, int count,
+                const ComponentArrays& to);
+/// The same if the nodes' dofs follow each other from `first`: a row. Reads nothing else.
+void load_row(const StiffnessArgument& w, LocalIndex first, int count, const ComponentArrays& to);
+/// Two such rows: their sum, and the second one minus the first.
+void load_row_pair(const StiffnessArgument& w, std::array<LocalIndex, 2> first, int count,
+                   const ComponentArrays& sum, const ComponentArrays& difference);
+
+/// The way back: dof `first` stands at q[0].
+void store_nodes(const ComponentArrays& from, const LocalIndex* places, int count, LocalIndex first,
+                 double* q);
+void store_row(const ComponentArrays& from, int count, double* q);
+/// Of a pair: the near row, sum minus difference, or the far row, sum plus difference.
+void store_near_row(const ComponentArrays& sum, const ComponentArrays& difference, int count,
+                    double* q);
+void store_far_row(const ComponentArrays& sum, const ComponentArrays& difference, int count,
+                   double* q);
+
+/// Vectors v <- R v, or v <- R' v, in three arrays of a line from `line`.
+void rotate_vectors(const Matrix3& rotation, bool back, int count, std::ptrdiff_t stride,
+                    double* line);
+
+/// Displacements of a pair from those of its chains, which may lend it their lines.
+void split_pair(const double* near, const double* far, int count, std::ptrdiff_t stride,
+                const PairLine& pair);
+/// Forces of the chains, from those of a pair: set if they are the `first`, else added.
+void join_pair(const PairLine& pair, int count, std::ptrdiff_t stride, std::array<bool, 2> first,
+               double* near, double* far);
+
+}  // namespace pounding

@@ -1,0 +1,152 @@
+#include "system/element_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "common/parallel.h"
+#include "system/element_loop.h"
+
+namespace pounding {
+namespace {
+
+constexpr double congruence = 1e-10;  // of the shortest edge
+constexpr std::int64_t no_tag = std::numeric_limits<std::int64_t>::max();
+
+/// Shortest distance of a node from the first one of its element, per block over all ranks [m].
+std::vector<double> shortest_distances(const Mesh& mesh) {
+  ElementWork work;
+  std::vector<double> shortest;
+  for (const ElementBlock& block : mesh.blocks) {
+    double& distance = shortest.emplace_back(INFINITY);
+    for (std::size_t e = 0; is_hexahedron(block.type) && e < block.count(); ++e) {
+      const auto x = gather_coordinates(mesh, block, e, work);
+      for (std::size_t i = 3; i < x.size(); i += 3) {
+        distance = std::min(distance, std::hypot(x[i] - x[0], x[i + 1] - x[1], x[i + 2] - x[2]));
+      }
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, shortest.data(), static_cast<int>(shortest.size()), MPI_DOUBLE,
+                MPI_MIN, mesh.comm);
+  return shortest;
+}
+
+/// Boxes that fit in none of the frames so far: the first of them by its tag, and its axes.
+struct Candidate {
+  std::int64_t tag = no_tag;
+  Matrix3 axes{};
+};
+
+Candidate first_outside(const Mesh& mesh, const ElementBlock& block, const BrickFrames& frames) {
+  ElementWork work;
+  Candidate candidate;
+  for (std::size_t e = 0; e < block.count(); ++e) {
+    if (block.tags[e] >= candidate.tag) continue;
+    const auto x = gather_coordinates(mesh, block, e, work);
+    if (frames.recognise(x, congruence)) continue;
+    if (const auto axes = BrickFrames::axes_of_box(x, congruence)) {
+      candidate = {block.tags[e], *axes};
+    }
+  }
+  return candidate;
+}
+
+/// The candidate with the smallest tag on every rank. Collective.
+Candidate first_of_all(MPI_Comm comm, Candidate candidate) {
+  std::int64_t smallest = candidate.tag;
+  MPI_Allreduce(MPI_IN_PLACE, &smallest, 1, MPI_INT64_T, MPI_MIN, comm);
+  int rank = candidate.tag == smallest ? rank_of(comm) : size_of(comm);
+  MPI_Allreduce(MPI_IN_PLACE, &rank, 1, MPI_INT, MPI_MIN, comm);
+  MPI_Bcast(candidate.axes.data(), 9, MPI_DOUBLE, rank, comm);
+  return {smallest, candidate.axes};
+}
+
+}  // namespace
+
+ElementShapes::ElementShapes(const Mesh& mesh) : mesh_(mesh) {
+  find_frames();
+  const std::vector<double> shortest = shortest_distances(mesh);
+  bricks_.resize(mesh.blocks.size());
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    if (is_hexahedron(mesh.blocks[b].type)) find_bricks(b);
+    find_common_values(b, congruence * shortest[b]);
+  }
+}
+
+/// Block by block, each box that fits in no frame yet brings its own.
+void ElementShapes::find_frames() {
+  for (const ElementBlock& block : mesh_.blocks) {
+    while (is_hexahedron(block.type) && !frames_.full()) {
+      const Candidate next = first_of_all(mesh_.comm, first_outside(mesh_, block, frames_));
+      if (next.tag == no_tag) break;
+      frames_.add(next.axes);
+    }
+  }
+}
+
+void ElementShapes::find_bricks(std::size_t block) {
+  ElementWork work;
+  for (std::size_t e = 0; e < mesh_.blocks[block].count(); ++e) {
+    const auto x = gather_coordinates(mesh_, mesh_.blocks[block], e, work);
+    Brick none;
+    none.frame = -1;
+    bricks_[block].push_back(frames_.recognise(x, congruence).value_or(none));
+  }
+}
+
+void ElementShapes::find_common_values(std::size_t block, double tolerance) {
+  CommonValues& lengths = lengths_.emplace_back(tolerance);
+  CommonValues& distances = distances_.emplace_back(tolerance);
+  for (std::size_t e = 0; e < bricks_[block].size(); ++e) {
+    if (bricks_[block][e].frame >= 0) {
+      for (const double length : bricks_[block][e].lengths) lengths.add(length);
+    } else {
+      for (const double distance : own_coordinates(block, e)) distances.add(distance);
+    }
+  }
+  lengths.agree(mesh_.comm);
+  distances.agree(mesh_.comm);
+  for (Brick& brick : bricks_[block]) {
+    if (brick.frame < 0) continue;
+    for (double& length : brick.lengths) length = lengths(length);
+  }
+}
+
+const Brick* ElementShapes::brick(std::size_t block, std::size_t element) const {
+  const Brick& brick = bricks_[block][element];
+  return brick.frame >= 0 ? &brick : nullptr;
+}
+
+std::array<double, 24> ElementShapes::own_coordinates(std::size_t block,
+                                                      std::size_t element) const {
+  ElementWork work;
+  const auto x = gather_coordinates(mesh_, mesh_.blocks[block], element, work);
+  std::array<double, 24> relative{};
+  for (std::size_t i = 0; i < relative.size(); ++i) relative[i] = x[i] - x[i % 3];
+  return relative;
+}
+
+std::array<double, 24> ElementShapes::coordinates(std::size_t block, std::size_t element) const {
+  std::array<double, 24> x = own_coordinates(block, element);
+  const Brick* const box = brick(block, element);
+  if (box == nullptr) {
+    for (double& distance : x) distance = distances_[block](distance);
+    return x;
+  }
+  const Matrix3& r = frames_.axes(box->frame);
+  for (std::size_t bits = 0; bits < 8; ++bits) {
+    const auto node = static_cast<std::size_t>(box->corner[bits]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      x[3 * node + i] = 0;
+      for (std::size_t d = 0; d < 3; ++d) {
+        if ((bits >> d & 1) != 0) x[3 * node + i] += r[d][i] * box->lengths[d];
+      }
+    }
+  }
+  const std::array<double, 3> first{x[0], x[1], x[2]};
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] -= first[i % 3];
+  return x;
+}
+
+}  // namespace pounding
