@@ -16,8 +16,9 @@ void watch_divergence(const Model& model, const State& state, const EnergyLine& 
                       std::span<const StructureEnergy> structures);
 
 /// Throws DivergenceError if the energy identity, exact but for round-off, does not close: the
-/// state or the matrices are damaged. Round-off is that of the largest term [J] so far, and of the
-/// products K u, whose parts may be far larger than their sum: up to omega_max^2 u^T M u.
+/// state or the matrices are damaged. Round-off is that of the largest term [J] so far, of what one
+/// step of the load could do, and of the products K u, whose parts may be far larger than their
+/// sum: up to omega_max^2 u^T M u.
 void watch_identity(const Model& model, const EnergyLine& line,
                     std::span<const StructureEnergy> structures, double largest_term);
 

@@ -97,9 +97,9 @@ void BrickLines::load_chain(const ChainLoad& load, const StiffnessArgument& w,
     load_nodes(w, place, chain.length, to);
   } else {
     for (int p = 0; p < chain.length; ++p) {
-      to.x[p] = value_at(place[3 * p], owned_dofs_, w, ghosts);
-      to.y[p] = value_at(place[3 * p + 1], owned_dofs_, w, ghosts);
-      to.z[p] = value_at(place[3 * p + 2], owned_dofs_, w, ghosts);
+      to.x[p] = value_at(place[3 * p], owned_dofs_, w, ghosts) - w.origin[0];
+      to.y[p] = value_at(place[3 * p + 1], owned_dofs_, w, ghosts) - w.origin[1];
+      to.z[p] = value_at(place[3 * p + 2], owned_dofs_, w, ghosts) - w.origin[2];
     }
   }
   for (int p = chain.length; p < round_up(chain.length); ++p) to.x[p] = to.y[p] = to.z[p] = 0;

@@ -3,19 +3,26 @@
 namespace pounding {
 namespace {
 
-/// The argument at four dofs in a row.
+/// The argument at four dofs in a row, of which `first` is a direction.
+template <std::size_t first>
 inline void load_argument(const StiffnessArgument& w, LocalIndex dof, Lanes& values) {
   Lanes velocity;
   load(w.displacement + dof, values);
   load(w.velocity + dof, velocity);
   values += w.beta * velocity;
+  values -= Lanes{w.origin[first % 3], w.origin[(first + 1) % 3], w.origin[(first + 2) % 3],
+                  w.origin[first % 3]};
+}
+
+inline double load_component(const StiffnessArgument& w, LocalIndex node, std::size_t component) {
+  return w[node + static_cast<LocalIndex>(component)] - w.origin[component];
 }
 
 inline void load_node(const StiffnessArgument& w, LocalIndex dof, int p,
                       const ComponentArrays& to) {
-  to.x[p] = w[dof];
-  to.y[p] = w[dof + 1];
-  to.z[p] = w[dof + 2];
+  to.x[p] = load_component(w, dof, 0);
+  to.y[p] = load_component(w, dof, 1);
+  to.z[p] = load_component(w, dof, 2);
 }
 
 inline void store_node(const ComponentArrays& from, int p, double* q) {
@@ -28,10 +35,10 @@ inline void store_node(const ComponentArrays& from, int p, double* q) {
 inline void load_four(const StiffnessArgument& w, const LocalIndex* places, int p,
                       const ComponentArrays& to) {
   Lanes a, b, c, d;
-  load_argument(w, places[0], a);
-  load_argument(w, places[1], b);
-  load_argument(w, places[2], c);
-  load_argument(w, places[3], d);
+  load_argument<0>(w, places[0], a);
+  load_argument<0>(w, places[1], b);
+  load_argument<0>(w, places[2], c);
+  load_argument<0>(w, places[3], d);
   const Lanes xz_ab = __builtin_shuffle(a, b, LaneMask{0, 4, 2, 6});
   const Lanes xz_cd = __builtin_shuffle(c, d, LaneMask{0, 4, 2, 6});
   const Lanes y_ab = __builtin_shuffle(a, b, LaneMask{1, 5, 3, 7});
@@ -63,9 +70,9 @@ struct FourNodes {
 };
 
 inline void load_row_of_four(const StiffnessArgument& w, LocalIndex first, FourNodes& nodes) {
-  load_argument(w, first, nodes.a);
-  load_argument(w, first + 4, nodes.b);
-  load_argument(w, first + 8, nodes.c);
+  load_argument<0>(w, first, nodes.a);
+  load_argument<1>(w, first + 4, nodes.b);
+  load_argument<2>(w, first + 8, nodes.c);
 }
 
 inline void to_components(const FourNodes& nodes, int p, const ComponentArrays& to) {
@@ -160,12 +167,13 @@ void load_row_pair(const StiffnessArgument& w, std::array<LocalIndex, 2> first, 
       [&](int p) {
         const LocalIndex near = first[0] + 3 * p;
         const LocalIndex far = first[1] + 3 * p;
-        sum.x[p] = w[far] + w[near];
-        sum.y[p] = w[far + 1] + w[near + 1];
-        sum.z[p] = w[far + 2] + w[near + 2];
-        difference.x[p] = w[far] - w[near];
-        difference.y[p] = w[far + 1] - w[near + 1];
-        difference.z[p] = w[far + 2] - w[near + 2];
+        const auto at = [&](LocalIndex node, std::size_t c) { return load_component(w, node, c); };
+        sum.x[p] = at(far, 0) + at(near, 0);
+        sum.y[p] = at(far, 1) + at(near, 1);
+        sum.z[p] = at(far, 2) + at(near, 2);
+        difference.x[p] = at(far, 0) - at(near, 0);
+        difference.y[p] = at(far, 1) - at(near, 1);
+        difference.z[p] = at(far, 2) - at(near, 2);
       });
 }
 

@@ -17,7 +17,8 @@ struct ComponentArrays {
   double* z = nullptr;
 };
 
-/// w of `count` nodes with dofs x, y, z in a row from places[p]. Reads one dof beyond each node.
+/// w, less its origin, of `count` nodes with dofs x, y, z in a row from places[p]. Reads one dof
+/// beyond each node.
 void load_nodes(const StiffnessArgument& w, const LocalIndex* places, int count,
                 const ComponentArrays& to);
 /// The same if the nodes' dofs follow each other from `first`: a row. Reads nothing else.

@@ -86,6 +86,10 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
         ghosts[static_cast<std::size_t>(dof - mesh.owned_dofs)] = mesh.dof_global(node, c);
     }
   }
+  for (LocalIndex node = 0; node < mesh.owned_nodes && origin_dof_ < 0; ++node) {
+    const bool moves = (mesh.free_components[static_cast<std::size_t>(node)] & 0x7) == 0x7;
+    origin_dof_ = moves ? mesh.dof(node, 0) : -1;
+  }
   halo_ = std::make_unique<Halo>(mesh.comm, mesh.first_owned_dof, mesh.owned_dofs, ghosts);
   const ElementShapes shapes(mesh);
   on_every_rank(mesh.comm, [&] {
@@ -169,16 +173,25 @@ void ElementStiffness::finish(const StiffnessArgument& w, ForceReceiver& receive
   for (const LocalIndex dof : general_dofs_) argument_[static_cast<std::size_t>(dof)] = w[dof];
   sparse_->add_owned(argument_.data(), q);
   add_general(inner_);
-  for (const BrickLines& bricks : inner_.bricks) bricks.apply(w, ghosts, q, receiver);
+  const StiffnessArgument shifted = relative_to_origin(w);
+  for (const BrickLines& bricks : inner_.bricks) bricks.apply(shifted, ghosts, q, receiver);
   halo_->end();
   std::copy(ghosts, ghosts + halo_->ghost_count(), argument_.begin() + owned_dofs_);
   add_general(outer_);
   sparse_->add_ghosts(ghosts, q);
-  for (const BrickLines& bricks : outer_.bricks) bricks.apply(w, ghosts, q, receiver);
+  for (const BrickLines& bricks : outer_.bricks) bricks.apply(shifted, ghosts, q, receiver);
   for (const DofRange& range : late_ranges_) {
     receiver.receive(range.begin, range.end, q + range.begin);
     std::fill(q + range.begin, q + range.end, 0.0);
   }
+}
+
+/// Bricks do not feel a translation: that of one node is taken off before K multiplies its digits.
+StiffnessArgument ElementStiffness::relative_to_origin(StiffnessArgument w) const {
+  for (std::size_t d = 0; d < 3 && origin_dof_ >= 0; ++d) {
+    w.origin[d] = w[origin_dof_ + static_cast<LocalIndex>(d)];
+  }
+  return w;
 }
 
 void ElementStiffness::add_general(const Part& part) const {

@@ -59,8 +59,10 @@ class ElementStiffness final : public Stiffness {
   };
   void plan();
   void add_general(const Part& part) const;
+  StiffnessArgument relative_to_origin(StiffnessArgument w) const;
 
   LocalIndex owned_dofs_ = 0;
+  LocalIndex origin_dof_ = -1;  ///< first of x, y, z of a node that moves freely; -1: there is none
   std::unique_ptr<Stiffness> assembled_;
   std::unique_ptr<Halo> halo_;
   Part inner_;                            ///< elements of owned nodes only

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -13,6 +14,9 @@ struct StiffnessArgument {
   const double* displacement = nullptr;  ///< u [m, rad]
   const double* velocity = nullptr;      ///< v [m/s, rad/s]
   double beta = 0;                       ///< [s]
+  /// A translation [m] that elements which do not feel it may take off first: what is left of a
+  /// body far from where it started has more digits.
+  std::array<double, 3> origin{};
 
   double operator[](std::size_t dof) const { return displacement[dof] + beta * velocity[dof]; }
   double operator[](LocalIndex dof) const { return (*this)[static_cast<std::size_t>(dof)]; }
