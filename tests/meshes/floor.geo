@@ -1,0 +1,16 @@
+// A square of n x n shells at height z, edge `side` [m]. Group: plate.
+DefineConstant[ z = 0, side = 1, n = 1 ];
+Point(1) = {0, 0, z};
+Point(2) = {side, 0, z};
+Point(3) = {side, side, z};
+Point(4) = {0, side, z};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Transfinite Curve {1 : 4} = n + 1;
+Curve Loop(1) = {1 : 4};
+Plane Surface(1) = {1};
+Transfinite Surface {1};
+Recombine Surface {1};
+Physical Surface("plate") = {1};
