@@ -1,6 +1,7 @@
 #include "common/parallel.h"
 
 #include <stdexcept>
+#include <sys/resource.h>
 
 #include "common/error.h"
 
@@ -34,6 +35,12 @@ int rank_of(MPI_Comm comm) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   return rank;
+}
+
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);  // the kernel counts in KiB
 }
 
 int size_of(MPI_Comm comm) {

@@ -12,6 +12,9 @@ namespace pounding {
 int rank_of(MPI_Comm comm);
 int size_of(MPI_Comm comm);
 
+/// Largest resident memory of this process so far [bytes].
+double peak_memory();
+
 /// The string of rank 0 on every rank. Collective.
 void broadcast(MPI_Comm comm, std::string& text);
 

@@ -10,6 +10,7 @@
 #include "mesh/gmsh_reader.h"
 #include "modal/stability_limit.h"
 #include "system/finite_element_system.h"
+#include "system/matrix_system.h"
 
 namespace pounding {
 namespace {
@@ -89,7 +90,9 @@ Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile) {
     {
       const ScopedTimer timer(profile, Phase::assembly);
       model.systems.push_back(
-          build_finite_element_system(scene.structures[s], mesh, scene.stiffness));
+          scene.structures[s].fidelity == Fidelity::matrices
+              ? build_matrix_system(scene.structures[s], mesh)
+              : build_finite_element_system(scene.structures[s], mesh, scene.stiffness));
     }
     const ScopedTimer timer(profile, Phase::modes);
     const LinearSystem& system = model.systems.back();

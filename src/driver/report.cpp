@@ -32,8 +32,10 @@ void print_time_step_limit(const Model& model, std::size_t s) {
   const LinearSystem& system = model.systems[s];
   std::printf("  omega_max %.4e rad/s (bound from single elements %.4e)\n",
               model.largest[s].omega_max, system.element_frequency_bound);
-  std::printf("    at %s\n    stiffest: %s\n", model.largest[s].location.c_str(),
-              system.stiffest_element.c_str());
+  std::printf("    at %s\n", model.largest[s].location.c_str());
+  if (!system.stiffest_element.empty()) {
+    std::printf("    stiffest: %s\n", system.stiffest_element.c_str());
+  }
   std::printf(
       "  stable time step %.4e s (bound from single elements %.4e), without damping %.4e s\n",
       model.stable_time_step[s], system.element_time_step_bound, 2 / model.largest[s].omega_max);

@@ -9,6 +9,7 @@
 #include "common/floating_point.h"
 #include "common/parallel.h"
 #include "driver/floor_spectra.h"
+#include "driver/matrix_export.h"
 #include "driver/model.h"
 #include "driver/report.h"
 #include "driver/run_identity.h"
@@ -84,6 +85,9 @@ void run_scene(MPI_Comm comm, const Scene& scene, const std::string& resolved) {
   const Model model = build_model(comm, scene, profile);
   if (root) {
     print_model(scene, model);
+  }
+  if (!scene.export_matrices.empty()) {
+    export_matrices(comm, scene, model);
   }
   const RunIdentity identity = identity_of(resolved, model);
   const std::optional<SavedState> restart = read_restart(comm, scene, model, identity);

@@ -16,6 +16,7 @@ struct RunStatistics {
   double wall_time = 0;                 ///< of everything [s]
   double step_time = 0;                 ///< of the time loop [s]
   std::int64_t steps = 0;               ///< that it made: after the checkpoint if it continues one
+  double peak_memory = 0;               ///< largest resident memory, all ranks together [bytes]
   EnergyLine energy;                    ///< last line
   double energy_residual = 0;           ///< largest, relative to the largest term [-]
   double complementarity_residual = 0;  ///< largest [-]

@@ -117,6 +117,7 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
   summary["wall_time"] = statistics.wall_time;
   summary["microseconds_per_step"] =
       1e6 * statistics.step_time / static_cast<double>(std::max<std::int64_t>(1, statistics.steps));
+  summary["peak_memory"] = statistics.peak_memory;
   for (int phase = 0; phase < static_cast<int>(Phase::count); ++phase) {
     summary["phases"][phase_name(static_cast<Phase>(phase))] =
         statistics.phase_seconds[static_cast<std::size_t>(phase)];

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
-#include <sstream>
 #include <unistd.h>
 
 #include "common/error.h"
@@ -239,6 +238,8 @@ void TimeLoop::fill(RunStatistics& statistics) const {
     statistics.interface_ranks = contact_->members();
     statistics.complementarity_residual = contact_->largest_residual();
   }
+  statistics.peak_memory = peak_memory();
+  MPI_Allreduce(MPI_IN_PLACE, &statistics.peak_memory, 1, MPI_DOUBLE, MPI_SUM, comm_);
   double residual = statistics.complementarity_residual;
   MPI_Allreduce(MPI_IN_PLACE, &residual, 1, MPI_DOUBLE, MPI_MAX, comm_);
   statistics.complementarity_residual = residual;

@@ -46,6 +46,7 @@ constexpr std::array table{
     OptionRow{Block::run, "output", Kind::text, "folder", value("results"), any, "a folder", "result folder"},
     OptionRow{Block::run, "checkpoint_interval", Kind::real, "s", value("0"), not_negative, "", "wall time between two checkpoints; 0: one only when a signal stops the run"},
     OptionRow{Block::run, "checkpoint_steps", Kind::integer, "steps", value("0"), not_negative, "", "steps between two checkpoints; 0: none"},
+    OptionRow{Block::run, "export_matrices", Kind::text, "folder", value("none"), any, "a folder or none", "writes the matrices of every structure there, with contact, influence and probe rows"},
     OptionRow{Block::run, "restart", Kind::text, "file", value("none"), any, "a checkpoint.h5 or none", "checkpoint to continue from, with the history.h5 beside it"},
     OptionRow{Block::run, "stiffness", Kind::choice, "word", value("auto"), any, "auto|assembled|element", "how K is applied: as a matrix, element by element, or by what the mesh is"},
     OptionRow{Block::run, "resampling", Kind::choice, "word", value("linear"), any, "linear|band_limited", "how records are upsampled to the time step"},
@@ -53,7 +54,8 @@ constexpr std::array table{
     OptionRow{Block::structure, "<structure>_mesh", Kind::text, "file", required, any, "a .geo or .msh file", "geometry to mesh (.geo) or mesh"},
     OptionRow{Block::structure, "<structure>_mesh_set", Kind::text, "pairs", value("none"), any, "name=value,name=value or none", "parameters of the .geo file"},
     OptionRow{Block::structure, "<structure>_clamp", Kind::names, "names", value("none"), any, "", "physical groups fixed to the ground"},
-    OptionRow{Block::structure, "<structure>_fidelity", Kind::choice, "word", value("full"), any, "full", "how the structure is represented"},
+    OptionRow{Block::structure, "<structure>_fidelity", Kind::choice, "word", value("full"), any, "full|matrices", "how the structure is represented: by its elements, or by matrices from files"},
+    OptionRow{Block::structure, "<structure>_matrices", Kind::text, "folder", absent("required for matrices"), any, "a folder with dofs.csv, stiffness.mtx, mass.mtx", "its matrices, in place of its elements' own; the mesh says where faces and probes are"},
     OptionRow{Block::structure, "<structure>_initial_displacement", Kind::reals, "m", value("0,0,0"), any, "three numbers x,y,z", "of every free node at t = 0"},
     OptionRow{Block::structure, "<structure>_initial_velocity", Kind::reals, "m/s", value("0,0,0"), any, "three numbers x,y,z", "of every free node at t = 0"},
     OptionRow{Block::structure, "<structure>_gravity", Kind::reals, "m/s2", value("0,0,0"), any, "three numbers x,y,z", "constant body acceleration, applied at once at t = 0"},
@@ -124,7 +126,7 @@ constexpr std::array petsc_patterns = std::to_array<std::string_view>({
 // What does not touch the motion nor its records; the time step itself is compared, not its options.
 constexpr std::array changeable_on_restart = std::to_array<std::string_view>({
     "title", "end_time", "courant", "time_step", "allow_unstable", "modes", "dry_run", "output",
-    "checkpoint_interval", "checkpoint_steps", "restart", "spectra_damping", "spectra_frequencies"});
+    "checkpoint_interval", "checkpoint_steps", "export_matrices", "restart", "spectra_damping", "spectra_frequencies"});
 // clang-format on
 
 }  // namespace

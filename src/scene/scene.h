@@ -51,9 +51,14 @@ struct Region {
   std::optional<Rayleigh> damping;    ///< in place of the structure's
 };
 
+/// How a structure is represented: by the finite elements of its mesh, or by matrices from files.
+enum class Fidelity { full, matrices };
+
 struct Structure {
   std::string name;
-  std::string mesh;                                           ///< .geo or .msh
+  Fidelity fidelity = Fidelity::full;
+  std::string matrices;  ///< folder, see system/matrix_system.h
+  std::string mesh;      ///< .geo or .msh
   std::vector<std::pair<std::string, std::string>> mesh_set;  ///< parameters of a .geo
   std::vector<std::string> clamp;  ///< physical groups fixed to the ground
   std::vector<Region> regions;
@@ -154,6 +159,7 @@ struct Scene {
   bool dry_run = false;
   double checkpoint_interval = 0;  ///< wall time between checkpoints [s]; 0: none
   int checkpoint_steps = 0;        ///< steps between checkpoints; 0: none
+  std::string export_matrices;     ///< folder for the matrices of the scene; empty: none
   std::string restart;             ///< checkpoint to continue from; empty: a new run
   std::string output;              ///< result folder
 };

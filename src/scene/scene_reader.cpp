@@ -61,6 +61,8 @@ class SceneReader {
     scene_.output = options_.text("output");
     scene_.checkpoint_interval = options_.real("checkpoint_interval");
     scene_.checkpoint_steps = options_.integer("checkpoint_steps");
+    const std::string folder = options_.text("export_matrices");
+    scene_.export_matrices = folder == "none" ? "" : folder;
     const std::string restart = options_.text("restart");
     scene_.restart = restart == "none" ? "" : restart;
     const std::string method = options_.choice("stiffness");

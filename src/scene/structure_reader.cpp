@@ -206,6 +206,28 @@ void require_elements(const OptionReader& options, const std::string& structure,
   }
 }
 
+void read_fidelity(OptionReader& options, Structure& structure) {
+  const Names names{structure.name};
+  if (options.choice("<structure>_fidelity", names) == "full") {
+    options.forbid("<structure>_matrices", names,
+                   "the structure is made of elements; give -" + structure.name +
+                       "_fidelity matrices, or leave it out");
+    return;
+  }
+  structure.fidelity = Fidelity::matrices;
+  structure.matrices = options.text("<structure>_matrices", names);
+}
+
+/// Matrices do not know which of their rows buckle.
+void forbid_tension_bars(const OptionReader& options, const Structure& structure) {
+  for (const Region& region : structure.regions) {
+    if (structure.fidelity == Fidelity::matrices && region.element == ElementType::tension_bar) {
+      options.refuse("<structure>_<group>_tension_only", {structure.name, region.group},
+                     "not with -" + structure.name + "_fidelity matrices");
+    }
+  }
+}
+
 }  // namespace
 
 Structure read_structure(OptionReader& options, const std::string& name) {
@@ -214,7 +236,7 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   structure.mesh = options.text("<structure>_mesh", {name});
   structure.mesh_set = read_mesh_set(options, name);
   structure.clamp = options.list("<structure>_clamp", {name});
-  options.choice("<structure>_fidelity", {name});
+  read_fidelity(options, structure);
   structure.initial_displacement = read_vector(options, "<structure>_initial_displacement", {name});
   structure.initial_velocity = read_vector(options, "<structure>_initial_velocity", {name});
   structure.gravity = read_vector(options, "<structure>_gravity", {name});
@@ -224,6 +246,7 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   for (const std::string& group : groups) {
     structure.regions.push_back(read_region(options, {name, group}, structure.damping));
   }
+  forbid_tension_bars(options, structure);
   return structure;
 }
 

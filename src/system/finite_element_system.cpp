@@ -283,30 +283,11 @@ ElementProperties element_properties(const Region& region) {
 
 LinearSystem build_finite_element_system(const Structure& structure, const Mesh& mesh,
                                          StiffnessMethod method) {
-  LinearSystem system;
-  system.name = structure.name;
-  system.comm = mesh.comm;
-  system.damping = structure.damping;
-  system.initial_displacement = structure.initial_displacement;
-  system.initial_velocity = structure.initial_velocity;
-  system.gravity = structure.gravity;
+  LinearSystem system = describe_system(structure, mesh);
   system.tension_bars = TensionBars::build(structure, mesh);
-  system.global_dofs = mesh.global_dofs;
   Assembly(structure, mesh, system).run();
   choose_stiffness(structure, mesh, method, system);
-  system.inverse_mass.resize(system.lumped_mass.size());
-  for (std::size_t i = 0; i < system.lumped_mass.size(); ++i) {
-    system.inverse_mass[i] = 1 / system.lumped_mass[i];
-  }
-  system.direction.assign(system.lumped_mass.size(), -1);
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    for (int d = 0; d < 3; ++d) {
-      const LocalIndex dof = mesh.dof(node, d);
-      if (dof >= 0) {
-        system.direction[static_cast<std::size_t>(dof)] = static_cast<std::int8_t>(d);
-      }
-    }
-  }
+  finish_system(mesh, system);
   return system;
 }
 

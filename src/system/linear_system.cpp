@@ -10,6 +10,34 @@ std::vector<double> LinearSystem::influence(int d) const {
   return iota;
 }
 
+LinearSystem describe_system(const Structure& structure, const Mesh& mesh) {
+  LinearSystem system;
+  system.name = structure.name;
+  system.comm = mesh.comm;
+  system.damping = structure.damping;
+  system.initial_displacement = structure.initial_displacement;
+  system.initial_velocity = structure.initial_velocity;
+  system.gravity = structure.gravity;
+  system.global_dofs = mesh.global_dofs;
+  return system;
+}
+
+void finish_system(const Mesh& mesh, LinearSystem& system) {
+  system.inverse_mass.resize(system.lumped_mass.size());
+  for (std::size_t i = 0; i < system.lumped_mass.size(); ++i) {
+    system.inverse_mass[i] = 1 / system.lumped_mass[i];
+  }
+  system.direction.assign(system.lumped_mass.size(), -1);
+  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
+    for (int d = 0; d < 3; ++d) {
+      const LocalIndex dof = mesh.dof(node, d);
+      if (dof >= 0) {
+        system.direction[static_cast<std::size_t>(dof)] = static_cast<std::int8_t>(d);
+      }
+    }
+  }
+}
+
 VecHandle wrap_vector(const LinearSystem& system, std::vector<double>& storage) {
   VecHandle vector;
   POUNDING_PETSC(VecCreateMPIWithArray(system.comm, 1, system.owned_dofs(), PETSC_DECIDE,

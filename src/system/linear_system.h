@@ -8,6 +8,7 @@
 #include <mpi.h>
 
 #include "common/types.h"
+#include "mesh/mesh.h"
 #include "scene/scene.h"
 #include "system/stiffness.h"
 #include "system/tension_bars.h"
@@ -56,6 +57,12 @@ struct LinearSystem {
   std::vector<double> influence(int d) const;
   LocalIndex owned_dofs() const { return static_cast<LocalIndex>(lumped_mass.size()); }
 };
+
+/// What a structure's options and its mesh say of its system, nothing assembled yet.
+LinearSystem describe_system(const Structure& structure, const Mesh& mesh);
+
+/// Once the lumped mass is complete: its inverse, and the directions of the dofs.
+void finish_system(const Mesh& mesh, LinearSystem& system);
 
 /// Distributed vector over the owned dofs that uses `storage` as its memory (size: owned_dofs).
 VecHandle wrap_vector(const LinearSystem& system, std::vector<double>& storage);

@@ -138,4 +138,4 @@ def assert_follows(test, found, reference, tolerance, label):
     test.assertGreaterEqual(len(found), len(reference), label)
     scale = abs(reference).max()
     test.assertGreater(scale, 0, label)
-    test.assertLessEqual(abs(found[:len(reference)] - reference).max(), tolerance * scale, label)
+    test.assertLessEqual(abs(found[:len(reference)] - reference).max() / scale, tolerance, label)

@@ -1,0 +1,32 @@
+"""Error against cost of every setting of run/tradeoff, above the noise floor."""
+
+from . import style
+
+
+def draw(summary: list, path) -> None:
+    """`summary`: a row per setting, as tradeoffs.study.summarised gives them."""
+    figure, axes = style.plt.subplots(figsize=(style.WIDTH, 5.5))
+    savings = [row for row in summary if not row["noise"] and row["rms"] > 0]
+    noise = [row["rms"] for row in summary if row["noise"] and row["rms"] > 0]
+    full = [row for row in summary if row["setting"] == "full"]
+    if noise:
+        axes.axhspan(min(noise), max(noise), color="#DDDDDD", zorder=0,
+                     label="noise floor: shaking + 0.1 %, gaps + 0.01 mm, half the step")
+    for row in full:
+        axes.axvline(row["per_second"], color="#666666", linewidth=1, linestyle="--", label="full order")
+    best = float("inf")
+    for row in sorted(savings, key=lambda row: row["per_second"]):
+        on_front = row["rms"] < best
+        best = min(best, row["rms"])
+        axes.plot(row["per_second"], row["rms"], "o", color="#0072B2" if on_front else "#9A9A9A", zorder=3)
+        axes.annotate(row["setting"], (row["per_second"], row["rms"]), xytext=(5, 4),
+                      textcoords="offset points", fontsize=8)
+    style.log_scale(axes, "x", [row["per_second"] for row in summary])
+    if savings:
+        style.log_scale(axes, "y", [row["rms"] for row in savings] + noise)
+    axes.axvline(1.0, color="#B2182B", linewidth=1, linestyle=":", label="as fast as the earthquake")
+    axes.set_xlabel("wall time per second of motion [s/s]")
+    axes.set_ylabel("rms of ln(spectrum / reference), floor 2, 1-400 Hz [-]")
+    axes.legend(loc="upper right")
+    figure.savefig(path)
+    style.plt.close(figure)

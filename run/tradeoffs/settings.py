@@ -1,0 +1,49 @@
+"""What is compared: the reference, the same scene disturbed by next to nothing, and every saving."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Setting:
+    """`changes`: options beside those of the case, as {name: value}; `gap` [m] is added to every gap and
+    `pga` multiplies the ground motion. `noise`: a disturbance, no saving. `file` replaces the case's
+    options file where the model is another."""
+
+    name: str
+    what: str
+    changes: tuple = ()
+    gap: float = 0.0
+    pga: float = 1.0
+    noise: bool = False
+    shells: bool = False
+
+
+def both(option: str, value) -> tuple:
+    """The same for the two buildings."""
+    return ((f"s1_{option}", value), (f"s2_{option}", value))
+
+
+REFERENCE = Setting("full", "full order, hexahedra, 0.9 of the stable step")
+
+NOISE = [
+    Setting("noise-pga", "shaking + 0.1 %", pga=1.001, noise=True),
+    Setting("noise-gap", "gaps + 0.01 mm", gap=1e-5, noise=True),
+    Setting("noise-step", "half the time step", (("courant", 0.45),), noise=True),
+]
+
+# Stiffness damping of the frames left out: the slabs keep theirs.
+SLAB_BETA = (("s1_damping_beta", 0), ("s1_slab_damping_alpha", 0.1562), ("s1_slab_damping_beta", 1.2557e-5),
+             ("s2_damping_beta", 0), ("s2_slab_damping_alpha", 0.2723), ("s2_slab_damping_beta", 1.2426e-5))
+COARSE = (("s1_mesh_set", "cells_x=14,cells_y=10,column_elements=5"),
+          ("s2_mesh_set", "cells_x=9,cells_y=10,column_elements=5"))
+COARSER = (("s1_mesh_set", "cells_x=7,cells_y=5,column_elements=2"),
+           ("s2_mesh_set", "cells_x=5,cells_y=5,column_elements=2"))
+
+SAVINGS = [
+    Setting("courant-0.99", "0.99 of the stable step", (("courant", 0.99),)),
+    Setting("ledger", "energy ledger every 2000 steps", (("energy_interval", 2000),)),
+    Setting("slab-beta", "beta in the slabs only", SLAB_BETA),
+    Setting("shells", "slabs of shells (Model B)", shells=True),
+    Setting("coarse", "24 cm mesh", COARSE),
+    Setting("coarser", "48 cm mesh", COARSER),
+]

@@ -1,0 +1,221 @@
+#include "driver/matrix_export.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <numeric>
+
+#include "common/error.h"
+#include "common/parallel.h"
+#include "output/csv_file.h"
+#include "system/matrix_market.h"
+
+namespace pounding {
+namespace {
+
+/// A free dof as it stands in dofs.csv.
+struct Dof {
+  GlobalIndex node = 0;  ///< file order
+  int component = 0;
+  GlobalIndex number = 0;  ///< PETSc's
+  Vector3 position{0, 0, 0};
+  double mass = 0;
+};
+
+/// All values on rank 0, in the order of the ranks. Collective.
+template <typename Value>
+std::vector<Value> gathered(MPI_Comm comm, std::vector<Value> mine) {
+  if (rank_of(comm) != 0) {
+    send_array(comm, 0, mine);
+    return {};
+  }
+  for (int rank = 1; rank < size_of(comm); ++rank) {
+    std::vector<Value> others;
+    receive_array(comm, rank, others);
+    mine.insert(mine.end(), others.begin(), others.end());
+  }
+  return mine;
+}
+
+/// One structure's files; on rank 0 it knows all dofs.
+class Export {
+ public:
+  Export(MPI_Comm comm, const Scene& scene, const Model& model, std::size_t structure)
+      : comm_(comm), scene_(scene), model_(model), structure_(structure) {
+    const Mesh& mesh = model.meshes[structure];
+    std::vector<Dof> mine;
+    for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
+      for (int c = 0; c < 6; ++c) {
+        const LocalIndex dof = mesh.dof(node, c);
+        if (dof >= 0) {
+          mine.push_back({mesh.file_node[static_cast<std::size_t>(node)], c,
+                          mesh.dof_global(node, c), mesh.position(node),
+                          model.systems[structure].lumped_mass[static_cast<std::size_t>(dof)]});
+        }
+      }
+    }
+    dofs_ = gathered(comm, std::move(mine));
+    std::ranges::sort(dofs_, {}, [](const Dof& dof) { return std::pair(dof.node, dof.component); });
+    place_.resize(dofs_.size());
+    for (std::size_t i = 0; i < dofs_.size(); ++i) {
+      place_[static_cast<std::size_t>(dofs_[i].number)] = static_cast<PetscInt>(i);
+    }
+  }
+
+  void write() {
+    const LinearSystem& system = model_.systems[structure_];
+    const std::string folder = scene_.export_matrices + "/" + system.name + "/";
+    on_rank0(comm_, [&] {
+      std::error_code failure;
+      std::filesystem::create_directories(folder, failure);
+      if (failure) {
+        throw UserError("option -export_matrices " + scene_.export_matrices +
+                        ": the folder cannot be created or written");
+      }
+      write_dofs(folder);
+      write_influence(folder);
+      write_contact(folder);
+      write_probes(folder);
+    });
+    write_square(folder + "stiffness.mtx", "stiffness, N/m and so on", system.stiffness->matrix());
+    if (system.extra_damping) {
+      write_square(folder + "damping.mtx", "damping beside alpha M + beta K, N s/m and so on",
+                   system.extra_damping->matrix());
+    }
+  }
+
+ private:
+  PetscInt size() const { return static_cast<PetscInt>(dofs_.size()); }
+
+  void write_dofs(const std::string& folder) const {
+    constexpr std::array<const char*, 6> components{"ux", "uy", "uz", "rx", "ry", "rz"};
+    CsvFile file(folder + "dofs.csv");
+    file.comment("rows of the matrices of " + model_.systems[structure_].name + "; m");
+    file.header("x,y,z,component");
+    std::vector<MatrixEntry> masses;
+    for (const Dof& dof : dofs_) {
+      char place[96];
+      std::snprintf(place, sizeof place, "%.17g,%.17g,%.17g,%s", dof.position[0], dof.position[1],
+                    dof.position[2], components[static_cast<std::size_t>(dof.component)]);
+      file.row(place, {});
+      masses.push_back({static_cast<PetscInt>(masses.size()), 0, dof.mass});
+    }
+    file.close();
+    write_matrix(folder + "mass.mtx", "lumped masses, kg and kg m2", {size(), 1}, masses);
+  }
+
+  void write_influence(const std::string& folder) const {
+    std::vector<MatrixEntry> entries;
+    for (std::size_t i = 0; i < dofs_.size(); ++i) {
+      if (dofs_[i].component < 3) {
+        entries.push_back({static_cast<PetscInt>(i), dofs_[i].component, 1});
+      }
+    }
+    write_matrix(folder + "influence.mtx", "columns: ground motion along x, y, z", {size(), 3},
+                 entries);
+  }
+
+  /// Row of a node's component, -1 if it is clamped.
+  PetscInt row_of(GlobalIndex node, int component) const {
+    const auto found =
+        std::ranges::lower_bound(dofs_, std::pair(node, component), {},
+                                 [](const Dof& dof) { return std::pair(dof.node, dof.component); });
+    const bool here = found != dofs_.end() && found->node == node && found->component == component;
+    return here ? static_cast<PetscInt>(found - dofs_.begin()) : -1;
+  }
+
+  void write_contact(const std::string& folder) const {
+    std::vector<MatrixEntry> entries;
+    CsvFile gaps(folder + "gaps.csv");
+    gaps.comment("initial gap of every row of contact.mtx, g = g0 + L u; m");
+    gaps.header("contact,initial_gap");
+    PetscInt row = 0;
+    for (const Constraint& constraint : model_.interface.constraints) {
+      for (const ConstraintTerm& term : constraint.terms) {
+        const bool mine = term.structure == static_cast<int>(structure_);
+        const PetscInt column = mine ? row_of(term.node, term.component) : -1;
+        if (column >= 0) {
+          entries.push_back({row, column, term.coefficient});
+        }
+      }
+      gaps.row(scene_.contacts[static_cast<std::size_t>(constraint.contact)].name,
+               {constraint.initial_gap});
+      ++row;
+    }
+    gaps.close();
+    write_matrix(folder + "contact.mtx", "this structure's columns of L", {row, size()}, entries);
+  }
+
+  void write_probes(const std::string& folder) const {
+    std::vector<MatrixEntry> entries;
+    CsvFile names(folder + "probes.csv");
+    names.header("row");
+    PetscInt row = 0;
+    for (const ResolvedProbe& probe : model_.probes) {
+      if (probe.structure != static_cast<int>(structure_)) {
+        continue;
+      }
+      for (int d = 0; d < 3; ++d, ++row) {
+        names.row(probe.name + "." + direction_names[static_cast<std::size_t>(d)], {});
+        for (const GlobalIndex node : probe.nodes) {
+          const PetscInt column = row_of(node, d);
+          if (column >= 0) {
+            entries.push_back({row, column, 1 / static_cast<double>(probe.nodes.size())});
+          }
+        }
+      }
+    }
+    names.close();
+    write_matrix(folder + "probes.mtx", "displacement of the probes, rows as in probes.csv",
+                 {row, size()}, entries);
+  }
+
+  void write_square(const std::string& path, const std::string& comment, Mat matrix) const {
+    std::vector<MatrixEntry> mine;
+    PetscInt begin = 0;
+    PetscInt end = 0;
+    POUNDING_PETSC(MatGetOwnershipRange(matrix, &begin, &end));
+    for (PetscInt row = begin; row < end; ++row) {
+      PetscInt count = 0;
+      const PetscInt* columns = nullptr;
+      const double* values = nullptr;
+      POUNDING_PETSC(MatGetRow(matrix, row, &count, &columns, &values));
+      for (PetscInt k = 0; k < count; ++k) {
+        mine.push_back({row, columns[k], values[k]});
+      }
+      POUNDING_PETSC(MatRestoreRow(matrix, row, &count, &columns, &values));
+    }
+    std::vector<MatrixEntry> all = gathered(comm_, std::move(mine));
+    on_rank0(comm_, [&] {
+      for (MatrixEntry& entry : all) {
+        entry.row = place_[static_cast<std::size_t>(entry.row)];
+        entry.column = place_[static_cast<std::size_t>(entry.column)];
+      }
+      std::ranges::sort(
+          all, {}, [](const MatrixEntry& entry) { return std::pair(entry.row, entry.column); });
+      write_matrix(path, comment, {size(), size()}, all);
+    });
+  }
+
+  MPI_Comm comm_;
+  const Scene& scene_;
+  const Model& model_;
+  std::size_t structure_;
+  std::vector<Dof> dofs_;        ///< rank 0: by node in file order
+  std::vector<PetscInt> place_;  ///< rank 0: of PETSc's numbers in dofs_
+};
+
+}  // namespace
+
+void export_matrices(MPI_Comm comm, const Scene& scene, const Model& model) {
+  for (std::size_t s = 0; s < model.systems.size(); ++s) {
+    if (model.systems[s].tension_bars) {
+      throw UserError("option -export_matrices: structure " + model.systems[s].name +
+                      " has tension-only bars, which no matrix holds");
+    }
+    Export(comm, scene, model, s).write();
+  }
+}
+
+}  // namespace pounding

@@ -1,0 +1,338 @@
+#include "system/matrix_system.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+#include "common/error.h"
+#include "common/parallel.h"
+#include "mesh/location.h"
+#include "system/critical_time_step.h"
+#include "system/matrix_market.h"
+
+namespace pounding {
+namespace {
+
+constexpr std::array<const char*, 6> component_names{"ux", "uy", "uz", "rx", "ry", "rz"};
+/// Positions of a row and of a node that differ by less than this part of the mesh are the same.
+constexpr double same_place = 1e-6;
+/// Largest |K_ij - K_ji| over the largest |K_ij| that is taken for round-off.
+constexpr double unsymmetric = 1e-9;
+
+/// What a row of the matrices stands for.
+struct Row {
+  Vector3 position{0, 0, 0};
+  int component = 0;
+};
+
+std::vector<Row> read_rows(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) {
+    throw UserError(path + ": no such file, or it cannot be read");
+  }
+  std::vector<Row> rows;
+  std::string line;
+  for (long number = 1; std::getline(file, line); ++number) {
+    std::ranges::replace(line, ',', ' ');
+    std::istringstream words(line);
+    Row row;
+    std::string component;
+    if (line.empty() || line[0] == '#' || line.starts_with("x y z")) {
+      continue;
+    }
+    words >> row.position[0] >> row.position[1] >> row.position[2] >> component;
+    const auto found = std::ranges::find(component_names, component);
+    if (!words || found == component_names.end()) {
+      throw UserError(path + ", line " + std::to_string(number) +
+                      ": expected x,y,z,component with a component ux, uy, uz, rx, ry or rz");
+    }
+    row.component = static_cast<int>(found - component_names.begin());
+    rows.push_back(row);
+  }
+  if (rows.empty()) {
+    throw UserError(path + ": no rows");
+  }
+  return rows;
+}
+
+/// Finds the nodes of this rank by position.
+class NodeFinder {
+ public:
+  explicit NodeFinder(const Mesh& mesh) : mesh_(mesh) {
+    order_.resize(static_cast<std::size_t>(mesh.node_count()));
+    std::iota(order_.begin(), order_.end(), LocalIndex{0});
+    std::ranges::sort(order_, {}, [&](LocalIndex node) { return mesh.position(node)[0]; });
+    std::array<double, 2> ends{1e300, 1e300};  // smallest x, minus the largest, and so on
+    for (std::size_t d = 0; d < 3; ++d) {
+      ends = {1e300, 1e300};
+      for (const LocalIndex node : order_) {
+        ends = {std::min(ends[0], mesh.position(node)[d]),
+                std::min(ends[1], -mesh.position(node)[d])};
+      }
+      MPI_Allreduce(MPI_IN_PLACE, ends.data(), 2, MPI_DOUBLE, MPI_MIN, mesh.comm);
+      tolerance_ = std::max(tolerance_, same_place * -(ends[0] + ends[1]));
+    }
+  }
+
+  /// Local node at a position, -1 if this rank has none there.
+  LocalIndex at(const Vector3& x) const {
+    const auto coordinate = [&](LocalIndex node) { return mesh_.position(node)[0]; };
+    for (auto near = std::ranges::lower_bound(order_, x[0] - tolerance_, {}, coordinate);
+         near != order_.end() && coordinate(*near) <= x[0] + tolerance_; ++near) {
+      const Vector3 p = mesh_.position(*near);
+      if (std::abs(p[1] - x[1]) <= tolerance_ && std::abs(p[2] - x[2]) <= tolerance_) {
+        return *near;
+      }
+    }
+    return -1;
+  }
+
+ private:
+  const Mesh& mesh_;
+  std::vector<LocalIndex> order_;  ///< by x
+  double tolerance_ = 0;           ///< [m]
+};
+
+/// Reads the folder and builds the system from it.
+class MatrixSystem {
+ public:
+  MatrixSystem(const Structure& structure, const Mesh& mesh)
+      : folder_(structure.matrices), mesh_(mesh) {
+    on_every_rank(mesh.comm, [&] { rows_ = read_rows(folder_ + "/dofs.csv"); });
+    find_dofs();
+  }
+
+  void fill(LinearSystem& system) {
+    on_every_rank(mesh_.comm, [&] { read_mass(system); });
+    MPI_Allreduce(MPI_IN_PLACE, &system.total_mass, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm);
+    system.stiffness = std::make_unique<AssembledStiffness>(read_square("stiffness"));
+    check_symmetry(system.stiffness->matrix());
+    if (!path_of("damping").empty()) {
+      system.extra_damping = std::make_unique<AssembledStiffness>(read_square("damping"));
+    }
+    bound_frequency(system);
+  }
+
+ private:
+  /// The file of a matrix; empty if there is none.
+  std::string path_of(const std::string& name) const {
+    for (const char* extension : {".mtx", ".petsc"}) {
+      const std::string path = folder_ + "/" + name + extension;
+      if (std::filesystem::exists(path)) {
+        return path;
+      }
+    }
+    return "";
+  }
+
+  std::string needed_path_of(const std::string& name) const {
+    const std::string path = path_of(name);
+    if (path.empty()) {
+      throw UserError(folder_ + ": neither " + name + ".mtx nor " + name + ".petsc is there");
+    }
+    return path;
+  }
+
+  /// Row by row the dof that it is; every free dof of the mesh must have one row.
+  void find_dofs() {
+    const NodeFinder finder(mesh_);
+    std::vector<int> known(rows_.size(), 0);
+    std::vector<PetscInt> times(static_cast<std::size_t>(mesh_.owned_dofs), 0);
+    number_.assign(rows_.size(), -1);
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      const LocalIndex node = finder.at(rows_[row].position);
+      known[row] = node >= 0 ? 1 : 0;
+      if (node >= 0 && node < mesh_.owned_nodes) {
+        const LocalIndex dof = mesh_.dof(node, rows_[row].component);
+        number_[row] = static_cast<PetscInt>(mesh_.dof_global(node, rows_[row].component));
+        times[static_cast<std::size_t>(std::max(dof, 0))] += dof >= 0 ? 1 : 0;
+      }
+    }
+    const int count = static_cast<int>(rows_.size());
+    MPI_Allreduce(MPI_IN_PLACE, known.data(), count, MPI_INT, MPI_MAX, mesh_.comm);
+    MPI_Allreduce(MPI_IN_PLACE, number_.data(), count, MPIU_INT, MPI_MAX, mesh_.comm);
+    on_every_rank(mesh_.comm, [&] {
+      for (std::size_t row = 0; row < rows_.size(); ++row) {
+        if (known[row] == 0) {
+          const Vector3& x = rows_[row].position;
+          std::ostringstream text;
+          text << folder_ << "/dofs.csv: no node of the mesh of " << mesh_.structure << " is at ("
+               << x[0] << ", " << x[1] << ", " << x[2] << ")";
+          throw UserError(text.str());
+        }
+      }
+      check_dofs(times);
+    });
+    const auto first = static_cast<PetscInt>(mesh_.first_owned_dof);
+    for (const PetscInt number : number_) {
+      const bool owned = number >= first && number < first + mesh_.owned_dofs;
+      owned_dof_.push_back(owned ? number - first : -1);
+    }
+  }
+
+  void check_dofs(const std::vector<PetscInt>& times) const {
+    for (LocalIndex node = 0; node < mesh_.owned_nodes; ++node) {
+      for (int c = 0; c < 6; ++c) {
+        const LocalIndex dof = mesh_.dof(node, c);
+        if (dof >= 0 && times[static_cast<std::size_t>(dof)] != 1) {
+          const Vector3 x = mesh_.position(node);
+          std::ostringstream text;
+          text << folder_ << "/dofs.csv: "
+               << (times[static_cast<std::size_t>(dof)] == 0 ? "no row" : "more than one row")
+               << " for " << component_names[static_cast<std::size_t>(c)] << " of the node at ("
+               << x[0] << ", " << x[1] << ", " << x[2] << ") of " << mesh_.structure;
+          throw UserError(text.str());
+        }
+      }
+    }
+  }
+
+  void check_size(const std::string& path, const MatrixSize& size, bool vector) const {
+    const auto rows = static_cast<PetscInt>(rows_.size());
+    if (size.rows != rows || (size.columns != rows && !(vector && size.columns == 1))) {
+      throw UserError(path + ": " + std::to_string(size.rows) + " x " +
+                      std::to_string(size.columns) + ", but dofs.csv has " +
+                      std::to_string(rows_.size()) + " rows");
+    }
+  }
+
+  /// A row number beyond dofs.csv is reported by its size, not read.
+  bool inside(const MatrixEntry& entry, bool vector) const {
+    const auto rows = static_cast<PetscInt>(rows_.size());
+    return entry.row < rows && (entry.column < rows || vector);
+  }
+
+  void read_mass(LinearSystem& system) const {
+    system.lumped_mass.assign(static_cast<std::size_t>(mesh_.owned_dofs), 0.0);
+    std::vector<double> row_sum(rows_.size(), 0.0);
+    std::vector<double> diagonal(rows_.size(), 0.0);
+    std::vector<double> column(rows_.size(), 0.0);
+    const std::string path = needed_path_of("mass");
+    const MatrixSize size = read_matrix(path, [&](const MatrixEntry& entry) {
+      if (!inside(entry, false)) {
+        return;
+      }
+      const auto i = static_cast<std::size_t>(entry.row);
+      const auto j = static_cast<std::size_t>(entry.column);
+      row_sum[i] += rows_[i].component == rows_[j].component ? entry.value : 0;
+      diagonal[i] += i == j ? entry.value : 0;
+      column[i] += j == 0 ? entry.value : 0;
+    });
+    check_size(path, size, true);
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+      const double lumped = rows_[row].component < 3 ? row_sum[row] : diagonal[row];
+      const double mass = size.columns == 1 && size.rows > 1 ? column[row] : lumped;
+      system.total_mass += rows_[row].component == 0 ? mass : 0;
+      if (owned_dof_[row] >= 0) {
+        system.lumped_mass[static_cast<std::size_t>(owned_dof_[row])] = mass;
+      }
+      if (number_[row] >= 0 && !(mass > 0)) {
+        throw UserError(path + ": row " + std::to_string(row + 1) +
+                        " has no mass; the step needs one that is positive at every free dof");
+      }
+    }
+  }
+
+  MatHandle read_square(const std::string& name) const {
+    std::vector<std::vector<std::pair<PetscInt, double>>> entries(
+        static_cast<std::size_t>(mesh_.owned_dofs));
+    on_every_rank(mesh_.comm, [&] {
+      const std::string path = needed_path_of(name);
+      const MatrixSize size = read_matrix(path, [&](const MatrixEntry& entry) {
+        if (inside(entry, false) && owned_dof_[static_cast<std::size_t>(entry.row)] >= 0 &&
+            number_[static_cast<std::size_t>(entry.column)] >= 0) {
+          entries[static_cast<std::size_t>(owned_dof_[static_cast<std::size_t>(entry.row)])]
+              .emplace_back(number_[static_cast<std::size_t>(entry.column)], entry.value);
+        }
+      });
+      check_size(path, size, false);
+    });
+    return assemble(entries);
+  }
+
+  MatHandle assemble(const std::vector<std::vector<std::pair<PetscInt, double>>>& entries) const {
+    const auto first = static_cast<PetscInt>(mesh_.first_owned_dof);
+    std::vector<PetscInt> own;
+    std::vector<PetscInt> other;
+    for (const auto& row : entries) {
+      const auto mine = std::ranges::count_if(row, [&](const auto& entry) {
+        return entry.first >= first && entry.first < first + mesh_.owned_dofs;
+      });
+      own.push_back(static_cast<PetscInt>(mine));
+      other.push_back(static_cast<PetscInt>(row.size()) - own.back());
+    }
+    MatHandle matrix;
+    POUNDING_PETSC(MatCreateAIJ(mesh_.comm, mesh_.owned_dofs, mesh_.owned_dofs, PETSC_DETERMINE,
+                                PETSC_DETERMINE, 0, own.data(), 0, other.data(), matrix.out()));
+    POUNDING_PETSC(MatSetOption(matrix.get(), MAT_USE_INODES, PETSC_FALSE));
+    POUNDING_PETSC(MatSetOption(matrix.get(), MAT_SYMMETRIC, PETSC_TRUE));
+    for (std::size_t row = 0; row < entries.size(); ++row) {
+      for (const auto& [column, value] : entries[row]) {
+        POUNDING_PETSC(MatSetValue(matrix.get(), first + static_cast<PetscInt>(row), column, value,
+                                   ADD_VALUES));
+      }
+    }
+    POUNDING_PETSC(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
+    POUNDING_PETSC(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
+    return matrix;
+  }
+
+  void check_symmetry(Mat matrix) const {
+    MatHandle transposed;
+    POUNDING_PETSC(MatTranspose(matrix, MAT_INITIAL_MATRIX, transposed.out()));
+    POUNDING_PETSC(MatAXPY(transposed.get(), -1, matrix, DIFFERENT_NONZERO_PATTERN));
+    double difference = 0;
+    double size = 0;
+    POUNDING_PETSC(MatNorm(transposed.get(), NORM_INFINITY, &difference));
+    POUNDING_PETSC(MatNorm(matrix, NORM_INFINITY, &size));
+    if (difference > unsymmetric * size) {
+      std::ostringstream text;
+      text << needed_path_of("stiffness") << ": not symmetric, the sums of |K_ij - K_ji| reach "
+           << difference << " where those of |K_ij| reach " << size;
+      throw UserError(text.str());
+    }
+  }
+
+  /// Gershgorin on M^-1/2 K M^-1/2: no omega^2 is beyond the largest sum of |K_ij| (m_i m_j)^-1/2
+  /// over a row.
+  void bound_frequency(LinearSystem& system) const {
+    std::vector<double> root;
+    for (const double mass : system.lumped_mass) {
+      root.push_back(1 / std::sqrt(mass));
+    }
+    const VecHandle scale = wrap_vector(system, root);
+    MatHandle scaled;
+    POUNDING_PETSC(MatDuplicate(system.stiffness->matrix(), MAT_COPY_VALUES, scaled.out()));
+    POUNDING_PETSC(MatDiagonalScale(scaled.get(), scale.get(), scale.get()));
+    double square = 0;
+    POUNDING_PETSC(MatNorm(scaled.get(), NORM_INFINITY, &square));
+    system.element_frequency_bound = std::sqrt(square);
+    system.element_time_step_bound =
+        system.extra_damping
+            ? 0
+            : critical_time_step(system.damping.alpha + system.damping.beta * square, square);
+  }
+
+  std::string folder_;
+  const Mesh& mesh_;
+  std::vector<Row> rows_;
+  std::vector<PetscInt> number_;     ///< per row of the files, global dof; -1: clamped
+  std::vector<PetscInt> owned_dof_;  ///< local dof, -1: of another rank, or clamped
+};
+
+}  // namespace
+
+LinearSystem build_matrix_system(const Structure& structure, const Mesh& mesh) {
+  LinearSystem system = describe_system(structure, mesh);
+  MatrixSystem(structure, mesh).fill(system);
+  finish_system(mesh, system);
+  system.stiffness_method = "assembled, from " + structure.matrices;
+  return system;
+}
+
+}  // namespace pounding

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "mesh/mesh.h"
+#include "scene/scene.h"
+#include "system/linear_system.h"
+
+namespace pounding {
+
+/// A structure from matrices that another code made: `structure.matrices` is a folder with
+///
+///     dofs.csv        one line per row of the matrices: x, y, z [m], component (ux ... rz)
+///     stiffness.mtx   K [N/m, N, N m]
+///     mass.mtx        M [kg, kg m2]: a column of lumped masses, or a matrix, which is then lumped
+///     by
+///                     the sums of its rows over each component
+///     damping.mtx     optional: D beside alpha M + beta K [N s/m]
+///
+/// each .mtx, or the same name with .petsc in PETSc's binary format. The mesh says where faces and
+/// probes are and what is clamped: rows find their dofs by position and component; rows of clamped
+/// dofs are left out. Throws UserError on every rank alike. Collective.
+LinearSystem build_matrix_system(const Structure& structure, const Mesh& mesh);
+
+}  // namespace pounding

@@ -1,0 +1,167 @@
+"""Matrices written by one run and read back by another: the same building, to the last digits.
+
+The two-storey pair on a coarse mesh, which hits within the window, with its own damping in one region
+so that all three matrices are there. With the assembled product what differs is round-off. Without a
+matrix, bricks that are equal to 1e-10 share one shape, which shows in the eleventh digit.
+"""
+import os
+import shutil
+import tempfile
+import unittest
+
+import numpy
+import scipy.io
+import scipy.sparse
+
+import program
+from recorded import Recorded, assert_follows
+
+STEPS = ["-end_time", 0.1, "-s1_initial_velocity", "0.5,0,0", "-time_step", 1.5e-5,
+         "-floor2_gap", "0.004,0.003", "-s1_slab_damping_beta", 2e-5,
+         "-s1_slab_damping_alpha", 0.1562]
+PAIR = program.COARSE_PAIR + STEPS
+IDENTITY = 1e-11  # with a region's own damping; measured: 2e-12
+
+
+class Matrices(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp(prefix="pounding-matrices-")
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def export(self, ranks):
+        place = os.path.join(self.folder, f"of-{ranks}")
+        if not os.path.exists(place):
+            result = program.run(PAIR + ["-dry_run", "-export_matrices", place], ranks)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        return place
+
+    def from_files(self, place):
+        return PAIR + ["-s1_fidelity", "matrices", "-s1_matrices", f"{place}/s1",
+                       "-s2_fidelity", "matrices", "-s2_matrices", f"{place}/s2"]
+
+    def matrix(self, place, name):
+        return scipy.sparse.csr_matrix(scipy.io.mmread(os.path.join(place, name)))
+
+    def test_histories_from_the_files(self):
+        place = self.export(1)
+        own = Recorded(self, PAIR + ["-stiffness", "assembled"], identity=IDENTITY)
+        without = Recorded(self, PAIR, identity=IDENTITY)
+        assert_follows(self, without.displacement("s2_floor2.x"), own.displacement("s2_floor2.x"),
+                       1e-10, "without a matrix")
+        self.assertGreater(own.summary["impacts"]["episodes"], 0)
+        for ranks in (1, 2, 3):
+            with self.subTest(ranks=ranks):
+                read = Recorded(self, self.from_files(place), ranks, IDENTITY)
+                self.assertEqual(read.time_step, own.time_step)
+                self.assertEqual(read.summary["impacts"]["episodes"],
+                                 own.summary["impacts"]["episodes"])
+                for channel in ("s1_floor2.x", "s2_floor2.x", "s2_floor1.x"):
+                    assert_follows(self, read.displacement(channel), own.displacement(channel),
+                                   1e-12, channel)
+                    assert_follows(self, read.velocity(channel), own.velocity(channel), 1e-11,
+                                   channel)
+
+    def test_files_do_not_depend_on_the_ranks(self):
+        one, three = self.export(1), self.export(3)
+        for name in ("s1/dofs.csv", "s2/contact.mtx", "s2/gaps.csv", "s1/probes.mtx"):
+            with open(os.path.join(one, name)) as a, open(os.path.join(three, name)) as b:
+                self.assertEqual(a.read(), b.read(), name)
+        for name in ("s1/stiffness.mtx", "s1/damping.mtx", "s2/stiffness.mtx"):
+            a, b = self.matrix(one, name), self.matrix(three, name)
+            self.assertLessEqual(float(abs(a - b).max() / abs(a).max()), 1e-13, name)
+
+    def test_a_rigid_motion_needs_no_force(self):
+        """Beside the clamped feet: K times a translation is zero at every dof that no foot holds."""
+        place = self.export(1)
+        stiffness = self.matrix(place, "s2/stiffness.mtx")
+        influence = self.matrix(place, "s2/influence.mtx")
+        with open(os.path.join(place, "s2/dofs.csv")) as file:
+            rows = [line.split(",") for line in file if line[0] not in "#x"]
+        height = numpy.array([float(row[2]) for row in rows])
+        force = abs(stiffness @ influence[:, 0]).toarray().ravel()
+        above = height > 2.3
+        self.assertLess(float(force[above].max() / abs(stiffness).max()), 1e-9)
+        contact = self.matrix(place, "s2/contact.mtx")
+        self.assertTrue(numpy.allclose((contact @ influence[:, 0]).toarray(), 1))  # all along +x
+        probes = self.matrix(place, "s2/probes.mtx")
+        self.assertTrue(numpy.allclose((probes @ influence).toarray(),
+                                       numpy.tile(numpy.eye(3), (2, 1))))
+
+    def test_a_consistent_mass_is_lumped(self):
+        place = os.path.join(self.folder, "consistent")
+        shutil.copytree(self.export(1), place)
+        for name in ("s1", "s2"):
+            path = os.path.join(place, name, "mass.mtx")
+            lumped = numpy.asarray(scipy.io.mmread(path).todense()).ravel()
+            scipy.io.mmwrite(path, scipy.sparse.diags(lumped), symmetry="symmetric", precision=17)
+        own = Recorded(self, PAIR + ["-end_time", 0.02, "-stiffness", "assembled"], identity=IDENTITY)
+        read = Recorded(self, self.from_files(place) + ["-end_time", 0.02], identity=IDENTITY)
+        assert_follows(self, read.displacement("s2_floor2.x"), own.displacement("s2_floor2.x"),
+                       1e-12, "s2_floor2.x")
+
+    def refused(self, change, words=()):
+        """What the program says of files that `change` spoiled."""
+        place = tempfile.mkdtemp(prefix="spoiled-", dir=self.folder)
+        shutil.rmtree(place)
+        shutil.copytree(self.export(1), place)
+        change(os.path.join(place, "s2"))
+        for ranks in (1, 2):
+            result = program.run(self.from_files(place) + list(words) + ["-output", place], ranks)
+            self.assertEqual(result.returncode, 1)
+            lines = program.error_lines(result)
+            self.assertEqual(len(lines), 1, result.stderr)
+        return lines[0]
+
+    def test_spoiled_files_are_refused(self):
+        def rewritten(name, change):
+            def spoil(folder):
+                path = os.path.join(folder, name)
+                with open(path) as file:
+                    lines = file.read().splitlines()
+                with open(path, "w") as file:
+                    file.write("\n".join(change(lines)) + "\n")
+            return spoil
+
+        def moved(lines):
+            return lines[:2] + ["9,9,9,ux"] + lines[3:]
+
+        cases = [
+            (lambda folder: os.remove(os.path.join(folder, "mass.mtx")), "neither mass.mtx"),
+            (lambda folder: os.remove(os.path.join(folder, "dofs.csv")), "dofs.csv: no such file"),
+            (rewritten("dofs.csv", moved), "no node of the mesh of s2 is at (9, 9, 9)"),
+            (rewritten("dofs.csv", lambda lines: lines[:2] + lines[3:]), "no row for ux"),
+            (rewritten("dofs.csv", lambda lines: lines + [lines[-1]]), "more than one row for uz"),
+            (rewritten("stiffness.mtx", lambda lines: lines[:-1]), "the file ends too early"),
+            (rewritten("stiffness.mtx", lambda lines: ["%%nothing"] + lines[1:]),
+             "line 1: expected '%%MatrixMarket"),
+            (rewritten("stiffness.mtx", lambda lines: lines[:4] + ["1 2 1e12"] + lines[5:]),
+             "not symmetric"),
+            (rewritten("stiffness.mtx", lambda lines: lines[:4] + ["1 2 nan"] + lines[5:]),
+             "not finite"),
+            (rewritten("mass.mtx", lambda lines: lines[:-1] + [lines[-1].split()[0] + " 1 0"]),
+             "has no mass"),
+        ]
+        for change, expected in cases:
+            with self.subTest(expected):
+                self.assertIn(expected, self.refused(change))
+
+    def test_options_that_do_not_go_together(self):
+        for words, expected in (
+                (["-s1_matrices", "here"], "-s1_matrices"),
+                (["-s1_fidelity", "matrices"], "missing option -s1_matrices"),
+                (["-s1_fidelity", "matrices", "-s1_matrices", "nowhere"], "nowhere/dofs.csv"),
+                (["-s1_fidelity", "matrices", "-s1_matrices", "x", "-s1_brace1_tension_only", "true"],
+                 "tension_only")):
+            with self.subTest(expected):
+                result = program.run(PAIR + words + ["-output", self.folder], 2)
+                self.assertEqual(result.returncode, 1)
+                self.assertEqual(len(program.error_lines(result)), 1, result.stderr)
+                self.assertIn(expected, program.error_lines(result)[0])
+
+
+if __name__ == "__main__":
+    unittest.main()
