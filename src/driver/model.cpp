@@ -85,18 +85,23 @@ Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile) {
   on_every_rank(
       comm, [&] { model.motion = std::make_unique<GroundMotion>(scene.motion, scene.resampling); });
   build_meshes(comm, scene, profile, model);
+  const bool exported = !scene.export_matrices.empty();
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     const Mesh& mesh = model.meshes[s];
     {
       const ScopedTimer timer(profile, Phase::assembly);
-      model.systems.push_back(
-          scene.structures[s].fidelity == Fidelity::matrices
-              ? build_matrix_system(scene.structures[s], mesh)
-              : build_finite_element_system(scene.structures[s], mesh, scene.stiffness));
+      model.systems.push_back(scene.structures[s].fidelity == Fidelity::matrices
+                                  ? build_matrix_system(scene.structures[s], mesh)
+                                  : build_finite_element_system(scene.structures[s], mesh,
+                                                                scene.stiffness,
+                                                                scene.modes > 0 || exported));
     }
     const ScopedTimer timer(profile, Phase::modes);
     const LinearSystem& system = model.systems.back();
     model.modal.push_back(lowest_modes(system, mesh, scene.modes));
+    if (!exported) {
+      system.stiffness->release_matrix();
+    }
     model.largest.push_back(largest_frequency(system, mesh));
     model.stable_time_step.push_back(
         system.extra_damping ? stability_limit(system, mesh)

@@ -9,6 +9,7 @@
 #include "common/parallel.h"
 #include "mesh/location.h"
 #include "modal/eigen_solver.h"
+#include "modal/scaled_operator.h"
 
 namespace pounding {
 namespace {
@@ -128,6 +129,7 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
   PC factorisation = nullptr;
   POUNDING_PETSC(EPSGetST(solver.get(), &transform));
   POUNDING_PETSC(STSetType(transform, STSINVERT));
+  POUNDING_PETSC(STSetMatMode(transform, ST_MATMODE_INPLACE));  // no second copy to shift
   POUNDING_PETSC(STGetKSP(transform, &factorised));
   POUNDING_PETSC(KSPSetType(factorised, KSPPREONLY));
   POUNDING_PETSC(KSPGetPC(factorised, &factorisation));
@@ -155,8 +157,8 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
 }
 
 LargestFrequency largest_frequency(const LinearSystem& system, const Mesh& mesh) {
-  const MatHandle matrix = mass_scaled(system, system.stiffest_matrix());
-  const LargestEigenpair pair = largest_eigenpair(system, mesh, matrix.get(), "omega_max");
+  const ScaledOperator scaled(system, {{1, &system.stiffest()}});
+  const LargestEigenpair pair = largest_eigenpair(system, mesh, scaled.matrix(), "omega_max");
   LargestFrequency result;
   result.omega_max = std::sqrt(pair.value + pair.error);
   result.location = locate_largest(mesh, pair.vector);

@@ -32,11 +32,13 @@ struct LargestFrequency {
 /// The lowest `count` modes by SLEPc's Krylov-Schur on M^-1/2 K M^-1/2, shift-and-invert with a
 /// Cholesky factorisation (MUMPS), the shift just below zero so that free structures pass.
 /// Frequencies of rigid-body modes come out as 0. Participation: Gamma = phi^T M iota, effective
-/// mass Gamma^2. Throws std::runtime_error when SLEPc finds fewer than asked. Collective.
+/// mass Gamma^2. Needs the matrix of the system unless `count` is 0. Throws std::runtime_error when
+/// SLEPc finds fewer than asked. Collective.
 ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count);
 
-/// omega_max by Krylov-Schur on the same matrix, largest real. Ritz values approach from below, so
-/// the residual norm (a bound of the error in omega^2) is added. Collective.
+/// omega_max by Krylov-Schur on the same matrix, of which it needs products only, largest real.
+/// Ritz values approach from below, so the residual norm (a bound of the error in omega^2) is
+/// added. Collective.
 LargestFrequency largest_frequency(const LinearSystem& system, const Mesh& mesh);
 
 }  // namespace pounding

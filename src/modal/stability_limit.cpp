@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 #include "modal/eigen_solver.h"
+#include "modal/scaled_operator.h"
 #include "system/critical_time_step.h"
 
 namespace pounding {
@@ -14,51 +16,35 @@ namespace {
 class ScaledProblem {
  public:
   ScaledProblem(const LinearSystem& system, const Mesh& mesh)
-      : system_(system), mesh_(mesh), stiffness_(mass_scaled(system, system.stiffest_matrix())) {
+      : system_(system), mesh_(mesh), stiffness_(system, {{1, &system.stiffest()}}) {
     if (system.extra_damping) {
-      extra_damping_ = mass_scaled(system, system.extra_damping->matrix());
+      extra_damping_ = std::make_unique<ScaledOperator>(
+          system, std::vector<ScaledOperator::Term>{{1, system.extra_damping.get()}});
     }
   }
 
   /// The largest eigenvalue of A(dt).
   LargestEigenpair largest(double dt) const {
     const auto [alpha, beta] = system_.damping;
-    MatHandle matrix;
-    POUNDING_PETSC(MatDuplicate(stiffness_.get(), MAT_COPY_VALUES, matrix.out()));
-    POUNDING_PETSC(MatScale(matrix.get(), 2 * dt * beta + dt * dt));
-    if (extra_damping_.get() != nullptr) {
-      POUNDING_PETSC(MatAXPY(matrix.get(), 2 * dt, extra_damping_.get(), SUBSET_NONZERO_PATTERN));
-    }
-    POUNDING_PETSC(MatShift(matrix.get(), 2 * dt * alpha));
-    return largest_eigenpair(system_, mesh_, matrix.get(), "the stable time step");
+    std::vector<ScaledOperator::Term> terms{{2 * dt * beta + dt * dt, &system_.stiffest()}};
+    if (system_.extra_damping) terms.push_back({2 * dt, system_.extra_damping.get()});
+    const ScaledOperator scaled(system_, terms, 2 * dt * alpha);
+    return largest_eigenpair(system_, mesh_, scaled.matrix(), "the stable time step");
   }
 
   /// Where a motion y, |y| = 1, becomes unstable.
   double critical(std::vector<double>& y) const {
-    const double square = quotient(stiffness_.get(), y);
+    const double square = stiffness_.quotient(y);
     double rate = system_.damping.alpha + system_.damping.beta * square;
-    if (extra_damping_.get() != nullptr) {
-      rate += quotient(extra_damping_.get(), y);
-    }
+    if (extra_damping_) rate += extra_damping_->quotient(y);
     return critical_time_step(std::max(0.0, rate), std::max(0.0, square));
   }
 
  private:
-  /// y^T A y.
-  double quotient(Mat matrix, std::vector<double>& y) const {
-    const VecHandle vector = wrap_vector(system_, y);
-    VecHandle product;
-    double value = 0;
-    POUNDING_PETSC(VecDuplicate(vector.get(), product.out()));
-    POUNDING_PETSC(MatMult(matrix, vector.get(), product.get()));
-    POUNDING_PETSC(VecDot(vector.get(), product.get(), &value));
-    return value;
-  }
-
   const LinearSystem& system_;
   const Mesh& mesh_;
-  MatHandle stiffness_;
-  MatHandle extra_damping_;
+  ScaledOperator stiffness_;
+  std::unique_ptr<ScaledOperator> extra_damping_;
 };
 
 }  // namespace

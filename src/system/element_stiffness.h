@@ -33,7 +33,8 @@ struct ElementKinds {
 /// differs by round-off, and by the 1e-10 of the shortest edge to which shapes count as congruent.
 class ElementStiffness final : public Stiffness {
  public:
-  /// `assembled` keeps the matrix for eigenvalues; may be null, then matrix() is. Collective.
+  /// `assembled` lends its matrix to those who ask for it; may be null, then matrix() is.
+  /// Collective.
   ElementStiffness(const Structure& structure, const Mesh& mesh,
                    std::unique_ptr<Stiffness> assembled);
 
@@ -44,6 +45,7 @@ class ElementStiffness final : public Stiffness {
   /// q = K w on arrays of owned dofs. Collective.
   void apply(const double* w, double* q) const;
   Mat matrix() const override { return assembled_ != nullptr ? assembled_->matrix() : nullptr; }
+  void release_matrix() override { assembled_.reset(); }
 
   const ElementKinds& kinds() const { return kinds_; }
   /// Share of this rank's dofs that are handed over before the end of a product.

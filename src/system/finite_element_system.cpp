@@ -9,6 +9,7 @@
 #include "system/element_bounds.h"
 #include "system/element_loop.h"
 #include "system/element_stiffness.h"
+#include "system/sparse_matrix.h"
 
 namespace pounding {
 namespace {
@@ -36,76 +37,13 @@ void for_each_element(const Structure& structure, const Mesh& mesh, Visit&& visi
   }
 }
 
-/// Number of entries per owned row in the own and the other columns.
-void count_entries(const Mesh& mesh, std::vector<PetscInt>& own, std::vector<PetscInt>& other) {
-  std::vector<std::vector<LocalIndex>> neighbours(static_cast<std::size_t>(mesh.owned_nodes));
-  for (const ElementBlock& block : mesh.blocks) {
-    const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
-    for (std::size_t e = 0; e < block.count(); ++e) {
-      const LocalIndex* corner = &block.connectivity[e * nodes];
-      for (std::size_t a = 0; a < nodes; ++a) {
-        if (corner[a] < mesh.owned_nodes) {
-          auto& list = neighbours[static_cast<std::size_t>(corner[a])];
-          list.insert(list.end(), corner, corner + nodes);
-        }
-      }
-    }
-  }
-  own.assign(static_cast<std::size_t>(mesh.owned_dofs), 0);
-  other.assign(static_cast<std::size_t>(mesh.owned_dofs), 0);
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    auto& list = neighbours[static_cast<std::size_t>(node)];
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-    PetscInt own_entries = 0;
-    PetscInt other_entries = 0;
-    for (const LocalIndex neighbour : list) {
-      const int dofs = component_count(mesh.free_components[static_cast<std::size_t>(neighbour)]);
-      (neighbour < mesh.owned_nodes ? own_entries : other_entries) += dofs;
-    }
-    const LocalIndex first = mesh.first_dof[static_cast<std::size_t>(node)];
-    const int rows = component_count(mesh.free_components[static_cast<std::size_t>(node)]);
-    std::fill_n(own.begin() + first, rows, own_entries);
-    std::fill_n(other.begin() + first, rows, other_entries);
-  }
-}
-
-MatHandle create_matrix(const Mesh& mesh) {
-  std::vector<PetscInt> own;
-  std::vector<PetscInt> other;
-  count_entries(mesh, own, other);
-  MatHandle matrix;
-  const LocalIndex n = mesh.owned_dofs;
-  POUNDING_PETSC(MatCreateAIJ(mesh.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 0, own.data(), 0,
-                              other.data(), matrix.out()));
-  POUNDING_PETSC(MatSetOption(matrix.get(), MAT_USE_INODES, PETSC_FALSE));
-  POUNDING_PETSC(MatSetOption(matrix.get(), MAT_SYMMETRIC, PETSC_TRUE));
-  return matrix;
-}
-
-/// Global dof numbers of all local dofs.
-std::vector<PetscInt> global_numbers(const Mesh& mesh) {
-  std::vector<PetscInt> numbers(static_cast<std::size_t>(mesh.dof_count));
-  for (LocalIndex node = 0; node < mesh.node_count(); ++node) {
-    for (int c = 0; c < 6; ++c) {
-      const LocalIndex dof = mesh.dof(node, c);
-      if (dof >= 0) {
-        numbers[static_cast<std::size_t>(dof)] = static_cast<PetscInt>(mesh.dof_global(node, c));
-      }
-    }
-  }
-  return numbers;
-}
-
 /// Everything that one sweep over the elements of this rank yields.
 class Assembly {
  public:
-  Assembly(const Structure& structure, const Mesh& mesh, LinearSystem& system)
-      : structure_(structure),
-        mesh_(mesh),
-        system_(system),
-        matrix_(create_matrix(mesh)),
-        bounds_(structure, mesh) {
+  /// `with_matrix`: the stiffness of the linear elements as well.
+  Assembly(const Structure& structure, const Mesh& mesh, bool with_matrix, LinearSystem& system)
+      : structure_(structure), mesh_(mesh), system_(system), bounds_(structure, mesh) {
+    if (with_matrix) matrix_ = create_matrix(mesh);
     for (const ElementBlock& block : mesh.blocks) {
       if (block.type == ElementType::tension_bar && taut_.get() == nullptr) {
         taut_ = create_matrix(mesh);
@@ -126,12 +64,8 @@ class Assembly {
       check_mass();
     });
     system_.stiffness = finished(std::move(matrix_));
-    if (taut_.get() != nullptr) {
-      system_.taut = finished(std::move(taut_));
-    }
-    if (extra_damping_.get() != nullptr) {
-      system_.extra_damping = finished(std::move(extra_damping_));
-    }
+    system_.taut = finished(std::move(taut_));
+    system_.extra_damping = finished(std::move(extra_damping_));
     bounds_.finish(system_);
     MPI_Allreduce(MPI_IN_PLACE, &system_.total_mass, 1, MPI_DOUBLE, MPI_SUM, mesh_.comm);
   }
@@ -160,7 +94,7 @@ class Assembly {
       POUNDING_PETSC(
           MatSetValues(matrix.get(), n, rows.data(), n, columns.data(), values, ADD_VALUES));
     };
-    if (block.type != ElementType::tension_bar) {
+    if (matrix_.get() != nullptr && block.type != ElementType::tension_bar) {
       insert(matrix_, work.stiffness.data());
     }
     if (taut_.get() != nullptr) {
@@ -183,7 +117,9 @@ class Assembly {
     }
   }
 
-  std::unique_ptr<Stiffness> finished(MatHandle matrix) const {
+  /// Null if there is no matrix.
+  static std::unique_ptr<Stiffness> finished(MatHandle matrix) {
+    if (matrix.get() == nullptr) return nullptr;
     POUNDING_PETSC(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
     POUNDING_PETSC(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
     return std::make_unique<AssembledStiffness>(std::move(matrix));
@@ -226,7 +162,7 @@ class Assembly {
   const Structure& structure_;
   const Mesh& mesh_;
   LinearSystem& system_;
-  MatHandle matrix_;  ///< linear elements
+  MatHandle matrix_;  ///< linear elements; these three are null if nobody wants them
   MatHandle taut_;    ///< tension-only bars as well
   MatHandle extra_damping_;
   std::vector<PetscInt> numbers_;
@@ -234,27 +170,22 @@ class Assembly {
   std::array<double, max_element_size * max_element_size> damping_{};
 };
 
-/// Puts the element-wise product in place of the matrix's where it is asked for or pays.
-void choose_stiffness(const Structure& structure, const Mesh& mesh, StiffnessMethod method,
-                      LinearSystem& system) {
-  system.stiffness_method = "assembled";
+/// Whether the element-wise product is asked for or pays.
+bool multiplies_elements(const Mesh& mesh, StiffnessMethod method) {
   GlobalIndex elements = 0;
   GlobalIndex hexahedra = 0;
   for (const ElementBlock& block : mesh.blocks) {
     elements += block.global_count;
     hexahedra += is_hexahedron(block.type) ? block.global_count : 0;
   }
-  if (method == StiffnessMethod::assembled ||
-      (method == StiffnessMethod::automatic && 4 * hexahedra < elements)) {
-    return;
-  }
-  auto product = std::make_unique<ElementStiffness>(structure, mesh, std::move(system.stiffness));
-  const ElementKinds kinds = product->kinds();
-  system.stiffness_method = "element by element (" + std::to_string(kinds.bricks) + " bricks, " +
-                            std::to_string(kinds.congruent) + " congruent, " +
-                            std::to_string(kinds.beams) + " beams, " + std::to_string(kinds.other) +
-                            " others)";
-  system.stiffness = std::move(product);
+  return method == StiffnessMethod::element ||
+         (method == StiffnessMethod::automatic && 4 * hexahedra >= elements);
+}
+
+std::string describe(const ElementKinds& kinds) {
+  return "element by element (" + std::to_string(kinds.bricks) + " bricks, " +
+         std::to_string(kinds.congruent) + " congruent, " + std::to_string(kinds.beams) +
+         " beams, " + std::to_string(kinds.other) + " others)";
 }
 
 }  // namespace
@@ -282,11 +213,19 @@ ElementProperties element_properties(const Region& region) {
 }
 
 LinearSystem build_finite_element_system(const Structure& structure, const Mesh& mesh,
-                                         StiffnessMethod method) {
+                                         StiffnessMethod method, bool with_matrix) {
   LinearSystem system = describe_system(structure, mesh);
   system.tension_bars = TensionBars::build(structure, mesh);
-  Assembly(structure, mesh, system).run();
-  choose_stiffness(structure, mesh, method, system);
+  const bool by_element = multiplies_elements(mesh, method);
+  // Modes want every bar taut: the linear elements alone are of no use to them then.
+  const bool for_modes = with_matrix && system.tension_bars == nullptr;
+  Assembly(structure, mesh, !by_element || for_modes, system).run();
+  system.stiffness_method = "assembled";
+  if (by_element) {
+    auto product = std::make_unique<ElementStiffness>(structure, mesh, std::move(system.stiffness));
+    system.stiffness_method = describe(product->kinds());
+    system.stiffness = std::move(product);
+  }
   finish_system(mesh, system);
   return system;
 }

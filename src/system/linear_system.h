@@ -50,7 +50,8 @@ struct LinearSystem {
   std::string limiting_element;
 
   /// K for eigenvalues: every bar taut.
-  Mat stiffest_matrix() const { return taut ? taut->matrix() : stiffness->matrix(); }
+  const Stiffness& stiffest() const { return taut ? *taut : *stiffness; }
+  Mat stiffest_matrix() const { return stiffest().matrix(); }
   /// Forces beside K u, alpha M v and beta K v.
   bool has_devices() const { return tension_bars || extra_damping; }
   /// iota of a direction [-].

@@ -53,8 +53,11 @@ class Stiffness {
   }
   /// q = K w [N, N m]. Collective.
   virtual void apply(Vec w, Vec q) const = 0;
-  /// The matrix itself, for eigenvalues and export. Borrowed.
+  /// The matrix itself, for modes and export; null where products do without and nobody asked for
+  /// it. Borrowed.
   virtual Mat matrix() const = 0;
+  /// Frees the matrix if products do without.
+  virtual void release_matrix() {}
 };
 
 /// K as an assembled sparse matrix.

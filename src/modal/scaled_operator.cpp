@@ -1,0 +1,70 @@
+#include "modal/scaled_operator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace pounding {
+namespace {
+
+/// Diagonal of M^-1/2.
+std::vector<double> mass_scale(const LinearSystem& system) {
+  std::vector<double> scale(system.inverse_mass.size());
+  std::transform(system.inverse_mass.begin(), system.inverse_mass.end(), scale.begin(),
+                 [](double value) { return std::sqrt(value); });
+  return scale;
+}
+
+/// PETSc calls this one for a product with the shell.
+PetscErrorCode multiply_shell(Mat shell, Vec x, Vec y) {
+  void* context = nullptr;
+  PetscCall(MatShellGetContext(shell, static_cast<void*>(&context)));
+  try {
+    static_cast<const ScaledOperator*>(context)->apply(x, y);
+  } catch (const std::runtime_error&) {
+    return PETSC_ERR_LIB;
+  }
+  return 0;
+}
+
+}  // namespace
+
+ScaledOperator::ScaledOperator(const LinearSystem& system, std::vector<Term> terms, double shift)
+    : system_(system),
+      terms_(std::move(terms)),
+      shift_(shift),
+      scale_(mass_scale(system)),
+      diagonal_(wrap_vector(system, scale_)) {
+  POUNDING_PETSC(VecDuplicate(diagonal_.get(), argument_.out()));
+  POUNDING_PETSC(VecDuplicate(diagonal_.get(), product_.out()));
+  const LocalIndex n = system.owned_dofs();
+  POUNDING_PETSC(
+      MatCreateShell(system.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, this, shell_.out()));
+  POUNDING_PETSC(
+      MatShellSetOperation(shell_.get(), MATOP_MULT, reinterpret_cast<void (*)()>(multiply_shell)));
+  POUNDING_PETSC(MatSetOption(shell_.get(), MAT_SYMMETRIC, PETSC_TRUE));
+}
+
+void ScaledOperator::apply(Vec x, Vec y) const {
+  POUNDING_PETSC(VecPointwiseMult(argument_.get(), diagonal_.get(), x));
+  POUNDING_PETSC(VecSet(y, 0));
+  for (const auto& [factor, operand] : terms_) {
+    operand->apply(argument_.get(), product_.get());
+    POUNDING_PETSC(VecAXPY(y, factor, product_.get()));
+  }
+  POUNDING_PETSC(VecPointwiseMult(y, diagonal_.get(), y));
+  POUNDING_PETSC(VecAXPY(y, shift_, x));
+}
+
+double ScaledOperator::quotient(std::vector<double>& y) const {
+  const VecHandle vector = wrap_vector(system_, y);
+  VecHandle product;
+  double value = 0;
+  POUNDING_PETSC(VecDuplicate(vector.get(), product.out()));
+  apply(vector.get(), product.get());
+  POUNDING_PETSC(VecDot(vector.get(), product.get(), &value));
+  return value;
+}
+
+}  // namespace pounding
