@@ -7,6 +7,7 @@
 
 #include "common/error.h"
 #include "common/floating_point.h"
+#include "common/memory.h"
 #include "common/parallel.h"
 #include "driver/floor_spectra.h"
 #include "driver/matrix_export.h"
@@ -73,6 +74,7 @@ std::optional<SavedState> read_restart(MPI_Comm comm, const Scene& scene, const 
 
 void run_scene(MPI_Comm comm, const Scene& scene, const std::string& resolved) {
   flush_subnormal_numbers();
+  return_large_arrays();
   const double start = MPI_Wtime();
   const bool root = rank_of(comm) == 0;
   Profile profile;
@@ -83,6 +85,7 @@ void run_scene(MPI_Comm comm, const Scene& scene, const std::string& resolved) {
     check_checkpoint(comm, scene.restart, lasting_options(resolved));
   }
   const Model model = build_model(comm, scene, profile);
+  return_freed_memory();
   if (root) {
     print_model(scene, model);
   }

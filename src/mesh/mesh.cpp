@@ -196,7 +196,7 @@ Mesh unpack(MPI_Comm comm, const std::string& name, Parcel&& parcel) {
   mesh.file_node = std::move(parcel.file_node);
   mesh.coordinates = std::move(parcel.coordinates);
   mesh.free_components = std::move(parcel.free_components);
-  mesh.global_dof = std::move(parcel.global_dof);
+  mesh.ghost_dof.assign(parcel.global_dof.begin() + mesh.owned_nodes, parcel.global_dof.end());
   mesh.first_dof.resize(mesh.file_node.size());
   for (LocalIndex node = 0; node < mesh.node_count(); ++node) {
     const auto n = static_cast<std::size_t>(node);

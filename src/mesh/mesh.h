@@ -42,7 +42,7 @@ struct Mesh {
   std::vector<GlobalIndex> file_node;         ///< per local node: number in the file order
   std::vector<double> coordinates;            ///< shape (node_count, 3) [m]
   std::vector<std::uint8_t> free_components;  ///< per local node
-  std::vector<GlobalIndex> global_dof;        ///< per local node: global number of its first dof
+  std::vector<GlobalIndex> ghost_dof;         ///< per ghost node: global number of its first dof
   std::vector<LocalIndex> first_dof;          ///< per local node: local number of its first dof
   LocalIndex dof_count = 0;                   ///< owned and ghost
   std::vector<ElementBlock> blocks;
@@ -51,11 +51,20 @@ struct Mesh {
   LocalIndex node_count() const { return static_cast<LocalIndex>(file_node.size()); }
   /// Local dof of a component (0-5) at a local node, -1 if it is clamped or does not exist.
   LocalIndex dof(LocalIndex node, int component) const {
-    return offset(node, component, first_dof);
+    const std::uint8_t mask = free_components[static_cast<std::size_t>(node)];
+    if ((mask >> component & 1) == 0) {
+      return -1;
+    }
+    const auto below = static_cast<std::uint8_t>(mask & ((1u << component) - 1u));
+    return first_dof[static_cast<std::size_t>(node)] + component_count(below);
   }
   /// The same in global numbers.
   GlobalIndex dof_global(LocalIndex node, int component) const {
-    return offset(node, component, global_dof);
+    const LocalIndex local = dof(node, component);
+    if (local < 0) return -1;
+    if (node < owned_nodes) return first_owned_dof + local;
+    return ghost_dof[static_cast<std::size_t>(node - owned_nodes)] +
+           (local - first_dof[static_cast<std::size_t>(node)]);
   }
   Vector3 position(LocalIndex node) const {
     const double* x = &coordinates[static_cast<std::size_t>(3 * node)];
@@ -70,17 +79,6 @@ struct Mesh {
         by_file_node.begin(), by_file_node.end(), file_number,
         [&](LocalIndex node, GlobalIndex wanted) { return number(node) < wanted; });
     return found != by_file_node.end() && number(*found) == file_number ? *found : -1;
-  }
-
- private:
-  template <typename Index>
-  Index offset(LocalIndex node, int component, const std::vector<Index>& first) const {
-    const std::uint8_t mask = free_components[static_cast<std::size_t>(node)];
-    if ((mask >> component & 1) == 0) {
-      return -1;
-    }
-    const auto below = static_cast<std::uint8_t>(mask & ((1u << component) - 1u));
-    return first[static_cast<std::size_t>(node)] + component_count(below);
   }
 };
 

@@ -108,8 +108,9 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
       }
     }
     sparse_ = std::make_unique<SparseRows>(sorter.sparse_rows());
-    argument_.assign(static_cast<std::size_t>(mesh.dof_count + dofs_per_node), 0.0);
-    force_ = argument_;
+    const auto places = static_cast<std::size_t>(mesh.dof_count + dofs_per_node);
+    argument_ = ZeroedArray(places);
+    force_ = ZeroedArray(places);
     kinds_ = sorter.kinds();
     plan();
   });
@@ -176,7 +177,7 @@ void ElementStiffness::finish(const StiffnessArgument& w, ForceReceiver& receive
   const StiffnessArgument shifted = relative_to_origin(w);
   for (const BrickLines& bricks : inner_.bricks) bricks.apply(shifted, ghosts, q, receiver);
   halo_->end();
-  std::copy(ghosts, ghosts + halo_->ghost_count(), argument_.begin() + owned_dofs_);
+  std::copy(ghosts, ghosts + halo_->ghost_count(), argument_.data() + owned_dofs_);
   add_general(outer_);
   sparse_->add_ghosts(ghosts, q);
   for (const BrickLines& bricks : outer_.bricks) bricks.apply(shifted, ghosts, q, receiver);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/memory.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
 #include "system/beam_elements.h"
@@ -74,8 +75,8 @@ class ElementStiffness final : public Stiffness {
   std::vector<DofRange> late_ranges_;     ///< owned dofs that bricks do not hand over
   ElementKinds kinds_;
   /// Owned dofs, ghosts, and six dofs that stay at rest for the places of clamped nodes.
-  mutable std::vector<double> argument_;  ///< w at general_dofs_, and ghosts
-  mutable std::vector<double> force_;     ///< of owned dofs zero between products
+  ZeroedArray argument_;  ///< w at general_dofs_, and ghosts
+  ZeroedArray force_;     ///< of owned dofs zero between products
 };
 
 }  // namespace pounding

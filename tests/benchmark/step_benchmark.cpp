@@ -24,6 +24,7 @@
 
 #include "benchmark/command_loop.h"
 #include "benchmark/timed_step.h"
+#include "common/memory.h"
 #include "common/parallel.h"
 
 namespace pounding::measuring {
@@ -179,6 +180,7 @@ void run() {
 
 int main(int count, char** words) {
   SlepcInitialize(&count, &words, nullptr, nullptr);
+  pounding::return_large_arrays();
   try {
     pounding::measuring::run();
   } catch (const std::exception& error) {

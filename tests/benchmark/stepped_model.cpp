@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "benchmark/storey_pair.h"
+#include "common/memory.h"
 #include "common/parallel.h"
 #include "dynamics/stable_time_step.h"
 #include "support/box_mesh.h"
@@ -87,6 +88,7 @@ SteppedModel build_stepped_model(MPI_Comm comm, const ModelRequest& request,
     stable = std::min(stable, stable_time_step(system.damping, system.element_frequency_bound));
   }
   model.time_step = round_down(courant * stable);
+  return_freed_memory();
   return model;
 }
 
