@@ -2,43 +2,13 @@
 
 #include <array>
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "elements/element.h"
-#include "elements/matrix3.h"
 
 /// Bricks: hexahedra whose corners are those of a rectangular box. A box is unchanged by reflection
 /// in its three mid-planes, which splits its element matrix into eight 3 x 3 blocks, one per
 /// parity.
 namespace pounding {
-
-/// A hexahedron recognised as a box in the axes of frame number `frame`.
-struct Brick {
-  int frame = 0;
-  Vector3 lengths{};  ///< edges along the axes of the frame [m]
-  /// Place in the element's own node list of the corner on the far side of axis d where bit d is
-  /// set.
-  std::array<int, 8> corner{};
-};
-
-/// Orthonormal axes (rows) in which bricks of one structure lie. Frame 0: the global axes.
-class BrickFrames {
- public:
-  /// The box that eight nodes in Gmsh's order, shape (8, 3) [m], form in one of the frames, to
-  /// `tolerance` of its shortest edge. Nothing for other shapes.
-  std::optional<Brick> recognise(std::span<const double> coordinates, double tolerance) const;
-  /// Axes along the edges of a box; nothing for other shapes.
-  static std::optional<Matrix3> axes_of_box(std::span<const double> coordinates, double tolerance);
-
-  void add(const Matrix3& axes) { axes_.push_back(axes); }
-  /// Each new shape is tried in all of them: there cannot be many.
-  bool full() const { return axes_.size() >= 32; }
-  const Matrix3& axes(int frame) const { return axes_[static_cast<std::size_t>(frame)]; }
-
- private:
-  std::vector<Matrix3> axes_{{Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}}};
-};
 
 /// A brick's stiffness split by parity in axes 0, 1, 2. H is the 8-point Walsh-Hadamard transform,
 /// entries prod_d of -1 (near) or +1 (far) over the axes d of a row; value "c|s" stands for

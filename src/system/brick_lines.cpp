@@ -51,7 +51,7 @@ void BrickLines::add_chain(const DofPlaces& places, const std::vector<LocalIndex
   bool contiguous = true;
   for (const LocalIndex node : nodes) {
     const auto n = static_cast<std::size_t>(node);
-    const auto& [x, y, z] = places.of_node[n];
+    const auto& [x, y, z, rx, ry, rz] = places.of_node[n];
     chain.plain = chain.plain && x >= 0 && y == x + 1 && z == x + 2 && z + 1 < owned_dofs_;
     contiguous = contiguous && chain.plain && (node == nodes[0] || x == end);
     chain.row = chain.row && contiguous && (node == nodes[0] || x == next);
@@ -64,7 +64,7 @@ void BrickLines::add_chain(const DofPlaces& places, const std::vector<LocalIndex
   if (!contiguous) chain.range = {};
   for (const LocalIndex node : nodes) {
     const auto& place = places.of_node[static_cast<std::size_t>(node)];
-    places_.insert(places_.end(), place.begin(), chain.plain ? place.begin() + 1 : place.end());
+    places_.insert(places_.end(), place.begin(), place.begin() + (chain.plain ? 1 : 3));
   }
   chains_.push_back(chain);
 }

@@ -3,12 +3,13 @@
 #include <array>
 #include <vector>
 
+#include "elements/matrix3.h"
 #include "system/brick_class.h"
-#include "system/brick_rows.h"
 #include "system/chain_line.h"
 #include "system/dof_places.h"
+#include "system/element_lines.h"
+#include "system/element_rows.h"
 #include "system/line_schedule.h"
-#include "system/stiffness.h"
 
 namespace pounding {
 
@@ -19,43 +20,27 @@ struct BrickShape {
   Vector3 lengths{};
 };
 
-/// The product of the bricks of one frame. It visits the rows of bricks in the order of the mesh's
-/// numbering and keeps in a small buffer only the chains of nodes, and the pairs of chains, that
-/// are in use:
+/// The product of the bricks of one frame. The buffer holds the chains of nodes, and the pairs of
+/// chains, that are in use:
 ///
 ///     w -> [load chain] -> x[] y[] z[] -> [split pair] -> sums, differences -> [steps]
 ///       -> forces of sums, differences -> [join pair] -> fx[] fy[] fz[] -> [store chain] -> q
 ///
-/// so that w is read and q written once, and what the steps work on stays in the nearest cache. The
-/// chains of a layer one brick thick hold the sums and differences of their pair themselves. The
-/// forces of a chain whose dofs nothing else touches later need not go to q: they are handed over.
-class BrickLines {
+/// What the steps work on stays in the nearest cache. The chains of a layer one brick thick hold
+/// the sums and differences of their pair themselves. Ranges finished by the same step that lie
+/// side by side are handed over as one.
+class BrickLines final : public ElementLines {
  public:
   /// `rows` of splittable bricks of `shapes`; `axes`: rows are the axes of the frame.
   BrickLines(const DofPlaces& places, const Matrix3& axes, const std::vector<BrickShape>& shapes,
              const BrickRows& rows);
 
-  /// What becomes of the forces of a chain.
-  enum class Outcome : char {
-    add,        ///< to q
-    complete,   ///< with what q holds already they are final: handed over, q is zero again
-    hand_over,  ///< final as they are: q is left alone
-  };
-
-  /// Chains in the order in which `apply` is done with them.
-  std::size_t chain_count() const { return stores_.size(); }
-  /// Owned dofs of a chain to which the bricks add.
-  std::vector<LocalIndex> chain_dofs(std::size_t place) const;
-  /// All dofs of the chain's nodes, rotations included, if they are owned and follow each other;
-  /// else an empty range.
-  DofRange chain_range(std::size_t place) const;
-  /// Decides for every chain; other outcomes than `add` for those with a range only. Ranges
-  /// finished by the same step that lie side by side are handed over as one. Call once.
-  void set_outcomes(const std::vector<Outcome>& outcomes);
-
-  /// q += K w on the owned dofs that these bricks touch, but see Outcome. Allocates nothing.
+  std::size_t chain_count() const override { return stores_.size(); }
+  std::vector<LocalIndex> chain_dofs(std::size_t place) const override;
+  DofRange chain_range(std::size_t place) const override;
+  void set_outcomes(const std::vector<Outcome>& outcomes) override;
   void apply(const StiffnessArgument& w, const double* ghosts, double* q,
-             ForceReceiver& receiver) const;
+             ForceReceiver& receiver) const override;
 
  private:
   struct Chain {

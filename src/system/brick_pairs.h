@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "system/brick_kernel.h"
-#include "system/brick_rows.h"
+#include "system/element_rows.h"
 
 /// Chains of nodes that face each other through the thickness of their bricks, and the order in
 /// which the bricks between pairs of chains are done.

@@ -12,7 +12,7 @@ namespace pounding {
 struct DofPlaces {
   LocalIndex owned_dofs = 0;
   std::vector<LocalIndex> of_dof;                  ///< per local dof, owned then ghost
-  std::vector<std::array<LocalIndex, 3>> of_node;  ///< per local node: its translations
+  std::vector<std::array<LocalIndex, 6>> of_node;  ///< per local node: its components
   std::vector<LocalIndex> node_end;                ///< per owned node: one beyond its last dof
 };
 

@@ -20,7 +20,7 @@ std::vector<double> shortest_distances(const Mesh& mesh) {
   std::vector<double> shortest;
   for (const ElementBlock& block : mesh.blocks) {
     double& distance = shortest.emplace_back(INFINITY);
-    for (std::size_t e = 0; is_hexahedron(block.type) && e < block.count(); ++e) {
+    for (std::size_t e = 0; has_shape(block.type) && e < block.count(); ++e) {
       const auto x = gather_coordinates(mesh, block, e, work);
       for (std::size_t i = 3; i < x.size(); i += 3) {
         distance = std::min(distance, std::hypot(x[i] - x[0], x[i + 1] - x[1], x[i + 2] - x[2]));
@@ -38,14 +38,14 @@ struct Candidate {
   Matrix3 axes{};
 };
 
-Candidate first_outside(const Mesh& mesh, const ElementBlock& block, const BrickFrames& frames) {
+Candidate first_outside(const Mesh& mesh, const ElementBlock& block, const ElementFrames& frames) {
   ElementWork work;
   Candidate candidate;
   for (std::size_t e = 0; e < block.count(); ++e) {
     if (block.tags[e] >= candidate.tag) continue;
     const auto x = gather_coordinates(mesh, block, e, work);
     if (frames.recognise(x, congruence)) continue;
-    if (const auto axes = BrickFrames::axes_of_box(x, congruence)) {
+    if (const auto axes = ElementFrames::axes_of_box(x, congruence)) {
       candidate = {block.tags[e], *axes};
     }
   }
@@ -67,9 +67,9 @@ Candidate first_of_all(MPI_Comm comm, Candidate candidate) {
 ElementShapes::ElementShapes(const Mesh& mesh) : mesh_(mesh) {
   find_frames();
   const std::vector<double> shortest = shortest_distances(mesh);
-  bricks_.resize(mesh.blocks.size());
+  boxes_.resize(mesh.blocks.size());
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
-    if (is_hexahedron(mesh.blocks[b].type)) find_bricks(b);
+    if (has_shape(mesh.blocks[b].type)) find_boxes(b);
     find_common_values(b, congruence * shortest[b]);
   }
 }
@@ -77,7 +77,7 @@ ElementShapes::ElementShapes(const Mesh& mesh) : mesh_(mesh) {
 /// Block by block, each box that fits in no frame yet brings its own.
 void ElementShapes::find_frames() {
   for (const ElementBlock& block : mesh_.blocks) {
-    while (is_hexahedron(block.type) && !frames_.full()) {
+    while (has_shape(block.type) && !frames_.full()) {
       const Candidate next = first_of_all(mesh_.comm, first_outside(mesh_, block, frames_));
       if (next.tag == no_tag) break;
       frames_.add(next.axes);
@@ -85,57 +85,55 @@ void ElementShapes::find_frames() {
   }
 }
 
-void ElementShapes::find_bricks(std::size_t block) {
+void ElementShapes::find_boxes(std::size_t block) {
   ElementWork work;
   for (std::size_t e = 0; e < mesh_.blocks[block].count(); ++e) {
     const auto x = gather_coordinates(mesh_, mesh_.blocks[block], e, work);
-    Brick none;
-    none.frame = -1;
-    bricks_[block].push_back(frames_.recognise(x, congruence).value_or(none));
+    boxes_[block].push_back(frames_.recognise(x, congruence).value_or(Box{}));
   }
 }
 
 void ElementShapes::find_common_values(std::size_t block, double tolerance) {
   CommonValues& lengths = lengths_.emplace_back(tolerance);
   CommonValues& distances = distances_.emplace_back(tolerance);
-  for (std::size_t e = 0; e < bricks_[block].size(); ++e) {
-    if (bricks_[block][e].frame >= 0) {
-      for (const double length : bricks_[block][e].lengths) lengths.add(length);
+  for (std::size_t e = 0; e < boxes_[block].size(); ++e) {
+    if (boxes_[block][e].frame >= 0) {
+      for (const double length : boxes_[block][e].lengths) lengths.add(length);
     } else {
       for (const double distance : own_coordinates(block, e)) distances.add(distance);
     }
   }
   lengths.agree(mesh_.comm);
   distances.agree(mesh_.comm);
-  for (Brick& brick : bricks_[block]) {
-    if (brick.frame < 0) continue;
-    for (double& length : brick.lengths) length = lengths(length);
+  for (Box& box : boxes_[block]) {
+    if (box.frame < 0) continue;
+    for (double& length : box.lengths) length = lengths(length);
   }
 }
 
-const Brick* ElementShapes::brick(std::size_t block, std::size_t element) const {
-  const Brick& brick = bricks_[block][element];
-  return brick.frame >= 0 ? &brick : nullptr;
+const Box* ElementShapes::box(std::size_t block, std::size_t element) const {
+  const Box& box = boxes_[block][element];
+  return box.frame >= 0 ? &box : nullptr;
 }
 
-std::array<double, 24> ElementShapes::own_coordinates(std::size_t block,
-                                                      std::size_t element) const {
+std::vector<double> ElementShapes::own_coordinates(std::size_t block, std::size_t element) const {
   ElementWork work;
   const auto x = gather_coordinates(mesh_, mesh_.blocks[block], element, work);
-  std::array<double, 24> relative{};
+  std::vector<double> relative(x.size());
   for (std::size_t i = 0; i < relative.size(); ++i) relative[i] = x[i] - x[i % 3];
   return relative;
 }
 
-std::array<double, 24> ElementShapes::coordinates(std::size_t block, std::size_t element) const {
-  std::array<double, 24> x = own_coordinates(block, element);
-  const Brick* const box = brick(block, element);
+std::vector<double> ElementShapes::coordinates(std::size_t block, std::size_t element) const {
+  std::vector<double> x = own_coordinates(block, element);
+  const Box* const box = this->box(block, element);
   if (box == nullptr) {
     for (double& distance : x) distance = distances_[block](distance);
     return x;
   }
   const Matrix3& r = frames_.axes(box->frame);
   for (std::size_t bits = 0; bits < 8; ++bits) {
+    if (box->corner[bits] < 0) continue;
     const auto node = static_cast<std::size_t>(box->corner[bits]);
     for (std::size_t i = 0; i < 3; ++i) {
       x[3 * node + i] = 0;

@@ -5,6 +5,21 @@
 #include "system/finite_element_system.h"
 
 namespace pounding {
+namespace {
+
+/// The sets of a map with their keys, the largest first.
+template <typename Key, typename Set>
+std::vector<std::pair<Key, Set*>> largest_first(std::map<Key, Set>& sets) {
+  std::vector<std::pair<Key, Set*>> sorted;
+  for (auto& [key, set] : sets) sorted.push_back({key, &set});
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+    return a.second->elements.size() > b.second->elements.size();
+  });
+  return sorted;
+}
+
+}  // namespace
+
 ElementSorter::ElementSorter(const Structure& structure, const Mesh& mesh,
                              const ElementShapes& shapes, const Halo& halo)
     : structure_(structure), mesh_(mesh), element_shapes_(shapes) {
@@ -17,8 +32,8 @@ ElementSorter::ElementSorter(const Structure& structure, const Mesh& mesh,
             : mesh.owned_dofs + halo.place(static_cast<std::size_t>(dof - mesh.owned_dofs));
   }
   for (LocalIndex node = 0; node < mesh.node_count(); ++node) {
-    std::array<LocalIndex, 3> place{};
-    for (int c = 0; c < 3; ++c) {
+    std::array<LocalIndex, 6> place{};
+    for (int c = 0; c < 6; ++c) {
       const LocalIndex dof = mesh.dof(node, c);
       place[static_cast<std::size_t>(c)] =
           dof < 0 ? -1 : places_.of_dof[static_cast<std::size_t>(dof)];
@@ -33,8 +48,8 @@ ElementSorter::ElementSorter(const Structure& structure, const Mesh& mesh,
 
 void ElementSorter::sort() {
   for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
-    if (is_hexahedron(mesh_.blocks[b].type)) {
-      sort_hexahedra(b);
+    if (has_shape(mesh_.blocks[b].type)) {
+      sort_shapes(b);
     } else if (mesh_.blocks[b].type != ElementType::tension_bar) {  // those are not linear
       for (std::size_t e = 0; e < mesh_.blocks[b].count(); ++e) {
         if (!add_beam({b, e})) others_.push_back({b, e});
@@ -44,29 +59,51 @@ void ElementSorter::sort() {
   demote_rare_shapes();
 }
 
-void ElementSorter::sort_hexahedra(std::size_t b) {
+void ElementSorter::sort_shapes(std::size_t b) {
   const ElementBlock& block = mesh_.blocks[b];
   const ElementProperties properties =
       element_properties(structure_.regions[static_cast<std::size_t>(mesh_.blocks[b].region)]);
   for (std::size_t e = 0; e < block.count(); ++e) {
-    if (!add_brick({b, e}, properties)) add_congruent({b, e}, properties);
+    const bool in_row = is_hexahedron(block.type) ? add_brick({b, e}, properties)
+                                                  : add_rectangle({b, e}, properties);
+    if (!in_row) add_congruent({b, e}, properties);
   }
 }
 
 bool ElementSorter::add_brick(const Element& element, const ElementProperties& properties) {
   const auto [b, e] = element;
   const ElementBlock& block = mesh_.blocks[b];
-  const Brick* const brick = element_shapes_.brick(b, e);
+  const Box* const brick = element_shapes_.box(b, e);
   if (brick == nullptr) return false;
-  const int number = shape_number({block.type, properties, brick->lengths}, b);
+  const int number = brick_shape({block.type, properties, brick->lengths}, b);
   if (number < 0) return false;
   BrickElement entry{number, {}};
   for (std::size_t corner = 0; corner < 8; ++corner) {
     entry.nodes[corner] =
         block.connectivity[8 * e + static_cast<std::size_t>(brick->corner[corner])];
   }
-  BrickSet& set = brick_sets_[touches_ghost(element) ? 1 : 0][brick->frame];
-  set.bricks.push_back(entry);
+  RowSet<4>& set = brick_sets_[touches_ghost(element) ? 1 : 0][brick->frame];
+  set.rows.push_back(entry);
+  set.elements.push_back(element);
+  return true;
+}
+
+bool ElementSorter::add_rectangle(const Element& element, const ElementProperties& properties) {
+  const auto [b, e] = element;
+  const Box* const box = element_shapes_.box(b, e);
+  if (box == nullptr) return false;
+  const auto first = static_cast<std::size_t>(box->normal + 1) % 3;
+  const auto second = static_cast<std::size_t>(box->normal + 2) % 3;
+  const int number = rectangle_shape({properties, {box->lengths[first], box->lengths[second]}}, b);
+  if (number < 0) return false;
+  RectangleElement entry{number, {}};
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const std::size_t bits = (corner & 1) << first | (corner >> 1) << second;
+    entry.nodes[corner] =
+        mesh_.blocks[b].connectivity[4 * e + static_cast<std::size_t>(box->corner[bits])];
+  }
+  RowSet<2>& set = rectangle_sets_[touches_ghost(element) ? 1 : 0][{box->frame, box->normal}];
+  set.rows.push_back(entry);
   set.elements.push_back(element);
   return true;
 }
@@ -83,11 +120,21 @@ bool ElementSorter::add_beam(const Element& element) {
   return true;
 }
 
-int ElementSorter::shape_number(const BrickShape& shape, std::size_t block) {
+int ElementSorter::brick_shape(const BrickShape& shape, std::size_t block) {
   const auto [found, fresh] = shape_numbers_.try_emplace({block, shape.lengths}, -1);
   if (fresh && split_brick(shape.type, shape.properties, shape.lengths)) {
-    found->second = static_cast<int>(shapes_.size());
-    shapes_.push_back(shape);
+    found->second = static_cast<int>(brick_shapes_.size());
+    brick_shapes_.push_back(shape);
+  }
+  return found->second;
+}
+
+int ElementSorter::rectangle_shape(const RectangleShape& shape, std::size_t block) {
+  const Vector3 key{shape.lengths[0], shape.lengths[1], 0};
+  const auto [found, fresh] = shape_numbers_.try_emplace({block, key}, -1);
+  if (fresh && split_rectangle(shape.properties, shape.lengths, 0)) {
+    found->second = static_cast<int>(rectangle_shapes_.size());
+    rectangle_shapes_.push_back(shape);
   }
   return found->second;
 }
@@ -117,24 +164,31 @@ void ElementSorter::demote_rare_shapes() {
   }
 }
 
-std::vector<BrickLines> ElementSorter::brick_lines(bool outer) {
-  std::vector<std::pair<int, BrickSet*>> sets;  // the largest first
-  for (auto& [frame, set] : brick_sets_[outer ? 1 : 0]) sets.push_back({frame, &set});
-  std::stable_sort(sets.begin(), sets.end(), [](const auto& a, const auto& b) {
-    return a.second->bricks.size() > b.second->bricks.size();
-  });
-  std::vector<BrickLines> lines;
-  for (auto& [frame, set] : sets) {
-    const BrickRows rows = best_brick_rows(set->bricks, mesh_.node_count());
-    lines.emplace_back(places_, element_shapes_.axes(frame), shapes_, rows);
-    std::vector<Element> kept;
-    auto left = rows.left_over.begin();
-    for (std::size_t e = 0; e < set->elements.size(); ++e) {
-      const bool out = left != rows.left_over.end() && *left == e;
-      (out ? others_ : kept).push_back(set->elements[e]);
-      if (out) ++left;
-    }
-    set->elements = std::move(kept);
+/// Elements that fit in no row leave the set for the others.
+template <std::size_t lines>
+ElementRows<lines> ElementSorter::form_rows(RowSet<lines>& set) {
+  ElementRows<lines> rows = best_rows(set.rows, mesh_.node_count());
+  std::vector<Element> kept;
+  auto left = rows.left_over.begin();
+  for (std::size_t e = 0; e < set.elements.size(); ++e) {
+    const bool out = left != rows.left_over.end() && *left == e;
+    (out ? others_ : kept).push_back(set.elements[e]);
+    if (out) ++left;
+  }
+  set.elements = std::move(kept);
+  return rows;
+}
+
+std::vector<std::unique_ptr<ElementLines>> ElementSorter::element_lines(bool outer) {
+  std::vector<std::unique_ptr<ElementLines>> lines;
+  for (const auto& [frame, set] : largest_first(brick_sets_[outer ? 1 : 0])) {
+    lines.push_back(std::make_unique<BrickLines>(places_, element_shapes_.axes(frame),
+                                                 brick_shapes_, form_rows(*set)));
+  }
+  for (const auto& [key, set] : largest_first(rectangle_sets_[outer ? 1 : 0])) {
+    const auto& [frame, normal] = key;
+    lines.push_back(std::make_unique<ShellLines>(places_, element_shapes_.axes(frame), normal,
+                                                 rectangle_shapes_, form_rows(*set)));
   }
   return lines;
 }
@@ -188,7 +242,7 @@ SparseRows ElementSorter::sparse_rows() const {
     const std::size_t size = size_of_element(element);
     const ElementBlock& block = mesh_.blocks[b];
     const std::span<double> stiffness(work_.stiffness.data(), size * size);
-    if (is_hexahedron(block.type)) {
+    if (has_shape(block.type)) {
       const auto shape = element_shapes_.coordinates(b, e);
       std::copy(shape.begin(), shape.end(), work_.coordinates.begin());
     } else {
@@ -212,6 +266,9 @@ ElementKinds ElementSorter::kinds() const {
   ElementKinds kinds;
   for (const auto& sets : brick_sets_) {
     for (const auto& [frame, set] : sets) kinds.bricks += counted(set.elements);
+  }
+  for (const auto& sets : rectangle_sets_) {
+    for (const auto& [key, set] : sets) kinds.rectangles += counted(set.elements);
   }
   for (const auto& [key, group] : congruent_) kinds.congruent += counted(group.elements);
   for (const auto& beams : beams_) kinds.beams += counted(beams);

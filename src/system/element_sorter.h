@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "system/element_loop.h"
 #include "system/element_shapes.h"
 #include "system/element_stiffness.h"
+#include "system/shell_lines.h"
 
 namespace pounding {
 
@@ -24,8 +26,8 @@ class ElementSorter {
   void sort();
 
   /// What came out; `outer`: elements that touch a ghost. Call in this order; rows are formed here,
-  /// and bricks that fit in none join the others.
-  std::vector<BrickLines> brick_lines(bool outer);
+  /// and elements that fit in none join the others.
+  std::vector<std::unique_ptr<ElementLines>> element_lines(bool outer);
   std::vector<CongruentElements> congruent_elements(bool outer) const;
   /// Beams between nodes that are free or clamped in all six components; `idle` as there.
   BeamElements beam_elements(bool outer, LocalIndex idle) const;
@@ -37,9 +39,10 @@ class ElementSorter {
  private:
   /// An element of the mesh: block, place in the block.
   using Element = std::pair<std::size_t, std::size_t>;
-  /// Bricks of one frame, with or without ghosts.
-  struct BrickSet {
-    std::vector<BrickElement> bricks;
+  /// Elements that may stand in rows together, with `lines` edges along a row.
+  template <std::size_t lines>
+  struct RowSet {
+    std::vector<RowElement<lines>> rows;
     std::vector<Element> elements;
   };
   struct Congruent {
@@ -48,12 +51,16 @@ class ElementSorter {
     std::vector<Element> elements;
   };
 
-  void sort_hexahedra(std::size_t block);
+  void sort_shapes(std::size_t block);
   bool add_brick(const Element& element, const ElementProperties& properties);
+  bool add_rectangle(const Element& element, const ElementProperties& properties);
   bool add_beam(const Element& element);
-  int shape_number(const BrickShape& shape, std::size_t block);
+  int brick_shape(const BrickShape& shape, std::size_t block);
+  int rectangle_shape(const RectangleShape& shape, std::size_t block);
   void add_congruent(const Element& element, const ElementProperties& properties);
   void demote_rare_shapes();
+  template <std::size_t lines>
+  ElementRows<lines> form_rows(RowSet<lines>& set);
   bool touches_ghost(const Element& element) const;
   CongruentElements::Places places(const Element& element) const;
 
@@ -62,10 +69,13 @@ class ElementSorter {
   const ElementShapes& element_shapes_;
   DofPlaces places_;
   mutable ElementWork work_;
-  std::vector<BrickShape> shapes_;
+  std::vector<BrickShape> brick_shapes_;
+  std::vector<RectangleShape> rectangle_shapes_;
   std::map<std::pair<std::size_t, Vector3>, int> shape_numbers_;  ///< -1: does not split
-  std::array<std::map<int, BrickSet>, 2> brick_sets_;             ///< inner, outer; by frame
-  std::map<std::pair<std::size_t, std::array<double, 24>>, Congruent> congruent_;
+  /// Inner, outer; by frame, and by frame and normal.
+  std::array<std::map<int, RowSet<4>>, 2> brick_sets_;
+  std::array<std::map<std::pair<int, int>, RowSet<2>>, 2> rectangle_sets_;
+  std::map<std::pair<std::size_t, std::vector<double>>, Congruent> congruent_;
   std::array<std::vector<Element>, 2> beams_;  ///< inner, outer
   std::vector<Element> others_;
 };

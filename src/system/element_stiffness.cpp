@@ -43,21 +43,21 @@ class TouchCounter {
 };
 
 /// Chains that nothing adds to after them hand over their forces.
-void decide_outcomes(std::vector<BrickLines>& all, TouchCounter& counter,
+void decide_outcomes(const std::vector<std::unique_ptr<ElementLines>>& all, TouchCounter& counter,
                      std::vector<char>& handed_over) {
-  for (BrickLines& bricks : all) {
-    std::vector<BrickLines::Outcome> outcomes;
-    for (std::size_t c = 0; c < bricks.chain_count(); ++c) {
-      const DofRange range = bricks.chain_range(c);
+  for (const auto& lines : all) {
+    std::vector<ElementLines::Outcome> outcomes;
+    for (std::size_t c = 0; c < lines->chain_count(); ++c) {
+      const DofRange range = lines->chain_range(c);
       const bool alone = counter.untouched(range);
-      counter.happen(bricks.chain_dofs(c));
-      auto& outcome = outcomes.emplace_back(BrickLines::Outcome::add);
+      counter.happen(lines->chain_dofs(c));
+      auto& outcome = outcomes.emplace_back(ElementLines::Outcome::add);
       if (!range.empty() && counter.done(range)) {
-        outcome = alone ? BrickLines::Outcome::hand_over : BrickLines::Outcome::complete;
+        outcome = alone ? ElementLines::Outcome::hand_over : ElementLines::Outcome::complete;
         std::fill(handed_over.begin() + range.begin, handed_over.begin() + range.end, 1);
       }
     }
-    bricks.set_outcomes(outcomes);
+    lines->set_outcomes(outcomes);
   }
 }
 
@@ -98,7 +98,7 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
     const LocalIndex idle = mesh.dof_count;
     for (const bool outer : {false, true}) {
       Part& part = outer ? outer_ : inner_;
-      part.bricks = sorter.brick_lines(outer);
+      part.lines = sorter.element_lines(outer);
       part.congruent = sorter.congruent_elements(outer);
       part.beams = std::make_unique<BeamElements>(sorter.beam_elements(outer, idle));
       part.dofs = sorter.beam_dofs(outer);
@@ -114,12 +114,13 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
     kinds_ = sorter.kinds();
     plan();
   });
-  std::array<GlobalIndex, 4> counts{kinds_.bricks, kinds_.congruent, kinds_.beams, kinds_.other};
-  MPI_Allreduce(MPI_IN_PLACE, counts.data(), 4, MPI_INT64_T, MPI_SUM, mesh.comm);
-  kinds_ = {counts[0], counts[1], counts[2], counts[3]};
+  for (GlobalIndex* const count :
+       {&kinds_.bricks, &kinds_.rectangles, &kinds_.congruent, &kinds_.beams, &kinds_.other}) {
+    MPI_Allreduce(MPI_IN_PLACE, count, 1, MPI_INT64_T, MPI_SUM, mesh.comm);
+  }
 }
 
-/// Decides which chains of bricks may hand their forces over, by going through a product.
+/// Decides which chains of nodes may hand their forces over, by going through a product.
 void ElementStiffness::plan() {
   std::vector<LocalIndex> early = inner_.dofs;
   early.insert(early.end(), sparse_->owned_rows().begin(), sparse_->owned_rows().end());
@@ -129,15 +130,15 @@ void ElementStiffness::plan() {
   counter.expect(early);
   counter.expect(late);
   for (const Part* part : {&inner_, &outer_}) {
-    for (const BrickLines& bricks : part->bricks) {
-      for (std::size_t c = 0; c < bricks.chain_count(); ++c) counter.expect(bricks.chain_dofs(c));
+    for (const auto& lines : part->lines) {
+      for (std::size_t c = 0; c < lines->chain_count(); ++c) counter.expect(lines->chain_dofs(c));
     }
   }
   std::vector<char> handed_over(static_cast<std::size_t>(owned_dofs_), 0);
   counter.happen(early);
-  decide_outcomes(inner_.bricks, counter, handed_over);
+  decide_outcomes(inner_.lines, counter, handed_over);
   counter.happen(late);
-  decide_outcomes(outer_.bricks, counter, handed_over);
+  decide_outcomes(outer_.lines, counter, handed_over);
   for (LocalIndex dof = 0; dof < owned_dofs_; ++dof) {
     if (handed_over[static_cast<std::size_t>(dof)] != 0) continue;
     if (late_ranges_.empty() || late_ranges_.back().end != dof) late_ranges_.push_back({dof, dof});
@@ -175,12 +176,12 @@ void ElementStiffness::finish(const StiffnessArgument& w, ForceReceiver& receive
   sparse_->add_owned(argument_.data(), q);
   add_general(inner_);
   const StiffnessArgument shifted = relative_to_origin(w);
-  for (const BrickLines& bricks : inner_.bricks) bricks.apply(shifted, ghosts, q, receiver);
+  for (const auto& lines : inner_.lines) lines->apply(shifted, ghosts, q, receiver);
   halo_->end();
   std::copy(ghosts, ghosts + halo_->ghost_count(), argument_.data() + owned_dofs_);
   add_general(outer_);
   sparse_->add_ghosts(ghosts, q);
-  for (const BrickLines& bricks : outer_.bricks) bricks.apply(shifted, ghosts, q, receiver);
+  for (const auto& lines : outer_.lines) lines->apply(shifted, ghosts, q, receiver);
   for (const DofRange& range : late_ranges_) {
     receiver.receive(range.begin, range.end, q + range.begin);
     std::fill(q + range.begin, q + range.end, 0.0);

@@ -7,8 +7,8 @@
 #include "mesh/mesh.h"
 #include "scene/scene.h"
 #include "system/beam_elements.h"
-#include "system/brick_lines.h"
 #include "system/congruent_elements.h"
+#include "system/element_lines.h"
 #include "system/halo.h"
 #include "system/sparse_rows.h"
 #include "system/stiffness.h"
@@ -17,17 +17,18 @@ namespace pounding {
 
 /// How many elements of a structure, over all ranks, are applied in which way.
 struct ElementKinds {
-  GlobalIndex bricks = 0;     ///< split by their mid-planes, in rows
-  GlobalIndex congruent = 0;  ///< other hexahedra that share a dense matrix
-  GlobalIndex beams = 0;      ///< from their local stiffnesses
-  GlobalIndex other = 0;      ///< in a sparse matrix
+  GlobalIndex bricks = 0;      ///< split by their mid-planes, in rows
+  GlobalIndex rectangles = 0;  ///< shells likewise
+  GlobalIndex congruent = 0;   ///< other hexahedra and quadrangles that share a dense matrix
+  GlobalIndex beams = 0;       ///< from their local stiffnesses
+  GlobalIndex other = 0;       ///< in a sparse matrix
 };
 
-/// K applied element by element, without reading a matrix: bricks and other congruent hexahedra
-/// share theirs. A rank holds every element that touches an owned node, so a product needs the
-/// ghosts of w once; they travel while the elements without ghosts are done:
+/// K applied element by element, without reading a matrix: bricks, rectangles and other congruent
+/// elements share theirs. A rank holds every element that touches an owned node, so a product needs
+/// the ghosts of w once; they travel while the elements without ghosts are done:
 ///
-///     w -> [halo begins] -> sparse rows, congruent, bricks -> [halo ends] -> those with ghosts
+///     w -> [halo begins] -> sparse rows, congruent, rows -> [halo ends] -> those with ghosts
 ///
 /// Forces that nothing adds to any more are handed over at once, the others at the end. Each rank
 /// sums in a fixed order: the same bits on every run. Against the assembled matrix the product
@@ -55,10 +56,10 @@ class ElementStiffness final : public Stiffness {
  private:
   /// Everything applied before, or after the ghosts are here.
   struct Part {
-    std::vector<BrickLines> bricks;  ///< per frame
+    std::vector<std::unique_ptr<ElementLines>> lines;  ///< bricks and rectangles in rows
     std::vector<CongruentElements> congruent;
     std::unique_ptr<BeamElements> beams;
-    std::vector<LocalIndex> dofs;  ///< owned, of all but the bricks; some more than once
+    std::vector<LocalIndex> dofs;  ///< owned, of all but the rows; some more than once
   };
   void plan();
   void add_general(const Part& part) const;
@@ -71,8 +72,8 @@ class ElementStiffness final : public Stiffness {
   Part inner_;                            ///< elements of owned nodes only
   Part outer_;                            ///< elements that touch a ghost
   std::unique_ptr<SparseRows> sparse_;    ///< all others
-  std::vector<LocalIndex> general_dofs_;  ///< owned dofs that others than bricks read
-  std::vector<DofRange> late_ranges_;     ///< owned dofs that bricks do not hand over
+  std::vector<LocalIndex> general_dofs_;  ///< owned dofs that others than rows read
+  std::vector<DofRange> late_ranges_;     ///< owned dofs that rows do not hand over
   ElementKinds kinds_;
   /// Owned dofs, ghosts, and six dofs that stay at rest for the places of clamped nodes.
   ZeroedArray argument_;  ///< w at general_dofs_, and ghosts

@@ -8,6 +8,7 @@
 #include "mesh/location.h"
 #include "system/element_bounds.h"
 #include "system/element_loop.h"
+#include "system/element_shapes.h"
 #include "system/element_stiffness.h"
 #include "system/sparse_matrix.h"
 
@@ -173,19 +174,20 @@ class Assembly {
 /// Whether the element-wise product is asked for or pays.
 bool multiplies_elements(const Mesh& mesh, StiffnessMethod method) {
   GlobalIndex elements = 0;
-  GlobalIndex hexahedra = 0;
+  GlobalIndex shaped = 0;  // what can stand in rows
   for (const ElementBlock& block : mesh.blocks) {
     elements += block.global_count;
-    hexahedra += is_hexahedron(block.type) ? block.global_count : 0;
+    shaped += has_shape(block.type) ? block.global_count : 0;
   }
   return method == StiffnessMethod::element ||
-         (method == StiffnessMethod::automatic && 4 * hexahedra >= elements);
+         (method == StiffnessMethod::automatic && 4 * shaped >= elements);
 }
 
 std::string describe(const ElementKinds& kinds) {
   return "element by element (" + std::to_string(kinds.bricks) + " bricks, " +
-         std::to_string(kinds.congruent) + " congruent, " + std::to_string(kinds.beams) +
-         " beams, " + std::to_string(kinds.other) + " others)";
+         std::to_string(kinds.rectangles) + " rectangles, " + std::to_string(kinds.congruent) +
+         " congruent, " + std::to_string(kinds.beams) + " beams, " + std::to_string(kinds.other) +
+         " others)";
 }
 
 }  // namespace

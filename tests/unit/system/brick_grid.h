@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "system/brick_rows.h"
+#include "system/element_rows.h"
 
 namespace pounding::testing {
 

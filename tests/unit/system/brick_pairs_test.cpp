@@ -51,7 +51,7 @@ std::map<std::pair<int, Nodes>, std::array<int, 2>> bricks_done(const BrickRows&
 
 void expect_each_brick_once(const std::vector<BrickElement>& bricks, LocalIndex nodes) {
   for (int axis = 0; axis < 3; ++axis) {
-    const BrickRows rows = find_brick_rows(bricks, nodes, axis);
+    const BrickRows rows = find_rows(bricks, nodes, axis);
     const auto done = bricks_done(rows, pair_chains(rows));
     EXPECT_EQ(done.size(), bricks.size());
     for (const BrickElement& brick : bricks) {
@@ -65,7 +65,7 @@ void expect_each_brick_once(const std::vector<BrickElement>& bricks, LocalIndex 
 }
 
 TEST(BrickPairs, ASlabHasAPairPerRowOfNodes) {
-  const BrickRows rows = find_brick_rows(grid(7, 5, 1), 8 * 6 * 2, 0);
+  const BrickRows rows = find_rows(grid(7, 5, 1), 8 * 6 * 2, 0);
   const BrickPairs pairs = pair_chains(rows);
   EXPECT_EQ(pairs.axes, (std::array<int, 3>{0, 1, 2}));
   ASSERT_EQ(pairs.pairs.size(), 6u);
@@ -76,14 +76,14 @@ TEST(BrickPairs, ASlabHasAPairPerRowOfNodes) {
 }
 
 TEST(BrickPairs, TheThicknessIsFoundOnAnyAxis) {
-  EXPECT_EQ(pair_chains(find_brick_rows(grid(7, 1, 5), 8 * 2 * 6, 0)).axes,
+  EXPECT_EQ(pair_chains(find_rows(grid(7, 1, 5), 8 * 2 * 6, 0)).axes,
             (std::array<int, 3>{0, 2, 1}));
-  EXPECT_EQ(pair_chains(find_brick_rows(grid(1, 5, 7), 2 * 6 * 8, 2)).axes,
+  EXPECT_EQ(pair_chains(find_rows(grid(1, 5, 7), 2 * 6 * 8, 2)).axes,
             (std::array<int, 3>{2, 1, 0}));
 }
 
 TEST(BrickPairs, LayersShareChains) {
-  const BrickPairs pairs = pair_chains(find_brick_rows(grid(7, 5, 2), 8 * 6 * 3, 0));
+  const BrickPairs pairs = pair_chains(find_rows(grid(7, 5, 2), 8 * 6 * 3, 0));
   EXPECT_EQ(pairs.pairs.size(), 12u);
   EXPECT_EQ(pairs.steps.size(), 12u);
   EXPECT_TRUE(std::none_of(pairs.pairs.begin(), pairs.pairs.end(),
@@ -94,7 +94,7 @@ TEST(BrickPairs, LayersShareChains) {
 TEST(BrickPairs, RowsOfTwoLengths) {
   auto bricks = grid(20, 2, 1);
   bricks.erase(bricks.begin() + 32, bricks.begin() + 40);
-  const BrickPairs pairs = pair_chains(find_brick_rows(bricks, 21 * 3 * 2, 0));
+  const BrickPairs pairs = pair_chains(find_rows(bricks, 21 * 3 * 2, 0));
   ASSERT_EQ(count_sides(pairs, Sides::both), 1);
   const auto both = std::find_if(pairs.steps.begin(), pairs.steps.end(),
                                  [](const PairStep& step) { return step.sides == Sides::both; });
