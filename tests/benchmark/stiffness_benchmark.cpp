@@ -9,6 +9,7 @@
 
 #include "common/parallel.h"
 #include "support/box_mesh.h"
+#include "support/frame_mesh.h"
 #include "system/brick_kernel.h"
 #include "system/element_stiffness.h"
 #include "system/finite_element_system.h"
@@ -16,15 +17,25 @@
 namespace pounding {
 namespace {
 
-/// A slab or block of concrete of the given cells, with both products.
+/// A slab or block of bricks of the given cells, or a plate of shells if there are none along z, of
+/// concrete, with both products.
 struct Block {
   explicit Block(const benchmark::State& state) {
     const std::array<int, 3> cells{static_cast<int>(state.range(0)),
                                    static_cast<int>(state.range(1)),
                                    static_cast<int>(state.range(2))};
-    const GlobalMesh global =
-        testing::box_mesh({0, 0, 0}, {0.25 * cells[0], 0.3 * cells[1], 0.22 * cells[2]}, cells);
-    const Structure structure = testing::solid_structure("block", 30e9, 0.2, 2400);
+    if (cells[2] == 0) {
+      testing::FrameMesh plate;
+      plate.add_plate({0, 0, 0}, {0.25 * cells[0], 0, 0}, {0, 0.3 * cells[1], 0},
+                      {cells[0], cells[1]}, 0.22);
+      build(plate.mesh(), plate.structure());
+    } else {
+      build(testing::box_mesh({0, 0, 0}, {0.25 * cells[0], 0.3 * cells[1], 0.22 * cells[2]}, cells),
+            testing::solid_structure("block", 30e9, 0.2, 2400));
+    }
+  }
+
+  void build(const GlobalMesh& global, const Structure& structure) {
     mesh =
         distribute_mesh(PETSC_COMM_SELF, "block", global, partition_meshes({&global, 1}, {}, 1), 0);
     system = build_finite_element_system(structure, mesh);
@@ -92,6 +103,7 @@ void brick_kernel(benchmark::State& state) {
 
 void sizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->ArgNames({"x", "y", "z"});
+  benchmark->Args({28, 19, 0})->Args({77, 77, 0});
   benchmark->Args({28, 19, 1})->Args({18, 19, 1})->Args({77, 77, 1})->Args({46, 46, 46});
   benchmark->Unit(benchmark::kMicrosecond);
 }
