@@ -18,23 +18,25 @@ ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
                                std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
                                double gap_tolerance)
     : operator_(comm, interface.constraints, meshes),
-      gather_(comm, operator_, meshes),
+      structure_dofs_(systems.size()),
+      traces_(make_traces(systems, meshes)),
+      gather_(comm, known_dofs()),
+      compliance_(comm, operator_.dof_list(), traces_),
       gap_tolerance_(gap_tolerance) {
   const auto dofs = static_cast<std::size_t>(operator_.dofs());
   const auto rows = static_cast<std::size_t>(operator_.rows());
-  inverse_mass_.assign(dofs, 0.0);
-  for (const InterfaceGather::Owned& owned : gather_.owned()) {
-    inverse_mass_[static_cast<std::size_t>(owned.interface_dof)] =
-        systems[static_cast<std::size_t>(owned.structure)]
-            .inverse_mass[static_cast<std::size_t>(owned.dof)];
-  }
-  MPI_Allreduce(MPI_IN_PLACE, inverse_mass_.data(), static_cast<int>(dofs), MPI_DOUBLE, MPI_SUM,
-                comm);
   for (const Constraint& constraint : interface.constraints) {
     initial_gap_.push_back(constraint.initial_gap);
   }
-  mine_.assign(InterfaceGather::max_fields * gather_.owned().size(), 0.0);
-  all_.assign(InterfaceGather::max_fields * dofs, 0.0);
+  std::size_t known = 0;
+  for (const Trace& trace : traces_) {
+    first_known_.push_back(known);
+    known += trace.known().size();
+  }
+  mine_.assign(InterfaceGather::max_fields * known, 0.0);
+  place_impulse_.assign(known, 0.0);
+  displacement_.assign(dofs, 0.0);
+  velocities_.assign(InterfaceGather::max_fields * dofs, 0.0);
   gap_ = initial_gap_;
   impulse_.assign(rows, 0.0);
   previous_.assign(rows, 0.0);
@@ -43,24 +45,53 @@ ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
   dof_impulse_.assign(dofs, 0.0);
   dof_increment_.assign(dofs, 0.0);
   smallest_gap_ = rows > 0 ? *std::min_element(gap_.begin(), gap_.end()) : 0;
-  build_delassus(systems);
+  rate_norm_.assign(systems.size(), 0.0);
+  build_delassus();
   find_components();
 }
 
-void ContactProblem::build_delassus(std::span<const LinearSystem> systems) {
-  rate_norm_.assign(systems.size(), 0.0);
+std::vector<Trace> ContactProblem::make_traces(std::span<const LinearSystem> systems,
+                                               std::span<const Mesh> meshes) {
+  std::vector<std::vector<TracePoint>> places(systems.size());
+  for (int i = 0; i < operator_.dofs(); ++i) {
+    const InterfaceDof& dof = operator_.dof_list()[static_cast<std::size_t>(i)];
+    const auto s = static_cast<std::size_t>(dof.structure);
+    places[s].push_back({dof.node, dof.component});
+    structure_dofs_[s].push_back(i);
+  }
+  std::vector<Trace> traces;
+  for (std::size_t s = 0; s < systems.size(); ++s) {
+    traces.emplace_back(systems[s], meshes[s], places[s]);
+  }
+  return traces;
+}
+
+std::vector<int> ContactProblem::known_dofs() const {
+  std::vector<int> known;
+  for (std::size_t s = 0; s < traces_.size(); ++s) {
+    for (const int place : traces_[s].known()) {
+      known.push_back(structure_dofs_[s][static_cast<std::size_t>(place)]);
+    }
+  }
+  return known;
+}
+
+void ContactProblem::build_delassus() {
   for (int row = 0; row < operator_.rows(); ++row) {
     diagonal_.push_back(delassus_entry(row, row));
-    std::vector<double> norm(systems.size(), 0.0);
+    std::vector<double> norm(rate_norm_.size(), 0.0);
     const auto columns = operator_.row_dofs(row);
     const auto values = operator_.row_coefficients(row);
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      const auto dof = static_cast<std::size_t>(columns[k]);
-      norm[static_cast<std::size_t>(operator_.dof_list()[dof].structure)] +=
-          values[k] * values[k] * inverse_mass_[dof];
+    for (std::size_t a = 0; a < columns.size(); ++a) {
+      const auto dof = static_cast<std::size_t>(columns[a]);
+      const auto structure = static_cast<std::size_t>(operator_.dof_list()[dof].structure);
+      for (std::size_t b = 0; b < columns.size(); ++b) {
+        norm[structure] +=
+            values[a] * values[b] * compliance_.entry(dof, static_cast<std::size_t>(columns[b]));
+      }
     }
     for (std::size_t s = 0; s < norm.size(); ++s) {
-      rate_norm_[s] = std::max(rate_norm_[s], std::sqrt(norm[s]));
+      rate_norm_[s] = std::max(rate_norm_[s], std::sqrt(std::max(norm[s], 0.0)));
     }
   }
 }
@@ -73,28 +104,38 @@ double ContactProblem::delassus_entry(int row, int column) const {
   const auto column_values = operator_.row_coefficients(column);
   for (std::size_t a = 0; a < row_dofs.size(); ++a) {
     for (std::size_t b = 0; b < column_dofs.size(); ++b) {
-      if (row_dofs[a] == column_dofs[b]) {
-        sum +=
-            row_values[a] * inverse_mass_[static_cast<std::size_t>(row_dofs[a])] * column_values[b];
-      }
+      sum += row_values[a] *
+             compliance_.entry(static_cast<std::size_t>(row_dofs[a]),
+                               static_cast<std::size_t>(column_dofs[b])) *
+             column_values[b];
     }
   }
   return sum;
 }
 
 void ContactProblem::find_components() {
-  std::vector<std::vector<int>> row_dofs;
+  std::vector<std::vector<int>> row_groups;
   for (int row = 0; row < operator_.rows(); ++row) {
-    const auto dofs = operator_.row_dofs(row);
-    row_dofs.emplace_back(dofs.begin(), dofs.end());
+    row_groups.emplace_back();
+    for (const int dof : operator_.row_dofs(row)) {
+      row_groups.back().push_back(compliance_.group_of(static_cast<std::size_t>(dof)));
+    }
   }
-  components_ = coupled_components(row_dofs, operator_.dofs());
   std::size_t largest = 1;
-  for (const std::vector<int>& component : components_) {
-    largest = std::max(largest, component.size());
-    coupled_rows_ += component.size() > 1 ? static_cast<int>(component.size()) : 0;
+  for (std::vector<int>& rows : coupled_components(row_groups, operator_.dofs())) {
+    Component& component = components_.emplace_back(Component{std::move(rows), {}});
+    const std::size_t size = component.rows.size();
+    largest = std::max(largest, size);
+    if (size > 1) {
+      coupled_rows_ += static_cast<int>(size);
+      for (const int row : component.rows) {
+        for (const int column : component.rows) {
+          component.delassus.push_back(delassus_entry(row, column));
+        }
+      }
+    }
   }
-  active_rows_.reserve(largest);
+  active_places_.reserve(largest);
   matrix_.resize(largest * largest);
   rate_.resize(largest);
   solution_.resize(largest);
@@ -104,13 +145,16 @@ void ContactProblem::find_components() {
   }
 }
 
-void ContactProblem::gather() {
-  gather_.gather(3, mine_, all_);
-  const std::span<const double> u(all_.data(), inverse_mass_.size());
+void ContactProblem::set_displacement(std::size_t structure, const double* displacement) {
+  traces_[structure].apply(displacement, mine_.data() + first_known_[structure], 1);
+}
+
+void ContactProblem::gather_displacements() {
+  gather_.gather(1, {mine_.data(), mine_.size() / InterfaceGather::max_fields}, displacement_);
   smallest_gap_ = std::numeric_limits<double>::max();
   for (int row = 0; row < operator_.rows(); ++row) {
     const auto r = static_cast<std::size_t>(row);
-    gap_[r] = initial_gap_[r] + operator_.apply(row, u);
+    gap_[r] = initial_gap_[r] + operator_.apply(row, displacement_);
     smallest_gap_ = std::min(smallest_gap_, gap_[r]);
   }
 }
@@ -125,75 +169,97 @@ bool ContactProblem::detect_contact() {
   return any;
 }
 
-void ContactProblem::solve_component(const std::vector<int>& component) {
-  const std::size_t dofs = inverse_mass_.size();
-  const std::span<const double> free_velocity(all_.data() + 2 * dofs, dofs);
-  active_rows_.clear();
-  for (const int row : component) {
-    if (active_[static_cast<std::size_t>(row)] != 0) {
-      active_rows_.push_back(row);
+void ContactProblem::set_velocities(std::size_t structure, const double* before,
+                                    const double* free) {
+  double* const mine = mine_.data() + 2 * first_known_[structure];
+  traces_[structure].apply(before, mine, 2);
+  traces_[structure].apply(free, mine + 1, 2);
+}
+
+void ContactProblem::gather_velocities() {
+  gather_.gather(2, mine_, velocities_);
+}
+
+void ContactProblem::solve_component(const Component& component) {
+  const std::size_t dofs = displacement_.size();
+  const std::span<const double> free_velocity(velocities_.data() + dofs, dofs);
+  active_places_.clear();
+  for (std::size_t i = 0; i < component.rows.size(); ++i) {
+    if (active_[static_cast<std::size_t>(component.rows[i])] != 0) {
+      active_places_.push_back(i);
     }
   }
-  const std::size_t n = active_rows_.size();
-  if (n == 1) {
-    const auto r = static_cast<std::size_t>(active_rows_[0]);
-    impulse_[r] = std::max(0.0, -operator_.apply(active_rows_[0], free_velocity)) / diagonal_[r];
-    operator_.add_transposed(active_rows_[0], impulse_[r], dof_impulse_);
-    return;
+  if (active_places_.size() == 1) {
+    const int row = component.rows[active_places_[0]];
+    const auto r = static_cast<std::size_t>(row);
+    impulse_[r] = std::max(0.0, -operator_.apply(row, free_velocity)) / diagonal_[r];
+    operator_.add_transposed(row, impulse_[r], dof_impulse_);
+  } else if (!active_places_.empty()) {
+    solve_coupled(component);
   }
+}
+
+void ContactProblem::solve_coupled(const Component& component) {
+  const std::size_t dofs = displacement_.size();
+  const std::span<const double> free_velocity(velocities_.data() + dofs, dofs);
+  const std::size_t n = active_places_.size();
+  const std::size_t all = component.rows.size();
+  const auto row = [&](std::size_t i) { return component.rows[active_places_[i]]; };
   for (std::size_t i = 0; i < n; ++i) {
-    rate_[i] = operator_.apply(active_rows_[i], free_velocity);
-    solution_[i] = previous_[static_cast<std::size_t>(active_rows_[i])];
+    rate_[i] = operator_.apply(row(i), free_velocity);
+    solution_[i] = previous_[static_cast<std::size_t>(row(i))];
     for (std::size_t j = 0; j < n; ++j) {
-      matrix_[i * n + j] = delassus_entry(active_rows_[i], active_rows_[j]);
+      matrix_[i * n + j] = component.delassus[active_places_[i] * all + active_places_[j]];
     }
-  }
-  if (n == 0) {
-    return;
   }
   const LcpResult result =
       lcp_->solve({matrix_.data(), n * n}, {rate_.data(), n}, {solution_.data(), n});
   largest_residual_ = std::max(largest_residual_, result.residual);
   for (std::size_t i = 0; i < n; ++i) {
-    operator_.add_transposed(active_rows_[i], solution_[i], dof_impulse_);
+    operator_.add_transposed(row(i), solution_[i], dof_impulse_);
   }
   if (result.roundoff > correction_threshold) {
-    correct_component();
+    correct_component(component);
   }
   for (std::size_t i = 0; i < n; ++i) {
-    impulse_[static_cast<std::size_t>(active_rows_[i])] = solution_[i];
+    impulse_[static_cast<std::size_t>(row(i))] = solution_[i];
   }
 }
 
-void ContactProblem::correct_component() {
-  const std::size_t dofs = inverse_mass_.size();
-  const std::size_t n = active_rows_.size();
+void ContactProblem::correct_component(const Component& component) {
+  const std::size_t dofs = displacement_.size();
+  const std::size_t n = active_places_.size();
   for (std::size_t i = 0; i < n; ++i) {
-    const auto columns = operator_.row_dofs(active_rows_[i]);
-    const auto values = operator_.row_coefficients(active_rows_[i]);
+    const int row = component.rows[active_places_[i]];
+    const auto columns = operator_.row_dofs(row);
+    const auto values = operator_.row_coefficients(row);
     rate_[i] = 0;
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const auto dof = static_cast<std::size_t>(columns[k]);
-      rate_[i] += values[k] * (all_[2 * dofs + dof] + inverse_mass_[dof] * dof_impulse_[dof]);
+      rate_[i] +=
+          values[k] * (velocities_[dofs + dof] + compliance_.velocity_change(dof, dof_impulse_));
     }
   }
   lcp_->correct({rate_.data(), n}, {solution_.data(), n}, {increment_.data(), n});
   for (std::size_t i = 0; i < n; ++i) {
-    operator_.add_transposed(active_rows_[i], increment_[i], dof_increment_);
+    operator_.add_transposed(component.rows[active_places_[i]], increment_[i], dof_increment_);
   }
 }
 
-void ContactProblem::solve_impulse() {
+void ContactProblem::clear_impulse() {
   previous_ = impulse_;
   std::fill(impulse_.begin(), impulse_.end(), 0.0);
   std::fill(work_.begin(), work_.end(), 0.0);
+}
+
+void ContactProblem::solve_impulse() {
+  clear_impulse();
   std::fill(dof_impulse_.begin(), dof_impulse_.end(), 0.0);
   std::fill(dof_increment_.begin(), dof_increment_.end(), 0.0);
-  for (const std::vector<int>& component : components_) {
+  for (const Component& component : components_) {
     solve_component(component);
   }
-  const std::size_t dofs = inverse_mass_.size();
-  const std::span<const double> velocity_before(all_.data() + dofs, dofs);
+  const std::span<const double> velocity_before(velocities_.data(), displacement_.size());
   for (int row = 0; row < operator_.rows(); ++row) {
     const double impulse = impulse_[static_cast<std::size_t>(row)];
     if (impulse > 0) {
@@ -202,10 +268,16 @@ void ContactProblem::solve_impulse() {
   }
 }
 
-double ContactProblem::corrected_velocity(std::size_t i, double free_velocity) const {
-  const auto dof = static_cast<std::size_t>(gather_.owned()[i].interface_dof);
-  const double velocity = free_velocity + inverse_mass_[dof] * dof_impulse_[dof];
-  return velocity + inverse_mass_[dof] * dof_increment_[dof];
+void ContactProblem::add_velocity_change(std::size_t structure, double* velocity) {
+  Trace& trace = traces_[structure];
+  for (const std::vector<double>* impulse : {&dof_impulse_, &dof_increment_}) {
+    const std::vector<int>& known = trace.known();
+    for (std::size_t k = 0; k < known.size(); ++k) {
+      const int dof = structure_dofs_[structure][static_cast<std::size_t>(known[k])];
+      place_impulse_[k] = (*impulse)[static_cast<std::size_t>(dof)];
+    }
+    trace.add_impulse(place_impulse_.data(), velocity);
+  }
 }
 
 void ContactProblem::save(SavedState& saved) const {

@@ -7,20 +7,23 @@
 #include "common/saved_state.h"
 #include "contact/contact_operator.h"
 #include "contact/interface.h"
+#include "contact/interface_compliance.h"
 #include "contact/interface_gather.h"
 #include "contact/lcp.h"
 #include "system/linear_system.h"
+#include "system/trace.h"
 
 namespace pounding {
 
-/// The unilateral contact problem of one step, gathered at the ranks that own the interface and
+/// The unilateral contact problem of one step, gathered at the ranks that know the interface and
 /// solved there by each of them alike:
 ///
 ///     A = { i : g_i(u_n) <= g_tol },     0 <= lambda _|_ H lambda + L v_free >= 0   on A
 ///
-/// H = L M^-1 L^T [1/kg] is built once. Rows that share no dof with another row are solved in
-/// closed form, lambda_i = max(0, -(L v_free)_i / H_ii); coupled rows by the LCP solver, component
-/// by component. Nothing allocates after construction.
+/// The columns of L are displacements of the interface, T u of the dofs of each structure (see
+/// system/trace.h), so that H = L T M^-1 T^T L^T [1/kg]; it is built once. Rows that share nothing
+/// that moves with another row are solved in closed form, lambda_i = max(0, -(L v_free)_i / H_ii);
+/// coupled rows by the LCP solver, component by component. Nothing allocates after construction.
 class ContactProblem {
  public:
   /// Collective over `comm`. `gap_tolerance` [m].
@@ -33,22 +36,24 @@ class ContactProblem {
   int rows() const { return operator_.rows(); }
   int coupled_rows() const { return coupled_rows_; }
 
-  /// Interface dofs of this rank, in the order of the numbers below.
-  const std::vector<InterfaceGather::Owned>& owned() const { return gather_.owned(); }
-  /// u_n and v_{n-1/2}, then v_free, of owned interface dof number i.
-  void set_before(std::size_t i, double displacement, double velocity) {
-    mine_[3 * i] = displacement;
-    mine_[3 * i + 1] = velocity;
-  }
-  void set_free_velocity(std::size_t i, double velocity) { mine_[3 * i + 2] = velocity; }
-  /// Gathers what was set and computes the gaps. Members only, collective over them.
-  void gather();
+  /// The interface of a structure, as far as this rank knows it.
+  const Trace& trace(std::size_t structure) const { return traces_[structure]; }
+  /// u_n over the dofs of the structure's trace.
+  void set_displacement(std::size_t structure, const double* displacement);
+  /// Gathers the displacements and computes the gaps. Members only, collective over them.
+  void gather_displacements();
   /// Active set; true if it is not empty.
   bool detect_contact();
+  /// v_{n-1/2} and v_free over the dofs of the structure's trace.
+  void set_velocities(std::size_t structure, const double* before, const double* free);
+  /// Gathers the velocities. Members only, collective over them.
+  void gather_velocities();
   /// Impulses of the active rows, 0 elsewhere.
   void solve_impulse();
-  /// v_free + M^-1 L^T lambda of owned interface dof number i.
-  double corrected_velocity(std::size_t i, double free_velocity) const;
+  /// No impulse anywhere: what solve_impulse() says of an empty active set.
+  void clear_impulse();
+  /// v += M^-1 T^T L^T lambda over the dofs of the structure's trace.
+  void add_velocity_change(std::size_t structure, double* velocity);
 
   /// Of the last gather, per row. Members only.
   const std::vector<double>& gaps() const { return gap_; }          ///< [m]
@@ -68,24 +73,39 @@ class ContactProblem {
   void load(const SavedState& saved);
 
  private:
-  void build_delassus(std::span<const LinearSystem> systems);
+  /// Coupled rows, ascending, with their part of H.
+  struct Component {
+    std::vector<int> rows;
+    std::vector<double> delassus;  ///< shape (rows, rows); empty for a single row
+  };
+
+  std::vector<Trace> make_traces(std::span<const LinearSystem> systems,
+                                 std::span<const Mesh> meshes);
+  std::vector<int> known_dofs() const;
+  void build_delassus();
   double delassus_entry(int row, int column) const;
   void find_components();
-  void solve_component(const std::vector<int>& component);
+  void solve_component(const Component& component);
+  void solve_coupled(const Component& component);
   /// Second pass where masses differ so much that a double loses the gap rates.
-  void correct_component();
+  void correct_component(const Component& component);
 
   ContactOperator operator_;
+  std::vector<std::vector<int>> structure_dofs_;  ///< per structure: its interface dofs
+  std::vector<Trace> traces_;                     ///< per structure
+  std::vector<std::size_t> first_known_;          ///< per structure, into the values of this rank
   InterfaceGather gather_;
+  InterfaceCompliance compliance_;
   double gap_tolerance_;
   std::vector<double> initial_gap_;
-  std::vector<double> inverse_mass_;  ///< per interface dof
-  std::vector<double> diagonal_;      ///< H_ii
-  std::vector<std::vector<int>> components_;
+  std::vector<double> diagonal_;  ///< H_ii
+  std::vector<Component> components_;
   int coupled_rows_ = 0;
   std::vector<double> rate_norm_;
-  std::vector<double> mine_;  ///< shape (owned, 3)
-  std::vector<double> all_;   ///< shape (3, dofs): displacement, velocity before, free velocity
+  std::vector<double> mine_;           ///< shape (known, 1 or 2)
+  std::vector<double> displacement_;   ///< per interface dof
+  std::vector<double> velocities_;     ///< shape (2, dofs): before, free
+  std::vector<double> place_impulse_;  ///< of the known dofs of a structure
   std::vector<double> gap_;
   std::vector<double> impulse_;
   std::vector<double> previous_;  ///< impulses of the last solve: where the LCP starts
@@ -96,7 +116,7 @@ class ContactProblem {
   double smallest_gap_ = 0;
   double largest_residual_ = 0;
   std::unique_ptr<LcpSolver> lcp_;
-  std::vector<int> active_rows_;
+  std::vector<std::size_t> active_places_;  ///< of the component's active rows in it
   std::vector<double> matrix_;
   std::vector<double> rate_;
   std::vector<double> solution_;

@@ -4,17 +4,7 @@
 
 namespace pounding {
 
-InterfaceGather::InterfaceGather(MPI_Comm comm, const ContactOperator& contact_operator,
-                                 std::span<const Mesh> meshes) {
-  std::vector<int> mine;
-  for (int i = 0; i < contact_operator.dofs(); ++i) {
-    const InterfaceDof& dof = contact_operator.dof_list()[static_cast<std::size_t>(i)];
-    const LocalIndex local = owned_dof(dof, meshes);
-    if (local >= 0) {
-      owned_.push_back({dof.structure, local, i});
-      mine.push_back(i);
-    }
-  }
+InterfaceGather::InterfaceGather(MPI_Comm comm, std::span<const int> mine) {
   int lowest = mine.empty() ? size_of(comm) : rank_of(comm);
   MPI_Allreduce(&lowest, &root_, 1, MPI_INT, MPI_MIN, comm);
   int counts = mine.empty() ? 0 : 1;

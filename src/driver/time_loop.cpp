@@ -97,7 +97,7 @@ void TimeLoop::create_recorder(bool continued) {
   for (const LinearSystem& system : model_.systems) {
     layout.initial_velocity.push_back(system.initial_velocity);
   }
-  recorder_ = std::make_unique<Recorder>(std::move(layout), model_.meshes);
+  recorder_ = std::make_unique<Recorder>(std::move(layout), model_.systems, model_.meshes);
 }
 
 int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {

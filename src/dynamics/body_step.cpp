@@ -59,7 +59,30 @@ BodyStep::BodyStep(const LinearSystem& system, BodyState& state, double time_ste
   find_segments();
 }
 
+double BodyStep::ground_step_at(std::size_t dof) const {
+  if (system_.generalised) {
+    const auto& iota = system_.generalised->influence;
+    return ground_step_[0] * iota[0][dof] + ground_step_[1] * iota[1][dof] +
+           ground_step_[2] * iota[2][dof];
+  }
+  const int direction = system_.direction[dof];
+  return direction < 0 ? 0 : ground_step_[static_cast<std::size_t>(direction)];
+}
+
+void BodyStep::add_momentum(std::size_t dof, double momentum) {
+  if (system_.generalised) {
+    for (std::size_t d = 0; d < 3; ++d) {
+      single_.momentum[d] += system_.generalised->influence[d][dof] * momentum;
+    }
+  } else if (system_.direction[dof] >= 0) {
+    single_.momentum[static_cast<std::size_t>(system_.direction[dof])] += momentum;
+  }
+}
+
 BodyStep::Order BodyStep::order_at(std::size_t dof) const {
+  if (system_.generalised && !system_.has_devices()) {
+    return Order::generalised;
+  }
   if (system_.has_devices() || !directions_are(system_, dof, {0, 1, 2})) {
     return Order::none;
   }
@@ -71,7 +94,7 @@ BodyStep::Order BodyStep::order_at(std::size_t dof) const {
 }
 
 void BodyStep::find_segments() {
-  const std::size_t dofs = system_.direction.size();
+  const std::size_t dofs = system_.lumped_mass.size();
   for (std::size_t dof = 0; dof < dofs;) {
     const Order order = order_at(dof);
     if (segments_.empty() || segments_.back().order != order) {
@@ -82,7 +105,7 @@ void BodyStep::find_segments() {
       node_mass_.push_back(system_.lumped_mass[dof]);
       node_inverse_mass_.push_back(system_.inverse_mass[dof]);
     }
-    dof += order == Order::none ? 1 : order == Order::translations ? 3 : 6;
+    dof += order == Order::translations ? 3 : order == Order::nodes_of_six ? 6 : 1;
     segments_.back().end = static_cast<LocalIndex>(dof);
   }
   node_mass_.resize(node_mass_.size() + lanes, 0.0);  // whole vectors are read
@@ -165,6 +188,48 @@ void BodyStep::advance_every_third(std::size_t first, std::size_t end, const dou
   sums_.mass_sum = mass_sum;
 }
 
+void BodyStep::advance_generalised(std::size_t first, std::size_t end, const double* force) {
+  double* const displacement = state_.displacement.data();
+  double* const velocity = state_.velocity.data();
+  double* const stiffness = state_.stiffness_displacement.data();
+  const auto& influence = system_.generalised->influence;
+  Lanes stiffness_before{}, stiffness_across{}, mass_sum{};
+  Lanes momentum[3]{};
+  for (std::size_t i = first; i + lanes <= end; i += lanes, force += lanes) {
+    Lanes q, v, u, ku, m, weight, iota[3];
+    load(force, q);
+    load(displacement + i, u);
+    load(velocity + i, v);
+    load(stiffness + i, ku);
+    load(&system_.lumped_mass[i], m);
+    load(&system_.inverse_mass[i], weight);
+    for (std::size_t d = 0; d < 3; ++d) {
+      load(&influence[d][i], iota[d]);
+    }
+    const Lanes ground =
+        ground_step_[0] * iota[0] + ground_step_[1] * iota[1] + ground_step_[2] * iota[2];
+    const Lanes kv = (q - ku) * inverse_;
+    const Lanes after = decay_ * v - time_step_ * (weight * q) - ground;
+    store(stiffness + i, ku + time_step_ * kv);
+    store(velocity + i, after);
+    store(displacement + i, u + time_step_ * after);
+    stiffness_before += v * kv;
+    stiffness_across += after * kv;
+    const Lanes sum = after + v;
+    const Lanes both = m * sum;
+    mass_sum += both * sum;
+    for (std::size_t d = 0; d < 3; ++d) {
+      momentum[d] += iota[d] * both;
+    }
+  }
+  single_.stiffness_before += add_up(stiffness_before);
+  single_.stiffness_across += add_up(stiffness_across);
+  single_.mass_sum += add_up(mass_sum);
+  for (std::size_t d = 0; d < 3; ++d) {
+    single_.momentum[d] += add_up(momentum[d]);
+  }
+}
+
 template <bool with_energies>
 void BodyStep::advance(const Segment& segment, LocalIndex begin, LocalIndex end,
                        const double* force) {
@@ -194,6 +259,9 @@ void BodyStep::advance(const Segment& segment, LocalIndex begin, LocalIndex end,
           ground_[1][k], sums_.momentum[1][k]);
     }
     done += (stop - done) / lanes * lanes;
+  } else if (segment.order == Order::generalised && duration_ == time_step_ && !with_energies) {
+    advance_generalised(done, stop, force);
+    done += (stop - done) / lanes * lanes;
   }
   for (; done < stop; ++done) {
     advance_dof<with_energies>(static_cast<LocalIndex>(done),
@@ -217,11 +285,8 @@ void BodyStep::advance_dof(LocalIndex dof, double force) {
   if (!state_.device_force.empty()) {
     after -= duration_ * (system_.inverse_mass[i] * state_.device_force[i]);
   }
-  const int direction = system_.direction[i];
-  if (direction >= 0) {
-    after -= ground_step_[static_cast<std::size_t>(direction)];
-    single_.momentum[static_cast<std::size_t>(direction)] += mass * (after + before);
-  }
+  after -= ground_step_at(i);
+  add_momentum(i, mass * (after + before));
   if (!state_.device_force.empty()) {
     single_.device += state_.device_force[i] * (after + before);
   }
@@ -233,29 +298,35 @@ void BodyStep::advance_dof(LocalIndex dof, double force) {
   single_.mass_sum += mass * (after + before) * (after + before);
 }
 
-BodyStep::Before BodyStep::before(LocalIndex dof) const {
-  const auto i = static_cast<std::size_t>(dof);
-  return {state_.displacement[i], state_.velocity[i], state_.stiffness_displacement[i]};
+void BodyStep::remember(std::span<const LocalIndex> dofs, Before& before) const {
+  for (std::size_t k = 0; k < dofs.size(); ++k) {
+    const auto i = static_cast<std::size_t>(dofs[k]);
+    before.displacement[k] = state_.displacement[i];
+    before.velocity[k] = state_.velocity[i];
+    before.stiffness_displacement[k] = state_.stiffness_displacement[i];
+  }
 }
 
-void BodyStep::correct(LocalIndex dof, const Before& before, double velocity) {
-  const auto i = static_cast<std::size_t>(dof);
-  const double free = state_.velocity[i];
-  const double change = velocity - free;
-  const double mass = system_.lumped_mass[i];
-  const double kv =
-      inverse_ > 0 ? (state_.stiffness_displacement[i] - before.stiffness_displacement) / time_step_
-                   : 0;
-  single_.stiffness_across += change * kv;
-  single_.mass_sum += mass * change * (2 * (free + before.velocity) + change);
-  if (system_.direction[i] >= 0) {
-    single_.momentum[static_cast<std::size_t>(system_.direction[i])] += mass * change;
+void BodyStep::correct(std::span<const LocalIndex> dofs, const Before& before,
+                       std::span<const double> velocity) {
+  for (std::size_t k = 0; k < dofs.size(); ++k) {
+    const auto i = static_cast<std::size_t>(dofs[k]);
+    const double free = state_.velocity[i];
+    const double change = velocity[k] - free;
+    const double mass = system_.lumped_mass[i];
+    const double kv =
+        inverse_ > 0
+            ? (state_.stiffness_displacement[i] - before.stiffness_displacement[k]) / time_step_
+            : 0;
+    single_.stiffness_across += change * kv;
+    single_.mass_sum += mass * change * (2 * (free + before.velocity[k]) + change);
+    add_momentum(i, mass * change);
+    if (!state_.device_force.empty()) {
+      single_.device += state_.device_force[i] * change;
+    }
+    state_.velocity[i] = velocity[k];
+    state_.displacement[i] = before.displacement[k] + time_step_ * velocity[k];
   }
-  if (!state_.device_force.empty()) {
-    single_.device += state_.device_force[i] * change;
-  }
-  state_.velocity[i] = velocity;
-  state_.displacement[i] = before.displacement + time_step_ * velocity;
 }
 
 StepSums BodyStep::sums() const {

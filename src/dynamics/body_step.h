@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "dynamics/state.h"
@@ -42,23 +43,27 @@ class BodyStep final : public ForceReceiver {
   void begin(double duration, const std::array<double, 3>& ground_acceleration, bool first,
              bool with_energies);
   void receive(LocalIndex begin, LocalIndex end, const double* force) override;
-  /// What a dof held before the step.
+  /// What some dofs held before the step.
   struct Before {
-    double displacement = 0;
-    double velocity = 0;
-    double stiffness_displacement = 0;
+    explicit Before(std::size_t dofs)
+        : displacement(dofs), velocity(dofs), stiffness_displacement(dofs) {}
+    std::vector<double> displacement;
+    std::vector<double> velocity;
+    std::vector<double> stiffness_displacement;
   };
-  Before before(LocalIndex dof) const;
-  /// v+ = `velocity` at a dof, after contact; sums and displacement follow.
-  void correct(LocalIndex dof, const Before& before, double velocity);
+  void remember(std::span<const LocalIndex> dofs, Before& before) const;
+  /// v+ = `velocity` at these dofs, after contact; sums and displacement follow.
+  void correct(std::span<const LocalIndex> dofs, const Before& before,
+               std::span<const double> velocity);
   /// Sums of the whole step.
   StepSums sums() const;
 
  private:
   static constexpr std::size_t pattern_lanes = 3;  // vectors in which directions repeat: 12 dofs
 
-  /// Dofs whose directions repeat: x y z of one mass, or x y z and three rotations, or in no order.
-  enum class Order { translations, nodes_of_six, none };
+  /// Dofs whose directions repeat: x y z of one mass, or x y z and three rotations; generalised
+  /// coordinates; or in no order.
+  enum class Order { translations, nodes_of_six, generalised, none };
   struct Segment {
     LocalIndex begin = 0;
     LocalIndex end = 0;
@@ -85,8 +90,14 @@ class BodyStep final : public ForceReceiver {
   template <bool with_energies, typename Masses>
   void advance_every_third(std::size_t first, std::size_t end, const double* force,
                            const Masses& masses, const Lanes& ground, Lanes& momentum);
+  /// Whole vectors of generalised coordinates.
+  void advance_generalised(std::size_t first, std::size_t end, const double* force);
   template <bool with_energies>
   void advance_dof(LocalIndex dof, double force);
+  /// dt (a_g - g) iota of a dof.
+  double ground_step_at(std::size_t dof) const;
+  /// Adds to iota_d^T M s what M s is at a dof.
+  void add_momentum(std::size_t dof, double momentum);
 
   const LinearSystem& system_;
   BodyState& state_;

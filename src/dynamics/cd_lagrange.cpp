@@ -48,8 +48,10 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
     Store store(body.stiffness_displacement);  // K u_0
     systems_[b].stiffness->apply({body.displacement.data(), body.displacement.data(), 0}, store);
   }
-  if (contact_ != nullptr) {
-    before_.resize(contact_->owned().size());
+  for (std::size_t b = 0; contact_ != nullptr && b < systems_.size(); ++b) {
+    const std::size_t dofs = contact_->trace(b).dofs().size();
+    before_.emplace_back(dofs);
+    interface_velocity_.emplace_back(dofs, 0.0);
   }
 }
 
@@ -130,31 +132,32 @@ double CdLagrange::apply_devices(std::size_t b) {
 
 void CdLagrange::remember_interface() {
   const ScopedTimer timer(profile_, Phase::contact);
-  const auto& owned = contact_->owned();
-  for (std::size_t i = 0; i < owned.size(); ++i) {
-    before_[i] = body_steps_[static_cast<std::size_t>(owned[i].structure)].before(owned[i].dof);
-    contact_->set_before(i, before_[i].displacement, before_[i].velocity);
+  for (std::size_t b = 0; b < systems_.size(); ++b) {
+    body_steps_[b].remember(contact_->trace(b).dofs(), before_[b]);
   }
 }
 
 bool CdLagrange::solve_contact() {
   const ScopedTimer timer(profile_, Phase::contact);
-  const auto& owned = contact_->owned();
-  const auto body = [&](std::size_t i) { return static_cast<std::size_t>(owned[i].structure); };
-  const auto velocity = [&](std::size_t i) {
-    return state_.bodies[body(i)].velocity[static_cast<std::size_t>(owned[i].dof)];
-  };
-  for (std::size_t i = 0; i < owned.size(); ++i) {
-    contact_->set_free_velocity(i, velocity(i));
+  for (std::size_t b = 0; b < systems_.size(); ++b) {
+    contact_->set_displacement(b, before_[b].displacement.data());
   }
-  contact_->gather();
+  contact_->gather_displacements();
   const bool touching = contact_->detect_contact();
-  contact_->solve_impulse();
   if (touching) {
-    for (std::size_t i = 0; i < owned.size(); ++i) {
-      body_steps_[body(i)].correct(owned[i].dof, before_[i],
-                                   contact_->corrected_velocity(i, velocity(i)));
+    for (std::size_t b = 0; b < systems_.size(); ++b) {
+      double* const velocity = interface_velocity_[b].data();
+      contact_->trace(b).restrict_to_dofs(state_.bodies[b].velocity.data(), velocity);
+      contact_->set_velocities(b, before_[b].velocity.data(), velocity);
     }
+    contact_->gather_velocities();
+    contact_->solve_impulse();
+    for (std::size_t b = 0; b < systems_.size(); ++b) {
+      contact_->add_velocity_change(b, interface_velocity_[b].data());
+      body_steps_[b].correct(contact_->trace(b).dofs(), before_[b], interface_velocity_[b]);
+    }
+  } else {
+    contact_->clear_impulse();
   }
   watch_.looked(state_.step, contact_->smallest_gap() - contact_->gap_tolerance(), touching);
   return touching;

@@ -80,7 +80,10 @@ class CdLagrange {
   EnergyBalance energy_;
   bool counts_work_;  ///< this rank adds the contact work to the ledger
   std::vector<StepSums> sums_;
-  std::vector<BodyStep::Before> before_;      ///< of the owned interface dofs
+  /// Per structure, the dofs that move its interface: what they held before the step, and their
+  /// velocity in it.
+  std::vector<BodyStep::Before> before_;
+  std::vector<std::vector<double>> interface_velocity_;
   std::vector<VecHandle> device_velocities_;  ///< v of each structure as a PETSc vector
   std::vector<VecHandle> device_forces_;
   std::array<double, 3> acceleration_{};

@@ -29,11 +29,11 @@ struct State {
       const std::vector<double> zero(system.lumped_mass.size(), 0.0);
       const std::vector<double> device = system.has_devices() ? zero : std::vector<double>{};
       bodies.push_back({zero, zero, zero, device, device});
-      for (std::size_t i = 0; i < zero.size(); ++i) {
-        if (system.direction[i] >= 0) {
-          const auto d = static_cast<std::size_t>(system.direction[i]);
-          bodies.back().displacement[i] = system.initial_displacement[d];
-          bodies.back().velocity[i] = system.initial_velocity[d];
+      for (std::size_t d = 0; d < 3; ++d) {
+        const std::vector<double> iota = system.influence(static_cast<int>(d));
+        for (std::size_t i = 0; i < iota.size(); ++i) {
+          bodies.back().displacement[i] += iota[i] * system.initial_displacement[d];
+          bodies.back().velocity[i] += iota[i] * system.initial_velocity[d];
         }
       }
     }

@@ -16,22 +16,31 @@ constexpr std::size_t values_per_node = 6;
 
 }  // namespace
 
-Recorder::Recorder(Layout layout, std::span<const Mesh> meshes) : layout_(std::move(layout)) {
-  std::vector<GlobalIndex> mine;
-  for (std::size_t p = 0; p < layout_.probes.size(); ++p) {
-    const ResolvedProbe& probe = layout_.probes[p];
-    const Mesh& mesh = meshes[static_cast<std::size_t>(probe.structure)];
-    for (std::size_t k = 0; k < probe.nodes.size(); ++k) {
-      const LocalIndex node = mesh.owned_node(probe.nodes[k]);
-      if (node >= 0) {
-        nodes_.push_back(
-            {p, k, probe.structure, {mesh.dof(node, 0), mesh.dof(node, 1), mesh.dof(node, 2)}});
-        mine.insert(mine.end(), {static_cast<GlobalIndex>(p), static_cast<GlobalIndex>(k)});
+Recorder::Recorder(Layout layout, std::span<const LinearSystem> systems,
+                   std::span<const Mesh> meshes)
+    : layout_(std::move(layout)) {
+  std::vector<GlobalIndex> mine;  // probe, and place of the node in it
+  for (std::size_t s = 0; s < systems.size(); ++s) {
+    std::vector<TracePoint> places;
+    for (std::size_t p = 0; p < layout_.probes.size(); ++p) {
+      const ResolvedProbe& probe = layout_.probes[p];
+      for (std::size_t k = 0; k < probe.nodes.size(); ++k) {
+        if (probe.structure == static_cast<int>(s) && meshes[s].owned_node(probe.nodes[k]) >= 0) {
+          mine.insert(mine.end(), {static_cast<GlobalIndex>(p), static_cast<GlobalIndex>(k)});
+          for (int d = 0; d < 3; ++d) {
+            places.push_back({probe.nodes[k], d});
+          }
+        }
       }
     }
+    Trace trace(systems[s], meshes[s], places);
+    const std::vector<double> motion(trace.dofs().size());
+    structures_.push_back(
+        {s, std::move(trace), nodes_, motion, std::vector<double>(places.size())});
+    nodes_ += places.size() / 3;
   }
   const bool root = rank_of(layout_.comm) == layout_.interface_root;
-  width_ = values_per_node * nodes_.size() + (root ? 2 * layout_.contacts.size() : 0);
+  width_ = values_per_node * nodes_ + (root ? 2 * layout_.contacts.size() : 0);
   buffer_.resize(buffer_records * width_);
   ground_.resize(3 * buffer_records);
   impulse_.assign(layout_.contacts.size(), 0.0);
@@ -108,28 +117,26 @@ void Recorder::add_step(const std::array<double, 3>& ground_velocity_step) {
   }
 }
 
-void Recorder::take_displacements(const State& state) {
-  double* out = buffer_.data() + buffered_ * width_;
-  for (const OwnedNode& node : nodes_) {
-    const BodyState& body = state.bodies[static_cast<std::size_t>(node.structure)];
-    for (std::size_t d = 0; d < 3; ++d) {
-      const LocalIndex dof = node.dofs[d];
-      out[d] = dof < 0 ? 0 : body.displacement[static_cast<std::size_t>(dof)];
+void Recorder::put(const State& state, std::vector<double> BodyState::*quantity,
+                   std::size_t offset) {
+  double* const record = buffer_.data() + buffered_ * width_;
+  for (StructureNodes& nodes : structures_) {
+    const std::vector<double>& owned = state.bodies[nodes.structure].*quantity;
+    nodes.trace.restrict_to_dofs(owned.data(), nodes.motion.data());
+    nodes.trace.apply(nodes.motion.data(), nodes.values.data(), 1);
+    for (std::size_t i = 0; i < nodes.values.size(); ++i) {
+      record[values_per_node * (nodes.first_node + i / 3) + offset + i % 3] = nodes.values[i];
     }
-    out += values_per_node;
   }
 }
 
+void Recorder::take_displacements(const State& state) {
+  put(state, &BodyState::displacement, 0);
+}
+
 void Recorder::record(const State& state, std::span<const double> gaps) {
-  double* out = buffer_.data() + buffered_ * width_;
-  for (const OwnedNode& node : nodes_) {
-    const BodyState& body = state.bodies[static_cast<std::size_t>(node.structure)];
-    for (std::size_t d = 0; d < 3; ++d) {
-      const LocalIndex dof = node.dofs[d];
-      out[3 + d] = dof < 0 ? 0 : body.velocity[static_cast<std::size_t>(dof)];
-    }
-    out += values_per_node;
-  }
+  put(state, &BodyState::velocity, 3);
+  double* out = buffer_.data() + buffered_ * width_ + values_per_node * nodes_;
   if (rank_of(layout_.comm) == layout_.interface_root) {
     for (std::size_t c = 0; c < layout_.contacts.size(); ++c) {
       *out++ = gaps[c];

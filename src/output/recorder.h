@@ -12,6 +12,7 @@
 #include "output/hdf5_file.h"
 #include "output/hdf5_reader.h"
 #include "output/probe_set.h"
+#include "system/trace.h"
 
 namespace pounding {
 
@@ -45,7 +46,7 @@ class Recorder {
   };
 
   /// Rank 0 creates the file, unless the run is a continued one. Collective.
-  Recorder(Layout layout, std::span<const Mesh> meshes);
+  Recorder(Layout layout, std::span<const LinearSystem> systems, std::span<const Mesh> meshes);
 
   bool due(std::int64_t step) const { return step % layout_.stride == 0; }
 
@@ -77,11 +78,13 @@ class Recorder {
   const std::vector<ResolvedProbe>& probes() const { return layout_.probes; }
 
  private:
-  struct OwnedNode {
-    std::size_t probe;
-    std::size_t position;  ///< within the probe
-    int structure;
-    std::array<LocalIndex, 3> dofs;
+  /// The nodes of a structure that probes read, as far as this rank knows them.
+  struct StructureNodes {
+    std::size_t structure;
+    Trace trace;                 ///< three components of each node, node after node
+    std::size_t first_node;      ///< into the nodes of a record of this rank
+    std::vector<double> motion;  ///< over the dofs of the trace
+    std::vector<double> values;  ///< per place of the trace
   };
 
   /// A dataset of the file; `columns` 0: a plain vector.
@@ -91,6 +94,8 @@ class Recorder {
     const char* unit;
   };
 
+  /// Writes a quantity of the state into the record at hand, `offset` values into each node.
+  void put(const State& state, std::vector<double> BodyState::*quantity, std::size_t offset);
   void name_channels();
   std::vector<Quantity> quantities() const;
   void create_file(const std::string& path);
@@ -102,7 +107,8 @@ class Recorder {
                   const std::vector<int>& row_widths);
 
   Layout layout_;
-  std::vector<OwnedNode> nodes_;
+  std::vector<StructureNodes> structures_;
+  std::size_t nodes_ = 0;  ///< of this rank
   std::size_t width_ = 0;  ///< values of this rank per record
   std::vector<double> buffer_;
   std::size_t buffered_ = 0;

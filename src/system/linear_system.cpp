@@ -3,6 +3,9 @@
 namespace pounding {
 
 std::vector<double> LinearSystem::influence(int d) const {
+  if (generalised) {
+    return generalised->influence[static_cast<std::size_t>(d)];
+  }
   std::vector<double> iota(direction.size());
   for (std::size_t i = 0; i < iota.size(); ++i) {
     iota[i] = direction[i] == d ? 1 : 0;

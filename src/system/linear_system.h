@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +16,22 @@
 #include "system/tension_bars.h"
 
 namespace pounding {
+
+/// A displacement component of a node, by what does not depend on the partition.
+struct TracePoint {
+  GlobalIndex node = 0;  ///< file order
+  int component = 0;     ///< 0-2
+  auto operator<=>(const TracePoint&) const = default;
+};
+
+/// Generalised coordinates q of a body whose motion is u = Phi q: what replaces the nodes of a
+/// mesh. One rank owns them all.
+struct GeneralisedCoordinates {
+  /// iota of each direction [kg^1/2]: Phi^T M iota for a basis orthonormal in M.
+  std::array<std::vector<double>, 3> influence;
+  std::map<TracePoint, std::size_t> row_of;  ///< places whose displacement is known
+  std::vector<double> rows;                  ///< of Phi, shape (places, owned dofs) [kg^-1/2]
+};
 
 /// One building as a linear second-order system in the ground frame, whatever its origin:
 ///
@@ -29,8 +47,10 @@ struct LinearSystem {
   std::vector<double> lumped_mass;   ///< M [kg, kg m2]
   std::vector<double> inverse_mass;  ///< [1/kg, 1/(kg m2)]
   /// Per dof, the direction (0-2) in which it is a translation, -1 for rotations: the influence
-  /// vector iota of direction d is 1 where this is d.
+  /// vector iota of direction d is 1 where this is d. Empty in generalised coordinates.
   std::vector<std::int8_t> direction;
+  /// Null for a model whose dofs are components of nodes.
+  std::unique_ptr<GeneralisedCoordinates> generalised;
   std::unique_ptr<Stiffness> stiffness;  ///< K of the linear elements
   std::string stiffness_method;          ///< how it is applied, for the report
   std::unique_ptr<Stiffness> taut;       ///< K with tension-only bars taut; null if there are none

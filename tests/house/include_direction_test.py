@@ -16,7 +16,7 @@ MAY_INCLUDE = {
     "motion": {"common", "scene"},
     "contact": {"common", "scene", "elements", "mesh", "system"},
     "dynamics": {"common", "scene", "system", "contact", "motion"},
-    "output": {"common", "scene", "mesh", "motion", "dynamics"},
+    "output": {"common", "scene", "mesh", "system", "modal", "motion", "dynamics"},
     "driver": {"common", "scene", "elements", "mesh", "system", "modal", "motion", "contact",
                "dynamics", "output"},
     "main.cpp": {"common", "scene", "driver"},

@@ -1,0 +1,154 @@
+#include "system/trace.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+#include "system/lanes.h"
+
+namespace pounding {
+namespace {
+
+constexpr std::size_t lanes = lane_count;
+
+double add_up(const Lanes& values) {
+  return (values[0] + values[2]) + (values[1] + values[3]);
+}
+
+/// Products of `count` <= 4 rows of length `n` with x: each value of x is read once.
+template <std::size_t count>
+void multiply_rows(const double* rows, std::size_t n, const double* x, double* out,
+                   std::size_t stride) {
+  Lanes sums[2][count]{};  // two chains per row hide the latency of the sums
+  std::size_t i = 0;
+  for (; i + 2 * lanes <= n; i += 2 * lanes) {
+    for (std::size_t half = 0; half < 2; ++half) {
+      Lanes values;
+      load(x + i + half * lanes, values);
+      for (std::size_t r = 0; r < count; ++r) {
+        Lanes row;
+        load(rows + r * n + i + half * lanes, row);
+        add_product(row, values, sums[half][r]);
+      }
+    }
+  }
+  for (std::size_t r = 0; r < count; ++r) {
+    double sum = add_up(sums[0][r] + sums[1][r]);
+    for (std::size_t k = i; k < n; ++k) {
+      sum += rows[r * n + k] * x[k];
+    }
+    out[r * stride] = sum;
+  }
+}
+
+}  // namespace
+
+Trace::Trace(const LinearSystem& system, const Mesh& mesh, std::span<const TracePoint> places)
+    : coupled_(system.generalised != nullptr) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (mesh.owned_node(places[i].node) >= 0) {
+      known_.push_back(static_cast<int>(i));
+    }
+  }
+  if (coupled_) {
+    take_dense_rows(system, mesh, places);
+  } else {
+    take_unit_rows(mesh, places);
+  }
+  for (const LocalIndex dof : dofs_) {
+    inverse_mass_.push_back(system.inverse_mass[static_cast<std::size_t>(dof)]);
+  }
+  force_.assign(dofs_.size(), 0.0);
+}
+
+void Trace::take_unit_rows(const Mesh& mesh, std::span<const TracePoint> places) {
+  for (const int place : known_) {
+    const TracePoint& point = places[static_cast<std::size_t>(place)];
+    const LocalIndex dof = mesh.dof(mesh.owned_node(point.node), point.component);
+    own_dof_.push_back(dof < 0 ? -1 : static_cast<int>(dofs_.size()));
+    if (dof >= 0) {
+      dofs_.push_back(dof);
+    }
+  }
+}
+
+void Trace::take_dense_rows(const LinearSystem& system, const Mesh& mesh,
+                            std::span<const TracePoint> places) {
+  if (known_.empty()) {
+    return;
+  }
+  const GeneralisedCoordinates& coordinates = *system.generalised;
+  const auto width = static_cast<std::size_t>(system.owned_dofs());
+  dofs_.resize(width);
+  std::iota(dofs_.begin(), dofs_.end(), LocalIndex{0});
+  for (const int place : known_) {
+    const TracePoint& point = places[static_cast<std::size_t>(place)];
+    if (mesh.dof(mesh.owned_node(point.node), point.component) < 0) {
+      rows_.resize(rows_.size() + width, 0.0);
+      continue;
+    }
+    const auto found = coordinates.row_of.find(point);
+    if (found == coordinates.row_of.end()) {
+      throw std::logic_error("structure " + system.name + ": no trace at node " +
+                             std::to_string(point.node) + ", component " +
+                             std::to_string(point.component));
+    }
+    const double* row = &coordinates.rows[found->second * width];
+    rows_.insert(rows_.end(), row, row + width);
+  }
+}
+
+void Trace::restrict_to_dofs(const double* owned, double* x) const {
+  for (std::size_t k = 0; k < dofs_.size(); ++k) {
+    x[k] = owned[dofs_[k]];
+  }
+}
+
+void Trace::apply(const double* x, double* out, std::size_t stride) const {
+  if (!coupled_) {
+    for (std::size_t k = 0; k < own_dof_.size(); ++k) {
+      out[stride * k] = own_dof_[k] < 0 ? 0 : x[own_dof_[k]];
+    }
+    return;
+  }
+  const std::size_t n = dofs_.size();
+  std::size_t k = 0;
+  for (; k + 4 <= known_.size(); k += 4) {
+    multiply_rows<4>(&rows_[k * n], n, x, out + stride * k, stride);
+  }
+  for (; k < known_.size(); ++k) {
+    multiply_rows<1>(&rows_[k * n], n, x, out + stride * k, stride);
+  }
+}
+
+void Trace::add_impulse(const double* f, double* x) {
+  std::fill(force_.begin(), force_.end(), 0.0);
+  for (std::size_t k = 0; k < known_.size(); ++k) {
+    if (!coupled_ && own_dof_[k] >= 0) {
+      force_[static_cast<std::size_t>(own_dof_[k])] = f[k];
+    } else if (coupled_ && f[k] != 0) {
+      const double* row = &rows_[k * dofs_.size()];
+      for (std::size_t i = 0; i < force_.size(); ++i) {
+        force_[i] += f[k] * row[i];
+      }
+    }
+  }
+  for (std::size_t i = 0; i < force_.size(); ++i) {
+    x[i] += inverse_mass_[i] * force_[i];
+  }
+}
+
+double Trace::compliance(std::size_t a, std::size_t b) const {
+  if (!coupled_) {
+    return a == b && own_dof_[a] >= 0 ? inverse_mass_[static_cast<std::size_t>(own_dof_[a])] : 0;
+  }
+  double sum = 0;
+  const double* row_a = &rows_[a * dofs_.size()];
+  const double* row_b = &rows_[b * dofs_.size()];
+  for (std::size_t i = 0; i < dofs_.size(); ++i) {
+    sum += row_a[i] * inverse_mass_[i] * row_b[i];
+  }
+  return sum;
+}
+
+}  // namespace pounding
