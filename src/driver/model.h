@@ -1,12 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/profile.h"
 #include "contact/interface.h"
 #include "mesh/mesh.h"
 #include "modal/modal_analysis.h"
+#include "modal/modal_basis.h"
 #include "motion/ground_motion.h"
 #include "output/probe_set.h"
 #include "scene/scene.h"
@@ -19,6 +21,7 @@ namespace pounding {
 struct Model {
   std::vector<Mesh> meshes;
   std::vector<LinearSystem> systems;
+  std::vector<std::optional<ModalBasis>> bases;  ///< of the structures that are reduced; no rows
   std::vector<ModalResult> modal;
   std::vector<LargestFrequency> largest;
   std::vector<double> stable_time_step;  ///< exact, per structure [s]

@@ -5,6 +5,7 @@
 
 #include "common/error.h"
 #include "mesh/location.h"
+#include "modal/reduced_system.h"
 
 namespace pounding {
 namespace {
@@ -46,8 +47,9 @@ void watch_divergence(const Model& model, const State& state, const EnergyLine& 
     std::ostringstream text;
     text << "the run diverged: structure " << model.systems[s].name << ": " << wrong
          << " at t = " << line.time << " s (step " << state.step - 1 << "); it moves most at "
-         << locate_largest(model.meshes[s], motion) << "; time step " << model.time_step
-         << " s, stable " << model.stable_time_step[s] << " s";
+         << (model.bases[s] ? locate_largest(model.systems[s], *model.bases[s], motion)
+                            : locate_largest(model.meshes[s], motion))
+         << "; time step " << model.time_step << " s, stable " << model.stable_time_step[s] << " s";
     throw DivergenceError(text.str());
   }
 }

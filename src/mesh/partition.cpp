@@ -40,13 +40,23 @@ idx_t element_cost(ElementType type) {
   }
 }
 
-ElementList list_elements(std::span<const GlobalMesh> meshes) {
+/// Part that gets all of a structure; -1: it is cut.
+int whole_part(std::span<const int> whole, std::size_t structure) {
+  return whole.empty() ? -1 : whole[structure];
+}
+
+/// The elements of the structures that are cut.
+ElementList list_elements(std::span<const GlobalMesh> meshes, std::span<const int> whole) {
   ElementList list;
   list.first.push_back(0);
-  for (const GlobalMesh& mesh : meshes) {
+  for (std::size_t s = 0; s < meshes.size(); ++s) {
+    const GlobalMesh& mesh = meshes[s];
     list.node_offset.push_back(list.node_count);
     list.element_offset.push_back(list.cost.size());
     for (const ElementSet& set : mesh.regions) {
+      if (whole_part(whole, s) >= 0) {
+        break;
+      }
       const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
       for (std::size_t e = 0; e < set.tags.size(); ++e) {
         for (std::size_t a = 0; a < width; ++a) {
@@ -61,6 +71,14 @@ ElementList list_elements(std::span<const GlobalMesh> meshes) {
   }
   list.element_offset.push_back(list.cost.size());
   return list;
+}
+
+std::size_t element_count(const GlobalMesh& mesh) {
+  std::size_t count = 0;
+  for (const ElementSet& set : mesh.regions) {
+    count += set.tags.size();
+  }
+  return count;
 }
 
 /// Elements at each node, CSR.
@@ -98,9 +116,14 @@ struct Graph {
 /// Cutting a contact costs a message in every step: many times a cut between two elements.
 constexpr idx_t link_weight = 64;
 
-Graph dual_graph(const ElementList& list, const NodeElements& at, std::span<const NodeLink> links) {
+Graph dual_graph(const ElementList& list, const NodeElements& at, std::span<const NodeLink> links,
+                 std::span<const int> whole) {
+  const auto is_whole = [&](int s) { return whole_part(whole, static_cast<std::size_t>(s)) >= 0; };
   std::vector<std::map<idx_t, idx_t>> extra(static_cast<std::size_t>(list.count()));
   for (const NodeLink& link : links) {
+    if (is_whole(link.structure_a) || is_whole(link.structure_b)) {
+      continue;
+    }
     const auto global = [&](int structure, GlobalIndex node) {
       return static_cast<std::size_t>(list.node_offset[static_cast<std::size_t>(structure)] + node);
     };
@@ -206,18 +229,23 @@ int most_frequent_owner(std::span<const idx_t> elements, const std::vector<idx_t
 }  // namespace
 
 Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const NodeLink> links,
-                           int parts) {
-  ElementList list = list_elements(meshes);
+                           int parts, std::span<const int> whole) {
+  ElementList list = list_elements(meshes, whole);
   const NodeElements at = elements_at_nodes(list);
   Graph graph;
   if (parts > 1) {
-    graph = dual_graph(list, at, links);
+    graph = dual_graph(list, at, links, whole);
   }
   Partition partition;
   partition.parts = parts;
   const std::vector<idx_t> owner = cut_graph(list, graph, parts, partition.edge_cut);
   partition.imbalance = imbalance_of(list, owner, parts);
   for (std::size_t s = 0; s < meshes.size(); ++s) {
+    if (const int part = whole_part(whole, s); part >= 0) {
+      partition.element_owner.emplace_back(element_count(meshes[s]), part);
+      partition.node_owner.emplace_back(static_cast<std::size_t>(meshes[s].node_count()), part);
+      continue;
+    }
     const auto begin = owner.begin() + static_cast<std::ptrdiff_t>(list.element_offset[s]);
     const auto end = owner.begin() + static_cast<std::ptrdiff_t>(list.element_offset[s + 1]);
     partition.element_owner.emplace_back(begin, end);

@@ -27,8 +27,9 @@ struct Partition {
 /// Partitions the elements of all structures with METIS on their dual graph (edges: shared nodes
 /// beyond a corner; vertex weight: cost of the element's product; heavy edges for linked nodes)
 /// with a fixed seed. A node belongs to the part of most of its elements, the lowest on a tie.
+/// `whole`: per structure the part that gets all of it, -1 where it is to be cut; empty if all are.
 /// Serial.
 Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const NodeLink> links,
-                           int parts);
+                           int parts, std::span<const int> whole = {});
 
 }  // namespace pounding

@@ -18,6 +18,14 @@ MatHandle mass_scaled(const LinearSystem& system, Mat matrix);
 EpsHandle create_eigen_solver(const LinearSystem& system, const Mesh& mesh, Mat matrix,
                               const char* prefix);
 
+/// The shift of `solve_lowest` [1/s2].
+inline constexpr double lowest_shift = -1;
+
+/// At least the `count` lowest eigenpairs of a mass-scaled stiffness, shift-and-invert with a
+/// Cholesky factorisation (MUMPS), the shift just below zero so that free structures pass; PETSc's
+/// options with the prefix lowest_ hold. Throws std::runtime_error if fewer converge. Collective.
+EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix, int count);
+
 /// An eigenvalue, bound of its error, and its vector, |y| = 1, over the owned dofs.
 struct LargestEigenpair {
   double value = 0;

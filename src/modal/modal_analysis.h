@@ -29,6 +29,11 @@ struct LargestFrequency {
   std::string location;  ///< node and component with the largest share of the mode's mass
 };
 
+/// A mode from omega^2 [1/s2], its participation factors along x, y, z and about them, and the
+/// structure's mass and rotary inertia likewise.
+Mode describe_mode(double eigenvalue, const std::array<double, 6>& participation,
+                   const std::array<double, 6>& inertia);
+
 /// The lowest `count` modes by SLEPc's Krylov-Schur on M^-1/2 K M^-1/2, shift-and-invert with a
 /// Cholesky factorisation (MUMPS), the shift just below zero so that free structures pass.
 /// Frequencies of rigid-body modes come out as 0. Participation: Gamma = phi^T M iota, effective

@@ -51,18 +51,25 @@ struct Region {
   std::optional<Rayleigh> damping;    ///< in place of the structure's
 };
 
-/// How a structure is represented: by the finite elements of its mesh, or by matrices from files.
-enum class Fidelity { full, matrices };
+/// A structure represented by its lowest modes and by attachment vectors.
+struct ModalModel {
+  int modes = 0;           ///< number of lowest modes; 0: all below the cut-off
+  double cutoff = 0;       ///< [Hz]
+  bool attachment = true;  ///< static responses to unit forces at the contact dofs as well
+  std::vector<double> damping_ratios;  ///< of mode 1, 2, ..., the last one of all that follow;
+                                       ///< empty: the structure's Rayleigh damping
+  std::string basis_file;  ///< where the basis is kept; empty: nowhere
+};
 
 struct Structure {
   std::string name;
-  Fidelity fidelity = Fidelity::full;
-  std::string matrices;  ///< folder, see system/matrix_system.h
+  std::string matrices;  ///< folder, see system/matrix_system.h; empty: of its elements
   std::string mesh;      ///< .geo or .msh
   std::vector<std::pair<std::string, std::string>> mesh_set;  ///< parameters of a .geo
   std::vector<std::string> clamp;  ///< physical groups fixed to the ground
   std::vector<Region> regions;
   Rayleigh damping;
+  std::optional<ModalModel> modal;        ///< nothing: the finite-element model itself
   Vector3 initial_displacement{0, 0, 0};  ///< of every free node [m]
   Vector3 initial_velocity{0, 0, 0};      ///< of every free node [m/s]
   Vector3 gravity{0, 0, 0};               ///< constant body acceleration [m/s2]

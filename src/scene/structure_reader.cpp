@@ -8,6 +8,7 @@
 
 #include "common/error.h"
 #include "scene/damping_reader.h"
+#include "scene/modal_reader.h"
 #include "scene/nearest_name.h"
 #include "scene/option_blocks.h"
 #include "scene/option_values.h"
@@ -206,24 +207,17 @@ void require_elements(const OptionReader& options, const std::string& structure,
   }
 }
 
-void read_fidelity(OptionReader& options, Structure& structure) {
-  const Names names{structure.name};
-  if (options.choice("<structure>_fidelity", names) == "full") {
-    options.forbid("<structure>_matrices", names,
-                   "the structure is made of elements; give -" + structure.name +
-                       "_fidelity matrices, or leave it out");
-    return;
-  }
-  structure.fidelity = Fidelity::matrices;
-  structure.matrices = options.text("<structure>_matrices", names);
+std::string read_matrices(OptionReader& options, const std::string& structure) {
+  const std::string folder = options.text("<structure>_matrices", {structure});
+  return folder == "none" ? "" : folder;
 }
 
 /// Matrices do not know which of their rows buckle.
 void forbid_tension_bars(const OptionReader& options, const Structure& structure) {
   for (const Region& region : structure.regions) {
-    if (structure.fidelity == Fidelity::matrices && region.element == ElementType::tension_bar) {
+    if (!structure.matrices.empty() && region.element == ElementType::tension_bar) {
       options.refuse("<structure>_<group>_tension_only", {structure.name, region.group},
-                     "not with -" + structure.name + "_fidelity matrices");
+                     "not with -" + structure.name + "_matrices");
     }
   }
 }
@@ -236,7 +230,7 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   structure.mesh = options.text("<structure>_mesh", {name});
   structure.mesh_set = read_mesh_set(options, name);
   structure.clamp = options.list("<structure>_clamp", {name});
-  read_fidelity(options, structure);
+  structure.matrices = read_matrices(options, name);
   structure.initial_displacement = read_vector(options, "<structure>_initial_displacement", {name});
   structure.initial_velocity = read_vector(options, "<structure>_initial_velocity", {name});
   structure.gravity = read_vector(options, "<structure>_gravity", {name});
@@ -247,6 +241,7 @@ Structure read_structure(OptionReader& options, const std::string& name) {
     structure.regions.push_back(read_region(options, {name, group}, structure.damping));
   }
   forbid_tension_bars(options, structure);
+  structure.modal = read_modal_model(options, structure);
   return structure;
 }
 

@@ -40,8 +40,8 @@ class Matrices(unittest.TestCase):
         return place
 
     def from_files(self, place):
-        return PAIR + ["-s1_fidelity", "matrices", "-s1_matrices", f"{place}/s1",
-                       "-s2_fidelity", "matrices", "-s2_matrices", f"{place}/s2"]
+        return PAIR + ["-s1_matrices", f"{place}/s1",
+                       "-s2_matrices", f"{place}/s2"]
 
     def matrix(self, place, name):
         return scipy.sparse.csr_matrix(scipy.io.mmread(os.path.join(place, name)))
@@ -152,9 +152,8 @@ class Matrices(unittest.TestCase):
     def test_options_that_do_not_go_together(self):
         for words, expected in (
                 (["-s1_matrices", "here"], "-s1_matrices"),
-                (["-s1_fidelity", "matrices"], "missing option -s1_matrices"),
-                (["-s1_fidelity", "matrices", "-s1_matrices", "nowhere"], "nowhere/dofs.csv"),
-                (["-s1_fidelity", "matrices", "-s1_matrices", "x", "-s1_brace1_tension_only", "true"],
+                (["-s1_matrices", "nowhere"], "nowhere/dofs.csv"),
+                (["-s1_matrices", "x", "-s1_brace1_tension_only", "true"],
                  "tension_only")):
             with self.subTest(expected):
                 result = program.run(PAIR + words + ["-output", self.folder], 2)

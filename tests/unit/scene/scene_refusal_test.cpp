@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Words, BadValues,
     testing::Values(BadValue{"resampling", "cubic", "one of: linear band_limited"},
-                    BadValue{"tower_fidelity", "modal", "full (the only one supported now)"},
+                    BadValue{"tower_model", "reduced", "one of: full modal"},
                     BadValue{"tower_mesh_set", "h", "name=value"},
                     BadValue{"tower_mesh_set", "h=1,h=2", "h is set twice"},
                     BadValue{"tower_clamp", "base,,core", "empty name"},

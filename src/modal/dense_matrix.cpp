@@ -1,0 +1,49 @@
+#include "modal/dense_matrix.h"
+
+#include <stdexcept>
+#include <string>
+
+#include <slepceps.h>
+// LAPACK declarations need the types above.
+#include <slepcblaslapack.h>
+
+namespace pounding {
+
+DenseMatrix transposed_product(const DenseMatrix& a, const DenseMatrix& b) {
+  DenseMatrix c(a.columns, b.columns);
+  const auto m = static_cast<PetscBLASInt>(a.columns);
+  const auto n = static_cast<PetscBLASInt>(b.columns);
+  const auto k = static_cast<PetscBLASInt>(a.rows);
+  const double one = 1;
+  const double zero = 0;
+  if (m > 0 && n > 0 && k > 0) {
+    BLASgemm_("T", "N", &m, &n, &k, &one, a.values.data(), &k, b.values.data(), &k, &zero,
+              c.values.data(), &m);
+  }
+  return c;
+}
+
+std::vector<double> symmetric_eigenvalues(DenseMatrix& matrix) {
+  auto order = static_cast<PetscBLASInt>(matrix.rows);
+  std::vector<double> eigenvalues(matrix.rows);
+  PetscBLASInt info = 0;
+  PetscBLASInt asked = -1;
+  double work_size = 0;
+  PetscBLASInt integer_size = 0;
+  const auto decompose = [&](double* work, PetscBLASInt* size, PetscBLASInt* integers,
+                             PetscBLASInt* integer_count) {
+    LAPACKsyevd_("V", "U", &order, matrix.values.data(), &order, eigenvalues.data(), work, size,
+                 integers, integer_count, &info);
+  };
+  decompose(&work_size, &asked, &integer_size, &asked);
+  std::vector<double> work(static_cast<std::size_t>(work_size));
+  std::vector<PetscBLASInt> integers(static_cast<std::size_t>(integer_size));
+  auto size = static_cast<PetscBLASInt>(work.size());
+  decompose(work.data(), &size, integers.data(), &integer_size);
+  if (info != 0) {
+    throw std::runtime_error("dsyevd failed with info " + std::to_string(info));
+  }
+  return eigenvalues;
+}
+
+}  // namespace pounding

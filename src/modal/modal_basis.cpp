@@ -1,0 +1,272 @@
+#include "modal/modal_basis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <sstream>
+
+#include "common/error.h"
+#include "common/parallel.h"
+#include "modal/dense_matrix.h"
+#include "modal/eigen_solver.h"
+#include "modal/rigid_motions.h"
+#include "modal/shifted_solver.h"
+
+namespace pounding {
+namespace {
+
+/// Part of a vector that is left outside a space, at which it counts as inside.
+constexpr double inside_span = 1e-8;
+
+/// Relative difference of two eigenvalues that are the same.
+constexpr double same_eigenvalue = 1e-7;
+
+double dot(const double* a, const double* b, std::size_t n) {
+  return std::inner_product(a, a + n, b, 0.0);
+}
+
+double norm(const std::vector<double>& a) {
+  return std::sqrt(dot(a.data(), a.data(), a.size()));
+}
+
+void scale(std::vector<double>& a, double factor) {
+  std::transform(a.begin(), a.end(), a.begin(), [&](double value) { return factor * value; });
+}
+
+/// a -= b (b . a)
+void take_off(const double* b, std::vector<double>& a) {
+  const double part = dot(b, a.data(), a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    a[i] -= part * b[i];
+  }
+}
+
+/// Orthonormal columns, shape (dofs, k), in y = M^1/2 u.
+class BasisMaker {
+ public:
+  BasisMaker(const LinearSystem& system, const Mesh& mesh, const ModalRequest& request)
+      : system_(system),
+        mesh_(mesh),
+        request_(request),
+        matrix_(mass_scaled(system, system.stiffness->matrix())),
+        dofs_(system.lumped_mass.size()),
+        space_(dofs_, 0) {}
+
+  ModalBasis make() {
+    ModalBasis basis;
+    add_modes(wanted_modes());
+    basis.modes = static_cast<int>(space_.columns);
+    if (request_.attachment && space_.columns < dofs_) {
+      add_attachment_vectors();
+    }
+    basis.attachment_vectors = static_cast<int>(space_.columns) - basis.modes;
+    basis.full_dofs = system_.global_dofs;
+    basis.total_mass = system_.total_mass;
+    rotate(basis);
+    return basis;
+  }
+
+ private:
+  std::size_t wanted_modes() const {
+    if (request_.modes > 0) {
+      return std::min(static_cast<std::size_t>(request_.modes), dofs_);
+    }
+    const double omega = 2 * std::numbers::pi * request_.cutoff;
+    const int below = ShiftedSolver(system_, matrix_.get(), omega * omega).eigenvalues_below();
+    if (below == 0) {
+      std::ostringstream text;
+      text << "option -" << system_.name << "_modal_cutoff " << request_.cutoff
+           << " Hz: no mode of the structure lies below it; give a higher one";
+      throw UserError(text.str());
+    }
+    return static_cast<std::size_t>(below);
+  }
+
+  /// A x.
+  void multiply(const double* x, double* product) const {
+    std::vector<double> from(x, x + dofs_);
+    std::vector<double> to(dofs_);
+    const VecHandle argument = wrap_vector(system_, from);
+    const VecHandle result = wrap_vector(system_, to);
+    POUNDING_PETSC(MatMult(matrix_.get(), argument.get(), result.get()));
+    std::copy(to.begin(), to.end(), product);
+  }
+
+  void add_modes(std::size_t wanted) {
+    std::vector<double> values;
+    DenseMatrix vectors(dofs_, 0);
+    if (3 * (wanted + 8) > dofs_) {
+      vectors = DenseMatrix(dofs_, dofs_);
+      std::vector<double> unit(dofs_, 0.0);
+      for (std::size_t j = 0; j < dofs_; ++j) {
+        unit[j] = 1;
+        multiply(unit.data(), vectors.column(j));
+        unit[j] = 0;
+      }
+      values = symmetric_eigenvalues(vectors);
+    } else {
+      find_modes(wanted, values, vectors);
+    }
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+    const double last = values[order[wanted - 1]];
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      if (i < wanted || values[order[i]] <= last + same_eigenvalue * std::abs(last)) {
+        const double* y = vectors.column(order[i]);
+        space_.append({y, y + dofs_});
+      }
+    }
+  }
+
+  void find_modes(std::size_t wanted, std::vector<double>& values, DenseMatrix& vectors) const {
+    const EpsHandle solver = solve_lowest(system_, mesh_, matrix_.get(), static_cast<int>(wanted));
+    PetscInt found = 0;
+    POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
+    std::vector<double> storage(dofs_);
+    const VecHandle vector = wrap_vector(system_, storage);
+    for (PetscInt i = 0; i < found; ++i) {
+      double value = 0;
+      POUNDING_PETSC(EPSGetEigenpair(solver.get(), i, &value, nullptr, vector.get(), nullptr));
+      values.push_back(value);
+      vectors.append(storage);
+    }
+  }
+
+  void project(std::vector<double>& x) const {
+    for (std::size_t j = 0; j < space_.columns; ++j) {
+      take_off(space_.column(j), x);
+    }
+  }
+
+  void add_attachment_vectors() {
+    const ShiftedSolver solver(system_, matrix_.get(), lowest_shift);
+    std::vector<std::vector<double>> vectors;
+    for (const TracePoint& point : request_.contact_points) {
+      const LocalIndex dof = mesh_.dof(mesh_.owned_node(point.node), point.component);
+      if (dof < 0) {
+        continue;
+      }
+      std::vector<double> z(dofs_, 0.0);
+      z[static_cast<std::size_t>(dof)] = 1;  // of any length
+      project(z);
+      if (norm(z) <= inside_span) {
+        continue;
+      }
+      project(z);
+      solver.solve(z);
+      project(z);
+      scale(z, 1 / norm(z));
+      project(z);
+      vectors.push_back(std::move(z));
+    }
+    orthonormalise(vectors);
+  }
+
+  /// Adds the vectors to the space, that with the largest remainder first.
+  void orthonormalise(std::vector<std::vector<double>>& vectors) {
+    std::vector<std::size_t> left(vectors.size());
+    std::iota(left.begin(), left.end(), std::size_t{0});
+    while (!left.empty()) {
+      const auto best = std::max_element(
+          left.begin(), left.end(),
+          [&](std::size_t a, std::size_t b) { return norm(vectors[a]) < norm(vectors[b]); });
+      std::vector<double> z = vectors[*best];
+      left.erase(best);
+      if (norm(z) <= inside_span) {
+        return;
+      }
+      scale(z, 1 / norm(z));
+      project(z);  // once more: what rounding put back grew with the scale
+      scale(z, 1 / norm(z));
+      space_.append(z);
+      for (const std::size_t i : left) {
+        take_off(space_.column(space_.columns - 1), vectors[i]);
+      }
+    }
+  }
+
+  /// Rayleigh-Ritz: the basis is W S with W the space and S^T (W^T A W) S diagonal.
+  void rotate(ModalBasis& basis) const {
+    DenseMatrix product(dofs_, space_.columns);
+    for (std::size_t j = 0; j < space_.columns; ++j) {
+      multiply(space_.column(j), product.column(j));
+    }
+    DenseMatrix rotation = transposed_product(space_, product);
+    basis.squared_frequency = symmetric_eigenvalues(rotation);
+    for (double& value : basis.squared_frequency) {
+      value = std::max(value, 0.0);
+    }
+    add_participation(rotation, basis);
+    add_rows(rotation, basis);
+  }
+
+  void add_participation(const DenseMatrix& rotation, ModalBasis& basis) const {
+    const RigidMotions motions(system_, mesh_);
+    basis.mass = motions.mass();
+    basis.centre_of_mass = motions.centre();
+    basis.inertia = motions.inertia();
+    DenseMatrix of_space(space_.columns, 6);
+    for (std::size_t j = 0; j < space_.columns; ++j) {
+      const std::array<double, 6> values = motions.participation(space_.column(j));
+      for (std::size_t k = 0; k < 6; ++k) {
+        of_space.column(k)[j] = values[k];
+      }
+    }
+    basis.participation = transposed_product(rotation, of_space).values;
+  }
+
+  void add_rows(const DenseMatrix& rotation, ModalBasis& basis) const {
+    DenseMatrix of_space(space_.columns, 0);
+    for (const auto* points : {&request_.contact_points, &request_.other_points}) {
+      for (const TracePoint& point : *points) {
+        const LocalIndex dof = mesh_.dof(mesh_.owned_node(point.node), point.component);
+        if (dof < 0 || std::ranges::find(basis.points, point) != basis.points.end()) {
+          continue;
+        }
+        const auto i = static_cast<std::size_t>(dof);
+        basis.points.push_back(point);
+        std::vector<double> row(space_.columns);
+        for (std::size_t j = 0; j < row.size(); ++j) {
+          row[j] = std::sqrt(system_.inverse_mass[i]) * space_.column(j)[i];
+        }
+        of_space.append(row);
+      }
+    }
+    basis.rows = transposed_product(rotation, of_space).values;
+  }
+
+  const LinearSystem& system_;
+  const Mesh& mesh_;
+  const ModalRequest& request_;
+  MatHandle matrix_;
+  std::size_t dofs_;
+  DenseMatrix space_;
+};
+
+}  // namespace
+
+ModalBasis compute_modal_basis(const LinearSystem& system, const Mesh& mesh,
+                               const ModalRequest& request) {
+  return BasisMaker(system, mesh, request).make();
+}
+
+void broadcast_basis(MPI_Comm comm, int root, ModalBasis& basis) {
+  std::array<std::int64_t, 3> counts{basis.modes, basis.attachment_vectors, basis.full_dofs};
+  MPI_Bcast(counts.data(), 3, MPI_INT64_T, root, comm);
+  basis.modes = static_cast<int>(counts[0]);
+  basis.attachment_vectors = static_cast<int>(counts[1]);
+  basis.full_dofs = counts[2];
+  MPI_Bcast(&basis.total_mass, 1, MPI_DOUBLE, root, comm);
+  MPI_Bcast(&basis.mass, 1, MPI_DOUBLE, root, comm);
+  MPI_Bcast(basis.centre_of_mass.data(), 3, MPI_DOUBLE, root, comm);
+  MPI_Bcast(basis.inertia.data(), 6, MPI_DOUBLE, root, comm);
+  broadcast_array(comm, basis.squared_frequency, root);
+  broadcast_array(comm, basis.participation, root);
+  broadcast_array(comm, basis.points, root);
+  broadcast_array(comm, basis.rows, root);
+}
+
+}  // namespace pounding

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "system/linear_system.h"
+
+namespace pounding {
+
+/// A basis Phi of motions of a structure, u = Phi q, with Phi^T M Phi = I and Phi^T K Phi =
+/// diag(omega^2), as far as a run needs it: k vectors, known at the places that are asked for.
+struct ModalBasis {
+  int modes = 0;               ///< lowest modes in it
+  int attachment_vectors = 0;  ///< vectors beside them
+  GlobalIndex full_dofs = 0;   ///< of the model that was reduced
+  double total_mass = 0;       ///< clamped nodes included [kg]
+  double mass = 0;             ///< of the free dofs [kg]
+  Vector3 centre_of_mass{0, 0, 0};
+  std::array<double, 6> inertia{};        ///< along and about x, y, z [kg, kg m2]
+  std::vector<double> squared_frequency;  ///< omega^2, increasing, shape (k) [1/s2]
+  /// Gamma = Phi^T M R of the motions R along and about x, y, z, shape (6, k).
+  std::vector<double> participation;
+  std::vector<TracePoint> points;  ///< free components of nodes
+  std::vector<double> rows;        ///< Phi there, shape (points, k) [kg^-1/2]
+
+  std::size_t size() const { return squared_frequency.size(); }
+};
+
+/// What a basis is asked to hold.
+struct ModalRequest {
+  int modes = 0;           ///< number of lowest modes; 0: all below the cut-off
+  double cutoff = 0;       ///< [Hz]
+  bool attachment = true;  ///< a vector per contact point as well
+  std::vector<TracePoint> contact_points;
+  std::vector<TracePoint> other_points;  ///< where the motion is wanted as well
+};
+
+/// The lowest modes, and beside them the attachment vectors: static responses to unit forces at the
+/// contact points, so that forces there find all the flexibility of the structure and not only that
+/// of the modes (Craig and Chang, AIAA J. 15 (1977), 1009; residual flexibility). With Y the modes
+/// in y = M^1/2 u and A = M^-1/2 K M^-1/2,
+///
+///     z_j = P (A - shift)^-1 P M^-1/2 e_j,      P = I - Y Y^T
+///
+/// with the shift just below zero, so that free structures pass. They are made orthonormal, the
+/// largest remainder first; what lies in the span already to 1e-8 is dropped. Rayleigh-Ritz on the
+/// whole space makes K diagonal.
+///
+/// More modes than dofs are all modes. Modes of the same frequency as the last one come along.
+/// `system` on MPI_COMM_SELF, without devices. Throws UserError if no mode lies below the cut-off.
+ModalBasis compute_modal_basis(const LinearSystem& system, const Mesh& mesh,
+                               const ModalRequest& request);
+
+/// The basis of rank `root` on every rank. Collective.
+void broadcast_basis(MPI_Comm comm, int root, ModalBasis& basis);
+
+}  // namespace pounding

@@ -1,0 +1,37 @@
+#include "modal/shifted_solver.h"
+
+namespace pounding {
+
+ShiftedSolver::ShiftedSolver(const LinearSystem& system, Mat matrix, double shift)
+    : system_(system) {
+  POUNDING_PETSC(MatDuplicate(matrix, MAT_COPY_VALUES, shifted_.out()));
+  POUNDING_PETSC(MatShift(shifted_.get(), -shift));
+  POUNDING_PETSC(MatSetOption(shifted_.get(), MAT_SYMMETRIC, PETSC_TRUE));
+  POUNDING_PETSC(KSPCreate(system.comm, solver_.out()));
+  POUNDING_PETSC(KSPSetOptionsPrefix(solver_.get(), "lowest_st_"));
+  POUNDING_PETSC(KSPSetType(solver_.get(), KSPPREONLY));
+  PC factorisation = nullptr;
+  POUNDING_PETSC(KSPGetPC(solver_.get(), &factorisation));
+  POUNDING_PETSC(PCSetType(factorisation, PCCHOLESKY));
+  POUNDING_PETSC(PCFactorSetMatSolverType(factorisation, MATSOLVERMUMPS));
+  POUNDING_PETSC(KSPSetOperators(solver_.get(), shifted_.get(), shifted_.get()));
+  POUNDING_PETSC(KSPSetFromOptions(solver_.get()));
+  POUNDING_PETSC(KSPSetUp(solver_.get()));
+}
+
+void ShiftedSolver::solve(std::vector<double>& x) const {
+  const VecHandle vector = wrap_vector(system_, x);
+  POUNDING_PETSC(KSPSolve(solver_.get(), vector.get(), vector.get()));
+}
+
+int ShiftedSolver::eigenvalues_below() const {
+  PC factorisation = nullptr;
+  Mat factor = nullptr;
+  PetscInt negative = 0;
+  POUNDING_PETSC(KSPGetPC(solver_.get(), &factorisation));
+  POUNDING_PETSC(PCFactorGetMatrix(factorisation, &factor));
+  POUNDING_PETSC(MatGetInertia(factor, &negative, nullptr, nullptr));
+  return static_cast<int>(negative);
+}
+
+}  // namespace pounding

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "common/petsc.h"
+#include "system/linear_system.h"
+
+namespace pounding {
+
+/// Factorisation L D L^T (MUMPS) of a symmetric matrix less a shift, for many right-hand sides.
+class ShiftedSolver {
+ public:
+  /// Collective over the system's communicator.
+  ShiftedSolver(const LinearSystem& system, Mat matrix, double shift);
+
+  /// x := (A - shift I)^-1 x over the owned dofs. Collective.
+  void solve(std::vector<double>& x) const;
+  /// Number of eigenvalues of A below the shift (Sylvester's law of inertia). Collective.
+  int eigenvalues_below() const;
+
+ private:
+  const LinearSystem& system_;
+  MatHandle shifted_;
+  PetscHandle<KSP, KSPDestroy> solver_;
+};
+
+}  // namespace pounding

@@ -1,0 +1,72 @@
+#include "scene/modal_reader.h"
+
+#include <algorithm>
+
+#include "common/error.h"
+
+namespace pounding {
+namespace {
+
+using Names = OptionReader::Names;
+
+constexpr std::string_view model = "<structure>_model";
+constexpr std::string_view vectors = "<structure>_modal_vectors";
+constexpr std::string_view cutoff = "<structure>_modal_cutoff";
+constexpr std::string_view attachment = "<structure>_modal_attachment";
+constexpr std::string_view damping = "<structure>_modal_damping";
+constexpr std::string_view basis = "<structure>_modal_basis";
+
+void refuse_devices(const OptionReader& options, const Structure& structure) {
+  for (const Region& region : structure.regions) {
+    const Names names{structure.name, region.group};
+    const std::string remedy = "not in a structure with -" + option_name(model, {structure.name}) +
+                               " modal; leave it out, or give -" +
+                               option_name(model, {structure.name}) + " full";
+    if (region.element == ElementType::tension_bar) {
+      options.forbid("<structure>_<group>_tension_only", names, remedy);
+    }
+    if (std::ranges::any_of(region.dashpot, [](double value) { return value > 0; })) {
+      options.forbid("<structure>_<group>_dashpot", names, remedy);
+    }
+    if (region.damping) {
+      for (const char* option : {"alpha", "beta", "ratio"}) {
+        options.forbid(std::string("<structure>_<group>_damping_") + option, names, remedy);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<ModalModel> read_modal_model(OptionReader& options, const Structure& structure) {
+  const Names names{structure.name};
+  if (options.choice(model, names) == "full") {
+    for (const std::string_view pattern : {vectors, cutoff, attachment, damping, basis}) {
+      options.forbid(pattern, names,
+                     "goes with -" + option_name(model, names) + " modal, which is not given");
+    }
+    return std::nullopt;
+  }
+  refuse_devices(options, structure);
+  ModalModel modal;
+  if (options.given(vectors, names)) {
+    options.forbid(cutoff, names,
+                   "give either this or -" + option_name(vectors, names) + ", not both");
+    modal.modes = options.integer(vectors, names);
+  } else if (options.given(cutoff, names)) {
+    modal.cutoff = options.real(cutoff, names);
+  } else {
+    throw UserError("option -" + option_name(model, names) + " modal: give -" +
+                    option_name(vectors, names) + " (number of lowest modes) or -" +
+                    option_name(cutoff, names) + " (every mode below it, in Hz)");
+  }
+  modal.attachment = options.boolean(attachment, names);
+  if (options.given(damping, names)) {
+    modal.damping_ratios = options.reals(damping, names);
+  }
+  const std::string file = options.text(basis, names);
+  modal.basis_file = file == "none" ? "" : file;
+  return modal;
+}
+
+}  // namespace pounding
