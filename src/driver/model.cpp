@@ -61,13 +61,22 @@ void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& mo
   }
 }
 
+/// A fraction of the stable one. A reduced structure may allow more than its records resolve: then
+/// their interval is the step.
+double automatic_time_step(const Scene& scene, double stable) {
+  const double fraction = round_down(scene.courant * stable);
+  const bool reduced = std::ranges::any_of(
+      scene.structures, [](const Structure& structure) { return structure.modal.has_value(); });
+  return reduced ? std::min(fraction, scene.output_interval) : fraction;
+}
+
 void choose_time_step(const Scene& scene, Model& model) {
   const double stable = model.smallest_stable_time_step();
   if (!std::isfinite(stable) && !(scene.time_step > 0)) {
     throw UserError(
         "nothing in the scene vibrates, so nothing limits the time step: give -time_step");
   }
-  model.time_step = scene.time_step > 0 ? scene.time_step : round_down(scene.courant * stable);
+  model.time_step = scene.time_step > 0 ? scene.time_step : automatic_time_step(scene, stable);
   if (model.time_step > stable && !scene.allow_unstable) {
     std::ostringstream text;
     text << "option -time_step " << model.time_step << " s: above the stable time step " << stable

@@ -12,6 +12,15 @@ namespace pounding {
 namespace {
 
 void print_damping(const Structure& structure) {
+  if (structure.modal && !structure.modal->damping_ratios.empty()) {
+    const std::vector<double>& ratios = structure.modal->damping_ratios;
+    std::printf("  damping ratio per mode, the last one of all that follow:");
+    for (const double ratio : ratios) {
+      std::printf(" %.3f %%", 100 * ratio);
+    }
+    std::printf("\n");
+    return;
+  }
   const auto print_ratios = [](const Rayleigh& damping) {
     for (const double frequency : {1.0, 10.0, 100.0, 400.0}) {
       std::printf(" %.3f %%", 100 * damping_ratio(damping, 2 * std::numbers::pi * frequency));
@@ -26,6 +35,21 @@ void print_damping(const Structure& structure) {
       print_ratios(*region.damping);
     }
   }
+}
+
+void print_reduction(const ModalModel& modal, const ModalBasis& basis) {
+  const double hertz = 2 * std::numbers::pi;
+  std::printf("  modal reduction: %zu generalised coordinates for %lld dofs\n", basis.size(),
+              static_cast<long long>(basis.full_dofs));
+  std::printf("    %d modes", basis.modes);
+  if (modal.cutoff > 0) {
+    std::printf(", those below the cut-off of %.6g Hz", modal.cutoff);
+  } else if (modal.modes > basis.modes) {
+    std::printf(" (%d asked for, the structure has no more)", modal.modes);
+  }
+  std::printf("\n    %d attachment vectors%s\n    largest frequency %.4g Hz\n",
+              basis.attachment_vectors, modal.attachment ? "" : " (not asked for)",
+              std::sqrt(basis.squared_frequency.back()) / hertz);
 }
 
 void print_time_step_limit(const Model& model, std::size_t s) {
@@ -60,6 +84,9 @@ void print_structure(const Scene& scene, const Model& model, std::size_t s) {
                 static_cast<long long>(block.global_count), element_name(block.type));
   }
   std::printf("  stiffness: %s\n", system.stiffness_method.c_str());
+  if (model.bases[s]) {
+    print_reduction(*scene.structures[s].modal, *model.bases[s]);
+  }
   print_damping(scene.structures[s]);
   std::printf("  mode  frequency  direction  effective mass, share of it\n");
   int number = 0;
@@ -71,7 +98,12 @@ void print_structure(const Scene& scene, const Model& model, std::size_t s) {
                 mode.frequency, mode.direction.c_str(), mode.effective_modal_mass[axis],
                 direction_names[axis], 100 * mode.direction_fraction, mode.direction.c_str());
   }
-  print_time_step_limit(model, s);
+  if (model.bases[s]) {
+    std::printf("  stable time step %.4e s, exact from the frequencies; it is that of %s\n",
+                model.stable_time_step[s], model.largest[s].location.c_str());
+  } else {
+    print_time_step_limit(model, s);
+  }
 }
 
 void print_impacts(const Scene& scene, const RunStatistics& statistics,

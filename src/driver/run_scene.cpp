@@ -56,7 +56,7 @@ std::optional<SavedState> read_restart(MPI_Comm comm, const Scene& scene, const 
   if (scene.restart.empty()) {
     return std::nullopt;
   }
-  SavedState saved = read_checkpoint(comm, scene.restart, identity, model.meshes);
+  SavedState saved = read_checkpoint(comm, scene.restart, identity, model.meshes, model.systems);
   const std::int64_t step = saved.integer("step");
   if (step > model.steps) {
     std::ostringstream text;

@@ -1,7 +1,9 @@
 #include "driver/summary.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <numbers>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
@@ -37,6 +39,17 @@ Json describe_structure(const Scene& scene, const Model& model, std::size_t s) {
   for (const Region& region : scene.structures[s].regions) {
     if (region.damping) {
       structure["region_damping"][region.group] = describe_damping(*region.damping);
+    }
+  }
+  if (model.bases[s]) {
+    const ModalBasis& basis = *model.bases[s];
+    structure["modal"] = {
+        {"coordinates", basis.size()},
+        {"modes", basis.modes},
+        {"attachment_vectors", basis.attachment_vectors},
+        {"largest_frequency", std::sqrt(basis.squared_frequency.back()) / (2 * std::numbers::pi)}};
+    if (!scene.structures[s].modal->damping_ratios.empty()) {
+      structure["modal"]["damping_ratios"] = scene.structures[s].modal->damping_ratios;
     }
   }
   structure["frequencies"] = Json::array();

@@ -194,7 +194,7 @@ void TimeLoop::write_checkpoint(const RunIdentity& identity) {
     ledger_.save(saved);
   }
   pounding::write_checkpoint(comm_, scene_.output + "/checkpoint.h5", identity, model_.meshes,
-                             saved);
+                             model_.systems, saved);
 }
 
 void TimeLoop::load(const SavedState& saved) {

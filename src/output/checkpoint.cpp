@@ -1,5 +1,6 @@
 #include "output/checkpoint.h"
 
+#include <cmath>
 #include <optional>
 
 #include "common/error.h"
@@ -22,6 +23,21 @@ void on_rank0_for_user(MPI_Comm comm, const std::string& prefix,
       throw UserError(prefix + error.what());
     }
   });
+}
+
+std::vector<double> basis_check(const LinearSystem& system) {
+  const GeneralisedCoordinates& coordinates = *system.generalised;
+  std::vector<double> sums(static_cast<std::size_t>(system.owned_dofs()), 0.0);
+  const std::size_t places = coordinates.rows.empty() ? 0 : coordinates.row_of.size();
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    for (std::size_t d = 0; d < 3; ++d) {
+      sums[i] += coordinates.influence[d][i] / (system.total_mass * static_cast<double>(d + 1));
+    }
+    for (std::size_t p = 0; p < places; ++p) {
+      sums[i] += coordinates.rows[p * sums.size() + i] * std::sqrt(static_cast<double>(p + 1));
+    }
+  }
+  return sums;
 }
 
 }  // namespace checkpoint_format
@@ -52,17 +68,25 @@ class CheckpointWriter {
     });
   }
 
-  void write_structure(int structure, const Mesh& mesh, const SavedState& saved) {
+  void write_structure(int structure, const Mesh& mesh, const LinearSystem& system,
+                       const SavedState& saved) {
     const std::string folder = format::folder(mesh);
-    const std::size_t columns = component_columns(mesh);
     write_table(folder + "/coordinates", 3, gather_coordinates(mesh));
+    if (system.generalised) {
+      write_table(folder + "/basis_check", 0, gather_owned(comm_, format::basis_check(system)));
+    }
+    const std::size_t columns = component_columns(mesh);
     for (const auto& [key, values] : saved.dofs()) {
-      if (key.first == structure) {
-        write_table(folder + "/" + key.second, columns, gather_by_node(mesh, values, columns));
+      const std::string name = folder + "/" + key.second;
+      if (key.first == structure && system.generalised) {
+        write_table(name, 0, gather_owned(comm_, values));
+      } else if (key.first == structure) {
+        write_table(name, columns, gather_by_node(mesh, values, columns));
       }
     }
     on_root([&] {
-      file_->write_attribute(folder, "dofs", static_cast<double>(mesh.global_dofs));
+      const GlobalIndex dofs = system.generalised ? system.global_dofs : mesh.global_dofs;
+      file_->write_attribute(folder, "dofs", static_cast<double>(dofs));
       file_->write_attribute(folder, "elements", static_cast<double>(format::element_count(mesh)));
     });
   }
@@ -103,11 +127,12 @@ class CheckpointWriter {
 }  // namespace
 
 void write_checkpoint(MPI_Comm comm, const std::string& path, const RunIdentity& identity,
-                      std::span<const Mesh> meshes, const SavedState& saved) {
+                      std::span<const Mesh> meshes, std::span<const LinearSystem> systems,
+                      const SavedState& saved) {
   CheckpointWriter writer(comm, path);
   writer.write_identity(identity);
   for (std::size_t s = 0; s < meshes.size(); ++s) {
-    writer.write_structure(static_cast<int>(s), meshes[s], saved);
+    writer.write_structure(static_cast<int>(s), meshes[s], systems[s], saved);
   }
   writer.write_tables(saved);
   writer.finish();

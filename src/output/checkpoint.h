@@ -8,6 +8,7 @@
 
 #include "common/saved_state.h"
 #include "mesh/mesh.h"
+#include "system/linear_system.h"
 
 /// `checkpoint.h5`: all that a run needs to go on as if it had never stopped. The file says nothing
 /// about ranks but for the parts of sums, so any number of them may read it.
@@ -23,6 +24,9 @@
 ///     /tables/step                 n, the last step made
 ///     /tables/...                  vectors and tables of whoever keeps a state
 ///     /sums/...                    (ranks, n) numbers that add up over the ranks
+///
+/// A structure in generalised coordinates has, beside its coordinates, plain vectors of its own
+/// number of dofs, and `basis_check`, by which another basis is told.
 ///
 /// S is the name of a structure. Nodes come in the order of their tags in the mesh, of those that
 /// the scene uses; columns are x, y, z and, if a node of the structure rotates, the rotations about
@@ -47,7 +51,8 @@ struct RunIdentity {
 /// Writes beside `path`, then renames, so that there is a whole file at any moment. Throws
 /// UserError (no space). Collective.
 void write_checkpoint(MPI_Comm comm, const std::string& path, const RunIdentity& identity,
-                      std::span<const Mesh> meshes, const SavedState& saved);
+                      std::span<const Mesh> meshes, std::span<const LinearSystem> systems,
+                      const SavedState& saved);
 
 /// Refuses a file that is no checkpoint or was written under other options, before any work is
 /// done. Throws UserError on every rank alike. Collective.
@@ -57,6 +62,6 @@ void check_checkpoint(MPI_Comm comm, const std::string& path,
 /// What `write_checkpoint` was given. Throws UserError on every rank alike: no checkpoint, damaged,
 /// of another version, of another scene. Collective.
 SavedState read_checkpoint(MPI_Comm comm, const std::string& path, const RunIdentity& identity,
-                           std::span<const Mesh> meshes);
+                           std::span<const Mesh> meshes, std::span<const LinearSystem> systems);
 
 }  // namespace pounding

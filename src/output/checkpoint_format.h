@@ -2,10 +2,12 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <mpi.h>
 
 #include "mesh/mesh.h"
+#include "system/linear_system.h"
 
 /// What writer and reader of a checkpoint share; the format is described in output/checkpoint.h.
 namespace pounding::checkpoint_format {
@@ -25,6 +27,13 @@ inline GlobalIndex element_count(const Mesh& mesh) {
   }
   return count;
 }
+
+/// What tells one basis of generalised coordinates from another, per coordinate [kg^-1/2]: a sum of
+/// its rows and participation factors with weights of their own. Owned dofs.
+std::vector<double> basis_check(const LinearSystem& system);
+
+/// Largest part of the largest value by which such numbers of one basis may differ.
+inline constexpr double basis_tolerance = 1e-6;
 
 /// Runs `work` on rank 0; what goes wrong becomes one UserError that begins with `prefix`, on every
 /// rank. Collective.

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <sstream>
 
@@ -79,32 +81,58 @@ class CheckpointReader {
     });
   }
 
-  void read_structure(int structure, const Mesh& mesh, SavedState& saved) {
+  void read_structure(int structure, const Mesh& mesh, const LinearSystem& system,
+                      SavedState& saved) {
     const std::string folder = format::folder(mesh);
-    const std::size_t columns = component_columns(mesh);
+    const std::size_t columns = system.generalised ? 0 : component_columns(mesh);
+    const GlobalIndex dofs = system.generalised ? system.global_dofs : mesh.global_dofs;
+    const GlobalIndex rows = system.generalised ? dofs : mesh.global_nodes;
     const std::vector<double> coordinates = gather_coordinates(mesh);
     on_root([&] {
       check_count(mesh, "nodes", file_->shape(folder + "/coordinates").rows, mesh.global_nodes);
-      check_count(mesh, "free dofs", file_->number(folder, "dofs"), mesh.global_dofs);
+      check_count(mesh, "free dofs", file_->number(folder, "dofs"), dofs);
       check_count(mesh, "elements", file_->number(folder, "elements"), format::element_count(mesh));
       if (file_->array(folder + "/coordinates") != coordinates) {
         refuse("structure " + mesh.structure + " has its nodes elsewhere: another mesh");
       }
     });
+    if (system.generalised) {
+      check_basis(folder, system);
+    }
     for (const std::string& name : names(folder)) {
-      if (name == "coordinates") {
+      if (name == "coordinates" || name == "basis_check") {
         continue;
       }
       std::vector<double> table;
       on_root([&] {
         const std::string place = folder + "/" + name;
         table = file_->array(place);
-        if (table.size() != static_cast<std::size_t>(mesh.global_nodes) * columns) {
-          refuse("'" + place + "' does not have one row per node");
+        if (table.size() != static_cast<std::size_t>(rows) * std::max<std::size_t>(columns, 1)) {
+          refuse("'" + place + "' does not have one row per " +
+                 (system.generalised ? "generalised coordinate" : "node"));
         }
       });
-      saved.put_dofs(structure, name, scatter_by_node(mesh, table, columns));
+      saved.put_dofs(structure, name,
+                     system.generalised ? scatter_owned(comm_, table, system.lumped_mass.size())
+                                        : scatter_by_node(mesh, table, columns));
     }
+  }
+
+  void check_basis(const std::string& folder, const LinearSystem& system) {
+    const std::vector<double> now = gather_owned(comm_, format::basis_check(system));
+    on_root([&] {
+      const std::vector<double> written = file_->array(folder + "/basis_check");
+      double largest = 0;
+      double difference = written.size() == now.size() ? 0 : 1e300;
+      for (std::size_t i = 0; i < now.size() && written.size() == now.size(); ++i) {
+        largest = std::max(largest, std::abs(now[i]));
+        difference = std::max(difference, std::abs(now[i] - written[i]));
+      }
+      if (!(difference <= format::basis_tolerance * largest)) {
+        refuse("structure " + system.name + " was in it with another modal basis; keep the basis " +
+               "in a file, -" + system.name + "_modal_basis");
+      }
+    });
   }
 
   void read_tables(SavedState& saved) {
@@ -187,13 +215,13 @@ void check_checkpoint(MPI_Comm comm, const std::string& path, const Options& opt
 }
 
 SavedState read_checkpoint(MPI_Comm comm, const std::string& path, const RunIdentity& identity,
-                           std::span<const Mesh> meshes) {
+                           std::span<const Mesh> meshes, std::span<const LinearSystem> systems) {
   CheckpointReader reader(comm, path);
   reader.check_options(identity.options);
   reader.check_motion(identity);
   SavedState saved(option + path);
   for (std::size_t s = 0; s < meshes.size(); ++s) {
-    reader.read_structure(static_cast<int>(s), meshes[s], saved);
+    reader.read_structure(static_cast<int>(s), meshes[s], systems[s], saved);
   }
   reader.read_tables(saved);
   return saved;

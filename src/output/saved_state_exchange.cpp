@@ -96,4 +96,44 @@ std::vector<double> scatter_parts(MPI_Comm comm, const std::vector<double>& tabl
   return mine;
 }
 
+namespace {
+
+/// Values per rank and where each rank's begin; on rank 0.
+struct Shares {
+  std::vector<int> counts;
+  std::vector<int> offsets;
+  int total = 0;
+};
+
+Shares shares_of(MPI_Comm comm, int count) {
+  Shares shares;
+  shares.counts.resize(static_cast<std::size_t>(size_of(comm)));
+  MPI_Gather(&count, 1, MPI_INT, shares.counts.data(), 1, MPI_INT, 0, comm);
+  for (const int of_rank : shares.counts) {
+    shares.offsets.push_back(shares.total);
+    shares.total += rank_of(comm) == 0 ? of_rank : 0;
+  }
+  return shares;
+}
+
+}  // namespace
+
+std::vector<double> gather_owned(MPI_Comm comm, std::span<const double> values) {
+  const int count = static_cast<int>(values.size());
+  const Shares shares = shares_of(comm, count);
+  std::vector<double> all(static_cast<std::size_t>(shares.total));
+  MPI_Gatherv(values.data(), count, MPI_DOUBLE, all.data(), shares.counts.data(),
+              shares.offsets.data(), MPI_DOUBLE, 0, comm);
+  return all;
+}
+
+std::vector<double> scatter_owned(MPI_Comm comm, const std::vector<double>& all,
+                                  std::size_t count) {
+  const Shares shares = shares_of(comm, static_cast<int>(count));
+  std::vector<double> mine(count);
+  MPI_Scatterv(all.data(), shares.counts.data(), shares.offsets.data(), MPI_DOUBLE, mine.data(),
+               static_cast<int>(count), MPI_DOUBLE, 0, comm);
+  return mine;
+}
+
 }  // namespace pounding

@@ -28,4 +28,10 @@ std::vector<double> gather_parts(MPI_Comm comm, const std::vector<double>& parts
 std::vector<double> scatter_parts(MPI_Comm comm, const std::vector<double>& table,
                                   std::size_t columns);
 
+/// Values of owned dofs, rank after rank, on rank 0; empty elsewhere.
+std::vector<double> gather_owned(MPI_Comm comm, std::span<const double> values);
+
+/// This rank's `count` values out of such an array of rank 0.
+std::vector<double> scatter_owned(MPI_Comm comm, const std::vector<double>& all, std::size_t count);
+
 }  // namespace pounding

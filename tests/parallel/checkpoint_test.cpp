@@ -16,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const LinearSystem full;  // a model whose dofs are components of nodes
+
 /// A box whose nodes rotate from the middle on and are clamped at one end.
 GlobalMesh mixed_box(double length = 3) {
   GlobalMesh global = testing::box_mesh({0, 0, 0}, {length, 1, 1}, {9, 2, 2});
@@ -85,12 +87,12 @@ class CheckpointFile : public ::testing::Test {
       saved.put("of_one", std::vector<double>{1, 2, 3, 4}, 2);
     }
     saved.put("empty", {}, 3);
-    write_checkpoint(comm, path(), identity, {&mesh, 1}, saved);
+    write_checkpoint(comm, path(), identity, {&mesh, 1}, {&full, 1}, saved);
   }
 
   std::string refusal(const RunIdentity& other, const Mesh& mesh) const {
     try {
-      read_checkpoint(comm, path(), other, {&mesh, 1});
+      read_checkpoint(comm, path(), other, {&mesh, 1}, {&full, 1});
     } catch (const UserError& error) {
       return error.what();
     }
@@ -117,7 +119,7 @@ TEST_F(CheckpointFile, ComesBackOnTheSameRanks) {
   write(mesh);
   EXPECT_FALSE(fs::exists(path() + ".new"));
   check_checkpoint(comm, path(), identity.options);
-  const SavedState saved = read_checkpoint(comm, path(), identity, {&mesh, 1});
+  const SavedState saved = read_checkpoint(comm, path(), identity, {&mesh, 1}, {&full, 1});
   expect_dofs(saved, mesh);
   std::vector<double> sums(3);
   saved.get_sums("energy", sums);
@@ -127,7 +129,8 @@ TEST_F(CheckpointFile, ComesBackOnTheSameRanks) {
 TEST_F(CheckpointFile, ComesBackOnOneRank) {
   write(distribute(comm, mixed_box()));
   const Mesh whole = distribute(MPI_COMM_SELF, mixed_box());
-  const SavedState saved = read_checkpoint(MPI_COMM_SELF, path(), identity, {&whole, 1});
+  const SavedState saved =
+      read_checkpoint(MPI_COMM_SELF, path(), identity, {&whole, 1}, {&full, 1});
   expect_dofs(saved, whole);
   std::vector<double> sums(3);
   saved.get_sums("energy", sums);
@@ -142,11 +145,11 @@ TEST_F(CheckpointFile, OfOneRankComesBackOnAll) {
     SavedState saved;
     saved.put_dofs(0, "velocity", labels(whole, 7));
     saved.put_sums("energy", std::vector<double>{3});
-    write_checkpoint(MPI_COMM_SELF, path(), identity, {&whole, 1}, saved);
+    write_checkpoint(MPI_COMM_SELF, path(), identity, {&whole, 1}, {&full, 1}, saved);
   }
   MPI_Barrier(comm);
   const Mesh mesh = distribute(comm, mixed_box());
-  const SavedState saved = read_checkpoint(comm, path(), identity, {&mesh, 1});
+  const SavedState saved = read_checkpoint(comm, path(), identity, {&mesh, 1}, {&full, 1});
   std::vector<double> values(static_cast<std::size_t>(mesh.owned_dofs));
   saved.get_dofs(0, "velocity", values);
   EXPECT_EQ(values, labels(mesh, 7));
@@ -188,9 +191,9 @@ TEST_F(CheckpointFile, OfAnotherSceneIsRefusedOnEveryRank) {
 
 TEST_F(CheckpointFile, ThatCannotBeWrittenIsReportedOnEveryRank) {
   const Mesh mesh = distribute(comm, mixed_box());
-  EXPECT_THROW(
-      write_checkpoint(comm, path() + "/nowhere.h5", identity, {&mesh, 1}, SavedState("here")),
-      UserError);
+  EXPECT_THROW(write_checkpoint(comm, path() + "/nowhere.h5", identity, {&mesh, 1}, {&full, 1},
+                                SavedState("here")),
+               UserError);
 }
 
 TEST(NodeTable, ColumnsFollowFromTheRotations) {
