@@ -2,32 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <sstream>
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "driver/reduction.h"
 #include "dynamics/stable_time_step.h"
 #include "mesh/gmsh_reader.h"
 #include "modal/reduced_system.h"
 #include "modal/stability_limit.h"
-#include "system/finite_element_system.h"
-#include "system/matrix_system.h"
+#include "system/build_system.h"
 
 namespace pounding {
 namespace {
 
-/// Per structure the rank that has all generalised coordinates of a reduced one, else -1.
-std::vector<int> owners_of_reduced(MPI_Comm comm, const Scene& scene) {
-  std::vector<int> owners;
-  int reduced = 0;
-  for (const Structure& structure : scene.structures) {
-    owners.push_back(structure.modal ? reduced++ % size_of(comm) : -1);
-  }
-  return owners;
-}
-
-/// Rank 0 reads the meshes and finds who faces whom; every rank gets its part.
+/// Rank 0 reads the meshes and finds who faces whom; every rank gets its part. Bases of reduced
+/// structures come from the whole meshes.
 void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& model) {
   std::vector<GlobalMesh> meshes(scene.structures.size());
   {
@@ -42,7 +32,7 @@ void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& mo
     broadcast_interface(comm, model.interface);
     broadcast_probes(comm, model.probes);
   }
-  const ScopedTimer timer(profile, Phase::partition);
+  std::optional<ScopedTimer> timer(std::in_place, profile, Phase::partition);
   Partition partition;
   const std::vector<int> whole = owners_of_reduced(comm, scene);
   on_rank0(comm, [&] {
@@ -59,6 +49,8 @@ void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& mo
                       scene.structures[s].name + "_clamp");
     }
   }
+  timer.reset();
+  model.bases = find_bases(comm, scene, meshes, model.interface, model.probes, profile);
 }
 
 /// A fraction of the stable one. A reduced structure may allow more than its records resolve: then
@@ -101,66 +93,6 @@ void find_energy_margins(const Scene& scene, Model& model) {
   }
 }
 
-/// Where a run asks for the motion of a structure: contacts and probes.
-ModalRequest request_of(const Scene& scene, const Model& model, std::size_t s) {
-  const ModalModel& modal = *scene.structures[s].modal;
-  ModalRequest request{modal.modes, modal.cutoff, modal.attachment, {}, {}};
-  std::set<TracePoint> known;
-  for (const Constraint& constraint : model.interface.constraints) {
-    for (const ConstraintTerm& term : constraint.terms) {
-      const TracePoint point{term.node, term.component};
-      if (term.structure == static_cast<int>(s) && known.insert(point).second) {
-        request.contact_points.push_back(point);
-      }
-    }
-  }
-  for (const ResolvedProbe& probe : model.probes) {
-    for (std::size_t k = 0; probe.structure == static_cast<int>(s) && k < probe.nodes.size(); ++k) {
-      for (int d = 0; d < 3; ++d) {
-        request.other_points.push_back({probe.nodes[k], d});
-      }
-    }
-  }
-  return request;
-}
-
-/// From matrices or from elements. `with_matrix`: the assembled stiffness is wanted.
-LinearSystem build_system(const Scene& scene, std::size_t s, const Mesh& mesh,
-                          StiffnessMethod method, bool with_matrix) {
-  const Structure& structure = scene.structures[s];
-  return structure.matrices.empty()
-             ? build_finite_element_system(structure, mesh, method, with_matrix)
-             : build_matrix_system(structure, mesh);
-}
-
-/// The bases of the reduced structures, each computed by its owner alone: the same bits on any
-/// number of ranks, and several structures at a time.
-void reduce_structures(MPI_Comm comm, const Scene& scene, Profile& profile, Model& model) {
-  const std::vector<int> owners = owners_of_reduced(comm, scene);
-  model.bases.resize(scene.structures.size());
-  on_every_rank(comm, [&] {
-    for (std::size_t s = 0; s < owners.size(); ++s) {
-      if (owners[s] != rank_of(comm)) {
-        continue;
-      }
-      Mesh alone = model.meshes[s];
-      alone.comm = MPI_COMM_SELF;
-      std::optional<LinearSystem> system;
-      {
-        const ScopedTimer timer(profile, Phase::assembly);
-        system = build_system(scene, s, alone, StiffnessMethod::assembled, true);
-      }
-      const ScopedTimer timer(profile, Phase::modes);
-      model.bases[s] = compute_modal_basis(*system, alone, request_of(scene, model, s));
-    }
-  });
-  for (std::size_t s = 0; s < owners.size(); ++s) {
-    if (owners[s] >= 0) {
-      broadcast_basis(comm, owners[s], model.bases[s] ? *model.bases[s] : model.bases[s].emplace());
-    }
-  }
-}
-
 void add_reduced(MPI_Comm comm, const Scene& scene, std::size_t s, Model& model) {
   const Structure& structure = scene.structures[s];
   ModalBasis& basis = *model.bases[s];
@@ -177,7 +109,7 @@ void add_full(const Scene& scene, std::size_t s, Profile& profile, Model& model)
   {
     const ScopedTimer timer(profile, Phase::assembly);
     model.systems.push_back(
-        build_system(scene, s, mesh, scene.stiffness, scene.modes > 0 || exported));
+        build_system(scene.structures[s], mesh, scene.stiffness, scene.modes > 0 || exported));
   }
   const ScopedTimer timer(profile, Phase::modes);
   const LinearSystem& system = model.systems.back();
@@ -202,7 +134,6 @@ Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile) {
   on_every_rank(
       comm, [&] { model.motion = std::make_unique<GroundMotion>(scene.motion, scene.resampling); });
   build_meshes(comm, scene, profile, model);
-  reduce_structures(comm, scene, profile, model);
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     if (model.bases[s]) {
       add_reduced(comm, scene, s, model);

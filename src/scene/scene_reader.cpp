@@ -32,6 +32,7 @@ class SceneReader {
     read_run();
     for (const std::string& name : listed_.structures) {
       scene_.structures.push_back(read_structure(options_, name));
+      require_own_basis(scene_.structures.back());
     }
     for (const std::string& name : listed_.contacts) {
       scene_.contacts.push_back(read_contact(name));
@@ -111,6 +112,17 @@ class SceneReader {
     if (std::ranges::find(known, structure) == known.end()) {
       options_.refuse(pattern, names,
                       "there is no structure '" + structure + "'" + suggestion(structure, known));
+    }
+  }
+
+  /// A file holds the basis of one structure.
+  void require_own_basis(const Structure& structure) const {
+    for (const Structure& other : scene_.structures) {
+      if (structure.modal && !structure.modal->basis_file.empty() && other.modal &&
+          other.name != structure.name && other.modal->basis_file == structure.modal->basis_file) {
+        options_.refuse("<structure>_modal_basis", {structure.name},
+                        "that is the file of structure " + other.name);
+      }
     }
   }
 

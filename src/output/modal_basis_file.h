@@ -1,0 +1,36 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "modal/modal_basis.h"
+
+/// A modal basis in an HDF5 file, to be used again:
+///
+///     /                    attributes: format "pounding modal basis", version 1, program, modes,
+///                          attachment_vectors, full_dofs, total_mass [kg], mass [kg]
+///     /squared_frequency   (k) omega^2 [1/s2]; attributes: hashes of what the basis depends on
+///     /participation       (6, k) along and about x, y, z
+///     /centre_of_mass      (3) [m]
+///     /inertia             (6) [kg, kg m2]
+///     /points              (n, 2) node in file order, component
+///     /rows                (n, k) of the basis at the points
+namespace pounding {
+
+/// Hashes of what a basis depends on, by what it is.
+using BasisKey = std::map<std::string, std::string>;
+
+/// Serial. Throws std::runtime_error, whose message begins with the path.
+void write_modal_basis(const std::string& path, const BasisKey& key, const ModalBasis& basis);
+
+/// What such a file holds; if it belongs to another key, no basis but what differs.
+struct StoredBasis {
+  std::optional<ModalBasis> basis;
+  std::string differs;  ///< "mesh, contact points"
+};
+
+/// Serial. Throws std::runtime_error if the file is not a modal basis or damaged.
+StoredBasis read_modal_basis(const std::string& path, const BasisKey& key);
+
+}  // namespace pounding
