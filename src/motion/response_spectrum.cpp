@@ -6,159 +6,13 @@
 #include <string>
 
 #include "common/error.h"
+#include "motion/oscillator_motion.h"
 
 namespace pounding {
 
 namespace {
 
-constexpr int max_order = 28;
-constexpr double series_limit = 1;  // theta below which power series replace the closed form
-
-struct Oscillator {
-  double theta;  // omega h
-  double xi;
-  int order;  // of the series: theta^order / order! is below round-off
-};
-
-Oscillator make_oscillator(double theta, double xi) {
-  int order = 4;
-  double term = theta * theta * theta / 6;
-  while (order < max_order && term > 1e-18) {
-    term *= theta / order;
-    ++order;
-  }
-  return {theta, xi, order};
-}
-
-// u(s) = sum c_k s^k over one step, s in [0, 1], from the recurrence that the equation of motion
-// gives; `velocity` is h u', `a0` and `a1` are h^2 times the acceleration at both ends.
-struct StepSeries {
-  std::array<double, max_order + 1> c{};
-  int order = 0;
-
-  StepSeries(const Oscillator& o, double displacement, double velocity, double a0, double a1)
-      : order(o.order) {
-    c[0] = displacement;
-    c[1] = velocity;
-    for (int k = 0; k + 2 <= order; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      const double load = k == 0 ? a0 : (k == 1 ? a1 - a0 : 0);
-      c[i + 2] = -(2 * o.xi * o.theta * (k + 1) * c[i + 1] + o.theta * o.theta * c[i] + load) /
-                 ((k + 1.0) * (k + 2.0));
-    }
-  }
-
-  // Derivative `d` (0, 1, 2) of u with respect to s.
-  double derivative(int d, double s) const {
-    double sum = 0;
-    for (int k = order; k >= d; --k) {
-      const double factor = d == 0 ? 1 : (d == 1 ? k : k * (k - 1.0));
-      sum = sum * s + factor * c[static_cast<std::size_t>(k)];
-    }
-    return sum;
-  }
-};
-
-// The same in closed form, for theta >= series_limit:
-// u(s) = alpha + beta s + exp(-xi theta s) (c cos + d sin)(q theta s), q = sqrt(1 - xi^2).
-struct StepClosedForm {
-  double theta, xi, q, alpha, beta, c, d;
-
-  StepClosedForm(const Oscillator& o, double displacement, double velocity, double a0, double a1)
-      : theta(o.theta), xi(o.xi), q(std::sqrt((1 - o.xi) * (1 + o.xi))) {
-    const double slope = a1 - a0;
-    alpha = -(a0 - 2 * xi * slope / theta) / (theta * theta);
-    beta = -slope / (theta * theta);
-    c = displacement - alpha;
-    d = ((velocity - beta) / theta + xi * c) / q;
-  }
-
-  double derivative(int order, double s) const {
-    double cosine = c, sine = d;
-    for (int k = 0; k < order; ++k) {
-      const double next = theta * (-xi * cosine + q * sine);
-      sine = theta * (-xi * sine - q * cosine);
-      cosine = next;
-    }
-    const double polynomial = order == 0 ? alpha + beta * s : (order == 1 ? beta : 0);
-    const double angle = q * theta * s;
-    return polynomial +
-           std::exp(-xi * theta * s) * (cosine * std::cos(angle) + sine * std::sin(angle));
-  }
-
-  // First zero of u'' at s > 0; the next ones follow every pi / (q theta).
-  double first_inflection() const {
-    const double c1 = -xi * c + q * d, d1 = -xi * d - q * c;
-    double angle = std::atan2(-xi * c1 + q * d1, xi * d1 + q * c1);
-    if (angle <= 0) angle += std::numbers::pi;
-    return angle / (q * theta);
-  }
-
-  // max |u| over [s, 1] is at most this.
-  double bound(double s) const {
-    return std::max(std::abs(alpha + beta * s), std::abs(alpha + beta)) +
-           std::hypot(c, d) * std::exp(-xi * theta * s);
-  }
-};
-
-// Zero of the derivative `d` of u between `low` and `high`, where it changes sign once: Newton's
-// method kept inside the bracket by bisection.
-template <class Step>
-double find_zero(const Step& step, int d, double low, double high) {
-  const bool rising = step.derivative(d, high) > 0;
-  const double width = high - low;
-  double s = 0.5 * (low + high);
-  for (int iteration = 0; iteration < 60; ++iteration) {
-    const double value = step.derivative(d, s);
-    if (value == 0) break;
-    ((value > 0) == rising ? high : low) = s;
-    double next = s - value / step.derivative(d + 1, s);
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    const double change = std::abs(next - s);
-    s = next;
-    if (change <= 1e-10 * width) break;
-  }
-  return s;
-}
-
-// max |u| where u' changes sign between two places with no inflection between them; else 0.
-template <class Step>
-double extremum_between(const Step& step, double low, double high) {
-  if (!(step.derivative(1, low) * step.derivative(1, high) < 0)) return 0;
-  return std::abs(step.derivative(0, find_zero(step, 1, low, high)));
-}
-
-// Below series_limit a step holds at most one inflection, and so at most two extrema.
-double interior_peak(const StepSeries& step) {
-  double inflection = 1;
-  if (step.derivative(2, 0) * step.derivative(2, 1) < 0) inflection = find_zero(step, 2, 0, 1);
-  const double first = extremum_between(step, 0, inflection);
-  return inflection < 1 ? std::max(first, extremum_between(step, inflection, 1)) : first;
-}
-
-double interior_peak(const StepClosedForm& step, double peak) {
-  const double spacing = std::numbers::pi / (step.q * step.theta);
-  const double first = step.first_inflection();
-  double low = 0;
-  for (int k = 0; low < 1 && step.bound(low) > peak; ++k) {
-    const double high = std::min(1.0, first + k * spacing);
-    peak = std::max(peak, extremum_between(step, low, high));
-    low = high;
-  }
-  return peak;
-}
-
-// max |u| of the free vibration from (u, h u') on: its first extremum, in closed form.
-double free_vibration_peak(const Oscillator& o, double displacement, double velocity) {
-  if (o.theta == 0) return std::abs(displacement);
-  const double q = std::sqrt((1 - o.xi) * (1 + o.xi));
-  const double y = velocity / o.theta, z = displacement * o.xi + y;
-  double angle = std::atan2(y * q, displacement + o.xi * y);
-  if (angle < 0) angle += std::numbers::pi;
-  const double extremum =
-      std::exp(-o.xi * angle / q) * (displacement * std::cos(angle) + z / q * std::sin(angle));
-  return std::max(std::abs(displacement), std::abs(extremum));
-}
+using namespace oscillator;
 
 double peak_displacement(std::span<const double> acceleration, double time_step,
                          const Oscillator& o, AfterRecord after) {
@@ -195,6 +49,111 @@ void check(bool ok, const char* what, double seen) {
     throw UserError("response spectrum: " + std::string(what) + ", not " + std::to_string(seen));
 }
 
+void check_arguments(std::span<const double> acceleration, double time_step,
+                     std::span<const double> frequencies, double damping_ratio) {
+  check(std::isfinite(time_step) && time_step > 0, "time step must be positive", time_step);
+  check(damping_ratio >= 0 && damping_ratio < 1, "damping ratio must be in [0, 1)", damping_ratio);
+  for (const double f : frequencies)
+    check(std::isfinite(f) && f >= 0, "frequencies must be finite and not negative", f);
+  for (const double a : acceleration) check(std::isfinite(a), "accelerations must be finite", a);
+}
+
+// What is looked for in u', u'' or u'' + a at an end of a step: value, first and second derivative
+// with respect to s.
+struct EndOfStep {
+  double value, slope, curvature;
+};
+
+// Largest magnitude of one quantity, step by step. `make_step` gives its motion within the step,
+// which is needed only where an extremum may lie there.
+template <class MakeStep>
+void raise_peak(double& peak, const EndOfStep& a, const EndOfStep& b, bool use_series,
+                const MakeStep& make_step) {
+  peak = std::max(peak, std::abs(b.value));
+  if (use_series) {
+    const bool turns = a.slope * b.slope <= 0;
+    const bool turns_twice = a.slope * a.curvature < 0 && b.slope * b.curvature > 0;
+    if (!turns && !turns_twice) return;
+    const double bound = std::max(std::abs(a.value), std::abs(b.value)) + std::abs(a.slope) +
+                         std::abs(b.slope) + std::abs(a.curvature) + std::abs(b.curvature);
+    if (bound <= peak) return;
+  }
+  peak = std::max(peak, make_step());
+}
+
+// Peaks of u', of u'' + a and of u'', in the variables h u', h^2 (u'' + a), h^2 u''.
+class TruePeaks {
+ public:
+  /// `first`: |h^2 a| at rest, where u'' begins with -a.
+  TruePeaks(const Oscillator& o, double first) : o_(o), peaks_{0, 0, first} {}
+
+  void add_step(const std::array<double, 4>& start, const std::array<double, 4>& end) {
+    const bool use_series = o_.theta < series_limit;
+    const auto from = ends(start, end[3] - start[3]), to = ends(end, end[3] - start[3]);
+    for (std::size_t i = 0; i < 3; ++i)
+      raise_peak(peaks_[i], from[i], to[i], use_series, [&] {
+        if (use_series)
+          return interior_peak(quantity(i, StepSeries(o_, start[0], start[1], start[3], end[3])));
+        const StepClosedForm step(o_, start[0], start[1], start[3], end[3]);
+        const StepClosedForm wanted = quantity(i, step);
+        return wanted.bound(0) > peaks_[i] ? interior_peak(wanted, peaks_[i]) : peaks_[i];
+      });
+  }
+
+  void add_free_vibration(double u, double v) {
+    const auto last = ends({u, v, -(damping() * v + stiffness() * u), 0}, 0);
+    for (std::size_t i = 0; i < 3; ++i)
+      peaks_[i] = std::max(peaks_[i], free_vibration_peak(o_, last[i].value, last[i].slope));
+  }
+
+  const std::array<double, 3>& peaks() const { return peaks_; }
+
+ private:
+  double damping() const { return 2 * o_.xi * o_.theta; }
+  double stiffness() const { return o_.theta * o_.theta; }
+
+  // (u, h u', h^2 u'', h^2 a) at an end of a step over which h^2 a changes by `change`.
+  std::array<EndOfStep, 3> ends(const std::array<double, 4>& state, double change) const {
+    const auto [u, v, w, a] = state;
+    const double d = damping(), k = stiffness();
+    const double third = -(d * w + k * v + change);
+    const double fourth = -(d * third + k * w);
+    return {{{v, w, third}, {d * v + k * u, d * w + k * v, d * third + k * w}, {w, third, fourth}}};
+  }
+
+  template <class Step>
+  Step quantity(std::size_t i, const Step& displacement) const {
+    const Step velocity = derivative_of(displacement);
+    if (i == 0) return velocity;
+    return i == 1 ? sum(stiffness(), displacement, damping(), velocity) : derivative_of(velocity);
+  }
+
+  Oscillator o_;
+  std::array<double, 3> peaks_;
+};
+
+std::array<double, 3> true_peaks(std::span<const double> acceleration, double time_step,
+                                 const Oscillator& o, AfterRecord after) {
+  const double h2 = time_step * time_step;
+  const auto [A, B] = oscillator_step(o.theta, o.xi);
+  TruePeaks peaks(o, std::abs(h2 * acceleration[0]));
+  std::array<double, 4> state{0, 0, -h2 * acceleration[0], h2 * acceleration[0]};
+  for (std::size_t n = 1; n < acceleration.size(); ++n) {
+    const auto [u, v, w, a] = state;
+    const double a1 = h2 * acceleration[n];
+    const double u1 = A[0][0] * u + (A[0][1] * v + (B[0][0] * a + B[0][1] * a1));
+    const double v1 = A[1][0] * u + (A[1][1] * v + (B[1][0] * a + B[1][1] * a1));
+    const double w1 = -(a1 + 2 * o.xi * o.theta * v1 + o.theta * o.theta * u1);
+    const std::array<double, 4> next{u1, v1, w1, a1};
+    peaks.add_step(state, next);
+    // Rest after a long silence: subnormal numbers would only cost time.
+    const bool silent = std::abs(u1) + std::abs(v1) + std::abs(w1) < 1e-250;
+    state = silent ? std::array<double, 4>{0, 0, -a1, a1} : next;
+  }
+  if (after == AfterRecord::free_vibration) peaks.add_free_vibration(state[0], state[1]);
+  return peaks.peaks();
+}
+
 }  // namespace
 
 OscillatorStep oscillator_step(double theta, double damping_ratio) {
@@ -220,12 +179,7 @@ OscillatorStep oscillator_step(double theta, double damping_ratio) {
 std::vector<SpectrumPoint> response_spectrum(std::span<const double> acceleration, double time_step,
                                              std::span<const double> frequencies,
                                              double damping_ratio, AfterRecord after) {
-  check(std::isfinite(time_step) && time_step > 0, "time step must be positive", time_step);
-  check(damping_ratio >= 0 && damping_ratio < 1, "damping ratio must be in [0, 1)", damping_ratio);
-  for (const double f : frequencies)
-    check(std::isfinite(f) && f >= 0, "frequencies must be finite and not negative", f);
-  for (const double a : acceleration) check(std::isfinite(a), "accelerations must be finite", a);
-
+  check_arguments(acceleration, time_step, frequencies, damping_ratio);
   std::vector<SpectrumPoint> spectrum;
   spectrum.reserve(frequencies.size());
   for (const double frequency : frequencies) {
@@ -236,6 +190,24 @@ std::vector<SpectrumPoint> response_spectrum(std::span<const double> acceleratio
                                        make_oscillator(omega * time_step, damping_ratio), after);
     spectrum.push_back(
         {frequency, displacement, omega * displacement, omega * omega * displacement});
+  }
+  return spectrum;
+}
+
+std::vector<TrueSpectrumPoint> true_response_spectrum(std::span<const double> acceleration,
+                                                      double time_step,
+                                                      std::span<const double> frequencies,
+                                                      double damping_ratio, AfterRecord after) {
+  check_arguments(acceleration, time_step, frequencies, damping_ratio);
+  std::vector<TrueSpectrumPoint> spectrum;
+  spectrum.reserve(frequencies.size());
+  for (const double frequency : frequencies) {
+    const double theta = 2 * std::numbers::pi * frequency * time_step;
+    std::array<double, 3> peaks{};
+    if (!acceleration.empty())
+      peaks = true_peaks(acceleration, time_step, make_oscillator(theta, damping_ratio), after);
+    spectrum.push_back({frequency, peaks[0] / time_step, peaks[1] / (time_step * time_step),
+                        peaks[2] / (time_step * time_step)});
   }
   return spectrum;
 }

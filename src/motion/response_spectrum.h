@@ -14,6 +14,14 @@ struct SpectrumPoint {
   double pseudo_acceleration = 0;  ///< PSA = omega^2 SD [m/s2]
 };
 
+/// True peaks of the same oscillator, which differ from the pseudo ones away from resonance.
+struct TrueSpectrumPoint {
+  double frequency = 0;              ///< undamped oscillator [Hz]
+  double velocity = 0;               ///< SV = max |u'|, relative to the support [m/s]
+  double absolute_acceleration = 0;  ///< SA = max |u'' + a| [m/s2]
+  double relative_acceleration = 0;  ///< max |u''| [m/s2]
+};
+
 /// Exact step of u'' + 2 xi omega u' + omega^2 u = -a(t) for an acceleration linear over the step
 /// h, in the variables (u, h u') and h^2 a, so that everything depends on theta = omega h and xi:
 ///
@@ -43,5 +51,12 @@ std::vector<SpectrumPoint> response_spectrum(std::span<const double> acceleratio
                                              std::span<const double> frequencies,
                                              double damping_ratio,
                                              AfterRecord after = AfterRecord::free_vibration);
+
+/// The true peaks of the same motion, as exact as those of response_spectrum. An acceleration that
+/// does not begin with zero sets in as a jump at t = 0, and one that does not end with zero ends
+/// with one.
+std::vector<TrueSpectrumPoint> true_response_spectrum(
+    std::span<const double> acceleration, double time_step, std::span<const double> frequencies,
+    double damping_ratio, AfterRecord after = AfterRecord::free_vibration);
 
 }  // namespace pounding

@@ -24,7 +24,7 @@ void CsvFile::header(const std::string& names) {
   std::fprintf(file_, "%s\n", names.c_str());
 }
 
-void CsvFile::row(const std::string& label, std::initializer_list<double> values) {
+void CsvFile::row(const std::string& label, std::span<const double> values) {
   bool first = label.empty();
   std::fputs(label.c_str(), file_);
   for (const double value : values) {

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <initializer_list>
+#include <span>
 #include <string>
 
 namespace pounding {
@@ -18,7 +19,10 @@ class CsvFile {
   void comment(const std::string& text);
   void header(const std::string& names);
   /// A row; `label` is its first field unless it is empty.
-  void row(const std::string& label, std::initializer_list<double> values);
+  void row(const std::string& label, std::span<const double> values);
+  void row(const std::string& label, std::initializer_list<double> values) {
+    row(label, std::span(values.begin(), values.size()));
+  }
   void flush() { std::fflush(file_); }
   /// Throws if anything was not written.
   void close();

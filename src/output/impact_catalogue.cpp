@@ -1,22 +1,26 @@
 #include "output/impact_catalogue.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "common/error.h"
 #include "common/parallel.h"
+#include "motion/record_text.h"
 #include "output/csv_file.h"
 
 namespace pounding {
 namespace {
 
-constexpr std::size_t impact_columns = 10;
+constexpr std::size_t impact_columns = 13;
 
 /// Impacts as rows of numbers.
 std::vector<double> to_table(std::span<const Impact> impacts) {
   std::vector<double> table;
   for (const Impact& i : impacts) {
-    table.insert(table.end(), {static_cast<double>(i.contact), i.start, i.end, i.impulse,
-                               i.peak_force, static_cast<double>(i.points), i.energy_lost,
-                               i.max_penetration, i.place[0], i.place[1]});
+    table.insert(table.end(),
+                 {static_cast<double>(i.contact), i.start, i.end, i.impulse, i.peak_force,
+                  static_cast<double>(i.points), i.energy_lost, i.max_penetration, i.place[0],
+                  i.place[1], i.contact_time, i.low_share[0], i.low_share[1]});
   }
   return table;
 }
@@ -33,9 +37,36 @@ std::vector<Impact> from_table(const std::vector<double>& table) {
                        static_cast<int>(v[5]),
                        v[6],
                        v[7],
-                       {v[8], v[9]}});
+                       {v[8], v[9]},
+                       v[10],
+                       {v[11], v[12]}});
   }
   return impacts;
+}
+
+/// Per constraint and axis: 1 below the middle of the face of its contact, 0.5 at it, 0 above.
+std::vector<std::array<double, 2>> low_halves(std::size_t contacts,
+                                              const std::vector<int>& contact_of_row,
+                                              const std::vector<std::array<double, 2>>& places) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<std::array<double, 2>> low(places.size());
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    std::vector<double> smallest(contacts, infinity);
+    std::vector<double> largest(contacts, -infinity);
+    for (std::size_t row = 0; row < places.size(); ++row) {
+      const auto contact = static_cast<std::size_t>(contact_of_row[row]);
+      smallest[contact] = std::min(smallest[contact], places[row][axis]);
+      largest[contact] = std::max(largest[contact], places[row][axis]);
+    }
+    for (std::size_t row = 0; row < places.size(); ++row) {
+      const auto contact = static_cast<std::size_t>(contact_of_row[row]);
+      const double middle = (smallest[contact] + largest[contact]) / 2;
+      const double tolerance = 1e-9 * (largest[contact] - smallest[contact]);
+      const double from_middle = places[row][axis] - middle;
+      low[row][axis] = from_middle < -tolerance ? 1 : (from_middle > tolerance ? 0 : 0.5);
+    }
+  }
+  return low;
 }
 
 }  // namespace
@@ -53,6 +84,7 @@ ImpactCatalogue::ImpactCatalogue(int contacts, std::vector<int> contact_of_row,
     : merge_time_(merge_time),
       contact_of_row_(std::move(contact_of_row)),
       places_(std::move(places)),
+      low_(low_halves(static_cast<std::size_t>(contacts), contact_of_row_, places_)),
       open_(static_cast<std::size_t>(contacts)),
       is_open_(static_cast<std::size_t>(contacts), 0),
       step_impulse_(static_cast<std::size_t>(contacts), 0.0),
@@ -80,6 +112,7 @@ void ImpactCatalogue::add_step(double time, double duration, std::span<const dou
       open_[c].start = time;
     }
     open_[c].end = time + duration;
+    open_[c].contact_time += duration;
     open_[c].impulse += step_impulse_[c];
     open_[c].peak_force = std::max(open_[c].peak_force, step_impulse_[c] / duration);
   }
@@ -90,8 +123,10 @@ void ImpactCatalogue::add_step(double time, double duration, std::span<const dou
       touched_[row] = 1;
       impact.energy_lost -= works[row];
       impact.max_penetration = std::max(impact.max_penetration, -gaps[row]);
-      impact.place[0] += impulses[row] * places_[row][0];
-      impact.place[1] += impulses[row] * places_[row][1];
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        impact.place[axis] += impulses[row] * places_[row][axis];
+        impact.low_share[axis] += impulses[row] * low_[row][axis];
+      }
     }
   }
 }
@@ -102,8 +137,10 @@ int ImpactCatalogue::open_count() const {
 
 void ImpactCatalogue::close(std::size_t contact) {
   Impact impact = open_[contact];
-  impact.place[0] /= impact.impulse;
-  impact.place[1] /= impact.impulse;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    impact.place[axis] /= impact.impulse;
+    impact.low_share[axis] /= impact.impulse;
+  }
   impacts_.push_back(impact);
   is_open_[contact] = 0;
   for (std::size_t row = 0; row < touched_.size(); ++row) {
@@ -168,17 +205,49 @@ void write_impacts(const std::string& path, const std::vector<std::string>& cont
   CsvFile file(path);
   file.comment("contact episodes; times [s], impulse [N s], force [N], energy [J], lengths [m];");
   file.comment(
-      "lateral, vertical: where on the face, tangent axes of the contact in the order x, y, z");
+      "lateral, vertical: where on the face, tangent axes of the contact in the order x, y, z;");
+  file.comment("contact_time: sum of the steps with an impulse;");
+  file.comment(
+      "left, bottom: share of the impulse below the middle of the face, along lateral, vertical");
   file.header(
       "contact,start,end,duration,impulse,peak_force,points,energy_lost,max_penetration,lateral,"
-      "vertical");
+      "vertical,contact_time,left,bottom");
   for (const Impact& impact : impacts) {
     file.row(contacts[static_cast<std::size_t>(impact.contact)],
              {impact.start, impact.end, impact.duration(), impact.impulse, impact.peak_force,
               static_cast<double>(impact.points), impact.energy_lost, impact.max_penetration,
-              impact.place[0], impact.place[1]});
+              impact.place[0], impact.place[1], impact.contact_time, impact.low_share[0],
+              impact.low_share[1]});
   }
   file.close();
+}
+
+std::vector<NamedWindow> read_impact_windows(const std::string& path) {
+  std::vector<NamedWindow> windows;
+  bool named = false;
+  for (const TextLine& line : read_text_lines(path)) {
+    if (line.text.empty() || is_comment(line.text)) {
+      continue;
+    }
+    const auto words = split_words(line.text);
+    if (!named) {
+      named = true;
+      if (words.size() < 3 || words[0] != "contact" || words[1] != "start" || words[2] != "end") {
+        throw UserError(at_line(path, line.number) +
+                        "the columns do not begin with contact,start,end: give the impacts.csv of "
+                        "a run");
+      }
+      continue;
+    }
+    const auto start = words.size() < 3 ? std::nullopt : parse_number(words[1]);
+    const auto end = words.size() < 3 ? std::nullopt : parse_number(words[2]);
+    if (!start || !end || *end < *start) {
+      throw UserError(at_line(path, line.number) +
+                      "is no impact: a contact, its start and a later end are expected");
+    }
+    windows.push_back({std::string(words[0]), *start, *end});
+  }
+  return windows;
 }
 
 }  // namespace pounding

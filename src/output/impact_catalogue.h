@@ -23,6 +23,10 @@ struct Impact {
   double energy_lost = 0;         ///< minus the contact work [J]
   double max_penetration = 0;     ///< largest -gap met [m]
   std::array<double, 2> place{};  ///< mean of the points, weighted with their impulses [m]
+  double contact_time = 0;        ///< sum of the steps with an impulse [s]
+  /// Share of the impulse at points below the middle of the face along each tangent axis; what acts
+  /// at the middle counts half: 0 is one end of the face, 1 the other, 0.5 a centred impact.
+  std::array<double, 2> low_share{};
   double duration() const { return end - start; }
 };
 
@@ -66,15 +70,27 @@ class ImpactCatalogue {
   double merge_time_;
   std::vector<int> contact_of_row_;
   std::vector<std::array<double, 2>> places_;
-  std::vector<Impact> open_;          ///< per contact
-  std::vector<char> is_open_;         ///< per contact
-  std::vector<double> step_impulse_;  ///< per contact, of the current step
-  std::vector<char> touched_;         ///< per row, in the open episode
+  std::vector<std::array<double, 2>> low_;  ///< per row: 1 below the middle, 0.5 at it, 0 above
+  std::vector<Impact> open_;                ///< per contact
+  std::vector<char> is_open_;               ///< per contact
+  std::vector<double> step_impulse_;        ///< per contact, of the current step
+  std::vector<char> touched_;               ///< per row, in the open episode
   std::vector<Impact> impacts_;
 };
 
 /// `impacts.csv`: one line per episode. Throws std::runtime_error if the file cannot be written.
 void write_impacts(const std::string& path, const std::vector<std::string>& contacts,
                    std::span<const Impact> impacts);
+
+/// An impact as `impacts.csv` tells it, with the name of its contact.
+struct NamedWindow {
+  std::string contact;
+  double start = 0;  ///< [s]
+  double end = 0;    ///< [s]
+};
+
+/// Reads name, start and end of the impacts of an `impacts.csv`. Throws UserError (file, line, what
+/// is wrong).
+std::vector<NamedWindow> read_impact_windows(const std::string& path);
 
 }  // namespace pounding

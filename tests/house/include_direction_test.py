@@ -19,7 +19,9 @@ MAY_INCLUDE = {
     "output": {"common", "scene", "mesh", "system", "modal", "motion", "dynamics"},
     "driver": {"common", "scene", "elements", "mesh", "system", "modal", "motion", "contact",
                "dynamics", "output"},
+    "spectra": {"common", "scene", "motion", "output"},
     "main.cpp": {"common", "scene", "driver"},
+    "spectra_main.cpp": {"spectra"},
 }
 
 PURE = {"elements": ("mpi.h", "petsc", "slepc"), "motion": ("mpi.h", "petsc", "slepc")}

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "../motion/motion_files.h"
+
 namespace pounding {
 namespace {
 
@@ -27,6 +29,9 @@ TEST(ImpactCatalogue, MergesContactsWithinTheMergeTimeAndSeparatesOthers) {
   EXPECT_DOUBLE_EQ(first.peak_force, 3000);
   EXPECT_DOUBLE_EQ(first.place[0], 0.5);  // (3 * 0 + 1 * 2) / 4
   EXPECT_DOUBLE_EQ(first.max_penetration, 2e-6);
+  EXPECT_DOUBLE_EQ(first.contact_time, 0.002);  // of the 0.006 from its start to its end
+  EXPECT_DOUBLE_EQ(first.low_share[0], 0.75);   // 3 of 4 at the low end of the first axis
+  EXPECT_DOUBLE_EQ(first.low_share[1], 0.5);    // no extent along the second
   EXPECT_EQ(catalogue.impacts()[1].points, 2);
   EXPECT_EQ(catalogue.totals().episodes, 2);
   EXPECT_DOUBLE_EQ(catalogue.totals().largest_impulse, 4);
@@ -72,7 +77,59 @@ TEST(ImpactCatalogue, ContinuesAnOpenEpisode) {
     EXPECT_EQ(one.energy_lost, other.energy_lost);
     EXPECT_EQ(one.max_penetration, other.max_penetration);
     EXPECT_EQ(one.place, other.place);
+    EXPECT_EQ(one.contact_time, other.contact_time);
+    EXPECT_EQ(one.low_share, other.low_share);
   }
+}
+
+TEST(ImpactCatalogue, TellsTheHalvesOfEachFaceApart) {
+  // A face of 3 x 2 points, and a lone point that belongs to another contact.
+  std::vector<std::array<double, 2>> places;
+  std::vector<int> contact_of_row;
+  for (const double y : {0.0, 1.0, 2.0}) {
+    for (const double z : {5.0, 5.2}) {
+      places.push_back({y, z});
+      contact_of_row.push_back(1);
+    }
+  }
+  places.push_back({100.0, 100.0});
+  contact_of_row.push_back(0);
+  ImpactCatalogue catalogue(2, contact_of_row, places, 0.01);
+  const std::vector<double> none(7, 0.0);
+  catalogue.add_step(1, 1e-3, none, std::vector<double>{1, 0, 2, 4, 0, 1, 0}, none);
+  catalogue.add_step(3, 1e-3, none, std::vector<double>{0, 0, 0, 0, 0, 0, 5}, none);
+  catalogue.finish(MPI_COMM_SELF, 0);
+  ASSERT_EQ(catalogue.impacts().size(), 2u);
+  EXPECT_DOUBLE_EQ(catalogue.impacts()[0].low_share[0], (1 + 0.5 * 6) / 8);
+  EXPECT_DOUBLE_EQ(catalogue.impacts()[0].low_share[1], 3.0 / 8);
+  EXPECT_DOUBLE_EQ(catalogue.impacts()[1].low_share[0], 0.5);
+}
+
+class ImpactFile : public testing_support::MotionFiles {};
+
+TEST_F(ImpactFile, IsReadBackAsItWasWritten) {
+  Impact impact;
+  impact.contact = 1;
+  impact.start = 1.0 / 3;
+  impact.end = 0.34;
+  impact.impulse = 2;
+  const std::string path = (folder_ / "impacts.csv").string();
+  write_impacts(path, {"floor1", "floor2"}, std::vector<Impact>{impact, impact});
+  const auto windows = read_impact_windows(path);
+  ASSERT_EQ(windows.size(), 2u);
+  EXPECT_EQ(windows[1].contact, "floor2");
+  EXPECT_EQ(windows[1].start, impact.start);
+  EXPECT_EQ(windows[1].end, impact.end);
+}
+
+TEST_F(ImpactFile, RefusesWhatIsNoCatalogue) {
+  const auto refused = [&](const std::string& text) {
+    return testing_support::refusal([&] { read_impact_windows(write("impacts.csv", text)); });
+  };
+  EXPECT_NE(refused("time,start,end\n").find("contact,start,end"), std::string::npos);
+  EXPECT_NE(refused("contact,start,end\nroof,1,x\n").find("impacts.csv:2"), std::string::npos);
+  EXPECT_NE(refused("contact,start,end\nroof,1,0.5\n").find("later end"), std::string::npos);
+  EXPECT_NE(refused("contact,start,end\nroof,1\n").find("no impact"), std::string::npos);
 }
 
 }  // namespace

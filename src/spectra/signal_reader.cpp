@@ -1,0 +1,130 @@
+#include "spectra/signal_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "common/error.h"
+#include "common/types.h"
+#include "motion/accelerogram.h"
+#include "output/hdf5_reader.h"
+#include "scene/nearest_name.h"
+
+namespace pounding {
+
+namespace {
+
+bool is_history(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension();
+  return extension == ".h5" || extension == ".hdf5";
+}
+
+std::string folder_of(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  return folder.empty() ? "." : folder.string();
+}
+
+/// Places in `channels` of what is asked: a channel, or a probe for its three directions.
+std::vector<std::size_t> choose(const std::string& path, const std::vector<std::string>& channels,
+                                const std::vector<std::string>& asked) {
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; asked.empty() && i < channels.size(); ++i) chosen.push_back(i);
+  for (const std::string& name : asked) {
+    const std::size_t before = chosen.size();
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      const bool of_probe = channels[i].substr(0, channels[i].rfind('.')) == name;
+      if (of_probe || channels[i] == name) chosen.push_back(i);
+    }
+    if (chosen.size() == before)
+      throw UserError(path + ": there is no channel or probe '" + name + "'" +
+                      suggestion(name, channels));
+  }
+  if (chosen.empty()) throw UserError(path + ": no channel is recorded");
+  return chosen;
+}
+
+/// Sampling step of the records, which a run makes uniform.
+double uniform_step(const std::string& path, const std::vector<double>& time) {
+  if (time.size() < 2)
+    throw UserError(path + ": holds " + std::to_string(time.size()) +
+                    " records; a spectrum needs at least 2");
+  const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+  for (std::size_t i = 1; i < time.size(); ++i)
+    if (!(std::abs(time[i] - time[i - 1] - step) < 1e-6 * step))
+      throw UserError(path + ": the records are not evenly spaced at " + std::to_string(time[i]) +
+                      " s");
+  return step;
+}
+
+std::vector<double> less_ground(const Hdf5Reader& history, const std::string& path,
+                                std::vector<double> acceleration, const std::string& channel) {
+  const std::string direction = channel.substr(channel.rfind('.') + 1);
+  const auto place = std::ranges::find(direction_names, direction) - direction_names.begin();
+  if (place == static_cast<std::ptrdiff_t>(direction_names.size()))
+    throw UserError(path + ": channel '" + channel + "' has no direction x, y or z");
+  const auto ground = history.array("ground_acceleration");
+  for (std::size_t i = 0; i < acceleration.size(); ++i)
+    acceleration[i] -= ground.at(3 * i + static_cast<std::size_t>(place));
+  return acceleration;
+}
+
+void read_history(const std::string& path, const SpectraOptions& options,
+                  std::vector<NamedSignal>& signals) {
+  const Hdf5Reader history(path, true);
+  const auto channels = history.strings("channels");
+  const auto time = history.array("time");
+  const double step = uniform_step(path, time);
+  const double offset = history.number("acceleration", "time_offset");
+  const auto shape = history.shape("acceleration");
+  if (shape.columns != channels.size() || shape.rows != time.size())
+    throw UserError(path + ": acceleration, time and channels do not fit together");
+  const auto all = history.array("acceleration");
+  for (const std::size_t channel : choose(path, channels, options.channels)) {
+    std::vector<double> acceleration;
+    acceleration.reserve(shape.rows);
+    for (std::size_t row = 0; row < shape.rows; ++row)
+      acceleration.push_back(all[row * shape.columns + channel]);
+    if (options.relative)
+      acceleration = less_ground(history, path, std::move(acceleration), channels[channel]);
+    signals.push_back({channels[channel],
+                       {std::move(acceleration), step, time.front() + offset},
+                       folder_of(path),
+                       true});
+  }
+}
+
+void read_record(const std::string& path, const SpectraOptions& options,
+                 std::vector<NamedSignal>& signals) {
+  if (!options.channels.empty() || options.relative)
+    throw UserError(path + " is a record: --channels and --frame go with the history.h5 of a run");
+  for (const int column : options.columns) {
+    Accelerogram record = read_accelerogram({path, options.unit, options.time_step, column});
+    const std::string name = column == 0 ? std::filesystem::path(path).stem().string()
+                                         : "column" + std::to_string(column);
+    NamedSignal& signal = signals.emplace_back();
+    signal.name = name;
+    signal.folder = folder_of(path);
+    signal.signal.acceleration = std::move(record.acceleration);
+    signal.signal.time_step = record.time_step;
+  }
+}
+
+}  // namespace
+
+std::vector<NamedSignal> read_signals(const SpectraOptions& options) {
+  std::vector<NamedSignal> signals;
+  for (const std::string& file : options.files) {
+    const std::size_t first = signals.size();
+    if (is_history(file))
+      read_history(file, options, signals);
+    else
+      read_record(file, options, signals);
+    for (std::size_t i = first; options.files.size() > 1 && i < signals.size(); ++i)
+      signals[i].name = file + ":" + signals[i].name;
+  }
+  for (NamedSignal& signal : signals) std::ranges::replace(signal.name, ',', '_');
+  return signals;
+}
+
+}  // namespace pounding

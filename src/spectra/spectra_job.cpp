@@ -1,0 +1,208 @@
+#include "spectra/spectra_job.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "common/error.h"
+#include "motion/spectrum_shape.h"
+#include "output/csv_file.h"
+#include "output/impact_catalogue.h"
+#include "spectra/signal_reader.h"
+
+namespace pounding {
+
+namespace {
+
+/// One line of the result: a signal or envelope, a treatment, a damping ratio, and its columns.
+struct Spectrum {
+  std::string channel;
+  Treatment treatment = Treatment::complete;
+  double damping_ratio = 0;
+  std::vector<std::vector<double>> columns;  ///< shape (quantities, frequencies)
+};
+
+/// A signal with its peaks, if they are asked for.
+struct Input {
+  NamedSignal named;
+  std::vector<SignalPeak> peaks;
+  double dirac_step = 0;
+};
+
+bool asked(const SpectraOptions& options, Treatment treatment) {
+  return std::ranges::find(options.treatments, treatment) != options.treatments.end();
+}
+
+bool needs_peaks(const SpectraOptions& options) {
+  return !options.peaks.empty() || options.treatments != std::vector{Treatment::complete};
+}
+
+std::vector<TimeWindow> contact_windows(const SpectraOptions& options, const NamedSignal& named) {
+  if (options.impacts.empty() && !named.is_history)
+    throw UserError(named.name + " is a record: its impacts are known only from --impacts FILE");
+  const std::string path =
+      options.impacts.empty() ? named.folder + "/impacts.csv" : options.impacts;
+  const auto impacts = read_impact_windows(path);
+  std::vector<TimeWindow> windows;
+  for (const NamedWindow& impact : impacts)
+    if (options.contacts.empty() ||
+        std::ranges::find(options.contacts, impact.contact) != options.contacts.end())
+      windows.push_back({impact.start, impact.end});
+  if (windows.empty())
+    throw UserError(path + ": no impact" + (impacts.empty() ? "" : " of these contacts") +
+                    ", so there are no peaks to keep or to leave out");
+  return windows;
+}
+
+double time_step_of_run(const NamedSignal& named) {
+  const std::string path = named.folder + "/summary.json";
+  const auto summary = nlohmann::json::parse(std::ifstream(path), nullptr, false);
+  const auto found = summary.is_object() ? summary.find("time_step") : summary.end();
+  if (!summary.is_object() || found == summary.end() || !found->is_number())
+    throw UserError(path + " does not tell the time step of the run; give --dirac-step");
+  return found->get<double>();
+}
+
+Input prepare(const SpectraOptions& options, NamedSignal named) {
+  Input input{std::move(named), {}, options.dirac_step};
+  if (!needs_peaks(options)) return input;
+  input.peaks =
+      find_peaks(input.named.signal, contact_windows(options, input.named), options.margin);
+  if (input.peaks.empty())
+    throw UserError(input.named.name + ": the impacts lie outside the signal");
+  if (input.dirac_step == 0 && asked(options, Treatment::dirac))
+    input.dirac_step = time_step_of_run(input.named);
+  return input;
+}
+
+AfterRecord after(const SpectraOptions& options, const Input& input, Treatment treatment) {
+  if (treatment == Treatment::dirac) return AfterRecord::free_vibration;
+  const bool ignored =
+      options.after == "ignored" || (options.after == "auto" && input.named.is_history);
+  return ignored ? AfterRecord::ignored : AfterRecord::free_vibration;
+}
+
+std::vector<std::vector<double>> compute(const SpectraOptions& options, const SampledSignal& signal,
+                                         double ratio, AfterRecord after_record) {
+  std::vector<std::vector<double>> columns(options.true_peaks ? 6 : 3);
+  for (const SpectrumPoint& point : response_spectrum(signal.acceleration, signal.time_step,
+                                                      options.frequencies, ratio, after_record)) {
+    columns[0].push_back(point.displacement);
+    columns[1].push_back(point.pseudo_velocity);
+    columns[2].push_back(point.pseudo_acceleration);
+  }
+  if (!options.true_peaks) return columns;
+  for (const TrueSpectrumPoint& point : true_response_spectrum(
+           signal.acceleration, signal.time_step, options.frequencies, ratio, after_record)) {
+    columns[3].push_back(point.velocity);
+    columns[4].push_back(point.absolute_acceleration);
+    columns[5].push_back(point.relative_acceleration);
+  }
+  return columns;
+}
+
+std::vector<Spectrum> spectra_of(const SpectraOptions& options, const Input& input) {
+  std::vector<Spectrum> spectra;
+  for (const Treatment treatment : options.treatments) {
+    const SampledSignal treated =
+        treat(input.named.signal, input.peaks, treatment, input.dirac_step);
+    for (const double ratio : options.damping_ratios)
+      spectra.push_back({input.named.name, treatment, ratio,
+                         compute(options, treated, ratio, after(options, input, treatment))});
+  }
+  return spectra;
+}
+
+/// Takes the spectra of one more channel, in the same order, into the envelope.
+void widen(std::vector<Spectrum>& envelope, const std::vector<Spectrum>& spectra) {
+  for (std::size_t i = 0; i < envelope.size(); ++i)
+    for (std::size_t q = 0; q < envelope[i].columns.size(); ++q)
+      envelope[i].columns[q] =
+          envelope_of(std::vector{envelope[i].columns[q], spectra[i].columns[q]});
+}
+
+void write_header(CsvFile& file, const SpectraOptions& options, double longest_step) {
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "response spectra, samples every %.9g s; within 1 %% of the continuous signal up to "
+      "%.4g Hz if they are means over the step",
+      longest_step, 0.045 / longest_step);
+  file.comment(text);
+  if (options.broadening > 0) {
+    std::snprintf(text, sizeof text, "widened by %.4g %% to both sides, every column by itself",
+                  100 * options.broadening);
+    file.comment(text);
+  }
+  file.comment(
+      "frequency [Hz], period [s], displacement [m], velocities [m/s], accelerations [m/s2]");
+  file.header(std::string("channel,treatment,damping,frequency,period,displacement,"
+                          "pseudo_velocity,pseudo_acceleration") +
+              (options.true_peaks ? ",velocity,absolute_acceleration,relative_acceleration" : ""));
+}
+
+void write_spectra(CsvFile& file, const SpectraOptions& options,
+                   const std::vector<Spectrum>& spectra) {
+  for (const Spectrum& spectrum : spectra) {
+    std::vector<std::vector<double>> columns;
+    for (const auto& values : spectrum.columns)
+      columns.push_back(broadened(options.frequencies, values, options.broadening));
+    const std::string label =
+        spectrum.channel + "," + treatment_names()[static_cast<std::size_t>(spectrum.treatment)];
+    std::vector<double> row;
+    for (std::size_t i = 0; i < options.frequencies.size(); ++i) {
+      row = {spectrum.damping_ratio, options.frequencies[i], 1 / options.frequencies[i]};
+      for (const auto& values : columns) row.push_back(values[i]);
+      file.row(label, row);
+    }
+  }
+}
+
+void write_peaks(CsvFile& file, const Input& input) {
+  const SampledSignal& signal = input.named.signal;
+  const auto start_of = [&](std::size_t k) {
+    return signal.first_time + (static_cast<double>(k) - 0.5) * signal.time_step;
+  };
+  for (const SignalPeak& peak : input.peaks)
+    file.row(input.named.name, {start_of(peak.first), start_of(peak.last), peak.impulse,
+                                &peak == &highest_peak(input.peaks) ? 1.0 : 0.0});
+}
+
+}  // namespace
+
+void run_spectra(const SpectraOptions& options) {
+  std::vector<Input> inputs;
+  double longest_step = 0;
+  for (NamedSignal& named : read_signals(options)) {
+    longest_step = std::max(longest_step, named.signal.time_step);
+    inputs.push_back(prepare(options, std::move(named)));
+  }
+  CsvFile file(options.output.empty() ? "/dev/stdout" : options.output);
+  std::optional<CsvFile> peaks;
+  if (!options.peaks.empty()) {
+    peaks.emplace(options.peaks);
+    peaks->comment("peaks during contacts; times [s], impulse: integral of the acceleration [m/s]");
+    peaks->header("channel,start,end,impulse,highest");
+  }
+  write_header(file, options, longest_step);
+  std::vector<Spectrum> envelope;
+  for (const Input& input : inputs) {
+    std::vector<Spectrum> spectra = spectra_of(options, input);
+    if (peaks) write_peaks(*peaks, input);
+    if (!options.envelope)
+      write_spectra(file, options, spectra);
+    else if (envelope.empty())
+      envelope = std::move(spectra);
+    else
+      widen(envelope, spectra);
+  }
+  for (Spectrum& spectrum : envelope) spectrum.channel = "envelope";
+  write_spectra(file, options, envelope);
+  if (peaks) peaks->close();
+  file.close();
+}
+
+}  // namespace pounding

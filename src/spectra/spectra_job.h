@@ -1,0 +1,11 @@
+#pragma once
+
+#include "spectra/spectra_options.h"
+
+namespace pounding {
+
+/// Reads the signals, computes what is asked and writes the tables. Serial. Throws UserError or
+/// std::runtime_error, one line each.
+void run_spectra(const SpectraOptions& options);
+
+}  // namespace pounding

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "motion/response_spectrum.h"
+#include "motion/signal_treatment.h"
+
+namespace pounding {
+
+/// What pounding-spectra is asked to do; see spectra_help().
+struct SpectraOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> channels;  ///< of a history: probe or probe.direction; empty: all
+  std::vector<int> columns{0};        ///< of a record, 1-based; 0: the last one
+  std::string unit;                   ///< of a record; "": as its header says
+  double time_step = 0;               ///< of a record [s]; 0: as the file says
+  bool relative = false;              ///< history: less the acceleration of the ground
+  std::vector<double> damping_ratios{0.05};
+  std::vector<double> frequencies;  ///< [Hz], increasing, above 0
+  bool true_peaks = false;          ///< columns of the true peaks beside the pseudo ones
+  bool envelope = false;            ///< the envelope of all channels instead of each
+  double broadening = 0;            ///< [-]
+  std::string after;                ///< "auto", "free_vibration" or "ignored"
+  std::vector<Treatment> treatments{Treatment::complete};
+  std::string impacts;                ///< impacts.csv; "": beside the history
+  std::vector<std::string> contacts;  ///< whose impacts make the peaks; empty: all
+  double margin = 0;                  ///< [s]
+  double dirac_step = 0;              ///< [s]; 0: the time step of the run
+  std::string output;                 ///< CSV; "": standard output
+  std::string peaks;                  ///< CSV of the peaks; "": none
+};
+
+/// The page of --help.
+std::string spectra_help();
+
+/// Reads the words of the command line after the program's name. Throws UserError for what is
+/// unknown, out of range, or makes no sense together.
+SpectraOptions read_spectra_options(std::span<const std::string> words);
+
+}  // namespace pounding
