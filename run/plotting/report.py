@@ -31,7 +31,7 @@ def _number(value) -> str:
     return escape(str(value))
 
 
-def _table(caption: str, header: list, rows: list) -> str:
+def html_table(caption: str, header: list, rows: list) -> str:
     if not rows:
         return ""
     head = "".join(f"<th>{escape(text)}</th>" for text in header)
@@ -45,7 +45,7 @@ def _run_table(summary: dict) -> str:
               ("steps", "steps"), ("ranks", "ranks"), ("wall_time", "wall time [s]"),
               ("microseconds_per_step", "µs per step"))
     rows = [(label, summary[key]) for key, label in labels if key in summary]
-    return _table("Run", ["", ""], rows)
+    return html_table("Run", ["", ""], rows)
 
 
 def _structure_tables(summary: dict) -> str:
@@ -57,8 +57,8 @@ def _structure_tables(summary: dict) -> str:
             elements = ", ".join(f"{count} {kind}" for kind, count in elements.items())
         rows.append((name, one.get("dofs"), elements, one.get("mass"), one.get("omega_max"),
                      one.get("stable_time_step")))
-    text = _table("Structures", ["", "dofs", "elements", "mass [kg]", "ω max [rad/s]",
-                                 "stable time step [s]"], rows)
+    text = html_table("Structures", ["", "dofs", "elements", "mass [kg]", "ω max [rad/s]",
+                                     "stable time step [s]"], rows)
     for name, one in structures.items():
         modes = []
         for number, mode in enumerate(one.get("frequencies", []), 1):
@@ -67,8 +67,8 @@ def _structure_tables(summary: dict) -> str:
                 share = 100.0 * mode["effective_mass"] / one["mass"]
             modes.append((number, mode.get("frequency"), mode.get("direction"),
                           mode.get("effective_mass"), share))
-        text += _table(f"Modes of {name}", ["mode", "frequency [Hz]", "direction",
-                                            "effective mass [kg]", "share [%]"], modes)
+        text += html_table(f"Modes of {name}", ["mode", "frequency [Hz]", "direction",
+                                                "effective mass [kg]", "share [%]"], modes)
     return text
 
 
@@ -79,8 +79,8 @@ def _probe_table(summary: dict) -> str:
         moved = probe.get("peak_displacement") or [None] * 3
         in_g = [None if value is None else value / G for value in peak]
         rows.append((name, *peak, in_g[0], *(None if v is None else 1e3 * v for v in moved)))
-    return _table("Peaks of the floors", ["", "a x [m/s²]", "a y", "a z", "a x [g]", "u x [mm]",
-                                          "u y", "u z"], rows)
+    return html_table("Peaks of the floors", ["", "a x [m/s²]", "a y", "a z", "a x [g]", "u x [mm]",
+                                              "u y", "u z"], rows)
 
 
 def _impact_tables(result: Result) -> str:
@@ -88,8 +88,8 @@ def _impact_tables(result: Result) -> str:
     total = {key: value for key, value in impacts.items() if not isinstance(value, dict)}
     parts = [("all contacts", total)] if total else []
     parts += [(key, value) for key, value in impacts.items() if isinstance(value, dict)]
-    text = _table("Impacts", ["", "impacts", "total impulse [N s]", "largest impulse [N s]",
-                              "largest penetration [m]"],
+    text = html_table("Impacts", ["", "impacts", "total impulse [N s]", "largest impulse [N s]",
+                                  "largest penetration [m]"],
                   [(name, one.get("episodes"), one.get("total_impulse"),
                     one.get("largest_impulse"), one.get("max_penetration"))
                    for name, one in parts])
@@ -102,8 +102,8 @@ def _impact_tables(result: Result) -> str:
         columns = [column for column in columns if column[0] in table]
         rows = [(str(table["contact"][i]), *(float(table[key][i] * scale)
                                              for key, _, scale in columns)) for i in order]
-        text += _table(f"The strongest {len(rows)} impacts",
-                       ["contact"] + [label for _, label, _ in columns], rows)
+        text += html_table(f"The strongest {len(rows)} impacts",
+                           ["contact"] + [label for _, label, _ in columns], rows)
     return text
 
 
@@ -111,11 +111,11 @@ def _energy_table(summary: dict) -> str:
     labels = (("input", "work of the ground [J]"), ("damping", "damping [J]"),
               ("contact", "contact [J]"), ("relative_residual", "relative residual"))
     energy = summary.get("energy", {})
-    return _table("Energy", ["", ""],
+    return html_table("Energy", ["", ""],
                   [(label, energy[key]) for key, label in labels if key in energy])
 
 
-def _figure(folder: Path, page: dict) -> str:
+def html_figure(folder: Path, page: dict) -> str:
     image = base64.b64encode((folder / page["file"]).read_bytes()).decode()
     return (f'<h2>{escape(page["title"])}</h2>\n<figure><img alt="{escape(page["title"])}" '
             f'src="data:image/png;base64,{image}">'
@@ -130,7 +130,7 @@ def write(result: Result, pages: list) -> Path:
               + _structure_tables(summary) + _energy_table(summary))
     if not summary:
         tables += '<p class="note">No summary.json in the result folder.</p>\n'
-    figures = "".join(_figure(result.folder, page) for page in pages)
+    figures = "".join(html_figure(result.folder, page) for page in pages)
     path = result.folder / "report.html"
     path.write_text(f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
                     f"<title>{title}</title><style>{CSS}</style></head>\n<body>\n<h1>{title}</h1>\n"

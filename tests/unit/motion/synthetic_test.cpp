@@ -40,7 +40,8 @@ class Synthetic : public MotionFiles {
 };
 
 TEST_F(Synthetic, SpectrumFollowsTheTarget) {
-  for (const std::string name : {"cadarache_like.csv", "alluvial.csv"})
+  for (const std::string name :
+       {"near_field_rock.csv", "alluvial.csv", "near_fault_pulse.csv", "long_period.csv"})
     for (int seed = 1; seed <= 4; ++seed) {
       const auto shape = target(name);
       const auto a = generate_accelerogram(shape, seeded(seed), 1.47);
@@ -55,12 +56,12 @@ TEST_F(Synthetic, MisfitSeesAWrongLevelAndAWrongShape) {
   auto a = generate_accelerogram(shape, seeded(1), 2);
   const auto good = spectral_misfit(a, shape, 2);
   EXPECT_NEAR(spectral_misfit(a, shape, 2 * std::exp(0.5)).rms, 0.5, 2 * good.rms);
-  EXPECT_GT(spectral_misfit(a, target("cadarache_like.csv"), 2).rms, 0.4);
+  EXPECT_GT(spectral_misfit(a, target("near_field_rock.csv"), 2).rms, 0.4);
 }
 
 TEST_F(Synthetic, PeakIsExactAndEndsAreZero) {
   for (const double pga : {1e-3, 1.47, 9.81}) {
-    const auto a = generate_accelerogram(target("cadarache_like.csv"), seeded(3), pga);
+    const auto a = generate_accelerogram(target("near_field_rock.csv"), seeded(3), pga);
     EXPECT_EQ(a.peak(), pga);
     EXPECT_EQ(a.acceleration.front(), 0);
     EXPECT_EQ(a.acceleration.back(), 0);
@@ -70,7 +71,8 @@ TEST_F(Synthetic, PeakIsExactAndEndsAreZero) {
 }
 
 TEST_F(Synthetic, GroundComesBackToRestWithoutDrift) {
-  for (const std::string name : {"cadarache_like.csv", "alluvial.csv"})
+  for (const std::string name :
+       {"near_field_rock.csv", "alluvial.csv", "near_fault_pulse.csv", "long_period.csv"})
     for (int seed = 1; seed <= 3; ++seed) {
       const auto record = generate_accelerogram(target(name), seeded(seed), 1);
       const auto& a = record.acceleration;
@@ -91,7 +93,7 @@ TEST_F(Synthetic, GroundComesBackToRestWithoutDrift) {
 }
 
 TEST_F(Synthetic, EnvelopeRisesStaysAndDecays) {
-  const auto record = generate_accelerogram(target("cadarache_like.csv"), seeded(5), 1);
+  const auto record = generate_accelerogram(target("near_field_rock.csv"), seeded(5), 1);
   const auto level = [&](double from, double to) {
     double sum = 0;
     int count = 0;
@@ -109,14 +111,14 @@ TEST_F(Synthetic, EnvelopeRisesStaysAndDecays) {
 TEST_F(Synthetic, WithoutRiseOrDecayItStillStartsAndEndsAtZero) {
   SyntheticMotion motion;
   motion.envelope = {0, 25};
-  const auto a = generate_accelerogram(target("cadarache_like.csv"), motion, 1);
+  const auto a = generate_accelerogram(target("near_field_rock.csv"), motion, 1);
   EXPECT_EQ(a.peak(), 1);
   EXPECT_EQ(a.acceleration.front(), 0);
   EXPECT_EQ(a.acceleration.back(), 0);
 }
 
 TEST_F(Synthetic, SeedDecidesTheMotionToTheBit) {
-  const auto shape = target("cadarache_like.csv");
+  const auto shape = target("near_field_rock.csv");
   const auto one = checksum(generate_accelerogram(shape, seeded(1), 1.47));
   EXPECT_EQ(checksum(generate_accelerogram(shape, seeded(1), 1.47)), one);
   EXPECT_NE(checksum(generate_accelerogram(shape, seeded(2), 1.47)), one);
@@ -151,7 +153,7 @@ TEST_F(Synthetic, RefusesTargetsThatAreNotOne) {
 }
 
 TEST_F(Synthetic, RefusesParametersOutOfRange) {
-  const auto shape = target("cadarache_like.csv");
+  const auto shape = target("near_field_rock.csv");
   const auto refused = [&](SyntheticMotion motion, double pga) {
     return refusal([&] { generate_accelerogram(shape, motion, pga); });
   };

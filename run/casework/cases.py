@@ -1,0 +1,110 @@
+"""The cases: ground motions, gaps, variants of the model, and the words that ask the program for them."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from . import paper
+
+# Fidelity: options in front of those of the case.
+FIDELITIES = {"full": []}
+
+VARIANTS = {"A": "Model A", "B": "Model B", "A-symmetric": "Model A, symmetric gap",
+            "A-apart": "Model A without pounding"}
+
+TARGETS = {"Cadarache": "near_field_rock", "El Centro": "alluvial", "Northridge": "near_fault_pulse",
+           "Kobe": "long_period"}
+SEEDS = {"x": 1, "y": 2, "z": 3}
+
+# A hundred times cheaper: the same physics on a coarse mesh, the strong phase only.
+QUICK_MESH = {"s1": "cells_x=7,cells_y=5,column_elements=2", "s2": "cells_x=5,cells_y=5,column_elements=2"}
+
+
+@dataclass(frozen=True)
+class Window:
+    """How long a run lasts, and of a synthetic motion its duration and envelope [s]."""
+
+    end_time: float = paper.DURATION
+    duration: float = paper.DURATION
+    envelope: str = "2,15"
+
+
+FULL = Window()
+QUICK = Window(end_time=4.0, duration=12.0, envelope="1,5")
+
+
+@dataclass(frozen=True)
+class Case:
+    """One run: nominal gap [cm], ground motion, variant of the model, and all that asks for it."""
+
+    gap: int
+    motion: str
+    variant: str
+    words: tuple = field(default=(), compare=False)
+    files: tuple = field(default=(), compare=False)  # that its result depends on
+
+    @property
+    def model(self) -> str:
+        return self.variant[0]
+
+    @property
+    def pounds(self) -> bool:
+        return self.variant != "A-apart"
+
+    @property
+    def name(self) -> str:
+        return f"gap{self.gap}-{self.motion.lower().replace(' ', '-')}-{self.variant.lower()}"
+
+    @property
+    def pga(self) -> float:
+        """[m/s2]"""
+        return paper.PGA[self.gap][self.motion] * paper.G
+
+
+def gap_words(case: Case) -> list:
+    corners = paper.CORNERS[case.gap]
+    if not case.pounds:
+        return ["-contacts", "none"]
+    if case.variant == "A-symmetric":
+        return [word for floor in ("floor1", "floor2") for word in (f"-{floor}_gap", repr(case.gap / 100))]
+    lower, upper = (f"{corners[start] / 100!r},{corners[end] / 100!r}" for start, end in ("DC", "AB"))
+    return ["-floor1_gap", lower, "-floor2_gap", upper]
+
+
+def model_words(case: Case, quick: bool) -> tuple[list, list]:
+    """Options, and the files that they bring in."""
+    files = ["petsc-options/azalee/pair.yaml"] + (["petsc-options/azalee/pair-b.yaml"] if case.model == "B" else [])
+    words = ["-options_file", files[-1]]
+    for structure, cells in QUICK_MESH.items() if quick else ():
+        slab = "slab=1," if case.model == "B" else ""
+        words += [f"-{structure}_mesh_set", slab + cells]
+    meshes = ["meshes/azalee-s1.geo", "meshes/azalee-s2.geo", "meshes/azalee-building.geo"]
+    return words, files + meshes
+
+
+def synthetic_words(case: Case, window: Window) -> tuple[list, list]:
+    target = f"petsc-options/spectra/{TARGETS[case.motion]}.csv"
+    return ["-motion_x_target", target, "-motion_x_pga", repr(case.pga), "-motion_x_seed", str(SEEDS["x"]),
+            "-motion_x_duration", repr(window.duration), "-motion_x_envelope", window.envelope], [target]
+
+
+def make_case(gap: int, motion: str, variant: str, window: Window, quick: bool, fidelity: str, extra: list,
+              record=None) -> Case:
+    """`record`: a records.Record in the place of the synthetic motion, or None."""
+    case = Case(gap, motion, variant)
+    model, files = model_words(case, quick)
+    shaking, sources = record.words(case.pga) if record else synthetic_words(case, window)
+    words = [*model, *FIDELITIES[fidelity], *gap_words(case), *shaking, "-end_time", repr(window.end_time),
+             "-modes", "1", "-title", f"gap {gap} cm, {motion}, {VARIANTS[variant]}", *extra]
+    return Case(gap, motion, variant, tuple(words), tuple(map(str, [*files, *sources])))
+
+
+def all_cases(window: Window = FULL, quick: bool = False, fidelity: str = "full", extra=(), records=None,
+              gaps=paper.GAPS, motions=paper.MOTIONS, variants=tuple(VARIANTS)) -> list:
+    """In the order in which they are run: every variant of a gap and a motion together."""
+    return [make_case(gap, motion, variant, window, quick, fidelity, list(extra), (records or {}).get(motion))
+            for gap in gaps for motion in motions for variant in variants]
+
+
+def exists(source: Path, case: Case) -> list:
+    """The files of the case that are not there."""
+    return [name for name in case.files if not (source / name).is_file()]

@@ -1,0 +1,85 @@
+"""What a finished case left, read back."""
+
+import csv
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from . import harvest
+from .cases import Case
+
+TREATMENTS = ("complete", "all_peaks", "highest_peak", "without_peaks", "dirac")
+
+
+def read_table(path: Path) -> list:
+    with open(path) as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+@dataclass
+class CaseResult:
+    """`spectra`: channel -> pseudo-acceleration [m/s2] at `frequency` [Hz]; `treated`: the same by
+    treatment, for S2's second floor along x; empty where nothing pounded."""
+
+    case: Case
+    summary: dict
+    impacts: list
+    frequency: np.ndarray
+    spectra: dict
+    treated: dict
+    peaks: list
+    series: dict
+
+    def count(self, floor: str) -> int:
+        return sum(hit["contact"] == floor for hit in self.impacts)
+
+    def band(self, low: float, high: float) -> np.ndarray:
+        return (self.frequency >= low) & (self.frequency <= high)
+
+    @property
+    def roof(self) -> np.ndarray:
+        """Spectrum of the second floor of Structure 2 along x."""
+        return self.spectra["s2_floor2.x"]
+
+
+def load(case: Case, folder: Path) -> CaseResult:
+    rows = [row for row in read_table(folder / "spectra.csv") if float(row["damping"]) == 0.05]
+    spectra = {}
+    for row in rows:
+        spectra.setdefault(f"{row['probe']}.{row['direction']}", []).append(row)
+    frequency = np.array([float(row["frequency"]) for row in next(iter(spectra.values()))])
+    values = {name: np.array([float(row["pseudo_acceleration"]) for row in part]) for name, part in spectra.items()}
+    treated, peaks = {}, []
+    if harvest.needs_treatment(case, folder):
+        for row in read_table(folder / harvest.TREATED):
+            treated.setdefault(row["treatment"], []).append(float(row["pseudo_acceleration"]))
+        treated = {name: np.array(part) for name, part in treated.items()}
+        peaks = [{name: float(value) for name, value in row.items() if name != "channel"}
+                 for row in read_table(folder / harvest.PEAKS)]
+    series = dict(np.load(folder / harvest.SERIES))
+    summary = json.loads((folder / "summary.json").read_text())
+    impacts = harvest.impacts(folder) if case.pounds else []
+    return CaseResult(case, summary, impacts, frequency, values, treated, peaks, series)
+
+
+class Campaign:
+    """The results by gap, motion and variant; absent ones are None."""
+
+    def __init__(self, results: list):
+        self._results = {(one.case.gap, one.case.motion, one.case.variant): one for one in results}
+
+    def get(self, gap: int, motion: str, variant: str):
+        return self._results.get((gap, motion, variant))
+
+    def of(self, variant: str) -> list:
+        return [one for one in self._results.values() if one.case.variant == variant]
+
+    def pairs(self, first: str, second: str) -> list:
+        """The results of two variants of the same gap and motion, where both are there."""
+        both = [(one, self.get(one.case.gap, one.case.motion, second)) for one in self.of(first)]
+        return [pair for pair in both if pair[1]]
+
+    def all(self) -> list:
+        return list(self._results.values())

@@ -1,0 +1,160 @@
+"""Runs cases side by side, skips those that are finished, tells how long the rest will take."""
+
+import hashlib
+import json
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+from . import harvest
+from .cases import Case
+
+SOURCE = Path(__file__).resolve().parents[2]
+REQUEST, LOG, SUMMARY = "request.json", "log.txt", "summary.json"
+# Steps of Model B cost more than those of Model A; the first finished runs correct this guess.
+FIRST_GUESS = {"A": 1.0, "B": 1.5}
+
+
+class SetUpError(Exception):
+    """One line for the user."""
+
+
+def request_of(case: Case) -> dict:
+    """All that the result of a case depends on: the words, and the contents of the files."""
+    files = {}
+    for name in case.files:
+        try:
+            files[Path(name).name] = hashlib.sha256((SOURCE / name).read_bytes()).hexdigest()
+        except OSError as error:
+            raise SetUpError(f"{name}: {error.strerror or error}") from error
+    words = [Path(word).name if Path(word).is_absolute() else word for word in case.words]
+    return {"words": words, "files": files}
+
+
+def is_finished(case: Case, folder: Path) -> bool:
+    """Whether the folder holds the complete results of this very request: the same words and files,
+    and a run whose resolved options are those of the words."""
+    try:
+        done = json.loads((folder / REQUEST).read_text())
+        resolved = json.loads((folder / SUMMARY).read_text())["options"]
+    except (OSError, ValueError, KeyError):
+        return False
+    asked = {word[1:]: value for word, value in zip(case.words[::2], case.words[1::2]) if word != "-options_file"}
+    return (done == request_of(case) and all(resolved.get(name) == value for name, value in asked.items())
+            and harvest.is_complete(case, folder))
+
+
+def build_folder() -> Path:
+    return SOURCE / os.environ.get("POUNDING_BUILD", "build")
+
+
+def environment() -> dict:
+    """The variables that run/environment sets."""
+    text = subprocess.run(["bash", "-c", "source run/environment && env -0"], cwd=SOURCE, capture_output=True,
+                          text=True, check=True).stdout
+    return dict(item.split("=", 1) for item in text.split("\0") if "=" in item)
+
+
+class Job:
+    """A case that runs now."""
+
+    def __init__(self, case: Case, folder: Path, ranks: int, variables: dict):
+        self.case, self.folder, self.started = case, folder, time.monotonic()
+        folder.mkdir(parents=True, exist_ok=True)
+        for name in (SUMMARY, REQUEST):
+            (folder / name).unlink(missing_ok=True)
+        command = ["mpirun", "-n", str(ranks), str(build_folder() / "pounding"), *case.words, "-output", str(folder)]
+        self.log = open(folder / LOG, "w")
+        self.process = subprocess.Popen(command, cwd=SOURCE, env=variables, stdin=subprocess.DEVNULL,
+                                        stdout=self.log, stderr=subprocess.STDOUT, start_new_session=True)
+
+    @property
+    def wall_time(self) -> float:
+        return time.monotonic() - self.started
+
+    def stop(self) -> None:
+        """Ends this run and waits for it."""
+        os.killpg(self.process.pid, signal.SIGTERM)
+        self.process.wait()
+        self.log.close()
+
+    def outcome(self) -> str:
+        """After the process ended: '' if all went well, else one line."""
+        self.log.close()
+        if self.process.returncode != 0:
+            lines = (self.folder / LOG).read_text(errors="replace").replace("\r", "\n").splitlines()
+            said = [line for line in lines if line.startswith("pounding: ")]
+            return said[0] if said else f"exit status {self.process.returncode}, see {self.folder / LOG}"
+        return ""
+
+
+class Clock:
+    """How long what is left will take, from what the finished runs took."""
+
+    def __init__(self, jobs: int):
+        self.jobs = jobs
+        self.seconds = {"A": [], "B": []}
+
+    def add(self, model: str, seconds: float) -> None:
+        self.seconds[model].append(seconds)
+
+    def _mean(self, model: str) -> float:
+        own = self.seconds[model]
+        other = "B" if model == "A" else "A"
+        if own:
+            return sum(own) / len(own)
+        mean = sum(self.seconds[other]) / len(self.seconds[other])
+        return mean * FIRST_GUESS[model] / FIRST_GUESS[other]
+
+    def left(self, waiting: list, running: list) -> str:
+        if not waiting and not running:
+            return "the last one"
+        seconds = sum(self._mean(case.model) for case in waiting)
+        seconds += sum(max(0.0, self._mean(job.case.model) - job.wall_time) for job in running)
+        seconds /= self.jobs
+        return f"about {seconds / 60:.0f} min left" if seconds > 90 else f"about {seconds:.0f} s left"
+
+
+def say(text: str) -> None:
+    print(text, flush=True)
+
+
+def run_all(cases: list, root: Path, jobs: int, ranks: int, keep_histories: bool) -> dict:
+    """Case -> '' or why it failed. Finished ones are not run again; ends what it started if it is
+    interrupted."""
+    failures = {case: "" for case in cases}
+    waiting = [case for case in cases if not is_finished(case, root / case.name)]
+    say(f"campaign: {len(cases)} cases, {len(cases) - len(waiting)} finished before, {jobs} at a time on "
+        f"{ranks} rank{'s' if ranks > 1 else ''} each; results in {root}")
+    variables, running, clock = environment(), [], Clock(jobs)
+    done, total = 0, len(waiting)
+    try:
+        while waiting or running:
+            while waiting and len(running) < jobs:
+                case = waiting.pop(0)
+                running.append(Job(case, root / case.name, ranks, variables))
+            time.sleep(0.05)
+            for job in [job for job in running if job.process.poll() is not None]:
+                running.remove(job)
+                failures[job.case] = job.outcome() or close(job, keep_histories)
+                done += 1
+                clock.add(job.case.model, job.wall_time)
+                result = failures[job.case] or harvest.one_line(job.folder)
+                say(f"  {done}/{total}  {job.case.name}: {result}; {job.wall_time:.0f} s; "
+                    f"{clock.left(waiting, running)}")
+    finally:
+        for job in running:
+            job.stop()
+    return failures
+
+
+def close(job: Job, keep_history: bool) -> str:
+    """Takes the harvest of a run that ended well, and signs it as finished."""
+    try:
+        harvest.take(job.case, job.folder, keep_history)
+    except harvest.HarvestError as error:
+        return str(error)
+    (job.folder / REQUEST).write_text(json.dumps(request_of(job.case), indent=1))
+    return ""

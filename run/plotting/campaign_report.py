@@ -1,0 +1,77 @@
+"""The page of a campaign: the paper's tables and figures with ours, the findings, the impacts."""
+
+import json
+from html import escape
+from pathlib import Path
+
+from casework import findings, impact_table, paper, paper_tables
+from casework.cases import VARIANTS
+from casework.results import Campaign
+from .report import CSS, html_figure, html_table
+
+
+def _findings(campaign: Campaign) -> str:
+    checks = findings.check_all(campaign)
+    summary = html_table("Findings of the paper", ["finding", "found", "of"], findings.totals(checks))
+    rows = [(check.finding, check.case, check.figure, "found" if check.found else "NOT found") for check in checks]
+    return summary + html_table("Case by case", ["finding", "case", "figure", ""], rows)
+
+
+def _excitations(campaign: Campaign) -> str:
+    rows = []
+    for gap in paper.GAPS:
+        row = [f"gap {gap} cm"]
+        for motion in paper.MOTIONS:
+            one = campaign.get(gap, motion, "A")
+            row += [paper.PGA[gap][motion], one.case.pga / paper.G if one else None]
+        rows.append(row)
+    head = [""] + [text for motion in paper.MOTIONS for text in (f"{motion}: paper", "ours")]
+    return html_table("Table 3: peak ground acceleration [g]", head, rows)
+
+
+def _damping(summaries: dict) -> str:
+    rows = []
+    for name, (alpha, beta) in paper.DAMPING.items():
+        options = summaries["A"]["options"]
+        rows.append((name, alpha, float(options[f"{name}_damping_alpha"]), beta,
+                     float(options[f"{name}_damping_beta"])))
+    return html_table("Table 2: Rayleigh damping", ["structure", "α [1/s]: paper", "ours", "β [s]: paper", "ours"],
+                      rows)
+
+
+def _runs(campaign: Campaign) -> str:
+    rows = [(f"gap {one.case.gap} cm, {one.case.motion}", VARIANTS[one.case.variant], one.summary["end_time"],
+             one.summary["steps"], one.summary["time_step"], one.summary["wall_time"],
+             one.summary["microseconds_per_step"], one.summary["energy"]["relative_residual"])
+            for one in campaign.all()]
+    return html_table("Runs", ["case", "variant", "duration [s]", "steps", "time step [s]", "wall time [s]",
+                               "µs per step", "energy residual"], rows)
+
+
+def _note(text: str) -> str:
+    return f'<p class="note">{escape(text)}</p>\n'
+
+
+def write(campaign: Campaign, summaries: dict, failures: dict, pages: list, folder: Path, notes: list) -> Path:
+    """report.html in `folder`, with findings.json for programs. `failures`: case -> why it is not
+    there; `summaries`: of the models as they are in the paper, for Tables 1 and 2."""
+    checks = [vars(check) for check in findings.check_all(campaign)]
+    (folder / "findings.json").write_text(json.dumps(checks, indent=1))
+    failed = [(case.name, why) for case, why in failures.items() if why]
+    title = "The two-storey pair: the paper's campaign"
+    parts = ["".join(map(_note, notes)), html_table("Cases that failed", ["case", "why"], failed), _findings(campaign)]
+    if summaries:
+        for caption, head, rows in (paper_tables.frequency_table(summaries), paper_tables.time_step_table(summaries)):
+            parts.append(html_table(caption, head, rows))
+        parts.append(_damping(summaries))
+    parts.append(_excitations(campaign))
+    parts += [html_figure(folder, page) for page in pages]
+    parts.append(html_table("Impacts by case and floor", impact_table.HEAD, impact_table.rows(campaign.all())))
+    parts.append(_note("left: share of the impulse in the half of the face at y = 0; bottom: in its lower half; at "
+                       f"both ends: impacts of which each half took over {100 * (1 - impact_table.AT_AN_END):.0f} %."))
+    parts.append(_runs(campaign))
+    path = folder / "report.html"
+    path.write_text(f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>'
+                    f"<style>{CSS}</style></head>\n<body>\n<h1>{escape(title)}</h1>\n{''.join(parts)}</body></html>\n",
+                    encoding="utf-8")
+    return path
