@@ -12,6 +12,7 @@
 #include "mesh/mesh.h"
 #include "output/modal_basis_file.h"
 #include "system/build_system.h"
+#include "system/finite_element_system.h"
 
 namespace pounding {
 namespace {
@@ -81,6 +82,23 @@ std::string hash_of(const std::vector<Region>& regions) {
   return hash.text();
 }
 
+/// Matrices from files: which they are, how large, how old.
+std::string hash_of_matrices(const std::string& folder) {
+  Hash hash;
+  hash.add(folder);
+  for (const char* name : {"stiffness.mtx", "stiffness.petsc", "mass.mtx", "mass.petsc"}) {
+    std::error_code absent;
+    const std::filesystem::path file = std::filesystem::path(folder) / name;
+    const auto size = std::filesystem::file_size(file, absent);
+    const auto time = std::filesystem::last_write_time(file, absent);
+    if (!absent) {
+      hash.add(static_cast<double>(size));
+      hash.add(static_cast<double>(time.time_since_epoch().count()));
+    }
+  }
+  return hash.text();
+}
+
 /// Rank 0.
 BasisKey key_of(const Structure& structure, const GlobalMesh& mesh, const ModalRequest& request) {
   Hash clamp;
@@ -90,6 +108,7 @@ BasisKey key_of(const Structure& structure, const GlobalMesh& mesh, const ModalR
       std::array{static_cast<double>(request.modes), request.cutoff, request.attachment ? 1. : 0.});
   return {{"mesh", hash_of(mesh)},
           {"elements", hash_of(structure.regions)},
+          {"matrices", hash_of_matrices(structure.matrices)},
           {"clamp", clamp.text()},
           {"number of vectors", vectors.text()},
           {"contact points", hash_of(request.contact_points)},
@@ -143,7 +162,7 @@ void compute(const Structure& structure, Profile& profile, Reduction& reduction)
   std::optional<LinearSystem> system;
   {
     const ScopedTimer timer(profile, Phase::assembly);
-    system = build_finite_element_system(structure, reduction.mesh);
+    system = build_system(structure, reduction.mesh);
   }
   const ScopedTimer timer(profile, Phase::modes);
   reduction.basis = compute_modal_basis(*system, reduction.mesh, reduction.request);
