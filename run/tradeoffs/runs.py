@@ -18,8 +18,9 @@ class Case:
     def __init__(self, name: str, gaps: dict, motion: dict, window: float):
         self.name, self.gaps, self.motion, self.window = name, gaps, motion, window
 
-    def words(self, setting: Setting) -> list:
-        """The command line after the program's name, without the output folder."""
+    def words(self, setting: Setting, folder: Path) -> list:
+        """The command line after the program's name, without the output folder; `folder` keeps what runs
+        share."""
         model = "pair-b" if setting.shells else "pair"
         options = {"end_time": self.window, "spectra_frequencies": GRID, **self.motion, **dict(setting.changes)}
         options["motion_x_pga"] = self.motion["motion_x_pga"] * setting.pga
@@ -27,7 +28,7 @@ class Case:
             options[f"{contact}_gap"] = ",".join(f"{value + setting.gap:.6g}" for value in values)
         words = ["-options_file", f"petsc-options/azalee/{model}.yaml"]
         for name, value in options.items():
-            words += [f"-{name}", str(value)]
+            words += [f"-{name}", str(value).replace("{folder}", str(folder))]
         return words
 
 
@@ -64,7 +65,7 @@ class Outcome:
 def run(case: Case, setting: Setting, ranks: int, folder: Path, log) -> Outcome | None:
     """One run, or what an earlier one with the same command left; None if the program refuses it."""
     place = folder / case.name / setting.name
-    words = case.words(setting)
+    words = case.words(setting, folder)
     command = f"{ranks} {' '.join(words)}"
     mark = place / "command.txt"
     if not (mark.exists() and mark.read_text() == command):

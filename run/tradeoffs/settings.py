@@ -39,6 +39,15 @@ COARSE = (("s1_mesh_set", "cells_x=14,cells_y=10,column_elements=5"),
 COARSER = (("s1_mesh_set", "cells_x=7,cells_y=5,column_elements=2"),
            ("s2_mesh_set", "cells_x=5,cells_y=5,column_elements=2"))
 
+
+
+def modal(vectors: int) -> tuple:
+    """Both buildings by modes and attachment vectors; the bases are kept and used again."""
+    return (*both("model", "modal"), *both("modal_vectors", vectors),
+            ("s1_modal_basis", f"{{folder}}/basis-s1-{vectors}.h5"),
+            ("s2_modal_basis", f"{{folder}}/basis-s2-{vectors}.h5"))
+
+
 SAVINGS = [
     Setting("courant-0.99", "0.99 of the stable step", (("courant", 0.99),)),
     Setting("ledger", "energy ledger every 2000 steps", (("energy_interval", 2000),)),
@@ -46,4 +55,13 @@ SAVINGS = [
     Setting("shells", "slabs of shells (Model B)", shells=True),
     Setting("coarse", "24 cm mesh", COARSE),
     Setting("coarser", "48 cm mesh", COARSER),
+    Setting("mass-1e-5", "stiff frames scaled for a step of 1e-5 s", both("mass_scaling", 1e-5)),
+    Setting("mass-2e-5", "stiff frames scaled for a step of 2e-5 s", both("mass_scaling", 2e-5)),
+    Setting("mass-2e-5-fast", "the same, 0.99 of the stable step, ledger every 2000 steps",
+            (*both("mass_scaling", 2e-5), ("courant", 0.99), ("energy_interval", 2000))),
+    Setting("mass-2e-5-coarse", "the same on the 24 cm mesh", (*both("mass_scaling", 2e-5), *COARSE)),
+    *[Setting(f"modal-{n}", f"{n} modes and attachment vectors", modal(n)) for n in (40, 100, 200, 400, 800)],
+    Setting("modal-bare-400", "400 modes without attachment vectors",
+            (*modal(400)[:4], *both("modal_attachment", "false"))),
+    Setting("mixed", "structure 1 full, structure 2 by 400 modes", (("s2_model", "modal"), ("s2_modal_vectors", 400))),
 ]

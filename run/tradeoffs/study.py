@@ -83,6 +83,34 @@ def summarised(rows: list) -> list:
     return result
 
 
+def portable(setting: Setting) -> str | None:
+    """The options of a setting that do for any scene, as `-fidelity_table` has them: those that both
+    buildings share, and those of the run. None if it has others."""
+    changes = {name: value for name, value in setting.changes if not name.endswith("_modal_basis")}
+    words = []
+    for name, value in changes.items():
+        if name.startswith("s1_") and changes.get("s2_" + name[3:]) == value:
+            words.append(f"{name[3:]}={value}")
+        elif not name.startswith(("s1_", "s2_")):
+            words.append(f"-{name}={value}")
+        elif not (name.startswith("s2_") and changes.get("s1_" + name[3:]) == value):
+            return None
+    return None if setting.shells else " ".join(words)
+
+
+def fidelity_table(summary: list, settings: list) -> str:
+    """What `-fidelity_table` reads: every setting that does for any scene, with error and cost."""
+    lines = ["# Settings measured by run/tradeoff on the two-storey pair: rms of ln(floor spectrum / full order) on",
+             "# floor 2, 1-400 Hz, in the worst case, and wall time per second of motion. Read by -fidelity_target.",
+             "setting,rms,cost,options"]
+    for row in summary:
+        setting = next((one for one in settings if one.name == row["setting"]), None)
+        options = portable(setting) if setting else None
+        if options is not None and not setting.noise:
+            lines.append(f"{setting.name},{row['rms']:.3g},{row['per_second']:.3g},{options}")
+    return "\n".join(lines) + "\n"
+
+
 def recommendations(summary: list) -> list:
     """Per target rms the cheapest setting that stayed below it in every case."""
     lines = []

@@ -185,6 +185,9 @@ void print_title(const Scene& scene, int ranks) {
   if (!scene.title.empty()) {
     std::printf("%s\n", scene.title.c_str());
   }
+  if (!scene.fidelity_note.empty()) {
+    std::printf("%s\n", scene.fidelity_note.c_str());
+  }
 }
 
 void print_model(const Scene& scene, const Model& model) {

@@ -49,6 +49,8 @@ constexpr std::array table{
     OptionRow{Block::run, "export_matrices", Kind::text, "folder", value("none"), any, "a folder or none", "writes the matrices of every structure there, with contact, influence and probe rows"},
     OptionRow{Block::run, "restart", Kind::text, "file", value("none"), any, "a checkpoint.h5 or none", "checkpoint to continue from, with the history.h5 beside it"},
     OptionRow{Block::run, "stiffness", Kind::choice, "word", value("auto"), any, "auto|assembled|element", "how K is applied: as a matrix, element by element, or by what the mesh is"},
+    OptionRow{Block::run, "fidelity_target", Kind::real, "-", absent("optional"), positive, "", "rms error of the floor spectra that is accepted (0.05: 5 %); takes the fastest setting of the table within it"},
+    OptionRow{Block::run, "fidelity_table", Kind::text, "file", value("petsc-options/fidelity.csv"), any, "a CSV file from run/tradeoff", "settings with their measured error and cost"},
     OptionRow{Block::run, "resampling", Kind::choice, "word", value("linear"), any, "linear|band_limited", "how records are upsampled to the time step"},
 
     OptionRow{Block::structure, "<structure>_mesh", Kind::text, "file", required, any, "a .geo or .msh file", "geometry to mesh (.geo) or mesh"},

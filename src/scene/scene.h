@@ -147,6 +147,7 @@ struct SpectraRequest {
 
 struct Scene {
   std::string title;
+  std::string fidelity_note;  ///< what -fidelity_target chose; empty without it
   std::vector<Structure> structures;
   std::vector<Contact> contacts;
   std::array<std::optional<MotionComponent>, 3> motion;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "common/error.h"
+#include "scene/fidelity_target.h"
 #include "scene/motion_reader.h"
 #include "scene/nearest_name.h"
 #include "scene/option_blocks.h"
@@ -51,6 +52,10 @@ class SceneReader {
   void read_run() {
     scene_.end_time = options_.real("end_time");
     scene_.courant = options_.real("courant");
+    if (options_.given("fidelity_target")) {
+      options_.real("fidelity_target");  // in force, and obeyed already
+    }
+    options_.text("fidelity_table");
     scene_.time_step = options_.real("time_step");
     scene_.allow_unstable = options_.boolean("allow_unstable");
     scene_.modes = options_.integer("modes");
@@ -209,7 +214,10 @@ class SceneReader {
 }  // namespace
 
 ReadScene read_scene(const OptionsDatabase& database) {
-  return SceneReader(database).read();
+  const ChosenFidelity chosen = choose_fidelity(database);
+  ReadScene read = SceneReader(chosen.options).read();
+  read.scene.fidelity_note = chosen.note;
+  return read;
 }
 
 }  // namespace pounding

@@ -1,0 +1,108 @@
+#include "scene/fidelity_target.h"
+
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+#include "common/error.h"
+#include "scene/option_reader.h"
+#include "scene/option_values.h"
+
+namespace pounding {
+namespace {
+
+struct Setting {
+  std::string name;
+  double rms = 0;   ///< of ln(spectrum / full order), worst case [-]
+  double cost = 0;  ///< wall time over motion [s/s]
+  std::vector<std::pair<std::string, std::string>> options;  ///< "-name" for the run, else "name"
+};
+
+Setting parse_setting(const std::string& line, const std::string& where) {
+  const std::vector<std::string> cells = split(line, ',');
+  Setting setting;
+  const std::optional<double> rms = cells.size() == 4 ? parse_real(cells[1]) : std::nullopt;
+  const std::optional<double> cost = cells.size() == 4 ? parse_real(cells[2]) : std::nullopt;
+  if (!rms || !cost || *rms < 0 || *cost <= 0) {
+    throw UserError(where + ": expected setting,rms,cost,options");
+  }
+  setting = {cells[0], *rms, *cost, {}};
+  std::istringstream words(cells[3]);
+  for (std::string word; words >> word;) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw UserError(where + ": '" + word + "' is not name=value");
+    }
+    setting.options.emplace_back(word.substr(0, equals), word.substr(equals + 1));
+  }
+  return setting;
+}
+
+std::vector<Setting> read_table(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) {
+    throw UserError("option -fidelity_table " + path +
+                    ": no such file; run/tradeoff writes one, fidelity.csv");
+  }
+  std::vector<Setting> settings;
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number) {
+    if (!line.empty() && line[0] != '#' && !line.starts_with("setting,")) {
+      settings.push_back(parse_setting(line, path + ", line " + std::to_string(number)));
+    }
+  }
+  return settings;
+}
+
+const Setting& cheapest(const std::vector<Setting>& settings, double target,
+                        const std::string& path) {
+  const Setting* best = nullptr;
+  for (const Setting& setting : settings) {
+    if (setting.rms <= target && (best == nullptr || setting.cost < best->cost)) {
+      best = &setting;
+    }
+  }
+  if (best == nullptr) {
+    std::ostringstream text;
+    text << "option -fidelity_target " << target << ": no setting in " << path
+         << " is that accurate; leave the target out for full order";
+    throw UserError(text.str());
+  }
+  return *best;
+}
+
+}  // namespace
+
+ChosenFidelity choose_fidelity(const OptionsDatabase& given) {
+  ChosenFidelity chosen{given, ""};
+  OptionReader reader(given);
+  if (!reader.given("fidelity_target")) {
+    return chosen;
+  }
+  const double target = reader.real("fidelity_target");
+  const std::string path = reader.text("fidelity_table");
+  const std::vector<Setting> settings = read_table(path);
+  const Setting& setting = cheapest(settings, target, path);
+  std::string changes;
+  for (const auto& [name, value] : setting.options) {
+    const bool of_run = name[0] == '-';
+    const std::vector<std::string> structures =
+        of_run ? std::vector<std::string>{""} : reader.list("structures");
+    for (const std::string& structure : structures) {
+      const std::string option = of_run ? name.substr(1) : structure + "_" + name;
+      if (chosen.options.try_emplace(option, value).second) {
+        changes += " -" + option + " " + value;
+      }
+    }
+  }
+  std::ostringstream text;
+  text << "fidelity target " << 100 * target << " %: setting '" << setting.name
+       << "', the fastest of " << path << " within it (" << 100 * setting.rms
+       << " % from full order there, " << setting.cost
+       << " s per second of motion):" << (changes.empty() ? " nothing to change" : changes);
+  chosen.note = text.str();
+  return chosen;
+}
+
+}  // namespace pounding

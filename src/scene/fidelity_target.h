@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "scene/option_table.h"
+
+namespace pounding {
+
+/// The options of a scene with what `-fidelity_target` chose among them.
+struct ChosenFidelity {
+  OptionsDatabase options;
+  std::string note;  ///< what was chosen and why, in one line; empty without a target
+};
+
+/// `-fidelity_target E` takes, from the table of settings that run/tradeoff measured
+/// (`-fidelity_table`), the fastest whose floor spectra differed from full order by at most E (rms
+/// of the natural logarithm of their ratio, 1-400 Hz, in the worst of its cases), and sets its
+/// options for every structure. An option that the user gave wins. Without the target nothing
+/// changes.
+///
+/// The table is a CSV file with the columns setting, rms, cost (wall time over motion) and options:
+/// words name=value, each set for every structure (`model=modal` becomes `-<structure>_model
+/// modal`), those that begin with a dash (`-courant=0.99`) for the run. Throws UserError.
+ChosenFidelity choose_fidelity(const OptionsDatabase& given);
+
+}  // namespace pounding

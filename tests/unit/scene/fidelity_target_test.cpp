@@ -1,0 +1,105 @@
+#include "scene/fidelity_target.h"
+
+#include <cstdio>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/error.h"
+
+namespace pounding {
+namespace {
+
+/// A table of settings in a file of its own.
+class Table {
+ public:
+  explicit Table(const std::string& rows) {
+    std::ofstream(path_) << "# measured\nsetting,rms,cost,options\n" << rows;
+  }
+  Table(const Table&) = delete;
+  Table& operator=(const Table&) = delete;
+  ~Table() { std::remove(path_.c_str()); }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_ = testing::TempDir() + "fidelity_target_test.csv";
+};
+
+const char* const measured =
+    "full,0,15,\n"
+    "few,0.08,0.1,model=modal modal_vectors=40\n"
+    "many,0.03,0.5,model=modal modal_vectors=400\n"
+    "scaled,0.02,2,mass_scaling=2e-5 -courant=0.99\n";
+
+OptionsDatabase scene_with(const Table& table, const std::string& target) {
+  return {
+      {"structures", "left,right"}, {"fidelity_target", target}, {"fidelity_table", table.path()}};
+}
+
+std::string message_of(const OptionsDatabase& options) {
+  try {
+    choose_fidelity(options);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(FidelityTarget, TakesTheFastestWithinItForEveryStructure) {
+  const Table table(measured);
+  const ChosenFidelity chosen = choose_fidelity(scene_with(table, "0.05"));
+  EXPECT_EQ(chosen.options.at("left_model"), "modal");
+  EXPECT_EQ(chosen.options.at("right_modal_vectors"), "400");
+  EXPECT_THAT(chosen.note, testing::HasSubstr("'many'"));
+  EXPECT_THAT(chosen.note, testing::HasSubstr("3 % from full order"));
+  EXPECT_EQ(choose_fidelity(scene_with(table, "0.2")).options.at("left_modal_vectors"), "40");
+}
+
+TEST(FidelityTarget, SetsOptionsOfTheRun) {
+  const Table table(measured);
+  const ChosenFidelity chosen = choose_fidelity(scene_with(table, "0.025"));
+  EXPECT_EQ(chosen.options.at("courant"), "0.99");
+  EXPECT_EQ(chosen.options.at("left_mass_scaling"), "2e-5");
+}
+
+TEST(FidelityTarget, TakesFullOrderWhereNothingElseWillDo) {
+  const Table table(measured);
+  const OptionsDatabase given = scene_with(table, "0.001");
+  const ChosenFidelity chosen = choose_fidelity(given);
+  EXPECT_EQ(chosen.options, given);
+  EXPECT_THAT(chosen.note, testing::HasSubstr("nothing to change"));
+}
+
+TEST(FidelityTarget, GivenOptionsWin) {
+  const Table table(measured);
+  OptionsDatabase given = scene_with(table, "0.05");
+  given["left_modal_vectors"] = "77";
+  const ChosenFidelity chosen = choose_fidelity(given);
+  EXPECT_EQ(chosen.options.at("left_modal_vectors"), "77");
+  EXPECT_EQ(chosen.options.at("right_modal_vectors"), "400");
+  EXPECT_THAT(chosen.note, testing::Not(testing::HasSubstr("-left_modal_vectors")));
+}
+
+TEST(FidelityTarget, WithoutItNothingChanges) {
+  const OptionsDatabase given{{"structures", "left"}};
+  const ChosenFidelity chosen = choose_fidelity(given);
+  EXPECT_EQ(chosen.options, given);
+  EXPECT_EQ(chosen.note, "");
+}
+
+TEST(FidelityTarget, RefusesWhatItCannotRead) {
+  OptionsDatabase lost = {
+      {"structures", "left"}, {"fidelity_target", "0.1"}, {"fidelity_table", "nowhere.csv"}};
+  EXPECT_THAT(message_of(lost), testing::HasSubstr("nowhere.csv: no such file"));
+  const Table coarse("few,0.08,0.1,model=modal\n");
+  EXPECT_THAT(message_of(scene_with(coarse, "0.01")), testing::HasSubstr("is that accurate"));
+  EXPECT_THAT(message_of(scene_with(coarse, "-1")), testing::HasSubstr("fidelity_target"));
+  const Table spoiled("few,much,0.1,model=modal\n");
+  EXPECT_THAT(message_of(scene_with(spoiled, "0.1")), testing::HasSubstr("line 3"));
+  const Table nameless("few,0.08,0.1,modal\n");
+  EXPECT_THAT(message_of(scene_with(nameless, "0.1")), testing::HasSubstr("not name=value"));
+}
+
+}  // namespace
+}  // namespace pounding
