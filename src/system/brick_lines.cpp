@@ -7,6 +7,9 @@
 namespace pounding {
 namespace {
 
+/// Dofs whose forces, masses and motion stay in the nearest cache while they are handed over.
+constexpr LocalIndex most_united = 400;
+
 int round_up(int count) {
   return (count + lane_count - 1) / lane_count * lane_count;
 }
@@ -243,9 +246,10 @@ void BrickLines::set_outcomes(const std::vector<Outcome>& outcomes) {
   find_deferred();
   std::size_t begin = 0;
   for (const LineStep& step : schedule_.steps) {
-    unite_ranges(begin, step.stores_end);
+    sort_stores(begin, step.stores_end);
     begin = step.stores_end;
   }
+  unite_ranges();
 }
 
 /// Rows of one pair need not be joined before they are stored, if both are handed over.
@@ -258,22 +262,29 @@ void BrickLines::find_deferred() {
   for (std::size_t j = 0; j < rows.size(); ++j) deferred_[j] = rows[j] == 2 ? 1 : 0;
 }
 
-/// Stores of one step that are handed over, in the order of their dofs.
-void BrickLines::unite_ranges(std::size_t begin, std::size_t end) {
-  const auto range_of = [this](const Store& store) { return chain_of(store.place.chain).range; };
-  std::stable_sort(
-      stores_.begin() + static_cast<std::ptrdiff_t>(begin),
-      stores_.begin() + static_cast<std::ptrdiff_t>(end),
-      [&](const Store& a, const Store& b) { return range_of(a).begin < range_of(b).begin; });
-  for (std::size_t s = begin; s < end; ++s) {
-    Store& store = stores_[s];
+/// Those of one step, in the order of their dofs.
+void BrickLines::sort_stores(std::size_t begin, std::size_t end) {
+  const auto first_of = [this](const Store& store) {
+    return chain_of(store.place.chain).range.begin;
+  };
+  std::stable_sort(stores_.begin() + static_cast<std::ptrdiff_t>(begin),
+                   stores_.begin() + static_cast<std::ptrdiff_t>(end),
+                   [&](const Store& a, const Store& b) { return first_of(a) < first_of(b); });
+}
+
+/// The last one of the stores whose ranges are united hands all of them over.
+void BrickLines::unite_ranges() {
+  Store* last = nullptr;
+  for (Store& store : stores_) {
     if (store.outcome == Outcome::add) continue;
-    store.begin = range_of(store).begin;
-    store.end = range_of(store).end;
-    if (s > begin && stores_[s - 1].end > 0 && stores_[s - 1].end == store.begin) {
-      store.begin = stores_[s - 1].begin;
-      stores_[s - 1].end = 0;
+    const DofRange range = chain_of(store.place.chain).range;
+    store.begin = range.begin;
+    store.end = range.end;
+    if (last != nullptr && last->end == range.begin && range.end - last->begin <= most_united) {
+      store.begin = last->begin;
+      last->end = 0;
     }
+    last = &store;
     const auto size = static_cast<std::size_t>(store.end - store.begin) + lane_count;
     if (range_.size() < size) range_.resize(size, 0.0);
   }

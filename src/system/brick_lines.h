@@ -27,8 +27,8 @@ struct BrickShape {
 ///       -> forces of sums, differences -> [join pair] -> fx[] fy[] fz[] -> [store chain] -> q
 ///
 /// What the steps work on stays in the nearest cache. The chains of a layer one brick thick hold
-/// the sums and differences of their pair themselves. Ranges finished by the same step that lie
-/// side by side are handed over as one.
+/// the sums and differences of their pair themselves. Ranges finished one after the other that lie
+/// side by side are handed over as one, as long as they stay small.
 class BrickLines final : public ElementLines {
  public:
   /// `rows` of splittable bricks of `shapes`; `axes`: rows are the axes of the frame.
@@ -58,7 +58,8 @@ class BrickLines final : public ElementLines {
   };
 
   void add_chain(const DofPlaces& places, const std::vector<LocalIndex>& nodes);
-  void unite_ranges(std::size_t begin, std::size_t end);
+  void sort_stores(std::size_t begin, std::size_t end);
+  void unite_ranges();
   void find_deferred();
   void load_chain(const ChainLoad& load, const StiffnessArgument& w, const double* ghosts) const;
   void split_chains(const PairSplit& split, const StiffnessArgument& w) const;

@@ -61,6 +61,12 @@ void decide_outcomes(const std::vector<std::unique_ptr<ElementLines>>& all, Touc
   }
 }
 
+/// Adds a dof that comes after those in the ranges.
+void append(std::vector<DofRange>& ranges, LocalIndex dof) {
+  if (ranges.empty() || ranges.back().end != dof) ranges.push_back({dof, dof});
+  ++ranges.back().end;
+}
+
 /// Copies a product to an array.
 class Copy final : public ForceReceiver {
  public:
@@ -140,14 +146,12 @@ void ElementStiffness::plan() {
   counter.happen(late);
   decide_outcomes(outer_.lines, counter, handed_over);
   for (LocalIndex dof = 0; dof < owned_dofs_; ++dof) {
-    if (handed_over[static_cast<std::size_t>(dof)] != 0) continue;
-    if (late_ranges_.empty() || late_ranges_.back().end != dof) late_ranges_.push_back({dof, dof});
-    ++late_ranges_.back().end;
+    if (handed_over[static_cast<std::size_t>(dof)] == 0) append(late_ranges_, dof);
   }
-  general_dofs_ = std::move(early);
-  general_dofs_.insert(general_dofs_.end(), outer_.dofs.begin(), outer_.dofs.end());
-  std::sort(general_dofs_.begin(), general_dofs_.end());
-  general_dofs_.erase(std::unique(general_dofs_.begin(), general_dofs_.end()), general_dofs_.end());
+  early.insert(early.end(), outer_.dofs.begin(), outer_.dofs.end());
+  std::sort(early.begin(), early.end());
+  early.erase(std::unique(early.begin(), early.end()), early.end());
+  for (const LocalIndex dof : early) append(general_ranges_, dof);
 }
 
 double ElementStiffness::early_share() const {
@@ -171,14 +175,17 @@ void ElementStiffness::apply(const double* w, double* q) const {
 
 void ElementStiffness::finish(const StiffnessArgument& w, ForceReceiver& receiver) const {
   double* const q = force_.data();
+  double* const argument = argument_.data();
   const double* const ghosts = halo_->ghosts();
-  for (const LocalIndex dof : general_dofs_) argument_[static_cast<std::size_t>(dof)] = w[dof];
-  sparse_->add_owned(argument_.data(), q);
+  for (const DofRange& range : general_ranges_) {
+    for (LocalIndex dof = range.begin; dof < range.end; ++dof) argument[dof] = w[dof];
+  }
+  sparse_->add_owned(argument, q);
   add_general(inner_);
   const StiffnessArgument shifted = relative_to_origin(w);
   for (const auto& lines : inner_.lines) lines->apply(shifted, ghosts, q, receiver);
   halo_->end();
-  std::copy(ghosts, ghosts + halo_->ghost_count(), argument_.data() + owned_dofs_);
+  std::copy(ghosts, ghosts + halo_->ghost_count(), argument + owned_dofs_);
   add_general(outer_);
   sparse_->add_ghosts(ghosts, q);
   for (const auto& lines : outer_.lines) lines->apply(shifted, ghosts, q, receiver);

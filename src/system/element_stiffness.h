@@ -72,11 +72,11 @@ class ElementStiffness final : public Stiffness {
   Part inner_;                            ///< elements of owned nodes only
   Part outer_;                            ///< elements that touch a ghost
   std::unique_ptr<SparseRows> sparse_;    ///< all others
-  std::vector<LocalIndex> general_dofs_;  ///< owned dofs that others than rows read
+  std::vector<DofRange> general_ranges_;  ///< owned dofs that others than rows read
   std::vector<DofRange> late_ranges_;     ///< owned dofs that rows do not hand over
   ElementKinds kinds_;
   /// Owned dofs, ghosts, and six dofs that stay at rest for the places of clamped nodes.
-  ZeroedArray argument_;  ///< w at general_dofs_, and ghosts
+  ZeroedArray argument_;  ///< w in general_ranges_, and ghosts
   ZeroedArray force_;     ///< of owned dofs zero between products
 };
 

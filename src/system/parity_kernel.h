@@ -9,20 +9,35 @@ namespace pounding {
 
 #define POUNDING_INLINE static inline __attribute__((always_inline))
 
+/// c += b x for a number b.
+POUNDING_INLINE void add_times(double b, const Lanes& x, Lanes& c) {
+  add_product(Lanes{b, b, b, b}, x, c);
+}
+
 /// (x, y) <- B (x, y), B = 00 01 11.
 POUNDING_INLINE void multiply2(const std::array<double, 3>& b, Lanes& x, Lanes& y) {
-  const Lanes first = b[0] * x + b[1] * y;
-  y = b[1] * x + b[2] * y;
+  Lanes first = b[0] * x;
+  Lanes second = b[1] * x;
+  add_times(b[1], y, first);
+  add_times(b[2], y, second);
   x = first;
+  y = second;
 }
 
 /// (x, y, z) <- B (x, y, z), B = 00 01 02 11 12 22.
 POUNDING_INLINE void multiply3(const std::array<double, 6>& b, Lanes& x, Lanes& y, Lanes& z) {
-  const Lanes first = b[0] * x + b[1] * y + b[2] * z;
-  const Lanes second = b[1] * x + b[3] * y + b[4] * z;
-  z = b[2] * x + b[4] * y + b[5] * z;
+  Lanes first = b[0] * x;
+  Lanes second = b[1] * x;
+  Lanes third = b[2] * x;
+  add_times(b[1], y, first);
+  add_times(b[3], y, second);
+  add_times(b[4], y, third);
+  add_times(b[2], z, first);
+  add_times(b[4], z, second);
+  add_times(b[5], z, third);
   x = first;
   y = second;
+  z = third;
 }
 
 /// All bits set in the lanes of elements that a run of which `left` are left still has.

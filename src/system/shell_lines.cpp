@@ -119,10 +119,10 @@ void ShellLines::rotate(bool back, int length, double* values) const {
   rotate_vectors(axes_, back, length, line_stride_, values + 3 * line_stride_);
 }
 
-void ShellLines::load_chain(const Transfer& load, const StiffnessArgument& w,
+void ShellLines::load_chain(const Transfer& transfer, const StiffnessArgument& w,
                             const double* ghosts) const {
-  const Chain& chain = chain_of(load.chain);
-  double* const line = buffer_.data() + load.start;
+  const Chain& chain = chain_of(transfer.chain);
+  double* const line = buffer_.data() + transfer.start;
   const SixArrays to = arrays(line);
   if (chain.plain) {
     load_shell_nodes(w, places_.data() + chain.begin, chain.length, to);
@@ -135,16 +135,17 @@ void ShellLines::load_chain(const Transfer& load, const StiffnessArgument& w,
   }
   rotate(false, chain.length, line);
   for (int c = components; c < arrays_per_line; ++c) {
-    std::fill_n(line + c * line_stride_, chain.length, 0.0);
+    double* const force = line + c * line_stride_;
+    for (int p = 0; p < chain.length; p += lane_count) store(force + p, Lanes{});
   }
 }
 
-void ShellLines::store_chain(const Transfer& store, double* q, ForceReceiver& receiver) const {
-  const Chain& chain = chain_of(store.chain);
-  double* const line = buffer_.data() + store.start + components * line_stride_;
+void ShellLines::store_chain(const Transfer& transfer, double* q, ForceReceiver& receiver) const {
+  const Chain& chain = chain_of(transfer.chain);
+  double* const line = buffer_.data() + transfer.start + components * line_stride_;
   rotate(true, chain.length, line);
   const SixArrays from = arrays(line);
-  if (store.outcome == Outcome::add) {
+  if (transfer.outcome == Outcome::add) {
     for (int p = 0; p < chain.length; ++p) {
       for (int c = 0; c < components; ++c) {
         const LocalIndex dof = place(chain, p, c);
@@ -155,7 +156,7 @@ void ShellLines::store_chain(const Transfer& store, double* q, ForceReceiver& re
   }
   const auto [begin, end] = chain.range;
   store_shell_nodes(from, places_.data() + chain.begin, chain.length, begin, range_.data());
-  if (store.outcome == Outcome::complete) {
+  if (transfer.outcome == Outcome::complete) {
     for (LocalIndex dof = begin; dof < end; ++dof) {
       range_[static_cast<std::size_t>(dof - begin)] += q[dof];
       q[dof] = 0;

@@ -60,8 +60,8 @@ class ShellLines final : public ElementLines {
 
   void add_chain(const DofPlaces& places, const std::vector<LocalIndex>& nodes);
   void schedule(const RectangleRows& rows);
-  void load_chain(const Transfer& load, const StiffnessArgument& w, const double* ghosts) const;
-  void store_chain(const Transfer& store, double* q, ForceReceiver& receiver) const;
+  void load_chain(const Transfer& transfer, const StiffnessArgument& w, const double* ghosts) const;
+  void store_chain(const Transfer& transfer, double* q, ForceReceiver& receiver) const;
   void rotate(bool back, int length, double* values) const;
   SixArrays arrays(double* values) const;
   LocalIndex place(const Chain& chain, int node, int component) const;
