@@ -10,6 +10,17 @@ namespace {
 /// Dofs whose forces, masses and motion stay in the nearest cache while they are handed over.
 constexpr LocalIndex most_united = 400;
 
+ComponentArrays shifted(const ComponentArrays& arrays, int nodes) {
+  return {arrays.x + nodes, arrays.y + nodes, arrays.z + nodes};
+}
+
+/// Nodes that stay where they are.
+void set_clamped(const ComponentArrays& to, int begin, int end, const StiffnessArgument& w) {
+  std::fill(to.x + begin, to.x + end, -w.origin[0]);
+  std::fill(to.y + begin, to.y + end, -w.origin[1]);
+  std::fill(to.z + begin, to.z + end, -w.origin[2]);
+}
+
 int round_up(int count) {
   return (count + lane_count - 1) / lane_count * lane_count;
 }
@@ -37,39 +48,14 @@ BrickLines::BrickLines(const DofPlaces& places, const Matrix3& axes,
   }
   std::vector<ChainForm> forms;
   for (const auto& nodes : rows.chains) {
-    add_chain(places, nodes);
-    forms.push_back({chains_.back().length, chains_.back().row});
-    line_stride_ = std::max(line_stride_, round_up(chains_.back().length + lane_count));
+    const BrickChain& chain = chains_.add(places, nodes);
+    forms.push_back({chain.length, chain.whole_row()});
+    line_stride_ = std::max(line_stride_, round_up(chain.length + lane_count));
   }
   schedule_ = schedule_lines(pairs, forms, line_stride_);
   for (const ChainStore& store : schedule_.stores) stores_.push_back({store, Outcome::add, 0, 0});
   deferred_.assign(schedule_.joins.size(), 0);
   buffer_.assign(static_cast<std::size_t>(schedule_.buffer_size), 0.0);
-}
-
-void BrickLines::add_chain(const DofPlaces& places, const std::vector<LocalIndex>& nodes) {
-  Chain chain{static_cast<int>(places_.size()), static_cast<int>(nodes.size()), true, true, {}};
-  LocalIndex end = -1;   // one beyond the last dof of the node before
-  LocalIndex next = -1;  // one beyond its last translation
-  bool contiguous = true;
-  for (const LocalIndex node : nodes) {
-    const auto n = static_cast<std::size_t>(node);
-    const auto& [x, y, z, rx, ry, rz] = places.of_node[n];
-    chain.plain = chain.plain && x >= 0 && y == x + 1 && z == x + 2 && z + 1 < owned_dofs_;
-    contiguous = contiguous && chain.plain && (node == nodes[0] || x == end);
-    chain.row = chain.row && contiguous && (node == nodes[0] || x == next);
-    if (contiguous) {
-      end = places.node_end[n];
-      next = z + 1;
-      chain.range = {node == nodes[0] ? x : chain.range.begin, end};
-    }
-  }
-  if (!contiguous) chain.range = {};
-  for (const LocalIndex node : nodes) {
-    const auto& place = places.of_node[static_cast<std::size_t>(node)];
-    places_.insert(places_.end(), place.begin(), place.begin() + (chain.plain ? 1 : 3));
-  }
-  chains_.push_back(chain);
 }
 
 ComponentArrays BrickLines::displacements(int start) const {
@@ -91,13 +77,18 @@ void BrickLines::clear_forces(int start, int length) const {
 
 void BrickLines::load_chain(const ChainLoad& load, const StiffnessArgument& w,
                             const double* ghosts) const {
-  const Chain& chain = chain_of(load.chain);
-  const LocalIndex* const place = places_.data() + chain.begin;
+  const BrickChain& chain = chains_.at(load.chain);
+  const LocalIndex* const place = chains_.places(chain);
   const ComponentArrays to = displacements(load.start);
-  if (chain.row) {
-    load_row(w, place[0], chain.length, to);
-  } else if (chain.plain) {
-    load_nodes(w, place, chain.length, to);
+  if (chain.plain) {
+    const ComponentArrays moving = shifted(to, chain.first);
+    if (chain.row) {
+      load_row(w, place[0], chain.moving, moving);
+    } else {
+      load_nodes(w, place, chain.moving, moving);
+    }
+    set_clamped(to, 0, chain.first, w);
+    set_clamped(to, chain.first + chain.moving, chain.length, w);
   } else {
     for (int p = 0; p < chain.length; ++p) {
       to.x[p] = value_at(place[3 * p], owned_dofs_, w, ghosts) - w.origin[0];
@@ -116,9 +107,8 @@ void BrickLines::split_chains(const PairSplit& split, const StiffnessArgument& w
   const PairPlace& place = split.place;
   double* const buffer = buffer_.data();
   if (split.load) {
-    const std::array<LocalIndex, 2> first{
-        places_[static_cast<std::size_t>(chain_of(place.chain[0]).begin)],
-        places_[static_cast<std::size_t>(chain_of(place.chain[1]).begin)]};
+    const std::array<LocalIndex, 2> first{chains_.places(chains_.at(place.chain[0]))[0],
+                                          chains_.places(chains_.at(place.chain[1]))[0]};
     load_row_pair(w, first, place.length, displacements(place.line[0]),
                   displacements(place.line[1]));
     for (std::size_t i = 0; rotated_ && i < 2; ++i) {
@@ -157,12 +147,12 @@ void BrickLines::join_chains(std::size_t join) const {
   }
 }
 
-void BrickLines::add_forces(const Chain& chain, const ComponentArrays& force, double* q) const {
-  const LocalIndex* const place = places_.data() + chain.begin;
+void BrickLines::add_forces(const BrickChain& chain, const ComponentArrays& force,
+                            double* q) const {
   const std::array<const double*, 3> component{force.x, force.y, force.z};
   for (int p = 0; p < chain.length; ++p) {
     for (int c = 0; c < 3; ++c) {
-      const LocalIndex dof = chain.plain ? place[p] + c : place[3 * p + c];
+      const LocalIndex dof = chains_.place(chain, p, c);
       if (dof >= 0 && dof < owned_dofs_) q[dof] += component[static_cast<std::size_t>(c)][p];
     }
   }
@@ -170,24 +160,26 @@ void BrickLines::add_forces(const Chain& chain, const ComponentArrays& force, do
 
 /// Forces of a chain with a range, that of its first dof to range[0].
 void BrickLines::collect_forces(const Store& store, double* range) const {
-  const Chain& chain = chain_of(store.place.chain);
-  const LocalIndex* const place = places_.data() + chain.begin;
+  const BrickChain& chain = chains_.at(store.place.chain);
   const bool lent = store.place.join >= 0;
   if (lent && deferred_[static_cast<std::size_t>(store.place.join)] != 0) {
     const PairPlace& pair = schedule_.joins[static_cast<std::size_t>(store.place.join)].place;
     const bool near = pair.chain[0] == store.place.chain;
     (near ? store_near_row : store_far_row)(forces(pair.line[0]), forces(pair.line[1]),
                                             chain.length, range);
-  } else if (chain.row) {
-    store_row(forces(store.place.start), chain.length, range);
+    return;
+  }
+  const ComponentArrays moving = shifted(forces(store.place.start), chain.first);
+  if (chain.row) {
+    store_row(moving, chain.moving, range);
   } else {
-    store_nodes(forces(store.place.start), place, chain.length, chain.range.begin, range);
+    store_nodes(moving, chains_.places(chain), chain.moving, chain.range.begin, range);
   }
 }
 
 void BrickLines::store_chain(const Store& store, double* q, ForceReceiver& receiver) const {
   const auto& [place, outcome, begin, end] = store;
-  const Chain& chain = chain_of(place.chain);
+  const BrickChain& chain = chains_.at(place.chain);
   const bool deferred = place.join >= 0 && deferred_[static_cast<std::size_t>(place.join)] != 0;
   if (rotated_ && !deferred) {
     rotate_vectors(axes_, true, chain.length, line_stride_,
@@ -224,13 +216,12 @@ void BrickLines::apply(const StiffnessArgument& w, const double* ghosts, double*
   }
 }
 
-std::vector<LocalIndex> BrickLines::chain_dofs(std::size_t place) const {
-  const Chain& chain = chain_of(stores_[place].place.chain);
+std::vector<LocalIndex> BrickLines::chain_dofs(std::size_t number) const {
+  const BrickChain& chain = chains_.at(stores_[number].place.chain);
   std::vector<LocalIndex> dofs;
   for (int p = 0; p < chain.length; ++p) {
     for (int c = 0; c < 3; ++c) {
-      const auto at = static_cast<std::size_t>(chain.begin + (chain.plain ? p : 3 * p + c));
-      const LocalIndex dof = places_[at] < 0 ? -1 : places_[at] + (chain.plain ? c : 0);
+      const LocalIndex dof = chains_.place(chain, p, c);
       if (dof >= 0 && dof < owned_dofs_) dofs.push_back(dof);
     }
   }
@@ -238,7 +229,7 @@ std::vector<LocalIndex> BrickLines::chain_dofs(std::size_t place) const {
 }
 
 DofRange BrickLines::chain_range(std::size_t place) const {
-  return chain_of(stores_[place].place.chain).range;
+  return chains_.at(stores_[place].place.chain).range;
 }
 
 void BrickLines::set_outcomes(const std::vector<Outcome>& outcomes) {
@@ -257,7 +248,8 @@ void BrickLines::find_deferred() {
   std::vector<int> rows(deferred_.size(), 0);
   for (const Store& store : stores_) {
     if (store.place.join < 0 || store.outcome == Outcome::add) continue;
-    if (chain_of(store.place.chain).row) ++rows[static_cast<std::size_t>(store.place.join)];
+    if (chains_.at(store.place.chain).whole_row())
+      ++rows[static_cast<std::size_t>(store.place.join)];
   }
   for (std::size_t j = 0; j < rows.size(); ++j) deferred_[j] = rows[j] == 2 ? 1 : 0;
 }
@@ -265,7 +257,7 @@ void BrickLines::find_deferred() {
 /// Those of one step, in the order of their dofs.
 void BrickLines::sort_stores(std::size_t begin, std::size_t end) {
   const auto first_of = [this](const Store& store) {
-    return chain_of(store.place.chain).range.begin;
+    return chains_.at(store.place.chain).range.begin;
   };
   std::stable_sort(stores_.begin() + static_cast<std::ptrdiff_t>(begin),
                    stores_.begin() + static_cast<std::ptrdiff_t>(end),
@@ -277,7 +269,7 @@ void BrickLines::unite_ranges() {
   Store* last = nullptr;
   for (Store& store : stores_) {
     if (store.outcome == Outcome::add) continue;
-    const DofRange range = chain_of(store.place.chain).range;
+    const DofRange range = chains_.at(store.place.chain).range;
     store.begin = range.begin;
     store.end = range.end;
     if (last != nullptr && last->end == range.begin && range.end - last->begin <= most_united) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "elements/matrix3.h"
+#include "system/brick_chains.h"
 #include "system/brick_class.h"
 #include "system/chain_line.h"
 #include "system/dof_places.h"
@@ -43,13 +44,6 @@ class BrickLines final : public ElementLines {
              ForceReceiver& receiver) const override;
 
  private:
-  struct Chain {
-    int begin = 0;  ///< into places_: one per node if plain, else x, y, z of each node
-    int length = 0;
-    bool plain = false;  ///< every node owns x, y, z in a row, and one more dof follows
-    bool row = false;    ///< plain, and the nodes' dofs follow each other, no rotations between
-    DofRange range;      ///< as in chain_range
-  };
   struct Store {
     ChainStore place;
     Outcome outcome = Outcome::add;
@@ -57,7 +51,6 @@ class BrickLines final : public ElementLines {
     LocalIndex end = 0;    ///< one beyond its last if this chain completes it, else 0
   };
 
-  void add_chain(const DofPlaces& places, const std::vector<LocalIndex>& nodes);
   void sort_stores(std::size_t begin, std::size_t end);
   void unite_ranges();
   void find_deferred();
@@ -66,9 +59,8 @@ class BrickLines final : public ElementLines {
   void apply_step(const LineStep& step) const;
   void join_chains(std::size_t join) const;
   void store_chain(const Store& store, double* q, ForceReceiver& receiver) const;
-  void add_forces(const Chain& chain, const ComponentArrays& force, double* q) const;
+  void add_forces(const BrickChain& chain, const ComponentArrays& force, double* q) const;
   void collect_forces(const Store& store, double* range) const;
-  const Chain& chain_of(int number) const { return chains_[static_cast<std::size_t>(number)]; }
   ComponentArrays displacements(int start) const;
   ComponentArrays forces(int start) const;
   void clear_forces(int start, int length) const;
@@ -78,8 +70,7 @@ class BrickLines final : public ElementLines {
   Matrix3 axes_{};                      ///< those of the pairs
   std::array<int, 3> component_{};      ///< where x, y, z stand in a line
   std::vector<BrickStencil> stencils_;  ///< per shape
-  std::vector<Chain> chains_;
-  std::vector<LocalIndex> places_;
+  BrickChains chains_;
   LineSchedule schedule_;
   std::vector<Store> stores_;   ///< those of schedule_
   std::vector<char> deferred_;  ///< per join: done as the two rows are stored
