@@ -11,6 +11,11 @@ void EnergyBalance::Sum::add(double term) {
   value = sum;
 }
 
+double EnergyBalance::mass_damping(const LinearSystem& system) const {
+  const double decay = 1 - time_step_ * system.damping.alpha;
+  return (1 - decay) / time_step_;
+}
+
 EnergyBalance::EnergyBalance(MPI_Comm comm, std::span<const LinearSystem> systems, double time_step)
     : comm_(comm), systems_(systems), time_step_(time_step), energies_(systems.size()) {}
 
@@ -48,7 +53,7 @@ EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
   for (std::size_t b = 0; b < systems_.size(); ++b) {
     const Rayleigh& damping = systems_[b].damping;
     result.damping += time_step_ / 4 *
-                      (damping.alpha * sums[b].mass_sum +
+                      (mass_damping(systems_[b]) * sums[b].mass_sum +
                        damping.beta * (sums[b].stiffness_before + 2 * sums[b].stiffness_across));
     for (std::size_t d = 0; d < 3; ++d) {
       result.input +=
@@ -61,7 +66,7 @@ EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
 
 StructureEnergy EnergyBalance::energy(const LinearSystem& system, const StepSums& sums) const {
   const double dt = time_step_;
-  const double inertia = (1 - dt / 2 * system.damping.alpha) * sums.kinetic_before;
+  const double inertia = (1 - dt / 2 * mass_damping(system)) * sums.kinetic_before;
   const double damped =
       inertia - dt / 2 * (system.damping.beta * sums.stiffness_before + sums.extra_damping_before);
   return {damped / 2, sums.strain_before / 2, (damped - dt * dt / 4 * sums.stiffness_before) / 2,

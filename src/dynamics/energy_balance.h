@@ -106,6 +106,9 @@ class EnergyBalance {
   template <typename Balance, typename Function>
   static void for_each_sum(Balance& balance, Function&& function);
 
+  /// alpha as the step has it [1/s]: it multiplies by 1 - dt alpha, a number so close to 1 that
+  /// rounding it changes alpha by up to 1e-16 / (dt alpha) of itself.
+  double mass_damping(const LinearSystem& system) const;
   Works works(std::span<const StepSums> sums, const std::array<double, 3>& ground_acceleration,
               double contact_work) const;
   StructureEnergy energy(const LinearSystem& system, const StepSums& sums) const;
