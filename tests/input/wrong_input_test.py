@@ -137,6 +137,35 @@ class WrongInput(unittest.TestCase):
                      "-m_l_stiffness", "1,1,1", "-m_p_element", "point_mass", "-m_p_mass", "1",
                      "-end_time", "1"], "(1, 0, 0)", "no mass")
 
+    def test_unknown_model(self):
+        self.refuse(CASE + ["-s1_model", "reduced"], "-s1_model reduced", "full modal")
+
+    def test_modal_model_without_a_size(self):
+        self.refuse(CASE + ["-s1_model", "modal"], "-s1_modal_vectors", "-s1_modal_cutoff")
+
+    def test_modal_model_of_no_vectors(self):
+        self.refuse(CASE + ["-s1_model", "modal", "-s1_modal_vectors", "0"], "-s1_modal_vectors 0", ">= 1")
+
+    def test_modal_model_with_two_sizes(self):
+        self.refuse(CASE + ["-s1_model", "modal", "-s1_modal_vectors", "9", "-s1_modal_cutoff", "50"],
+                    "-s1_modal_cutoff 50", "not both")
+
+    def test_cut_off_below_every_mode(self):
+        self.refuse(CASE + ["-s1_model", "modal", "-s1_modal_cutoff", "0.1"], "-s1_modal_cutoff 0.1",
+                    "no mode")
+
+    def test_modal_option_of_a_full_model(self):
+        self.refuse(CASE + ["-s2_modal_vectors", "9"], "-s2_modal_vectors 9", "-s2_model modal")
+
+    def test_modal_model_with_bars_that_buckle(self):
+        self.refuse(CASE + ["-s1_model", "modal", "-s1_modal_vectors", "9", "-s1_brace1_tension_only"],
+                    "-s1_brace1_tension_only", "-s1_model")
+
+    def test_modal_model_that_is_all_clamped(self):
+        self.refuse(CASE + ["-s1_model", "modal", "-s1_modal_vectors", "9", "-contacts", "none",
+                            "-s1_clamp", "base,column,slab,beam,joint_beam,joint_column,brace1,brace2"],
+                    "s1", "clamp")
+
     def test_wall_without_a_distance(self):
         self.refuse(CASE + ["-floor1_primary", "wall", "-floor1_gap", "geometry"], "-floor1_gap", "wall")
 

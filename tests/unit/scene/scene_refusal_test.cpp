@@ -86,6 +86,7 @@ INSTANTIATE_TEST_SUITE_P(
     Words, BadValues,
     testing::Values(BadValue{"resampling", "cubic", "one of: linear band_limited"},
                     BadValue{"tower_model", "reduced", "one of: full modal"},
+                    BadValue{"tower_model", "modl", "did you mean modal?"},
                     BadValue{"tower_mesh_set", "h", "name=value"},
                     BadValue{"tower_mesh_set", "h=1,h=2", "h is set twice"},
                     BadValue{"tower_clamp", "base,,core", "empty name"},

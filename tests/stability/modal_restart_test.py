@@ -1,0 +1,124 @@
+"""Runs of reduced structures that are stopped and continued; bases that are kept in a file."""
+import os
+import shutil
+import tempfile
+import unittest
+
+import h5py
+import numpy
+
+import program
+from restart_test import RestartCase, checkpoint
+
+SMALL = "cells_x=3,cells_y=3,column_elements=1"
+TIME_STEP = 5e-5
+PAIR = ["-options_file", "petsc-options/azalee/gap2.yaml", "-s1_mesh_set", SMALL, "-s2_mesh_set", SMALL,
+        "-motion_x_pga", 20, "-motion_x_envelope", "0.02,20", "-floor2_gap", "4e-4,2e-4",
+        "-floor1_gap", 0.02, "-modes", 3, "-time_step", TIME_STEP, "-spectra_frequencies", "1:200:5lin",
+        "-s1_model", "modal", "-s1_modal_vectors", 20, "-s2_model", "modal", "-s2_modal_vectors", 20]
+END = ["-end_time", 0.2]
+STEP = 2600  # in the middle of the pounding
+
+
+class Restart(RestartCase):
+    def continued(self, arguments, ranks_before, ranks_after):
+        cut = self.cut(PAIR + arguments, STEP, TIME_STEP, ranks_before)
+        return self.complete(PAIR + arguments + END + ["-restart", checkpoint(cut)], ranks_after)
+
+    def test_is_bit_identical_on_any_ranks(self):
+        whole = self.complete(PAIR + END, 2)
+        self.assertGreater(program.summary(whole)["impacts"]["episodes"], 1)
+        self.assert_same_results(whole, self.continued([], 2, 2))
+        self.assert_same_results(whole, self.continued([], 1, 3))
+
+    def test_of_one_reduced_building(self):
+        full = ["-s1_model", "full"]
+        arguments = [word for word in PAIR if word not in ("-s1_model", "-s1_modal_vectors")]
+        arguments = arguments[:arguments.index("modal")] + arguments[arguments.index("modal") + 2:]
+        arguments += full + ["-time_step", 2e-5]
+        whole = self.complete(arguments + END, 2)
+        cut = self.cut(arguments, 6500, 2e-5)
+        self.assert_same_results(whole, self.complete(arguments + END + ["-restart", checkpoint(cut)], 2))
+
+    def test_with_another_basis_is_refused(self):
+        cut = self.cut(PAIR, STEP, TIME_STEP)
+        with h5py.File(checkpoint(cut), "r+") as file:
+            check = file["structures/s1/basis_check"][()]
+            check[5] = -check[5]  # a vector that points the other way
+            file["structures/s1/basis_check"][...] = check
+        result = program.run(PAIR + END + ["-restart", checkpoint(cut), "-output", self.folder()], 2)
+        self.assertEqual(result.returncode, 1)
+        line, = program.error_lines(result)
+        for word in ("-restart", "s1", "another modal basis", "-s1_modal_basis"):
+            self.assertIn(word, line)
+
+
+class Basis(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="pounding-")
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.files = {name: os.path.join(self.folder, name + ".h5") for name in ("s1", "s2")}
+        self.case = PAIR + ["-end_time", 0.05]
+        for name, path in self.files.items():
+            self.case += [f"-{name}_modal_basis", path]
+
+    def run_case(self, *more, ranks=2):
+        output = os.path.join(self.folder, "results")
+        result = program.run(self.case + list(more) + ["-output", output], ranks)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with h5py.File(os.path.join(output, "history.h5")) as file:
+            return result.stdout, file["velocity"][()]
+
+    def test_is_used_again_and_gives_the_same_bits(self):
+        said, first = self.run_case()
+        self.assertNotIn("modal basis", said)
+        for ranks in (1, 2, 3):
+            said, again = self.run_case(ranks=ranks)
+            for name, path in self.files.items():
+                self.assertIn(f"structure {name}: modal basis from {path}", said)
+            self.assertTrue(numpy.array_equal(first, again))
+        # What the basis does not depend on.
+        said, _ = self.run_case("-s1_damping_beta", 1e-5, "-floor2_gap", 0.001, "-motion_x_pga", 3)
+        self.assertEqual(said.count("modal basis from"), 2)
+
+    def test_of_another_model_is_computed_anew(self):
+        self.run_case()
+        for changed, words in (("elements", ["-s1_brace1_area", 130e-6]),
+                               ("mesh", ["-s1_mesh_set", "cells_x=3,cells_y=3,column_elements=2"]),
+                               ("clamp", ["-s1_clamp", "none"]),
+                               ("number of vectors", ["-s1_modal_vectors", 21]),
+                               ("contact points", ["-floor1_secondary", "s1:face2", "-floor1_primary",
+                                                   "s2:face2"]),
+                               ("probe points", ["-s1_floor1_at", "0,0,0"])):
+            said, _ = self.run_case(*words)
+            line = [line for line in said.splitlines() if "is of another model" in line]
+            self.assertEqual(len([text for text in line if "structure s1" in text]), 1, said[:2000])
+            self.assertIn(changed, line[0])
+            said, _ = self.run_case(*words)
+            self.assertIn("structure s1: modal basis from", said)
+
+    def test_file_that_is_none_is_left_alone(self):
+        for text in ("not HDF5", None):
+            with open(self.files["s1"], "w") as file:
+                file.write(text or "")
+            if text is None:
+                h5py.File(self.files["s1"], "w").close()
+            with open(self.files["s1"], "rb") as file:
+                before = file.read()
+            for ranks in (1, 2):
+                result = program.run(self.case + ["-output", self.folder], ranks)
+                self.assertEqual(result.returncode, 1)
+                line, = program.error_lines(result)
+                self.assertIn("-s1_modal_basis " + self.files["s1"], line)
+            with open(self.files["s1"], "rb") as file:
+                self.assertEqual(file.read(), before)
+
+    def test_file_that_cannot_be_written(self):
+        self.files["s1"] = os.path.join(self.folder, "nowhere", "s1.h5")
+        result = program.run(self.case + ["-s1_modal_basis", self.files["s1"]], 2)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("-s1_modal_basis " + self.files["s1"], program.error_lines(result)[0])
+
+
+if __name__ == "__main__":
+    unittest.main()

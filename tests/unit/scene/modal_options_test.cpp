@@ -1,0 +1,80 @@
+#include "scene_cases.h"
+
+namespace pounding::scene_cases {
+namespace {
+
+OptionsDatabase reduced(OptionsDatabase changes) {
+  changes.merge(OptionsDatabase{{"tower_model", "modal"}, {"tower_modal_vectors", "40"}});
+  return with(smallest(), changes);
+}
+
+TEST(ModalOptions, LeftOutAreAFullModel) {
+  EXPECT_FALSE(read_scene(smallest()).scene.structures[0].modal);
+}
+
+TEST(ModalOptions, HaveDefaults) {
+  const auto modal = read_scene(reduced({})).scene.structures[0].modal;
+  ASSERT_TRUE(modal);
+  EXPECT_EQ(modal->modes, 40);
+  EXPECT_EQ(modal->cutoff, 0);
+  EXPECT_TRUE(modal->attachment);
+  EXPECT_TRUE(modal->damping_ratios.empty());
+  EXPECT_TRUE(modal->basis_file.empty());
+}
+
+TEST(ModalOptions, AreRead) {
+  const OptionsDatabase database = with(smallest(), {{"tower_model", "modal"},
+                                                     {"tower_modal_cutoff", "400"},
+                                                     {"tower_modal_attachment", "false"},
+                                                     {"tower_modal_damping", "0.01,0.02"},
+                                                     {"tower_modal_basis", "tower.h5"}});
+  const auto modal = read_scene(database).scene.structures[0].modal;
+  ASSERT_TRUE(modal);
+  EXPECT_EQ(modal->modes, 0);
+  EXPECT_EQ(modal->cutoff, 400);
+  EXPECT_FALSE(modal->attachment);
+  EXPECT_EQ(modal->damping_ratios, (std::vector<double>{0.01, 0.02}));
+  EXPECT_EQ(modal->basis_file, "tower.h5");
+}
+
+TEST(ModalOptions, ThatDoNotFitAreRefused) {
+  expect_refused(with(smallest(), {{"tower_model", "modal"}}),
+                 {"-tower_modal_vectors", "-tower_modal_cutoff"});
+  expect_refused(with(smallest(), {{"tower_modal_vectors", "40"}}),
+                 {"-tower_modal_vectors 40", "-tower_model modal"});
+  expect_refused(with(smallest(), {{"tower_modal_basis", "a.h5"}}), {"-tower_model modal"});
+  expect_refused(reduced({{"tower_modal_vectors", "0"}}), {"-tower_modal_vectors 0", ">= 1"});
+  expect_refused(reduced({{"tower_modal_cutoff", "400"}}),
+                 {"-tower_modal_cutoff 400", "-tower_modal_vectors", "not both"});
+  expect_refused(reduced({{"tower_modal_damping", "0.01,1"}}), {"-tower_modal_damping", "[0, 1)"});
+}
+
+TEST(ModalOptions, RefuseWhatCouplesTheModes) {
+  expect_refused(reduced({{"tower_slab_damping_beta", "1e-5"}}),
+                 {"-tower_slab_damping_beta", "-tower_model modal"});
+  expect_refused(
+      reduced({{"tower_slab_damping_ratio", "0.01"}, {"tower_slab_damping_frequencies", "1,10"}}),
+      {"-tower_slab_damping_ratio", "-tower_model modal"});
+  expect_refused(reduced({{"tower_tie_element", "bar"},
+                          {"tower_tie_material", "concrete"},
+                          {"tower_tie_area", "1"},
+                          {"tower_tie_tension_only", "true"}}),
+                 {"-tower_tie_tension_only", "-tower_model modal"});
+  expect_refused(reduced({{"tower_pad_element", "grounded_spring"},
+                          {"tower_pad_stiffness", "1,1,1"},
+                          {"tower_pad_dashpot", "0,2,0"}}),
+                 {"-tower_pad_dashpot", "-tower_model modal"});
+}
+
+TEST(ModalOptions, RefuseOneFileForTwoBases) {
+  expect_refused(with(pair(), {{"tower_model", "modal"},
+                               {"tower_modal_vectors", "40"},
+                               {"tower_modal_basis", "one.h5"},
+                               {"annex_model", "modal"},
+                               {"annex_modal_vectors", "40"},
+                               {"annex_modal_basis", "one.h5"}}),
+                 {"-annex_modal_basis one.h5", "tower"});
+}
+
+}  // namespace
+}  // namespace pounding::scene_cases

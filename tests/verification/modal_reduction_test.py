@@ -1,0 +1,160 @@
+"""Structures reduced to modes and attachment vectors against the finite elements themselves.
+
+Two small two-storey buildings that pound. With all modes a reduction is the same system in other
+coordinates: the same histories but for round-off, in contact too, also where one building is reduced
+and the other is not. With a few modes and the attachment vectors the floor spectra stay; without
+the vectors impacts go wrong. A basis is computed by one rank alone: any number of ranks gives the
+same bits.
+"""
+import math
+import os
+import unittest
+
+import h5py
+import numpy
+
+import program
+from recorded import IDENTITY, Recorded
+
+CHEAP = ["-modes", 6, "-spectra_frequencies", "1:400:60log"]
+SMALL = "cells_x=3,cells_y=3,column_elements=1"
+PAIR = ["-options_file", "petsc-options/azalee/gap2.yaml", "-s1_mesh_set", SMALL, "-s2_mesh_set", SMALL,
+        "-motion_x_pga", 6, "-motion_x_envelope", "0.2,20", "-floor2_gap", "0.0004,0.0002",
+        "-floor1_gap", 0.002, "-end_time", 0.4] + CHEAP
+DOFS = 360
+QUANTITIES = ("displacement", "velocity", "acceleration", "gap", "contact_force")
+
+
+def reduced(structure, modes, *more):
+    words = [f"-{structure}_model", "modal", f"-{structure}_modal_vectors", modes]
+    return words + [f"-{structure}_{more[i]}" if i % 2 == 0 else more[i] for i in range(len(more))]
+
+
+def history(folder):
+    with h5py.File(os.path.join(folder, "history.h5"), "r") as file:
+        return {name: file[name][()] for name in QUANTITIES}
+
+
+class Reduction(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder, cls.full_summary = program.must_run(unittest.TestCase(), PAIR, 2)
+        cls.full = history(folder)
+        cls.time_step = ["-time_step", repr(cls.full_summary["time_step"])]
+
+    def assert_same(self, found, reference, tolerance):
+        for name in QUANTITIES:
+            scale = abs(reference[name]).max()
+            self.assertGreater(scale, 0, name)
+            self.assertLessEqual(abs(found[name] - reference[name]).max(), tolerance * scale, name)
+
+    def run_with(self, arguments, ranks):
+        folder, summary = program.must_run(self, PAIR + arguments, ranks)
+        self.assertGreater(summary["impacts"]["floor2"]["episodes"], 1)
+        self.assertLessEqual(summary["energy"]["relative_residual"], IDENTITY)
+        return history(folder), summary
+
+    def test_all_modes_are_the_model_itself(self):
+        runs = []
+        for ranks in (1, 2, 3):
+            words = reduced("s1", 10 * DOFS) + reduced("s2", DOFS) + self.time_step
+            found, summary = self.run_with(words, ranks)
+            runs.append(found)
+            modal = summary["structures"]["s1"]["modal"]
+            self.assertEqual((modal["coordinates"], modal["modes"], modal["attachment_vectors"]),
+                             (DOFS, DOFS, 0))
+            for name in ("s1", "s2"):
+                one, other = summary["structures"][name], self.full_summary["structures"][name]
+                self.assertAlmostEqual(one["stable_time_step"] / other["stable_time_step"], 1, delta=1e-8)
+                for a, b in zip(one["frequencies"], other["frequencies"]):
+                    self.assertAlmostEqual(a["frequency"] / b["frequency"], 1, delta=1e-8)
+        self.assert_same(runs[0], self.full, 1e-8)
+        for other in runs[1:]:
+            for name in QUANTITIES:
+                self.assertTrue(numpy.array_equal(other[name], runs[0][name]), name)
+
+    def test_one_building_reduced_the_other_not(self):
+        for ranks in (1, 2, 3):
+            found, summary = self.run_with(reduced("s2", DOFS) + self.time_step, ranks)
+            self.assertNotIn("modal", summary["structures"]["s1"])
+            self.assert_same(found, self.full, 1e-8)
+
+    def test_few_modes_on_any_number_of_ranks(self):
+        runs = [self.run_with(reduced("s1", 30) + reduced("s2", 30), ranks)[0] for ranks in (1, 2, 3)]
+        for other in runs[1:]:
+            for name in QUANTITIES:
+                self.assertTrue(numpy.array_equal(other[name], runs[0][name]), name)
+        mixed = [self.run_with(reduced("s1", 30), ranks)[0] for ranks in (1, 2, 3)]
+        for other in mixed[1:]:
+            self.assert_same(other, mixed[0], 1e-9)
+
+    def spectrum_error(self, arguments):
+        """Root mean square of the relative difference of the floor-2 spectra, 1 to 400 Hz."""
+        full = self.spectra(self.time_step)
+        found = self.spectra(arguments)
+        differences = [numpy.log(found[probe] / full[probe]) for probe in full]
+        return math.sqrt(numpy.mean(numpy.square(differences)))
+
+    def spectra(self, arguments):
+        run = Recorded(self, PAIR + CHEAP + arguments)
+        return {probe: run.spectrum(probe, "x")[1] for probe in ("s1_floor2", "s2_floor2")}
+
+    def test_few_modes_with_attachment_vectors_give_the_floor_spectra(self):
+        few = reduced("s1", 30) + reduced("s2", 30) + self.time_step
+        with_vectors = self.spectrum_error(few)
+        bare = ["-s1_modal_attachment", "false", "-s2_modal_attachment", "false"]
+        without = self.spectrum_error(few + bare)
+        self.assertLess(with_vectors, 0.1)
+        self.assertGreater(without, 2 * with_vectors)
+
+    def test_cut_off_counts_the_modes_below_it(self):
+        words = ["-s1_model", "modal", "-s1_modal_cutoff", 40, "-dry_run"]
+        result = program.run(PAIR + words, 2)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        frequencies = self.full_summary["structures"]["s1"]["frequencies"]
+        self.assertLess(frequencies[-1]["frequency"], 40)
+        line = [line for line in result.stdout.splitlines() if "below the cut-off of 40 Hz" in line]
+        self.assertEqual(len(line), 1, result.stdout)
+        self.assertGreaterEqual(int(line[0].split()[0]), len(frequencies))
+
+    def test_more_modes_than_dofs_are_all_of_them_with_a_word(self):
+        result = program.run(PAIR + reduced("s1", 5000) + ["-dry_run"], 1)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(f"{DOFS} modes (5000 asked for, the structure has no more)", result.stdout)
+
+    def test_a_step_too_long_names_the_coordinate(self):
+        words = reduced("s1", 20) + reduced("s2", 20) + ["-time_step", 1e-3, "-allow_unstable"]
+        for ranks in (1, 2):
+            result = program.run(PAIR + words + ["-output", "/tmp/pounding-none"], ranks)
+            self.assertEqual(result.returncode, 1)
+            lines = program.error_lines(result)
+            self.assertEqual(len(lines), 1)
+            self.assertIn("diverged", lines[0])
+            self.assertRegex(lines[0], r"generalised coordinate \d+ \(.* Hz\)")
+
+
+class Damping(unittest.TestCase):
+    """A ratio per mode that says what mass-proportional damping says of it: xi = alpha / (2 omega)."""
+
+    def test_ratios_of_the_modes(self):
+        alpha = 5.0
+        brick = ["-structures", "tower", "-tower_mesh", "tests/meshes/box.geo", "-tower_clamp", "z_min",
+                 "-tower_mesh_set", "lz=4,nz=2", "-tower_body_element", "hex8",
+                 "-tower_body_material", "soft", "-material_soft_young", 2e5,
+                 "-material_soft_poisson", 0.2, "-material_soft_density", 100,
+                 "-tower_initial_velocity", "1,0.3,0.1", "-probes", "top", "-top_structure", "tower",
+                 "-top_group", "z_max", "-end_time", 3, "-time_step", 2e-3]
+        brick += ["-output_interval", 2e-3, "-spectra_frequencies", 10, "-modes", 24]
+        folder, summary = program.must_run(self, brick + ["-tower_damping_alpha", alpha])
+        frequencies = [mode["frequency"] for mode in summary["structures"]["tower"]["frequencies"]]
+        self.assertEqual(len(frequencies), 24)
+        ratios = ",".join(repr(alpha / (4 * math.pi * f)) for f in frequencies)
+        modal, _ = program.must_run(self, brick + reduced("tower", 24) + ["-tower_modal_damping", ratios])
+        with h5py.File(os.path.join(folder, "history.h5")) as file:
+            full = file["displacement"][()]
+        with h5py.File(os.path.join(modal, "history.h5")) as file:
+            self.assertLessEqual(abs(file["displacement"][()] - full).max(), 1e-8 * abs(full).max())
+
+
+if __name__ == "__main__":
+    unittest.main()
