@@ -14,20 +14,24 @@ class TableError(Exception):
     """One line for the user, or what the program said."""
 
 
-def run_model(model: str, folder: Path) -> dict:
-    """A few steps on two ranks; returns the summary."""
+def run_model(model: str, folder: Path, ranks: int, more: list) -> dict:
+    """A few steps, with more options; returns the summary."""
     command = 'source run/environment; [ -x "$build/pounding" ] || run/setup >&2; ' \
-              'exec mpirun -n 2 "$build/pounding" -options_file "$0" -end_time 2e-5 -output "$1"'
+              'exec mpirun -n "$2" "$build/pounding" -options_file "$0" -end_time 2e-5 "${@:3}" -output "$1"'
     file = f"petsc-options/azalee/{FILES[model]}.yaml"
-    result = subprocess.run(["bash", "-c", command, file, str(folder)], cwd=SOURCE, stdout=subprocess.PIPE, text=True)
+    result = subprocess.run(["bash", "-c", command, file, str(folder), str(ranks), *more], cwd=SOURCE, stdout=subprocess.PIPE, text=True)
     if result.returncode != 0:
         raise TableError(f"{file} failed, see above\n{result.stdout}")
     return json.loads((folder / "summary.json").read_text())
 
 
-def run_models(folder: Path) -> dict:
+def run_models(folder: Path, ranks: int = 2, more=()) -> dict:
     """Model -> summary."""
-    return {model: run_model(model, folder / f"model-{model.lower()}") for model in FILES}
+    return {model: run_model(model, folder_of(folder, model), ranks, list(more)) for model in FILES}
+
+
+def folder_of(folder: Path, model: str) -> Path:
+    return folder / f"model-{model.lower()}"
 
 
 def six_frequencies(structure: dict) -> list[float]:

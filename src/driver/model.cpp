@@ -113,7 +113,7 @@ void add_full(const Scene& scene, std::size_t s, Profile& profile, Model& model)
   }
   const ScopedTimer timer(profile, Phase::modes);
   const LinearSystem& system = model.systems.back();
-  model.modal.push_back(lowest_modes(system, mesh, scene.modes));
+  model.modal.push_back(lowest_modes(system, mesh, scene.modes, scene.write_modes));
   if (!exported) {
     system.stiffness->release_matrix();
   }

@@ -11,6 +11,7 @@
 #include "common/parallel.h"
 #include "driver/floor_spectra.h"
 #include "driver/matrix_export.h"
+#include "driver/mode_shapes.h"
 #include "driver/model.h"
 #include "driver/report.h"
 #include "driver/run_identity.h"
@@ -102,6 +103,9 @@ void run_scene(MPI_Comm comm, const Scene& scene, const std::string& resolved) {
     return;
   }
   on_rank0(comm, [&] { prepare_output(scene, resolved); });
+  if (scene.write_modes) {
+    write_mode_shapes(comm, scene.output + "/modes.h5", model);
+  }
   const double seconds = TimeLoop(comm, scene, model, profile).measure(50);
   if (root) {
     print_time_step(scene, model, seconds);

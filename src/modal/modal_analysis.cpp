@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "mesh/location.h"
@@ -31,7 +32,8 @@ Mode describe_mode(double eigenvalue, const std::array<double, 6>& participation
   return mode;
 }
 
-ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count) {
+ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count,
+                         bool keep_shapes) {
   const RigidMotions motions(system, mesh);
   ModalResult result;
   result.mass = motions.mass();
@@ -51,6 +53,11 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
     POUNDING_PETSC(EPSGetEigenpair(solver.get(), i, &eigenvalue, nullptr, vector.get(), nullptr));
     result.modes.push_back(
         describe_mode(eigenvalue, motions.participation(storage.data()), motions.inertia()));
+    if (keep_shapes) {
+      std::ranges::transform(storage, system.lumped_mass,
+                             std::back_inserter(result.modes.back().shape),
+                             [](double y, double mass) { return y / std::sqrt(mass); });
+    }
   }
   std::stable_sort(result.modes.begin(), result.modes.end(),
                    [](const Mode& a, const Mode& b) { return a.frequency < b.frequency; });

@@ -15,6 +15,7 @@ struct Mode {
                                                  ///< the centre of mass [kg m2]
   std::string direction;                         ///< "x" ... "rz": where most of the mass moves
   double direction_fraction = 0;                 ///< of the mass (rotary inertia) in that direction
+  std::vector<double> shape;                     ///< phi over the owned dofs; empty unless asked
 };
 
 struct ModalResult {
@@ -37,9 +38,10 @@ Mode describe_mode(double eigenvalue, const std::array<double, 6>& participation
 /// The lowest `count` modes by SLEPc's Krylov-Schur on M^-1/2 K M^-1/2, shift-and-invert with a
 /// Cholesky factorisation (MUMPS), the shift just below zero so that free structures pass.
 /// Frequencies of rigid-body modes come out as 0. Participation: Gamma = phi^T M iota, effective
-/// mass Gamma^2. Needs the matrix of the system unless `count` is 0. Throws std::runtime_error when
-/// SLEPc finds fewer than asked. Collective.
-ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count);
+/// mass Gamma^2. `keep_shapes`: with phi, phi^T M phi = 1. Needs the matrix of the system unless
+/// `count` is 0. Throws std::runtime_error when SLEPc finds fewer than asked. Collective.
+ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count,
+                         bool keep_shapes = false);
 
 /// omega_max by Krylov-Schur on the same matrix, of which it needs products only, largest real.
 /// Ritz values approach from below, so the residual norm (a bound of the error in omega^2) is

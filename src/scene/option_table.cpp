@@ -38,6 +38,7 @@ constexpr std::array table{
     OptionRow{Block::run, "time_step", Kind::real, "s", value("0"), not_negative, "", "time step; 0: courant x the stable one"},
     OptionRow{Block::run, "allow_unstable", Kind::boolean, "flag", value("false"), any, "", "accept a time step above the stable one (for studies)"},
     OptionRow{Block::run, "modes", Kind::integer, "-", value("12"), not_negative, "", "lowest modes computed per structure"},
+    OptionRow{Block::run, "write_modes", Kind::boolean, "flag", value("false"), any, "", "write their shapes to modes.h5"},
     OptionRow{Block::run, "gap_tolerance", Kind::real, "-", value("1e-12"), not_negative, "", "contact where gap <= gap_tolerance x model size"},
     OptionRow{Block::run, "impact_merge_time", Kind::real, "s", value("1e-3"), not_negative, "", "contacts separated by less are one impact"},
     OptionRow{Block::run, "output_interval", Kind::real, "s", value("5e-5"), positive, "", "time between two samples of the probes"},
@@ -132,7 +133,7 @@ constexpr std::array petsc_patterns = std::to_array<std::string_view>({
 
 // What does not touch the motion nor its records; the time step itself is compared, not its options.
 constexpr std::array changeable_on_restart = std::to_array<std::string_view>({
-    "title", "end_time", "courant", "time_step", "allow_unstable", "modes", "dry_run", "output",
+    "title", "end_time", "courant", "time_step", "allow_unstable", "modes", "write_modes", "dry_run", "output",
     "checkpoint_interval", "checkpoint_steps", "export_matrices", "restart", "spectra_damping", "spectra_frequencies"});
 // clang-format on
 

@@ -160,6 +160,7 @@ struct Scene {
   double time_step = 0;          ///< [s]; 0: courant times the stable one
   bool allow_unstable = false;   ///< accept a time step above the stable one (for studies)
   int modes = 0;                 ///< lowest modes to compute per structure
+  bool write_modes = false;      ///< their shapes as well
   double gap_tolerance = 0;      ///< contact where gap <= gap_tolerance x model size [-]
   double impact_merge_time = 0;  ///< contacts separated by less are one episode [s]
   double output_interval = 0;    ///< of the probes [s]

@@ -34,6 +34,7 @@ class SceneReader {
     for (const std::string& name : listed_.structures) {
       scene_.structures.push_back(read_structure(options_, name));
       require_own_basis(scene_.structures.back());
+      require_full_order(scene_.structures.back());
     }
     for (const std::string& name : listed_.contacts) {
       scene_.contacts.push_back(read_contact(name));
@@ -59,6 +60,7 @@ class SceneReader {
     scene_.time_step = options_.real("time_step");
     scene_.allow_unstable = options_.boolean("allow_unstable");
     scene_.modes = options_.integer("modes");
+    scene_.write_modes = options_.boolean("write_modes");
     scene_.gap_tolerance = options_.real("gap_tolerance");
     scene_.impact_merge_time = options_.real("impact_merge_time");
     scene_.output_interval = options_.real("output_interval");
@@ -96,6 +98,18 @@ class SceneReader {
       }
     }
     return list;
+  }
+
+  /// Matrices and shapes are written of structures at full order only.
+  void require_full_order(const Structure& structure) const {
+    const std::string why =
+        "structure " + structure.name + " is reduced; not with -" + structure.name + "_model modal";
+    if (structure.modal && scene_.write_modes) {
+      options_.refuse("write_modes", {}, why);
+    }
+    if (structure.modal && !scene_.export_matrices.empty()) {
+      options_.refuse("export_matrices", {}, why);
+    }
   }
 
   /// tower_slab_element belongs to the group slab of tower: no structure may be tower_slab.
