@@ -29,7 +29,7 @@ class Window:
 
 
 FULL = Window()
-QUICK = Window(end_time=4.0, duration=12.0, envelope="1,5")
+QUICK = Window(end_time=3.0, duration=12.0, envelope="0.5,5")
 
 
 @dataclass(frozen=True)

@@ -56,14 +56,15 @@ def extremes(time: np.ndarray, values: np.ndarray, keep=()) -> tuple[np.ndarray,
 
 
 def write_series(case: Case, folder: Path) -> None:
-    """Drift of the second storey and acceleration of the second floor of Structure 2 along x."""
+    """Drift of the second storey and acceleration of the second floor of Structure 2 along x; peaks of
+    the ground acceleration along x, y, z."""
     hits = impacts(folder) if case.pounds else []
     strongest = max(hits, key=lambda hit: hit["impulse"], default=None)
     around = [(strongest["start"] - 0.01, strongest["end"] + 0.03)] if strongest else []
     with h5py.File(folder / HISTORY, "r") as file:
         channels = [name.decode() for name in file["channels"][()]]
         column = {name: channels.index(name) for name in ("s2_floor1.x", "s2_floor2.x")}
-        time = file["time"][()]
+        time, ground = file["time"][()], file["ground_acceleration"][()]
         acceleration = file["acceleration"][:, column["s2_floor2.x"]]
         stamps = time + float(file["acceleration"].attrs["time_offset"])
         lower, upper = (file["displacement"][:, column[name]] for name in ("s2_floor1.x", "s2_floor2.x"))
@@ -71,7 +72,7 @@ def write_series(case: Case, folder: Path) -> None:
     drift_time, drift = extremes(time, drift)
     acceleration_time, acceleration = extremes(stamps, acceleration, around)
     np.savez_compressed(folder / SERIES, drift_time=drift_time, drift=drift, acceleration_time=acceleration_time,
-                        acceleration=acceleration)
+                        acceleration=acceleration, ground_peaks=abs(ground).max(axis=0))
 
 
 def treat(folder: Path) -> None:

@@ -19,7 +19,8 @@ def run_model(model: str, folder: Path, ranks: int, more: list) -> dict:
     command = 'source run/environment; [ -x "$build/pounding" ] || run/setup >&2; ' \
               'exec mpirun -n "$2" "$build/pounding" -options_file "$0" -end_time 2e-5 "${@:3}" -output "$1"'
     file = f"petsc-options/azalee/{FILES[model]}.yaml"
-    result = subprocess.run(["bash", "-c", command, file, str(folder), str(ranks), *more], cwd=SOURCE, stdout=subprocess.PIPE, text=True)
+    words = [file, str(folder), str(ranks), *more]
+    result = subprocess.run(["bash", "-c", command, *words], cwd=SOURCE, stdout=subprocess.PIPE, text=True)
     if result.returncode != 0:
         raise TableError(f"{file} failed, see above\n{result.stdout}")
     return json.loads((folder / "summary.json").read_text())

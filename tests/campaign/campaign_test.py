@@ -55,7 +55,11 @@ class Campaign(unittest.TestCase):
 
     def test_the_branch_comes_from_the_peaks_and_mainly_from_the_highest(self):
         self.found("the branch is that of all peaks", 2)
-        self.found("the branch is that of the highest peak", 2)
+        finding = "the branch is that of the highest peak alone"
+        few, many = [check for check in self.checks if check["finding"] == finding]
+        self.assertTrue(few["found"], few)
+        # Of 40 impacts, one with a smaller impulse may be the sharper one: told, not asserted.
+        self.assertIn("gap 0 cm", many["case"])
 
     def test_a_dirac_departs_at_high_frequencies(self):
         self.found("the Dirac departs upwards", 2)

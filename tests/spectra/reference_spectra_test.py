@@ -79,12 +79,12 @@ class ClosedForms(unittest.TestCase):
         # The same straight ramps cut into steps of omega dt from 1e-6 to 10 are the same motion.
         corners = numpy.array([0.0, 2.0, -1.0, 3.0, 0.0, 0.0])
         cuts = (1, 100, 10000)
-        wanted = [1e-6 / (2 * math.pi * 1e-4), 0.01, 3.0, 10 / (2 * math.pi)]  # omega dt = 10 at cut 1
+        wanted = [1e-6 / (2 * math.pi * 1e-4), 0.01, 10 / (2 * math.pi), 3.0]  # omega dt from 1e-6 to 19
         found = []
         for cut in cuts:
             values = numpy.interp(numpy.arange(5 * cut + 1) / cut, range(6), corners)
-            table = computed(self, *write_record(self, values, 1 / cut), *frequencies(wanted[:0]
-                             + sorted(wanted)), "--damping", "0,0.05", "--true")
+            table = computed(self, *write_record(self, values, 1 / cut), *frequencies(wanted),
+                             "--damping", "0,0.05", "--true")
             found.append(table)
         for name in ("displacement", "pseudo_acceleration", "velocity", "absolute_acceleration",
                      "relative_acceleration"):
