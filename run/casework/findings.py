@@ -129,7 +129,8 @@ def dirac_departs(campaign: Campaign) -> list:
 
 
 def prominence(one: CaseResult) -> float:
-    """The largest value around 200 Hz over the mean of its neighbours, first floor of Structure 1."""
+    """The largest value around 200 Hz over the mean of its neighbours, first floor of Structure 1. The
+    mode is excited by impacts on the second floor."""
     spectrum = one.spectra["s1_floor1.x"]
     neighbours = np.sqrt(level(one, spectrum, BELOW_MODE) * level(one, spectrum, ABOVE_MODE))
     return float(spectrum[one.band(*SLAB_MODE)].max() / neighbours)
@@ -138,12 +139,12 @@ def prominence(one: CaseResult) -> float:
 def slab_mode_near_200_hz(campaign: Campaign) -> list:
     checks = []
     for one in campaign.of("A"):
-        if one.count("floor1") == 0:
+        if one.count("floor1") == 0 < one.count("floor2"):
             height = prominence(one)
             checks.append(Check("unhit floor 1, Model A: a peak near 200 Hz", where(one), f"{height:.2f} times",
                                 height >= STANDS_OUT))
     for one in campaign.of("B"):
-        if one.count("floor1") == 0:
+        if one.count("floor1") == 0 < one.count("floor2"):
             height = prominence(one)
             checks.append(Check("unhit floor 1, Model B: no peak near 200 Hz", where(one), f"{height:.2f} times",
                                 height < STANDS_OUT))

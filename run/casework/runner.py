@@ -5,6 +5,7 @@ import json
 import os
 import signal
 import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -111,14 +112,26 @@ class Clock:
     def left(self, waiting: list, running: list) -> str:
         if not waiting and not running:
             return "the last one"
+        if not any(self.seconds.values()):
+            return "time left not known yet"
         seconds = sum(self._mean(case.model) for case in waiting)
         seconds += sum(max(0.0, self._mean(job.case.model) - job.wall_time) for job in running)
         seconds /= self.jobs
         return f"about {seconds / 60:.0f} min left" if seconds > 90 else f"about {seconds:.0f} s left"
 
 
+CLEAR_LINE = "\r\033[K"
+
+
 def say(text: str) -> None:
-    print(text, flush=True)
+    print((CLEAR_LINE if sys.stdout.isatty() else "") + text, flush=True)
+
+
+def show_running(running: list, left: str) -> None:
+    """What runs now, on a line that is written over; for terminals only."""
+    if sys.stdout.isatty():
+        now = ", ".join(f"{job.case.name} {job.wall_time:.0f} s" for job in running)
+        print(f"{CLEAR_LINE}  running {now}; {left}", end="", flush=True)
 
 
 def run_all(cases: list, root: Path, jobs: int, ranks: int, keep_histories: bool) -> dict:
@@ -135,7 +148,8 @@ def run_all(cases: list, root: Path, jobs: int, ranks: int, keep_histories: bool
             while waiting and len(running) < jobs:
                 case = waiting.pop(0)
                 running.append(Job(case, root / case.name, ranks, variables))
-            time.sleep(0.05)
+            show_running(running, clock.left(waiting, running))
+            time.sleep(0.1)
             for job in [job for job in running if job.process.poll() is not None]:
                 running.remove(job)
                 failures[job.case] = job.outcome() or close(job, keep_histories)
