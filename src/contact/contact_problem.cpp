@@ -61,7 +61,7 @@ std::vector<Trace> ContactProblem::make_traces(std::span<const LinearSystem> sys
   }
   std::vector<Trace> traces;
   for (std::size_t s = 0; s < systems.size(); ++s) {
-    traces.emplace_back(systems[s], meshes[s], places[s]);
+    traces.emplace_back(systems[s], meshes[s], places[s], true);
   }
   return traces;
 }

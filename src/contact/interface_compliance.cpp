@@ -3,7 +3,7 @@
 namespace pounding {
 
 InterfaceCompliance::InterfaceCompliance(MPI_Comm comm, const std::vector<InterfaceDof>& dofs,
-                                         std::span<const Trace> traces)
+                                         std::span<Trace> traces)
     : diagonal_(dofs.size(), 0.0),
       block_of_(dofs.size(), -1),
       row_begin_(dofs.size(), 0),

@@ -15,7 +15,7 @@ class InterfaceCompliance {
  public:
   /// `traces` per structure, over its dofs of the list in that order. Collective over `comm`.
   InterfaceCompliance(MPI_Comm comm, const std::vector<InterfaceDof>& dofs,
-                      std::span<const Trace> traces);
+                      std::span<Trace> traces);
 
   double entry(std::size_t a, std::size_t b) const {
     if (a == b) {

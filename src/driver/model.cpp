@@ -12,6 +12,7 @@
 #include "modal/reduced_system.h"
 #include "modal/stability_limit.h"
 #include "system/build_system.h"
+#include "system/mass_scaling.h"
 
 namespace pounding {
 namespace {
@@ -36,7 +37,13 @@ void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& mo
   Partition partition;
   const std::vector<int> whole = owners_of_reduced(comm, scene);
   on_rank0(comm, [&] {
-    partition = partition_meshes(meshes, facing_nodes(model.interface), size_of(comm), whole);
+    std::vector<NodeCluster> clusters;
+    for (std::size_t s = 0; s < meshes.size(); ++s) {
+      const auto more = coupled_nodes(scene.structures[s], meshes[s], static_cast<int>(s));
+      clusters.insert(clusters.end(), more.begin(), more.end());
+    }
+    partition =
+        partition_meshes(meshes, facing_nodes(model.interface), size_of(comm), whole, clusters);
   });
   model.partition_imbalance = partition.imbalance;
   model.partition_edge_cut = partition.edge_cut;

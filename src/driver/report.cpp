@@ -54,6 +54,18 @@ void print_reduction(const ModalModel& modal, const ModalBasis& basis) {
 
 void print_time_step_limit(const Model& model, std::size_t s) {
   const LinearSystem& system = model.systems[s];
+  const MassScaling& scaling = system.mass_scaling;
+  if (scaling.time_step > 0) {
+    std::printf(
+        "  mass scaled for a step of %.4e s: %lld elements, %lld coupled dofs, at most %.3e s2 of "
+        "their stiffness\n",
+        scaling.time_step, static_cast<long long>(scaling.elements),
+        static_cast<long long>(scaling.dofs), scaling.largest_factor);
+    if (model.stable_time_step[s] < scaling.time_step) {
+      std::printf("    not reached: %s allows less, its mass is not scaled\n",
+                  system.limiting_element.c_str());
+    }
+  }
   std::printf("  omega_max %.4e rad/s (bound from single elements %.4e)\n",
               model.largest[s].omega_max, system.element_frequency_bound);
   std::printf("    at %s\n", model.largest[s].location.c_str());

@@ -52,6 +52,13 @@ Json describe_structure(const Scene& scene, const Model& model, std::size_t s) {
       structure["modal"]["damping_ratios"] = scene.structures[s].modal->damping_ratios;
     }
   }
+  const MassScaling& scaling = model.systems[s].mass_scaling;
+  if (scaling.time_step > 0) {
+    structure["mass_scaling"] = {{"time_step", scaling.time_step},
+                                 {"elements", scaling.elements},
+                                 {"coupled_dofs", scaling.dofs},
+                                 {"largest_factor", scaling.largest_factor}};
+  }
   structure["frequencies"] = Json::array();
   for (const Mode& mode : model.modal[s].modes) {
     double effective_mass = 0;

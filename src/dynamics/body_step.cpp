@@ -57,6 +57,9 @@ struct DofMasses {
 BodyStep::BodyStep(const LinearSystem& system, BodyState& state, double time_step)
     : system_(system), state_(state), time_step_(time_step) {
   find_segments();
+  if (system.coupled_mass) {
+    coupled_ = std::make_unique<CoupledStep>(system, state, time_step);
+  }
 }
 
 double BodyStep::ground_step_at(std::size_t dof) const {
@@ -83,6 +86,9 @@ BodyStep::Order BodyStep::order_at(std::size_t dof) const {
   if (system_.generalised && !system_.has_devices()) {
     return Order::generalised;
   }
+  if (system_.coupled_mass && system_.coupled_mass->node_of(static_cast<LocalIndex>(dof)) >= 0) {
+    return Order::coupled;
+  }
   if (system_.has_devices() || !directions_are(system_, dof, {0, 1, 2})) {
     return Order::none;
   }
@@ -93,19 +99,39 @@ BodyStep::Order BodyStep::order_at(std::size_t dof) const {
   return mass[0] == mass[1] && mass[1] == mass[2] ? Order::translations : Order::none;
 }
 
+/// Dofs from `dof` on that are of one order for sure.
+std::size_t BodyStep::length_at(std::size_t dof, Order order) const {
+  switch (order) {
+    case Order::translations:
+      return 3;
+    case Order::nodes_of_six:
+      return 6;
+    case Order::coupled: {
+      const int node = system_.coupled_mass->node_of(static_cast<LocalIndex>(dof));
+      return static_cast<std::size_t>(
+          system_.coupled_mass->nodes()[static_cast<std::size_t>(node)].count);
+    }
+    default:
+      return 1;
+  }
+}
+
 void BodyStep::find_segments() {
   const std::size_t dofs = system_.lumped_mass.size();
+  std::size_t coupled = 0;
   for (std::size_t dof = 0; dof < dofs;) {
     const Order order = order_at(dof);
     if (segments_.empty() || segments_.back().order != order) {
       const auto begin = static_cast<LocalIndex>(dof);
-      segments_.push_back({begin, begin, order, node_mass_.size()});
+      segments_.push_back({begin, begin, order, node_mass_.size(), coupled});
     }
     if (order == Order::translations) {
       node_mass_.push_back(system_.lumped_mass[dof]);
       node_inverse_mass_.push_back(system_.inverse_mass[dof]);
     }
-    dof += order == Order::translations ? 3 : order == Order::nodes_of_six ? 6 : 1;
+    const std::size_t length = length_at(dof, order);
+    coupled += order == Order::coupled ? length : 0;
+    dof += length;
     segments_.back().end = static_cast<LocalIndex>(dof);
   }
   node_mass_.resize(node_mass_.size() + lanes, 0.0);  // whole vectors are read
@@ -235,6 +261,11 @@ void BodyStep::advance(const Segment& segment, LocalIndex begin, LocalIndex end,
                        const double* force) {
   std::size_t done = static_cast<std::size_t>(begin);
   const auto stop = static_cast<std::size_t>(end);
+  if (segment.order == Order::coupled) {
+    coupled_->keep(segment.first_coupled + static_cast<std::size_t>(begin - segment.begin),
+                   stop - done, force);
+    return;
+  }
   if (segment.order == Order::translations && duration_ == time_step_) {
     const std::size_t node =
         segment.first_node + (done - static_cast<std::size_t>(segment.begin)) / pattern_lanes;
@@ -296,6 +327,12 @@ void BodyStep::advance_dof(LocalIndex dof, double force) {
   single_.stiffness_before += before * kv;
   single_.stiffness_across += after * kv;
   single_.mass_sum += mass * (after + before) * (after + before);
+}
+
+void BodyStep::complete() {
+  if (coupled_) {
+    coupled_->advance({duration_, inverse_, ground_step_}, with_energies_, single_);
+  }
 }
 
 void BodyStep::remember(std::span<const LocalIndex> dofs, Before& before) const {

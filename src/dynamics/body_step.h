@@ -1,28 +1,17 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "dynamics/coupled_step.h"
 #include "dynamics/state.h"
+#include "dynamics/step_sums.h"
 #include "system/lanes.h"
 #include "system/linear_system.h"
 
 namespace pounding {
-
-/// Sums over the owned dofs of a structure that one step leaves for the energy balance, with
-/// v- = v_{n-1/2}, v+ = v_{n+1/2}, s = v+ + v-.
-struct StepSums {
-  double stiffness_before = 0;       ///< v-^T K v- [W]
-  double stiffness_across = 0;       ///< v+^T K v-
-  double mass_sum = 0;               ///< s^T M s [J]
-  std::array<double, 3> momentum{};  ///< iota_d^T M s [kg m/s]
-  double device = 0;                 ///< x^T s, x the force of devices [W]
-  double kinetic_before = 0;         ///< v-^T M v- [J], if energies are asked for
-  double strain_before = 0;          ///< u_n^T K u_{n-1} [J], if energies are asked for
-  double displacement_mass = 0;      ///< u_n^T M u_n [kg m2] likewise
-  double extra_damping_before = 0;   ///< v-^T D v- [W], D the damping beside alpha M + beta K
-};
 
 /// Takes the forces q = K (u_n + beta v-) of a structure range by range and brings the state there
 /// one step on:
@@ -33,7 +22,8 @@ struct StepSums {
 ///     K u_n   = K u_{n-1} + dt K v-
 ///
 /// with half the dt in v+ at the start. All of it while the range is in the nearest cache; the sums
-/// for the energy balance are taken on the way. v+ is free of contact until `correct` is called.
+/// for the energy balance are taken on the way. Dofs whose mass is coupled wait for `complete`. v+
+/// is free of contact until `correct` is called.
 class BodyStep final : public ForceReceiver {
  public:
   /// References must outlive this object.
@@ -43,6 +33,8 @@ class BodyStep final : public ForceReceiver {
   void begin(double duration, const std::array<double, 3>& ground_acceleration, bool first,
              bool with_energies);
   void receive(LocalIndex begin, LocalIndex end, const double* force) override;
+  /// After every range of the step.
+  void complete();
   /// What some dofs held before the step.
   struct Before {
     explicit Before(std::size_t dofs)
@@ -62,13 +54,14 @@ class BodyStep final : public ForceReceiver {
   static constexpr std::size_t pattern_lanes = 3;  // vectors in which directions repeat: 12 dofs
 
   /// Dofs whose directions repeat: x y z of one mass, or x y z and three rotations; generalised
-  /// coordinates; or in no order.
-  enum class Order { translations, nodes_of_six, generalised, none };
+  /// coordinates; dofs of coupled mass; or in no order.
+  enum class Order { translations, nodes_of_six, generalised, coupled, none };
   struct Segment {
     LocalIndex begin = 0;
     LocalIndex end = 0;
     Order order = Order::none;
-    std::size_t first_node = 0;  ///< of translations, into node_mass_
+    std::size_t first_node = 0;     ///< of translations, into node_mass_
+    std::size_t first_coupled = 0;  ///< of coupled dofs, their number among all of them
   };
   /// Per lane.
   struct Sums {
@@ -83,6 +76,7 @@ class BodyStep final : public ForceReceiver {
 
   void find_segments();
   Order order_at(std::size_t dof) const;
+  std::size_t length_at(std::size_t dof, Order order) const;
   template <bool with_energies>
   void advance(const Segment& segment, LocalIndex begin, LocalIndex end, const double* force);
   /// Vectors that start at first, first + 12 and so on, in which directions stand alike: vector
@@ -105,6 +99,7 @@ class BodyStep final : public ForceReceiver {
   std::vector<Segment> segments_;
   std::vector<double> node_mass_;  ///< per node of translations: a third of the memory
   std::vector<double> node_inverse_mass_;
+  std::unique_ptr<CoupledStep> coupled_;  ///< null if no mass is coupled here
   double duration_ = 0;
   double decay_ = 1;
   double inverse_ = 0;  ///< 1 / (beta + dt), 0 in the first step

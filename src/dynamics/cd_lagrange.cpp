@@ -74,6 +74,7 @@ void CdLagrange::step(bool look_at_gap, bool with_energies) {
       body_steps_[b].begin(force_duration_, acceleration_, first,
                            with_energies || energy_.needs_energies());
       systems_[b].stiffness->finish(argument(b), body_steps_[b]);  // q, v_free, u_{n+1}
+      body_steps_[b].complete();
     }
   }
   touching_ = interface_known_ && solve_contact();  // A, lambda, v_{n+1/2}

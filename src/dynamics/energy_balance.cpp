@@ -66,7 +66,8 @@ EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
 
 StructureEnergy EnergyBalance::energy(const LinearSystem& system, const StepSums& sums) const {
   const double dt = time_step_;
-  const double inertia = (1 - dt / 2 * mass_damping(system)) * sums.kinetic_before;
+  const double inertia =
+      (1 - dt / 2 * mass_damping(system)) * sums.kinetic_before + sums.added_kinetic_before;
   const double damped =
       inertia - dt / 2 * (system.damping.beta * sums.stiffness_before + sums.extra_damping_before);
   return {damped / 2, sums.strain_before / 2, (damped - dt * dt / 4 * sums.stiffness_before) / 2,

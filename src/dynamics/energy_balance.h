@@ -7,7 +7,8 @@
 
 #include <mpi.h>
 
-#include "dynamics/body_step.h"
+#include "common/saved_state.h"
+#include "dynamics/step_sums.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -15,7 +16,7 @@ namespace pounding {
 /// One line of the ledger, all structures together [J].
 struct EnergyLine {
   double time = 0;     ///< t_n; the energies stand half a step later
-  double kinetic = 0;  ///< 1/2 v^T (M - dt/2 C) v
+  double kinetic = 0;  ///< 1/2 v^T (M + S - dt/2 C) v
   double strain = 0;   ///< 1/2 u_{n+1}^T K u_n
   double damping_loss = 0;
   double contact_work = 0;
@@ -33,7 +34,7 @@ struct EnergyLine {
 struct StructureEnergy {
   double kinetic = 0;
   double strain = 0;
-  /// 1/2 v^T (M - dt/2 C - dt^2/4 K) v: positive for every motion if and only if the step is
+  /// 1/2 v^T (M + S - dt/2 C - dt^2/4 K) v: positive for every motion if and only if the step is
   /// stable; the first to turn negative when it is not.
   double positive_part = 0;
   /// u^T M u [kg m2]; omega_max^2 times this bounds the parts of u^T K u, and so its round-off.
@@ -45,10 +46,11 @@ struct StructureEnergy {
 /// Exact energy identity of the scheme, with vbar = (v_{n+1/2} + v_{n-1/2}) / 2:
 ///
 ///     E_{n+1/2} - E_{n-1/2} = -dt vbar^T C vbar + dt vbar^T (f_n - x_n) + 1/2 lambda^T L v_{n-1/2}
-///     E_{n+1/2}             = 1/2 v^T (M - dt/2 C) v + 1/2 u_{n+1}^T K u_n
+///     E_{n+1/2}             = 1/2 v^T (M + S - dt/2 C) v + 1/2 u_{n+1}^T K u_n
 ///
-/// with x the force of tension-only bars, and C all damping, alpha M + beta K + D. The forces of D
-/// lag like the others: they come as D v_{n-1/2}, and
+/// with S the mass that scaled elements are given, x the force of tension-only bars, and C all
+/// damping, alpha M + beta K + D. The forces of D lag like the others: they come as D v_{n-1/2},
+/// and
 ///
 ///     vbar^T D vbar = vbar^T D v- + (v+^T D v+ - v-^T D v-) / 4
 ///

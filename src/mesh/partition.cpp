@@ -209,6 +209,32 @@ double imbalance_of(const ElementList& list, const std::vector<idx_t>& owner, in
   return total > 0 ? *std::max_element(cost.begin(), cost.end()) * parts / total : 1;
 }
 
+/// Links that keep the nodes of each cluster together where METIS cuts, after those given.
+std::vector<NodeLink> with_clusters(std::span<const NodeLink> links,
+                                    std::span<const NodeCluster> clusters) {
+  std::vector<NodeLink> all(links.begin(), links.end());
+  for (const NodeCluster& cluster : clusters) {
+    for (std::size_t i = 1; i < cluster.nodes.size(); ++i) {
+      all.push_back({cluster.structure, cluster.nodes[i - 1], cluster.structure, cluster.nodes[i]});
+    }
+  }
+  return all;
+}
+
+/// One owner for the nodes of a cluster: that of most of them, the lowest on a tie.
+void unite(const NodeCluster& cluster, std::vector<int>& node_owner) {
+  std::map<int, int> counts;
+  for (const GlobalIndex node : cluster.nodes) {
+    ++counts[node_owner[static_cast<std::size_t>(node)]];
+  }
+  const auto owner =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  for (const GlobalIndex node : cluster.nodes) {
+    node_owner[static_cast<std::size_t>(node)] = owner->first;
+  }
+}
+
 int most_frequent_owner(std::span<const idx_t> elements, const std::vector<idx_t>& owner) {
   int best = -1;
   int best_count = 0;
@@ -229,12 +255,13 @@ int most_frequent_owner(std::span<const idx_t> elements, const std::vector<idx_t
 }  // namespace
 
 Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const NodeLink> links,
-                           int parts, std::span<const int> whole) {
+                           int parts, std::span<const int> whole,
+                           std::span<const NodeCluster> clusters) {
   ElementList list = list_elements(meshes, whole);
   const NodeElements at = elements_at_nodes(list);
   Graph graph;
   if (parts > 1) {
-    graph = dual_graph(list, at, links, whole);
+    graph = dual_graph(list, at, with_clusters(links, clusters), whole);
   }
   Partition partition;
   partition.parts = parts;
@@ -256,6 +283,9 @@ Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const N
           most_frequent_owner({&at.elements[at.first[g]], at.first[g + 1] - at.first[g]}, owner);
     }
     partition.node_owner.push_back(std::move(nodes));
+  }
+  for (const NodeCluster& cluster : clusters) {
+    unite(cluster, partition.node_owner[static_cast<std::size_t>(cluster.structure)]);
   }
   return partition;
 }

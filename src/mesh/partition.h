@@ -15,6 +15,12 @@ struct NodeLink {
   GlobalIndex node_b = 0;
 };
 
+/// Nodes of one structure that one rank must own.
+struct NodeCluster {
+  int structure = 0;
+  std::vector<GlobalIndex> nodes;
+};
+
 /// Which rank owns what, all structures together.
 struct Partition {
   int parts = 1;
@@ -26,10 +32,11 @@ struct Partition {
 
 /// Partitions the elements of all structures with METIS on their dual graph (edges: shared nodes
 /// beyond a corner; vertex weight: cost of the element's product; heavy edges for linked nodes)
-/// with a fixed seed. A node belongs to the part of most of its elements, the lowest on a tie.
-/// `whole`: per structure the part that gets all of it, -1 where it is to be cut; empty if all are.
-/// Serial.
+/// with a fixed seed. A node belongs to the part of most of its elements, the lowest on a tie; the
+/// nodes of a cluster, which shares no node with another, to the part of most of them. `whole`: per
+/// structure the part that gets all of it, -1 where it is to be cut; empty if all are. Serial.
 Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const NodeLink> links,
-                           int parts, std::span<const int> whole = {});
+                           int parts, std::span<const int> whole = {},
+                           std::span<const NodeCluster> clusters = {});
 
 }  // namespace pounding

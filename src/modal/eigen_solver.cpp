@@ -18,13 +18,62 @@ MatHandle mass_scaled(const LinearSystem& system, Mat matrix) {
   return scaled;
 }
 
+MatHandle mass_matrix(const LinearSystem& system) {
+  const LocalIndex n = system.owned_dofs();
+  std::vector<PetscInt> entries(static_cast<std::size_t>(n), 1);
+  const auto for_each_block = [&](const auto& visit) {
+    if (!system.coupled_mass) {
+      return;
+    }
+    const std::vector<NodeDofs>& nodes = system.coupled_mass->nodes();
+    for (const auto& [pair, block] : system.coupled_mass->added().blocks) {
+      visit(nodes[static_cast<std::size_t>(pair[0])], nodes[static_cast<std::size_t>(pair[1])],
+            block);
+    }
+  };
+  for_each_block([&](const NodeDofs& row, const NodeDofs& column, const NodeBlock&) {
+    for (int i = 0; i < row.count; ++i) {
+      entries[static_cast<std::size_t>(row.begin + i)] += column.count;
+    }
+    for (int j = 0; j < column.count && row.begin != column.begin; ++j) {
+      entries[static_cast<std::size_t>(column.begin + j)] += row.count;
+    }
+  });
+  MatHandle matrix;
+  POUNDING_PETSC(MatCreateAIJ(system.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 0,
+                              entries.data(), 0, nullptr, matrix.out()));
+  PetscInt first = 0;
+  POUNDING_PETSC(MatGetOwnershipRange(matrix.get(), &first, nullptr));
+  const auto add = [&](LocalIndex i, LocalIndex j, double value) {
+    POUNDING_PETSC(MatSetValue(matrix.get(), first + i, first + j, value, ADD_VALUES));
+  };
+  for (LocalIndex i = 0; i < n; ++i) {
+    add(i, i, system.lumped_mass[static_cast<std::size_t>(i)]);
+  }
+  for_each_block([&](const NodeDofs& row, const NodeDofs& column, const NodeBlock& block) {
+    for (int i = 0; i < row.count; ++i) {
+      for (int j = 0; j < column.count; ++j) {
+        const double value = block[static_cast<std::size_t>(6 * i + j)];
+        add(row.begin + i, column.begin + j, value);
+        if (row.begin != column.begin) {
+          add(column.begin + j, row.begin + i, value);
+        }
+      }
+    }
+  });
+  POUNDING_PETSC(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
+  POUNDING_PETSC(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
+  POUNDING_PETSC(MatSetOption(matrix.get(), MAT_SYMMETRIC, PETSC_TRUE));
+  return matrix;
+}
+
 EpsHandle create_eigen_solver(const LinearSystem& system, const Mesh& mesh, Mat matrix,
-                              const char* prefix) {
+                              const char* prefix, Mat mass) {
   EpsHandle solver;
   POUNDING_PETSC(EPSCreate(system.comm, solver.out()));
   POUNDING_PETSC(EPSSetOptionsPrefix(solver.get(), prefix));
-  POUNDING_PETSC(EPSSetOperators(solver.get(), matrix, nullptr));
-  POUNDING_PETSC(EPSSetProblemType(solver.get(), EPS_HEP));
+  POUNDING_PETSC(EPSSetOperators(solver.get(), matrix, mass));
+  POUNDING_PETSC(EPSSetProblemType(solver.get(), mass == nullptr ? EPS_HEP : EPS_GHEP));
   POUNDING_PETSC(EPSSetType(solver.get(), EPSKRYLOVSCHUR));
   VecHandle vector;
   double* start = nullptr;
@@ -46,8 +95,9 @@ EpsHandle create_eigen_solver(const LinearSystem& system, const Mesh& mesh, Mat 
   return solver;
 }
 
-EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix, int count) {
-  EpsHandle solver = create_eigen_solver(system, mesh, matrix, "lowest_");
+EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix, int count,
+                       Mat mass) {
+  EpsHandle solver = create_eigen_solver(system, mesh, matrix, "lowest_", mass);
   // A Krylov space sees the second of two equal frequencies late: look past the last one wanted.
   const int sought = static_cast<int>(std::min<GlobalIndex>(count + 8, system.global_dofs));
   POUNDING_PETSC(EPSSetDimensions(solver.get(), sought, PETSC_DEFAULT, PETSC_DEFAULT));

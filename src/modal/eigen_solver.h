@@ -13,18 +13,24 @@ namespace pounding {
 /// M^-1/2 A M^-1/2, a new matrix. Collective.
 MatHandle mass_scaled(const LinearSystem& system, Mat matrix);
 
-/// Krylov-Schur on a symmetric matrix, with a start vector that does not depend on the number of
-/// ranks; which eigenvalues and how many is the caller's. Collective.
+/// M + S, a new matrix. Collective.
+MatHandle mass_matrix(const LinearSystem& system);
+
+/// Krylov-Schur on a symmetric matrix, or on A x = lambda B x where a `mass` B is given, with a
+/// start vector that does not depend on the number of ranks; which eigenvalues and how many is the
+/// caller's. Collective.
 EpsHandle create_eigen_solver(const LinearSystem& system, const Mesh& mesh, Mat matrix,
-                              const char* prefix);
+                              const char* prefix, Mat mass = nullptr);
 
 /// The shift of `solve_lowest` [1/s2].
 inline constexpr double lowest_shift = -1;
 
-/// At least the `count` lowest eigenpairs of a mass-scaled stiffness, shift-and-invert with a
+/// At least the `count` lowest eigenpairs of a mass-scaled stiffness, or of a stiffness and a mass
+/// matrix where that is not diagonal, shift-and-invert with a
 /// Cholesky factorisation (MUMPS), the shift just below zero so that free structures pass; PETSc's
 /// options with the prefix lowest_ hold. Throws std::runtime_error if fewer converge. Collective.
-EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix, int count);
+EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix, int count,
+                       Mat mass = nullptr);
 
 /// An eigenvalue, bound of its error, and its vector, |y| = 1, over the owned dofs.
 struct LargestEigenpair {

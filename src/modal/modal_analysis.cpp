@@ -15,6 +15,13 @@ namespace {
 
 constexpr std::array<const char*, 6> motion_names{"x", "y", "z", "rx", "ry", "rz"};
 
+/// M^1/2 x.
+void weigh(const LinearSystem& system, std::vector<double>& x) {
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    x[i] *= std::sqrt(system.lumped_mass[i]);
+  }
+}
+
 }  // namespace
 
 Mode describe_mode(double eigenvalue, const std::array<double, 6>& participation,
@@ -41,9 +48,17 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
   if (count == 0) {
     return result;
   }
-  const MatHandle matrix = mass_scaled(system, system.stiffest_matrix());
+  const bool diagonal_mass = system.mass_scaling.elements == 0;
+  MatHandle matrix;
+  MatHandle mass;
+  if (diagonal_mass) {
+    matrix = mass_scaled(system, system.stiffest_matrix());
+  } else {
+    POUNDING_PETSC(MatDuplicate(system.stiffest_matrix(), MAT_COPY_VALUES, matrix.out()));
+    mass = mass_matrix(system);
+  }
   const int wanted = static_cast<int>(std::min<GlobalIndex>(count, system.global_dofs));
-  const EpsHandle solver = solve_lowest(system, mesh, matrix.get(), wanted);
+  const EpsHandle solver = solve_lowest(system, mesh, matrix.get(), wanted, mass.get());
   PetscInt found = 0;
   POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
   std::vector<double> storage(system.lumped_mass.size());
@@ -51,13 +66,20 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
   for (int i = 0; i < found; ++i) {
     double eigenvalue = 0;
     POUNDING_PETSC(EPSGetEigenpair(solver.get(), i, &eigenvalue, nullptr, vector.get(), nullptr));
+    std::vector<double> shape;
+    if (keep_shapes) {
+      shape = storage;
+    }
+    if (!diagonal_mass) {
+      weigh(system, storage);
+    } else {
+      std::ranges::transform(
+          shape, system.lumped_mass, shape.begin(),
+          [](double y, double mass_of_dof) { return y / std::sqrt(mass_of_dof); });
+    }
     result.modes.push_back(
         describe_mode(eigenvalue, motions.participation(storage.data()), motions.inertia()));
-    if (keep_shapes) {
-      std::ranges::transform(storage, system.lumped_mass,
-                             std::back_inserter(result.modes.back().shape),
-                             [](double y, double mass) { return y / std::sqrt(mass); });
-    }
+    result.modes.back().shape = std::move(shape);
   }
   std::stable_sort(result.modes.begin(), result.modes.end(),
                    [](const Mode& a, const Mode& b) { return a.frequency < b.frequency; });
@@ -67,7 +89,11 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
 
 LargestFrequency largest_frequency(const LinearSystem& system, const Mesh& mesh) {
   const ScaledOperator scaled(system, {{1, &system.stiffest()}});
-  const LargestEigenpair pair = largest_eigenpair(system, mesh, scaled.matrix(), "omega_max");
+  LargestEigenpair pair = largest_eigenpair(system, mesh, scaled.matrix(), "omega_max");
+  if (system.mass_scaling.elements > 0) {
+    scaled.to_motion(pair.vector);
+    weigh(system, pair.vector);
+  }
   LargestFrequency result;
   result.omega_max = std::sqrt(pair.value + pair.error);
   result.location = locate_largest(mesh, pair.vector);

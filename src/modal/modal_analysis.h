@@ -36,7 +36,8 @@ Mode describe_mode(double eigenvalue, const std::array<double, 6>& participation
                    const std::array<double, 6>& inertia);
 
 /// The lowest `count` modes by SLEPc's Krylov-Schur on M^-1/2 K M^-1/2, shift-and-invert with a
-/// Cholesky factorisation (MUMPS), the shift just below zero so that free structures pass.
+/// Cholesky factorisation (MUMPS), the shift just below zero so that free structures pass; on K
+/// and M + S where mass is coupled.
 /// Frequencies of rigid-body modes come out as 0. Participation: Gamma = phi^T M iota, effective
 /// mass Gamma^2. `keep_shapes`: with phi, phi^T M phi = 1. Needs the matrix of the system unless
 /// `count` is 0. Throws std::runtime_error when SLEPc finds fewer than asked. Collective.

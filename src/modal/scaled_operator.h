@@ -7,7 +7,8 @@
 
 namespace pounding {
 
-/// A = M^-1/2 (sum of f_i B_i) M^-1/2 + s I as an operator, from products with the B_i alone.
+/// A = G^-1 (sum of f_i B_i) G^-T + s I as an operator, from products with the B_i alone; G G^T is
+/// the mass: G = M^1/2 where it is diagonal.
 class ScaledOperator {
  public:
   struct Term {
@@ -23,17 +24,24 @@ class ScaledOperator {
   Mat matrix() const { return shell_.get(); }
   /// y = A x. Collective.
   void apply(Vec x, Vec y) const;
+  /// G^-T y of a vector over the owned dofs: the motion that y stands for.
+  void to_motion(std::vector<double>& y) const;
   /// y^T A y of a vector over the owned dofs. Collective.
   double quotient(std::vector<double>& y) const;
 
  private:
+  enum class Half { plain, transposed };
+  /// What G^-1 or G^-T does where the mass is coupled.
+  void solve_coupled(Vec x, Half half) const;
+
   const LinearSystem& system_;
   std::vector<Term> terms_;
   double shift_;
-  std::vector<double> scale_;  ///< of M^-1/2, per owned dof
-  VecHandle diagonal_;         ///< scale_
-  VecHandle argument_;         ///< M^-1/2 x
-  VecHandle product_;          ///< of one term
+  std::vector<double> scale_;          ///< of M^-1/2, per owned dof; 1 where the mass is coupled
+  mutable std::vector<double> field_;  ///< see CoupledMass
+  VecHandle diagonal_;                 ///< scale_
+  VecHandle argument_;                 ///< G^-T x
+  VecHandle product_;                  ///< of one term
   MatHandle shell_;
 };
 

@@ -33,7 +33,7 @@ Recorder::Recorder(Layout layout, std::span<const LinearSystem> systems,
         }
       }
     }
-    Trace trace(systems[s], meshes[s], places);
+    Trace trace(systems[s], meshes[s], places, false);
     const std::vector<double> motion(trace.dofs().size());
     structures_.push_back(
         {s, std::move(trace), nodes_, motion, std::vector<double>(places.size())});

@@ -58,7 +58,7 @@ struct ModalModel {
   bool attachment = true;  ///< static responses to unit forces at the contact dofs as well
   std::vector<double> damping_ratios;  ///< of mode 1, 2, ..., the last one of all that follow;
                                        ///< empty: the structure's Rayleigh damping
-  std::string basis_file;  ///< where the basis is kept; empty: nowhere
+  std::string basis_file;              ///< where the basis is kept; empty: nowhere
 };
 
 struct Structure {
@@ -69,7 +69,8 @@ struct Structure {
   std::vector<std::string> clamp;  ///< physical groups fixed to the ground
   std::vector<Region> regions;
   Rayleigh damping;
-  std::optional<ModalModel> modal;        ///< nothing: the finite-element model itself
+  std::optional<ModalModel> modal;  ///< nothing: the finite-element model itself
+  double mass_scaling = 0;  ///< step [s] that stiff beams, bars, springs get mass for; 0: none
   Vector3 initial_displacement{0, 0, 0};  ///< of every free node [m]
   Vector3 initial_velocity{0, 0, 0};      ///< of every free node [m/s]
   Vector3 gravity{0, 0, 0};               ///< constant body acceleration [m/s2]

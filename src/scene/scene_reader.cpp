@@ -110,6 +110,10 @@ class SceneReader {
     if (structure.modal && !scene_.export_matrices.empty()) {
       options_.refuse("export_matrices", {}, why);
     }
+    if (structure.mass_scaling > 0 && !scene_.export_matrices.empty()) {
+      options_.refuse("export_matrices", {},
+                      "structure " + structure.name + " has scaled mass, which is not diagonal");
+    }
   }
 
   /// tower_slab_element belongs to the group slab of tower: no structure may be tower_slab.

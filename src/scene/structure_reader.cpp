@@ -212,6 +212,15 @@ std::string read_matrices(OptionReader& options, const std::string& structure) {
   return folder == "none" ? "" : folder;
 }
 
+/// Only elements can be given mass.
+void forbid_mass_scaling(const OptionReader& options, const Structure& structure) {
+  const bool matrices = !structure.matrices.empty();
+  if (structure.mass_scaling > 0 && (matrices || structure.modal)) {
+    options.refuse("<structure>_mass_scaling", {structure.name},
+                   "not with -" + structure.name + (matrices ? "_matrices" : "_model modal"));
+  }
+}
+
 /// Matrices do not know which of their rows buckle.
 void forbid_tension_bars(const OptionReader& options, const Structure& structure) {
   for (const Region& region : structure.regions) {
@@ -231,6 +240,7 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   structure.mesh_set = read_mesh_set(options, name);
   structure.clamp = options.list("<structure>_clamp", {name});
   structure.matrices = read_matrices(options, name);
+  structure.mass_scaling = options.real("<structure>_mass_scaling", {name});
   structure.initial_displacement = read_vector(options, "<structure>_initial_displacement", {name});
   structure.initial_velocity = read_vector(options, "<structure>_initial_velocity", {name});
   structure.gravity = read_vector(options, "<structure>_gravity", {name});
@@ -242,6 +252,7 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   }
   forbid_tension_bars(options, structure);
   structure.modal = read_modal_model(options, structure);
+  forbid_mass_scaling(options, structure);
   return structure;
 }
 

@@ -70,12 +70,16 @@ double ElementBounds::frequency(std::span<const double> stiffness, std::span<con
 
 void ElementBounds::add(const ElementBlock& block, std::span<const double> stiffness,
                         std::span<const double> mass, std::span<const double> dashpots,
-                        std::span<const LocalIndex> dofs) {
+                        std::span<const LocalIndex> dofs, double mass_scaling) {
+  mass_scaling_.push_back(mass_scaling);
   if (*std::max_element(mass.begin(), mass.end()) > 0) {
     frequencies_.push_back(frequency(stiffness, mass));
     return;
   }
   frequencies_.push_back(infinity);
+  if (mass_scaling > 0) {
+    return;  // not without mass any more
+  }
   device_damping_.resize(static_cast<std::size_t>(mesh_.owned_dofs));
   device_stiffness_.resize(device_damping_.size());
   const double beta = damping_of(block).beta;
@@ -98,13 +102,17 @@ void ElementBounds::finish(LinearSystem& system) {
   system.element_frequency_bound = 0;
   system.element_time_step_bound = infinity;
   auto frequency = frequencies_.begin();
+  auto factor = mass_scaling_.begin();
   for (const ElementBlock& block : mesh_.blocks) {
-    for (std::size_t e = 0; e < block.count(); ++e, ++frequency) {
-      if (*frequency > system.element_frequency_bound) {
-        system.element_frequency_bound = *frequency;
+    for (std::size_t e = 0; e < block.count(); ++e, ++frequency, ++factor) {
+      // omega^2 / (1 + c omega^2)
+      const double scaled =
+          *factor > 0 ? 1 / std::sqrt(1 / (*frequency * *frequency) + *factor) : *frequency;
+      if (scaled > system.element_frequency_bound) {
+        system.element_frequency_bound = scaled;
         system.stiffest_element = describe_element(mesh_, block, e);
       }
-      const double dt = time_step(block, e, *frequency, system.lumped_mass);
+      const double dt = time_step(block, e, *frequency, *factor, system.lumped_mass);
       if (dt < system.element_time_step_bound) {
         system.element_time_step_bound = dt;
         system.limiting_element = describe_element(mesh_, block, e);
@@ -117,7 +125,10 @@ void ElementBounds::finish(LinearSystem& system) {
 
 /// Of an element with the devices at its owned dofs; the other ranks that hold it see to the rest.
 double ElementBounds::time_step(const ElementBlock& block, std::size_t element, double frequency,
-                                std::span<const double> lumped_mass) const {
+                                double mass_scaling, std::span<const double> lumped_mass) const {
+  if (mass_scaling > 0) {
+    return structure_.mass_scaling;
+  }
   if (std::isinf(frequency)) {
     return infinity;  // without mass: the others carry it
   }

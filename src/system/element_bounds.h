@@ -19,17 +19,17 @@ namespace pounding {
 /// with C_e = alpha M_e + beta K_e of the element's region. Springs and dashpots have no mass: by
 /// Gershgorin, theirs are at most diagonal matrices of the sums of their |C_ij| and |K_ij| over
 /// each row, which the elements with mass carry in proportion to the mass that they give to the
-/// row.
+/// row. Elements with scaled mass allow the step that it is for, and have the frequencies of it.
 class ElementBounds {
  public:
   ElementBounds(const Structure& structure, const Mesh& mesh)
       : structure_(structure), mesh_(mesh) {}
 
   /// Every element of this rank in the order of the mesh: stiffness and dashpots of shape (n, n),
-  /// lumped mass and local dofs (-1: none) of shape (n).
+  /// lumped mass and local dofs (-1: none) of shape (n); its mass scaling factor c [s2].
   void add(const ElementBlock& block, std::span<const double> stiffness,
            std::span<const double> mass, std::span<const double> dashpots,
-           std::span<const LocalIndex> dofs);
+           std::span<const LocalIndex> dofs, double mass_scaling);
 
   /// After every element, with the lumped mass complete: fills in the bounds of `system`.
   /// Collective.
@@ -39,13 +39,14 @@ class ElementBounds {
   /// Elements of one shape have one frequency: look at one of them.
   double frequency(std::span<const double> stiffness, std::span<const double> mass);
   double time_step(const ElementBlock& block, std::size_t element, double frequency,
-                   std::span<const double> lumped_mass) const;
+                   double mass_scaling, std::span<const double> lumped_mass) const;
   Rayleigh damping_of(const ElementBlock& block) const;
 
   const Structure& structure_;
   const Mesh& mesh_;
   std::unordered_map<std::string, double> known_;  ///< frequency by shape
   std::vector<double> frequencies_;                ///< per element [rad/s]; infinite without mass
+  std::vector<double> mass_scaling_;               ///< c per element [s2]
   std::vector<double> device_damping_;             ///< row sums over elements without mass [N s/m]
   std::vector<double> device_stiffness_;           ///< likewise [N/m]
 };

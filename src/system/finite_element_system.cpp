@@ -6,6 +6,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "mesh/location.h"
+#include "system/added_mass.h"
 #include "system/element_bounds.h"
 #include "system/element_loop.h"
 #include "system/element_shapes.h"
@@ -43,7 +44,11 @@ class Assembly {
  public:
   /// `with_matrix`: the stiffness of the linear elements as well.
   Assembly(const Structure& structure, const Mesh& mesh, bool with_matrix, LinearSystem& system)
-      : structure_(structure), mesh_(mesh), system_(system), bounds_(structure, mesh) {
+      : structure_(structure),
+        mesh_(mesh),
+        system_(system),
+        bounds_(structure, mesh),
+        added_mass_(structure, mesh) {
     if (with_matrix) matrix_ = create_matrix(mesh);
     for (const ElementBlock& block : mesh.blocks) {
       if (block.type == ElementType::tension_bar && taut_.get() == nullptr) {
@@ -69,6 +74,8 @@ class Assembly {
     system_.extra_damping = finished(std::move(extra_damping_));
     bounds_.finish(system_);
     MPI_Allreduce(MPI_IN_PLACE, &system_.total_mass, 1, MPI_DOUBLE, MPI_SUM, mesh_.comm);
+    on_every_rank(mesh_.comm, [&] { added_mass_.finish(system_); });
+    added_mass_.share(system_);
   }
 
  private:
@@ -105,7 +112,9 @@ class Assembly {
     const std::span<const double> mass(work.mass.data(), size);
     const std::span<double> damping(damping_.data(), size * size);
     element_dashpots(block.type, properties_of(block), damping);
-    bounds_.add(block, stiffness, mass, damping, {dofs.data(), size});
+    const Region& region = structure_.regions[static_cast<std::size_t>(block.region)];
+    const double scaling = added_mass_.add(block, element, region, {stiffness, mass, damping});
+    bounds_.add(block, stiffness, mass, damping, {dofs.data(), size}, scaling);
     if (has_extra_damping(block)) {
       const Rayleigh extra = extra_rayleigh(block);
       for (std::size_t i = 0; i < damping.size(); ++i) {
@@ -168,6 +177,7 @@ class Assembly {
   MatHandle extra_damping_;
   std::vector<PetscInt> numbers_;
   ElementBounds bounds_;
+  AddedMass added_mass_;
   std::array<double, max_element_size * max_element_size> damping_{};
 };
 

@@ -24,12 +24,27 @@ static inline __attribute__((always_inline)) void load(const double* from, Lanes
 static inline __attribute__((always_inline)) void store(double* to, const Lanes& from) {
   std::memcpy(to, &from, sizeof from);
 }
+static inline __attribute__((always_inline)) void load(const double* from, HalfLanes& to) {
+  std::memcpy(&to, from, sizeof to);
+}
+static inline __attribute__((always_inline)) void store(double* to, const HalfLanes& from) {
+  std::memcpy(to, &from, sizeof from);
+}
 
 /// c += a b, rounded once where the machine can: by the source, not by the compiler's choice.
 static inline __attribute__((always_inline)) void add_product(const Lanes& a, const Lanes& b,
                                                               Lanes& c) {
 #ifdef __FMA__
   c = _mm256_fmadd_pd(a, b, c);
+#else
+  c += a * b;
+#endif
+}
+
+static inline __attribute__((always_inline)) void add_product(const HalfLanes& a,
+                                                              const HalfLanes& b, HalfLanes& c) {
+#ifdef __FMA__
+  c = _mm_fmadd_pd(a, b, c);
 #else
   c += a * b;
 #endif

@@ -12,6 +12,8 @@
 #include "common/types.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
+#include "system/coupled_mass.h"
+#include "system/mass_scaling.h"
 #include "system/stiffness.h"
 #include "system/tension_bars.h"
 
@@ -35,9 +37,10 @@ struct GeneralisedCoordinates {
 
 /// One building as a linear second-order system in the ground frame, whatever its origin:
 ///
-///     M u'' + C u' + K u = -M iota a_g(t) + L^T r,      C = alpha M + beta K + D,  M diagonal
+///     (M + S) u'' + C u' + K u = -M iota a_g(t) + L^T r,      C = alpha M + beta K + D
 ///
-/// with D the damping that alpha and beta do not tell: dashpots, and regions damped otherwise.
+/// with M diagonal, D the damping that alpha and beta do not tell (dashpots, and regions damped
+/// otherwise), and S the mass that stiff elements are given for a longer time step, mostly none.
 /// Arrays hold this rank's owned dofs. Constant during a run.
 struct LinearSystem {
   std::string name;
@@ -56,10 +59,13 @@ struct LinearSystem {
   std::unique_ptr<Stiffness> taut;       ///< K with tension-only bars taut; null if there are none
   std::unique_ptr<TensionBars> tension_bars;  ///< null if there are none
   std::unique_ptr<Stiffness> extra_damping;   ///< D [N s/m, N m s]; null if there is none
-  Vector3 initial_displacement{0, 0, 0};      ///< of every translation at t = 0 [m]
-  Vector3 initial_velocity{0, 0, 0};          ///< of every translation at t = 0 [m/s]
-  Vector3 gravity{0, 0, 0};                   ///< constant body acceleration [m/s2]
-  double total_mass = 0;                      ///< clamped nodes included [kg]
+  MassScaling mass_scaling;
+  std::unique_ptr<CoupledMass>
+      coupled_mass;                       ///< M + S of the dofs in S; null if this rank has none
+  Vector3 initial_displacement{0, 0, 0};  ///< of every translation at t = 0 [m]
+  Vector3 initial_velocity{0, 0, 0};      ///< of every translation at t = 0 [m/s]
+  Vector3 gravity{0, 0, 0};               ///< constant body acceleration [m/s2]
+  double total_mass = 0;                  ///< clamped nodes included [kg]
   /// Upper bound of omega_max from single elements, and who holds it: the element with the largest
   /// omega of its own. Infinite if an element has stiffness but no mass (springs).
   double element_frequency_bound = 0;  ///< [rad/s]

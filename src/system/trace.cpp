@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 
 #include "system/lanes.h"
 
 namespace pounding {
 namespace {
+
+int place_in_field(const CoupledMass& mass, int node, LocalIndex dof) {
+  const auto n = static_cast<std::size_t>(node);
+  return static_cast<int>(mass.place(n)) + dof - mass.nodes()[n].begin;
+}
 
 constexpr std::size_t lanes = lane_count;
 
@@ -43,17 +49,22 @@ void multiply_rows(const double* rows, std::size_t n, const double* x, double* o
 
 }  // namespace
 
-Trace::Trace(const LinearSystem& system, const Mesh& mesh, std::span<const TracePoint> places)
-    : coupled_(system.generalised != nullptr) {
+Trace::Trace(const LinearSystem& system, const Mesh& mesh, std::span<const TracePoint> places,
+             bool impulses)
+    : coupled_(system.generalised != nullptr || system.mass_scaling.elements > 0),
+      dense_(system.generalised != nullptr) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (mesh.owned_node(places[i].node) >= 0) {
       known_.push_back(static_cast<int>(i));
     }
   }
-  if (coupled_) {
+  if (dense_) {
     take_dense_rows(system, mesh, places);
   } else {
     take_unit_rows(mesh, places);
+    if (impulses && system.coupled_mass) {
+      take_coupled_dofs(*system.coupled_mass);
+    }
   }
   for (const LocalIndex dof : dofs_) {
     inverse_mass_.push_back(system.inverse_mass[static_cast<std::size_t>(dof)]);
@@ -70,6 +81,30 @@ void Trace::take_unit_rows(const Mesh& mesh, std::span<const TracePoint> places)
       dofs_.push_back(dof);
     }
   }
+}
+
+void Trace::take_coupled_dofs(const CoupledMass& mass) {
+  for (const LocalIndex dof : dofs_) {
+    const int node = mass.node_of(dof);
+    field_place_.push_back(node < 0 ? -1 : place_in_field(mass, node, dof));
+    if (node >= 0) {
+      coupled_mass_ = &mass;
+    }
+  }
+  if (coupled_mass_ == nullptr) {
+    return;
+  }
+  const std::set<LocalIndex> own(dofs_.begin(), dofs_.end());
+  for (std::size_t n = 0; n < mass.nodes().size(); ++n) {
+    const NodeDofs& node = mass.nodes()[n];
+    for (LocalIndex dof = node.begin; dof < node.begin + node.count; ++dof) {
+      if (!own.contains(dof)) {
+        dofs_.push_back(dof);
+        field_place_.push_back(place_in_field(mass, static_cast<int>(n), dof));
+      }
+    }
+  }
+  field_.assign(mass.field_size(), 0.0);
 }
 
 void Trace::take_dense_rows(const LinearSystem& system, const Mesh& mesh,
@@ -105,7 +140,7 @@ void Trace::restrict_to_dofs(const double* owned, double* x) const {
 }
 
 void Trace::apply(const double* x, double* out, std::size_t stride) const {
-  if (!coupled_) {
+  if (!dense_) {
     for (std::size_t k = 0; k < own_dof_.size(); ++k) {
       out[stride * k] = own_dof_[k] < 0 ? 0 : x[own_dof_[k]];
     }
@@ -124,23 +159,54 @@ void Trace::apply(const double* x, double* out, std::size_t stride) const {
 void Trace::add_impulse(const double* f, double* x) {
   std::fill(force_.begin(), force_.end(), 0.0);
   for (std::size_t k = 0; k < known_.size(); ++k) {
-    if (!coupled_ && own_dof_[k] >= 0) {
+    if (!dense_ && own_dof_[k] >= 0) {
       force_[static_cast<std::size_t>(own_dof_[k])] = f[k];
-    } else if (coupled_ && f[k] != 0) {
+    } else if (dense_ && f[k] != 0) {
       const double* row = &rows_[k * dofs_.size()];
       for (std::size_t i = 0; i < force_.size(); ++i) {
         force_[i] += f[k] * row[i];
       }
     }
   }
+  add_solution(x);
+}
+
+void Trace::add_solution(double* x) {
+  if (coupled_mass_ == nullptr) {
+    for (std::size_t i = 0; i < force_.size(); ++i) {
+      x[i] += inverse_mass_[i] * force_[i];
+    }
+    return;
+  }
+  std::fill(field_.begin(), field_.end(), 0.0);
   for (std::size_t i = 0; i < force_.size(); ++i) {
-    x[i] += inverse_mass_[i] * force_[i];
+    if (field_place_[i] >= 0) {
+      field_[static_cast<std::size_t>(field_place_[i])] = force_[i];
+    }
+  }
+  coupled_mass_->solve(field_.data());
+  for (std::size_t i = 0; i < force_.size(); ++i) {
+    x[i] += field_place_[i] < 0 ? inverse_mass_[i] * force_[i]
+                                : field_[static_cast<std::size_t>(field_place_[i])];
   }
 }
 
-double Trace::compliance(std::size_t a, std::size_t b) const {
-  if (!coupled_) {
-    return a == b && own_dof_[a] >= 0 ? inverse_mass_[static_cast<std::size_t>(own_dof_[a])] : 0;
+double Trace::compliance(std::size_t a, std::size_t b) {
+  if (!dense_) {
+    if (own_dof_[a] < 0 || own_dof_[b] < 0) {
+      return 0;
+    }
+    if (coupled_mass_ == nullptr) {
+      return a == b ? inverse_mass_[static_cast<std::size_t>(own_dof_[a])] : 0;
+    }
+    if (response_.empty() || response_place_ != a) {
+      response_.assign(dofs_.size(), 0.0);
+      response_place_ = a;
+      std::fill(force_.begin(), force_.end(), 0.0);
+      force_[static_cast<std::size_t>(own_dof_[a])] = 1;
+      add_solution(response_.data());
+    }
+    return response_[static_cast<std::size_t>(own_dof_[b])];
   }
   double sum = 0;
   const double* row_a = &rows_[a * dofs_.size()];

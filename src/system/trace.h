@@ -9,7 +9,8 @@
 namespace pounding {
 
 /// How displacements at some places of a structure follow from the dofs of this rank, whatever the
-/// structure's fidelity: u = T x, and M^-1 T^T f for forces f at the places. Of a finite-element
+/// structure's fidelity: u = T x, and M^-1 T^T f (M + S where S couples mass) for forces f at the
+/// places. Of a finite-element
 /// model a place is a dof of its own; of a body in generalised coordinates it is a row of
 /// coefficients of all of them. Rows lie one after the other, so that a product reads memory once.
 ///
@@ -19,11 +20,14 @@ class Trace {
  public:
   /// A clamped component is a place that never moves. Throws std::logic_error if a body in
   /// generalised coordinates was made without one of the places.
-  Trace(const LinearSystem& system, const Mesh& mesh, std::span<const TracePoint> places);
+  /// With `impulses`, forces at the places may be applied, and dofs() are all that these move; else
+  /// only `apply` may be called.
+  Trace(const LinearSystem& system, const Mesh& mesh, std::span<const TracePoint> places,
+        bool impulses);
 
   /// Which of the places are known to this rank, as indices into the list given, increasing.
   const std::vector<int>& known() const { return known_; }
-  /// Owned dofs that move the known places.
+  /// Owned dofs that move the known places, and those that move with them.
   const std::vector<LocalIndex>& dofs() const { return dofs_; }
 
   /// x = values of dofs() out of those of all owned dofs.
@@ -33,22 +37,33 @@ class Trace {
   /// x += M^-1 T^T f, f per known place, x over dofs().
   void add_impulse(const double* f, double* x);
   /// The part of (T M^-1 T^T) of two known places [1/kg].
-  double compliance(std::size_t a, std::size_t b) const;
-  /// Places share dofs: an impulse at one moves all of them.
+  double compliance(std::size_t a, std::size_t b);
+  /// An impulse at one place may move others, on some rank.
   bool is_coupled() const { return coupled_; }
 
  private:
   void take_unit_rows(const Mesh& mesh, std::span<const TracePoint> places);
+  /// Dofs whose mass is coupled to that of a known place.
+  void take_coupled_dofs(const CoupledMass& mass);
   void take_dense_rows(const LinearSystem& system, const Mesh& mesh,
                        std::span<const TracePoint> places);
 
+  /// x += M^-1 force_.
+  void add_solution(double* x);
+
   bool coupled_ = false;
+  bool dense_ = false;
+  const CoupledMass* coupled_mass_ = nullptr;  ///< null: force_ meets a diagonal mass only
   std::vector<int> known_;
   std::vector<LocalIndex> dofs_;
   std::vector<double> inverse_mass_;  ///< per dof of dofs_
-  std::vector<int> own_dof_;   ///< unit rows: per known place into dofs_, -1 if it is clamped
-  std::vector<double> rows_;   ///< else shape (known, dofs)
-  std::vector<double> force_;  ///< T^T f
+  std::vector<int> own_dof_;        ///< unit rows: per known place into dofs_, -1 if it is clamped
+  std::vector<double> rows_;        ///< else shape (known, dofs)
+  std::vector<double> force_;       ///< T^T f
+  std::vector<int> field_place_;    ///< per dof of dofs_, in field_; -1: its mass is not coupled
+  std::vector<double> field_;       ///< see CoupledMass
+  std::vector<double> response_;    ///< M^-1 T^T of a unit force at one place
+  std::size_t response_place_ = 0;  ///< which one
 };
 
 }  // namespace pounding

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+
+namespace pounding {
+
+/// Sums over the owned dofs of a structure that one step leaves for the energy balance, with
+/// v- = v_{n-1/2}, v+ = v_{n+1/2}, s = v+ + v-.
+struct StepSums {
+  double stiffness_before = 0;       ///< v-^T K v- [W]
+  double stiffness_across = 0;       ///< v+^T K v-
+  double mass_sum = 0;               ///< s^T M s [J]
+  std::array<double, 3> momentum{};  ///< iota_d^T M s [kg m/s]
+  double device = 0;                 ///< x^T s, x the force of devices [W]
+  double kinetic_before = 0;         ///< v-^T M v- [J], if energies are asked for
+  double added_kinetic_before = 0;   ///< v-^T S v- [J] likewise
+  double strain_before = 0;          ///< u_n^T K u_{n-1} [J], if energies are asked for
+  double displacement_mass = 0;      ///< u_n^T M u_n [kg m2] likewise
+  double extra_damping_before = 0;   ///< v-^T D v- [W], D the damping beside alpha M + beta K
+};
+
+}  // namespace pounding

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "system/node_blocks.h"
+
+namespace pounding {
+
+/// The mass M + S of those dofs of this rank that S couples, M diagonal and S symmetric positive
+/// semidefinite, as a sparse block factorisation
+///
+///     M + S = L D L^T
+///
+/// over nodes, L unit lower triangular and D block diagonal. Nodes are eliminated in rounds of
+/// nodes that are no neighbours, fewest neighbours first, so that a ring of beams fills in little
+/// and the processor can work at many nodes of a round at once.
+///
+/// A field over the coupled dofs has shape (nodes, 6), nodes in the order of elimination; places
+/// that are no dofs hold 0. Local; products and solutions allocate nothing and are the same bits on
+/// every run.
+class CoupledMass {
+ public:
+  static constexpr std::size_t width = 6;  // values per node in a field
+
+  /// `lumped_mass` of all owned dofs [kg, kg m2]; `added`: S. Throws std::runtime_error if M + S is
+  /// not positive definite.
+  CoupledMass(std::span<const double> lumped_mass, NodeBlocks added);
+
+  /// In the order of their dofs, and where in a field each of them is.
+  const std::vector<NodeDofs>& nodes() const { return added_.nodes; }
+  std::size_t place(std::size_t node) const { return place_[node] * width; }
+  std::size_t field_size() const { return width * added_.nodes.size(); }
+  /// Which node holds an owned dof; -1: the dof is not coupled.
+  int node_of(LocalIndex dof) const;
+  const NodeBlocks& added() const { return added_; }
+
+  /// x = (M + S)^-1 x.
+  void solve(double* x) const;
+  /// x = G^-1 x and x = G^-T x with M + S = G G^T.
+  void solve_half(double* x) const;
+  void solve_transposed_half(double* x) const;
+  /// A field out of a vector over the owned dofs, and back into it.
+  void take(const double* owned, double* x) const;
+  void put(const double* x, double* owned) const;
+  /// v^T S v of a vector over the owned dofs.
+  double added_product(const double* v) const;
+  /// Blocks of L beside the diagonal.
+  std::size_t factor_blocks() const { return lower_column_.size(); }
+
+ private:
+  void factorise(std::span<const double> lumped_mass);
+  void forward(double* x) const;
+  void backward(double* x) const;
+
+  NodeBlocks added_;
+  std::vector<std::size_t> place_;  ///< per node: when it is eliminated
+  /// Blocks of L row by row, and of L^T likewise, in the order in which they are read; each block
+  /// column by column.
+  std::vector<std::size_t> lower_begin_;
+  std::vector<std::size_t> lower_column_;
+  std::vector<NodeBlock> lower_;
+  std::vector<std::size_t> upper_begin_;
+  std::vector<std::size_t> upper_column_;
+  std::vector<NodeBlock> upper_;
+  std::vector<NodeBlock> inverse_diagonal_;  ///< D^-1
+  std::vector<NodeBlock> inverse_root_;      ///< R^-1 column by column, D = R R^T
+  std::vector<NodeBlock> inverse_root_transposed_;
+};
+
+}  // namespace pounding

@@ -1,0 +1,43 @@
+#include "system/elimination_order.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace pounding {
+
+Elimination eliminate(std::vector<std::set<int>> neighbours) {
+  Elimination result;
+  result.columns.resize(neighbours.size());
+  std::vector<int> left(neighbours.size());
+  std::iota(left.begin(), left.end(), 0);
+  std::vector<char> waits(neighbours.size(), 0);
+  while (!left.empty()) {
+    std::size_t smallest = std::numeric_limits<std::size_t>::max();
+    for (const int v : left) {
+      smallest = std::min(smallest, neighbours[static_cast<std::size_t>(v)].size());
+      waits[static_cast<std::size_t>(v)] = 0;
+    }
+    std::vector<int> rest;
+    for (const int v : left) {
+      auto& around = neighbours[static_cast<std::size_t>(v)];
+      if (waits[static_cast<std::size_t>(v)] != 0 || around.size() > smallest) {
+        rest.push_back(v);
+        continue;
+      }
+      for (const int a : around) {
+        waits[static_cast<std::size_t>(a)] = 1;
+        auto& others = neighbours[static_cast<std::size_t>(a)];
+        others.erase(v);
+        others.insert(around.begin(), around.end());
+        others.erase(a);
+      }
+      result.order.push_back(v);
+      result.columns[static_cast<std::size_t>(v)].assign(around.begin(), around.end());
+    }
+    left = std::move(rest);
+  }
+  return result;
+}
+
+}  // namespace pounding

@@ -1,0 +1,188 @@
+#include "system/mass_scaling.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <sstream>
+
+#include "common/error.h"
+#include "elements/element.h"
+#include "system/dense_eigenvalues.h"
+#include "system/finite_element_system.h"
+
+namespace pounding {
+namespace {
+
+constexpr GlobalIndex most_dofs = 20000;  // of one group, whose factors may fill in
+
+[[noreturn]] void refuse(const Structure& structure, const std::string& why) {
+  std::ostringstream text;
+  text << "option -" << structure.name << "_mass_scaling " << structure.mass_scaling
+       << " s: " << why;
+  throw UserError(text.str());
+}
+
+void check_alpha(const Structure& structure, const Region& region) {
+  const double alpha = structure.damping_of(region).alpha;
+  if (structure.mass_scaling * alpha >= 2) {
+    std::ostringstream text;
+    text << "the damping alpha = " << alpha << " 1/s of group " << region.group
+         << " allows no step above " << 2 / alpha << " s; ask for a smaller one";
+    refuse(structure, text.str());
+  }
+}
+
+/// Who is connected with whom, as trees.
+class Groups {
+ public:
+  explicit Groups(GlobalIndex count) : parent_(static_cast<std::size_t>(count)) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+  void join(GlobalIndex a, GlobalIndex b) {
+    const std::size_t first = root(static_cast<std::size_t>(a));
+    const std::size_t second = root(static_cast<std::size_t>(b));
+    parent_[std::max(first, second)] = std::min(first, second);
+  }
+  std::size_t root(std::size_t i) {
+    while (parent_[i] != i) {
+      i = parent_[i] = parent_[parent_[i]];
+    }
+    return i;
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+/// Whether an element of the whole mesh is scaled.
+class Decision {
+ public:
+  Decision(const Structure& structure, const GlobalMesh& mesh)
+      : structure_(structure), mesh_(mesh) {}
+
+  bool scales(const ElementSet& set, std::span<const GlobalIndex> nodes) {
+    const Region& region = structure_.regions[static_cast<std::size_t>(set.region)];
+    const ElementProperties properties = element_properties(region);
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      const Vector3 x = mesh_.position(nodes[a]);
+      std::copy(x.begin(), x.end(), &coordinates_[3 * a]);
+    }
+    const auto size = static_cast<std::size_t>(element_layout(set.type).size());
+    const std::span<double> stiffness(stiffness_.data(), size * size);
+    const std::span<double> mass(mass_.data(), size);
+    try {
+      element_matrices(set.type, {coordinates_.data(), 3 * nodes.size()}, properties, stiffness,
+                       mass);
+    } catch (const ElementError&) {
+      return false;  // the assembly names it
+    }
+    return add_element_mass(structure_.mass_scaling, structure_.damping_of(region), stiffness, mass,
+                            {no_dashpots_.data(), size * size}, {added_.data(), size * size}) > 0;
+  }
+
+ private:
+  using Matrix = std::array<double, max_element_size * max_element_size>;
+  const Structure& structure_;
+  const GlobalMesh& mesh_;
+  std::array<double, 3 * max_element_nodes> coordinates_{};
+  std::array<double, max_element_size> mass_{};
+  Matrix stiffness_{};
+  Matrix no_dashpots_{};
+  Matrix added_{};
+};
+
+}  // namespace
+
+double mass_scaling_factor(double time_step, const Rayleigh& damping, double frequency) {
+  const double needed = time_step / 4 * (2 * damping.beta + time_step);
+  return std::max(0.0, needed - (1 - time_step * damping.alpha / 2) / (frequency * frequency));
+}
+
+bool may_be_scaled(ElementType type) {
+  switch (type) {
+    case ElementType::beam:
+    case ElementType::bar:
+    case ElementType::tension_bar:
+    case ElementType::grounded_spring:
+    case ElementType::grounded_spring6:
+    case ElementType::spring:
+    case ElementType::spring6:
+      return true;
+    default:
+      return false;
+  }
+}
+
+double add_element_mass(double time_step, const Rayleigh& damping,
+                        std::span<const double> stiffness, std::span<const double> lumped_mass,
+                        std::span<const double> dashpots, std::span<double> added) {
+  const bool has_mass = *std::max_element(lumped_mass.begin(), lumped_mass.end()) > 0;
+  const double frequency = has_mass ? std::sqrt(largest_eigenvalue(stiffness, lumped_mass))
+                                    : std::numeric_limits<double>::infinity();
+  const double factor = mass_scaling_factor(time_step, damping, frequency);
+  if (factor > 0) {
+    for (std::size_t i = 0; i < added.size(); ++i) {
+      added[i] += factor * stiffness[i] + time_step / 2 * dashpots[i];
+    }
+  }
+  return factor;
+}
+
+std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalMesh& mesh,
+                                       int structure_number) {
+  if (structure.mass_scaling == 0) {
+    return {};
+  }
+  Groups groups(mesh.node_count());
+  Decision decision(structure, mesh);
+  std::vector<char> coupled(static_cast<std::size_t>(mesh.node_count()), 0);
+  for (const Region& region : structure.regions) {
+    check_alpha(structure, region);
+  }
+  for (const ElementSet& set : mesh.regions) {
+    const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
+    for (std::size_t e = 0; may_be_scaled(set.type) && e < set.tags.size(); ++e) {
+      const std::span<const GlobalIndex> nodes(&set.connectivity[e * width], width);
+      if (!decision.scales(set, nodes)) {
+        continue;
+      }
+      GlobalIndex first = -1;
+      for (const GlobalIndex node : nodes) {
+        const auto n = static_cast<std::size_t>(node);
+        if (mesh.free_components[n] == 0) {
+          continue;  // clamped nodes connect nothing
+        }
+        coupled[n] = 1;
+        if (first >= 0) {
+          groups.join(first, node);
+        }
+        first = node;
+      }
+    }
+  }
+  std::map<std::size_t, NodeCluster> clusters;
+  for (std::size_t n = 0; n < coupled.size(); ++n) {
+    if (coupled[n] != 0) {
+      clusters[groups.root(n)].nodes.push_back(static_cast<GlobalIndex>(n));
+    }
+  }
+  std::vector<NodeCluster> result;
+  for (auto& [root, cluster] : clusters) {
+    GlobalIndex dofs = 0;
+    for (const GlobalIndex node : cluster.nodes) {
+      dofs += component_count(mesh.free_components[static_cast<std::size_t>(node)]);
+    }
+    if (dofs > most_dofs) {
+      refuse(structure, "it couples " + std::to_string(dofs) + " dofs with each other, more than " +
+                            std::to_string(most_dofs) + "; ask for a smaller step");
+    }
+    cluster.structure = structure_number;
+    result.push_back(std::move(cluster));
+  }
+  return result;
+}
+
+}  // namespace pounding

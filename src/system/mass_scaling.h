@@ -1,0 +1,53 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/global_mesh.h"
+#include "mesh/partition.h"
+#include "scene/scene.h"
+
+namespace pounding {
+
+/// Selective mass scaling: the few stiff beams, bars and springs that would hold the time step of a
+/// structure below the wanted one get mass in proportion to their stiffness, S_e = c_e K_e, with
+///
+///     c_e = max(0, (2 dt beta + dt^2) / 4 - (1 - dt alpha / 2) / omega_e^2)
+///
+/// and omega_e the element's own largest frequency. Then, at the wanted dt,
+///
+///     4 (M_e + S_e) - 2 dt C_e - dt^2 K_e >= 0,      C_e = alpha M_e + beta K_e
+///
+/// so that these elements do not limit the step any more, damping included. Rigid motions have no
+/// part in S_e; a mode of frequency omega changes by c omega^2 times the share of its strain energy
+/// in these elements.
+struct MassScaling {
+  double time_step = 0;       ///< wanted [s]; 0: nothing is scaled
+  GlobalIndex elements = 0;   ///< scaled, over all ranks
+  GlobalIndex dofs = 0;       ///< that S couples, over all ranks
+  double largest_factor = 0;  ///< largest c_e [s2]
+  /// Root of the largest row sum of |K_e| over the lumped mass, scaled elements [rad/s]: what
+  /// omega_max would bound without S.
+  double row_frequency = 0;
+};
+
+/// c_e [s2]; `frequency` [rad/s] is infinite for an element without mass.
+double mass_scaling_factor(double time_step, const Rayleigh& damping, double frequency);
+
+/// Elements of one or two nodes: beams, bars, springs.
+bool may_be_scaled(ElementType type);
+
+/// Adds S_e, shape (n, n) [kg, kg m2], of an element with the given matrices, and returns c_e; the
+/// dashpots D_e of a spring add dt / 2 D_e as well. Does nothing and returns 0 where the element
+/// allows the wanted step by itself.
+double add_element_mass(double time_step, const Rayleigh& damping,
+                        std::span<const double> stiffness, std::span<const double> lumped_mass,
+                        std::span<const double> dashpots, std::span<double> added);
+
+/// Nodes that scaled elements connect, group by group: M + S couples their dofs, so one rank must
+/// own them. `structure_number` is copied. Throws UserError where alpha alone forbids the wanted
+/// step or a group is too large to be factorised. Serial.
+std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalMesh& mesh,
+                                       int structure_number);
+
+}  // namespace pounding
