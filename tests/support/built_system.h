@@ -3,6 +3,7 @@
 #include "common/parallel.h"
 #include "mesh/mesh.h"
 #include "system/finite_element_system.h"
+#include "system/mass_scaling.h"
 
 namespace pounding::testing {
 
@@ -24,7 +25,8 @@ inline BuiltSystem build_system(const GlobalMesh& global, const Structure& struc
   const MPI_Comm comm = PETSC_COMM_WORLD;
   Partition partition;
   if (rank_of(comm) == 0) {
-    partition = partition_meshes({&global, 1}, {}, size_of(comm));
+    partition =
+        partition_meshes({&global, 1}, {}, size_of(comm), coupled_nodes(structure, global, 0));
   }
   return build_system(comm, global, structure, partition);
 }

@@ -12,6 +12,9 @@ void dsyev_(const char* jobz, const char* uplo, const int* n, double* a, const i
             double* work, const int* lwork, int* info);
 void dposv_(const char* uplo, const int* n, const int* nrhs, double* a, const int* lda, double* b,
             const int* ldb, int* info);
+void dsygv_(const int* itype, const char* jobz, const char* uplo, const int* n, double* a,
+            const int* lda, double* b, const int* ldb, double* w, double* work, const int* lwork,
+            int* info);
 }
 
 namespace pounding::testing_support {
@@ -24,6 +27,20 @@ inline std::vector<double> symmetric_eigenvalues(std::vector<double> matrix, std
   int info = 0;
   dsyev_("N", "L", &order, matrix.data(), &order, values.data(), work.data(), &length, &info);
   if (info != 0) throw std::runtime_error("dsyev failed");
+  return values;
+}
+
+/// Eigenvalues, ascending, of K x = lambda M x, shape (n, n), M positive definite.
+inline std::vector<double> generalized_eigenvalues(std::vector<double> stiffness,
+                                                   std::vector<double> mass, std::size_t n) {
+  std::vector<double> values(n), work(64 * n + 64);
+  const int order = static_cast<int>(n);
+  const int length = static_cast<int>(work.size());
+  const int type = 1;
+  int info = 0;
+  dsygv_(&type, "N", "L", &order, stiffness.data(), &order, mass.data(), &order, values.data(),
+         work.data(), &length, &info);
+  if (info != 0) throw std::runtime_error("dsygv failed");
   return values;
 }
 

@@ -1,0 +1,208 @@
+#include "system/mass_scaling.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "common/error.h"
+#include "elements/element.h"
+#include "system/critical_time_step.h"
+#include "system/dense_eigenvalues.h"
+#include "unit/elements/dense_eigen.h"
+
+namespace pounding {
+namespace {
+
+constexpr std::size_t size = 12;
+constexpr Rayleigh damping{0.5, 1.2e-5};
+
+struct Beam {
+  std::vector<double> stiffness = std::vector<double>(size * size);
+  std::vector<double> mass = std::vector<double>(size);
+  double frequency() const { return std::sqrt(largest_eigenvalue(stiffness, mass)); }
+};
+
+/// A short, stiff beam of steel across the axes.
+Beam beam() {
+  Beam result;
+  ElementProperties properties;
+  properties.young = 200e9;
+  properties.poisson = 0.3;
+  properties.density = 7800;
+  properties.area = 28.48e-4;
+  properties.inertia_y = 1943e-8;
+  properties.inertia_z = 142.4e-8;
+  properties.torsion = 6.98e-8;
+  const std::vector<double> x{0, 0, 0, 0.1, 0.05, 0.02};
+  element_matrices(ElementType::beam, x, properties, result.stiffness, result.mass);
+  return result;
+}
+
+/// The time step at which 4 (M + S) - 2 dt C - dt^2 K of a beam stops being positive semidefinite.
+double critical_step(const Beam& beam, const std::vector<double>& added) {
+  double low = 1e-9;
+  double high = 1;
+  for (int i = 0; i < 200 && high > low * (1 + 1e-13); ++i) {
+    const double dt = std::sqrt(low * high);
+    std::vector<double> pencil(size * size);
+    for (std::size_t r = 0; r < size; ++r) {
+      for (std::size_t c = 0; c < size; ++c) {
+        const double k = beam.stiffness[r * size + c];
+        const double m = r == c ? beam.mass[r] : 0;
+        pencil[r * size + c] = (4 * (m + added[r * size + c]) -
+                                2 * dt * (damping.alpha * m + damping.beta * k) - dt * dt * k) /
+                               std::sqrt(beam.mass[r] * beam.mass[c]);
+      }
+    }
+    const double smallest = testing_support::symmetric_eigenvalues(std::move(pencil), size).front();
+    (smallest > 0 ? low : high) = dt;
+  }
+  return low;
+}
+
+TEST(MassScaling, GivesAnElementExactlyTheWantedStep) {
+  const Beam element = beam();
+  const std::vector<double> none(size * size, 0.0);
+  const double own = critical_step(element, none);
+  const double square = element.frequency() * element.frequency();
+  EXPECT_NEAR(own / critical_time_step(damping.alpha + damping.beta * square, square), 1, 1e-9);
+  for (const double part : {1.5, 5.0, 20.0}) {
+    std::vector<double> added(size * size, 0.0);
+    const double factor =
+        add_element_mass(part * own, damping, element.stiffness, element.mass, none, added);
+    EXPECT_GT(factor, 0);
+    EXPECT_NEAR(critical_step(element, added) / (part * own), 1, 1e-8) << part;
+  }
+}
+
+TEST(MassScaling, LeavesAnElementAloneThatAllowsTheStep) {
+  const Beam element = beam();
+  const std::vector<double> none(size * size, 0.0);
+  std::vector<double> added(size * size, 0.0);
+  const double own = critical_step(element, none);
+  EXPECT_EQ(add_element_mass(0.999 * own, damping, element.stiffness, element.mass, none, added),
+            0);
+  EXPECT_EQ(added, none);
+}
+
+TEST(MassScaling, DoesNotMoveARigidBody) {
+  const Beam element = beam();
+  const std::vector<double> none(size * size, 0.0);
+  std::vector<double> added(size * size, 0.0);
+  add_element_mass(2e-5, damping, element.stiffness, element.mass, none, added);
+  double largest = 0;
+  for (const double entry : added) {
+    largest = std::max(largest, std::abs(entry));
+  }
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t d = 0; d < 3; ++d) {
+      EXPECT_NEAR(added[i * size + d] + added[i * size + d + 6], 0, 1e-13 * largest);
+    }
+  }
+}
+
+TEST(MassScaling, OfASpringWithADashpotIsThatOfImplicitOnes) {
+  constexpr double dt = 1e-3;
+  const std::vector<double> stiffness{5e7, -5e7, -5e7, 5e7};
+  const std::vector<double> dashpots{300, -300, -300, 300};
+  const std::vector<double> mass{0, 0};
+  std::vector<double> added(4, 0.0);
+  const double factor = add_element_mass(dt, {0, 2e-4}, stiffness, mass, dashpots, added);
+  EXPECT_DOUBLE_EQ(factor, dt / 4 * (4e-4 + dt));
+  // 4 S = 2 dt C + dt^2 K with C = beta K + D.
+  EXPECT_NEAR(4 * added[0], 2 * dt * (2e-4 * 5e7 + 300) + dt * dt * 5e7, 1e-10);
+  EXPECT_DOUBLE_EQ(added[1], -added[0]);
+}
+
+/// Two bars in line, the first five times as stiff, and a third apart from them.
+GlobalMesh three_bars() {
+  GlobalMesh mesh;
+  for (const double x : {0.0, 1.0, 2.0, 5.0, 6.0}) {
+    mesh.node_tags.push_back(static_cast<std::int64_t>(mesh.node_tags.size()) + 1);
+    mesh.coordinates.insert(mesh.coordinates.end(), {x, 0, 0});
+  }
+  for (int region = 0; region < 2; ++region) {
+    ElementSet set;
+    set.region = region;
+    set.type = ElementType::bar;
+    set.tags = {1, 2};
+    set.connectivity =
+        region == 0 ? std::vector<GlobalIndex>{0, 1, 3, 4} : std::vector<GlobalIndex>{1, 2, 2, 1};
+    mesh.regions.push_back(set);
+  }
+  mesh.components.assign(5, 0x07);
+  mesh.free_components = mesh.components;
+  return mesh;
+}
+
+Structure bars_of(double time_step) {
+  Structure structure;
+  structure.name = "bars";
+  structure.mass_scaling = time_step;
+  for (const double young : {5e10, 1e10}) {
+    Region region;
+    region.group = young > 2e10 ? "stiff" : "soft";
+    region.element = ElementType::bar;
+    region.material = {"steel", young, 0.3, 8000};
+    region.area = 1;
+    structure.regions.push_back(region);
+  }
+  return structure;
+}
+
+std::vector<std::vector<GlobalIndex>> groups(double time_step, const GlobalMesh& mesh) {
+  std::vector<std::vector<GlobalIndex>> result;
+  for (const NodeCluster& cluster : coupled_nodes(bars_of(time_step), mesh, 3)) {
+    EXPECT_EQ(cluster.structure, 3);
+    result.push_back(cluster.nodes);
+  }
+  return result;
+}
+
+TEST(MassScaling, GroupsNodesOfScaledElements) {
+  // A bar of 1 m between free ends: omega = 2 c, critical step 1 / c = 4e-4 s and 8.9e-4 s.
+  using Groups = std::vector<std::vector<GlobalIndex>>;
+  GlobalMesh mesh = three_bars();
+  EXPECT_EQ(groups(0, mesh), Groups{});
+  EXPECT_EQ(groups(3.9e-4, mesh), Groups{});
+  EXPECT_EQ(groups(4.1e-4, mesh), (Groups{{0, 1}, {3, 4}}));
+  EXPECT_EQ(groups(1e-3, mesh), (Groups{{0, 1, 2}, {3, 4}}));
+  mesh.free_components[1] = 0;  // clamped: connects nothing
+  EXPECT_EQ(groups(1e-3, mesh), (Groups{{0}, {2}, {3, 4}}));
+}
+
+TEST(MassScaling, RefusesAStepThatAlphaAloneForbids) {
+  Structure structure = bars_of(1e-3);
+  structure.damping.alpha = 2100;
+  try {
+    coupled_nodes(structure, three_bars(), 0);
+    FAIL() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_STREQ(error.what(),
+                 "option -bars_mass_scaling 0.001 s: the damping alpha = 2100 1/s of group stiff "
+                 "allows no step above 0.000952381 s; ask for a smaller one");
+  }
+}
+
+TEST(MassScaling, RefusesAGroupThatIsTooLarge) {
+  GlobalMesh mesh;
+  ElementSet set;
+  set.type = ElementType::bar;
+  for (GlobalIndex node = 0; node < 6700; ++node) {
+    mesh.node_tags.push_back(node + 1);
+    mesh.coordinates.insert(mesh.coordinates.end(), {static_cast<double>(node), 0, 0});
+    if (node > 0) {
+      set.tags.push_back(node);
+      set.connectivity.insert(set.connectivity.end(), {node - 1, node});
+    }
+  }
+  mesh.regions.push_back(set);
+  mesh.components.assign(mesh.node_tags.size(), 0x07);
+  mesh.free_components = mesh.components;
+  EXPECT_NO_THROW(coupled_nodes(bars_of(3e-4), mesh, 0));
+  EXPECT_THROW(coupled_nodes(bars_of(1e-3), mesh, 0), UserError);
+}
+
+}  // namespace
+}  // namespace pounding
