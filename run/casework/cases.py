@@ -1,7 +1,6 @@
 """The cases: ground motions, gaps, variants of the model, and the words that ask the program for them."""
 
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from . import paper
 
@@ -103,8 +102,3 @@ def all_cases(window: Window = FULL, quick: bool = False, fidelity: str = "full"
     """In the order in which they are run: every variant of a gap and a motion together."""
     return [make_case(gap, motion, variant, window, quick, fidelity, list(extra), (records or {}).get(motion))
             for gap in gaps for motion in motions for variant in variants]
-
-
-def exists(source: Path, case: Case) -> list:
-    """The files of the case that are not there."""
-    return [name for name in case.files if not (source / name).is_file()]

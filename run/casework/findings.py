@@ -21,6 +21,19 @@ STANDS_OUT = 1.15  # a peak over its neighbours, at least
 AGREES = 0.20  # Models A and B below 50 Hz, root mean square of the logarithm, at most
 
 
+CRITERIA = (
+    "floor 1 in a few cases only: in fewer than half",
+    f"no branch without pounding: at most {VANISHES:g} of it left, geometric mean over {BRANCH[0]:g}-{BRANCH[1]:g} "
+    "Hz",
+    f"peaks make the branch: within {100 * FOLLOWS:.0f} % rms of the complete signal there",
+    f"the Dirac departs: {DEPARTS:g} times the complete signal or more at 400 Hz; stated is from where on it stays 10 % "
+    "above the highest peak",
+    f"a peak near 200 Hz: the largest value of {SLAB_MODE[0]:g}-{SLAB_MODE[1]:g} Hz over the mean of its neighbours is "
+    f"{STANDS_OUT:g} or more",
+    f"Models A and B agree: within {100 * AGREES:.0f} % rms from {SLOW[0]:g} to {SLOW[1]:g} Hz",
+)
+
+
 @dataclass(frozen=True)
 class Check:
     """One finding in one case, or over several."""

@@ -14,7 +14,8 @@ def _findings(campaign: Campaign) -> str:
     checks = findings.check_all(campaign)
     summary = html_table("Findings of the paper", ["finding", "found", "of"], findings.totals(checks))
     rows = [(check.finding, check.case, check.figure, "found" if check.found else "NOT found") for check in checks]
-    return summary + html_table("Case by case", ["finding", "case", "figure", ""], rows)
+    criteria = _note("Found means: " + "; ".join(findings.CRITERIA) + ".")
+    return summary + criteria + html_table("Case by case", ["finding", "case", "figure", ""], rows)
 
 
 def _excitations(campaign: Campaign) -> str:

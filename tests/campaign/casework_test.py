@@ -28,7 +28,8 @@ class Cases(unittest.TestCase):
         self.assertEqual(len(every), 48)
         self.assertEqual(len({case.name for case in every}), 48)
         for case in every:
-            self.assertEqual(cases.exists(Path(program.SOURCE), case), [])
+            for name in case.files:
+                self.assertTrue((Path(program.SOURCE) / name).is_file(), name)
 
     def test_gaps_of_the_paper(self):
         for case in cases.all_cases(motions=["Kobe"]):
