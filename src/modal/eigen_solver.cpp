@@ -100,7 +100,10 @@ EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix,
   EpsHandle solver = create_eigen_solver(system, mesh, matrix, "lowest_", mass);
   // A Krylov space sees the second of two equal frequencies late: look past the last one wanted.
   const int sought = static_cast<int>(std::min<GlobalIndex>(count + 8, system.global_dofs));
-  POUNDING_PETSC(EPSSetDimensions(solver.get(), sought, PETSC_DEFAULT, PETSC_DEFAULT));
+  // Many are found in portions: the projected problem stays small.
+  constexpr int portion = 100;
+  POUNDING_PETSC(EPSSetDimensions(solver.get(), sought, PETSC_DEFAULT,
+                                  sought > portion ? portion : PETSC_DEFAULT));
   POUNDING_PETSC(EPSSetWhichEigenpairs(solver.get(), EPS_TARGET_MAGNITUDE));
   POUNDING_PETSC(EPSSetTarget(solver.get(), lowest_shift));
   POUNDING_PETSC(EPSSetTolerances(solver.get(), 1e-10, PETSC_DEFAULT));

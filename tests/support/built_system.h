@@ -26,7 +26,7 @@ inline BuiltSystem build_system(const GlobalMesh& global, const Structure& struc
   Partition partition;
   if (rank_of(comm) == 0) {
     partition =
-        partition_meshes({&global, 1}, {}, size_of(comm), coupled_nodes(structure, global, 0));
+        partition_meshes({&global, 1}, {}, size_of(comm), {}, coupled_nodes(structure, global, 0));
   }
   return build_system(comm, global, structure, partition);
 }

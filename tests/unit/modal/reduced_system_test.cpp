@@ -68,7 +68,7 @@ TEST_F(ReducedSystem, TraceIsTheRowsOfTheBasis) {
   std::vector<TracePoint> places = box.request.contact_points;
   places.push_back(box.request.other_points[1]);  // clamped
   places.push_back(box.request.other_points[0]);
-  Trace trace(system, box.mesh, places);
+  Trace trace(system, box.mesh, places, true);
   const std::size_t size = basis.size();
   ASSERT_EQ(trace.known().size(), places.size());
   ASSERT_EQ(trace.dofs().size(), size);
@@ -101,7 +101,7 @@ TEST_F(ReducedSystem, TraceIsTheRowsOfTheBasis) {
 TEST_F(ReducedSystem, RefusesAPlaceThatTheBasisWasNotMadeFor) {
   const LinearSystem system = build();
   const std::vector<TracePoint> places{{box.request.contact_points[3].node, 2}};
-  EXPECT_THROW(Trace(system, box.mesh, places), std::logic_error);
+  EXPECT_THROW(Trace(system, box.mesh, places, true), std::logic_error);
 }
 
 TEST_F(ReducedSystem, LimitIsThatOfTheWorstCoordinate) {
