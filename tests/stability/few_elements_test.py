@@ -21,11 +21,13 @@ class OneElement(unittest.TestCase):
             self.assertEqual(structure["elements"], 1)
             self.assertAlmostEqual(structure["omega_max"] / omega, 1, delta=1e-9, msg=name)
             self.assertAlmostEqual(structure["element_frequency_bound"] / omega, 1, delta=1e-9, msg=name)
+        scales = {name: abs(reference.data[name]).max() for name in ("displacement", "velocity")}
+        # Thrown bodies have no acceleration but of round-off.
+        scales["acceleration"] = scales["velocity"] * max(scenes.lone_frequencies().values())
         for ranks in RANKS:
             run = History(self, scenes.lone_elements(names), ranks)
             self.assertEqual(run.summary["time_step"], reference.summary["time_step"])
-            for name in ("displacement", "velocity", "acceleration"):
-                scale = abs(reference.data[name]).max()
+            for name, scale in scales.items():
                 self.assertGreater(scale, 0)
                 self.assertLessEqual(abs(run.data[name] - reference.data[name]).max(), 1e-12 * scale, (name, ranks))
 

@@ -16,8 +16,8 @@ PAIR = ["-options_file", "petsc-options/azalee/gap2.yaml", "-s1_mesh_set", SMALL
         "-motion_x_pga", 20, "-motion_x_envelope", "0.02,20", "-floor2_gap", "4e-4,2e-4",
         "-floor1_gap", 0.02, "-modes", 3, "-time_step", TIME_STEP, "-spectra_frequencies", "1:200:5lin",
         "-s1_model", "modal", "-s1_modal_vectors", 20, "-s2_model", "modal", "-s2_modal_vectors", 20]
-END = ["-end_time", 0.2]
-STEP = 2600  # in the middle of the pounding
+END = ["-end_time", 0.4]
+STEP = 7030  # in the middle of the pounding
 
 
 class Restart(RestartCase):
@@ -37,7 +37,7 @@ class Restart(RestartCase):
         arguments = arguments[:arguments.index("modal")] + arguments[arguments.index("modal") + 2:]
         arguments += full + ["-time_step", 2e-5]
         whole = self.complete(arguments + END, 2)
-        cut = self.cut(arguments, 6500, 2e-5)
+        cut = self.cut(arguments, 17575, 2e-5)
         self.assert_same_results(whole, self.complete(arguments + END + ["-restart", checkpoint(cut)], 2))
 
     def test_with_another_basis_is_refused(self):
