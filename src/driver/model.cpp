@@ -39,6 +39,9 @@ void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& mo
   on_rank0(comm, [&] {
     std::vector<NodeCluster> clusters;
     for (std::size_t s = 0; s < meshes.size(); ++s) {
+      if (scene.structures[s].modal) {
+        continue;  // coordinates are scaled, not elements
+      }
       const auto more = coupled_nodes(scene.structures[s], meshes[s], static_cast<int>(s));
       clusters.insert(clusters.end(), more.begin(), more.end());
     }
@@ -106,7 +109,7 @@ void add_reduced(MPI_Comm comm, const Scene& scene, std::size_t s, Model& model)
   model.systems.push_back(
       build_reduced_system(comm, owners_of_reduced(comm, scene)[s], structure, basis));
   model.modal.push_back(modes_of_basis(basis, scene.modes));
-  model.largest.push_back(largest_frequency(basis));
+  model.largest.push_back(largest_frequency(structure, basis));
   model.stable_time_step.push_back(stable_time_step(structure, basis));
 }
 

@@ -162,7 +162,9 @@ void compute(const Structure& structure, Profile& profile, Reduction& reduction)
   std::optional<LinearSystem> system;
   {
     const ScopedTimer timer(profile, Phase::assembly);
-    system = build_system(structure, reduction.mesh);
+    Structure unscaled = structure;
+    unscaled.mass_scaling = 0;  // the coordinates are scaled, not the elements
+    system = build_system(unscaled, reduction.mesh);
   }
   const ScopedTimer timer(profile, Phase::modes);
   reduction.basis = compute_modal_basis(*system, reduction.mesh, reduction.request);

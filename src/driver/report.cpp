@@ -37,7 +37,7 @@ void print_damping(const Structure& structure) {
   }
 }
 
-void print_reduction(const ModalModel& modal, const ModalBasis& basis) {
+void print_reduction(const ModalModel& modal, const ModalBasis& basis, const MassScaling& scaling) {
   const double hertz = 2 * std::numbers::pi;
   std::printf("  modal reduction: %zu generalised coordinates for %lld dofs\n", basis.size(),
               static_cast<long long>(basis.full_dofs));
@@ -50,6 +50,10 @@ void print_reduction(const ModalModel& modal, const ModalBasis& basis) {
   std::printf("\n    %d attachment vectors%s\n    largest frequency %.4g Hz\n",
               basis.attachment_vectors, modal.attachment ? "" : " (not asked for)",
               std::sqrt(basis.squared_frequency.back()) / hertz);
+  if (scaling.time_step > 0) {
+    std::printf("    mass scaled for a step of %.4e s: %lld coordinates\n", scaling.time_step,
+                static_cast<long long>(scaling.dofs));
+  }
 }
 
 void print_time_step_limit(const Model& model, std::size_t s) {
@@ -97,7 +101,7 @@ void print_structure(const Scene& scene, const Model& model, std::size_t s) {
   }
   std::printf("  stiffness: %s\n", system.stiffness_method.c_str());
   if (model.bases[s]) {
-    print_reduction(*scene.structures[s].modal, *model.bases[s]);
+    print_reduction(*scene.structures[s].modal, *model.bases[s], system.mass_scaling);
   }
   print_damping(scene.structures[s]);
   std::printf("  mode  frequency  direction  effective mass, share of it\n");

@@ -8,7 +8,7 @@
 #include "dynamics/coupled_step.h"
 #include "dynamics/state.h"
 #include "dynamics/step_sums.h"
-#include "system/lanes.h"
+#include "common/lanes.h"
 #include "system/linear_system.h"
 
 namespace pounding {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "system/lanes.h"
+#include "common/lanes.h"
 
 namespace pounding {
 namespace {

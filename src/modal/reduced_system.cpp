@@ -5,7 +5,9 @@
 #include <cstdio>
 #include <limits>
 #include <numbers>
+#include <sstream>
 
+#include "common/error.h"
 #include "common/parallel.h"
 #include "system/critical_time_step.h"
 #include "system/diagonal_stiffness.h"
@@ -13,7 +15,7 @@
 namespace pounding {
 namespace {
 
-/// C of each coordinate [1/s].
+/// C of each coordinate of unit mass [1/s].
 std::vector<double> damping_rates(const Structure& structure, const ModalBasis& basis) {
   const std::vector<double>& ratios = structure.modal->damping_ratios;
   std::vector<double> rates;
@@ -26,24 +28,30 @@ std::vector<double> damping_rates(const Structure& structure, const ModalBasis& 
   return rates;
 }
 
-/// Smallest value of a function of damping rate and squared frequency over all coordinates.
+/// Smallest value of a function of the Rayleigh quotients of damping and stiffness over all
+/// coordinates.
 template <typename Function>
 double smallest(const Structure& structure, const ModalBasis& basis, Function&& function) {
   const std::vector<double> rates = damping_rates(structure, basis);
+  const std::vector<double> masses = coordinate_masses(structure, basis);
+  const double alpha = structure.modal->damping_ratios.empty() ? structure.damping.alpha : 0;
   double result = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < rates.size(); ++i) {
-    result = std::min(result, function(rates[i], basis.squared_frequency[i]));
+    const double damping = alpha + (rates[i] - alpha) / masses[i];
+    result = std::min(result, function(damping, basis.squared_frequency[i] / masses[i]));
   }
   return result;
 }
 
-std::unique_ptr<GeneralisedCoordinates> take_coordinates(ModalBasis& basis, bool owner) {
+std::unique_ptr<GeneralisedCoordinates> take_coordinates(ModalBasis& basis, bool owner,
+                                                         std::span<const double> masses) {
   auto coordinates = std::make_unique<GeneralisedCoordinates>();
   if (owner) {
     for (std::size_t d = 0; d < 3; ++d) {
-      const auto begin =
-          basis.participation.begin() + static_cast<std::ptrdiff_t>(d * basis.size());
-      coordinates->influence[d].assign(begin, begin + static_cast<std::ptrdiff_t>(basis.size()));
+      const double* const participation = &basis.participation[d * basis.size()];
+      for (std::size_t i = 0; i < basis.size(); ++i) {
+        coordinates->influence[d].push_back(participation[i] / masses[i]);
+      }
     }
     for (std::size_t i = 0; i < basis.points.size(); ++i) {
       coordinates->row_of[basis.points[i]] = i;
@@ -68,8 +76,13 @@ LinearSystem build_reduced_system(MPI_Comm comm, int owner, const Structure& str
   system.global_dofs = static_cast<GlobalIndex>(basis.size());
   system.total_mass = basis.total_mass;
   const std::size_t owned = mine ? basis.size() : 0;
-  system.lumped_mass.assign(owned, 1.0);
-  system.inverse_mass.assign(owned, 1.0);
+  const std::vector<double> masses = coordinate_masses(structure, basis);
+  for (std::size_t i = 0; i < owned; ++i) {
+    system.lumped_mass.push_back(masses[i]);
+    system.inverse_mass.push_back(1 / masses[i]);
+  }
+  system.mass_scaling.time_step = structure.mass_scaling;
+  system.mass_scaling.dofs = std::ranges::count_if(masses, [](double mass) { return mass > 1; });
   const auto share = [&](std::vector<double> values) {
     values.resize(owned);
     return std::make_unique<DiagonalStiffness>(comm, std::move(values));
@@ -81,10 +94,11 @@ LinearSystem build_reduced_system(MPI_Comm comm, int owner, const Structure& str
   } else {
     system.extra_damping = share(damping_rates(structure, basis));
   }
-  system.generalised = take_coordinates(basis, mine);
-  system.element_frequency_bound = largest_frequency(basis).omega_max;
+  system.generalised = take_coordinates(basis, mine, masses);
+  const LargestFrequency largest = largest_frequency(structure, basis);
+  system.element_frequency_bound = largest.omega_max;
   system.element_time_step_bound = stable_time_step(structure, basis);
-  system.stiffest_element = describe_coordinate(basis, basis.size() - 1);
+  system.stiffest_element = largest.location;
   return system;
 }
 
@@ -102,8 +116,37 @@ ModalResult modes_of_basis(const ModalBasis& basis, int count) {
   return result;
 }
 
-LargestFrequency largest_frequency(const ModalBasis& basis) {
-  return {std::sqrt(basis.squared_frequency.back()), describe_coordinate(basis, basis.size() - 1)};
+LargestFrequency largest_frequency(const Structure& structure, const ModalBasis& basis) {
+  const std::vector<double> masses = coordinate_masses(structure, basis);
+  std::size_t largest = 0;
+  const auto square = [&](std::size_t i) { return basis.squared_frequency[i] / masses[i]; };
+  for (std::size_t i = 0; i < basis.size(); ++i) {
+    largest = square(i) >= square(largest) ? i : largest;
+  }
+  return {std::sqrt(square(largest)), describe_coordinate(basis, largest)};
+}
+
+std::vector<double> coordinate_masses(const Structure& structure, const ModalBasis& basis) {
+  std::vector<double> masses(basis.size(), 1.0);
+  const double dt = structure.mass_scaling;
+  if (dt == 0) {
+    return masses;
+  }
+  const bool rayleigh = structure.modal->damping_ratios.empty();
+  const double alpha = rayleigh ? structure.damping.alpha : 0;
+  if (dt * alpha >= 2) {
+    std::ostringstream text;
+    text << "option -" << structure.name << "_mass_scaling " << dt
+         << " s: the damping alpha = " << alpha << " 1/s allows no step above " << 2 / alpha
+         << " s; ask for a smaller one";
+    throw UserError(text.str());
+  }
+  const std::vector<double> rates = damping_rates(structure, basis);
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    const double needed = 2 * dt * (rates[i] - alpha) + dt * dt * basis.squared_frequency[i];
+    masses[i] = std::max(1.0, needed / (4 - 2 * dt * alpha));
+  }
+  return masses;
 }
 
 double stable_time_step(const Structure& structure, const ModalBasis& basis) {

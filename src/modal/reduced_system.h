@@ -10,10 +10,11 @@
 
 /// A structure in the coordinates q of a modal basis, u = Phi q:
 ///
-///     q'' + C q' + diag(omega^2) q = -Phi^T M iota a_g(t) + Phi^T L^T r
+///     m q'' + C q' + diag(omega^2) q = -Phi^T M iota a_g(t) + Phi^T L^T r
 ///
-/// with C = alpha I + beta diag(omega^2), or diag(2 xi omega) where damping ratios are given per
-/// mode. All frequencies are known, so limits of the time step are exact and need no eigensolver.
+/// with C = alpha m + beta diag(omega^2), or diag(2 xi omega) where damping ratios are given per
+/// mode, and m = I unless mass is scaled. All frequencies are known, so limits of the time step are
+/// exact and need no eigensolver.
 namespace pounding {
 
 /// The system; rank `owner` has all coordinates, the others none. The rows of the basis go into it.
@@ -24,8 +25,17 @@ LinearSystem build_reduced_system(MPI_Comm comm, int owner, const Structure& str
 /// The lowest `count` modes of the basis, for the report.
 ModalResult modes_of_basis(const ModalBasis& basis, int count);
 
-/// The largest frequency of the basis, and which coordinate has it.
-LargestFrequency largest_frequency(const ModalBasis& basis);
+/// m of each coordinate: 1, or what brings its own limit up to the step dt that scaled mass asks
+/// for (`Structure::mass_scaling`), damping included:
+///
+///     m (4 - 2 dt alpha) = 2 dt beta omega^2 + dt^2 omega^2
+///
+/// Static responses do not change; a coordinate that is slow against 2 / dt keeps its mass. Throws
+/// UserError where alpha alone forbids dt.
+std::vector<double> coordinate_masses(const Structure& structure, const ModalBasis& basis);
+
+/// The largest frequency, mass scaled, and which coordinate has it.
+LargestFrequency largest_frequency(const Structure& structure, const ModalBasis& basis);
 
 /// As `stable_time_step` and `energy_margin` of dynamics/stable_time_step.h, the smallest over all
 /// coordinates.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/error.h"
+#include "common/lanes.h"
 #include "motion/oscillator_motion.h"
 
 namespace pounding {
@@ -14,34 +15,133 @@ namespace {
 
 using namespace oscillator;
 
+/// Oscillators whose steps are summed as series, side by side: their chains of sums hide each
+/// other's latency.
+struct OscillatorBlock {
+  static constexpr std::size_t vectors = 3;
+  static constexpr std::size_t size = vectors * lane_count;
+
+  explicit OscillatorBlock(std::span<const Oscillator> some) : oscillators(some) {
+    for (std::size_t i = 0; i < size; ++i) {
+      const Oscillator& o = some[std::min(i, some.size() - 1)];  // the last one fills up
+      const auto [state_part, load_part] = oscillator_step(o.theta, o.xi);
+      const std::size_t b = i / lane_count, l = i % lane_count;
+      for (std::size_t r = 0; r < 2; ++r)
+        for (std::size_t c = 0; c < 2; ++c) {
+          A[r][c][b][l] = state_part[r][c];
+          B[r][c][b][l] = load_part[r][c];
+        }
+      k[b][l] = o.theta * o.theta;
+      damping[b][l] = 2 * o.xi * o.theta;
+    }
+  }
+
+  std::span<const Oscillator> oscillators;
+  Lanes A[2][2][vectors], B[2][2][vectors], k[vectors], damping[vectors];
+};
+
+Lanes magnitude(const Lanes& x) {
+  return x < 0 ? -x : x;
+}
+Lanes larger(const Lanes& a, const Lanes& b) {
+  return a > b ? a : b;
+}
+bool any(const LaneMask& mask) {
+  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
+}
+
+/// Largest |u| of each oscillator of a block.
+std::vector<double> peak_displacements(std::span<const double> acceleration, double time_step,
+                                       const OscillatorBlock& block, AfterRecord after) {
+  constexpr std::size_t vectors = OscillatorBlock::vectors;
+  const double h2 = time_step * time_step;
+  double a = h2 * acceleration[0];
+  Lanes u[vectors]{}, v[vectors]{}, w[vectors], peak[vectors]{};
+  std::fill(w, w + vectors, Lanes{} - a);
+  for (std::size_t n = 1; n < acceleration.size(); ++n) {
+    const double a1 = h2 * acceleration[n];
+    for (std::size_t b = 0; b < vectors; ++b) {
+      const auto& A = block.A;
+      const auto& B = block.B;
+      Lanes u1 = A[0][0][b] * u[b] + (A[0][1][b] * v[b] + (B[0][0][b] * a + B[0][1][b] * a1));
+      Lanes v1 = A[1][0][b] * u[b] + (A[1][1][b] * v[b] + (B[1][0][b] * a + B[1][1][b] * a1));
+      const Lanes w1 = -(a1 + block.damping[b] * v1 + block.k[b] * u1);  // h^2 u''
+      // An extremum lies within half a step of an end, so it cannot exceed this.
+      const Lanes bound = larger(magnitude(u[b]), magnitude(u1)) + magnitude(v[b]) + magnitude(v1) +
+                          magnitude(w[b]) + magnitude(w1);
+      peak[b] = larger(peak[b], magnitude(u1));
+      const LaneMask turns = (v[b] * v1 <= 0) | ((v[b] * w[b] < 0) & (v1 * w1 > 0));
+      const LaneMask higher = (bound > peak[b]) & turns;
+      if (any(higher)) {
+        for (std::size_t l = 0; l < lane_count; ++l) {
+          const std::size_t i = b * lane_count + l;
+          if (higher[l] != 0 && i < block.oscillators.size())
+            peak[b][l] =
+                std::max(peak[b][l],
+                         interior_peak(StepSeries(block.oscillators[i], u[b][l], v[b][l], a, a1)));
+        }
+      }
+      // Rest after a long silence: subnormal numbers would only cost time.
+      u[b] = bound < 1e-250 ? Lanes{} : u1;
+      v[b] = bound < 1e-250 ? Lanes{} : v1;
+      w[b] = w1;
+    }
+    a = a1;
+  }
+  std::vector<double> peaks;
+  for (std::size_t i = 0; i < block.oscillators.size(); ++i) {
+    const std::size_t b = i / lane_count, l = i % lane_count;
+    peaks.push_back(peak[b][l]);
+    if (after == AfterRecord::free_vibration)
+      peaks.back() =
+          std::max(peaks.back(), free_vibration_peak(block.oscillators[i], u[b][l], v[b][l]));
+  }
+  return peaks;
+}
+
+/// Largest |u| of an oscillator whose step is taken in closed form.
 double peak_displacement(std::span<const double> acceleration, double time_step,
                          const Oscillator& o, AfterRecord after) {
   const double h2 = time_step * time_step;
   const auto [A, B] = oscillator_step(o.theta, o.xi);
-  const double k = o.theta * o.theta, damping = 2 * o.xi * o.theta;
-  const bool use_series = o.theta < series_limit;
-  double u = 0, v = 0, a = h2 * acceleration[0], w = -a, peak = 0;
+  double u = 0, v = 0, a = h2 * acceleration[0], peak = 0;
   for (std::size_t n = 1; n < acceleration.size(); ++n) {
     const double a1 = h2 * acceleration[n];
-    double u1 = A[0][0] * u + (A[0][1] * v + (B[0][0] * a + B[0][1] * a1));
-    double v1 = A[1][0] * u + (A[1][1] * v + (B[1][0] * a + B[1][1] * a1));
+    const double u1 = A[0][0] * u + (A[0][1] * v + (B[0][0] * a + B[0][1] * a1));
+    const double v1 = A[1][0] * u + (A[1][1] * v + (B[1][0] * a + B[1][1] * a1));
     peak = std::max(peak, std::abs(u1));
-    const double w1 = -(a1 + damping * v1 + k * u1);  // h^2 u''
-    if (!use_series) {
-      const StepClosedForm step(o, u, v, a, a1);
-      if (step.bound(0) > peak) peak = interior_peak(step, peak);
-    } else if (v * v1 <= 0 || (v * w < 0 && v1 * w1 > 0)) {
-      // An extremum lies within half a step of an end, so it cannot exceed this.
-      const double bound = std::max(std::abs(u), std::abs(u1)) + std::abs(v) + std::abs(v1) +
-                           std::abs(w) + std::abs(w1);
-      if (bound > peak) peak = std::max(peak, interior_peak(StepSeries(o, u, v, a, a1)));
-      // Rest after a long silence: subnormal numbers would only cost time.
-      if (bound < 1e-250) u1 = v1 = 0;
-    }
-    u = u1, v = v1, w = w1, a = a1;
+    const StepClosedForm step(o, u, v, a, a1);
+    if (step.bound(0) > peak) peak = interior_peak(step, peak);
+    u = u1, v = v1, a = a1;
   }
   if (after == AfterRecord::ignored) return peak;
   return std::max(peak, free_vibration_peak(o, u, v));
+}
+
+/// Largest |u| of every oscillator, in their order.
+std::vector<double> all_peaks(std::span<const double> acceleration, double time_step,
+                              std::span<const Oscillator> oscillators, AfterRecord after) {
+  std::vector<double> peaks(oscillators.size(), 0.0);
+  std::vector<Oscillator> slow;
+  std::vector<std::size_t> place;
+  const auto finish_block = [&] {
+    const std::vector<double> found =
+        peak_displacements(acceleration, time_step, OscillatorBlock(slow), after);
+    for (std::size_t i = 0; i < found.size(); ++i) peaks[place[i]] = found[i];
+    slow.clear();
+    place.clear();
+  };
+  for (std::size_t i = 0; i < oscillators.size(); ++i) {
+    if (oscillators[i].theta >= series_limit) {
+      peaks[i] = peak_displacement(acceleration, time_step, oscillators[i], after);
+      continue;
+    }
+    slow.push_back(oscillators[i]);
+    place.push_back(i);
+    if (slow.size() == OscillatorBlock::size) finish_block();
+  }
+  if (!slow.empty()) finish_block();
+  return peaks;
 }
 
 void check(bool ok, const char* what, double seen) {
@@ -180,16 +280,17 @@ std::vector<SpectrumPoint> response_spectrum(std::span<const double> acceleratio
                                              std::span<const double> frequencies,
                                              double damping_ratio, AfterRecord after) {
   check_arguments(acceleration, time_step, frequencies, damping_ratio);
+  std::vector<Oscillator> oscillators;
+  for (const double frequency : frequencies)
+    oscillators.push_back(
+        make_oscillator(2 * std::numbers::pi * frequency * time_step, damping_ratio));
+  const std::vector<double> peaks = acceleration.empty()
+                                        ? std::vector<double>(frequencies.size(), 0.0)
+                                        : all_peaks(acceleration, time_step, oscillators, after);
   std::vector<SpectrumPoint> spectrum;
-  spectrum.reserve(frequencies.size());
-  for (const double frequency : frequencies) {
-    const double omega = 2 * std::numbers::pi * frequency;
-    double displacement = 0;
-    if (!acceleration.empty())
-      displacement = peak_displacement(acceleration, time_step,
-                                       make_oscillator(omega * time_step, damping_ratio), after);
-    spectrum.push_back(
-        {frequency, displacement, omega * displacement, omega * omega * displacement});
+  for (std::size_t i = 0; i < frequencies.size(); ++i) {
+    const double omega = 2 * std::numbers::pi * frequencies[i];
+    spectrum.push_back({frequencies[i], peaks[i], omega * peaks[i], omega * omega * peaks[i]});
   }
   return spectrum;
 }

@@ -212,12 +212,11 @@ std::string read_matrices(OptionReader& options, const std::string& structure) {
   return folder == "none" ? "" : folder;
 }
 
-/// Only elements can be given mass.
+/// Elements and generalised coordinates can be given mass, whole matrices can not.
 void forbid_mass_scaling(const OptionReader& options, const Structure& structure) {
-  const bool matrices = !structure.matrices.empty();
-  if (structure.mass_scaling > 0 && (matrices || structure.modal)) {
+  if (structure.mass_scaling > 0 && !structure.matrices.empty() && !structure.modal) {
     options.refuse("<structure>_mass_scaling", {structure.name},
-                   "not with -" + structure.name + (matrices ? "_matrices" : "_model modal"));
+                   "not with -" + structure.name + "_matrices");
   }
 }
 

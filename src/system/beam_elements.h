@@ -7,7 +7,7 @@
 #include "common/types.h"
 #include "elements/element.h"
 #include "elements/matrix3.h"
-#include "system/lanes.h"
+#include "common/lanes.h"
 
 namespace pounding {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "system/brick_class.h"
-#include "system/lanes.h"
+#include "common/lanes.h"
 
 /// The stiffness of rows of congruent bricks as a stencil on lines of node pairs.
 ///

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "system/dof_places.h"
-#include "system/lanes.h"
+#include "common/lanes.h"
 
 namespace pounding {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "common/types.h"
 #include "elements/element.h"
-#include "system/lanes.h"
+#include "common/lanes.h"
 
 namespace pounding {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "system/elimination_order.h"
-#include "system/lanes.h"
+#include "common/lanes.h"
 
 namespace pounding {
 namespace {

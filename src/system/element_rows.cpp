@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <tuple>
 
-#include "system/lanes.h"
+#include "common/lanes.h"
 
 namespace pounding {
 namespace {

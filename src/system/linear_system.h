@@ -29,7 +29,8 @@ struct TracePoint {
 /// Generalised coordinates q of a body whose motion is u = Phi q: what replaces the nodes of a
 /// mesh. One rank owns them all.
 struct GeneralisedCoordinates {
-  /// iota of each direction [kg^1/2]: Phi^T M iota for a basis orthonormal in M.
+  /// iota of each direction [kg^1/2]: M_q^-1 Phi^T M iota with M_q the mass of the coordinates, 1
+  /// for a basis orthonormal in M.
   std::array<std::vector<double>, 3> influence;
   std::map<TracePoint, std::size_t> row_of;  ///< places whose displacement is known
   std::vector<double> rows;                  ///< of Phi, shape (places, owned dofs) [kg^-1/2]

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "system/lanes.h"
+#include "common/lanes.h"
 
 /// What the kernels of bricks, rectangles and segments share: blocks of B, lane by lane.
 namespace pounding {

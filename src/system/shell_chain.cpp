@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "system/lanes.h"
+#include "common/lanes.h"
 
 namespace pounding {
 namespace {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "system/chain_line.h"
-#include "system/lanes.h"
+#include "common/lanes.h"
 #include "system/shell_kernel.h"
 
 namespace pounding {

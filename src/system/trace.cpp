@@ -5,7 +5,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "system/lanes.h"
+#include "common/lanes.h"
 
 namespace pounding {
 namespace {

@@ -14,7 +14,7 @@
 #include <mpi.h>
 
 #include "benchmark/command_loop.h"
-#include "system/lanes.h"
+#include "common/lanes.h"
 
 namespace pounding::measuring {
 namespace {

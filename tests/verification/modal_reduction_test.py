@@ -113,6 +113,23 @@ class Reduction(unittest.TestCase):
         self.assertLess(with_vectors, 0.15)
         self.assertGreater(without, 2 * with_vectors)
 
+    def test_mass_of_fast_coordinates_allows_a_longer_step(self):
+        finer = "cells_x=10,cells_y=10,column_elements=1"
+        words = ["-s1_mesh_set", finer, "-s2_mesh_set", finer, "-output_interval", 1.2e-4]
+        words += reduced("s1", 30) + reduced("s2", 30)
+        step = 1.2e-4
+        plain, scaled = (Recorded(self, PAIR + words + more)
+                         for more in ([], ["-s1_mass_scaling", step, "-s2_mass_scaling", step]))
+        limits = [[run.summary["structures"][name]["stable_time_step"] for name in ("s1", "s2")]
+                  for run in (plain, scaled)]
+        self.assertGreater(step, 1.9 * limits[0][1])
+        for before, after in zip(*limits):
+            self.assertAlmostEqual(after / max(before, step), 1, delta=1e-12)
+        self.assertAlmostEqual(scaled.summary["time_step"] / (0.9 * step), 1, delta=1e-5)
+        for probe in ("s1_floor2", "s2_floor2"):
+            error = numpy.log(scaled.spectrum(probe, "x")[1] / plain.spectrum(probe, "x")[1])
+            self.assertLess(math.sqrt(numpy.mean(numpy.square(error))), 0.03, probe)
+
     def test_cut_off_counts_the_modes_below_it(self):
         words = ["-s1_model", "modal", "-s1_modal_cutoff", 40, "-dry_run"]
         result = program.run(PAIR + words, 2)

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/error.h"
 #include "reduced_box.h"
 #include "system/trace.h"
 
@@ -105,7 +106,8 @@ TEST_F(ReducedSystem, RefusesAPlaceThatTheBasisWasNotMadeFor) {
 }
 
 TEST_F(ReducedSystem, LimitIsThatOfTheWorstCoordinate) {
-  EXPECT_DOUBLE_EQ(largest_frequency(basis).omega_max, std::sqrt(basis.squared_frequency.back()));
+  EXPECT_DOUBLE_EQ(largest_frequency(box.structure, basis).omega_max,
+                   std::sqrt(basis.squared_frequency.back()));
   const double dt = stable_time_step(box.structure, basis);
   EXPECT_NEAR(energy_margin(box.structure, basis, dt), 0, 1e-12);
   EXPECT_GT(energy_margin(box.structure, basis, 0.9 * dt), 0);
@@ -113,8 +115,40 @@ TEST_F(ReducedSystem, LimitIsThatOfTheWorstCoordinate) {
   box.structure.modal->damping_ratios = {0.999, 0};
   const double first = std::sqrt(basis.squared_frequency.front());
   EXPECT_DOUBLE_EQ(stable_time_step(box.structure, basis),
-                   std::min(2 / largest_frequency(basis).omega_max,
+                   std::min(2 / largest_frequency(box.structure, basis).omega_max,
                             2 / (first * (0.999 + std::sqrt(1 + 0.999 * 0.999)))));
+}
+
+TEST_F(ReducedSystem, ScaledMassMovesTheLimitToTheStepAskedFor) {
+  const double limit = stable_time_step(box.structure, basis);
+  for (const bool ratios : {false, true}) {
+    if (ratios) {
+      box.structure.modal->damping_ratios = {0.02, 0.3};
+    }
+    for (const double factor : {0.9, 3.0}) {
+      box.structure.mass_scaling = 0;
+      const double plain = stable_time_step(box.structure, basis);
+      box.structure.mass_scaling = factor * limit;
+      EXPECT_NEAR(stable_time_step(box.structure, basis) / std::max(plain, factor * limit), 1,
+                  1e-12);
+      const std::vector<double> masses = coordinate_masses(box.structure, basis);
+      EXPECT_EQ(masses.front(), 1);
+      EXPECT_EQ(masses.back() > 1, plain < factor * limit);
+    }
+  }
+  box.structure.mass_scaling = 3 * limit;
+  box.structure.modal->damping_ratios.clear();
+  const std::vector<double> masses = coordinate_masses(box.structure, basis);
+  ModalBasis kept = basis;
+  const LinearSystem system = build_reduced_system(MPI_COMM_SELF, 0, box.structure, kept);
+  EXPECT_EQ(system.lumped_mass, masses);
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    // The load of the ground, M_q iota, is what it was.
+    EXPECT_NEAR(masses[i] * system.influence(2)[i], basis.participation[2 * basis.size() + i],
+                1e-14 * std::sqrt(basis.total_mass));
+  }
+  box.structure.mass_scaling = 2 / box.structure.damping.alpha;
+  EXPECT_THROW(coordinate_masses(box.structure, basis), UserError);
 }
 
 TEST_F(ReducedSystem, DampingRatiosAreADiagonalMatrix) {
