@@ -14,14 +14,22 @@ def _inside(frequency: np.ndarray, band: tuple) -> np.ndarray:
     return (frequency >= low * (1 - 1e-9)) & (frequency <= high * (1 + 1e-9))
 
 
+def _weights(frequency: np.ndarray) -> np.ndarray:
+    """Of the trapezoidal rule over ln f, with a sum of 1."""
+    step = np.diff(np.log(frequency))
+    return np.append(step, 0) / step.sum() / 2 + np.append(0, step) / step.sum() / 2
+
+
 def log_ratio(frequency, found, reference, band=(1, 400)) -> dict:
-    """rms and largest |ln(found / reference)| over a band, and the frequency of the largest [Hz]."""
+    """rms, mean and largest |ln(found / reference)| over a band, the means in d ln f; the frequency of the
+    largest [Hz]. A band needs two frequencies."""
     frequency, found, reference = (np.asarray(values, dtype=float) for values in (frequency, found, reference))
     inside = _inside(frequency, band)
     ratio = np.log(found[inside] / reference[inside])
+    weights = _weights(frequency[inside])
     worst = int(np.argmax(abs(ratio)))
-    return {"rms": float(np.sqrt((ratio**2).mean())), "max": float(abs(ratio[worst])),
-            "at": float(frequency[inside][worst]), "bias": float(ratio.mean())}
+    return {"rms": float(np.sqrt(weights @ ratio**2)), "max": float(abs(ratio[worst])),
+            "at": float(frequency[inside][worst]), "bias": float(weights @ ratio)}
 
 
 def class_of(rms: float, largest: float) -> str:
