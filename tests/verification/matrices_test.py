@@ -151,7 +151,7 @@ class Matrices(unittest.TestCase):
 
     def test_options_that_do_not_go_together(self):
         for words, expected in (
-                (["-s1_matrices", "here"], "-s1_matrices"),
+                (["-s1_matrices", "here", "-s1_mass_scaling", 2e-5], "-s1_matrices"),
                 (["-s1_matrices", "nowhere"], "nowhere/dofs.csv"),
                 (["-s1_matrices", "x", "-s1_brace1_tension_only", "true"],
                  "tension_only")):
