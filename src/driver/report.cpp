@@ -88,6 +88,17 @@ void print_time_step_limit(const Model& model, std::size_t s) {
   }
 }
 
+/// Elements that cost the whole structure its time step, mostly by an accident of meshing.
+void warn_slivers(const LinearSystem& system) {
+  for (const Sliver& sliver : system.slivers) {
+    std::printf(
+        "  warning: sliver: %s allows by itself %.3e s, the median of its group %.3e s (%lld such "
+        "elements in it); mend the mesh\n",
+        sliver.element.c_str(), sliver.time_step, sliver.median,
+        static_cast<long long>(sliver.count));
+  }
+}
+
 void print_structure(const Scene& scene, const Model& model, std::size_t s) {
   const Mesh& mesh = model.meshes[s];
   const LinearSystem& system = model.systems[s];
@@ -119,6 +130,7 @@ void print_structure(const Scene& scene, const Model& model, std::size_t s) {
                 model.stable_time_step[s], model.largest[s].location.c_str());
   } else {
     print_time_step_limit(model, s);
+    warn_slivers(system);
   }
 }
 

@@ -5,12 +5,14 @@
 #include <cstring>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "common/parallel.h"
 #include "mesh/location.h"
 #include "system/critical_time_step.h"
 #include "system/dense_eigenvalues.h"
 #include "system/element_loop.h"
+#include "system/slivers.h"
 
 namespace pounding {
 namespace {
@@ -103,7 +105,9 @@ void ElementBounds::finish(LinearSystem& system) {
   system.element_time_step_bound = infinity;
   auto frequency = frequencies_.begin();
   auto factor = mass_scaling_.begin();
+  std::vector<double> alone;  // what the elements of a block allow without devices
   for (const ElementBlock& block : mesh_.blocks) {
+    alone.clear();
     for (std::size_t e = 0; e < block.count(); ++e, ++frequency, ++factor) {
       // omega^2 / (1 + c omega^2)
       const double scaled =
@@ -117,15 +121,18 @@ void ElementBounds::finish(LinearSystem& system) {
         system.element_time_step_bound = dt;
         system.limiting_element = describe_element(mesh_, block, e);
       }
+      alone.push_back(time_step_alone(block, *frequency, *factor));
+    }
+    if (auto sliver = find_sliver(mesh_, block, alone)) {
+      system.slivers.push_back(std::move(*sliver));
     }
   }
   share_extreme(mesh_.comm, MPI_MAXLOC, system.element_frequency_bound, system.stiffest_element);
   share_extreme(mesh_.comm, MPI_MINLOC, system.element_time_step_bound, system.limiting_element);
 }
 
-/// Of an element with the devices at its owned dofs; the other ranks that hold it see to the rest.
-double ElementBounds::time_step(const ElementBlock& block, std::size_t element, double frequency,
-                                double mass_scaling, std::span<const double> lumped_mass) const {
+double ElementBounds::time_step_alone(const ElementBlock& block, double frequency,
+                                      double mass_scaling) const {
   if (mass_scaling > 0) {
     return structure_.mass_scaling;
   }
@@ -134,11 +141,19 @@ double ElementBounds::time_step(const ElementBlock& block, std::size_t element, 
   }
   const Rayleigh damping = damping_of(block);
   const double square = frequency * frequency;
-  const double rate = damping.alpha + damping.beta * square;
-  double smallest = critical_time_step(rate, square);
-  if (device_damping_.empty()) {
+  return critical_time_step(damping.alpha + damping.beta * square, square);
+}
+
+/// Of an element with the devices at its owned dofs; the other ranks that hold it see to the rest.
+double ElementBounds::time_step(const ElementBlock& block, std::size_t element, double frequency,
+                                double mass_scaling, std::span<const double> lumped_mass) const {
+  double smallest = time_step_alone(block, frequency, mass_scaling);
+  if (mass_scaling > 0 || std::isinf(frequency) || device_damping_.empty()) {
     return smallest;
   }
+  const Rayleigh damping = damping_of(block);
+  const double square = frequency * frequency;
+  const double rate = damping.alpha + damping.beta * square;
   const ElementLayout layout = element_layout(block.type);
   const auto dofs = element_dofs(mesh_, block, element, layout);
   for (std::size_t i = 0; i < static_cast<std::size_t>(layout.size()); ++i) {

@@ -31,13 +31,16 @@ class ElementBounds {
            std::span<const double> mass, std::span<const double> dashpots,
            std::span<const LocalIndex> dofs, double mass_scaling);
 
-  /// After every element, with the lumped mass complete: fills in the bounds of `system`.
+  /// After every element, with the lumped mass complete: fills in the bounds of `system` and its
+  /// slivers.
   /// Collective.
   void finish(LinearSystem& system);
 
  private:
   /// Elements of one shape have one frequency: look at one of them.
   double frequency(std::span<const double> stiffness, std::span<const double> mass);
+  /// What an element allows without the devices at its nodes [s]; infinite without mass.
+  double time_step_alone(const ElementBlock& block, double frequency, double mass_scaling) const;
   double time_step(const ElementBlock& block, std::size_t element, double frequency,
                    double mass_scaling, std::span<const double> lumped_mass) const;
   Rayleigh damping_of(const ElementBlock& block) const;

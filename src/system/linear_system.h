@@ -14,6 +14,7 @@
 #include "scene/scene.h"
 #include "system/coupled_mass.h"
 #include "system/mass_scaling.h"
+#include "system/slivers.h"
 #include "system/stiffness.h"
 #include "system/tension_bars.h"
 
@@ -75,6 +76,7 @@ struct LinearSystem {
   /// where nothing limits it.
   double element_time_step_bound = 0;  ///< [s]
   std::string limiting_element;
+  std::vector<Sliver> slivers;  ///< the worst of every group that has any
 
   /// K for eigenvalues: every bar taut.
   const Stiffness& stiffest() const { return taut ? *taut : *stiffness; }

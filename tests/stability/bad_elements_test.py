@@ -11,6 +11,7 @@ import shutil
 import tempfile
 import unittest
 
+import program
 from history import History, refused, scenes
 from small_meshes import Mesh, brick
 
@@ -45,6 +46,33 @@ class Slivers(unittest.TestCase):
             self.assertAlmostEqual(named, 0.5 + thickness / 2, delta=1e-5)  # the next ones are 0.05 m away
             self.assertAlmostEqual(run.summary["impacts"]["total_impulse"] / (2 * column["mass"]), 1, delta=0.05)
             self.assertLess(run.energy["relative_residual"], 1e-12)
+
+
+class Warnings(unittest.TestCase):
+    """One line before the run names the worst of the elements that cost the others their time step."""
+
+    def warnings(self, words, ranks=2):
+        with tempfile.TemporaryDirectory() as folder:
+            result = program.run([*words, "-dry_run", "-output", folder], ranks, timeout=300)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return [line for line in result.stdout.splitlines() if "sliver" in line]
+
+    def test_thin_layer_is_named(self):
+        lines = {tuple(self.warnings(scenes.column(1e-5), ranks)) for ranks in (1, 2)}
+        self.assertEqual(len(lines), 1, lines)
+        (line,), = lines
+        found = re.search(r"element (\d+) of group 'body' at \((.*)\) allows by itself (\S+) s, the median of its "
+                          r"group (\S+) s \(1 such", line)
+        self.assertEqual([float(x) for x in found[2].split(",")], [0.05, 0.05, 0.5])
+        wave = math.sqrt(30e9 / 2400)
+        self.assertAlmostEqual(float(found[3]) * wave / 1e-5, 1, delta=1e-3)
+        self.assertAlmostEqual(float(found[4]) * wave / 0.1, 1, delta=1e-3)
+
+    def test_even_meshes_are_not_blamed(self):
+        for words in (scenes.column(0.1), scenes.column(0.02), program.COARSE_PAIR,
+                      ["-options_file", "petsc-options/azalee/pair.yaml"],
+                      ["-options_file", "petsc-options/azalee/pair-b.yaml"]):
+            self.assertEqual(self.warnings([*words, "-end_time", 1e-3, "-modes", 0]), [], words)
 
 
 class Broken(unittest.TestCase):

@@ -48,6 +48,8 @@ TEST_F(ReducedSystem, IsInTheCoordinatesOfTheBasis) {
   EXPECT_EQ(system.lumped_mass, std::vector<double>(size, 1.0));
   EXPECT_DOUBLE_EQ(system.total_mass, box.system.total_mass);
   EXPECT_EQ(system.gravity, box.structure.gravity);
+  EXPECT_EQ(system.damping.alpha, 0.3);
+  EXPECT_EQ(system.damping.beta, 2e-6);
   EXPECT_FALSE(system.has_devices());
   for (int d = 0; d < 3; ++d) {
     const auto begin = basis.participation.begin() + static_cast<std::ptrdiff_t>(size) * d;
