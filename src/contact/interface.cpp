@@ -7,6 +7,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "contact/contact_face.h"
+#include "mesh/bounding_box.h"
 #include "mesh/group_names.h"
 
 namespace pounding {
@@ -293,26 +294,11 @@ class PairFinder {
   InterfaceReport report_;
 };
 
-double extent(std::span<const GlobalMesh> meshes) {
-  Vector3 low{1e300, 1e300, 1e300};
-  Vector3 high{-1e300, -1e300, -1e300};
-  for (const GlobalMesh& mesh : meshes) {
-    for (GlobalIndex node = 0; node < mesh.node_count(); ++node) {
-      const Vector3 x = mesh.position(node);
-      for (std::size_t d = 0; d < 3; ++d) {
-        low[d] = std::min(low[d], x[d]);
-        high[d] = std::max(high[d], x[d]);
-      }
-    }
-  }
-  return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
-}
-
 }  // namespace
 
 Interface find_interface(const Scene& scene, std::span<const GlobalMesh> meshes) {
   Interface interface;
-  interface.model_size = extent(meshes);
+  interface.model_size = bounding_box(meshes).longest_side();
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     PairFinder(scene, meshes, static_cast<int>(c)).find(interface);
   }

@@ -6,28 +6,12 @@
 
 #include "common/error.h"
 #include "elements/element.h"
+#include "mesh/bounding_box.h"
 
 namespace pounding {
 namespace {
 
 constexpr double smallest_edge = 1e-12;  // of the diagonal of the mesh
-
-double distance(const Vector3& x, const Vector3& y) {
-  return std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
-}
-
-double diagonal(const GlobalMesh& mesh) {
-  Vector3 low{1e300, 1e300, 1e300};
-  Vector3 high{-1e300, -1e300, -1e300};
-  for (GlobalIndex node = 0; node < mesh.node_count(); ++node) {
-    const Vector3 x = mesh.position(node);
-    for (std::size_t d = 0; d < 3; ++d) {
-      low[d] = std::min(low[d], x[d]);
-      high[d] = std::max(high[d], x[d]);
-    }
-  }
-  return distance(low, high);
-}
 
 bool has_extent(ElementType type) {
   return is_hexahedron(type) || is_shell(type) || type == ElementType::beam ||
@@ -48,7 +32,7 @@ double smallest_distance(const GlobalMesh& mesh, const GlobalIndex* corner, std:
 }  // namespace
 
 void check_element_sizes(const std::string& structure, const GlobalMesh& mesh) {
-  const double least = smallest_edge * diagonal(mesh);
+  const double least = smallest_edge * bounding_box({&mesh, 1}).diagonal();
   for (const ElementSet& set : mesh.regions) {
     const auto nodes = static_cast<std::size_t>(element_layout(set.type).nodes);
     for (std::size_t e = 0; has_extent(set.type) && e < set.tags.size(); ++e) {

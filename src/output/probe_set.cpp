@@ -1,27 +1,15 @@
 #include "output/probe_set.h"
 
-#include <cmath>
 #include <limits>
 #include <sstream>
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "mesh/bounding_box.h"
 #include "mesh/group_names.h"
 
 namespace pounding {
 namespace {
-
-double distance(const Vector3& a, const Vector3& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
-double extent(const GlobalMesh& mesh) {
-  double largest = 0;
-  for (GlobalIndex node = 0; node < mesh.node_count(); ++node) {
-    largest = std::max(largest, distance(mesh.position(node), mesh.position(0)));
-  }
-  return largest;
-}
 
 GlobalIndex nearest_node(const GlobalMesh& mesh, const Probe& probe, const Vector3& point) {
   GlobalIndex best = 0;
@@ -33,7 +21,7 @@ GlobalIndex nearest_node(const GlobalMesh& mesh, const Probe& probe, const Vecto
       best = node;
     }
   }
-  if (best_distance > 0.05 * extent(mesh)) {
+  if (best_distance > 0.05 * bounding_box({&mesh, 1}).diagonal()) {
     std::ostringstream text;
     text << "option -" << probe.name << "_at: the point (" << point[0] << ", " << point[1] << ", "
          << point[2] << ") is " << best_distance << " m away from the nearest node of structure "

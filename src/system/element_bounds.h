@@ -32,8 +32,7 @@ class ElementBounds {
            std::span<const LocalIndex> dofs, double mass_scaling);
 
   /// After every element, with the lumped mass complete: fills in the bounds of `system` and its
-  /// slivers.
-  /// Collective.
+  /// slivers. Collective.
   void finish(LinearSystem& system);
 
  private:

@@ -154,12 +154,6 @@ void ElementStiffness::plan() {
   for (const LocalIndex dof : early) append(general_ranges_, dof);
 }
 
-double ElementStiffness::early_share() const {
-  LocalIndex late = 0;
-  for (const DofRange& range : late_ranges_) late += range.end - range.begin;
-  return owned_dofs_ > 0 ? 1 - static_cast<double>(late) / owned_dofs_ : 1;
-}
-
 void ElementStiffness::apply(Vec w, Vec q) const {
   const VecReader reader(w);
   double* force = nullptr;

@@ -50,8 +50,6 @@ class ElementStiffness final : public Stiffness {
   void release_matrix() override { assembled_.reset(); }
 
   const ElementKinds& kinds() const { return kinds_; }
-  /// Share of this rank's dofs that are handed over before the end of a product.
-  double early_share() const;
 
  private:
   /// Everything applied before, or after the ghosts are here.

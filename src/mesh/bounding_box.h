@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+
+#include "mesh/global_mesh.h"
+
+namespace pounding {
+
+/// Between two points [m].
+double distance(const Vector3& x, const Vector3& y);
+
+/// Of a set of nodes, its sides along the axes.
+struct BoundingBox {
+  Vector3 low{1e300, 1e300, 1e300};      ///< [m]
+  Vector3 high{-1e300, -1e300, -1e300};  ///< [m]
+
+  double diagonal() const { return distance(low, high); }
+  double longest_side() const;
+};
+
+/// Of every node of some meshes, which have at least one. Serial.
+BoundingBox bounding_box(std::span<const GlobalMesh> meshes);
+
+}  // namespace pounding
