@@ -1,11 +1,25 @@
 """The cases: ground motions, gaps, variants of the model, and the words that ask the program for them."""
 
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from . import paper
 
-# Fidelity: options in front of those of the case.
-FIDELITIES = {"full": []}
+
+
+def both(**options) -> list:
+    """Options of the two structures."""
+    return [word for structure in ("s1", "s2") for name, value in options.items()
+            for word in (f"-{structure}_{name}", value)]
+
+
+# Fidelity: options in front of those of the case; {bases} is where bases are kept, one pair per variant.
+FIDELITIES = {
+    "full": [],
+    "scaled": [*both(mass_scaling="2e-5"), "-courant", "0.99"],
+    "modal": [*both(model="modal", modal_vectors="200", mass_scaling="5.5e-5"),
+              "-s1_modal_basis", "{bases}-s1.h5", "-s2_modal_basis", "{bases}-s2.h5"],
+}
 
 VARIANTS = {"A": "Model A", "B": "Model B", "A-symmetric": "Model A, symmetric gap",
             "A-apart": "Model A without pounding"}
@@ -16,6 +30,11 @@ SEEDS = {"x": 1, "y": 2, "z": 3}
 
 # A hundred times cheaper: the same physics on a coarse mesh, the strong phase only.
 QUICK_MESH = {"s1": "cells_x=7,cells_y=5,column_elements=2", "s2": "cells_x=5,cells_y=5,column_elements=2"}
+
+
+DESCRIPTIONS = {"full": "full order",
+                "scaled": "full order, mass of stiff frames scaled for a step of 2e-5 s",
+                "modal": "200 modes and attachment vectors per structure, mass scaled for a step of 5.5e-5 s"}
 
 
 @dataclass(frozen=True)
@@ -48,6 +67,11 @@ class Case:
     @property
     def pounds(self) -> bool:
         return self.variant != "A-apart"
+
+    @property
+    def bases(self) -> list:
+        """Files of the modal bases that the run reads or, if they are not there, writes."""
+        return [Path(value) for name, value in zip(self.words, self.words[1:]) if name.endswith("_modal_basis")]
 
     @property
     def name(self) -> str:
@@ -87,18 +111,19 @@ def synthetic_words(case: Case, window: Window) -> tuple[list, list]:
 
 
 def make_case(gap: int, motion: str, variant: str, window: Window, quick: bool, fidelity: str, extra: list,
-              record=None) -> Case:
-    """`record`: a records.Record in the place of the synthetic motion, or None."""
+              record=None, root: Path = Path()) -> Case:
+    """`record`: a records.Record in the place of the synthetic motion, or None; `root`: folder of all cases."""
     case = Case(gap, motion, variant)
+    bases = str(root / "bases" / variant.lower())
     model, files = model_words(case, quick)
     shaking, sources = record.words(case.pga) if record else synthetic_words(case, window)
-    words = [*model, *FIDELITIES[fidelity], *gap_words(case), *shaking, "-end_time", repr(window.end_time),
+    words = [*model, *[word.format(bases=bases) for word in FIDELITIES[fidelity]], *gap_words(case), *shaking, "-end_time", repr(window.end_time),
              "-modes", "1", "-title", f"gap {gap} cm, {motion}, {VARIANTS[variant]}", *extra]
     return Case(gap, motion, variant, tuple(words), tuple(map(str, [*files, *sources])))
 
 
 def all_cases(window: Window = FULL, quick: bool = False, fidelity: str = "full", extra=(), records=None,
-              gaps=paper.GAPS, motions=paper.MOTIONS, variants=tuple(VARIANTS)) -> list:
+              gaps=paper.GAPS, motions=paper.MOTIONS, variants=tuple(VARIANTS), root: Path = Path()) -> list:
     """In the order in which they are run: every variant of a gap and a motion together."""
-    return [make_case(gap, motion, variant, window, quick, fidelity, list(extra), (records or {}).get(motion))
+    return [make_case(gap, motion, variant, window, quick, fidelity, list(extra), (records or {}).get(motion), root)
             for gap in gaps for motion in motions for variant in variants]

@@ -134,6 +134,23 @@ def show_running(running: list, left: str) -> None:
         print(f"{CLEAR_LINE}  running {now}; {left}", end="", flush=True)
 
 
+def prepare_bases(cases: list, variables: dict) -> None:
+    """Has the modal bases made that several runs will read, before any two could write them at once."""
+    for case in cases:
+        if all(path.exists() for path in case.bases):
+            continue
+        started = time.monotonic()
+        case.bases[0].parent.mkdir(parents=True, exist_ok=True)
+        ranks = min(len(case.bases), len(os.sched_getaffinity(0)))
+        command = ["mpirun", "-n", str(ranks), str(build_folder() / "pounding"), *case.words, "-dry_run"]
+        done = subprocess.run(command, cwd=SOURCE, env=variables, stdin=subprocess.DEVNULL, capture_output=True,
+                              text=True, check=False)
+        if done.returncode != 0:
+            said = [line for line in done.stderr.splitlines() if line.startswith("pounding: ")]
+            raise SetUpError(said[0] if said else f"modal bases of {case.name}: exit status {done.returncode}")
+        say(f"  modal bases of {case.variant}: {time.monotonic() - started:.0f} s")
+
+
 def run_all(cases: list, root: Path, jobs: int, ranks: int, keep_histories: bool) -> dict:
     """Case -> '' or why it failed. Finished ones are not run again; ends what it started if it is
     interrupted."""
@@ -143,6 +160,7 @@ def run_all(cases: list, root: Path, jobs: int, ranks: int, keep_histories: bool
         f"{ranks} rank{'s' if ranks > 1 else ''} each; results in {root}")
     variables, running, clock = environment(), [], Clock(jobs)
     done, total = 0, len(waiting)
+    prepare_bases(waiting, variables)
     try:
         while waiting or running:
             while waiting and len(running) < jobs:

@@ -126,6 +126,20 @@ class Refusals(unittest.TestCase):
             self.assertIn("2 cases, 1 failed", result.stdout)
             self.assertIn("gap2-kobe-a: pounding: ", result.stdout)
 
+    def test_reduced_structures_share_their_bases(self):
+        with tempfile.TemporaryDirectory() as folder:
+            words = ["--quick", "--gaps", "2,0", "--motions", "Kobe", "--variants", "A,A-apart", "--no-tables",
+                     "--end-time", "0.5", "--fidelity", "modal", "--output", folder]
+            result = campaign(*words)
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+            self.assertEqual(sorted(os.listdir(os.path.join(folder, "bases"))),
+                             ["a-apart-s1.h5", "a-apart-s2.h5", "a-s1.h5", "a-s2.h5"])
+            for name in ("gap2-kobe-a", "gap0-kobe-a-apart"):
+                with open(os.path.join(folder, name, "log.txt")) as file:
+                    self.assertEqual(file.read().count("modal basis from"), 2)
+            again = campaign(*words)
+            self.assertIn("4 finished before", again.stdout)
+
     def test_words_that_make_no_sense(self):
         for words, expected in ((["--gaps", "3"], "none of 5, 2, 0"), (["--motions", "Loma"], "none of Cadarache"),
                                 (["--variants", "C"], "none of A, B"), (["--jobs", "0"], "not above 0"),
