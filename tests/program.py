@@ -27,6 +27,13 @@ def run(arguments, ranks=2, timeout=900):
                           timeout=timeout)
 
 
+def command(name, *words, timeout=900):
+    """Runs one of the commands in run/, from any folder, on the programs of this build."""
+    return subprocess.run([os.path.join(SOURCE, "run", name), *map(str, words)], cwd=tempfile.gettempdir(),
+                          env={**os.environ, "POUNDING_BUILD": os.path.abspath(BUILD)},
+                          capture_output=True, text=True, timeout=timeout)
+
+
 def error_lines(result):
     """What the program itself said on stderr (mpirun adds lines of its own)."""
     return [line for line in result.stderr.splitlines() if line.startswith("pounding: ")]

@@ -46,9 +46,8 @@ GapWatch make_watch(const Model& model, const ContactProblem* contact) {
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
     norms.push_back(contact == nullptr ? 0 : contact->rate_norm(static_cast<int>(s)));
   }
-  // The three components may peak together.
-  const double peak = std::sqrt(3.0) * model.motion->peak_acceleration();
-  return {model.systems, model.energy_margin, norms, peak, model.time_step};
+  return {model.systems, model.energy_margin, norms, model.motion->peak_acceleration(),
+          model.time_step};
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ void watch_divergence(const Model& model, const State& state, const EnergyLine& 
 void watch_identity(const Model& model, const EnergyLine& line,
                     std::span<const StructureEnergy> structures, double largest_term) {
   double allowed = broken_identity * largest_term;
-  const double shaking = std::sqrt(3.0) * model.motion->peak_acceleration();
+  const double shaking = model.motion->peak_acceleration();
   for (std::size_t s = 0; s < structures.size(); ++s) {
     const Vector3& g = model.systems[s].gravity;
     const double speed = model.time_step * (shaking + std::hypot(g[0], g[1], g[2]));

@@ -7,21 +7,6 @@
 #include "common/parallel.h"
 
 namespace pounding {
-namespace {
-
-/// Keeps a product.
-class Store final : public ForceReceiver {
- public:
-  explicit Store(std::vector<double>& product) : product_(product) {}
-  void receive(LocalIndex begin, LocalIndex end, const double* force) override {
-    std::copy(force, force + (end - begin), product_.begin() + begin);
-  }
-
- private:
-  std::vector<double>& product_;
-};
-
-}  // namespace
 
 CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
                        const GroundMotion& motion, ContactProblem* contact, GapWatch watch,
@@ -45,7 +30,7 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
       device_velocities_[b] = wrap_vector(systems_[b], body.velocity);
       device_forces_[b] = wrap_vector(systems_[b], body.device_force);
     }
-    Store store(body.stiffness_displacement);  // K u_0
+    StoredForces store(body.stiffness_displacement.data());  // K u_0
     systems_[b].stiffness->apply({body.displacement.data(), body.displacement.data(), 0}, store);
   }
   for (std::size_t b = 0; contact_ != nullptr && b < systems_.size(); ++b) {

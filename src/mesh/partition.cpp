@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include <metis.h>
@@ -12,7 +13,7 @@ namespace pounding {
 namespace {
 
 /// Every element of every structure in one list, with global node numbers that run on from
-/// structure to structure.
+/// structure to structure. What METIS must not cut is one entry: the elements inside a cluster.
 struct ElementList {
   std::vector<idx_t> first;  ///< CSR offsets into nodes
   std::vector<GlobalIndex> nodes;
@@ -20,6 +21,7 @@ struct ElementList {
   std::vector<int> needed;  ///< shared nodes that make two elements neighbours
   std::vector<GlobalIndex> node_offset;
   std::vector<std::size_t> element_offset;
+  std::vector<idx_t> entry;  ///< of each element
   GlobalIndex node_count = 0;
   idx_t count() const { return static_cast<idx_t>(cost.size()); }
 };
@@ -65,6 +67,7 @@ ElementList list_elements(std::span<const GlobalMesh> meshes, std::span<const in
           list.nodes.push_back(list.node_count + set.connectivity[e * width + a]);
         }
         list.first.push_back(static_cast<idx_t>(list.nodes.size()));
+        list.entry.push_back(list.count());
         list.cost.push_back(element_cost(set.type));
         list.needed.push_back(width == 8 ? 4 : 1);
       }
@@ -72,6 +75,72 @@ ElementList list_elements(std::span<const GlobalMesh> meshes, std::span<const in
     list.node_count += mesh.node_count();
   }
   list.element_offset.push_back(list.cost.size());
+  return list;
+}
+
+/// Cost of a node of a cluster: its part in a solution instead of a division.
+constexpr idx_t cluster_node_cost = 36;
+
+/// The cluster of each node, -1: none.
+std::vector<int> cluster_of_nodes(const ElementList& list, std::span<const NodeCluster> clusters) {
+  std::vector<int> cluster(static_cast<std::size_t>(list.node_count), -1);
+  for (std::size_t c = 0; c < clusters.size(); ++c) {
+    const GlobalIndex offset = list.node_offset[static_cast<std::size_t>(clusters[c].structure)];
+    for (const GlobalIndex node : clusters[c].nodes) {
+      cluster[static_cast<std::size_t>(offset + node)] = static_cast<int>(c);
+    }
+  }
+  return cluster;
+}
+
+/// The cluster that holds every node of a small element, -1: none.
+int cluster_of_element(std::span<const GlobalIndex> nodes, const std::vector<int>& cluster) {
+  const auto of = [&](GlobalIndex node) { return cluster[static_cast<std::size_t>(node)]; };
+  const bool inside = nodes.size() <= 2 && of(nodes.front()) == of(nodes.back());
+  return inside ? of(nodes.front()) : -1;
+}
+
+/// Puts the elements inside each cluster together, behind all others.
+ElementList merge_clusters(const ElementList& all, std::span<const NodeCluster> clusters) {
+  const std::vector<int> cluster = cluster_of_nodes(all, clusters);
+  ElementList list;
+  list.first.push_back(0);
+  list.node_offset = all.node_offset;
+  list.element_offset = all.element_offset;
+  list.node_count = all.node_count;
+  list.entry.resize(all.cost.size());
+  std::vector<std::vector<std::size_t>> inside(clusters.size());
+  const auto nodes_of = [&](std::size_t e) {
+    return std::span<const GlobalIndex>(all.nodes).subspan(
+        static_cast<std::size_t>(all.first[e]),
+        static_cast<std::size_t>(all.first[e + 1] - all.first[e]));
+  };
+  const auto add = [&](const auto& nodes, idx_t cost, int needed) {
+    list.nodes.insert(list.nodes.end(), nodes.begin(), nodes.end());
+    list.first.push_back(static_cast<idx_t>(list.nodes.size()));
+    list.cost.push_back(cost);
+    list.needed.push_back(needed);
+  };
+  for (std::size_t e = 0; e < all.cost.size(); ++e) {
+    if (const int c = cluster_of_element(nodes_of(e), cluster); c >= 0) {
+      inside[static_cast<std::size_t>(c)].push_back(e);
+      continue;
+    }
+    list.entry[e] = list.count();
+    add(nodes_of(e), all.cost[e], all.needed[e]);
+  }
+  for (const std::vector<std::size_t>& elements : inside) {
+    std::set<GlobalIndex> nodes;
+    idx_t cost = 0;
+    for (const std::size_t e : elements) {
+      list.entry[e] = list.count();
+      nodes.insert(nodes_of(e).begin(), nodes_of(e).end());
+      cost += all.cost[e];
+    }
+    if (!nodes.empty()) {
+      add(nodes, cost + cluster_node_cost * static_cast<idx_t>(nodes.size()), 1);
+    }
+  }
   return list;
 }
 
@@ -211,18 +280,6 @@ double imbalance_of(const ElementList& list, const std::vector<idx_t>& owner, in
   return total > 0 ? *std::max_element(cost.begin(), cost.end()) * parts / total : 1;
 }
 
-/// Links that keep the nodes of each cluster together where METIS cuts, after those given.
-std::vector<NodeLink> with_clusters(std::span<const NodeLink> links,
-                                    std::span<const NodeCluster> clusters) {
-  std::vector<NodeLink> all(links.begin(), links.end());
-  for (const NodeCluster& cluster : clusters) {
-    for (std::size_t i = 1; i < cluster.nodes.size(); ++i) {
-      all.push_back({cluster.structure, cluster.nodes[i - 1], cluster.structure, cluster.nodes[i]});
-    }
-  }
-  return all;
-}
-
 /// One owner for the nodes of a cluster: that of most of them, the lowest on a tie.
 void unite(const NodeCluster& cluster, std::vector<int>& node_owner) {
   std::map<int, int> counts;
@@ -260,10 +317,13 @@ Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const N
                            int parts, std::span<const int> whole,
                            std::span<const NodeCluster> clusters) {
   ElementList list = list_elements(meshes, whole);
+  if (!clusters.empty()) {
+    list = merge_clusters(list, clusters);
+  }
   const NodeElements at = elements_at_nodes(list);
   Graph graph;
   if (parts > 1) {
-    graph = dual_graph(list, at, with_clusters(links, clusters), whole);
+    graph = dual_graph(list, at, links, whole);
   }
   Partition partition;
   partition.parts = parts;
@@ -275,9 +335,10 @@ Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const N
       partition.node_owner.emplace_back(static_cast<std::size_t>(meshes[s].node_count()), part);
       continue;
     }
-    const auto begin = owner.begin() + static_cast<std::ptrdiff_t>(list.element_offset[s]);
-    const auto end = owner.begin() + static_cast<std::ptrdiff_t>(list.element_offset[s + 1]);
-    partition.element_owner.emplace_back(begin, end);
+    std::vector<int>& elements = partition.element_owner.emplace_back();
+    for (std::size_t e = list.element_offset[s]; e < list.element_offset[s + 1]; ++e) {
+      elements.push_back(owner[static_cast<std::size_t>(list.entry[e])]);
+    }
     std::vector<int> nodes(static_cast<std::size_t>(meshes[s].node_count()));
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       const std::size_t g = static_cast<std::size_t>(list.node_offset[s]) + n;

@@ -55,9 +55,7 @@ GroundMotion::GroundMotion(const std::array<std::optional<MotionComponent>, 3>& 
 }
 
 double GroundMotion::peak_acceleration() const {
-  double peak = 0;
-  for (const auto& component : components_) peak = std::max(peak, component.peak());
-  return peak;
+  return std::hypot(components_[0].peak(), components_[1].peak(), components_[2].peak());
 }
 
 double GroundMotion::end_time() const {

@@ -48,7 +48,8 @@ class GroundMotion {
     return components_[static_cast<std::size_t>(direction)];
   }
 
-  double peak_acceleration() const;  ///< largest |a_g| of any component [m/s2]
+  /// Bound of |a_g| at all times: the norm of the components' peaks, which may coincide [m/s2].
+  double peak_acceleration() const;
   double end_time() const;           ///< last sample of the longest component [s]; 0 without any
 
  private:

@@ -67,18 +67,6 @@ void append(std::vector<DofRange>& ranges, LocalIndex dof) {
   ++ranges.back().end;
 }
 
-/// Copies a product to an array.
-class Copy final : public ForceReceiver {
- public:
-  explicit Copy(double* q) : q_(q) {}
-  void receive(LocalIndex begin, LocalIndex end, const double* force) override {
-    std::copy(force, force + (end - begin), q_ + begin);
-  }
-
- private:
-  double* q_;
-};
-
 }  // namespace
 
 ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
@@ -163,7 +151,7 @@ void ElementStiffness::apply(Vec w, Vec q) const {
 }
 
 void ElementStiffness::apply(const double* w, double* q) const {
-  Copy copy(q);
+  StoredForces copy(q);
   apply(StiffnessArgument{w, w, 0}, copy);
 }
 

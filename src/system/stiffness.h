@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -37,6 +38,18 @@ class ForceReceiver {
   /// u and v of these dofs any more, so the receiver may change them. Ranges hold whole nodes and
   /// come in a fixed order, each owned dof once per product.
   virtual void receive(LocalIndex begin, LocalIndex end, const double* force) = 0;
+};
+
+/// Keeps a product in an array over the owned dofs, which must outlive this object.
+class StoredForces final : public ForceReceiver {
+ public:
+  explicit StoredForces(double* product) : product_(product) {}
+  void receive(LocalIndex begin, LocalIndex end, const double* force) override {
+    std::copy(force, force + (end - begin), product_ + begin);
+  }
+
+ private:
+  double* product_;
 };
 
 /// How K is applied. Vectors are distributed over the structure's communicator, owned dofs only.

@@ -17,7 +17,7 @@ GapWatch make_watch(const SteppedModel& model, const ContactProblem* contact) {
     omega.push_back(model.systems[s].element_frequency_bound);
     norms.push_back(contact == nullptr ? 0 : contact->rate_norm(static_cast<int>(s)));
   }
-  const double peak = std::sqrt(3.0) * model.motion->peak_acceleration();
+  const double peak = model.motion->peak_acceleration();
   return {model.systems, omega, norms, peak, model.time_step};
 }
 

@@ -3,7 +3,6 @@ call runs nothing, and the report shows every figure."""
 import csv
 import json
 import os
-import subprocess
 import tempfile
 import unittest
 
@@ -15,9 +14,7 @@ REDUCED = ("--quick", "--gaps", "2,0", "--motions", "Kobe", "--no-tables")
 
 
 def campaign(*words):
-    return subprocess.run([os.path.join(program.SOURCE, "run", "campaign"), *words], cwd=tempfile.gettempdir(),
-                          env={**os.environ, "POUNDING_BUILD": os.path.abspath(program.BUILD)},
-                          capture_output=True, text=True, timeout=1400)
+    return program.command("campaign", *words, timeout=1400)
 
 
 class Campaign(unittest.TestCase):

@@ -1,7 +1,6 @@
 """run/verification: what an assertion compares reaches the table, and a failing one the exit status."""
 import json
 import os
-import subprocess
 import tempfile
 import unittest
 
@@ -40,9 +39,7 @@ class Verification(unittest.TestCase):
             file.write(text)
 
     def verify(self, *words):
-        return subprocess.run([os.path.join(program.SOURCE, "run", "verification"), "--problems", self.problems,
-                               "--output", self.output, *words], cwd=tempfile.gettempdir(), capture_output=True,
-                              env={**os.environ, "POUNDING_BUILD": os.path.abspath(program.BUILD)}, text=True)
+        return program.command("verification", "--problems", self.problems, "--output", self.output, *words)
 
     def rows(self):
         with open(os.path.join(self.output, "verification.md")) as file:

@@ -1,7 +1,6 @@
 """run/stability: its table says for each case what is expected, what was seen, and the verdict."""
 import csv
 import os
-import subprocess
 import tempfile
 import unittest
 
@@ -9,9 +8,7 @@ import program
 
 
 def stability(*words):
-    return subprocess.run([os.path.join(program.SOURCE, "run", "stability"), *words], cwd=tempfile.gettempdir(),
-                          env={**os.environ, "POUNDING_BUILD": os.path.abspath(program.BUILD)},
-                          capture_output=True, text=True, timeout=900)
+    return program.command("stability", *words)
 
 
 class Stability(unittest.TestCase):

@@ -2,7 +2,6 @@
 et al. (Eng. Struct. 251, 2022) beside ours; the figures must be those of the summaries that it left."""
 import json
 import os
-import subprocess
 import tempfile
 import unittest
 
@@ -10,9 +9,7 @@ import program
 
 
 def tables(*words):
-    return subprocess.run([os.path.join(program.SOURCE, "run", "tables"), *words], cwd=tempfile.gettempdir(),
-                          env={**os.environ, "POUNDING_BUILD": os.path.abspath(program.BUILD)},
-                          capture_output=True, text=True, timeout=600)
+    return program.command("tables", *words)
 
 
 class Tables(unittest.TestCase):

@@ -62,7 +62,7 @@ TEST_F(GroundMotionTest, ThreeDirectionsOfTheirOwnLengthAndScale) {
   EXPECT_FALSE(motion.active(1));
   EXPECT_EQ(motion.component(2).acceleration.size(), 2u);
   EXPECT_EQ(motion.end_time(), 1.5);
-  EXPECT_EQ(motion.peak_acceleration(), 2);
+  EXPECT_DOUBLE_EQ(motion.peak_acceleration(), 2.5);
 }
 
 TEST_F(GroundMotionTest, NoMotionAtAll) {
