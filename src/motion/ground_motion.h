@@ -50,7 +50,7 @@ class GroundMotion {
 
   /// Bound of |a_g| at all times: the norm of the components' peaks, which may coincide [m/s2].
   double peak_acceleration() const;
-  double end_time() const;           ///< last sample of the longest component [s]; 0 without any
+  double end_time() const;  ///< last sample of the longest component [s]; 0 without any
 
  private:
   std::array<Accelerogram, 3> components_{Accelerogram{{}, 1}, Accelerogram{{}, 1},
