@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "common/lanes.h"
 #include "dynamics/coupled_step.h"
 #include "dynamics/state.h"
 #include "dynamics/step_sums.h"
-#include "common/lanes.h"
 #include "system/linear_system.h"
 
 namespace pounding {

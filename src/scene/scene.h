@@ -69,8 +69,8 @@ struct Structure {
   std::vector<std::string> clamp;  ///< physical groups fixed to the ground
   std::vector<Region> regions;
   Rayleigh damping;
-  std::optional<ModalModel> modal;  ///< nothing: the finite-element model itself
-  double mass_scaling = 0;  ///< step [s] that what is stiff gets mass for; 0: none
+  std::optional<ModalModel> modal;        ///< nothing: the finite-element model itself
+  double mass_scaling = 0;                ///< step [s] that what is stiff gets mass for; 0: none
   Vector3 initial_displacement{0, 0, 0};  ///< of every free node [m]
   Vector3 initial_velocity{0, 0, 0};      ///< of every free node [m/s]
   Vector3 gravity{0, 0, 0};               ///< constant body acceleration [m/s2]

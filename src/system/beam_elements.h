@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "common/lanes.h"
 #include "common/types.h"
 #include "elements/element.h"
 #include "elements/matrix3.h"
-#include "common/lanes.h"
 
 namespace pounding {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "system/brick_class.h"
 #include "common/lanes.h"
+#include "system/brick_class.h"
 
 /// The stiffness of rows of congruent bricks as a stencil on lines of node pairs.
 ///

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-#include "system/dof_places.h"
 #include "common/lanes.h"
+#include "system/dof_places.h"
 
 namespace pounding {
 namespace {

@@ -3,9 +3,9 @@
 #include <array>
 #include <vector>
 
+#include "common/lanes.h"
 #include "common/types.h"
 #include "elements/element.h"
-#include "common/lanes.h"
 
 namespace pounding {
 

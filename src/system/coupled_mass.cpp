@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "system/elimination_order.h"
 #include "common/lanes.h"
+#include "system/elimination_order.h"
 
 namespace pounding {
 namespace {

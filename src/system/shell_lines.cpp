@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <stdexcept>
 
-#include "system/chain_line.h"
 #include "common/lanes.h"
+#include "system/chain_line.h"
 #include "system/shell_kernel.h"
 
 namespace pounding {

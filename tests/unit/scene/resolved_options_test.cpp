@@ -153,8 +153,8 @@ TEST(ResolvedOptions, AwkwardTextReadsBackAlike) {
 TEST(ResolvedOptions, HoldTheDefaults) {
   const OptionsDatabase resolved = read_flat_yaml(read_scene(smallest()).resolved);
   for (const char* name :
-       {"courant", "modes", "output_interval", "tower_clamp", "tower_model",
-        "tower_damping_alpha", "motion_y_record", "spectra_frequencies", "dry_run"}) {
+       {"courant", "modes", "output_interval", "tower_clamp", "tower_model", "tower_damping_alpha",
+        "motion_y_record", "spectra_frequencies", "dry_run"}) {
     EXPECT_TRUE(resolved.contains(name)) << name;
   }
   EXPECT_EQ(resolved.at("courant"), "0.9");
