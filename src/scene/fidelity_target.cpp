@@ -55,18 +55,56 @@ std::vector<Setting> read_table(const std::string& path) {
   return settings;
 }
 
-const Setting& cheapest(const std::vector<Setting>& settings, double target,
-                        const std::string& path) {
+/// The options of the scene that a setting stands for.
+std::vector<std::pair<std::string, std::string>> options_of(
+    const Setting& setting, const std::vector<std::string>& structures) {
+  std::vector<std::pair<std::string, std::string>> options;
+  for (const auto& [name, value] : setting.options) {
+    if (name[0] == '-') {
+      options.emplace_back(name.substr(1), value);
+      continue;
+    }
+    for (const std::string& structure : structures) {
+      options.emplace_back(structure + "_" + name, value);
+    }
+  }
+  return options;
+}
+
+bool same(const std::string& a, const std::string& b) {
+  const std::optional<double> x = parse_real(a);
+  const std::optional<double> y = parse_real(b);
+  return a == b || (x && y && *x == *y);
+}
+
+/// Whether the user gave none of the options of a setting another value: its error was measured
+/// with all of them.
+bool agrees(const Setting& setting, const OptionsDatabase& given,
+            const std::vector<std::string>& structures) {
+  for (const auto& [option, value] : options_of(setting, structures)) {
+    const auto found = given.find(option);
+    if (found != given.end() && !same(found->second, value)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+const Setting& fastest(const std::vector<Setting>& settings, double target,
+                       const OptionsDatabase& given, const std::vector<std::string>& structures,
+                       const std::string& path) {
   const Setting* best = nullptr;
   for (const Setting& setting : settings) {
-    if (setting.rms <= target && (best == nullptr || setting.cost < best->cost)) {
+    if (setting.rms <= target && agrees(setting, given, structures) &&
+        (best == nullptr || setting.cost < best->cost)) {
       best = &setting;
     }
   }
   if (best == nullptr) {
     std::ostringstream text;
     text << "option -fidelity_target " << target << ": no setting in " << path
-         << " is that accurate; leave the target out for full order";
+         << " is that accurate and agrees with the options given; leave the target out for full "
+            "order";
     throw UserError(text.str());
   }
   return *best;
@@ -83,17 +121,12 @@ ChosenFidelity choose_fidelity(const OptionsDatabase& given) {
   const double target = reader.real("fidelity_target");
   const std::string path = reader.text("fidelity_table");
   const std::vector<Setting> settings = read_table(path);
-  const Setting& setting = cheapest(settings, target, path);
+  const std::vector<std::string> structures = reader.list("structures");
+  const Setting& setting = fastest(settings, target, given, structures, path);
   std::string changes;
-  for (const auto& [name, value] : setting.options) {
-    const bool of_run = name[0] == '-';
-    const std::vector<std::string> structures =
-        of_run ? std::vector<std::string>{""} : reader.list("structures");
-    for (const std::string& structure : structures) {
-      const std::string option = of_run ? name.substr(1) : structure + "_" + name;
-      if (chosen.options.try_emplace(option, value).second) {
-        changes += " -" + option + " " + value;
-      }
+  for (const auto& [option, value] : options_of(setting, structures)) {
+    if (chosen.options.try_emplace(option, value).second) {
+      changes += " -" + option + " " + value;
     }
   }
   std::ostringstream text;

@@ -15,8 +15,8 @@ struct ChosenFidelity {
 /// `-fidelity_target E` takes, from the table of settings that run/tradeoff measured
 /// (`-fidelity_table`), the fastest whose floor spectra differed from full order by at most E (rms
 /// of the natural logarithm of their ratio, 1-400 Hz, in the worst of its cases), and sets its
-/// options for every structure. An option that the user gave wins. Without the target nothing
-/// changes.
+/// options for every structure. A setting one of whose options the user gave another value is
+/// passed over. Without the target nothing changes.
 ///
 /// The table is a CSV file with the columns setting, rms, cost (wall time over motion) and options:
 /// words name=value, each set for every structure (`model=modal` becomes `-<structure>_model

@@ -71,14 +71,18 @@ TEST(FidelityTarget, TakesFullOrderWhereNothingElseWillDo) {
   EXPECT_THAT(chosen.note, testing::HasSubstr("nothing to change"));
 }
 
-TEST(FidelityTarget, GivenOptionsWin) {
+TEST(FidelityTarget, PassesOverWhatTheUserAskedOtherwise) {
   const Table table(measured);
   OptionsDatabase given = scene_with(table, "0.05");
+  given["left_modal_vectors"] = "400.0";
+  EXPECT_THAT(choose_fidelity(given).note, testing::HasSubstr("'many'"));
   given["left_modal_vectors"] = "77";
   const ChosenFidelity chosen = choose_fidelity(given);
   EXPECT_EQ(chosen.options.at("left_modal_vectors"), "77");
-  EXPECT_EQ(chosen.options.at("right_modal_vectors"), "400");
-  EXPECT_THAT(chosen.note, testing::Not(testing::HasSubstr("-left_modal_vectors")));
+  EXPECT_EQ(chosen.options.at("right_mass_scaling"), "2e-5");
+  EXPECT_THAT(chosen.note, testing::HasSubstr("'scaled'"));
+  given["courant"] = "0.5";
+  EXPECT_THAT(choose_fidelity(given).note, testing::HasSubstr("'full'"));
 }
 
 TEST(FidelityTarget, WithoutItNothingChanges) {
