@@ -26,10 +26,12 @@ def gaps(result: Result) -> list:
     time, impacts = result.history["time"], result.impacts
     figure, rows = stacked(len(result.contacts), 2.1)
     for i, (axes, name) in enumerate(zip(rows, result.contacts)):
-        plot_series(axes, time, 1e3 * result.history["gap"][:, i], lw=0.9,
+        gap = 1e3 * result.history["gap"][:, i]
+        known = np.isfinite(gap)
+        plot_series(axes, time[known], gap[known], lw=0.9,
                     color=contact_colour(_names(result), name))
         axes.axhline(0, color="black", lw=0.8)
-        title = f"{name}: smallest gap {1e3 * np.nanmin(result.history['gap'][:, i]):.3g} mm"
+        title = f"{name}: smallest gap {np.min(gap[known]):.3g} mm"
         if impacts:
             own = impacts["contact"].astype(str) == name
             title += f", {own.sum()} impact{'' if own.sum() == 1 else 's'}"
@@ -62,7 +64,9 @@ def strongest_impact(result: Result) -> list:
     figure, rows = stacked(3, 2.0)
     for i, name in enumerate(result.contacts):
         style = {"color": contact_colour(_names(result), name), "label": name, "lw": 1.4}
-        rows[0].plot(1e3 * (time[window] - start), 1e3 * result.history["gap"][window, i], **style)
+        gap = 1e3 * result.history["gap"][window, i]
+        known = np.isfinite(gap)
+        rows[0].plot(1e3 * (time[window] - start)[known], gap[known], **style)
         force = result.history["contact_force"][window, i]
         rows[1].plot(1e3 * (time[window] - start), 1e-3 * force, **style)
     for probe in result.probes:

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <cstring>
 
-#ifdef __FMA__
+#ifdef __AVX__
 #include <immintrin.h>
 #endif
 
@@ -57,6 +57,15 @@ static inline __attribute__((always_inline)) void subtract_product(const Lanes& 
   c = _mm256_fnmadd_pd(a, b, c);
 #else
   c -= a * b;
+#endif
+}
+
+/// Whether a comparison holds in any lane.
+static inline __attribute__((always_inline)) bool any(const LaneMask& mask) {
+#ifdef __AVX__
+  return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) != 0;
+#else
+  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
 #endif
 }
 

@@ -96,6 +96,29 @@ void ContactProblem::build_delassus() {
   }
 }
 
+std::vector<double> ContactProblem::coordinate_rows(std::size_t structure) const {
+  const Trace& trace = traces_[structure];
+  const std::size_t width = trace.dofs().size();
+  std::vector<int> known_place(static_cast<std::size_t>(operator_.dofs()), -1);
+  for (std::size_t k = 0; k < trace.known().size(); ++k) {
+    const auto place = static_cast<std::size_t>(trace.known()[k]);
+    known_place[static_cast<std::size_t>(structure_dofs_[structure][place])] = static_cast<int>(k);
+  }
+  std::vector<double> result(static_cast<std::size_t>(operator_.rows()) * width, 0.0);
+  for (int row = 0; row < operator_.rows(); ++row) {
+    const auto dofs = operator_.row_dofs(row);
+    const auto coefficients = operator_.row_coefficients(row);
+    for (std::size_t a = 0; a < dofs.size(); ++a) {
+      const int k = known_place[static_cast<std::size_t>(dofs[a])];
+      for (std::size_t i = 0; k >= 0 && i < width; ++i) {
+        result[static_cast<std::size_t>(row) * width + i] +=
+            coefficients[a] * trace.row(static_cast<std::size_t>(k))[i];
+      }
+    }
+  }
+  return result;
+}
+
 double ContactProblem::delassus_entry(int row, int column) const {
   double sum = 0;
   const auto row_dofs = operator_.row_dofs(row);
@@ -169,11 +192,12 @@ bool ContactProblem::detect_contact() {
   return any;
 }
 
-void ContactProblem::set_velocities(std::size_t structure, const double* before,
-                                    const double* free) {
-  double* const mine = mine_.data() + 2 * first_known_[structure];
-  traces_[structure].apply(before, mine, 2);
-  traces_[structure].apply(free, mine + 1, 2);
+void ContactProblem::set_velocity_before(std::size_t structure, const double* velocity) {
+  traces_[structure].apply(velocity, mine_.data() + 2 * first_known_[structure], 2);
+}
+
+void ContactProblem::set_free_velocity(std::size_t structure, const double* velocity) {
+  traces_[structure].apply(velocity, mine_.data() + 2 * first_known_[structure] + 1, 2);
 }
 
 void ContactProblem::gather_velocities() {

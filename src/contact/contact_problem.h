@@ -38,14 +38,16 @@ class ContactProblem {
 
   /// The interface of a structure, as far as this rank knows it.
   const Trace& trace(std::size_t structure) const { return traces_[structure]; }
-  /// u_n over the dofs of the structure's trace.
+  /// u_n over the owned dofs of the structure.
   void set_displacement(std::size_t structure, const double* displacement);
   /// Gathers the displacements and computes the gaps. Members only, collective over them.
   void gather_displacements();
   /// Active set; true if it is not empty.
   bool detect_contact();
-  /// v_{n-1/2} and v_free over the dofs of the structure's trace.
-  void set_velocities(std::size_t structure, const double* before, const double* free);
+  /// v_{n-1/2} and v_free over the owned dofs of the structure, after the displacements of both
+  /// have been gathered.
+  void set_velocity_before(std::size_t structure, const double* velocity);
+  void set_free_velocity(std::size_t structure, const double* velocity);
   /// Gathers the velocities. Members only, collective over them.
   void gather_velocities();
   /// Impulses of the active rows, 0 elsewhere.
@@ -67,6 +69,10 @@ class ContactProblem {
   /// by that structure's kinetic energy [kg^-1/2].
   double rate_norm(int structure) const { return rate_norm_[static_cast<std::size_t>(structure)]; }
   double gap_tolerance() const { return gap_tolerance_; }
+  /// Of a structure in generalised coordinates: its part of L T, shape (rows, owned coordinates).
+  std::vector<double> coordinate_rows(std::size_t structure) const;
+  /// Adds the values of all members up. Members only, collective over them.
+  void add_over_members(std::span<double> values) const { gather_.add(values); }
 
   /// The impulses of the last solve, from which the LCP starts, and the largest residual.
   void save(SavedState& saved) const;

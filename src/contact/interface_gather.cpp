@@ -58,4 +58,11 @@ void InterfaceGather::gather(int fields, std::span<const double> mine, std::span
   }
 }
 
+void InterfaceGather::add(std::span<double> values) const {
+  if (members_ > 1) {
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
+                  comm_);
+  }
+}
+
 }  // namespace pounding

@@ -28,6 +28,9 @@ class InterfaceGather {
   /// (fields, interface dofs). Collective over the members. Allocates nothing.
   void gather(int fields, std::span<const double> mine, std::span<double> all);
 
+  /// Sums over the members, in place. Collective over them.
+  void add(std::span<double> values) const;
+
   static constexpr int max_fields = 2;
 
  private:

@@ -2,20 +2,70 @@
 
 #include <cstdio>
 
+#include "common/parallel.h"
 #include "output/csv_file.h"
 
 namespace pounding {
 
-std::vector<ProbeSpectrum> compute_floor_spectra(const Scene& scene, const Recorder& recorder) {
+namespace {
+
+/// The accelerations of the channels that this rank works on: number rank, rank + size, ...
+std::vector<std::vector<double>> share_accelerations(MPI_Comm comm, std::size_t channels,
+                                                     const Recorder& recorder) {
+  const auto ranks = static_cast<std::size_t>(size_of(comm));
+  std::vector<std::vector<double>> mine;
+  for (std::size_t channel = 0; channel < channels; ++channel) {
+    const auto worker = static_cast<int>(channel % ranks);
+    if (rank_of(comm) == 0 && worker != 0) {
+      send_array(comm, worker, recorder.acceleration(channel));
+    } else if (rank_of(comm) == worker) {
+      std::vector<double>& acceleration = mine.emplace_back();
+      if (worker == 0) {
+        acceleration = recorder.acceleration(channel);
+      } else {
+        receive_array(comm, 0, acceleration);
+      }
+    }
+  }
+  return mine;
+}
+
+}  // namespace
+
+std::vector<ProbeSpectrum> compute_floor_spectra(MPI_Comm comm, const Scene& scene,
+                                                 const Recorder& recorder) {
+  const std::size_t channels = 3 * recorder.probes().size();
+  const std::vector<double>& ratios = scene.spectra.damping_ratios;
+  const auto accelerations = share_accelerations(comm, channels, recorder);
+  std::vector<std::vector<SpectrumPoint>> mine;  // per channel and damping ratio
+  on_every_rank(comm, [&] {
+    for (const std::vector<double>& acceleration : accelerations) {
+      for (const double ratio : ratios) {
+        // A run is cut, it does not end: the floor still moves, so nothing is said of what follows.
+        mine.push_back(response_spectrum(acceleration, recorder.interval(),
+                                         scene.spectra.frequencies, ratio, AfterRecord::ignored));
+      }
+    }
+  });
+  if (rank_of(comm) != 0) {
+    for (const std::vector<SpectrumPoint>& points : mine) {
+      send_array(comm, 0, points);
+    }
+    return {};
+  }
+  const auto ranks = static_cast<std::size_t>(size_of(comm));
   std::vector<ProbeSpectrum> spectra;
-  for (std::size_t channel = 0; channel < recorder.channels().size(); ++channel) {
-    const std::vector<double> acceleration = recorder.acceleration(channel);
-    for (const double ratio : scene.spectra.damping_ratios) {
-      // A run is cut, it does not end: the floor still moves, so nothing is said of what follows.
-      spectra.push_back(
-          {recorder.probes()[channel / 3].name, direction_names[channel % 3], ratio,
-           response_spectrum(acceleration, recorder.interval(), scene.spectra.frequencies, ratio,
-                             AfterRecord::ignored)});
+  for (std::size_t channel = 0; channel < channels; ++channel) {
+    for (std::size_t r = 0; r < ratios.size(); ++r) {
+      ProbeSpectrum& spectrum = spectra.emplace_back();
+      spectrum.probe = recorder.probes()[channel / 3].name;
+      spectrum.direction = direction_names[channel % 3];
+      spectrum.damping_ratio = ratios[r];
+      if (channel % ranks == 0) {
+        spectrum.points = std::move(mine[channel / ranks * ratios.size() + r]);
+      } else {
+        receive_array(comm, static_cast<int>(channel % ranks), spectrum.points);
+      }
     }
   }
   return spectra;

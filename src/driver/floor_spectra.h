@@ -17,8 +17,10 @@ struct ProbeSpectrum {
   std::vector<SpectrumPoint> points;
 };
 
-/// Spectra of every recorded channel (rank 0 only, after the recorder finished).
-std::vector<ProbeSpectrum> compute_floor_spectra(const Scene& scene, const Recorder& recorder);
+/// Spectra of every recorded channel, on rank 0, after the recorder finished; the channels are
+/// shared out among the ranks. Collective.
+std::vector<ProbeSpectrum> compute_floor_spectra(MPI_Comm comm, const Scene& scene,
+                                                 const Recorder& recorder);
 
 /// `spectra.csv`; the header states the sampling and up to which frequency it holds.
 void write_floor_spectra(const std::string& path, const std::vector<ProbeSpectrum>& spectra,

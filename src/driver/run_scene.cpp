@@ -123,8 +123,8 @@ void run_scene(MPI_Comm comm, const Scene& scene, const std::string& resolved) {
   if (signal != 0) {
     stop(scene, model, signal, loop.step());
   }
+  const std::vector<ProbeSpectrum> spectra = compute_floor_spectra(comm, scene, loop.recorder());
   on_rank0(comm, [&] {
-    const std::vector<ProbeSpectrum> spectra = compute_floor_spectra(scene, loop.recorder());
     write_floor_spectra(scene.output + "/spectra.csv", spectra, loop.recorder().interval());
     statistics.wall_time = MPI_Wtime() - start;
     write_summary(scene.output + "/summary.json", scene, resolved, model, statistics,

@@ -23,6 +23,7 @@ struct RunStatistics {
   int contact_rows = 0;
   int coupled_rows = 0;
   int interface_ranks = 0;
+  std::int64_t interface_looks = 0;   ///< steps that looked at the gaps
   std::vector<ImpactTotals> impacts;  ///< per contact
   ImpactTotals all_impacts;
   std::vector<double> phase_seconds;  ///< largest over the ranks, per Phase

@@ -145,6 +145,7 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
   summary["partition"] = {{"imbalance", model.partition_imbalance},
                           {"edge_cut", model.partition_edge_cut},
                           {"interface_ranks", statistics.interface_ranks}};
+  summary["interface_looks"] = statistics.interface_looks;
   summary["energy"] = describe_energy(statistics);
   summary["impacts"] = describe_impacts(statistics.all_impacts);
   summary["impacts"]["complementarity_residual"] = statistics.complementarity_residual;

@@ -42,12 +42,18 @@ std::unique_ptr<ContactProblem> make_contact(MPI_Comm comm, const Scene& scene,
 }
 
 GapWatch make_watch(const Model& model, const ContactProblem* contact) {
-  std::vector<double> norms;
+  std::vector<GapWatch::Bound> bounds;
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    norms.push_back(contact == nullptr ? 0 : contact->rate_norm(static_cast<int>(s)));
+    GapWatch::Bound& bound = bounds.emplace_back();
+    bound.energy_margin = model.energy_margin[s];
+    if (contact != nullptr) {
+      bound.rate_norm = contact->rate_norm(static_cast<int>(s));
+      if (model.systems[s].generalised) {
+        bound.coordinate_rows = contact->coordinate_rows(s);
+      }
+    }
   }
-  return {model.systems, model.energy_margin, norms, model.motion->peak_acceleration(),
-          model.time_step};
+  return {model.systems, std::move(bounds), model.motion->peak_acceleration(), model.time_step};
 }
 
 }  // namespace
@@ -96,6 +102,8 @@ void TimeLoop::create_recorder(bool continued) {
   for (const LinearSystem& system : model_.systems) {
     layout.initial_velocity.push_back(system.initial_velocity);
   }
+  const double records = scene_.gap_interval / (model_.time_step * layout.stride);
+  gap_stride_ = layout.stride * std::max<std::int64_t>(1, static_cast<std::int64_t>(records));
   recorder_ = std::make_unique<Recorder>(std::move(layout), model_.systems, model_.meshes);
 }
 
@@ -112,10 +120,11 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
   const std::int64_t progress_interval = std::max<std::int64_t>(1, model_.steps / 200);
   for (std::int64_t n = first_step_; n <= model_.steps && signal == 0; ++n) {
     const bool ledger = n > 0 && (n % scene_.energy_interval == 0 || n == model_.steps);
-    if (recorder_->due(n)) {
+    const bool records = recorder_->due(n);
+    if (records) {
       recorder_->take_displacements(stepper_->state());
     }
-    stepper_->step(recorder_->due(n), ledger);
+    stepper_->step(records && n % gap_stride_ == 0, ledger);
     observe(n);
     if (ledger) {
       close_ledger_line();
@@ -153,8 +162,10 @@ void TimeLoop::observe(std::int64_t step) {
   if (!recorder_->due(step)) {
     return;
   }
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  const double none = std::numeric_limits<double>::max();
+  std::fill(smallest_gaps_.begin(), smallest_gaps_.end(), reports ? none : unknown);
   if (reports) {
-    std::fill(smallest_gaps_.begin(), smallest_gaps_.end(), std::numeric_limits<double>::max());
     for (std::size_t row = 0; row < contact_->gaps().size(); ++row) {
       double& gap =
           smallest_gaps_[static_cast<std::size_t>(model_.interface.constraints[row].contact)];
@@ -235,6 +246,8 @@ void TimeLoop::fill(RunStatistics& statistics) const {
     statistics.contact_rows = contact_->rows();
     statistics.coupled_rows = contact_->coupled_rows();
     statistics.interface_ranks = contact_->members();
+    statistics.interface_looks = stepper_->looks();
+    MPI_Allreduce(MPI_IN_PLACE, &statistics.interface_looks, 1, MPI_INT64_T, MPI_MAX, comm_);
     statistics.complementarity_residual = contact_->largest_residual();
   }
   statistics.peak_memory = peak_memory();

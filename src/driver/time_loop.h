@@ -50,6 +50,7 @@ class TimeLoop {
   ImpactCatalogue catalogue_;
   std::unique_ptr<Recorder> recorder_;
   std::vector<double> smallest_gaps_;  ///< per contact
+  std::int64_t gap_stride_ = 1;        ///< steps between two samples of the gaps
   std::vector<StructureEnergy> energies_;
   EnergyLedger ledger_;
   std::int64_t first_step_ = 0;

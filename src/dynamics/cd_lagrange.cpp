@@ -46,9 +46,7 @@ void CdLagrange::step(bool look_at_gap, bool with_energies) {
       contact_ != nullptr && contact_->member() && (look_at_gap || watch_.due(state_.step));
   force_duration_ = first ? time_step_ / 2 : time_step_;
   motion_.evaluate(static_cast<double>(state_.step) * time_step_, acceleration_);
-  if (interface_known_) {
-    remember_interface();
-  }
+  touching_ = interface_known_ && look_at_interface();  // g_i(u_n), A
   {
     const ScopedTimer timer(profile_, Phase::step);
     for (std::size_t b = 0; b < systems_.size(); ++b) {
@@ -62,7 +60,9 @@ void CdLagrange::step(bool look_at_gap, bool with_energies) {
       body_steps_[b].complete();
     }
   }
-  touching_ = interface_known_ && solve_contact();  // A, lambda, v_{n+1/2}
+  if (touching_) {
+    solve_contact();  // lambda, v_{n+1/2}
+  }
   for (std::size_t b = 0; b < systems_.size(); ++b) {
     const double extra_damping = sums_[b].extra_damping_before;
     sums_[b] = body_steps_[b].sums();
@@ -116,37 +116,41 @@ double CdLagrange::apply_devices(std::size_t b) {
   return extra_damping;
 }
 
-void CdLagrange::remember_interface() {
+bool CdLagrange::look_at_interface() {
   const ScopedTimer timer(profile_, Phase::contact);
+  ++looks_;
   for (std::size_t b = 0; b < systems_.size(); ++b) {
-    body_steps_[b].remember(contact_->trace(b).dofs(), before_[b]);
-  }
-}
-
-bool CdLagrange::solve_contact() {
-  const ScopedTimer timer(profile_, Phase::contact);
-  for (std::size_t b = 0; b < systems_.size(); ++b) {
-    contact_->set_displacement(b, before_[b].displacement.data());
+    contact_->set_displacement(b, state_.bodies[b].displacement.data());
   }
   contact_->gather_displacements();
   const bool touching = contact_->detect_contact();
-  if (touching) {
-    for (std::size_t b = 0; b < systems_.size(); ++b) {
-      double* const velocity = interface_velocity_[b].data();
-      contact_->trace(b).restrict_to_dofs(state_.bodies[b].velocity.data(), velocity);
-      contact_->set_velocities(b, before_[b].velocity.data(), velocity);
-    }
-    contact_->gather_velocities();
-    contact_->solve_impulse();
-    for (std::size_t b = 0; b < systems_.size(); ++b) {
-      contact_->add_velocity_change(b, interface_velocity_[b].data());
-      body_steps_[b].correct(contact_->trace(b).dofs(), before_[b], interface_velocity_[b]);
-    }
-  } else {
+  for (std::size_t b = 0; touching && b < systems_.size(); ++b) {
+    contact_->set_velocity_before(b, state_.bodies[b].velocity.data());
+    body_steps_[b].remember(contact_->trace(b).dofs(), before_[b]);
+  }
+  if (!touching) {
     contact_->clear_impulse();
+    if (watch_.measures()) {
+      contact_->add_over_members(watch_.measure(state_.bodies));
+    }
   }
   watch_.looked(state_.step, contact_->smallest_gap() - contact_->gap_tolerance(), touching);
   return touching;
+}
+
+void CdLagrange::solve_contact() {
+  const ScopedTimer timer(profile_, Phase::contact);
+  for (std::size_t b = 0; b < systems_.size(); ++b) {
+    contact_->set_free_velocity(b, state_.bodies[b].velocity.data());
+  }
+  contact_->gather_velocities();
+  contact_->solve_impulse();
+  for (std::size_t b = 0; b < systems_.size(); ++b) {
+    double* const velocity = interface_velocity_[b].data();
+    contact_->trace(b).restrict_to_dofs(state_.bodies[b].velocity.data(), velocity);
+    contact_->add_velocity_change(b, velocity);
+    body_steps_[b].correct(contact_->trace(b).dofs(), before_[b], interface_velocity_[b]);
+  }
 }
 
 }  // namespace pounding

@@ -57,6 +57,8 @@ class CdLagrange {
   /// This rank holds the gaps and impulses of the current step.
   bool interface_known() const { return interface_known_; }
   bool touching() const { return touching_; }
+  /// Steps so far in which the interface was looked at; members of the interface only.
+  std::int64_t looks() const { return looks_; }
   const ContactProblem* contact() const { return contact_; }
   /// Ground acceleration of the current step [m/s2], and how long it acts [s].
   const std::array<double, 3>& ground_acceleration() const { return acceleration_; }
@@ -66,8 +68,10 @@ class CdLagrange {
   StiffnessArgument argument(std::size_t body) const;
   /// Forces of dashpots, extra damping D and tension-only bars; returns v-^T D v-.
   double apply_devices(std::size_t body);
-  void remember_interface();
-  bool solve_contact();
+  /// Gathers u_n, finds A; true if it is not empty, and then what contact will change is kept.
+  bool look_at_interface();
+  /// lambda, v_{n+1/2}, u_{n+1} from the free ones.
+  void solve_contact();
 
   std::span<const LinearSystem> systems_;
   const GroundMotion& motion_;
@@ -90,6 +94,7 @@ class CdLagrange {
   double force_duration_ = 0;
   bool interface_known_ = false;
   bool touching_ = false;
+  std::int64_t looks_ = 0;
 };
 
 }  // namespace pounding

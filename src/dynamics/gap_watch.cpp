@@ -6,18 +6,28 @@
 
 namespace pounding {
 
-GapWatch::GapWatch(std::span<const LinearSystem> systems, std::span<const double> margins,
-                   std::span<const double> rate_norms, double peak_acceleration, double time_step)
-    : time_step_(time_step), root_energy_(systems.size(), 0.0) {
+GapWatch::GapWatch(std::span<const LinearSystem> systems, std::vector<Bound> bounds,
+                   double peak_acceleration, double time_step)
+    : time_step_(time_step),
+      coordinates_(systems.size()),
+      measured_(2 * systems.size(), 0.0),
+      root_energy_(systems.size(), 0.0) {
   for (std::size_t s = 0; s < systems.size(); ++s) {
-    // Tension-only bars hold energy that the bound does not know of.
-    possible_ = possible_ && !systems[s].tension_bars;
-    possible_ = possible_ && margins[s] > 0;
-    const double root = std::sqrt(std::max(margins[s], 1e-300));
-    rate_per_root_energy_.push_back(rate_norms[s] / root);
     const Vector3& g = systems[s].gravity;
     const double acceleration = peak_acceleration + std::hypot(g[0], g[1], g[2]);
+    const double margin = bounds[s].energy_margin;
+    // Tension-only bars hold energy that the bound does not know of.
+    possible_ = possible_ && !systems[s].tension_bars && margin > 0;
+    const double root = std::sqrt(std::max(margin, 1e-300));
+    rate_per_root_energy_.push_back(bounds[s].rate_norm / root);
     growth_.push_back(std::sqrt(systems[s].total_mass) * acceleration * time_step / root);
+    if (systems[s].generalised && !systems[s].has_devices()) {
+      coordinates_[s] = std::make_unique<CoordinateRates>(
+          systems[s], std::move(bounds[s].coordinate_rows), acceleration, time_step);
+      measures_ = true;
+    } else {
+      needs_energy_ = true;
+    }
   }
 }
 
@@ -44,11 +54,26 @@ void GapWatch::energies_known(std::int64_t step, std::span<const StructureEnergy
   }
 }
 
-double GapWatch::rate_bound(std::int64_t step) const {
+std::span<double> GapWatch::measure(std::span<const BodyState> bodies) {
+  for (std::size_t s = 0; s < bodies.size(); ++s) {
+    if (coordinates_[s]) {
+      measured_[2 * s] = coordinates_[s]->rate(bodies[s]);
+      measured_[2 * s + 1] = coordinates_[s]->growth();
+    }
+  }
+  return measured_;
+}
+
+double GapWatch::rate_bound(std::int64_t look, std::int64_t step) const {
   double rate = 0;
   for (std::size_t s = 0; s < growth_.size(); ++s) {
-    const double root = root_energy_[s] + growth_[s] * static_cast<double>(step + 2 - energy_step_);
-    rate += rate_per_root_energy_[s] * root;
+    if (coordinates_[s]) {
+      rate += measured_[2 * s] + measured_[2 * s + 1] * static_cast<double>(step + 2 - look);
+    } else {
+      const double root =
+          root_energy_[s] + growth_[s] * static_cast<double>(step + 2 - energy_step_);
+      rate += rate_per_root_energy_[s] * root;
+    }
   }
   return rate;
 }
@@ -58,17 +83,25 @@ void GapWatch::looked(std::int64_t step, double clearance, bool touching) {
     last_touch_ = step;
   }
   next_look_ = step + 1;
-  if (!possible_ || clearance <= 0 || energy_step_ <= last_touch_) {
+  const bool known = !touching && step > 0 && (!needs_energy_ || energy_step_ > last_touch_);
+  if (!possible_ || clearance <= 0 || !known) {
     return;
   }
   // The bound rises with time: its value at the last step holds for all steps before.
-  std::int64_t steps = 1;
-  while (steps < 100000 &&
-         time_step_ * static_cast<double>(2 * steps) * rate_bound(step + 2 * steps) < clearance) {
-    steps *= 2;
+  const auto reaches = [&](std::int64_t steps) {
+    return time_step_ * static_cast<double>(steps) * rate_bound(step, step + steps) >= clearance;
+  };
+  std::int64_t low = 1;
+  while (low < 100000 && !reaches(2 * low)) {
+    low *= 2;
   }
-  if (time_step_ * static_cast<double>(steps) * rate_bound(step + steps) < clearance) {
-    next_look_ = step + steps;
+  std::int64_t high = 2 * low;
+  while (high - low > 1) {
+    const std::int64_t middle = low + (high - low) / 2;
+    (reaches(middle) ? high : low) = middle;
+  }
+  if (!reaches(low)) {
+    next_look_ = step + low;
   }
 }
 

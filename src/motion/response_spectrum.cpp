@@ -46,9 +46,6 @@ Lanes magnitude(const Lanes& x) {
 Lanes larger(const Lanes& a, const Lanes& b) {
   return a > b ? a : b;
 }
-bool any(const LaneMask& mask) {
-  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
-}
 
 /// Largest |u| of each oscillator of a block.
 std::vector<double> peak_displacements(std::span<const double> acceleration, double time_step,
@@ -57,22 +54,34 @@ std::vector<double> peak_displacements(std::span<const double> acceleration, dou
   const double h2 = time_step * time_step;
   double a = h2 * acceleration[0];
   Lanes u[vectors]{}, v[vectors]{}, w[vectors], peak[vectors]{};
-  std::fill(w, w + vectors, Lanes{} - a);
+  Lanes size[vectors]{}, slope[vectors];  // |u| and |v| + |w| at the start of the step
+  for (std::size_t b = 0; b < vectors; ++b) {
+    w[b] = Lanes{} - a;
+    slope[b] = magnitude(w[b]);
+  }
   for (std::size_t n = 1; n < acceleration.size(); ++n) {
     const double a1 = h2 * acceleration[n];
     for (std::size_t b = 0; b < vectors; ++b) {
       const auto& A = block.A;
       const auto& B = block.B;
-      Lanes u1 = A[0][0][b] * u[b] + (A[0][1][b] * v[b] + (B[0][0][b] * a + B[0][1][b] * a1));
-      Lanes v1 = A[1][0][b] * u[b] + (A[1][1][b] * v[b] + (B[1][0][b] * a + B[1][1][b] * a1));
-      const Lanes w1 = -(a1 + block.damping[b] * v1 + block.k[b] * u1);  // h^2 u''
+      const Lanes before = Lanes{} + a, after_it = Lanes{} + a1;
+      Lanes u1 = B[0][0][b] * before, v1 = B[1][0][b] * before, w1 = Lanes{} - after_it;
+      add_product(B[0][1][b], after_it, u1);
+      add_product(B[1][1][b], after_it, v1);
+      add_product(A[0][1][b], v[b], u1);
+      add_product(A[1][1][b], v[b], v1);
+      add_product(A[0][0][b], u[b], u1);
+      add_product(A[1][0][b], u[b], v1);
+      subtract_product(block.damping[b], v1, w1);
+      subtract_product(block.k[b], u1, w1);  // h^2 u''
       // An extremum lies within half a step of an end, so it cannot exceed this.
-      const Lanes bound = larger(magnitude(u[b]), magnitude(u1)) + magnitude(v[b]) + magnitude(v1) +
-                          magnitude(w[b]) + magnitude(w1);
-      peak[b] = larger(peak[b], magnitude(u1));
-      const LaneMask turns = (v[b] * v1 <= 0) | ((v[b] * w[b] < 0) & (v1 * w1 > 0));
-      const LaneMask higher = (bound > peak[b]) & turns;
-      if (any(higher)) {
+      const Lanes size1 = magnitude(u1), slope1 = magnitude(v1) + magnitude(w1);
+      const Lanes bound = larger(size[b], size1) + (slope[b] + slope1);
+      peak[b] = larger(peak[b], size1);
+      const LaneMask may_be_higher = bound > peak[b];
+      if (any(may_be_higher)) {
+        const LaneMask turns = (v[b] * v1 <= 0) | ((v[b] * w[b] < 0) & (v1 * w1 > 0));
+        const LaneMask higher = may_be_higher & turns;
         for (std::size_t l = 0; l < lane_count; ++l) {
           const std::size_t i = b * lane_count + l;
           if (higher[l] != 0 && i < block.oscillators.size())
@@ -85,6 +94,8 @@ std::vector<double> peak_displacements(std::span<const double> acceleration, dou
       u[b] = bound < 1e-250 ? Lanes{} : u1;
       v[b] = bound < 1e-250 ? Lanes{} : v1;
       w[b] = w1;
+      size[b] = size1;
+      slope[b] = slope1;
     }
     a = a1;
   }

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "common/parallel.h"
+#include "system/row_products.h"
 
 namespace pounding {
 namespace {
@@ -19,25 +20,14 @@ constexpr std::size_t values_per_node = 6;
 Recorder::Recorder(Layout layout, std::span<const LinearSystem> systems,
                    std::span<const Mesh> meshes)
     : layout_(std::move(layout)) {
+  for (const ResolvedProbe& probe : layout_.probes) {
+    const bool mean = systems[static_cast<std::size_t>(probe.structure)].generalised != nullptr;
+    recorded_nodes_.push_back(mean ? 1 : probe.nodes.size());
+  }
   std::vector<GlobalIndex> mine;  // probe, and place of the node in it
   for (std::size_t s = 0; s < systems.size(); ++s) {
-    std::vector<TracePoint> places;
-    for (std::size_t p = 0; p < layout_.probes.size(); ++p) {
-      const ResolvedProbe& probe = layout_.probes[p];
-      for (std::size_t k = 0; k < probe.nodes.size(); ++k) {
-        if (probe.structure == static_cast<int>(s) && meshes[s].owned_node(probe.nodes[k]) >= 0) {
-          mine.insert(mine.end(), {static_cast<GlobalIndex>(p), static_cast<GlobalIndex>(k)});
-          for (int d = 0; d < 3; ++d) {
-            places.push_back({probe.nodes[k], d});
-          }
-        }
-      }
-    }
-    Trace trace(systems[s], meshes[s], places, false);
-    const std::vector<double> motion(trace.dofs().size());
-    structures_.push_back(
-        {s, std::move(trace), nodes_, motion, std::vector<double>(places.size())});
-    nodes_ += places.size() / 3;
+    structures_.push_back(find_nodes(systems[s], meshes[s], s, mine));
+    nodes_ += structures_.back().values.size() / 3;
   }
   const bool root = rank_of(layout_.comm) == layout_.interface_root;
   width_ = values_per_node * nodes_ + (root ? 2 * layout_.contacts.size() : 0);
@@ -64,6 +54,47 @@ Recorder::Recorder(Layout layout, std::span<const LinearSystem> systems,
   if (layout_.continued.empty()) {
     create_file(layout_.path);
   }
+}
+
+Recorder::StructureNodes Recorder::find_nodes(const LinearSystem& system, const Mesh& mesh,
+                                              std::size_t structure,
+                                              std::vector<GlobalIndex>& found) const {
+  std::vector<TracePoint> places;
+  std::vector<std::size_t> counts;  // nodes of each probe
+  for (std::size_t p = 0; p < layout_.probes.size(); ++p) {
+    const ResolvedProbe& probe = layout_.probes[p];
+    const std::size_t before = places.size();
+    for (std::size_t k = 0; k < probe.nodes.size(); ++k) {
+      if (probe.structure != static_cast<int>(structure) || mesh.owned_node(probe.nodes[k]) < 0) {
+        continue;
+      }
+      if (!system.generalised || places.size() == before) {
+        found.insert(found.end(), {static_cast<GlobalIndex>(p), static_cast<GlobalIndex>(k)});
+      }
+      for (int d = 0; d < 3; ++d) {
+        places.push_back({probe.nodes[k], d});
+      }
+    }
+    if (places.size() > before) {
+      counts.push_back((places.size() - before) / 3);
+    }
+  }
+  StructureNodes nodes{structure, Trace(system, mesh, places, false), {}, nodes_, {}};
+  nodes.values.resize(system.generalised ? 3 * counts.size() : places.size());
+  if (system.generalised) {
+    const std::size_t width = nodes.trace.dofs().size();
+    nodes.mean_rows.assign(nodes.values.size() * width, 0.0);
+    std::size_t place = 0;
+    for (std::size_t p = 0; p < counts.size(); ++p) {
+      for (std::size_t k = 0; k < 3 * counts[p]; ++k, ++place) {
+        double* const mean = &nodes.mean_rows[(3 * p + k % 3) * width];
+        for (std::size_t i = 0; i < width; ++i) {
+          mean[i] += nodes.trace.row(place)[i] / static_cast<double>(counts[p]);
+        }
+      }
+    }
+  }
+  return nodes;
 }
 
 void Recorder::name_channels() {
@@ -122,8 +153,12 @@ void Recorder::put(const State& state, std::vector<double> BodyState::*quantity,
   double* const record = buffer_.data() + buffered_ * width_;
   for (StructureNodes& nodes : structures_) {
     const std::vector<double>& owned = state.bodies[nodes.structure].*quantity;
-    nodes.trace.restrict_to_dofs(owned.data(), nodes.motion.data());
-    nodes.trace.apply(nodes.motion.data(), nodes.values.data(), 1);
+    if (nodes.mean_rows.empty()) {
+      nodes.trace.apply(owned.data(), nodes.values.data(), 1);
+    } else {
+      multiply_rows(nodes.mean_rows.data(), nodes.values.size(), owned.size(), owned.data(),
+                    nodes.values.data(), 1);
+    }
     for (std::size_t i = 0; i < nodes.values.size(); ++i) {
       record[values_per_node * (nodes.first_node + i / 3) + offset + i % 3] = nodes.values[i];
     }
@@ -184,8 +219,8 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
   std::vector<double> force;
   // Node values of one record by probe and position: means are taken in the probe's own order.
   std::vector<std::vector<const double*>> values;
-  for (const ResolvedProbe& probe : layout_.probes) {
-    values.emplace_back(probe.nodes.size(), nullptr);
+  for (const std::size_t count : recorded_nodes_) {
+    values.emplace_back(count, nullptr);
   }
   const auto first = static_cast<std::ptrdiff_t>(accelerations_.size());
   for (std::size_t row = 0; row < rows; ++row) {

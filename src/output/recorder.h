@@ -78,13 +78,14 @@ class Recorder {
   const std::vector<ResolvedProbe>& probes() const { return layout_.probes; }
 
  private:
-  /// The nodes of a structure that probes read, as far as this rank knows them.
+  /// The nodes of a structure that probes read, as far as this rank knows them. In generalised
+  /// coordinates each probe counts as one node, the mean of its own.
   struct StructureNodes {
     std::size_t structure;
-    Trace trace;                 ///< three components of each node, node after node
-    std::size_t first_node;      ///< into the nodes of a record of this rank
-    std::vector<double> motion;  ///< over the dofs of the trace
-    std::vector<double> values;  ///< per place of the trace
+    Trace trace;                    ///< three components of each node, node after node
+    std::vector<double> mean_rows;  ///< of generalised coordinates, shape (nodes x 3, coordinates)
+    std::size_t first_node;         ///< into the nodes of a record of this rank
+    std::vector<double> values;     ///< per place of the trace
   };
 
   /// A dataset of the file; `columns` 0: a plain vector.
@@ -94,6 +95,8 @@ class Recorder {
     const char* unit;
   };
 
+  StructureNodes find_nodes(const LinearSystem& system, const Mesh& mesh, std::size_t structure,
+                            std::vector<GlobalIndex>& found) const;
   /// Writes a quantity of the state into the record at hand, `offset` values into each node.
   void put(const State& state, std::vector<double> BodyState::*quantity, std::size_t offset);
   void name_channels();
@@ -121,6 +124,7 @@ class Recorder {
   std::vector<std::string> channels_;
   std::vector<int> widths_;                        ///< per rank
   std::vector<std::array<std::size_t, 2>> order_;  ///< probe and position of the gathered nodes
+  std::vector<std::size_t> recorded_nodes_;        ///< per probe
   std::vector<double> last_velocity_;
   std::vector<double> accelerations_;  ///< all records, shape (records, channels)
   std::vector<ChannelPeaks> peaks_;

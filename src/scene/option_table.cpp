@@ -42,6 +42,7 @@ constexpr std::array table{
     OptionRow{Block::run, "gap_tolerance", Kind::real, "-", value("1e-12"), not_negative, "", "contact where gap <= gap_tolerance x model size"},
     OptionRow{Block::run, "impact_merge_time", Kind::real, "s", value("1e-3"), not_negative, "", "contacts separated by less are one impact"},
     OptionRow{Block::run, "output_interval", Kind::real, "s", value("5e-5"), positive, "", "time between two samples of the probes"},
+    OptionRow{Block::run, "gap_interval", Kind::real, "s", value("0"), not_negative, "", "time between two samples of the gaps, not a number in between unless they were looked at anyway; 0: with every sample of the probes"},
     OptionRow{Block::run, "energy_interval", Kind::integer, "steps", value("100"), at_least_1, "", "steps between two lines of the energy balance"},
     OptionRow{Block::run, "dry_run", Kind::boolean, "flag", value("false"), any, "", "check the model, print what a run would cost, and stop"},
     OptionRow{Block::run, "output", Kind::text, "folder", value("results"), any, "a folder", "result folder"},

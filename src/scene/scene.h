@@ -165,6 +165,7 @@ struct Scene {
   double gap_tolerance = 0;      ///< contact where gap <= gap_tolerance x model size [-]
   double impact_merge_time = 0;  ///< contacts separated by less are one episode [s]
   double output_interval = 0;    ///< of the probes [s]
+  double gap_interval = 0;       ///< of the gaps at least; 0: with every sample of the probes [s]
   int energy_interval = 0;       ///< steps between two lines of the energy ledger
   bool dry_run = false;
   double checkpoint_interval = 0;  ///< wall time between checkpoints [s]; 0: none

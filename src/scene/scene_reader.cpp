@@ -64,6 +64,7 @@ class SceneReader {
     scene_.gap_tolerance = options_.real("gap_tolerance");
     scene_.impact_merge_time = options_.real("impact_merge_time");
     scene_.output_interval = options_.real("output_interval");
+    scene_.gap_interval = options_.real("gap_interval");
     scene_.energy_interval = options_.integer("energy_interval");
     scene_.dry_run = options_.boolean("dry_run");
     scene_.output = options_.text("output");

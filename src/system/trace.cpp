@@ -5,7 +5,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "common/lanes.h"
+#include "system/row_products.h"
 
 namespace pounding {
 namespace {
@@ -13,38 +13,6 @@ namespace {
 int place_in_field(const CoupledMass& mass, int node, LocalIndex dof) {
   const auto n = static_cast<std::size_t>(node);
   return static_cast<int>(mass.place(n)) + dof - mass.nodes()[n].begin;
-}
-
-constexpr std::size_t lanes = lane_count;
-
-double add_up(const Lanes& values) {
-  return (values[0] + values[2]) + (values[1] + values[3]);
-}
-
-/// Products of `count` <= 4 rows of length `n` with x: each value of x is read once.
-template <std::size_t count>
-void multiply_rows(const double* rows, std::size_t n, const double* x, double* out,
-                   std::size_t stride) {
-  Lanes sums[2][count]{};  // two chains per row hide the latency of the sums
-  std::size_t i = 0;
-  for (; i + 2 * lanes <= n; i += 2 * lanes) {
-    for (std::size_t half = 0; half < 2; ++half) {
-      Lanes values;
-      load(x + i + half * lanes, values);
-      for (std::size_t r = 0; r < count; ++r) {
-        Lanes row;
-        load(rows + r * n + i + half * lanes, row);
-        add_product(row, values, sums[half][r]);
-      }
-    }
-  }
-  for (std::size_t r = 0; r < count; ++r) {
-    double sum = add_up(sums[0][r] + sums[1][r]);
-    for (std::size_t k = i; k < n; ++k) {
-      sum += rows[r * n + k] * x[k];
-    }
-    out[r * stride] = sum;
-  }
 }
 
 }  // namespace
@@ -139,21 +107,14 @@ void Trace::restrict_to_dofs(const double* owned, double* x) const {
   }
 }
 
-void Trace::apply(const double* x, double* out, std::size_t stride) const {
+void Trace::apply(const double* owned, double* out, std::size_t stride) const {
   if (!dense_) {
     for (std::size_t k = 0; k < own_dof_.size(); ++k) {
-      out[stride * k] = own_dof_[k] < 0 ? 0 : x[own_dof_[k]];
+      out[stride * k] = own_dof_[k] < 0 ? 0 : owned[dofs_[static_cast<std::size_t>(own_dof_[k])]];
     }
     return;
   }
-  const std::size_t n = dofs_.size();
-  std::size_t k = 0;
-  for (; k + 4 <= known_.size(); k += 4) {
-    multiply_rows<4>(&rows_[k * n], n, x, out + stride * k, stride);
-  }
-  for (; k < known_.size(); ++k) {
-    multiply_rows<1>(&rows_[k * n], n, x, out + stride * k, stride);
-  }
+  multiply_rows(rows_.data(), known_.size(), dofs_.size(), owned, out, stride);
 }
 
 void Trace::add_impulse(const double* f, double* x) {

@@ -32,10 +32,14 @@ class Trace {
 
   /// x = values of dofs() out of those of all owned dofs.
   void restrict_to_dofs(const double* owned, double* x) const;
-  /// out[stride * k] = (T x)_k for each known place k, x over dofs().
-  void apply(const double* x, double* out, std::size_t stride) const;
+  /// out[stride * k] = (T x)_k for each known place k, x over all owned dofs.
+  void apply(const double* owned, double* out, std::size_t stride) const;
   /// x += M^-1 T^T f, f per known place, x over dofs().
   void add_impulse(const double* f, double* x);
+  /// Of a body in generalised coordinates, row k of T over all of them.
+  std::span<const double> row(std::size_t k) const {
+    return {rows_.data() + k * dofs_.size(), dofs_.size()};
+  }
   /// The part of (T M^-1 T^T) of two known places [1/kg].
   double compliance(std::size_t a, std::size_t b);
   /// An impulse at one place may move others, on some rank.

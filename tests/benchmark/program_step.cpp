@@ -3,6 +3,7 @@
 
 #include "benchmark/timed_step.h"
 #include "dynamics/cd_lagrange.h"
+#include "dynamics/stable_time_step.h"
 #include "scene/option_table.h"
 
 namespace pounding::measuring {
@@ -11,14 +12,15 @@ namespace {
 constexpr double gap_tolerance = 1e-12;  // of the model's size
 
 GapWatch make_watch(const SteppedModel& model, const ContactProblem* contact) {
-  std::vector<double> omega;
-  std::vector<double> norms;
+  std::vector<GapWatch::Bound> bounds;
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    omega.push_back(model.systems[s].element_frequency_bound);
-    norms.push_back(contact == nullptr ? 0 : contact->rate_norm(static_cast<int>(s)));
+    const LinearSystem& system = model.systems[s];
+    const double margin =
+        energy_margin(system.damping, system.element_frequency_bound, model.time_step);
+    bounds.push_back(
+        {margin, contact == nullptr ? 0 : contact->rate_norm(static_cast<int>(s)), {}});
   }
-  const double peak = model.motion->peak_acceleration();
-  return {model.systems, omega, norms, peak, model.time_step};
+  return {model.systems, std::move(bounds), model.motion->peak_acceleration(), model.time_step};
 }
 
 class ProgramStep final : public TimedStep {

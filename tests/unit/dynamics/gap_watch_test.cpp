@@ -30,10 +30,8 @@ std::vector<LinearSystem> one_system() {
 
 /// The step of the next look after one at step 1, nothing touching.
 std::int64_t next_look(std::span<const LinearSystem> systems, double energy_margin) {
-  const std::vector<double> margins{energy_margin};
-  const std::vector<double> norms{rate_norm};
   const std::vector<StructureEnergy> energies{{energy, 0, energy}};
-  GapWatch watch(systems, margins, norms, 0, time_step);
+  GapWatch watch(systems, {{energy_margin, rate_norm, {}}}, 0, time_step);
   watch.energies_known(0, energies);
   watch.looked(1, clearance, false);
   std::int64_t step = 2;

@@ -1,0 +1,57 @@
+#include "dynamics/coordinate_rates.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "system/row_products.h"
+
+namespace pounding {
+namespace {
+
+/// More than what rounding can take from a sum of all coordinates.
+constexpr double above_round_off = 1 + 1e-9;
+
+}  // namespace
+
+CoordinateRates::CoordinateRates(const LinearSystem& system, std::vector<double> rows,
+                                 double ground_acceleration, double time_step)
+    : time_step_(time_step), rows_(std::move(rows)) {
+  const std::size_t size = system.lumped_mass.size();
+  std::vector<double> stiffness(size);
+  const VecHandle diagonal = wrap_vector(system, stiffness);
+  POUNDING_PETSC(MatGetDiagonal(system.stiffness->matrix(), diagonal.get()));
+  std::vector<double> growth(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    const double m = system.lumped_mass[i];
+    const double k = stiffness[i];
+    const double c = system.damping.alpha * m + system.damping.beta * k;
+    const double a = m - time_step / 2 * c - time_step * time_step / 4 * k;
+    const auto& iota = system.generalised->influence;
+    const double force = m * std::hypot(iota[0][i], iota[1][i], iota[2][i]) * ground_acceleration;
+    stiffness_over_a_.push_back(k / a);
+    growth[i] = time_step * force / a;
+  }
+  for (double& value : rows_) {
+    value = std::abs(value);
+  }
+  rates_.resize(size == 0 ? 0 : rows_.size() / size);
+  speeds_.resize(size);
+  growth_ = largest(growth);
+}
+
+double CoordinateRates::rate(const BodyState& state) {
+  for (std::size_t i = 0; i < speeds_.size(); ++i) {
+    const double v = state.velocity[i];
+    const double mean = state.displacement[i] - time_step_ / 2 * v;
+    speeds_[i] = std::sqrt(v * v + stiffness_over_a_[i] * (mean * mean));
+  }
+  return largest(speeds_);
+}
+
+double CoordinateRates::largest(const std::vector<double>& speeds) {
+  multiply_rows(rows_.data(), rates_.size(), speeds.size(), speeds.data(), rates_.data(), 1);
+  const double found = rates_.empty() ? 0.0 : *std::max_element(rates_.begin(), rates_.end());
+  return found * above_round_off;
+}
+
+}  // namespace pounding

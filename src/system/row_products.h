@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cstddef>
+
+namespace pounding {
+
+/// out[stride * r] = sum over k of rows[r * n + k] x[k], for `count` dense rows of length n that
+/// lie one after the other. Local; allocates nothing.
+void multiply_rows(const double* rows, std::size_t count, std::size_t n, const double* x,
+                   double* out, std::size_t stride);
+
+}  // namespace pounding

@@ -1,0 +1,130 @@
+#include "dynamics/coordinate_rates.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "dynamics/gap_watch.h"
+#include "system/diagonal_stiffness.h"
+
+namespace pounding {
+namespace {
+
+constexpr double time_step = 1e-3;
+constexpr double peak = 5;  // m/s2
+
+/// Four coordinates, from one that has no stiffness to one close to the limit of the step.
+LinearSystem four_coordinates() {
+  LinearSystem system;
+  system.damping = {0.4, 2e-5};
+  system.lumped_mass = {1, 1, 2.5, 1};
+  system.inverse_mass = {1, 1, 0.4, 1};
+  system.total_mass = 100;
+  system.generalised = std::make_unique<GeneralisedCoordinates>();
+  system.generalised->influence = {{{3, -2, 0.5, 0.1}, {0, 0, 0, 0}, {0, 0, 0, 0}}};
+  system.stiffness = std::make_unique<DiagonalStiffness>(
+      MPI_COMM_SELF, std::vector<double>{0, 400, 1e5, 1.8e3 * 1.8e3});
+  return system;
+}
+
+const std::vector<double> rows{0.1,  -0.4, 0.2, 0.3,  //
+                               -0.2, 0.1,  0.6, -0.1};
+
+/// The scheme of dynamics/cd_lagrange.h, coordinate by coordinate.
+class Motion {
+ public:
+  explicit Motion(const LinearSystem& system) : system_(system) {
+    state.displacement = {0, 0.03, 1e-3, 2e-4};
+    state.velocity = {0.5, 0, -0.2, 0.1};
+    state.stiffness_displacement.assign(4, 0.0);
+  }
+  void step(double ground_acceleration) {
+    const double stiffness[] = {0, 400, 1e5, 1.8e3 * 1.8e3};
+    for (std::size_t i = 0; i < 4; ++i) {
+      double& v = state.velocity[i];
+      const double force = stiffness[i] * (state.displacement[i] + system_.damping.beta * v);
+      v += time_step * (-system_.inverse_mass[i] * force - system_.damping.alpha * v -
+                        system_.generalised->influence[0][i] * ground_acceleration);
+      state.displacement[i] += time_step * v;
+    }
+  }
+  double largest_rate() const {
+    double largest = 0;
+    for (std::size_t r = 0; r < rows.size() / 4; ++r) {
+      double rate = 0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        rate += rows[4 * r + i] * state.velocity[i];
+      }
+      largest = std::max(largest, std::abs(rate));
+    }
+    return largest;
+  }
+  BodyState state;
+
+ private:
+  const LinearSystem& system_;
+};
+
+/// Shaken as hard as it may be, now in one direction, now in the other.
+double shaking(int step) {
+  return std::sin(0.37 * step) > 0 ? peak : -peak;
+}
+
+TEST(CoordinateRates, NoGapMovesFaster) {
+  const LinearSystem system = four_coordinates();
+  CoordinateRates rates(system, rows, peak, time_step);
+  Motion motion(system);
+  for (int start = 0; start < 40; ++start) {
+    motion.step(shaking(start));
+    const double rate = rates.rate(motion.state);
+    Motion later = motion;
+    double closest = 0;
+    for (int n = 1; n < 400; ++n) {
+      // Along with the first coordinate's own motion: the worst that the ground can do to it.
+      later.step(later.state.velocity[0] > 0 ? -peak : peak);
+      ASSERT_LE(later.largest_rate(), rate + n * rates.growth()) << start << ' ' << n;
+      closest = std::max(closest, later.largest_rate() / (rate + n * rates.growth()));
+    }
+    EXPECT_GT(closest, 0.3);  // a bound, but not one that is worth nothing
+  }
+}
+
+TEST(CoordinateRates, AtRestNothingMoves) {
+  const LinearSystem system = four_coordinates();
+  CoordinateRates rates(system, rows, 0, time_step);
+  BodyState rest;
+  rest.displacement.assign(4, 0.0);
+  rest.velocity.assign(4, 0.0);
+  EXPECT_EQ(rates.rate(rest), 0);
+  EXPECT_EQ(rates.growth(), 0);
+}
+
+TEST(CoordinateRates, LetTheWatchWaitWithoutEnergies) {
+  std::vector<LinearSystem> systems;
+  systems.push_back(four_coordinates());
+  CoordinateRates rates(systems[0], rows, peak, time_step);
+  GapWatch watch(systems, {{0.1, 1e3, rows}}, peak, time_step);
+  Motion motion(systems[0]);
+  motion.step(peak);
+  ASSERT_TRUE(watch.measures());
+  watch.measure({&motion.state, 1});
+  const double clearance = 0.05;
+  watch.looked(1, clearance, false);
+  std::int64_t next = 2;
+  while (!watch.due(next)) {
+    ++next;
+  }
+  const auto moved = [&](double steps) {
+    return time_step * steps * (rates.rate(motion.state) + rates.growth() * (steps + 2));
+  };
+  EXPECT_LT(moved(static_cast<double>(next - 1)), clearance);
+  EXPECT_GE(moved(static_cast<double>(next)), clearance);
+  EXPECT_GT(next, 5);
+  watch.looked(next, clearance, true);  // what contact does to the motion is known afterwards
+  EXPECT_TRUE(watch.due(next + 1));
+  watch.looked(next + 1, clearance, false);
+  EXPECT_FALSE(watch.due(next + 2));
+}
+
+}  // namespace
+}  // namespace pounding
