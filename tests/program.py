@@ -20,11 +20,16 @@ def environment():
 ENVIRONMENT = environment()
 
 
+def words(arguments, ranks):
+    """The command that runs `pounding` on some ranks; arguments are words after the program's name.
+    The small scenes of tests would not be cut on their own: they are, where nothing else is said."""
+    line = ["mpirun", "-n", str(ranks), PROGRAM] + [str(word) for word in arguments]
+    return line + ["-partition", "elements"] if ranks > 1 and "-partition" not in line else line
+
+
 def run(arguments, ranks=2, timeout=900):
-    """Runs `pounding` on some ranks; arguments are words after the program's name."""
-    command = ["mpirun", "-n", str(ranks), PROGRAM] + [str(word) for word in arguments]
-    return subprocess.run(command, cwd=SOURCE, env=ENVIRONMENT, capture_output=True, text=True,
-                          timeout=timeout)
+    return subprocess.run(words(arguments, ranks), cwd=SOURCE, env=ENVIRONMENT, capture_output=True,
+                          text=True, timeout=timeout)
 
 
 def command(name, *words, timeout=900):

@@ -45,8 +45,8 @@ void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& mo
       const auto more = coupled_nodes(scene.structures[s], meshes[s], static_cast<int>(s));
       clusters.insert(clusters.end(), more.begin(), more.end());
     }
-    partition =
-        partition_meshes(meshes, facing_nodes(model.interface), size_of(comm), whole, clusters);
+    partition = partition_meshes(meshes, facing_nodes(model.interface), size_of(comm), whole,
+                                 clusters, scene.partition_by);
   });
   model.partition_imbalance = partition.imbalance;
   model.partition_edge_cut = partition.edge_cut;

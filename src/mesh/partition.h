@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesh/global_mesh.h"
+#include "scene/scene.h"
 
 namespace pounding {
 
@@ -32,11 +33,14 @@ struct Partition {
 
 /// Partitions the elements of all structures with METIS on their dual graph (edges: shared nodes
 /// beyond a corner; vertex weight: cost of the element's product; heavy edges for linked nodes)
-/// with a fixed seed. A node belongs to the part of most of its elements, the lowest on a tie; the
-/// nodes of a cluster, which shares no node with another, to the part of most of them. `whole`: per
-/// structure the part that gets all of it, -1 where it is to be cut; empty if all are. Serial.
+/// with a fixed seed; or gives every structure to one part, where that is asked for or, with
+/// `automatic`, costs a step less than what ranks that share a structure lose in waiting. A node
+/// belongs to the part of most of its elements, the lowest on a tie; the nodes of a cluster, which
+/// shares no node with another, to the part of most of them. `whole`: per structure the part that
+/// gets all of it, -1 where it is to be cut; empty if all are. Serial.
 Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const NodeLink> links,
                            int parts, std::span<const int> whole = {},
-                           std::span<const NodeCluster> clusters = {});
+                           std::span<const NodeCluster> clusters = {},
+                           PartitionBy by = PartitionBy::elements);
 
 }  // namespace pounding

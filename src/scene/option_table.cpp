@@ -50,6 +50,7 @@ constexpr std::array table{
     OptionRow{Block::run, "checkpoint_steps", Kind::integer, "steps", value("0"), not_negative, "", "steps between two checkpoints; 0: none"},
     OptionRow{Block::run, "export_matrices", Kind::text, "folder", value("none"), any, "a folder or none", "writes the matrices of every structure there, with contact, influence and probe rows"},
     OptionRow{Block::run, "restart", Kind::text, "file", value("none"), any, "a checkpoint.h5 or none", "checkpoint to continue from, with the history.h5 beside it"},
+    OptionRow{Block::run, "partition", Kind::choice, "word", value("auto"), any, "auto|elements|structures", "what is shared out among the ranks: elements, whole structures, or whichever costs a step less"},
     OptionRow{Block::run, "stiffness", Kind::choice, "word", value("auto"), any, "auto|assembled|element", "how K is applied: as a matrix, element by element, or by what the mesh is"},
     OptionRow{Block::run, "fidelity_target", Kind::real, "-", absent("optional"), positive, "", "rms error of the floor spectra that is accepted (0.05: 5 %); takes the fastest setting of the table within it"},
     OptionRow{Block::run, "fidelity_table", Kind::text, "file", value("petsc-options/fidelity.csv"), any, "a CSV file from run/tradeoff", "settings with their measured error and cost"},
@@ -136,7 +137,8 @@ constexpr std::array petsc_patterns = std::to_array<std::string_view>({
 // What does not touch the motion nor its records; the time step itself is compared, not its options.
 constexpr std::array changeable_on_restart = std::to_array<std::string_view>({
     "title", "end_time", "courant", "time_step", "allow_unstable", "modes", "write_modes", "dry_run", "output",
-    "checkpoint_interval", "checkpoint_steps", "export_matrices", "restart", "spectra_damping", "spectra_frequencies"});
+    "checkpoint_interval", "checkpoint_steps", "export_matrices", "partition", "restart", "spectra_damping",
+    "spectra_frequencies"});
 // clang-format on
 
 }  // namespace

@@ -131,6 +131,10 @@ struct MotionComponent {
 /// mesh is (element by element where most elements are bricks or otherwise congruent).
 enum class StiffnessMethod { automatic, assembled, element };
 
+/// What is shared out among the ranks: the elements of all structures, structures as a whole, or
+/// whichever costs a step less.
+enum class PartitionBy { automatic, elements, structures };
+
 enum class Resampling { linear, band_limited };
 
 struct Probe {
@@ -154,6 +158,7 @@ struct Scene {
   std::array<std::optional<MotionComponent>, 3> motion;
   Resampling resampling = Resampling::linear;
   StiffnessMethod stiffness = StiffnessMethod::automatic;
+  PartitionBy partition_by = PartitionBy::automatic;
   std::vector<Probe> probes;
   SpectraRequest spectra;
   double end_time = 0;           ///< [s]

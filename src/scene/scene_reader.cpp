@@ -74,6 +74,10 @@ class SceneReader {
     scene_.export_matrices = folder == "none" ? "" : folder;
     const std::string restart = options_.text("restart");
     scene_.restart = restart == "none" ? "" : restart;
+    const std::string shared = options_.choice("partition");
+    scene_.partition_by = shared == "auto"       ? PartitionBy::automatic
+                          : shared == "elements" ? PartitionBy::elements
+                                                 : PartitionBy::structures;
     const std::string method = options_.choice("stiffness");
     scene_.stiffness = method == "auto"        ? StiffnessMethod::automatic
                        : method == "assembled" ? StiffnessMethod::assembled

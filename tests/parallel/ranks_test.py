@@ -22,6 +22,7 @@ class Ranks(unittest.TestCase):
     def setUpClass(cls):
         test = unittest.TestCase()
         cls.runs = {ranks: program.must_run(test, CASE, ranks) for ranks in (1, 2, 3)}
+        cls.runs["whole"] = program.must_run(test, CASE + ["-partition", "structures"], 2)
 
     def test_the_case_pounds(self):
         for _, summary in self.runs.values():
@@ -37,13 +38,22 @@ class Ranks(unittest.TestCase):
             reference = history(self.runs[1][0], name)[window]
             scale = abs(reference).max()
             self.assertGreater(scale, 0)
-            for ranks in (2, 3):
+            for ranks in (2, 3, "whole"):
                 difference = abs(history(self.runs[ranks][0], name)[window] - reference).max()
                 self.assertLessEqual(difference, 1e-9 * scale, (name, ranks))
 
+    def test_elements_or_structures_are_shared_out(self):
+        self.assertGreater(self.runs[2][1]["partition"]["edge_cut"], 0)
+        self.assertLess(self.runs[2][1]["partition"]["imbalance"], 1.05)
+        whole = self.runs["whole"][1]["partition"]
+        self.assertEqual(whole["edge_cut"], 0)
+        self.assertGreater(whole["imbalance"], 1.05)
+        _, chosen = program.must_run(self, CASE + ["-partition", "auto", "-end_time", 1e-3], 2)
+        self.assertEqual(chosen["partition"], whole)
+
     def test_model_is_the_same(self):
         one = self.runs[1][1]
-        for ranks in (2, 3):
+        for ranks in (2, 3, "whole"):
             other = self.runs[ranks][1]
             self.assertEqual(one["time_step"], other["time_step"])
             for name, structure in one["structures"].items():

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -145,6 +146,36 @@ TEST(Partition, LinkedNodesStayOnOneRank) {
   EXPECT_LT(partition.imbalance, 1.1);
   const Partition again = partition_meshes(meshes, links, parts);
   EXPECT_EQ(partition.node_owner, again.node_owner);
+}
+
+int owners_of(const std::vector<int>& owner) {
+  return static_cast<int>(std::set<int>(owner.begin(), owner.end()).size());
+}
+
+TEST(Partition, KeepsStructuresWholeWhereSharingCostsMore) {
+  for (const int cells : {4, 20}) {
+    const std::vector<GlobalMesh> meshes{
+        testing::box_mesh({0, 0, 0}, {4, 2, 1}, {2 * cells, cells, 4}),
+        testing::box_mesh({5, 0, 0}, {2, 2, 1}, {cells, cells, 4})};
+    const auto share = [&](PartitionBy by, int parts) {
+      return partition_meshes(meshes, {}, parts, {}, {}, by);
+    };
+    const Partition cut = share(PartitionBy::elements, 2);
+    EXPECT_LT(cut.imbalance, 1.05);
+    EXPECT_EQ(owners_of(cut.element_owner[0]) + owners_of(cut.element_owner[1]), 3);
+    const Partition whole = share(PartitionBy::structures, 2);
+    EXPECT_NEAR(whole.imbalance, 4.0 / 3, 1e-12);
+    EXPECT_EQ(whole.edge_cut, 0);
+    for (const auto* owners : {&whole.element_owner, &whole.node_owner}) {
+      EXPECT_EQ(owners_of((*owners)[0]), 1);
+      EXPECT_EQ(owners_of((*owners)[1]), 1);
+      EXPECT_NE((*owners)[0][0], (*owners)[1][0]);
+    }
+    // Small buildings wait for messages longer than they compute; large ones are worth cutting.
+    const Partition chosen = share(PartitionBy::automatic, 2);
+    EXPECT_EQ(chosen.element_owner, cells < 10 ? whole.element_owner : cut.element_owner);
+    EXPECT_EQ(owners_of(share(PartitionBy::structures, 1).element_owner[0]), 1);
+  }
 }
 
 TEST(Partition, MoreRanksThanElementsLeavesSomeEmpty) {

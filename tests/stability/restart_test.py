@@ -183,7 +183,7 @@ class Running:
     """The program at work, to be interrupted."""
 
     def __init__(self, arguments, ranks=2):
-        self.command = ["mpirun", "-n", str(ranks), program.PROGRAM] + [str(word) for word in arguments]
+        self.command = program.words(arguments, ranks)
         self.process = subprocess.Popen(self.command, cwd=program.SOURCE, env=program.ENVIRONMENT,
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 

@@ -1,0 +1,208 @@
+#include "mesh/element_graph.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "elements/element.h"
+
+namespace pounding {
+namespace {
+
+/// Relative cost of one element in a step, its share of the nodes included, as measured on slabs
+/// and frames: about nanoseconds.
+idx_t element_cost(ElementType type) {
+  switch (type) {
+    case ElementType::hex8:
+    case ElementType::hex8_full:
+      return 18;
+    case ElementType::shell4:
+      return 20;
+    case ElementType::shell3:  // in a sparse matrix
+      return 100;
+    case ElementType::beam:
+      return 14;
+    default:
+      return 2;
+  }
+}
+
+/// Cost of a node of a cluster: its part in a solution instead of a division.
+constexpr idx_t cluster_node_cost = 36;
+
+/// The cluster of each node, -1: none.
+std::vector<int> cluster_of_nodes(const ElementList& list, std::span<const NodeCluster> clusters) {
+  std::vector<int> cluster(static_cast<std::size_t>(list.node_count), -1);
+  for (std::size_t c = 0; c < clusters.size(); ++c) {
+    const GlobalIndex offset = list.node_offset[static_cast<std::size_t>(clusters[c].structure)];
+    for (const GlobalIndex node : clusters[c].nodes) {
+      cluster[static_cast<std::size_t>(offset + node)] = static_cast<int>(c);
+    }
+  }
+  return cluster;
+}
+
+/// The cluster that holds every node of a small element, -1: none.
+int cluster_of_element(std::span<const GlobalIndex> nodes, const std::vector<int>& cluster) {
+  const auto of = [&](GlobalIndex node) { return cluster[static_cast<std::size_t>(node)]; };
+  const bool inside = nodes.size() <= 2 && of(nodes.front()) == of(nodes.back());
+  return inside ? of(nodes.front()) : -1;
+}
+
+/// Cutting a contact costs messages whenever the interface is looked at: more than a cut between
+/// two elements.
+constexpr idx_t link_weight = 64;
+
+}  // namespace
+
+int whole_part(std::span<const int> whole, std::size_t structure) {
+  return whole.empty() ? -1 : whole[structure];
+}
+
+ElementList list_elements(std::span<const GlobalMesh> meshes, std::span<const int> whole) {
+  ElementList list;
+  list.first.push_back(0);
+  for (std::size_t s = 0; s < meshes.size(); ++s) {
+    const GlobalMesh& mesh = meshes[s];
+    list.node_offset.push_back(list.node_count);
+    list.element_offset.push_back(list.cost.size());
+    for (const ElementSet& set : mesh.regions) {
+      if (whole_part(whole, s) >= 0) {
+        break;
+      }
+      const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
+      for (std::size_t e = 0; e < set.tags.size(); ++e) {
+        for (std::size_t a = 0; a < width; ++a) {
+          list.nodes.push_back(list.node_count + set.connectivity[e * width + a]);
+        }
+        list.first.push_back(static_cast<idx_t>(list.nodes.size()));
+        list.entry.push_back(list.count());
+        list.cost.push_back(element_cost(set.type));
+        list.structure.push_back(static_cast<int>(s));
+        list.needed.push_back(width == 8 ? 4 : 1);
+      }
+    }
+    list.node_count += mesh.node_count();
+  }
+  list.element_offset.push_back(list.cost.size());
+  return list;
+}
+
+ElementList merge_clusters(const ElementList& all, std::span<const NodeCluster> clusters) {
+  const std::vector<int> cluster = cluster_of_nodes(all, clusters);
+  ElementList list;
+  list.first.push_back(0);
+  list.node_offset = all.node_offset;
+  list.element_offset = all.element_offset;
+  list.node_count = all.node_count;
+  list.entry.resize(all.cost.size());
+  std::vector<std::vector<std::size_t>> inside(clusters.size());
+  const auto nodes_of = [&](std::size_t e) {
+    return std::span<const GlobalIndex>(all.nodes).subspan(
+        static_cast<std::size_t>(all.first[e]),
+        static_cast<std::size_t>(all.first[e + 1] - all.first[e]));
+  };
+  const auto add = [&](const auto& nodes, idx_t cost, int structure, int needed) {
+    list.nodes.insert(list.nodes.end(), nodes.begin(), nodes.end());
+    list.first.push_back(static_cast<idx_t>(list.nodes.size()));
+    list.cost.push_back(cost);
+    list.structure.push_back(structure);
+    list.needed.push_back(needed);
+  };
+  for (std::size_t e = 0; e < all.cost.size(); ++e) {
+    if (const int c = cluster_of_element(nodes_of(e), cluster); c >= 0) {
+      inside[static_cast<std::size_t>(c)].push_back(e);
+      continue;
+    }
+    list.entry[e] = list.count();
+    add(nodes_of(e), all.cost[e], all.structure[e], all.needed[e]);
+  }
+  for (std::size_t c = 0; c < clusters.size(); ++c) {
+    std::set<GlobalIndex> nodes;
+    idx_t cost = 0;
+    for (const std::size_t e : inside[c]) {
+      list.entry[e] = list.count();
+      nodes.insert(nodes_of(e).begin(), nodes_of(e).end());
+      cost += all.cost[e];
+    }
+    if (!nodes.empty()) {
+      const idx_t solution = cluster_node_cost * static_cast<idx_t>(nodes.size());
+      add(nodes, cost + solution, clusters[c].structure, 1);
+    }
+  }
+  return list;
+}
+
+NodeElements elements_at_nodes(const ElementList& list) {
+  NodeElements at;
+  at.first.assign(static_cast<std::size_t>(list.node_count) + 1, 0);
+  for (const GlobalIndex node : list.nodes) {
+    ++at.first[static_cast<std::size_t>(node) + 1];
+  }
+  for (std::size_t n = 1; n < at.first.size(); ++n) {
+    at.first[n] += at.first[n - 1];
+  }
+  at.elements.resize(list.nodes.size());
+  std::vector<std::size_t> next(at.first.begin(), at.first.end() - 1);
+  for (idx_t e = 0; e < list.count(); ++e) {
+    for (auto k = static_cast<std::size_t>(list.first[static_cast<std::size_t>(e)]);
+         k < static_cast<std::size_t>(list.first[static_cast<std::size_t>(e) + 1]); ++k) {
+      at.elements[next[static_cast<std::size_t>(list.nodes[k])]++] = e;
+    }
+  }
+  return at;
+}
+
+Graph dual_graph(const ElementList& list, const NodeElements& at, std::span<const NodeLink> links,
+                 std::span<const int> whole) {
+  const auto is_whole = [&](int s) { return whole_part(whole, static_cast<std::size_t>(s)) >= 0; };
+  std::vector<std::map<idx_t, idx_t>> extra(static_cast<std::size_t>(list.count()));
+  for (const NodeLink& link : links) {
+    if (is_whole(link.structure_a) || is_whole(link.structure_b)) {
+      continue;
+    }
+    const auto global = [&](int structure, GlobalIndex node) {
+      return static_cast<std::size_t>(list.node_offset[static_cast<std::size_t>(structure)] + node);
+    };
+    const idx_t a = at.elements[at.first[global(link.structure_a, link.node_a)]];
+    const idx_t b = at.elements[at.first[global(link.structure_b, link.node_b)]];
+    if (a != b) {
+      extra[static_cast<std::size_t>(a)][b] += link_weight;
+      extra[static_cast<std::size_t>(b)][a] += link_weight;
+    }
+  }
+  Graph graph;
+  std::vector<idx_t> shared(static_cast<std::size_t>(list.count()), 0);
+  std::vector<idx_t> touched;
+  for (idx_t e = 0; e < list.count(); ++e) {
+    const auto row = static_cast<std::size_t>(e);
+    touched.clear();
+    for (auto k = static_cast<std::size_t>(list.first[row]);
+         k < static_cast<std::size_t>(list.first[row + 1]); ++k) {
+      const auto node = static_cast<std::size_t>(list.nodes[k]);
+      for (std::size_t j = at.first[node]; j < at.first[node + 1]; ++j) {
+        const idx_t other = at.elements[j];
+        if (other != e && shared[static_cast<std::size_t>(other)]++ == 0) {
+          touched.push_back(other);
+        }
+      }
+    }
+    std::sort(touched.begin(), touched.end());
+    for (const idx_t other : touched) {
+      const auto column = static_cast<std::size_t>(other);
+      if (shared[column] >= std::min(list.needed[row], list.needed[column])) {
+        graph.neighbours.push_back(other);
+        graph.weights.push_back(shared[column]);
+      }
+      shared[column] = 0;
+    }
+    for (const auto& [other, weight] : extra[row]) {
+      graph.neighbours.push_back(other);
+      graph.weights.push_back(weight);
+    }
+    graph.first.push_back(static_cast<idx_t>(graph.neighbours.size()));
+  }
+  return graph;
+}
+
+}  // namespace pounding

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <metis.h>
+
+#include "mesh/global_mesh.h"
+#include "mesh/partition.h"
+
+/// The elements of a scene as a graph for METIS. Serial.
+namespace pounding {
+
+/// Every element of every structure in one list, with global node numbers that run on from
+/// structure to structure. What METIS must not cut is one entry: the elements inside a cluster.
+struct ElementList {
+  std::vector<idx_t> first;  ///< CSR offsets into nodes
+  std::vector<GlobalIndex> nodes;
+  std::vector<idx_t> cost;
+  std::vector<int> structure;
+  std::vector<int> needed;  ///< shared nodes that make two elements neighbours
+  std::vector<GlobalIndex> node_offset;
+  std::vector<std::size_t> element_offset;
+  std::vector<idx_t> entry;  ///< of each element
+  GlobalIndex node_count = 0;
+
+  idx_t count() const { return static_cast<idx_t>(cost.size()); }
+};
+
+/// The elements of the structures that are cut; `whole` as in `partition_meshes`.
+ElementList list_elements(std::span<const GlobalMesh> meshes, std::span<const int> whole);
+
+/// Puts the elements inside each cluster together, behind all others.
+ElementList merge_clusters(const ElementList& all, std::span<const NodeCluster> clusters);
+
+/// Elements at each node, CSR.
+struct NodeElements {
+  std::vector<std::size_t> first;
+  std::vector<idx_t> elements;
+};
+
+NodeElements elements_at_nodes(const ElementList& list);
+
+/// CSR, edges weighted by shared nodes and linked faces.
+struct Graph {
+  std::vector<idx_t> first{0};
+  std::vector<idx_t> neighbours;
+  std::vector<idx_t> weights;
+};
+
+Graph dual_graph(const ElementList& list, const NodeElements& at, std::span<const NodeLink> links,
+                 std::span<const int> whole);
+
+/// Part that gets all of a structure; -1: it is cut.
+int whole_part(std::span<const int> whole, std::size_t structure);
+
+}  // namespace pounding
