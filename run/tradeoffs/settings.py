@@ -41,28 +41,37 @@ COARSER = (("s1_mesh_set", "cells_x=7,cells_y=5,column_elements=2"),
 
 
 
-def modal(vectors: int, *more: tuple) -> tuple:
+def modal(vectors: int, *more: tuple, candidates: int = 0) -> tuple:
     """Both buildings by modes and attachment vectors; the bases are kept and used again."""
-    return (*both("model", "modal"), *both("modal_vectors", vectors), *more,
-            ("s1_modal_basis", f"{{folder}}/basis-s1-{vectors}.h5"),
-            ("s2_modal_basis", f"{{folder}}/basis-s2-{vectors}.h5"))
+    chosen = both("modal_candidates", candidates) if candidates else ()
+    kept = f"{vectors}-of-{candidates}" if candidates else vectors
+    return (*both("model", "modal"), *both("modal_vectors", vectors), *chosen, *more,
+            ("s1_modal_basis", f"{{folder}}/basis-s1-{kept}.h5"),
+            ("s2_modal_basis", f"{{folder}}/basis-s2-{kept}.h5"))
 
+
+FAST = (*both("mass_scaling", 5.5e-5), ("courant", 0.99), ("gap_interval", 0.01))
 
 SAVINGS = [
     Setting("courant-0.99", "0.99 of the stable step", (("courant", 0.99),)),
-    Setting("ledger", "energy ledger every 2000 steps", (("energy_interval", 2000),)),
+    Setting("intervals", "gaps recorded every 0.01 s, energy ledger every 2000 steps",
+            (("gap_interval", 0.01), ("energy_interval", 2000))),
     Setting("slab-beta", "beta in the slabs only", SLAB_BETA),
     Setting("shells", "slabs of shells (Model B)", shells=True),
     Setting("coarse", "24 cm mesh", COARSE),
     Setting("coarser", "48 cm mesh", COARSER),
     Setting("mass-1e-5", "stiff frames scaled for a step of 1e-5 s", both("mass_scaling", 1e-5)),
     Setting("mass-2e-5", "stiff frames scaled for a step of 2e-5 s", both("mass_scaling", 2e-5)),
-    Setting("mass-2e-5-fast", "the same, 0.99 of the stable step, ledger every 2000 steps",
-            (*both("mass_scaling", 2e-5), ("courant", 0.99), ("energy_interval", 2000))),
+    Setting("mass-2e-5-fast", "the same, 0.99 of the stable step, gaps recorded every 0.01 s",
+            (*both("mass_scaling", 2e-5), ("courant", 0.99), ("gap_interval", 0.01))),
     Setting("mass-2e-5-coarse", "the same on the 24 cm mesh", (*both("mass_scaling", 2e-5), *COARSE)),
     *[Setting(f"modal-{n}", f"{n} modes and attachment vectors", modal(n)) for n in (40, 100, 200, 400, 800)],
-    *[Setting(f"modal-{n}-fast", f"the same with {n}, mass scaled for a step of 5.5e-5 s, ledger every 2000 steps",
-              modal(n, *both("mass_scaling", 5.5e-5), ("energy_interval", 2000))) for n in (100, 200, 400)],
+    *[Setting(f"modal-{n}-of-400", f"{n} modes chosen of 400, and attachment vectors", modal(n, candidates=400))
+      for n in (60, 80, 100, 150)],
+    *[Setting(f"modal-{n}-of-400-fast", f"{n} chosen of 400, mass scaled for a step of 5.5e-5 s, gaps every 0.01 s",
+              modal(n, *FAST, candidates=400)) for n in (60, 80, 100, 150)],
+    *[Setting(f"modal-{n}-fast", f"{n}, mass scaled for a step of 5.5e-5 s, gaps every 0.01 s", modal(n, *FAST))
+      for n in (100, 200, 400)],
     Setting("modal-bare-400", "400 modes without attachment vectors",
             (*both("model", "modal"), *both("modal_vectors", 400), *both("modal_attachment", "false"))),
     Setting("mixed", "structure 1 full, structure 2 by 400 modes", (("s2_model", "modal"), ("s2_modal_vectors", 400))),

@@ -25,7 +25,7 @@ constexpr int bodies_together = 4;
 ModalRequest request_of(const Scene& scene, int s, const Interface& interface,
                         std::span<const ResolvedProbe> probes) {
   const ModalModel& modal = *scene.structures[static_cast<std::size_t>(s)].modal;
-  ModalRequest request{modal.modes, modal.cutoff, modal.attachment, {}, {}};
+  ModalRequest request{modal.modes, modal.candidates, modal.cutoff, modal.attachment, {}, {}};
   std::set<TracePoint> known;
   for (const Constraint& constraint : interface.constraints) {
     for (const ConstraintTerm& term : constraint.terms) {
@@ -106,6 +106,9 @@ BasisKey key_of(const Structure& structure, const GlobalMesh& mesh, const ModalR
   Hash vectors;
   vectors.add_all(
       std::array{static_cast<double>(request.modes), request.cutoff, request.attachment ? 1. : 0.});
+  if (request.candidates > request.modes) {
+    vectors.add(static_cast<double>(request.candidates));
+  }
   return {{"mesh", hash_of(mesh)},
           {"elements", hash_of(structure.regions)},
           {"matrices", hash_of_matrices(structure.matrices)},

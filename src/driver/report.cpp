@@ -44,6 +44,8 @@ void print_reduction(const ModalModel& modal, const ModalBasis& basis, const Mas
   std::printf("    %d modes", basis.modes);
   if (modal.cutoff > 0) {
     std::printf(", those below the cut-off of %.6g Hz", modal.cutoff);
+  } else if (modal.candidates > modal.modes) {
+    std::printf(", chosen among the %d lowest", modal.candidates);
   } else if (modal.modes > basis.modes) {
     std::printf(" (%d asked for, the structure has no more)", modal.modes);
   }

@@ -55,7 +55,11 @@ class BasisMaker {
 
   ModalBasis make() {
     ModalBasis basis;
-    add_modes(wanted_modes());
+    const std::size_t wanted = wanted_modes();
+    add_modes(std::max(wanted, std::min(static_cast<std::size_t>(request_.candidates), dofs_)));
+    if (request_.candidates > request_.modes) {
+      choose_modes(wanted);
+    }
     basis.modes = static_cast<int>(space_.columns);
     if (request_.attachment && space_.columns < dofs_) {
       add_attachment_vectors();
@@ -118,6 +122,50 @@ class BasisMaker {
         const double* y = vectors.column(order[i]);
         space_.append({y, y + dofs_});
       }
+    }
+  }
+
+  /// Keeps so many of the candidates that are the space so far.
+  void choose_modes(std::size_t wanted) {
+    const std::size_t candidates = space_.columns;
+    std::vector<double> flexibility(candidates);  // of a unit mode
+    std::vector<double> product(dofs_);
+    for (std::size_t j = 0; j < candidates; ++j) {
+      multiply(space_.column(j), product.data());
+      const double square = dot(space_.column(j), product.data(), dofs_);
+      flexibility[j] = 1 / std::max(square, 1e-6);  // 1e-3 rad/s: rigid motions are all alike
+    }
+    std::vector<double> share(candidates, 0.0);
+    for (const auto* points : {&request_.contact_points, &request_.other_points}) {
+      for (const TracePoint& point : *points) {
+        add_shares(point, flexibility, share);
+      }
+    }
+    std::vector<std::size_t> order(candidates);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto first =
+        order.begin() + static_cast<std::ptrdiff_t>(std::min(wanted * 3 / 4, candidates));
+    std::stable_sort(first, order.end(),
+                     [&](std::size_t a, std::size_t b) { return share[a] > share[b]; });
+    order.resize(std::min(wanted, candidates));
+    std::ranges::sort(order);
+    DenseMatrix chosen(dofs_, 0);
+    for (const std::size_t j : order) {
+      chosen.append({space_.column(j), space_.column(j) + dofs_});
+    }
+    space_ = std::move(chosen);
+  }
+
+  /// phi^2 / omega^2 of each mode at a point, relative to the sum of all phi^2 there.
+  void add_shares(const TracePoint& point, const std::vector<double>& flexibility,
+                  std::vector<double>& share) const {
+    const LocalIndex dof = mesh_.dof(mesh_.owned_node(point.node), point.component);
+    double sum = 0;
+    for (std::size_t j = 0; dof >= 0 && j < share.size(); ++j) {
+      sum += std::pow(space_.column(j)[dof], 2);
+    }
+    for (std::size_t j = 0; sum > 0 && j < share.size(); ++j) {
+      share[j] += flexibility[j] * std::pow(space_.column(j)[dof], 2) / sum;
     }
   }
 

@@ -12,7 +12,7 @@ namespace pounding {
 /// A basis Phi of motions of a structure, u = Phi q, with Phi^T M Phi = I and Phi^T K Phi =
 /// diag(omega^2), as far as a run needs it: k vectors, known at the places that are asked for.
 struct ModalBasis {
-  int modes = 0;               ///< lowest modes in it
+  int modes = 0;               ///< modes in it
   int attachment_vectors = 0;  ///< vectors beside them
   GlobalIndex full_dofs = 0;   ///< of the model that was reduced
   double total_mass = 0;       ///< clamped nodes included [kg]
@@ -30,7 +30,8 @@ struct ModalBasis {
 
 /// What a basis is asked to hold.
 struct ModalRequest {
-  int modes = 0;           ///< number of lowest modes; 0: all below the cut-off
+  int modes = 0;           ///< number of modes; 0: all below the cut-off
+  int candidates = 0;      ///< number of lowest modes to choose them from; 0: no others
   double cutoff = 0;       ///< [Hz]
   bool attachment = true;  ///< a vector per contact point as well
   std::vector<TracePoint> contact_points;
@@ -47,6 +48,11 @@ struct ModalRequest {
 /// with the shift just below zero, so that free structures pass. They are made orthonormal, the
 /// largest remainder first; what lies in the span already to 1e-8 is dropped. Rayleigh-Ritz on the
 /// whole space makes K diagonal.
+///
+/// Of more candidates than modes the lowest three quarters are taken, and then those that move the
+/// contact points and the other points most: sum over the points of phi_k^2 / omega_k^2, each
+/// relative to phi^2 of all candidates there. Along a slab runs one wave for dozens of bending
+/// modes that an impact does not feel.
 ///
 /// More modes than dofs are all modes. Modes of the same frequency as the last one come along.
 /// `system` on MPI_COMM_SELF, without devices. Throws UserError if no mode lies below the cut-off.

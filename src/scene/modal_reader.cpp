@@ -11,6 +11,7 @@ using Names = OptionReader::Names;
 
 constexpr std::string_view model = "<structure>_model";
 constexpr std::string_view vectors = "<structure>_modal_vectors";
+constexpr std::string_view candidates = "<structure>_modal_candidates";
 constexpr std::string_view cutoff = "<structure>_modal_cutoff";
 constexpr std::string_view attachment = "<structure>_modal_attachment";
 constexpr std::string_view damping = "<structure>_modal_damping";
@@ -41,7 +42,8 @@ void refuse_devices(const OptionReader& options, const Structure& structure) {
 std::optional<ModalModel> read_modal_model(OptionReader& options, const Structure& structure) {
   const Names names{structure.name};
   if (options.choice(model, names) == "full") {
-    for (const std::string_view pattern : {vectors, cutoff, attachment, damping, basis}) {
+    for (const std::string_view pattern :
+         {vectors, candidates, cutoff, attachment, damping, basis}) {
       options.forbid(pattern, names,
                      "goes with -" + option_name(model, names) + " modal, which is not given");
     }
@@ -53,7 +55,17 @@ std::optional<ModalModel> read_modal_model(OptionReader& options, const Structur
     options.forbid(cutoff, names,
                    "give either this or -" + option_name(vectors, names) + ", not both");
     modal.modes = options.integer(vectors, names);
+    if (options.given(candidates, names)) {
+      modal.candidates = options.integer(candidates, names);
+      if (modal.candidates < modal.modes) {
+        options.refuse(candidates, names,
+                       "at least as many as -" + option_name(vectors, names) + " " +
+                           std::to_string(modal.modes) + ", which are chosen from them");
+      }
+    }
   } else if (options.given(cutoff, names)) {
+    options.forbid(candidates, names,
+                   "goes with -" + option_name(vectors, names) + ", which is not given");
     modal.cutoff = options.real(cutoff, names);
   } else {
     throw UserError("option -" + option_name(model, names) + " modal: give -" +

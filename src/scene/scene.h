@@ -53,7 +53,8 @@ struct Region {
 
 /// A structure represented by its lowest modes and by attachment vectors.
 struct ModalModel {
-  int modes = 0;           ///< number of lowest modes; 0: all below the cut-off
+  int modes = 0;           ///< number of modes; 0: all below the cut-off
+  int candidates = 0;      ///< number of lowest modes to choose them from; 0: no others
   double cutoff = 0;       ///< [Hz]
   bool attachment = true;  ///< static responses to unit forces at the contact dofs as well
   std::vector<double> damping_ratios;  ///< of mode 1, 2, ..., the last one of all that follow;

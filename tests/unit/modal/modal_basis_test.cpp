@@ -74,6 +74,42 @@ TEST(ModalBasis, OfAllModesIsTheModelItself) {
   }
 }
 
+TEST(ModalBasis, ChoosesTheModesThatContactFeels) {
+  ReducedBox box(true);
+  box.request.other_points = {};
+  const ModalBasis all = box.basis(24, false);
+  const ModalBasis chosen = box.basis(8, false, 24);
+  ASSERT_EQ(chosen.size(), 8u);
+  EXPECT_EQ(chosen.modes, 8);
+  std::vector<double> share(24, 0.0);
+  for (std::size_t p = 0; p < all.points.size(); ++p) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 24; ++k) {
+      sum += std::pow(all.rows[p * 24 + k], 2);
+    }
+    for (std::size_t k = 0; k < 24; ++k) {
+      share[k] += std::pow(all.rows[p * 24 + k], 2) / sum / all.squared_frequency[k];
+    }
+  }
+  std::vector<std::size_t> order(18);
+  std::iota(order.begin(), order.end(), std::size_t{6});
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return share[a] > share[b]; });
+  std::vector<std::size_t> expected{0, 1, 2, 3, 4, 5, order[0], order[1]};
+  std::ranges::sort(expected);
+  EXPECT_NE(expected[7], 7u);  // not just the lowest
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_NEAR(chosen.squared_frequency[i] / all.squared_frequency[expected[i]], 1, 1e-9) << i;
+  }
+  // Attachment vectors still find the whole flexibility.
+  const ModalBasis attached = box.basis(8, true, 24);
+  const std::vector<double> response = static_response(box, attached.points[0]);
+  for (std::size_t p = 0; p < box.request.contact_points.size(); ++p) {
+    EXPECT_NEAR(between(attached, 0, p, [](double square) { return 1 / square; }),
+                response[box.dof(attached.points[p])],
+                1e-9 * response[box.dof(attached.points[0])]);
+  }
+}
+
 TEST(ModalBasis, HoldsTheLowestModes) {
   ReducedBox box(true);
   const ModalResult modes = lowest_modes(box.system, box.mesh, 6);

@@ -28,8 +28,9 @@ struct ReducedBox {
                             {global.groups.at("x_min").nodes.front(), 0}};
   }
 
-  ModalBasis basis(int modes, bool attachment = true) {
+  ModalBasis basis(int modes, bool attachment = true, int candidates = 0) {
     request.modes = modes;
+    request.candidates = candidates;
     request.attachment = attachment;
     return compute_modal_basis(system, mesh, request);
   }

@@ -16,6 +16,7 @@ TEST(ModalOptions, HaveDefaults) {
   const auto modal = read_scene(reduced({})).scene.structures[0].modal;
   ASSERT_TRUE(modal);
   EXPECT_EQ(modal->modes, 40);
+  EXPECT_EQ(modal->candidates, 0);
   EXPECT_EQ(modal->cutoff, 0);
   EXPECT_TRUE(modal->attachment);
   EXPECT_TRUE(modal->damping_ratios.empty());
@@ -35,6 +36,8 @@ TEST(ModalOptions, AreRead) {
   EXPECT_FALSE(modal->attachment);
   EXPECT_EQ(modal->damping_ratios, (std::vector<double>{0.01, 0.02}));
   EXPECT_EQ(modal->basis_file, "tower.h5");
+  const auto chosen = read_scene(reduced({{"tower_modal_candidates", "40"}})).scene.structures[0];
+  EXPECT_EQ(chosen.modal->candidates, 40);
 }
 
 TEST(ModalOptions, ThatDoNotFitAreRefused) {
@@ -43,6 +46,14 @@ TEST(ModalOptions, ThatDoNotFitAreRefused) {
   expect_refused(with(smallest(), {{"tower_modal_vectors", "40"}}),
                  {"-tower_modal_vectors 40", "-tower_model modal"});
   expect_refused(with(smallest(), {{"tower_modal_basis", "a.h5"}}), {"-tower_model modal"});
+  expect_refused(reduced({{"tower_modal_candidates", "39"}}),
+                 {"-tower_modal_candidates 39", "at least as many", "-tower_modal_vectors 40"});
+  expect_refused(with(smallest(), {{"tower_modal_candidates", "40"}}),
+                 {"-tower_modal_candidates 40", "-tower_model modal"});
+  expect_refused(with(smallest(), {{"tower_model", "modal"},
+                                   {"tower_modal_cutoff", "400"},
+                                   {"tower_modal_candidates", "40"}}),
+                 {"-tower_modal_candidates 40", "-tower_modal_vectors"});
   expect_refused(reduced({{"tower_modal_vectors", "0"}}), {"-tower_modal_vectors 0", ">= 1"});
   expect_refused(reduced({{"tower_modal_cutoff", "400"}}),
                  {"-tower_modal_cutoff 400", "-tower_modal_vectors", "not both"});
