@@ -13,6 +13,10 @@ double add_up(const Lanes& values) {
   return (values[0] + values[2]) + (values[1] + values[3]);
 }
 
+Lanes all(double value) {
+  return Lanes{value, value, value, value};
+}
+
 bool directions_are(const LinearSystem& system, std::size_t dof, std::array<int, 3> expected) {
   if (dof + 3 > system.direction.size()) {
     return false;
@@ -175,8 +179,8 @@ void BodyStep::advance_every_third(std::size_t first, std::size_t end, const dou
   double* const displacement = state_.displacement.data();
   double* const velocity = state_.velocity.data();
   double* const stiffness = state_.stiffness_displacement.data();
-  const double time_step = time_step_;
-  const double decay = decay_;
+  const Lanes time_step = all(time_step_);
+  const Lanes decay = all(decay_);
   const double inverse = inverse_;
   const Lanes ground_step = ground;
   Lanes momentum_sum = momentum;
@@ -197,15 +201,19 @@ void BodyStep::advance_every_third(std::size_t first, std::size_t end, const dou
       sums_.displacement_mass += m * u * u;
     }
     const Lanes kv = (q - ku) * inverse;
-    const Lanes after = decay * v - time_step * (weight * q) - ground_step;
-    store(stiffness + i, ku + time_step * kv);
+    Lanes after = -ground_step;
+    add_product(decay, v, after);
+    subtract_product(time_step, weight * q, after);
+    add_product(time_step, kv, ku);
+    add_product(time_step, after, u);
+    store(stiffness + i, ku);
     store(velocity + i, after);
-    store(displacement + i, u + time_step * after);
-    stiffness_before += v * kv;
-    stiffness_across += after * kv;
+    store(displacement + i, u);
+    add_product(v, kv, stiffness_before);
+    add_product(after, kv, stiffness_across);
     const Lanes sum = after + v;
     const Lanes both = m * sum;
-    mass_sum += both * sum;
+    add_product(both, sum, mass_sum);
     momentum_sum += both;
   }
   momentum = momentum_sum;
@@ -219,6 +227,9 @@ void BodyStep::advance_generalised(std::size_t first, std::size_t end, const dou
   double* const velocity = state_.velocity.data();
   double* const stiffness = state_.stiffness_displacement.data();
   const auto& influence = system_.generalised->influence;
+  const Lanes time_step = all(time_step_), decay = all(decay_);
+  const Lanes ground_step[3]{all(ground_step_[0]), all(ground_step_[1]), all(ground_step_[2])};
+  const double inverse = inverse_;
   Lanes stiffness_before{}, stiffness_across{}, mass_sum{};
   Lanes momentum[3]{};
   for (std::size_t i = first; i + lanes <= end; i += lanes, force += lanes) {
@@ -232,20 +243,24 @@ void BodyStep::advance_generalised(std::size_t first, std::size_t end, const dou
     for (std::size_t d = 0; d < 3; ++d) {
       load(&influence[d][i], iota[d]);
     }
-    const Lanes ground =
-        ground_step_[0] * iota[0] + ground_step_[1] * iota[1] + ground_step_[2] * iota[2];
-    const Lanes kv = (q - ku) * inverse_;
-    const Lanes after = decay_ * v - time_step_ * (weight * q) - ground;
-    store(stiffness + i, ku + time_step_ * kv);
+    const Lanes kv = (q - ku) * inverse;
+    Lanes after = decay * v;
+    subtract_product(time_step, weight * q, after);
+    for (std::size_t d = 0; d < 3; ++d) {
+      subtract_product(ground_step[d], iota[d], after);
+    }
+    add_product(time_step, kv, ku);
+    add_product(time_step, after, u);
+    store(stiffness + i, ku);
     store(velocity + i, after);
-    store(displacement + i, u + time_step_ * after);
-    stiffness_before += v * kv;
-    stiffness_across += after * kv;
+    store(displacement + i, u);
+    add_product(v, kv, stiffness_before);
+    add_product(after, kv, stiffness_across);
     const Lanes sum = after + v;
     const Lanes both = m * sum;
-    mass_sum += both * sum;
+    add_product(both, sum, mass_sum);
     for (std::size_t d = 0; d < 3; ++d) {
-      momentum[d] += iota[d] * both;
+      add_product(iota[d], both, momentum[d]);
     }
   }
   single_.stiffness_before += add_up(stiffness_before);

@@ -139,13 +139,16 @@ void CoupledStep::advance_regular(const Terms& terms, StepSums& sums) {
     load(&system_.lumped_mass[node.begin + first], m);
     const Vector kv = (q - ku) * terms.inverse;
     const Vector after = v + change;
-    store(&state_.stiffness_displacement[node.begin + first], ku + time_step_ * kv);
+    const Vector step = Vector{} + time_step_;
+    add_product(step, kv, ku);
+    add_product(step, after, u);
+    store(&state_.stiffness_displacement[node.begin + first], ku);
     store(&state_.velocity[node.begin + first], after);
-    store(&state_.displacement[node.begin + first], u + time_step_ * after);
-    sum.stiffness_before += v * kv;
-    sum.stiffness_across += after * kv;
+    store(&state_.displacement[node.begin + first], u);
+    add_product(v, kv, sum.stiffness_before);
+    add_product(after, kv, sum.stiffness_across);
     const Vector both = m * (after + v);
-    sum.mass_sum += both * (after + v);
+    add_product(both, after + v, sum.mass_sum);
     sum.momentum += both;
   };
   for (const Node& node : nodes_) {

@@ -30,6 +30,23 @@ class Wide(unittest.TestCase):
             self.assertLess(abs(spread.vectors[name] - values).max(), 1e-11 * abs(values).max())
 
 
+class Interval(unittest.TestCase):
+    def test_gaps_looked_at_more_rarely_change_no_bit(self):
+        for ranks in (1, 2):
+            often, rarely = (Run(self, Pair(), ranks, more=["-gap_interval", interval]) for interval in (0, 4e-3))
+            self.assertGreater(often.summary["impacts"]["episodes"], 0)
+            self.assertEqual(rarely.summary["impacts"], often.summary["impacts"])
+            self.assertLess(rarely.summary["interface_looks"], often.summary["interface_looks"])
+            for name in ("displacement", "velocity", "acceleration", "contact_force"):
+                self.assertTrue(numpy.array_equal(rarely.data[name], often.data[name]), name)
+            known = numpy.isfinite(rarely.data["gap"][:, 0])
+            self.assertTrue(known[0])
+            self.assertTrue((~known).any())
+            self.assertTrue(known[often.data["contact_force"][:, 0] > 0].all())
+            self.assertTrue(numpy.array_equal(rarely.data["gap"][known], often.data["gap"][known]))
+            self.assertTrue(numpy.isfinite(often.data["gap"]).all())
+
+
 class Overlap(unittest.TestCase):
     def masses(self, speed):
         return History(self, scenes.blocks((2.0, 2.0), speed=speed, gap=-1e-3, young=SOFT, end_time=0.005), 2)
