@@ -15,18 +15,36 @@ def draw(summary: list, path) -> None:
     for row in full:
         axes.axvline(row["per_second"], color="#666666", linewidth=1, linestyle="--", label="full order")
     best = float("inf")
+    front = []
     for row in sorted(savings, key=lambda row: row["per_second"]):
         on_front = row["rms"] < best
         best = min(best, row["rms"])
+        front += [row] if on_front else []
         axes.plot(row["per_second"], row["rms"], "o", color="#0072B2" if on_front else "#9A9A9A", zorder=3)
-        axes.annotate(row["setting"], (row["per_second"], row["rms"]), xytext=(5, 4),
-                      textcoords="offset points", fontsize=8)
     style.log_scale(axes, "x", [row["per_second"] for row in summary])
     if savings:
         style.log_scale(axes, "y", [row["rms"] for row in savings] + noise)
     axes.axvline(1.0, color="#B2182B", linewidth=1, linestyle=":", label="as fast as the earthquake")
     axes.set_xlabel("wall time per second of motion [s/s]")
     axes.set_ylabel("rms of ln(spectrum / reference), floor 2, 1-400 Hz [-]")
-    axes.legend(loc="upper right")
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=3, columnspacing=1.2)
+    _name(figure, axes, front + [row for row in savings if row not in front])
     figure.savefig(path)
     style.plt.close(figure)
+
+
+def _name(figure, axes, rows: list) -> None:
+    """Writes the name of each setting beside its point, the first of them first, where none stands yet."""
+    figure.canvas.draw()
+    taken = []
+    for row in rows:
+        for place in ((5, 4), (5, -10), (-5, 4), (-5, -10)):
+            text = axes.annotate(row["setting"], (row["per_second"], row["rms"]), xytext=place, fontsize=8,
+                                 textcoords="offset points", ha="left" if place[0] > 0 else "right")
+            box = text.get_window_extent(figure.canvas.get_renderer())
+            outside = box.x0 < axes.bbox.x0 or box.x1 > axes.bbox.x1
+            if outside or any(box.overlaps(other) for other in taken):
+                text.remove()
+                continue
+            taken.append(box)
+            break

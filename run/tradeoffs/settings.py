@@ -38,7 +38,9 @@ COARSE = (("s1_mesh_set", "cells_x=14,cells_y=10,column_elements=5"),
           ("s2_mesh_set", "cells_x=9,cells_y=10,column_elements=5"))
 COARSER = (("s1_mesh_set", "cells_x=7,cells_y=5,column_elements=2"),
            ("s2_mesh_set", "cells_x=5,cells_y=5,column_elements=2"))
-
+# Gaps recorded more rarely than the probes, and the mass of fast coordinates scaled.
+RARE = ("gap_interval", 0.01)
+FAST = (*both("mass_scaling", 5.5e-5), ("courant", 0.99), RARE)
 
 
 def modal(vectors: int, *more: tuple, candidates: int = 0) -> tuple:
@@ -50,12 +52,10 @@ def modal(vectors: int, *more: tuple, candidates: int = 0) -> tuple:
             ("s2_modal_basis", f"{{folder}}/basis-s2-{kept}.h5"))
 
 
-FAST = (*both("mass_scaling", 5.5e-5), ("courant", 0.99), ("gap_interval", 0.01))
-
 SAVINGS = [
     Setting("courant-0.99", "0.99 of the stable step", (("courant", 0.99),)),
     Setting("intervals", "gaps recorded every 0.01 s, energy ledger every 2000 steps",
-            (("gap_interval", 0.01), ("energy_interval", 2000))),
+            (RARE, ("energy_interval", 2000))),
     Setting("slab-beta", "beta in the slabs only", SLAB_BETA),
     Setting("shells", "slabs of shells (Model B)", shells=True),
     Setting("coarse", "24 cm mesh", COARSE),
@@ -63,14 +63,15 @@ SAVINGS = [
     Setting("mass-1e-5", "stiff frames scaled for a step of 1e-5 s", both("mass_scaling", 1e-5)),
     Setting("mass-2e-5", "stiff frames scaled for a step of 2e-5 s", both("mass_scaling", 2e-5)),
     Setting("mass-2e-5-fast", "the same, 0.99 of the stable step, gaps recorded every 0.01 s",
-            (*both("mass_scaling", 2e-5), ("courant", 0.99), ("gap_interval", 0.01))),
+            (*both("mass_scaling", 2e-5), ("courant", 0.99), RARE)),
     Setting("mass-2e-5-coarse", "the same on the 24 cm mesh", (*both("mass_scaling", 2e-5), *COARSE)),
-    *[Setting(f"modal-{n}", f"{n} modes and attachment vectors", modal(n)) for n in (40, 100, 200, 400, 800)],
-    *[Setting(f"modal-{n}-of-400", f"{n} modes chosen of 400, and attachment vectors", modal(n, candidates=400))
+    *[Setting(f"modal-{n}", f"{n} modes and attachment vectors, gaps every 0.01 s", modal(n, RARE))
+      for n in (40, 100, 200, 400, 800, 1000)],
+    *[Setting(f"modal-{n}-of-400", f"{n} modes chosen of 400, likewise", modal(n, RARE, candidates=400))
       for n in (60, 80, 100, 150)],
-    *[Setting(f"modal-{n}-of-400-fast", f"{n} chosen of 400, mass scaled for a step of 5.5e-5 s, gaps every 0.01 s",
+    *[Setting(f"modal-{n}-of-400-fast", f"the same with {n}, mass scaled for 5.5e-5 s, 0.99 of the stable step",
               modal(n, *FAST, candidates=400)) for n in (60, 80, 100, 150)],
-    *[Setting(f"modal-{n}-fast", f"{n}, mass scaled for a step of 5.5e-5 s, gaps every 0.01 s", modal(n, *FAST))
+    *[Setting(f"modal-{n}-fast", f"{n} lowest modes, mass scaled in this way", modal(n, *FAST))
       for n in (100, 200, 400)],
     Setting("modal-bare-400", "400 modes without attachment vectors",
             (*both("model", "modal"), *both("modal_vectors", 400), *both("modal_attachment", "false"))),

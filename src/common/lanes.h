@@ -50,7 +50,20 @@ static inline __attribute__((always_inline)) void add_product(const HalfLanes& a
 #endif
 }
 
+/// Of single values, rounded like those of a vector: what is left over of a range must not move
+/// otherwise than the range itself.
+static inline __attribute__((always_inline)) void add_product(double a, double b, double& c) {
+#ifdef __FMA__
+  c = __builtin_fma(a, b, c);
+#else
+  c += a * b;
+#endif
+}
+
 /// c -= a b, likewise.
+static inline __attribute__((always_inline)) void subtract_product(double a, double b, double& c) {
+  add_product(-a, b, c);
+}
 static inline __attribute__((always_inline)) void subtract_product(const Lanes& a, const Lanes& b,
                                                                    Lanes& c) {
 #ifdef __FMA__

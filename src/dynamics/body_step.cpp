@@ -327,18 +327,17 @@ void BodyStep::advance_dof(LocalIndex dof, double force) {
     single_.displacement_mass += mass * state_.displacement[i] * state_.displacement[i];
   }
   const double kv = (force - ku) * inverse_;
-  double after = decay_ * before - duration_ * (system_.inverse_mass[i] * force);
+  double after = -ground_step_at(i);
+  add_product(decay_, before, after);
+  subtract_product(duration_, system_.inverse_mass[i] * force, after);
   if (!state_.device_force.empty()) {
-    after -= duration_ * (system_.inverse_mass[i] * state_.device_force[i]);
-  }
-  after -= ground_step_at(i);
-  add_momentum(i, mass * (after + before));
-  if (!state_.device_force.empty()) {
+    subtract_product(duration_, system_.inverse_mass[i] * state_.device_force[i], after);
     single_.device += state_.device_force[i] * (after + before);
   }
-  ku += time_step_ * kv;
+  add_momentum(i, mass * (after + before));
+  add_product(time_step_, kv, ku);
+  add_product(time_step_, after, state_.displacement[i]);
   state_.velocity[i] = after;
-  state_.displacement[i] += time_step_ * after;
   single_.stiffness_before += before * kv;
   single_.stiffness_across += after * kv;
   single_.mass_sum += mass * (after + before) * (after + before);
@@ -377,7 +376,8 @@ void BodyStep::correct(std::span<const LocalIndex> dofs, const Before& before,
       single_.device += state_.device_force[i] * change;
     }
     state_.velocity[i] = velocity[k];
-    state_.displacement[i] = before.displacement[k] + time_step_ * velocity[k];
+    state_.displacement[i] = before.displacement[k];
+    add_product(time_step_, velocity[k], state_.displacement[i]);
   }
 }
 

@@ -171,9 +171,9 @@ void CoupledStep::advance_dofs(const Node& node, const Terms& terms, StepSums& s
     const double after = before + field_[node.field + c];
     double& ku = state_.stiffness_displacement[i];
     const double kv = (force_[node.force + c] - ku) * terms.inverse;
-    ku += time_step_ * kv;
+    add_product(time_step_, kv, ku);
+    add_product(time_step_, after, state_.displacement[i]);
     state_.velocity[i] = after;
-    state_.displacement[i] += time_step_ * after;
     const double both = system_.lumped_mass[i] * (after + before);
     sums.stiffness_before += before * kv;
     sums.stiffness_across += after * kv;
