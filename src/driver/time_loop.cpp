@@ -97,13 +97,16 @@ void TimeLoop::create_recorder(bool continued) {
     layout.contacts.push_back(contact.name);
   }
   layout.interface_root = contact_ ? contact_->root() : -1;
-  layout.stride = std::max(1, static_cast<int>(scene_.output_interval / model_.time_step));
+  const auto whole = [&](double count) {  // never more than the run has
+    return std::clamp(count, 1.0, static_cast<double>(model_.steps) + 1);
+  };
+  layout.stride = static_cast<int>(whole(scene_.output_interval / model_.time_step));
   layout.time_step = model_.time_step;
   for (const LinearSystem& system : model_.systems) {
     layout.initial_velocity.push_back(system.initial_velocity);
   }
   const double records = scene_.gap_interval / (model_.time_step * layout.stride);
-  gap_stride_ = layout.stride * std::max<std::int64_t>(1, static_cast<std::int64_t>(records));
+  gap_stride_ = layout.stride * static_cast<std::int64_t>(whole(records));
   recorder_ = std::make_unique<Recorder>(std::move(layout), model_.systems, model_.meshes);
 }
 
