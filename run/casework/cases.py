@@ -17,7 +17,8 @@ def both(**options) -> list:
 FIDELITIES = {
     "full": [],
     "scaled": [*both(mass_scaling="2e-5"), "-courant", "0.99", "-gap_interval", "1e-3"],
-    "modal": [*both(model="modal", modal_vectors="400", mass_scaling="5.5e-5"), "-courant", "0.99", "-gap_interval", "1e-3",
+    "modal": [*both(model="modal", modal_vectors="400", mass_scaling="5.5e-5"),
+              "-courant", "0.99", "-gap_interval", "1e-3",
               "-s1_modal_basis", "{bases}-s1.h5", "-s2_modal_basis", "{bases}-s2.h5"],
 }
 

@@ -31,6 +31,16 @@ static inline __attribute__((always_inline)) void store(double* to, const HalfLa
   std::memcpy(to, &from, sizeof from);
 }
 
+static inline __attribute__((always_inline)) Lanes all_lanes(double value) {
+  return Lanes{value, value, value, value};
+}
+static inline __attribute__((always_inline)) double add_up(const Lanes& values) {
+  return (values[0] + values[2]) + (values[1] + values[3]);
+}
+static inline __attribute__((always_inline)) double add_up(const HalfLanes& values) {
+  return values[0] + values[1];
+}
+
 /// c += a b, rounded once where the machine can: by the source, not by the compiler's choice.
 static inline __attribute__((always_inline)) void add_product(const Lanes& a, const Lanes& b,
                                                               Lanes& c) {

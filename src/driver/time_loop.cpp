@@ -42,18 +42,8 @@ std::unique_ptr<ContactProblem> make_contact(MPI_Comm comm, const Scene& scene,
 }
 
 GapWatch make_watch(const Model& model, const ContactProblem* contact) {
-  std::vector<GapWatch::Bound> bounds;
-  for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    GapWatch::Bound& bound = bounds.emplace_back();
-    bound.energy_margin = model.energy_margin[s];
-    if (contact != nullptr) {
-      bound.rate_norm = contact->rate_norm(static_cast<int>(s));
-      if (model.systems[s].generalised) {
-        bound.coordinate_rows = contact->coordinate_rows(s);
-      }
-    }
-  }
-  return {model.systems, std::move(bounds), model.motion->peak_acceleration(), model.time_step};
+  return {model.systems, GapWatch::bounds_of(model.systems, model.energy_margin, contact),
+          model.motion->peak_acceleration(), model.time_step};
 }
 
 }  // namespace

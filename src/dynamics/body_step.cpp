@@ -9,14 +9,6 @@ namespace {
 constexpr std::size_t lanes = sizeof(Lanes) / sizeof(double);
 constexpr std::size_t pattern = 3 * lanes;  // dofs
 
-double add_up(const Lanes& values) {
-  return (values[0] + values[2]) + (values[1] + values[3]);
-}
-
-Lanes all(double value) {
-  return Lanes{value, value, value, value};
-}
-
 bool directions_are(const LinearSystem& system, std::size_t dof, std::array<int, 3> expected) {
   if (dof + 3 > system.direction.size()) {
     return false;
@@ -179,8 +171,8 @@ void BodyStep::advance_every_third(std::size_t first, std::size_t end, const dou
   double* const displacement = state_.displacement.data();
   double* const velocity = state_.velocity.data();
   double* const stiffness = state_.stiffness_displacement.data();
-  const Lanes time_step = all(time_step_);
-  const Lanes decay = all(decay_);
+  const Lanes time_step = all_lanes(time_step_);
+  const Lanes decay = all_lanes(decay_);
   const double inverse = inverse_;
   const Lanes ground_step = ground;
   Lanes momentum_sum = momentum;
@@ -227,8 +219,9 @@ void BodyStep::advance_generalised(std::size_t first, std::size_t end, const dou
   double* const velocity = state_.velocity.data();
   double* const stiffness = state_.stiffness_displacement.data();
   const auto& influence = system_.generalised->influence;
-  const Lanes time_step = all(time_step_), decay = all(decay_);
-  const Lanes ground_step[3]{all(ground_step_[0]), all(ground_step_[1]), all(ground_step_[2])};
+  const Lanes time_step = all_lanes(time_step_), decay = all_lanes(decay_);
+  const Lanes ground_step[3]{all_lanes(ground_step_[0]), all_lanes(ground_step_[1]),
+                             all_lanes(ground_step_[2])};
   const double inverse = inverse_;
   Lanes stiffness_before{}, stiffness_across{}, mass_sum{};
   Lanes momentum[3]{};

@@ -16,13 +16,6 @@ struct VectorSums {
   Vector momentum{};
 };
 
-double add_up(const Lanes& values) {
-  return (values[0] + values[2]) + (values[1] + values[3]);
-}
-double add_up(const HalfLanes& values) {
-  return values[0] + values[1];
-}
-
 template <typename Vector>
 void add_to(const VectorSums<Vector>& from, StepSums& sums) {
   sums.stiffness_before += add_up(from.stiffness_before);

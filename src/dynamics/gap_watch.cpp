@@ -6,6 +6,23 @@
 
 namespace pounding {
 
+std::vector<GapWatch::Bound> GapWatch::bounds_of(std::span<const LinearSystem> systems,
+                                                 std::span<const double> margins,
+                                                 const ContactProblem* contact) {
+  std::vector<Bound> bounds;
+  for (std::size_t s = 0; s < systems.size(); ++s) {
+    Bound& bound = bounds.emplace_back();
+    bound.energy_margin = margins[s];
+    if (contact != nullptr) {
+      bound.rate_norm = contact->rate_norm(static_cast<int>(s));
+      if (systems[s].generalised) {
+        bound.coordinate_rows = contact->coordinate_rows(s);
+      }
+    }
+  }
+  return bounds;
+}
+
 GapWatch::GapWatch(std::span<const LinearSystem> systems, std::vector<Bound> bounds,
                    double peak_acceleration, double time_step)
     : time_step_(time_step),

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/saved_state.h"
+#include "contact/contact_problem.h"
 #include "dynamics/coordinate_rates.h"
 #include "dynamics/energy_balance.h"
 #include "system/linear_system.h"
@@ -28,6 +29,11 @@ class GapWatch {
     /// In generalised coordinates: L T, see CoordinateRates.
     std::vector<double> coordinate_rows;
   };
+
+  /// Bounds of all structures from their energy margins and the interface; `contact` may be null.
+  static std::vector<Bound> bounds_of(std::span<const LinearSystem> systems,
+                                      std::span<const double> margins,
+                                      const ContactProblem* contact);
 
   /// `peak_acceleration`: largest norm of the ground acceleration [m/s2]. Collective.
   GapWatch(std::span<const LinearSystem> systems, std::vector<Bound> bounds,

@@ -24,9 +24,6 @@ std::size_t element_count(const GlobalMesh& mesh) {
 std::vector<idx_t> cut_graph(ElementList& list, Graph& graph, int parts, long& edge_cut) {
   std::vector<idx_t> owner(list.cost.size(), 0);
   edge_cut = 0;
-  if (parts == 1) {
-    return owner;
-  }
   if (list.count() <= parts) {
     for (std::size_t e = 0; e < owner.size(); ++e) {
       owner[e] = static_cast<idx_t>(e);
@@ -147,18 +144,16 @@ Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const N
     list = merge_clusters(list, clusters);
   }
   const NodeElements at = elements_at_nodes(list);
-  Graph graph;
-  if (parts > 1) {
-    graph = dual_graph(list, at, links, whole);
-  }
   Partition partition;
   partition.parts = parts;
-  std::vector<idx_t> owner = cut_graph(list, graph, parts, partition.edge_cut);
-  if (by != PartitionBy::elements && parts > 1) {
-    std::vector<idx_t> kept = keep_structures(list, meshes.size(), parts);
-    if (by == PartitionBy::structures || structures_are_cheaper(list, owner, kept, parts)) {
-      owner = std::move(kept);
-      partition.edge_cut = 0;
+  std::vector<idx_t> owner = keep_structures(list, meshes.size(), parts);
+  if (by != PartitionBy::structures && parts > 1) {
+    Graph graph = dual_graph(list, at, links, whole);
+    long edge_cut = 0;
+    std::vector<idx_t> cut = cut_graph(list, graph, parts, edge_cut);
+    if (by == PartitionBy::elements || !structures_are_cheaper(list, cut, owner, parts)) {
+      owner = std::move(cut);
+      partition.edge_cut = edge_cut;
     }
   }
   partition.imbalance = imbalance_of(list, owner, parts);

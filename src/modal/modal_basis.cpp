@@ -121,6 +121,7 @@ class BasisMaker {
       if (i < wanted || values[order[i]] <= last + same_eigenvalue * std::abs(last)) {
         const double* y = vectors.column(order[i]);
         space_.append({y, y + dofs_});
+        squared_frequency_.push_back(values[order[i]]);
       }
     }
   }
@@ -128,26 +129,18 @@ class BasisMaker {
   /// Keeps so many of the candidates that are the space so far.
   void choose_modes(std::size_t wanted) {
     const std::size_t candidates = space_.columns;
-    std::vector<double> flexibility(candidates);  // of a unit mode
-    std::vector<double> product(dofs_);
-    for (std::size_t j = 0; j < candidates; ++j) {
-      multiply(space_.column(j), product.data());
-      const double square = dot(space_.column(j), product.data(), dofs_);
-      flexibility[j] = 1 / std::max(square, 1e-6);  // 1e-3 rad/s: rigid motions are all alike
-    }
     std::vector<double> share(candidates, 0.0);
     for (const auto* points : {&request_.contact_points, &request_.other_points}) {
       for (const TracePoint& point : *points) {
-        add_shares(point, flexibility, share);
+        add_shares(point, share);
       }
     }
     std::vector<std::size_t> order(candidates);
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto first =
-        order.begin() + static_cast<std::ptrdiff_t>(std::min(wanted * 3 / 4, candidates));
+    const auto first = order.begin() + static_cast<std::ptrdiff_t>(wanted * 3 / 4);
     std::stable_sort(first, order.end(),
                      [&](std::size_t a, std::size_t b) { return share[a] > share[b]; });
-    order.resize(std::min(wanted, candidates));
+    order.resize(wanted);
     std::ranges::sort(order);
     DenseMatrix chosen(dofs_, 0);
     for (const std::size_t j : order) {
@@ -157,15 +150,15 @@ class BasisMaker {
   }
 
   /// phi^2 / omega^2 of each mode at a point, relative to the sum of all phi^2 there.
-  void add_shares(const TracePoint& point, const std::vector<double>& flexibility,
-                  std::vector<double>& share) const {
+  void add_shares(const TracePoint& point, std::vector<double>& share) const {
     const LocalIndex dof = mesh_.dof(mesh_.owned_node(point.node), point.component);
     double sum = 0;
     for (std::size_t j = 0; dof >= 0 && j < share.size(); ++j) {
       sum += std::pow(space_.column(j)[dof], 2);
     }
     for (std::size_t j = 0; sum > 0 && j < share.size(); ++j) {
-      share[j] += flexibility[j] * std::pow(space_.column(j)[dof], 2) / sum;
+      const double square = std::max(squared_frequency_[j], 1e-6);  // rigid motions are all alike
+      share[j] += std::pow(space_.column(j)[dof], 2) / (square * sum);
     }
   }
 
@@ -292,6 +285,7 @@ class BasisMaker {
   MatHandle matrix_;
   std::size_t dofs_;
   DenseMatrix space_;
+  std::vector<double> squared_frequency_;  ///< of the modes found [1/s2]
 };
 
 }  // namespace

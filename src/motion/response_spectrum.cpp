@@ -64,7 +64,7 @@ std::vector<double> peak_displacements(std::span<const double> acceleration, dou
     for (std::size_t b = 0; b < vectors; ++b) {
       const auto& A = block.A;
       const auto& B = block.B;
-      const Lanes before = Lanes{} + a, after_it = Lanes{} + a1;
+      const Lanes before = all_lanes(a), after_it = all_lanes(a1);
       Lanes u1 = B[0][0][b] * before, v1 = B[1][0][b] * before, w1 = Lanes{} - after_it;
       add_product(B[0][1][b], after_it, u1);
       add_product(B[1][1][b], after_it, v1);

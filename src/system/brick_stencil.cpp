@@ -3,10 +3,6 @@
 namespace pounding {
 namespace {
 
-void set_all(double value, Lanes& lanes) {
-  lanes = Lanes{value, value, value, value};
-}
-
 /// A term of the energy of a brick in the sum (even) and the difference (odd) of its two ends.
 struct Term {
   double even = 0;
@@ -27,8 +23,8 @@ Term operator*(double factor, Term a) {
 /// -v_{i-1} + 2 v_i - v_{i+1}.
 AlongRun along_run(Term term) {
   AlongRun result;
-  set_all(term.even - term.odd, result.side);
-  set_all(2 * (term.even + term.odd), result.centre);
+  result.side = all_lanes(term.even - term.odd);
+  result.centre = all_lanes(2 * (term.even + term.odd));
   return result;
 }
 
@@ -47,7 +43,7 @@ EvenBlock even_block(const Chain& sum, const Chain& difference, double sign, dou
   block.own_0 = along_run(factor * (sum.xx + sign * difference.xx));
   block.own_1 = along_run(factor * (difference.yy + sign * sum.yy));
   block.own_2 = along_run(factor * (sum.zz + sign * difference.zz));
-  set_all(factor * (sum.xz + sign * difference.xz), block.slope);
+  block.slope = all_lanes(factor * (sum.xz + sign * difference.xz));
   return block;
 }
 
@@ -59,11 +55,11 @@ HalfStencil half_stencil(const Chain& sum, const Chain& difference) {
   half.within_both = even_block(sum, difference, 1, 2);
   half.across_even = even_block(sum, difference, -1, 1);
   half.across_odd.cross = along_run(difference.yz - sum.yz);
-  set_all(difference.xy - sum.xy, half.across_odd.slope);
-  set_all(difference.xy + sum.xy, half.across_odd.end);
+  half.across_odd.slope = all_lanes(difference.xy - sum.xy);
+  half.across_odd.end = all_lanes(difference.xy + sum.xy);
   half.skew.cross = along_run(difference.yz + sum.yz);
-  set_all(difference.xy + sum.xy, half.skew.slope);
-  set_all(sum.xy - difference.xy, half.skew.end);
+  half.skew.slope = all_lanes(difference.xy + sum.xy);
+  half.skew.end = all_lanes(sum.xy - difference.xy);
   return half;
 }
 

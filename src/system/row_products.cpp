@@ -7,10 +7,6 @@ namespace {
 
 constexpr std::size_t lanes = lane_count;
 
-double add_up(const Lanes& values) {
-  return (values[0] + values[2]) + (values[1] + values[3]);
-}
-
 /// `count` <= 4 rows: each value of x is read once.
 template <std::size_t count>
 void multiply_together(const double* rows, std::size_t n, const double* x, double* out,

@@ -12,15 +12,13 @@ namespace {
 constexpr double gap_tolerance = 1e-12;  // of the model's size
 
 GapWatch make_watch(const SteppedModel& model, const ContactProblem* contact) {
-  std::vector<GapWatch::Bound> bounds;
-  for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    const LinearSystem& system = model.systems[s];
-    const double margin =
-        energy_margin(system.damping, system.element_frequency_bound, model.time_step);
-    bounds.push_back(
-        {margin, contact == nullptr ? 0 : contact->rate_norm(static_cast<int>(s)), {}});
+  std::vector<double> margins;
+  for (const LinearSystem& system : model.systems) {
+    margins.push_back(
+        energy_margin(system.damping, system.element_frequency_bound, model.time_step));
   }
-  return {model.systems, std::move(bounds), model.motion->peak_acceleration(), model.time_step};
+  return {model.systems, GapWatch::bounds_of(model.systems, margins, contact),
+          model.motion->peak_acceleration(), model.time_step};
 }
 
 class ProgramStep final : public TimedStep {

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double time_step = 1e-3;
 constexpr double peak = 5;  // m/s2
+const std::vector<double> stiffness{0, 400, 1e5, 1.8e3 * 1.8e3};
 
 /// Four coordinates, from one that has no stiffness to one close to the limit of the step.
 LinearSystem four_coordinates() {
@@ -22,8 +23,7 @@ LinearSystem four_coordinates() {
   system.total_mass = 100;
   system.generalised = std::make_unique<GeneralisedCoordinates>();
   system.generalised->influence = {{{3, -2, 0.5, 0.1}, {0, 0, 0, 0}, {0, 0, 0, 0}}};
-  system.stiffness = std::make_unique<DiagonalStiffness>(
-      MPI_COMM_SELF, std::vector<double>{0, 400, 1e5, 1.8e3 * 1.8e3});
+  system.stiffness = std::make_unique<DiagonalStiffness>(MPI_COMM_SELF, stiffness);
   return system;
 }
 
@@ -39,7 +39,6 @@ class Motion {
     state.stiffness_displacement.assign(4, 0.0);
   }
   void step(double ground_acceleration) {
-    const double stiffness[] = {0, 400, 1e5, 1.8e3 * 1.8e3};
     for (std::size_t i = 0; i < 4; ++i) {
       double& v = state.velocity[i];
       const double force = stiffness[i] * (state.displacement[i] + system_.damping.beta * v);
