@@ -15,6 +15,12 @@ def integers(text: str) -> list:
     return [positive(word) for word in text.split(",")]
 
 
+def sizes(text: str) -> list:
+    """Numbers of dofs, separated by commas: 36000, 36k, 1M."""
+    factors = {"k": 1_000, "M": 1_000_000}
+    return [positive(word.rstrip("kM")) * factors.get(word[-1:], 1) for word in text.split(",")]
+
+
 def positive_number(text: str) -> float:
     value = float(text)
     if not 0 < value < math.inf:

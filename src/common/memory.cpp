@@ -3,6 +3,10 @@
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
+#ifdef __linux__
+#include <cstdint>
+#include <sys/mman.h>
+#endif
 
 namespace pounding {
 
@@ -25,5 +29,22 @@ void return_large_arrays() {}
 void return_freed_memory() {}
 
 #endif
+
+std::vector<double> zeros_on_large_pages(std::size_t size) {
+  std::vector<double> zeros;
+  zeros.reserve(size);
+#ifdef __linux__
+  constexpr std::uintptr_t large_page = 1 << 21;  // [B]
+  const auto begin = reinterpret_cast<std::uintptr_t>(zeros.data());
+  const std::uintptr_t first = (begin + large_page - 1) / large_page * large_page;
+  const std::uintptr_t end = (begin + size * sizeof(double)) / large_page * large_page;
+  if (end > first) {
+    // A wish: ordinary pages do as well.
+    madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
+  }
+#endif
+  zeros.resize(size, 0.0);
+  return zeros;
+}
 
 }  // namespace pounding

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <vector>
 
 /// Where memory comes from and where it goes.
 namespace pounding {
@@ -14,6 +15,9 @@ void return_large_arrays();
 
 /// Gives freed memory back to the system, as far as the C library can.
 void return_freed_memory();
+
+/// Zeros that a step streams through: of a large array on large pages, where the system has them.
+std::vector<double> zeros_on_large_pages(std::size_t size);
 
 /// Doubles that start as zero. Of a large array only the pages that are used take memory.
 class ZeroedArray {

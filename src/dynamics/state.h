@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "common/memory.h"
 #include "common/saved_state.h"
 #include "system/linear_system.h"
 
@@ -26,9 +27,10 @@ struct State {
 
   explicit State(std::span<const LinearSystem> systems) {
     for (const LinearSystem& system : systems) {
-      const std::vector<double> zero(system.lumped_mass.size(), 0.0);
-      const std::vector<double> device = system.has_devices() ? zero : std::vector<double>{};
-      bodies.push_back({zero, zero, zero, device, device});
+      const std::size_t dofs = system.lumped_mass.size();
+      const std::vector<double> device(system.has_devices() ? dofs : 0, 0.0);
+      bodies.push_back({zeros_on_large_pages(dofs), zeros_on_large_pages(dofs),
+                        zeros_on_large_pages(dofs), device, device});
       for (std::size_t d = 0; d < 3; ++d) {
         const std::vector<double> iota = system.influence(static_cast<int>(d));
         for (std::size_t i = 0; i < iota.size(); ++i) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "elements/element.h"
 
@@ -25,28 +24,6 @@ idx_t element_cost(ElementType type) {
     default:
       return 2;
   }
-}
-
-/// Cost of a node of a cluster: its part in a solution instead of a division.
-constexpr idx_t cluster_node_cost = 36;
-
-/// The cluster of each node, -1: none.
-std::vector<int> cluster_of_nodes(const ElementList& list, std::span<const NodeCluster> clusters) {
-  std::vector<int> cluster(static_cast<std::size_t>(list.node_count), -1);
-  for (std::size_t c = 0; c < clusters.size(); ++c) {
-    const GlobalIndex offset = list.node_offset[static_cast<std::size_t>(clusters[c].structure)];
-    for (const GlobalIndex node : clusters[c].nodes) {
-      cluster[static_cast<std::size_t>(offset + node)] = static_cast<int>(c);
-    }
-  }
-  return cluster;
-}
-
-/// The cluster that holds every node of a small element, -1: none.
-int cluster_of_element(std::span<const GlobalIndex> nodes, const std::vector<int>& cluster) {
-  const auto of = [&](GlobalIndex node) { return cluster[static_cast<std::size_t>(node)]; };
-  const bool inside = nodes.size() <= 2 && of(nodes.front()) == of(nodes.back());
-  return inside ? of(nodes.front()) : -1;
 }
 
 /// Cutting a contact costs messages whenever the interface is looked at: more than a cut between
@@ -88,51 +65,6 @@ ElementList list_elements(std::span<const GlobalMesh> meshes, std::span<const in
   return list;
 }
 
-ElementList merge_clusters(const ElementList& all, std::span<const NodeCluster> clusters) {
-  const std::vector<int> cluster = cluster_of_nodes(all, clusters);
-  ElementList list;
-  list.first.push_back(0);
-  list.node_offset = all.node_offset;
-  list.element_offset = all.element_offset;
-  list.node_count = all.node_count;
-  list.entry.resize(all.cost.size());
-  std::vector<std::vector<std::size_t>> inside(clusters.size());
-  const auto nodes_of = [&](std::size_t e) {
-    return std::span<const GlobalIndex>(all.nodes).subspan(
-        static_cast<std::size_t>(all.first[e]),
-        static_cast<std::size_t>(all.first[e + 1] - all.first[e]));
-  };
-  const auto add = [&](const auto& nodes, idx_t cost, int structure, int needed) {
-    list.nodes.insert(list.nodes.end(), nodes.begin(), nodes.end());
-    list.first.push_back(static_cast<idx_t>(list.nodes.size()));
-    list.cost.push_back(cost);
-    list.structure.push_back(structure);
-    list.needed.push_back(needed);
-  };
-  for (std::size_t e = 0; e < all.cost.size(); ++e) {
-    if (const int c = cluster_of_element(nodes_of(e), cluster); c >= 0) {
-      inside[static_cast<std::size_t>(c)].push_back(e);
-      continue;
-    }
-    list.entry[e] = list.count();
-    add(nodes_of(e), all.cost[e], all.structure[e], all.needed[e]);
-  }
-  for (std::size_t c = 0; c < clusters.size(); ++c) {
-    std::set<GlobalIndex> nodes;
-    idx_t cost = 0;
-    for (const std::size_t e : inside[c]) {
-      list.entry[e] = list.count();
-      nodes.insert(nodes_of(e).begin(), nodes_of(e).end());
-      cost += all.cost[e];
-    }
-    if (!nodes.empty()) {
-      const idx_t solution = cluster_node_cost * static_cast<idx_t>(nodes.size());
-      add(nodes, cost + solution, clusters[c].structure, 1);
-    }
-  }
-  return list;
-}
-
 NodeElements elements_at_nodes(const ElementList& list) {
   NodeElements at;
   at.first.assign(static_cast<std::size_t>(list.node_count) + 1, 0);
@@ -145,9 +77,8 @@ NodeElements elements_at_nodes(const ElementList& list) {
   at.elements.resize(list.nodes.size());
   std::vector<std::size_t> next(at.first.begin(), at.first.end() - 1);
   for (idx_t e = 0; e < list.count(); ++e) {
-    for (auto k = static_cast<std::size_t>(list.first[static_cast<std::size_t>(e)]);
-         k < static_cast<std::size_t>(list.first[static_cast<std::size_t>(e) + 1]); ++k) {
-      at.elements[next[static_cast<std::size_t>(list.nodes[k])]++] = e;
+    for (const GlobalIndex node : list.nodes_of(static_cast<std::size_t>(e))) {
+      at.elements[next[static_cast<std::size_t>(node)]++] = e;
     }
   }
   return at;
@@ -177,9 +108,8 @@ Graph dual_graph(const ElementList& list, const NodeElements& at, std::span<cons
   for (idx_t e = 0; e < list.count(); ++e) {
     const auto row = static_cast<std::size_t>(e);
     touched.clear();
-    for (auto k = static_cast<std::size_t>(list.first[row]);
-         k < static_cast<std::size_t>(list.first[row + 1]); ++k) {
-      const auto node = static_cast<std::size_t>(list.nodes[k]);
+    for (const GlobalIndex shared_node : list.nodes_of(row)) {
+      const auto node = static_cast<std::size_t>(shared_node);
       for (std::size_t j = at.first[node]; j < at.first[node + 1]; ++j) {
         const idx_t other = at.elements[j];
         if (other != e && shared[static_cast<std::size_t>(other)]++ == 0) {

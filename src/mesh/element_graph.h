@@ -12,7 +12,7 @@
 namespace pounding {
 
 /// Every element of every structure in one list, with global node numbers that run on from
-/// structure to structure. What METIS must not cut is one entry: the elements inside a cluster.
+/// structure to structure. What METIS must not cut is one entry: the elements of a group.
 struct ElementList {
   std::vector<idx_t> first;  ///< CSR offsets into nodes
   std::vector<GlobalIndex> nodes;
@@ -25,13 +25,13 @@ struct ElementList {
   GlobalIndex node_count = 0;
 
   idx_t count() const { return static_cast<idx_t>(cost.size()); }
+  std::span<const GlobalIndex> nodes_of(std::size_t e) const {
+    return {nodes.data() + first[e], nodes.data() + first[e + 1]};
+  }
 };
 
 /// The elements of the structures that are cut; `whole` as in `partition_meshes`.
 ElementList list_elements(std::span<const GlobalMesh> meshes, std::span<const int> whole);
-
-/// Puts the elements inside each cluster together, behind all others.
-ElementList merge_clusters(const ElementList& all, std::span<const NodeCluster> clusters);
 
 /// Elements at each node, CSR.
 struct NodeElements {

@@ -1,18 +1,15 @@
 #include "mesh/mesh.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <unordered_map>
 
 #include "common/parallel.h"
 #include "elements/element.h"
+#include "mesh/node_planes.h"
 
 namespace pounding {
 namespace {
-
-/// Coordinates closer than this part of the longest extent lie in one plane.
-constexpr double same_plane = 1e-7;
 
 /// What travels to one rank.
 struct Parcel {
@@ -59,11 +56,12 @@ class Cutter {
     const auto begin = node_begin_[static_cast<std::size_t>(part)];
     const auto end = node_begin_[static_cast<std::size_t>(part) + 1];
     std::vector<GlobalIndex> nodes(order_.begin() + begin, order_.begin() + end);
+    append_ghosts(part, nodes);
     std::unordered_map<GlobalIndex, LocalIndex> local;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       local[nodes[i]] = static_cast<LocalIndex>(i);
     }
-    add_elements(part, nodes, local, out);
+    add_elements(part, local, out);
     const GlobalIndex owned = end - begin;
     for (const GlobalIndex node : nodes) {
       const auto n = static_cast<std::size_t>(node);
@@ -83,41 +81,23 @@ class Cutter {
   }
 
  private:
-  /// Per rank, nodes in layers across the longest extent, and in each layer in rows along the
-  /// second longest: neighbours in space are neighbours in memory, rows of elements have their
-  /// nodes side by side, and few rows are cut where a long structure is.
+  /// Per rank, in the order of the planes.
   void sort_nodes() {
-    Vector3 low{1e300, 1e300, 1e300};
-    Vector3 high{-1e300, -1e300, -1e300};
+    const NodePlanes planes(mesh_);
+    std::vector<std::pair<int, std::array<std::int64_t, 3>>> places;
     for (GlobalIndex node = 0; node < mesh_.node_count(); ++node) {
-      const Vector3 x = mesh_.position(node);
-      for (std::size_t d = 0; d < 3; ++d) {
-        low[d] = std::min(low[d], x[d]);
-        high[d] = std::max(high[d], x[d]);
-      }
+      places.emplace_back(node_owner_[static_cast<std::size_t>(node)],
+                          planes.place(mesh_.position(node)));
     }
-    std::array<std::size_t, 3> axes{0, 1, 2};
-    std::stable_sort(axes.begin(), axes.end(), [&](std::size_t a, std::size_t b) {
-      return high[a] - low[a] > high[b] - low[b];
-    });
-    std::swap(axes[1], axes[2]);
-    // Coordinates of one plane differ by round-off: they are compared on a fine grid.
-    const double spacing = same_plane * (high[axes[0]] - low[axes[0]]);
-    const auto place = [&](GlobalIndex node) {
-      const Vector3 x = mesh_.position(node);
-      std::array<std::int64_t, 4> key{node_owner_[static_cast<std::size_t>(node)], 0, 0, 0};
-      for (std::size_t d = 0; d < 3 && spacing > 0; ++d) {
-        key[d + 1] = std::llround((x[axes[d]] - low[axes[d]]) / spacing);
-      }
-      return key;
-    };
-    std::vector<std::array<std::int64_t, 4>> places;
-    for (GlobalIndex node = 0; node < mesh_.node_count(); ++node) places.push_back(place(node));
     order_.resize(places.size());
     std::iota(order_.begin(), order_.end(), GlobalIndex{0});
     std::stable_sort(order_.begin(), order_.end(), [&](GlobalIndex a, GlobalIndex b) {
       return places[static_cast<std::size_t>(a)] < places[static_cast<std::size_t>(b)];
     });
+    place_.resize(order_.size());
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      place_[static_cast<std::size_t>(order_[i])] = static_cast<GlobalIndex>(i);
+    }
   }
 
   void number_dofs() {
@@ -139,35 +119,54 @@ class Cutter {
     }
   }
 
-  /// Elements that touch an owned node; their other nodes become ghosts, in order of appearance.
-  void add_elements(int part, std::vector<GlobalIndex>& nodes,
-                    std::unordered_map<GlobalIndex, LocalIndex>& local, Parcel& out) const {
-    std::size_t element = 0;
-    for (const ElementSet& set : mesh_.regions) {
+  bool owns_one_of(int part, std::span<const GlobalIndex> nodes) const {
+    return std::any_of(nodes.begin(), nodes.end(), [&](GlobalIndex node) {
+      return node_owner_[static_cast<std::size_t>(node)] == part;
+    });
+  }
+
+  /// Calls for every element that touches a node of a part: the number of its set, its own in the
+  /// set, its nodes.
+  template <typename Function>
+  void for_elements_of(int part, Function&& function) const {
+    for (std::size_t s = 0; s < mesh_.regions.size(); ++s) {
+      const ElementSet& set = mesh_.regions[s];
       const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
-      GlobalIndex here = 0;
-      for (std::size_t e = 0; e < set.tags.size(); ++e, ++element) {
-        const GlobalIndex* corner = &set.connectivity[e * width];
-        if (std::none_of(corner, corner + width, [&](GlobalIndex node) {
-              return node_owner_[static_cast<std::size_t>(node)] == part;
-            })) {
-          continue;
-        }
-        ++here;
-        out.tags.push_back(set.tags[e]);
-        // Counted where its first node is owned: that rank surely holds the element.
-        out.counted.push_back(node_owner_[static_cast<std::size_t>(corner[0])] == part ? 1 : 0);
-        for (std::size_t a = 0; a < width; ++a) {
-          const auto [found, fresh] =
-              local.try_emplace(corner[a], static_cast<LocalIndex>(nodes.size()));
-          if (fresh) {
-            nodes.push_back(corner[a]);
-          }
-          out.connectivity.push_back(found->second);
-        }
+      for (std::size_t e = 0; e < set.tags.size(); ++e) {
+        const std::span<const GlobalIndex> nodes(&set.connectivity[e * width], width);
+        if (owns_one_of(part, nodes)) function(s, e, nodes);
       }
+    }
+  }
+
+  /// The other nodes of those elements, in the order in which their owners hold them.
+  void append_ghosts(int part, std::vector<GlobalIndex>& nodes) const {
+    std::vector<GlobalIndex> ghosts;  // as places in order_
+    for_elements_of(part, [&](std::size_t, std::size_t, std::span<const GlobalIndex> corners) {
+      for (const GlobalIndex node : corners) {
+        const auto n = static_cast<std::size_t>(node);
+        if (node_owner_[n] != part) ghosts.push_back(place_[n]);
+      }
+    });
+    std::sort(ghosts.begin(), ghosts.end());
+    ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
+    for (const GlobalIndex place : ghosts) nodes.push_back(order_[static_cast<std::size_t>(place)]);
+  }
+
+  void add_elements(int part, const std::unordered_map<GlobalIndex, LocalIndex>& local,
+                    Parcel& out) const {
+    std::vector<GlobalIndex> here(mesh_.regions.size(), 0);
+    for_elements_of(part, [&](std::size_t s, std::size_t e, std::span<const GlobalIndex> corners) {
+      ++here[s];
+      out.tags.push_back(mesh_.regions[s].tags[e]);
+      // Counted where its first node is owned: that rank surely holds the element.
+      out.counted.push_back(node_owner_[static_cast<std::size_t>(corners[0])] == part ? 1 : 0);
+      for (const GlobalIndex node : corners) out.connectivity.push_back(local.at(node));
+    });
+    for (std::size_t s = 0; s < mesh_.regions.size(); ++s) {
+      const ElementSet& set = mesh_.regions[s];
       out.region.insert(out.region.end(), {static_cast<GlobalIndex>(set.type), set.region,
-                                           static_cast<GlobalIndex>(set.tags.size()), here});
+                                           static_cast<GlobalIndex>(set.tags.size()), here[s]});
       out.names.insert(out.names.end(), set.group.begin(), set.group.end());
       out.names.push_back('\0');
     }
@@ -177,6 +176,7 @@ class Cutter {
   int parts_;
   const std::vector<int>& node_owner_;
   std::vector<GlobalIndex> order_;       ///< nodes by rank, then by position
+  std::vector<GlobalIndex> place_;       ///< of each node in order_
   std::vector<GlobalIndex> node_begin_;  ///< per rank, into order_
   std::vector<GlobalIndex> part_dof_;    ///< per rank, first dof
   std::vector<GlobalIndex> first_dof_;   ///< per node in file order

@@ -1,6 +1,7 @@
 #include "mesh/partition.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <numeric>
 #include <set>
@@ -9,6 +10,7 @@
 #include <metis.h>
 
 #include "mesh/element_graph.h"
+#include "mesh/element_groups.h"
 
 namespace pounding {
 namespace {
@@ -33,7 +35,7 @@ std::vector<idx_t> cut_graph(ElementList& list, Graph& graph, int parts, long& e
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;
-  options[METIS_OPTION_UFACTOR] = 20;
+  options[METIS_OPTION_UFACTOR] = 5;  // thousandths
   idx_t vertices = list.count();
   idx_t constraints = 1;
   idx_t part_count = parts;
@@ -47,6 +49,15 @@ std::vector<idx_t> cut_graph(ElementList& list, Graph& graph, int parts, long& e
   }
   edge_cut = cut;
   return owner;
+}
+
+/// So many pieces make a part of an even cut.
+constexpr idx_t pieces_per_part = 64;
+
+/// Of a row of elements, one part only: rows are cheapest whole.
+idx_t most_piece_cost(const ElementList& list, int parts) {
+  const auto total = std::accumulate(list.cost.begin(), list.cost.end(), std::int64_t{0});
+  return parts == 1 ? 0 : static_cast<idx_t>(total / (std::int64_t{pieces_per_part} * parts));
 }
 
 /// Cost of the elements of the most loaded part.
@@ -139,10 +150,10 @@ int most_frequent_owner(std::span<const idx_t> elements, const std::vector<idx_t
 Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const NodeLink> links,
                            int parts, std::span<const int> whole,
                            std::span<const NodeCluster> clusters, PartitionBy by) {
-  ElementList list = list_elements(meshes, whole);
-  if (!clusters.empty()) {
-    list = merge_clusters(list, clusters);
-  }
+  const ElementList elements = list_elements(meshes, whole);
+  ElementGroups groups = group_rows(meshes, elements, most_piece_cost(elements, parts));
+  group_clusters(elements, clusters, groups);
+  ElementList list = merge_groups(elements, groups);
   const NodeElements at = elements_at_nodes(list);
   Partition partition;
   partition.parts = parts;
@@ -163,9 +174,9 @@ Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const N
       partition.node_owner.emplace_back(static_cast<std::size_t>(meshes[s].node_count()), part);
       continue;
     }
-    std::vector<int>& elements = partition.element_owner.emplace_back();
+    std::vector<int>& owners = partition.element_owner.emplace_back();
     for (std::size_t e = list.element_offset[s]; e < list.element_offset[s + 1]; ++e) {
-      elements.push_back(owner[static_cast<std::size_t>(list.entry[e])]);
+      owners.push_back(owner[static_cast<std::size_t>(list.entry[e])]);
     }
     std::vector<int> nodes(static_cast<std::size_t>(meshes[s].node_count()));
     for (std::size_t n = 0; n < nodes.size(); ++n) {

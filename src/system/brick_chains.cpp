@@ -4,6 +4,23 @@
 #include <cstddef>
 
 namespace pounding {
+namespace {
+
+/// See BrickChain::ghost_row.
+LocalIndex ghost_row(const DofPlaces& places, const std::vector<LocalIndex>& moving) {
+  LocalIndex next = -1;
+  for (const LocalIndex node : moving) {
+    const auto& place = places.of_node[static_cast<std::size_t>(node)];
+    const LocalIndex x = place[0];
+    const bool follows = x >= places.owned_dofs && place[1] == x + 1 && place[2] == x + 2;
+    if (!follows || (next >= 0 && x != next)) return -1;
+    next = x + 3;
+  }
+  return moving.empty() ? -1
+                        : next - places.owned_dofs - 3 * static_cast<LocalIndex>(moving.size());
+}
+
+}  // namespace
 
 const BrickChain& BrickChains::add(const DofPlaces& places, const std::vector<LocalIndex>& nodes) {
   const auto place_of = [&](LocalIndex node) -> const std::array<LocalIndex, 6>& {
@@ -38,6 +55,7 @@ const BrickChain& BrickChains::add(const DofPlaces& places, const std::vector<Lo
     }
   }
   if (!contiguous) chain.range = {};
+  if (!chain.plain) chain.ghost_row = ghost_row(places, moving);
   for (const LocalIndex node : chain.plain ? moving : nodes) {
     const auto& place = place_of(node);
     places_.insert(places_.end(), place.begin(), place.begin() + (chain.plain ? 1 : 3));

@@ -16,6 +16,8 @@ struct BrickChain {
   /// Every moving node owns x, y, z in a row, and one more dof follows.
   bool plain = false;
   bool row = false;  ///< plain, and the nodes' dofs follow each other, no rotations between
+  /// Ghosts only, whose values follow each other from this place of those received; -1: not so.
+  LocalIndex ghost_row = -1;
   /// All dofs of the moving nodes, rotations included, if they are owned and follow each other;
   /// else empty.
   DofRange range;

@@ -80,9 +80,11 @@ void BrickLines::load_chain(const ChainLoad& load, const StiffnessArgument& w,
   const BrickChain& chain = chains_.at(load.chain);
   const LocalIndex* const place = chains_.places(chain);
   const ComponentArrays to = displacements(load.start);
-  if (chain.plain) {
+  if (chain.plain || chain.ghost_row >= 0) {
     const ComponentArrays moving = shifted(to, chain.first);
-    if (chain.row) {
+    if (chain.ghost_row >= 0) {
+      load_row({ghosts, ghosts, 0, w.origin}, chain.ghost_row, chain.moving, moving);
+    } else if (chain.row) {
       load_row(w, place[0], chain.moving, moving);
     } else {
       load_nodes(w, place, chain.moving, moving);
@@ -147,8 +149,18 @@ void BrickLines::join_chains(std::size_t join) const {
   }
 }
 
-void BrickLines::add_forces(const BrickChain& chain, const ComponentArrays& force,
-                            double* q) const {
+void BrickLines::add_forces(const Store& store, double* q) const {
+  const BrickChain& chain = chains_.at(store.place.chain);
+  if (!chain.range.empty()) {
+    const LocalIndex size = chain.range.end - chain.range.begin;
+    if (!chain.row) std::fill(added_.begin(), added_.begin() + size, 0.0);
+    collect_forces(store, added_.data());
+    for (LocalIndex i = 0; i < size; ++i) {
+      q[chain.range.begin + i] += added_[static_cast<std::size_t>(i)];
+    }
+    return;
+  }
+  const ComponentArrays force = forces(store.place.start);
   const std::array<const double*, 3> component{force.x, force.y, force.z};
   for (int p = 0; p < chain.length; ++p) {
     for (int c = 0; c < 3; ++c) {
@@ -186,7 +198,7 @@ void BrickLines::store_chain(const Store& store, double* q, ForceReceiver& recei
                    buffer_.data() + place.start + 3 * line_stride_);
   }
   if (outcome == Outcome::add) {
-    add_forces(chain, forces(place.start), q);
+    if (chain.ghost_row < 0) add_forces(store, q);
     return;
   }
   double* const range = range_.data() + (chain.range.begin - begin);
@@ -268,8 +280,12 @@ void BrickLines::sort_stores(std::size_t begin, std::size_t end) {
 void BrickLines::unite_ranges() {
   Store* last = nullptr;
   for (Store& store : stores_) {
-    if (store.outcome == Outcome::add) continue;
     const DofRange range = chains_.at(store.place.chain).range;
+    if (store.outcome == Outcome::add) {
+      const auto size = static_cast<std::size_t>(range.end - range.begin);
+      if (added_.size() < size) added_.resize(size, 0.0);
+      continue;
+    }
     store.begin = range.begin;
     store.end = range.end;
     if (last != nullptr && last->end == range.begin && range.end - last->begin <= most_united) {

@@ -59,7 +59,7 @@ class BrickLines final : public ElementLines {
   void apply_step(const LineStep& step) const;
   void join_chains(std::size_t join) const;
   void store_chain(const Store& store, double* q, ForceReceiver& receiver) const;
-  void add_forces(const BrickChain& chain, const ComponentArrays& force, double* q) const;
+  void add_forces(const Store& store, double* q) const;
   void collect_forces(const Store& store, double* range) const;
   ComponentArrays displacements(int start) const;
   ComponentArrays forces(int start) const;
@@ -78,6 +78,7 @@ class BrickLines final : public ElementLines {
   /// Lines of shape (6, line_stride): displacement, force. Work space of `apply`.
   mutable std::vector<double> buffer_;
   mutable std::vector<double> range_;  ///< forces of the range that is being handed over
+  mutable std::vector<double> added_;  ///< of a chain that is added to q
 };
 
 }  // namespace pounding

@@ -53,7 +53,7 @@ class Measured(unittest.TestCase):
 
 class Benchmark(Measured):
     def test_every_way_on_one_rank_and_the_programs_on_two(self):
-        rows, result = self.run_script("benchmark", "--sizes", 3000)
+        rows, result = self.run_script("benchmark", "--sizes", "3k")
         dofs = 3 * 22 * 23 * 2
         self.assertEqual([(int(row["dofs"]), int(row["ranks"]), row["way"]) for row in rows],
                          [(dofs, 1, way) for way in WAYS] + [(dofs, 2, way) for way in WAYS[:5]])
