@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 #include <unordered_map>
 
 #include "common/parallel.h"
@@ -81,12 +82,14 @@ class Cutter {
   }
 
  private:
-  /// Per rank, in the order of the planes.
+  /// Per rank, those without rotations first, in the order of the planes: where beams meet bricks,
+  /// the bricks' other nodes still follow each other.
   void sort_nodes() {
     const NodePlanes planes(mesh_);
-    std::vector<std::pair<int, std::array<std::int64_t, 3>>> places;
+    std::vector<std::tuple<int, bool, std::array<std::int64_t, 3>>> places;
     for (GlobalIndex node = 0; node < mesh_.node_count(); ++node) {
-      places.emplace_back(node_owner_[static_cast<std::size_t>(node)],
+      const auto n = static_cast<std::size_t>(node);
+      places.emplace_back(node_owner_[n], mesh_.components[n] >> 3 != 0,
                           planes.place(mesh_.position(node)));
     }
     order_.resize(places.size());
@@ -175,7 +178,7 @@ class Cutter {
   const GlobalMesh& mesh_;
   int parts_;
   const std::vector<int>& node_owner_;
-  std::vector<GlobalIndex> order_;       ///< nodes by rank, then by position
+  std::vector<GlobalIndex> order_;       ///< nodes by rank, see sort_nodes
   std::vector<GlobalIndex> place_;       ///< of each node in order_
   std::vector<GlobalIndex> node_begin_;  ///< per rank, into order_
   std::vector<GlobalIndex> part_dof_;    ///< per rank, first dof

@@ -6,68 +6,114 @@
 namespace pounding {
 namespace {
 
-/// See BrickChain::ghost_row.
-LocalIndex ghost_row(const DofPlaces& places, const std::vector<LocalIndex>& moving) {
-  LocalIndex next = -1;
-  for (const LocalIndex node : moving) {
-    const auto& place = places.of_node[static_cast<std::size_t>(node)];
-    const LocalIndex x = place[0];
-    const bool follows = x >= places.owned_dofs && place[1] == x + 1 && place[2] == x + 2;
-    if (!follows || (next >= 0 && x != next)) return -1;
-    next = x + 3;
+using Place = std::array<LocalIndex, 6>;
+
+const Place& place_of(const DofPlaces& places, LocalIndex node) {
+  return places.of_node[static_cast<std::size_t>(node)];
+}
+
+/// Dofs x, y, z in a row.
+bool in_a_row(const Place& place) {
+  return place[0] >= 0 && place[1] == place[0] + 1 && place[2] == place[0] + 2;
+}
+
+/// Owned ones, and not the very last: one more may be read.
+bool is_plain(const DofPlaces& places, LocalIndex node) {
+  const Place& place = place_of(places, node);
+  return in_a_row(place) && place[2] + 1 < places.owned_dofs;
+}
+
+/// The first of the longest stretches of at least half of the nodes in which each node follows
+/// the one before it; else none.
+template <typename Alone, typename Follows>
+std::span<const LocalIndex> longest_stretch(std::span<const LocalIndex> nodes, Alone&& alone,
+                                            Follows&& follows) {
+  std::size_t best = 0, best_begin = 0;
+  for (std::size_t begin = 0; begin < nodes.size();) {
+    std::size_t end = begin;
+    while (end < nodes.size() && alone(nodes[end]) &&
+           (end == begin || follows(nodes[end - 1], nodes[end]))) {
+      ++end;
+    }
+    if (end - begin > best) {
+      best = end - begin;
+      best_begin = begin;
+    }
+    begin = std::max(end, begin + 1);
   }
-  return moving.empty() ? -1
-                        : next - places.owned_dofs - 3 * static_cast<LocalIndex>(moving.size());
+  return 2 * best >= nodes.size() ? nodes.subspan(best_begin, best) : nodes.first(0);
 }
 
 }  // namespace
 
-const BrickChain& BrickChains::add(const DofPlaces& places, const std::vector<LocalIndex>& nodes) {
-  const auto place_of = [&](LocalIndex node) -> const std::array<LocalIndex, 6>& {
-    return places.of_node[static_cast<std::size_t>(node)];
+/// The longest stretch of owned nodes, else of ghosts, else all that moves if it is plain.
+void BrickChains::set_core(const DofPlaces& places, std::span<const LocalIndex> nodes,
+                           BrickChain& chain) const {
+  const auto x_of = [&](LocalIndex node) { return place_of(places, node)[0]; };
+  const auto take = [&](std::span<const LocalIndex> core) {
+    chain.first = static_cast<int>(core.data() - nodes.data());
+    chain.core = static_cast<int>(core.size());
+    return !core.empty();
   };
+  const auto plain = [&](LocalIndex node) { return is_plain(places, node); };
+  const auto end_of = [&](LocalIndex node) {
+    return places.node_end[static_cast<std::size_t>(node)];
+  };
+  const auto owned = longest_stretch(nodes, plain, [&](LocalIndex before, LocalIndex node) {
+    return x_of(node) == end_of(before);
+  });
+  if (take(owned)) {
+    chain.plain = true;
+    chain.range = {x_of(owned.front()), end_of(owned.back())};
+    chain.row = chain.range.end - chain.range.begin == 3 * chain.core;
+    return;
+  }
+  const auto ghosts = longest_stretch(
+      nodes,
+      [&](LocalIndex node) {
+        return in_a_row(place_of(places, node)) && x_of(node) >= places.owned_dofs;
+      },
+      [&](LocalIndex before, LocalIndex node) { return x_of(node) == x_of(before) + 3; });
+  if (take(ghosts)) {
+    chain.ghost_row = x_of(ghosts.front()) - places.owned_dofs;
+    return;
+  }
   const auto moves = [&](LocalIndex node) {
-    const auto& place = place_of(node);
+    const Place& place = place_of(places, node);
     return *std::max_element(place.begin(), place.begin() + 3) >= 0;
   };
   const auto first = std::find_if(nodes.begin(), nodes.end(), moves);
   const auto last = std::find_if(nodes.rbegin(), nodes.rend(), moves).base();
-  const std::vector<LocalIndex> moving(first, std::max(first, last));
+  chain.plain = first < last && std::all_of(first, last, plain);
+  if (chain.plain) take({first, last});
+}
+
+const BrickChain& BrickChains::add(const DofPlaces& places, const std::vector<LocalIndex>& nodes) {
   BrickChain chain;
-  chain.begin = static_cast<int>(places_.size());
   chain.length = static_cast<int>(nodes.size());
-  chain.first = static_cast<int>(first - nodes.begin());
-  chain.moving = static_cast<int>(moving.size());
-  chain.plain = true;
-  chain.row = !moving.empty();
-  LocalIndex end = -1;   // one beyond the last dof of the node before
-  LocalIndex next = -1;  // one beyond its last translation
-  bool contiguous = !moving.empty();
-  for (const LocalIndex node : moving) {
-    const auto& [x, y, z, rx, ry, rz] = place_of(node);
-    chain.plain = chain.plain && x >= 0 && y == x + 1 && z == x + 2 && z + 1 < places.owned_dofs;
-    contiguous = contiguous && chain.plain && (node == moving[0] || x == end);
-    chain.row = chain.row && contiguous && (node == moving[0] || x == next);
-    if (contiguous) {
-      end = places.node_end[static_cast<std::size_t>(node)];
-      next = z + 1;
-      chain.range = {node == moving[0] ? x : chain.range.begin, end};
-    }
+  set_core(places, nodes, chain);
+  chain.begin = static_cast<int>(places_.size());
+  for (int p = chain.first; chain.plain && p < chain.first + chain.core; ++p) {
+    places_.push_back(place_of(places, nodes[static_cast<std::size_t>(p)])[0]);
   }
-  if (!contiguous) chain.range = {};
-  if (!chain.plain) chain.ghost_row = ghost_row(places, moving);
-  for (const LocalIndex node : chain.plain ? moving : nodes) {
-    const auto& place = place_of(node);
-    places_.insert(places_.end(), place.begin(), place.begin() + (chain.plain ? 1 : 3));
+  chain.ends = static_cast<int>(places_.size());
+  for (int p = 0; p < chain.length; ++p) {
+    if (chain.in_core(p)) continue;
+    const Place& place = place_of(places, nodes[static_cast<std::size_t>(p)]);
+    places_.insert(places_.end(), place.begin(), place.begin() + 3);
   }
+  owned_dofs_ = places.owned_dofs;
   return chains_.emplace_back(chain);
 }
 
 LocalIndex BrickChains::place(const BrickChain& chain, int node, int component) const {
-  const LocalIndex* const from = places(chain);
-  if (!chain.plain) return from[3 * node + component];
-  const int moving = node - chain.first;
-  return moving < 0 || moving >= chain.moving ? -1 : from[moving] + component;
+  if (!chain.in_core(node)) {
+    const int number = node < chain.first ? node : node - chain.core;
+    return places_[static_cast<std::size_t>(chain.ends + 3 * number + component)];
+  }
+  const int in_core = node - chain.first;
+  if (!chain.plain) return owned_dofs_ + chain.ghost_row + 3 * in_core + component;
+  return places(chain)[in_core] + component;
 }
 
 }  // namespace pounding

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "system/dof_places.h"
@@ -7,21 +8,24 @@
 
 namespace pounding {
 
-/// Nodes of bricks in a row, and where their dofs are.
+/// Nodes of bricks in a row, and where their dofs are. Most of them form a core whose values move
+/// in vectors; nodes before and behind it may be clamped, ghosts, or numbered elsewhere.
 struct BrickChain {
-  int begin = 0;  ///< into the places: one per moving node if plain, else x, y, z of each node
   int length = 0;
-  int first = 0;   ///< nodes before this one are clamped
-  int moving = 0;  ///< nodes from there on that may move; those behind them are clamped
-  /// Every moving node owns x, y, z in a row, and one more dof follows.
+  int first = 0;  ///< node of the core
+  int core = 0;   ///< nodes of the core; none if `plain` is false and there is no ghost row
+  /// Every node of the core owns x, y, z in a row, and one more dof follows.
   bool plain = false;
   bool row = false;  ///< plain, and the nodes' dofs follow each other, no rotations between
-  /// Ghosts only, whose values follow each other from this place of those received; -1: not so.
+  /// The core's nodes are ghosts whose values follow each other from this place of those received;
+  /// -1: not so.
   LocalIndex ghost_row = -1;
-  /// All dofs of the moving nodes, rotations included, if they are owned and follow each other;
-  /// else empty.
+  /// All dofs of the core, rotations included, if they are owned and follow each other; else empty.
   DofRange range;
-  bool whole_row() const { return row && moving == length; }
+  int begin = 0;  ///< into the places: one per node of a plain core
+  int ends = 0;   ///< likewise: x, y, z of each node outside the core
+
+  bool in_core(int node) const { return first <= node && node < first + core; }
 };
 
 class BrickChains {
@@ -31,12 +35,16 @@ class BrickChains {
   const BrickChain& at(int number) const { return chains_[static_cast<std::size_t>(number)]; }
   /// Of a component (0-2) of a chain's node; -1 where there is none.
   LocalIndex place(const BrickChain& chain, int node, int component) const;
-  /// See BrickChain::begin.
+  /// Of a plain core's nodes.
   const LocalIndex* places(const BrickChain& chain) const { return places_.data() + chain.begin; }
 
  private:
+  void set_core(const DofPlaces& places, std::span<const LocalIndex> nodes,
+                BrickChain& chain) const;
+
   std::vector<BrickChain> chains_;
   std::vector<LocalIndex> places_;
+  LocalIndex owned_dofs_ = 0;
 };
 
 }  // namespace pounding

@@ -7,18 +7,20 @@
 namespace pounding {
 namespace {
 
-/// Dofs whose forces, masses and motion stay in the nearest cache while they are handed over.
+/// Dofs whose forces, masses and motion stay in the nearest cache while they are handed over, of
+/// each of as many ranges as grow in turns: near and far chains of a layer.
 constexpr LocalIndex most_united = 400;
+constexpr std::size_t growing_ranges = 2;
 
 ComponentArrays shifted(const ComponentArrays& arrays, int nodes) {
   return {arrays.x + nodes, arrays.y + nodes, arrays.z + nodes};
 }
 
-/// Nodes that stay where they are.
-void set_clamped(const ComponentArrays& to, int begin, int end, const StiffnessArgument& w) {
-  std::fill(to.x + begin, to.x + end, -w.origin[0]);
-  std::fill(to.y + begin, to.y + end, -w.origin[1]);
-  std::fill(to.z + begin, to.z + end, -w.origin[2]);
+/// Calls for every node outside the core.
+template <typename Function>
+void for_ends(const BrickChain& chain, Function&& function) {
+  for (int p = 0; p < chain.first; ++p) function(p);
+  for (int p = chain.first + chain.core; p < chain.length; ++p) function(p);
 }
 
 int round_up(int count) {
@@ -49,11 +51,12 @@ BrickLines::BrickLines(const DofPlaces& places, const Matrix3& axes,
   std::vector<ChainForm> forms;
   for (const auto& nodes : rows.chains) {
     const BrickChain& chain = chains_.add(places, nodes);
-    forms.push_back({chain.length, chain.whole_row()});
+    forms.push_back({chain.length, chain.row});
     line_stride_ = std::max(line_stride_, round_up(chain.length + lane_count));
   }
   schedule_ = schedule_lines(pairs, forms, line_stride_);
-  for (const ChainStore& store : schedule_.stores) stores_.push_back({store, Outcome::add, 0, 0});
+  for (const ChainStore& store : schedule_.stores)
+    stores_.push_back({store, Outcome::add, 0, 0, 0});
   deferred_.assign(schedule_.joins.size(), 0);
   buffer_.assign(static_cast<std::size_t>(schedule_.buffer_size), 0.0);
 }
@@ -78,26 +81,20 @@ void BrickLines::clear_forces(int start, int length) const {
 void BrickLines::load_chain(const ChainLoad& load, const StiffnessArgument& w,
                             const double* ghosts) const {
   const BrickChain& chain = chains_.at(load.chain);
-  const LocalIndex* const place = chains_.places(chain);
   const ComponentArrays to = displacements(load.start);
-  if (chain.plain || chain.ghost_row >= 0) {
-    const ComponentArrays moving = shifted(to, chain.first);
-    if (chain.ghost_row >= 0) {
-      load_row({ghosts, ghosts, 0, w.origin}, chain.ghost_row, chain.moving, moving);
-    } else if (chain.row) {
-      load_row(w, place[0], chain.moving, moving);
-    } else {
-      load_nodes(w, place, chain.moving, moving);
-    }
-    set_clamped(to, 0, chain.first, w);
-    set_clamped(to, chain.first + chain.moving, chain.length, w);
+  const ComponentArrays core = shifted(to, chain.first);
+  if (chain.ghost_row >= 0) {
+    load_row({ghosts, ghosts, 0, w.origin}, chain.ghost_row, chain.core, core);
+  } else if (chain.row) {
+    load_row(w, chain.range.begin, chain.core, core);
   } else {
-    for (int p = 0; p < chain.length; ++p) {
-      to.x[p] = value_at(place[3 * p], owned_dofs_, w, ghosts) - w.origin[0];
-      to.y[p] = value_at(place[3 * p + 1], owned_dofs_, w, ghosts) - w.origin[1];
-      to.z[p] = value_at(place[3 * p + 2], owned_dofs_, w, ghosts) - w.origin[2];
-    }
+    load_nodes(w, chains_.places(chain), chain.core, core);
   }
+  for_ends(chain, [&](int p) {
+    to.x[p] = value(chain, p, 0, w, ghosts);
+    to.y[p] = value(chain, p, 1, w, ghosts);
+    to.z[p] = value(chain, p, 2, w, ghosts);
+  });
   for (int p = chain.length; p < round_up(chain.length); ++p) to.x[p] = to.y[p] = to.z[p] = 0;
   if (rotated_) {
     rotate_vectors(axes_, false, chain.length, line_stride_, buffer_.data() + load.start);
@@ -105,14 +102,48 @@ void BrickLines::load_chain(const ChainLoad& load, const StiffnessArgument& w,
   if (load.clear) clear_forces(load.start, chain.length);
 }
 
-void BrickLines::split_chains(const PairSplit& split, const StiffnessArgument& w) const {
+/// w of a node, less its origin.
+double BrickLines::value(const BrickChain& chain, int node, int component,
+                         const StiffnessArgument& w, const double* ghosts) const {
+  return value_at(chains_.place(chain, node, component), owned_dofs_, w, ghosts) -
+         w.origin[static_cast<std::size_t>(component)];
+}
+
+/// Sums and differences of two chains that have not been loaded.
+void BrickLines::load_pair(const PairPlace& place, const StiffnessArgument& w,
+                           const double* ghosts) const {
+  const BrickChain& near = chains_.at(place.chain[0]);
+  const BrickChain& far = chains_.at(place.chain[1]);
+  const ComponentArrays sum = displacements(place.line[0]);
+  const ComponentArrays difference = displacements(place.line[1]);
+  const int begin = std::max(near.first, far.first);
+  const int end = std::max(begin, std::min(near.first + near.core, far.first + far.core));
+  load_row_pair(
+      w, {near.range.begin + 3 * (begin - near.first), far.range.begin + 3 * (begin - far.first)},
+      end - begin, shifted(sum, begin), shifted(difference, begin));
+  const auto load_one = [&](int p) {
+    Vector3 a{}, b{};
+    for (int c = 0; c < 3; ++c) {
+      a[static_cast<std::size_t>(c)] = value(near, p, c, w, ghosts);
+      b[static_cast<std::size_t>(c)] = value(far, p, c, w, ghosts);
+    }
+    sum.x[p] = a[0] + b[0];
+    sum.y[p] = a[1] + b[1];
+    sum.z[p] = a[2] + b[2];
+    difference.x[p] = b[0] - a[0];
+    difference.y[p] = b[1] - a[1];
+    difference.z[p] = b[2] - a[2];
+  };
+  for (int p = 0; p < begin; ++p) load_one(p);
+  for (int p = end; p < place.length; ++p) load_one(p);
+}
+
+void BrickLines::split_chains(const PairSplit& split, const StiffnessArgument& w,
+                              const double* ghosts) const {
   const PairPlace& place = split.place;
   double* const buffer = buffer_.data();
   if (split.load) {
-    const std::array<LocalIndex, 2> first{chains_.places(chains_.at(place.chain[0]))[0],
-                                          chains_.places(chains_.at(place.chain[1]))[0]};
-    load_row_pair(w, first, place.length, displacements(place.line[0]),
-                  displacements(place.line[1]));
+    load_pair(place, w, ghosts);
     for (std::size_t i = 0; rotated_ && i < 2; ++i) {
       rotate_vectors(axes_, false, place.length, line_stride_, buffer + place.line[i]);
     }
@@ -149,7 +180,12 @@ void BrickLines::join_chains(std::size_t join) const {
   }
 }
 
-void BrickLines::add_forces(const Store& store, double* q) const {
+bool BrickLines::is_deferred(const Store& store) const {
+  return store.place.join >= 0 && deferred_[static_cast<std::size_t>(store.place.join)] != 0;
+}
+
+/// To q.
+void BrickLines::add_core(const Store& store, double* q) const {
   const BrickChain& chain = chains_.at(store.place.chain);
   if (!chain.range.empty()) {
     const LocalIndex size = chain.range.end - chain.range.begin;
@@ -160,48 +196,73 @@ void BrickLines::add_forces(const Store& store, double* q) const {
     }
     return;
   }
-  const ComponentArrays force = forces(store.place.start);
-  const std::array<const double*, 3> component{force.x, force.y, force.z};
-  for (int p = 0; p < chain.length; ++p) {
-    for (int c = 0; c < 3; ++c) {
-      const LocalIndex dof = chains_.place(chain, p, c);
-      if (dof >= 0 && dof < owned_dofs_) q[dof] += component[static_cast<std::size_t>(c)][p];
-    }
+  if (chain.ghost_row >= 0) return;
+  const ComponentArrays force = shifted(forces(store.place.start), chain.first);
+  const LocalIndex* const place = chains_.places(chain);
+  for (int p = 0; p < chain.core; ++p) {
+    q[place[p]] += force.x[p];
+    q[place[p] + 1] += force.y[p];
+    q[place[p] + 2] += force.z[p];
   }
 }
 
-/// Forces of a chain with a range, that of its first dof to range[0].
+/// To q, of the nodes outside the core.
+void BrickLines::add_ends(const Store& store, double* q) const {
+  const BrickChain& chain = chains_.at(store.place.chain);
+  if (chain.core == chain.length) return;
+  const bool deferred = is_deferred(store);
+  ComponentArrays force = forces(store.place.start), difference = force;
+  double sign = 0;
+  if (deferred) {
+    const PairPlace& pair = schedule_.joins[static_cast<std::size_t>(store.place.join)].place;
+    force = forces(pair.line[0]);
+    difference = forces(pair.line[1]);
+    sign = pair.chain[0] == store.place.chain ? -1 : 1;
+  }
+  const auto add = [&](int p, int c, const double* sum, const double* odd) {
+    const LocalIndex dof = chains_.place(chain, p, c);
+    if (dof >= 0 && dof < owned_dofs_) q[dof] += deferred ? sum[p] + sign * odd[p] : sum[p];
+  };
+  for_ends(chain, [&](int p) {
+    add(p, 0, force.x, difference.x);
+    add(p, 1, force.y, difference.y);
+    add(p, 2, force.z, difference.z);
+  });
+}
+
+/// Forces of a core with a range, that of its first dof to range[0].
 void BrickLines::collect_forces(const Store& store, double* range) const {
   const BrickChain& chain = chains_.at(store.place.chain);
-  const bool lent = store.place.join >= 0;
-  if (lent && deferred_[static_cast<std::size_t>(store.place.join)] != 0) {
+  if (is_deferred(store)) {
     const PairPlace& pair = schedule_.joins[static_cast<std::size_t>(store.place.join)].place;
     const bool near = pair.chain[0] == store.place.chain;
-    (near ? store_near_row : store_far_row)(forces(pair.line[0]), forces(pair.line[1]),
-                                            chain.length, range);
+    (near ? store_near_row : store_far_row)(shifted(forces(pair.line[0]), chain.first),
+                                            shifted(forces(pair.line[1]), chain.first), chain.core,
+                                            range);
     return;
   }
-  const ComponentArrays moving = shifted(forces(store.place.start), chain.first);
+  const ComponentArrays core = shifted(forces(store.place.start), chain.first);
   if (chain.row) {
-    store_row(moving, chain.moving, range);
+    store_row(core, chain.core, range);
   } else {
-    store_nodes(moving, chains_.places(chain), chain.moving, chain.range.begin, range);
+    store_nodes(core, chains_.places(chain), chain.core, chain.range.begin, range);
   }
 }
 
 void BrickLines::store_chain(const Store& store, double* q, ForceReceiver& receiver) const {
-  const auto& [place, outcome, begin, end] = store;
+  const auto& [place, outcome, begin, end, growing] = store;
   const BrickChain& chain = chains_.at(place.chain);
-  const bool deferred = place.join >= 0 && deferred_[static_cast<std::size_t>(place.join)] != 0;
-  if (rotated_ && !deferred) {
+  if (rotated_ && !is_deferred(store)) {
     rotate_vectors(axes_, true, chain.length, line_stride_,
                    buffer_.data() + place.start + 3 * line_stride_);
   }
+  add_ends(store, q);
   if (outcome == Outcome::add) {
-    if (chain.ghost_row < 0) add_forces(store, q);
+    add_core(store, q);
     return;
   }
-  double* const range = range_.data() + (chain.range.begin - begin);
+  double* const whole = range_.data() + growing * static_cast<std::size_t>(range_stride_);
+  double* const range = whole + (chain.range.begin - begin);
   const LocalIndex size = chain.range.end - chain.range.begin;
   if (outcome == Outcome::complete) std::fill(range, range + size, 0.0);
   collect_forces(store, range);
@@ -210,7 +271,7 @@ void BrickLines::store_chain(const Store& store, double* q, ForceReceiver& recei
     for (LocalIndex i = 0; i < size; ++i) range[i] += already[i];
     std::fill(already, already + size, 0.0);
   }
-  if (end > 0) receiver.receive(begin, end, range_.data());
+  if (end > 0) receiver.receive(begin, end, whole);
 }
 
 void BrickLines::apply(const StiffnessArgument& w, const double* ghosts, double* q,
@@ -221,7 +282,7 @@ void BrickLines::apply(const StiffnessArgument& w, const double* ghosts, double*
   std::size_t stored = 0;
   for (const LineStep& step : schedule_.steps) {
     while (loaded < step.loads_end) load_chain(schedule_.loads[loaded++], w, ghosts);
-    while (split < step.splits_end) split_chains(schedule_.splits[split++], w);
+    while (split < step.splits_end) split_chains(schedule_.splits[split++], w, ghosts);
     apply_step(step);
     while (joined < step.joins_end) join_chains(joined++);
     while (stored < step.stores_end) store_chain(stores_[stored++], q, receiver);
@@ -260,8 +321,7 @@ void BrickLines::find_deferred() {
   std::vector<int> rows(deferred_.size(), 0);
   for (const Store& store : stores_) {
     if (store.place.join < 0 || store.outcome == Outcome::add) continue;
-    if (chains_.at(store.place.chain).whole_row())
-      ++rows[static_cast<std::size_t>(store.place.join)];
+    if (chains_.at(store.place.chain).row) ++rows[static_cast<std::size_t>(store.place.join)];
   }
   for (std::size_t j = 0; j < rows.size(); ++j) deferred_[j] = rows[j] == 2 ? 1 : 0;
 }
@@ -278,7 +338,9 @@ void BrickLines::sort_stores(std::size_t begin, std::size_t end) {
 
 /// The last one of the stores whose ranges are united hands all of them over.
 void BrickLines::unite_ranges() {
-  Store* last = nullptr;
+  std::array<Store*, growing_ranges> last{};
+  std::size_t oldest = 0;
+  LocalIndex longest = 0;
   for (Store& store : stores_) {
     const DofRange range = chains_.at(store.place.chain).range;
     if (store.outcome == Outcome::add) {
@@ -288,14 +350,23 @@ void BrickLines::unite_ranges() {
     }
     store.begin = range.begin;
     store.end = range.end;
-    if (last != nullptr && last->end == range.begin && range.end - last->begin <= most_united) {
-      store.begin = last->begin;
-      last->end = 0;
+    const auto grown = std::find_if(last.begin(), last.end(), [&](const Store* before) {
+      return before != nullptr && before->end == range.begin &&
+             range.end - before->begin <= most_united;
+    });
+    if (grown != last.end()) {
+      store.begin = (*grown)->begin;
+      (*grown)->end = 0;
+      store.growing = static_cast<std::size_t>(grown - last.begin());
+    } else {
+      store.growing = oldest;
     }
-    last = &store;
-    const auto size = static_cast<std::size_t>(store.end - store.begin) + lane_count;
-    if (range_.size() < size) range_.resize(size, 0.0);
+    last[store.growing] = &store;
+    if (store.growing == oldest) oldest = (oldest + 1) % growing_ranges;
+    longest = std::max(longest, store.end - store.begin);
   }
+  range_stride_ = round_up(longest + lane_count);
+  range_.assign(growing_ranges * static_cast<std::size_t>(range_stride_), 0.0);
 }
 
 }  // namespace pounding

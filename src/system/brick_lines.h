@@ -47,19 +47,25 @@ class BrickLines final : public ElementLines {
   struct Store {
     ChainStore place;
     Outcome outcome = Outcome::add;
-    LocalIndex begin = 0;  ///< first dof of what is handed over with this chain
-    LocalIndex end = 0;    ///< one beyond its last if this chain completes it, else 0
+    LocalIndex begin = 0;     ///< first dof of what is handed over with this chain
+    LocalIndex end = 0;       ///< one beyond its last if this chain completes it, else 0
+    std::size_t growing = 0;  ///< which of the ranges that grow in turns
   };
 
   void sort_stores(std::size_t begin, std::size_t end);
   void unite_ranges();
   void find_deferred();
   void load_chain(const ChainLoad& load, const StiffnessArgument& w, const double* ghosts) const;
-  void split_chains(const PairSplit& split, const StiffnessArgument& w) const;
+  double value(const BrickChain& chain, int node, int component, const StiffnessArgument& w,
+               const double* ghosts) const;
+  void load_pair(const PairPlace& place, const StiffnessArgument& w, const double* ghosts) const;
+  void split_chains(const PairSplit& split, const StiffnessArgument& w, const double* ghosts) const;
   void apply_step(const LineStep& step) const;
   void join_chains(std::size_t join) const;
   void store_chain(const Store& store, double* q, ForceReceiver& receiver) const;
-  void add_forces(const Store& store, double* q) const;
+  bool is_deferred(const Store& store) const;
+  void add_core(const Store& store, double* q) const;
+  void add_ends(const Store& store, double* q) const;
   void collect_forces(const Store& store, double* range) const;
   ComponentArrays displacements(int start) const;
   ComponentArrays forces(int start) const;
@@ -77,7 +83,8 @@ class BrickLines final : public ElementLines {
   int line_stride_ = 0;
   /// Lines of shape (6, line_stride): displacement, force. Work space of `apply`.
   mutable std::vector<double> buffer_;
-  mutable std::vector<double> range_;  ///< forces of the range that is being handed over
+  mutable std::vector<double> range_;  ///< forces of the ranges that grow until handed over
+  int range_stride_ = 0;               ///< between those, in range_
   mutable std::vector<double> added_;  ///< of a chain that is added to q
 };
 

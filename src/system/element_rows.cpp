@@ -53,6 +53,7 @@ class RowFinder {
     for (LocalIndex node = 0; index(node) < next_.size(); ++node) {
       if (previous_[index(node)] < 0 && next_[index(node)] >= 0) follow(node);
     }
+    number_chains();
     collect_runs();
     return std::move(rows_);
   }
@@ -72,12 +73,20 @@ class RowFinder {
 
   void follow(LocalIndex head) {
     std::vector<LocalIndex> nodes;
-    for (LocalIndex node = head; node >= 0; node = next_[index(node)]) {
-      chain_[index(node)] = static_cast<int>(rows_.chains.size());
-      offset_[index(node)] = static_cast<int>(nodes.size());
-      nodes.push_back(node);
-    }
+    for (LocalIndex node = head; node >= 0; node = next_[index(node)]) nodes.push_back(node);
     rows_.chains.push_back(std::move(nodes));
+  }
+
+  /// In the order of memory, for which ends do not count: they may be numbered elsewhere.
+  void number_chains() {
+    std::sort(rows_.chains.begin(), rows_.chains.end(),
+              [](const auto& a, const auto& b) { return a[a.size() / 2] < b[b.size() / 2]; });
+    for (std::size_t c = 0; c < rows_.chains.size(); ++c) {
+      for (std::size_t p = 0; p < rows_.chains[c].size(); ++p) {
+        chain_[index(rows_.chains[c][p])] = static_cast<int>(c);
+        offset_[index(rows_.chains[c][p])] = static_cast<int>(p);
+      }
+    }
   }
 
   bool in_chains(const RowElement<lines>& element) const {
@@ -147,7 +156,8 @@ double expected_cycles(const ElementRows<lines>& rows) {
     cycles += per_run + per_batch * ((run.count + lane_count - 1) / lane_count);
   }
   for (const auto& chain : rows.chains) {
-    const bool near = std::abs(chain[1] - chain[0]) <= near_step;
+    const std::size_t middle = chain.size() / 2;
+    const bool near = std::abs(chain[middle] - chain[middle - 1]) <= near_step;
     cycles +=
         components * (near ? per_near_value : per_far_value) * static_cast<double>(chain.size());
   }

@@ -31,7 +31,7 @@ struct ElementRun {
 template <std::size_t lines>
 struct ElementRows {
   int run_axis = 0;
-  std::vector<std::vector<LocalIndex>> chains;  ///< nodes in a row, ordered by their first node
+  std::vector<std::vector<LocalIndex>> chains;  ///< nodes in a row, ordered by their middle node
   std::vector<ElementRun<lines>> runs;          ///< in the order of their first chain
   /// Numbers of the elements that fit in no chain: meshes that do not conform.
   std::vector<std::size_t> left_over;
