@@ -96,11 +96,11 @@ const BrickChain& BrickChains::add(const DofPlaces& places, const std::vector<Lo
   for (int p = chain.first; chain.plain && p < chain.first + chain.core; ++p) {
     places_.push_back(place_of(places, nodes[static_cast<std::size_t>(p)])[0]);
   }
-  chain.ends = static_cast<int>(places_.size());
+  chain.ends = static_cast<int>(ends_.size());
   for (int p = 0; p < chain.length; ++p) {
     if (chain.in_core(p)) continue;
     const Place& place = place_of(places, nodes[static_cast<std::size_t>(p)]);
-    places_.insert(places_.end(), place.begin(), place.begin() + 3);
+    ends_.push_back({p, {place[0], place[1], place[2]}});
   }
   owned_dofs_ = places.owned_dofs;
   return chains_.emplace_back(chain);
@@ -108,8 +108,8 @@ const BrickChain& BrickChains::add(const DofPlaces& places, const std::vector<Lo
 
 LocalIndex BrickChains::place(const BrickChain& chain, int node, int component) const {
   if (!chain.in_core(node)) {
-    const int number = node < chain.first ? node : node - chain.core;
-    return places_[static_cast<std::size_t>(chain.ends + 3 * number + component)];
+    const auto number = static_cast<std::size_t>(node < chain.first ? node : node - chain.core);
+    return ends(chain)[number].place[static_cast<std::size_t>(component)];
   }
   const int in_core = node - chain.first;
   if (!chain.plain) return owned_dofs_ + chain.ghost_row + 3 * in_core + component;

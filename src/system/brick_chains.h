@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -7,6 +8,12 @@
 #include "system/stiffness.h"
 
 namespace pounding {
+
+/// A node outside the core of its chain: its number in the chain, where x, y, z are (-1: nowhere).
+struct ChainEnd {
+  int node = 0;
+  std::array<LocalIndex, 3> place{};
+};
 
 /// Nodes of bricks in a row, and where their dofs are. Most of them form a core whose values move
 /// in vectors; nodes before and behind it may be clamped, ghosts, or numbered elsewhere.
@@ -23,7 +30,7 @@ struct BrickChain {
   /// All dofs of the core, rotations included, if they are owned and follow each other; else empty.
   DofRange range;
   int begin = 0;  ///< into the places: one per node of a plain core
-  int ends = 0;   ///< likewise: x, y, z of each node outside the core
+  int ends = 0;   ///< into the ends
 
   bool in_core(int node) const { return first <= node && node < first + core; }
 };
@@ -37,6 +44,10 @@ class BrickChains {
   LocalIndex place(const BrickChain& chain, int node, int component) const;
   /// Of a plain core's nodes.
   const LocalIndex* places(const BrickChain& chain) const { return places_.data() + chain.begin; }
+  /// Nodes outside the core, in their order.
+  std::span<const ChainEnd> ends(const BrickChain& chain) const {
+    return {ends_.data() + chain.ends, static_cast<std::size_t>(chain.length - chain.core)};
+  }
 
  private:
   void set_core(const DofPlaces& places, std::span<const LocalIndex> nodes,
@@ -44,6 +55,7 @@ class BrickChains {
 
   std::vector<BrickChain> chains_;
   std::vector<LocalIndex> places_;
+  std::vector<ChainEnd> ends_;
   LocalIndex owned_dofs_ = 0;
 };
 

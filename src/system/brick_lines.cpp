@@ -16,13 +16,6 @@ ComponentArrays shifted(const ComponentArrays& arrays, int nodes) {
   return {arrays.x + nodes, arrays.y + nodes, arrays.z + nodes};
 }
 
-/// Calls for every node outside the core.
-template <typename Function>
-void for_ends(const BrickChain& chain, Function&& function) {
-  for (int p = 0; p < chain.first; ++p) function(p);
-  for (int p = chain.first + chain.core; p < chain.length; ++p) function(p);
-}
-
 int round_up(int count) {
   return (count + lane_count - 1) / lane_count * lane_count;
 }
@@ -57,6 +50,9 @@ BrickLines::BrickLines(const DofPlaces& places, const Matrix3& axes,
   schedule_ = schedule_lines(pairs, forms, line_stride_);
   for (const ChainStore& store : schedule_.stores)
     stores_.push_back({store, Outcome::add, 0, 0, 0});
+  for (const PairSplit& split : schedule_.splits) {
+    pair_loads_.push_back(split.load ? plan_load(split.place) : PairLoad{});
+  }
   deferred_.assign(schedule_.joins.size(), 0);
   buffer_.assign(static_cast<std::size_t>(schedule_.buffer_size), 0.0);
 }
@@ -90,11 +86,12 @@ void BrickLines::load_chain(const ChainLoad& load, const StiffnessArgument& w,
   } else {
     load_nodes(w, chains_.places(chain), chain.core, core);
   }
-  for_ends(chain, [&](int p) {
-    to.x[p] = value(chain, p, 0, w, ghosts);
-    to.y[p] = value(chain, p, 1, w, ghosts);
-    to.z[p] = value(chain, p, 2, w, ghosts);
-  });
+  for (const ChainEnd& end : chains_.ends(chain)) {
+    const Vector3 x = value(end.place, w, ghosts);
+    to.x[end.node] = x[0];
+    to.y[end.node] = x[1];
+    to.z[end.node] = x[2];
+  }
   for (int p = chain.length; p < round_up(chain.length); ++p) to.x[p] = to.y[p] = to.z[p] = 0;
   if (rotated_) {
     rotate_vectors(axes_, false, chain.length, line_stride_, buffer_.data() + load.start);
@@ -103,47 +100,60 @@ void BrickLines::load_chain(const ChainLoad& load, const StiffnessArgument& w,
 }
 
 /// w of a node, less its origin.
-double BrickLines::value(const BrickChain& chain, int node, int component,
-                         const StiffnessArgument& w, const double* ghosts) const {
-  return value_at(chains_.place(chain, node, component), owned_dofs_, w, ghosts) -
-         w.origin[static_cast<std::size_t>(component)];
+Vector3 BrickLines::value(const std::array<LocalIndex, 3>& place, const StiffnessArgument& w,
+                          const double* ghosts) const {
+  return {value_at(place[0], owned_dofs_, w, ghosts) - w.origin[0],
+          value_at(place[1], owned_dofs_, w, ghosts) - w.origin[1],
+          value_at(place[2], owned_dofs_, w, ghosts) - w.origin[2]};
+}
+
+/// What the two cores of a pair of rows have in common, and the nodes beside that.
+BrickLines::PairLoad BrickLines::plan_load(const PairPlace& place) const {
+  const BrickChain& near = chains_.at(place.chain[0]);
+  const BrickChain& far = chains_.at(place.chain[1]);
+  PairLoad load;
+  load.begin = std::max(near.first, far.first);
+  load.count = std::max(0, std::min(near.first + near.core, far.first + far.core) - load.begin);
+  load.first = {near.range.begin + 3 * (load.begin - near.first),
+                far.range.begin + 3 * (load.begin - far.first)};
+  for (int p = 0; p < place.length; ++p) {
+    if (load.begin <= p && p < load.begin + load.count) continue;
+    PairEnd& end = load.ends.emplace_back();
+    end.node = p;
+    for (int c = 0; c < 3; ++c) {
+      end.near[static_cast<std::size_t>(c)] = chains_.place(near, p, c);
+      end.far[static_cast<std::size_t>(c)] = chains_.place(far, p, c);
+    }
+  }
+  return load;
 }
 
 /// Sums and differences of two chains that have not been loaded.
-void BrickLines::load_pair(const PairPlace& place, const StiffnessArgument& w,
+void BrickLines::load_pair(const PairPlace& place, const PairLoad& load, const StiffnessArgument& w,
                            const double* ghosts) const {
-  const BrickChain& near = chains_.at(place.chain[0]);
-  const BrickChain& far = chains_.at(place.chain[1]);
   const ComponentArrays sum = displacements(place.line[0]);
   const ComponentArrays difference = displacements(place.line[1]);
-  const int begin = std::max(near.first, far.first);
-  const int end = std::max(begin, std::min(near.first + near.core, far.first + far.core));
-  load_row_pair(
-      w, {near.range.begin + 3 * (begin - near.first), far.range.begin + 3 * (begin - far.first)},
-      end - begin, shifted(sum, begin), shifted(difference, begin));
-  const auto load_one = [&](int p) {
-    Vector3 a{}, b{};
-    for (int c = 0; c < 3; ++c) {
-      a[static_cast<std::size_t>(c)] = value(near, p, c, w, ghosts);
-      b[static_cast<std::size_t>(c)] = value(far, p, c, w, ghosts);
-    }
-    sum.x[p] = a[0] + b[0];
-    sum.y[p] = a[1] + b[1];
-    sum.z[p] = a[2] + b[2];
-    difference.x[p] = b[0] - a[0];
-    difference.y[p] = b[1] - a[1];
-    difference.z[p] = b[2] - a[2];
-  };
-  for (int p = 0; p < begin; ++p) load_one(p);
-  for (int p = end; p < place.length; ++p) load_one(p);
+  load_row_pair(w, load.first, load.count, shifted(sum, load.begin),
+                shifted(difference, load.begin));
+  for (const PairEnd& end : load.ends) {
+    const Vector3 near = value(end.near, w, ghosts);
+    const Vector3 far = value(end.far, w, ghosts);
+    sum.x[end.node] = near[0] + far[0];
+    sum.y[end.node] = near[1] + far[1];
+    sum.z[end.node] = near[2] + far[2];
+    difference.x[end.node] = far[0] - near[0];
+    difference.y[end.node] = far[1] - near[1];
+    difference.z[end.node] = far[2] - near[2];
+  }
 }
 
-void BrickLines::split_chains(const PairSplit& split, const StiffnessArgument& w,
+void BrickLines::split_chains(std::size_t number, const StiffnessArgument& w,
                               const double* ghosts) const {
+  const PairSplit& split = schedule_.splits[number];
   const PairPlace& place = split.place;
   double* const buffer = buffer_.data();
   if (split.load) {
-    load_pair(place, w, ghosts);
+    load_pair(place, pair_loads_[number], w, ghosts);
     for (std::size_t i = 0; rotated_ && i < 2; ++i) {
       rotate_vectors(axes_, false, place.length, line_stride_, buffer + place.line[i]);
     }
@@ -219,15 +229,14 @@ void BrickLines::add_ends(const Store& store, double* q) const {
     difference = forces(pair.line[1]);
     sign = pair.chain[0] == store.place.chain ? -1 : 1;
   }
-  const auto add = [&](int p, int c, const double* sum, const double* odd) {
-    const LocalIndex dof = chains_.place(chain, p, c);
+  const auto add = [&](LocalIndex dof, int p, const double* sum, const double* odd) {
     if (dof >= 0 && dof < owned_dofs_) q[dof] += deferred ? sum[p] + sign * odd[p] : sum[p];
   };
-  for_ends(chain, [&](int p) {
-    add(p, 0, force.x, difference.x);
-    add(p, 1, force.y, difference.y);
-    add(p, 2, force.z, difference.z);
-  });
+  for (const ChainEnd& end : chains_.ends(chain)) {
+    add(end.place[0], end.node, force.x, difference.x);
+    add(end.place[1], end.node, force.y, difference.y);
+    add(end.place[2], end.node, force.z, difference.z);
+  }
 }
 
 /// Forces of a core with a range, that of its first dof to range[0].
@@ -282,7 +291,7 @@ void BrickLines::apply(const StiffnessArgument& w, const double* ghosts, double*
   std::size_t stored = 0;
   for (const LineStep& step : schedule_.steps) {
     while (loaded < step.loads_end) load_chain(schedule_.loads[loaded++], w, ghosts);
-    while (split < step.splits_end) split_chains(schedule_.splits[split++], w, ghosts);
+    while (split < step.splits_end) split_chains(split++, w, ghosts);
     apply_step(step);
     while (joined < step.joins_end) join_chains(joined++);
     while (stored < step.stores_end) store_chain(stores_[stored++], q, receiver);

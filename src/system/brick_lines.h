@@ -52,14 +52,29 @@ class BrickLines final : public ElementLines {
     std::size_t growing = 0;  ///< which of the ranges that grow in turns
   };
 
+  struct PairEnd {
+    int node = 0;
+    std::array<LocalIndex, 3> near{};  ///< places of x, y, z, as in ChainEnd
+    std::array<LocalIndex, 3> far{};
+  };
+  /// How a pair of rows is loaded: a stretch of both in vectors, other nodes one by one.
+  struct PairLoad {
+    int begin = 0;
+    int count = 0;
+    std::array<LocalIndex, 2> first{};  ///< dofs of the first node
+    std::vector<PairEnd> ends;
+  };
+
   void sort_stores(std::size_t begin, std::size_t end);
   void unite_ranges();
   void find_deferred();
   void load_chain(const ChainLoad& load, const StiffnessArgument& w, const double* ghosts) const;
-  double value(const BrickChain& chain, int node, int component, const StiffnessArgument& w,
-               const double* ghosts) const;
-  void load_pair(const PairPlace& place, const StiffnessArgument& w, const double* ghosts) const;
-  void split_chains(const PairSplit& split, const StiffnessArgument& w, const double* ghosts) const;
+  Vector3 value(const std::array<LocalIndex, 3>& place, const StiffnessArgument& w,
+                const double* ghosts) const;
+  PairLoad plan_load(const PairPlace& place) const;
+  void load_pair(const PairPlace& place, const PairLoad& load, const StiffnessArgument& w,
+                 const double* ghosts) const;
+  void split_chains(std::size_t number, const StiffnessArgument& w, const double* ghosts) const;
   void apply_step(const LineStep& step) const;
   void join_chains(std::size_t join) const;
   void store_chain(const Store& store, double* q, ForceReceiver& receiver) const;
@@ -78,8 +93,9 @@ class BrickLines final : public ElementLines {
   std::vector<BrickStencil> stencils_;  ///< per shape
   BrickChains chains_;
   LineSchedule schedule_;
-  std::vector<Store> stores_;   ///< those of schedule_
-  std::vector<char> deferred_;  ///< per join: done as the two rows are stored
+  std::vector<PairLoad> pair_loads_;  ///< per split
+  std::vector<Store> stores_;         ///< those of schedule_
+  std::vector<char> deferred_;        ///< per join: done as the two rows are stored
   int line_stride_ = 0;
   /// Lines of shape (6, line_stride): displacement, force. Work space of `apply`.
   mutable std::vector<double> buffer_;
