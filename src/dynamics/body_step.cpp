@@ -21,31 +21,47 @@ bool directions_are(const LinearSystem& system, std::size_t dof, std::array<int,
   return true;
 }
 
-/// Masses of the vectors that follow each other at a distance of twelve dofs: from one value per
-/// node, four nodes in three vectors, `places` those of one of the vectors.
-template <int... places>
-struct NodeMasses {
-  const double* mass;
-  const double* inverse_mass;
+/// Masses of the three vectors of a pattern, from one value per node of four nodes.
+class NodeMasses {
+ public:
+  NodeMasses(const double* mass, const double* inverse_mass)
+      : mass_(mass), inverse_mass_(inverse_mass) {}
 
-  void load_turn(std::size_t turn, Lanes& m, Lanes& inverse) const {
-    Lanes values;
-    load(mass + turn * lanes, values);
-    m = __builtin_shuffle(values, LaneMask{places...});
-    load(inverse_mass + turn * lanes, values);
-    inverse = __builtin_shuffle(values, LaneMask{places...});
+  void begin_pattern(std::size_t number) {
+    load(mass_ + number * lanes, values_);
+    load(inverse_mass_ + number * lanes, inverses_);
   }
+  template <int vector>
+  void at(Lanes& mass, Lanes& inverse) const {
+    constexpr LaneMask places[3]{{0, 0, 0, 1}, {1, 1, 2, 2}, {2, 3, 3, 3}};
+    mass = __builtin_shuffle(values_, places[vector]);
+    inverse = __builtin_shuffle(inverses_, places[vector]);
+  }
+
+ private:
+  const double* mass_;
+  const double* inverse_mass_;
+  Lanes values_{};
+  Lanes inverses_{};
 };
 
 /// The same from one value per dof.
-struct DofMasses {
-  const double* mass;
-  const double* inverse_mass;
+class DofMasses {
+ public:
+  DofMasses(const double* mass, const double* inverse_mass)
+      : mass_(mass), inverse_mass_(inverse_mass) {}
 
-  void load_turn(std::size_t turn, Lanes& m, Lanes& inverse) const {
-    load(mass + turn * pattern, m);
-    load(inverse_mass + turn * pattern, inverse);
+  void begin_pattern(std::size_t number) { offset_ = number * pattern; }
+  template <int vector>
+  void at(Lanes& mass, Lanes& inverse) const {
+    load(mass_ + offset_ + vector * lanes, mass);
+    load(inverse_mass_ + offset_ + vector * lanes, inverse);
   }
+
+ private:
+  const double* mass_;
+  const double* inverse_mass_;
+  std::size_t offset_ = 0;
 };
 
 }  // namespace
@@ -166,34 +182,34 @@ void BodyStep::receive(LocalIndex begin, LocalIndex end, const double* force) {
 }
 
 template <bool with_energies, typename Masses>
-void BodyStep::advance_every_third(std::size_t first, std::size_t end, const double* force,
-                                   const Masses& masses, const Lanes& ground, Lanes& momentum) {
+void BodyStep::advance_patterns(std::size_t first, std::size_t end, const double* force,
+                                Masses masses, const Lanes* ground, Lanes* momentum) {
   double* const displacement = state_.displacement.data();
   double* const velocity = state_.velocity.data();
   double* const stiffness = state_.stiffness_displacement.data();
   const Lanes time_step = all_lanes(time_step_);
   const Lanes decay = all_lanes(decay_);
-  const double inverse = inverse_;
-  const Lanes ground_step = ground;
-  Lanes momentum_sum = momentum;
+  const Lanes inverse = all_lanes(inverse_);
+  const Lanes ground_step[3]{ground[0], ground[1], ground[2]};
+  Lanes momentum_sum[3]{momentum[0], momentum[1], momentum[2]};
   Lanes stiffness_before = sums_.stiffness_before;
   Lanes stiffness_across = sums_.stiffness_across;
   Lanes mass_sum = sums_.mass_sum;
-  std::size_t turn = 0;
-  for (std::size_t i = first; i + lanes <= end; i += pattern, force += pattern, ++turn) {
+  const auto advance_vector = [&]<int k>(std::size_t i, const double* from)
+      __attribute__((always_inline)) {
     Lanes q, u, v, ku, weight, m;
-    load(force, q);
+    load(from, q);
     load(displacement + i, u);
     load(velocity + i, v);
     load(stiffness + i, ku);
-    masses.load_turn(turn, m, weight);
+    masses.template at<k>(m, weight);
     if constexpr (with_energies) {
       sums_.kinetic_before += m * v * v;
       sums_.strain_before += u * ku;
       sums_.displacement_mass += m * u * u;
     }
     const Lanes kv = (q - ku) * inverse;
-    Lanes after = -ground_step;
+    Lanes after = -ground_step[k];
     add_product(decay, v, after);
     subtract_product(time_step, weight * q, after);
     add_product(time_step, kv, ku);
@@ -206,9 +222,19 @@ void BodyStep::advance_every_third(std::size_t first, std::size_t end, const dou
     const Lanes sum = after + v;
     const Lanes both = m * sum;
     add_product(both, sum, mass_sum);
-    momentum_sum += both;
+    momentum_sum[k] += both;
+  };
+  std::size_t i = first, number = 0;
+  for (; i + pattern <= end; i += pattern, force += pattern, ++number) {
+    masses.begin_pattern(number);
+    advance_vector.template operator()<0>(i, force);
+    advance_vector.template operator()<1>(i + lanes, force + lanes);
+    advance_vector.template operator()<2>(i + 2 * lanes, force + 2 * lanes);
   }
-  momentum = momentum_sum;
+  masses.begin_pattern(number);
+  if (i + lanes <= end) advance_vector.template operator()<0>(i, force);
+  if (i + 2 * lanes <= end) advance_vector.template operator()<1>(i + lanes, force + lanes);
+  std::copy(momentum_sum, momentum_sum + 3, momentum);
   sums_.stiffness_before = stiffness_before;
   sums_.stiffness_across = stiffness_across;
   sums_.mass_sum = mass_sum;
@@ -277,26 +303,14 @@ void BodyStep::advance(const Segment& segment, LocalIndex begin, LocalIndex end,
   if (segment.order == Order::translations && duration_ == time_step_) {
     const std::size_t node =
         segment.first_node + (done - static_cast<std::size_t>(segment.begin)) / pattern_lanes;
-    const double* const mass = &node_mass_[node];
-    const double* const inverse_mass = &node_inverse_mass_[node];
-    advance_every_third<with_energies>(done, stop, force,
-                                       NodeMasses<0, 0, 0, 1>{mass, inverse_mass}, ground_[0][0],
-                                       sums_.momentum[0][0]);
-    advance_every_third<with_energies>(done + lanes, stop, force + lanes,
-                                       NodeMasses<1, 1, 2, 2>{mass, inverse_mass}, ground_[0][1],
-                                       sums_.momentum[0][1]);
-    advance_every_third<with_energies>(done + 2 * lanes, stop, force + 2 * lanes,
-                                       NodeMasses<2, 3, 3, 3>{mass, inverse_mass}, ground_[0][2],
-                                       sums_.momentum[0][2]);
+    advance_patterns<with_energies>(done, stop, force,
+                                    NodeMasses(&node_mass_[node], &node_inverse_mass_[node]),
+                                    ground_[0], sums_.momentum[0]);
     done += (stop - done) / lanes * lanes;
   } else if (segment.order == Order::nodes_of_six && duration_ == time_step_) {
-    for (std::size_t k = 0; k < pattern_lanes; ++k) {
-      const std::size_t first = done + k * lanes;
-      advance_every_third<with_energies>(
-          first, stop, force + k * lanes,
-          DofMasses{system_.lumped_mass.data() + first, system_.inverse_mass.data() + first},
-          ground_[1][k], sums_.momentum[1][k]);
-    }
+    advance_patterns<with_energies>(
+        done, stop, force, DofMasses(&system_.lumped_mass[done], &system_.inverse_mass[done]),
+        ground_[1], sums_.momentum[1]);
     done += (stop - done) / lanes * lanes;
   } else if (segment.order == Order::generalised && duration_ == time_step_ && !with_energies) {
     advance_generalised(done, stop, force);

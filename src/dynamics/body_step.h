@@ -79,11 +79,10 @@ class BodyStep final : public ForceReceiver {
   std::size_t length_at(std::size_t dof, Order order) const;
   template <bool with_energies>
   void advance(const Segment& segment, LocalIndex begin, LocalIndex end, const double* force);
-  /// Vectors that start at first, first + 12 and so on, in which directions stand alike: vector
-  /// number `k` of the pattern. `masses`: mass and inverse mass of the vector at a dof.
+  /// Whole vectors of dofs whose directions repeat every three vectors.
   template <bool with_energies, typename Masses>
-  void advance_every_third(std::size_t first, std::size_t end, const double* force,
-                           const Masses& masses, const Lanes& ground, Lanes& momentum);
+  void advance_patterns(std::size_t first, std::size_t end, const double* force, Masses masses,
+                        const Lanes* ground, Lanes* momentum);
   /// Whole vectors of generalised coordinates.
   void advance_generalised(std::size_t first, std::size_t end, const double* force);
   template <bool with_energies>
