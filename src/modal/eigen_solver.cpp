@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "modal/factorisation.h"
+
 namespace pounding {
 
 MatHandle mass_scaled(const LinearSystem& system, Mat matrix) {
@@ -116,8 +118,7 @@ EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix,
   POUNDING_PETSC(STGetKSP(transform, &factorised));
   POUNDING_PETSC(KSPSetType(factorised, KSPPREONLY));
   POUNDING_PETSC(KSPGetPC(factorised, &factorisation));
-  POUNDING_PETSC(PCSetType(factorisation, PCCHOLESKY));
-  POUNDING_PETSC(PCFactorSetMatSolverType(factorisation, MATSOLVERMUMPS));
+  factorise_with_mumps(factorisation);
   POUNDING_PETSC(EPSSetFromOptions(solver.get()));
   POUNDING_PETSC(EPSSolve(solver.get()));
   PetscInt found = 0;

@@ -1,5 +1,7 @@
 #include "modal/shifted_solver.h"
 
+#include "modal/factorisation.h"
+
 namespace pounding {
 
 ShiftedSolver::ShiftedSolver(const LinearSystem& system, Mat matrix, double shift)
@@ -12,8 +14,7 @@ ShiftedSolver::ShiftedSolver(const LinearSystem& system, Mat matrix, double shif
   POUNDING_PETSC(KSPSetType(solver_.get(), KSPPREONLY));
   PC factorisation = nullptr;
   POUNDING_PETSC(KSPGetPC(solver_.get(), &factorisation));
-  POUNDING_PETSC(PCSetType(factorisation, PCCHOLESKY));
-  POUNDING_PETSC(PCFactorSetMatSolverType(factorisation, MATSOLVERMUMPS));
+  factorise_with_mumps(factorisation);
   POUNDING_PETSC(KSPSetOperators(solver_.get(), shifted_.get(), shifted_.get()));
   POUNDING_PETSC(KSPSetFromOptions(solver_.get()));
   POUNDING_PETSC(KSPSetUp(solver_.get()));
