@@ -1,6 +1,7 @@
 """Values of options of run/benchmark and run/scaling."""
 
 import math
+import re
 
 
 def positive(text: str) -> int:
@@ -17,8 +18,7 @@ def integers(text: str) -> list:
 
 def sizes(text: str) -> list:
     """Numbers of dofs, separated by commas: 36000, 36k, 1M."""
-    factors = {"k": 1_000, "M": 1_000_000}
-    return [positive(word.rstrip("kM")) * factors.get(word[-1:], 1) for word in text.split(",")]
+    return [positive(re.sub("M$", "000000", re.sub("k$", "000", word))) for word in text.split(",")]
 
 
 def positive_number(text: str) -> float:

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <set>
 #include <tuple>
 
 #include "mesh/node_planes.h"
@@ -155,13 +154,15 @@ ElementList merge_groups(const ElementList& all, const ElementGroups& groups) {
     if (members[g].empty()) {
       continue;
     }
-    std::set<GlobalIndex> nodes;
+    std::vector<GlobalIndex> nodes;
     idx_t cost = 0;
     for (const std::size_t e : members[g]) {
       list.entry[e] = list.count();
-      nodes.insert(all.nodes_of(e).begin(), all.nodes_of(e).end());
+      nodes.insert(nodes.end(), all.nodes_of(e).begin(), all.nodes_of(e).end());
       cost += all.cost[e];
     }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     const std::size_t first = members[g].front();
     const bool is_cluster = static_cast<int>(g) >= groups.first_cluster;
     const idx_t solution = is_cluster ? cluster_node_cost * static_cast<idx_t>(nodes.size()) : 0;

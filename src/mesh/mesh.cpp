@@ -57,12 +57,13 @@ class Cutter {
     const auto begin = node_begin_[static_cast<std::size_t>(part)];
     const auto end = node_begin_[static_cast<std::size_t>(part) + 1];
     std::vector<GlobalIndex> nodes(order_.begin() + begin, order_.begin() + end);
-    append_ghosts(part, nodes);
+    const std::vector<Element> elements = elements_of(part);
+    append_ghosts(part, elements, nodes);
     std::unordered_map<GlobalIndex, LocalIndex> local;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       local[nodes[i]] = static_cast<LocalIndex>(i);
     }
-    add_elements(part, local, out);
+    add_elements(part, elements, local, out);
     const GlobalIndex owned = end - begin;
     for (const GlobalIndex node : nodes) {
       const auto n = static_cast<std::size_t>(node);
@@ -82,6 +83,11 @@ class Cutter {
   }
 
  private:
+  struct Element {
+    std::size_t set = 0;
+    std::size_t number = 0;  ///< in the set
+  };
+
   /// Per rank, those without rotations first, in the order of the planes: where beams meet bricks,
   /// the bricks' other nodes still follow each other.
   void sort_nodes() {
@@ -122,50 +128,54 @@ class Cutter {
     }
   }
 
-  bool owns_one_of(int part, std::span<const GlobalIndex> nodes) const {
-    return std::any_of(nodes.begin(), nodes.end(), [&](GlobalIndex node) {
-      return node_owner_[static_cast<std::size_t>(node)] == part;
-    });
+  std::span<const GlobalIndex> corners_of(const Element& element) const {
+    const ElementSet& set = mesh_.regions[element.set];
+    const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
+    return {&set.connectivity[element.number * width], width};
   }
 
-  /// Calls for every element that touches a node of a part: the number of its set, its own in the
-  /// set, its nodes.
-  template <typename Function>
-  void for_elements_of(int part, Function&& function) const {
+  /// Those that touch a node of a part, set after set.
+  std::vector<Element> elements_of(int part) const {
+    std::vector<Element> elements;
     for (std::size_t s = 0; s < mesh_.regions.size(); ++s) {
-      const ElementSet& set = mesh_.regions[s];
-      const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
-      for (std::size_t e = 0; e < set.tags.size(); ++e) {
-        const std::span<const GlobalIndex> nodes(&set.connectivity[e * width], width);
-        if (owns_one_of(part, nodes)) function(s, e, nodes);
+      for (std::size_t e = 0; e < mesh_.regions[s].tags.size(); ++e) {
+        const auto corners = corners_of({s, e});
+        if (std::any_of(corners.begin(), corners.end(), [&](GlobalIndex node) {
+              return node_owner_[static_cast<std::size_t>(node)] == part;
+            })) {
+          elements.push_back({s, e});
+        }
       }
     }
+    return elements;
   }
 
-  /// The other nodes of those elements, in the order in which their owners hold them.
-  void append_ghosts(int part, std::vector<GlobalIndex>& nodes) const {
+  /// The other nodes of the elements, in the order in which their owners hold them.
+  void append_ghosts(int part, const std::vector<Element>& elements,
+                     std::vector<GlobalIndex>& nodes) const {
     std::vector<GlobalIndex> ghosts;  // as places in order_
-    for_elements_of(part, [&](std::size_t, std::size_t, std::span<const GlobalIndex> corners) {
-      for (const GlobalIndex node : corners) {
+    for (const Element& element : elements) {
+      for (const GlobalIndex node : corners_of(element)) {
         const auto n = static_cast<std::size_t>(node);
         if (node_owner_[n] != part) ghosts.push_back(place_[n]);
       }
-    });
+    }
     std::sort(ghosts.begin(), ghosts.end());
     ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
     for (const GlobalIndex place : ghosts) nodes.push_back(order_[static_cast<std::size_t>(place)]);
   }
 
-  void add_elements(int part, const std::unordered_map<GlobalIndex, LocalIndex>& local,
-                    Parcel& out) const {
+  void add_elements(int part, const std::vector<Element>& elements,
+                    const std::unordered_map<GlobalIndex, LocalIndex>& local, Parcel& out) const {
     std::vector<GlobalIndex> here(mesh_.regions.size(), 0);
-    for_elements_of(part, [&](std::size_t s, std::size_t e, std::span<const GlobalIndex> corners) {
-      ++here[s];
-      out.tags.push_back(mesh_.regions[s].tags[e]);
+    for (const Element& element : elements) {
+      const auto corners = corners_of(element);
+      ++here[element.set];
+      out.tags.push_back(mesh_.regions[element.set].tags[element.number]);
       // Counted where its first node is owned: that rank surely holds the element.
       out.counted.push_back(node_owner_[static_cast<std::size_t>(corners[0])] == part ? 1 : 0);
       for (const GlobalIndex node : corners) out.connectivity.push_back(local.at(node));
-    });
+    }
     for (std::size_t s = 0; s < mesh_.regions.size(); ++s) {
       const ElementSet& set = mesh_.regions[s];
       out.region.insert(out.region.end(), {static_cast<GlobalIndex>(set.type), set.region,

@@ -57,7 +57,7 @@ constexpr idx_t pieces_per_part = 64;
 /// Of a row of elements, one part only: rows are cheapest whole.
 idx_t most_piece_cost(const ElementList& list, int parts) {
   const auto total = std::accumulate(list.cost.begin(), list.cost.end(), std::int64_t{0});
-  return parts == 1 ? 0 : static_cast<idx_t>(total / (std::int64_t{pieces_per_part} * parts));
+  return static_cast<idx_t>(total / (std::int64_t{pieces_per_part} * parts));
 }
 
 /// Cost of the elements of the most loaded part.
@@ -150,15 +150,19 @@ int most_frequent_owner(std::span<const idx_t> elements, const std::vector<idx_t
 Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const NodeLink> links,
                            int parts, std::span<const int> whole,
                            std::span<const NodeCluster> clusters, PartitionBy by) {
-  const ElementList elements = list_elements(meshes, whole);
-  ElementGroups groups = group_rows(meshes, elements, most_piece_cost(elements, parts));
-  group_clusters(elements, clusters, groups);
-  ElementList list = merge_groups(elements, groups);
+  const bool cuts = by != PartitionBy::structures && parts > 1;
+  ElementList list = list_elements(meshes, whole);
+  ElementGroups groups = cuts ? group_rows(meshes, list, most_piece_cost(list, parts))
+                              : ElementGroups{std::vector<int>(list.cost.size(), -1)};
+  group_clusters(list, clusters, groups);
+  if (groups.count > 0) {
+    list = merge_groups(list, groups);
+  }
   const NodeElements at = elements_at_nodes(list);
   Partition partition;
   partition.parts = parts;
   std::vector<idx_t> owner = keep_structures(list, meshes.size(), parts);
-  if (by != PartitionBy::structures && parts > 1) {
+  if (cuts) {
     Graph graph = dual_graph(list, at, links, whole);
     long edge_cut = 0;
     std::vector<idx_t> cut = cut_graph(list, graph, parts, edge_cut);

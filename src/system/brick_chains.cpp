@@ -44,11 +44,8 @@ std::span<const LocalIndex> longest_stretch(std::span<const LocalIndex> nodes, A
   return 2 * best >= nodes.size() ? nodes.subspan(best_begin, best) : nodes.first(0);
 }
 
-}  // namespace
-
 /// The longest stretch of owned nodes, else of ghosts, else all that moves if it is plain.
-void BrickChains::set_core(const DofPlaces& places, std::span<const LocalIndex> nodes,
-                           BrickChain& chain) const {
+void set_core(const DofPlaces& places, std::span<const LocalIndex> nodes, BrickChain& chain) {
   const auto x_of = [&](LocalIndex node) { return place_of(places, node)[0]; };
   const auto take = [&](std::span<const LocalIndex> core) {
     chain.first = static_cast<int>(core.data() - nodes.data());
@@ -75,7 +72,7 @@ void BrickChains::set_core(const DofPlaces& places, std::span<const LocalIndex> 
       },
       [&](LocalIndex before, LocalIndex node) { return x_of(node) == x_of(before) + 3; });
   if (take(ghosts)) {
-    chain.ghost_row = x_of(ghosts.front()) - places.owned_dofs;
+    chain.first_ghost = x_of(ghosts.front());
     return;
   }
   const auto moves = [&](LocalIndex node) {
@@ -87,6 +84,8 @@ void BrickChains::set_core(const DofPlaces& places, std::span<const LocalIndex> 
   chain.plain = first < last && std::all_of(first, last, plain);
   if (chain.plain) take({first, last});
 }
+
+}  // namespace
 
 const BrickChain& BrickChains::add(const DofPlaces& places, const std::vector<LocalIndex>& nodes) {
   BrickChain chain;
@@ -102,7 +101,6 @@ const BrickChain& BrickChains::add(const DofPlaces& places, const std::vector<Lo
     const Place& place = place_of(places, nodes[static_cast<std::size_t>(p)]);
     ends_.push_back({p, {place[0], place[1], place[2]}});
   }
-  owned_dofs_ = places.owned_dofs;
   return chains_.emplace_back(chain);
 }
 
@@ -112,7 +110,7 @@ LocalIndex BrickChains::place(const BrickChain& chain, int node, int component) 
     return ends(chain)[number].place[static_cast<std::size_t>(component)];
   }
   const int in_core = node - chain.first;
-  if (!chain.plain) return owned_dofs_ + chain.ghost_row + 3 * in_core + component;
+  if (!chain.plain) return chain.first_ghost + 3 * in_core + component;
   return places(chain)[in_core] + component;
 }
 

@@ -20,13 +20,12 @@ struct ChainEnd {
 struct BrickChain {
   int length = 0;
   int first = 0;  ///< node of the core
-  int core = 0;   ///< nodes of the core; none if `plain` is false and there is no ghost row
+  int core = 0;   ///< nodes of the core; none if it is neither plain nor of ghosts
   /// Every node of the core owns x, y, z in a row, and one more dof follows.
   bool plain = false;
   bool row = false;  ///< plain, and the nodes' dofs follow each other, no rotations between
-  /// The core's nodes are ghosts whose values follow each other from this place of those received;
-  /// -1: not so.
-  LocalIndex ghost_row = -1;
+  /// Place of the first dof of a core of ghosts, whose x, y, z follow each other; -1: no such core.
+  LocalIndex first_ghost = -1;
   /// All dofs of the core, rotations included, if they are owned and follow each other; else empty.
   DofRange range;
   int begin = 0;  ///< into the places: one per node of a plain core
@@ -50,13 +49,9 @@ class BrickChains {
   }
 
  private:
-  void set_core(const DofPlaces& places, std::span<const LocalIndex> nodes,
-                BrickChain& chain) const;
-
   std::vector<BrickChain> chains_;
   std::vector<LocalIndex> places_;
   std::vector<ChainEnd> ends_;
-  LocalIndex owned_dofs_ = 0;
 };
 
 }  // namespace pounding

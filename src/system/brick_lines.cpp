@@ -79,8 +79,8 @@ void BrickLines::load_chain(const ChainLoad& load, const StiffnessArgument& w,
   const BrickChain& chain = chains_.at(load.chain);
   const ComponentArrays to = displacements(load.start);
   const ComponentArrays core = shifted(to, chain.first);
-  if (chain.ghost_row >= 0) {
-    load_row({ghosts, ghosts, 0, w.origin}, chain.ghost_row, chain.core, core);
+  if (chain.first_ghost >= 0) {
+    load_row({ghosts, ghosts, 0, w.origin}, chain.first_ghost - owned_dofs_, chain.core, core);
   } else if (chain.row) {
     load_row(w, chain.range.begin, chain.core, core);
   } else {
@@ -190,8 +190,11 @@ void BrickLines::join_chains(std::size_t join) const {
   }
 }
 
-bool BrickLines::is_deferred(const Store& store) const {
-  return store.place.join >= 0 && deferred_[static_cast<std::size_t>(store.place.join)] != 0;
+/// The pair that still holds the forces of a chain as sums and differences; null: none.
+const PairPlace* BrickLines::deferred_pair(const Store& store) const {
+  if (store.place.join < 0) return nullptr;
+  const auto join = static_cast<std::size_t>(store.place.join);
+  return deferred_[join] != 0 ? &schedule_.joins[join].place : nullptr;
 }
 
 /// To q.
@@ -206,7 +209,7 @@ void BrickLines::add_core(const Store& store, double* q) const {
     }
     return;
   }
-  if (chain.ghost_row >= 0) return;
+  if (chain.first_ghost >= 0) return;
   const ComponentArrays force = shifted(forces(store.place.start), chain.first);
   const LocalIndex* const place = chains_.places(chain);
   for (int p = 0; p < chain.core; ++p) {
@@ -220,17 +223,12 @@ void BrickLines::add_core(const Store& store, double* q) const {
 void BrickLines::add_ends(const Store& store, double* q) const {
   const BrickChain& chain = chains_.at(store.place.chain);
   if (chain.core == chain.length) return;
-  const bool deferred = is_deferred(store);
-  ComponentArrays force = forces(store.place.start), difference = force;
-  double sign = 0;
-  if (deferred) {
-    const PairPlace& pair = schedule_.joins[static_cast<std::size_t>(store.place.join)].place;
-    force = forces(pair.line[0]);
-    difference = forces(pair.line[1]);
-    sign = pair.chain[0] == store.place.chain ? -1 : 1;
-  }
+  const PairPlace* const pair = deferred_pair(store);
+  const ComponentArrays force = forces(pair != nullptr ? pair->line[0] : store.place.start);
+  const ComponentArrays difference = pair != nullptr ? forces(pair->line[1]) : force;
+  const double sign = pair != nullptr && pair->chain[0] == store.place.chain ? -1 : 1;
   const auto add = [&](LocalIndex dof, int p, const double* sum, const double* odd) {
-    if (dof >= 0 && dof < owned_dofs_) q[dof] += deferred ? sum[p] + sign * odd[p] : sum[p];
+    if (dof >= 0 && dof < owned_dofs_) q[dof] += pair != nullptr ? sum[p] + sign * odd[p] : sum[p];
   };
   for (const ChainEnd& end : chains_.ends(chain)) {
     add(end.place[0], end.node, force.x, difference.x);
@@ -242,11 +240,10 @@ void BrickLines::add_ends(const Store& store, double* q) const {
 /// Forces of a core with a range, that of its first dof to range[0].
 void BrickLines::collect_forces(const Store& store, double* range) const {
   const BrickChain& chain = chains_.at(store.place.chain);
-  if (is_deferred(store)) {
-    const PairPlace& pair = schedule_.joins[static_cast<std::size_t>(store.place.join)].place;
-    const bool near = pair.chain[0] == store.place.chain;
-    (near ? store_near_row : store_far_row)(shifted(forces(pair.line[0]), chain.first),
-                                            shifted(forces(pair.line[1]), chain.first), chain.core,
+  if (const PairPlace* const pair = deferred_pair(store); pair != nullptr) {
+    const bool near = pair->chain[0] == store.place.chain;
+    (near ? store_near_row : store_far_row)(shifted(forces(pair->line[0]), chain.first),
+                                            shifted(forces(pair->line[1]), chain.first), chain.core,
                                             range);
     return;
   }
@@ -261,7 +258,7 @@ void BrickLines::collect_forces(const Store& store, double* range) const {
 void BrickLines::store_chain(const Store& store, double* q, ForceReceiver& receiver) const {
   const auto& [place, outcome, begin, end, growing] = store;
   const BrickChain& chain = chains_.at(place.chain);
-  if (rotated_ && !is_deferred(store)) {
+  if (rotated_ && deferred_pair(store) == nullptr) {
     rotate_vectors(axes_, true, chain.length, line_stride_,
                    buffer_.data() + place.start + 3 * line_stride_);
   }

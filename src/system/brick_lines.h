@@ -78,7 +78,7 @@ class BrickLines final : public ElementLines {
   void apply_step(const LineStep& step) const;
   void join_chains(std::size_t join) const;
   void store_chain(const Store& store, double* q, ForceReceiver& receiver) const;
-  bool is_deferred(const Store& store) const;
+  const PairPlace* deferred_pair(const Store& store) const;
   void add_core(const Store& store, double* q) const;
   void add_ends(const Store& store, double* q) const;
   void collect_forces(const Store& store, double* range) const;

@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <array>
 #include <map>
 #include <stdexcept>
 
@@ -31,9 +31,8 @@ BlockRow read_block_row(Mat matrix, PetscInt block_row) {
 
 /// A copy in blocks of 3, preallocated: MatConvert of 300 thousand rows takes minutes.
 void copy_in_blocks(Mat matrix, const std::string& type, MatHandle& copy) {
-  PetscInt begin = 0, end = 0, rows = 0, global_rows = 0;
+  PetscInt begin = 0, end = 0, global_rows = 0;
   POUNDING_PETSC(MatGetOwnershipRange(matrix, &begin, &end));
-  POUNDING_PETSC(MatGetLocalSize(matrix, &rows, nullptr));
   POUNDING_PETSC(MatGetSize(matrix, &global_rows, nullptr));
   const PetscInt first = begin / block, last = end / block;
   std::array<std::vector<PetscInt>, 4> counts;  // own, others' columns; the same above the diagonal
@@ -46,7 +45,7 @@ void copy_in_blocks(Mat matrix, const std::string& type, MatHandle& copy) {
     }
   }
   POUNDING_PETSC(MatCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), copy.out()));
-  POUNDING_PETSC(MatSetSizes(copy.get(), rows, rows, global_rows, global_rows));
+  POUNDING_PETSC(MatSetSizes(copy.get(), end - begin, end - begin, global_rows, global_rows));
   POUNDING_PETSC(MatSetType(copy.get(), type.c_str()));
   POUNDING_PETSC(MatXAIJSetPreallocation(copy.get(), block, counts[0].data(), counts[1].data(),
                                          counts[2].data(), counts[3].data()));
