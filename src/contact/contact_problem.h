@@ -72,7 +72,7 @@ class ContactProblem {
   /// Of a structure in generalised coordinates: its part of L T, shape (rows, owned coordinates).
   std::vector<double> coordinate_rows(std::size_t structure) const;
   /// Adds the values of all members up. Members only, collective over them.
-  void add_over_members(std::span<double> values) const { gather_.add(values); }
+  void add_over_members(std::span<double> values) { gather_.add(values); }
 
   /// The impulses of the last solve, from which the LCP starts, and the largest residual.
   void save(SavedState& saved) const;

@@ -1,20 +1,25 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include <mpi.h>
 
+#include "common/shared_exchange.h"
+
 namespace pounding {
 
 /// Brings the values of all interface dofs to every rank that knows one. Those ranks form a
 /// communicator of their own; the others never take part. Since values travel, not partial sums,
-/// what is computed from them does not depend on the partition.
+/// what is computed from them does not depend on the partition. On one node they travel through
+/// common memory, else in messages.
 class InterfaceGather {
  public:
   /// `mine`: interface dofs whose values this rank knows, in the order of its values; each is known
-  /// to one rank. Collective over `comm`.
-  InterfaceGather(MPI_Comm comm, std::span<const int> mine);
+  /// to one rank. `common_memory`: false to send messages even within a node. Collective over
+  /// `comm`.
+  InterfaceGather(MPI_Comm comm, std::span<const int> mine, bool common_memory = true);
   InterfaceGather(const InterfaceGather&) = delete;
   InterfaceGather& operator=(const InterfaceGather&) = delete;
   ~InterfaceGather();
@@ -29,11 +34,15 @@ class InterfaceGather {
   void gather(int fields, std::span<const double> mine, std::span<double> all);
 
   /// Sums over the members, in place. Collective over them.
-  void add(std::span<double> values) const;
+  void add(std::span<double> values);
 
   static constexpr int max_fields = 2;
 
  private:
+  void spread(int fields, std::size_t first, std::size_t end, const double* values,
+              std::span<double> all) const;
+
+  std::unique_ptr<SharedExchange> shared_;  ///< null: messages
   MPI_Comm comm_ = MPI_COMM_NULL;
   int root_ = 0;
   int members_ = 0;

@@ -1,0 +1,132 @@
+#include "common/shared_exchange.h"
+
+#include <array>
+#include <cstdio>
+#include <fcntl.h>
+#include <numeric>
+#include <sched.h>
+#include <string>
+#include <sys/mman.h>
+#include <thread>
+#include <unistd.h>
+
+#include "common/parallel.h"
+
+namespace pounding {
+namespace {
+
+constexpr std::size_t line = 128;  // [B] a cache line and the one that is fetched with it
+
+using Turn = std::atomic<std::uint64_t>;
+static_assert(Turn::is_always_lock_free, "turns are read by other processes");
+
+std::size_t rounded_up(std::size_t bytes) {
+  return (bytes + line - 1) / line * line;
+}
+
+std::size_t board_size(std::size_t capacity) {
+  return line + 2 * rounded_up(capacity * sizeof(double));
+}
+
+/// Shared memory of that name, zeros when created; null if the system gives none.
+void* map_memory(const std::string& name, std::size_t size, bool create) {
+  const int file = shm_open(name.c_str(), create ? O_CREAT | O_EXCL | O_RDWR : O_RDWR, 0600);
+  if (file < 0) {
+    return nullptr;
+  }
+  void* memory = MAP_FAILED;
+  if (!create || posix_fallocate(file, 0, static_cast<off_t>(size)) == 0) {
+    memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  }
+  close(file);
+  return memory == MAP_FAILED ? nullptr : memory;
+}
+
+/// The same memory on all ranks, without a name once they have it; null on all if one gets none.
+void* common_memory(MPI_Comm comm, std::size_t size) {
+  static int number = 0;
+  std::array<char, 64> name{};
+  void* memory = nullptr;
+  if (rank_of(comm) == 0) {
+    std::snprintf(name.data(), name.size(), "/pounding-%ld-%d", static_cast<long>(getpid()),
+                  number++);
+    memory = map_memory(name.data(), size, true);
+  }
+  MPI_Bcast(name.data(), static_cast<int>(name.size()), MPI_CHAR, 0, comm);
+  if (rank_of(comm) != 0) {
+    memory = map_memory(name.data(), size, false);
+  }
+  int everybody = memory != nullptr ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &everybody, 1, MPI_INT, MPI_MIN, comm);
+  if (rank_of(comm) == 0) {
+    shm_unlink(name.data());
+  }
+  if (everybody == 0 && memory != nullptr) {
+    munmap(memory, size);
+    memory = nullptr;
+  }
+  return memory;
+}
+
+bool on_one_node(MPI_Comm comm) {
+  MPI_Comm node = MPI_COMM_NULL;
+  MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, rank_of(comm), MPI_INFO_NULL, &node);
+  int alone = size_of(node) == size_of(comm) ? 1 : 0;
+  MPI_Comm_free(&node);
+  MPI_Allreduce(MPI_IN_PLACE, &alone, 1, MPI_INT, MPI_MIN, comm);
+  return alone != 0;
+}
+
+void pause_shortly() {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#endif
+}
+
+}  // namespace
+
+SharedExchange::SharedExchange(MPI_Comm comm, std::size_t capacity)
+    : comm_(comm), rank_(static_cast<std::size_t>(rank_of(comm))) {
+  if (!on_one_node(comm)) {
+    return;
+  }
+  const auto ranks = static_cast<std::size_t>(size_of(comm));
+  const unsigned long size = board_size(capacity);
+  std::vector<unsigned long> begin(ranks + 1, 0);
+  MPI_Allgather(&size, 1, MPI_UNSIGNED_LONG, begin.data() + 1, 1, MPI_UNSIGNED_LONG, comm);
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  memory_size_ = begin.back();
+  memory_ = common_memory(comm, memory_size_);
+  for (std::size_t r = 0; memory_ != nullptr && r < ranks; ++r) {
+    char* const first = static_cast<char*>(memory_) + begin[r];
+    const std::size_t half = (begin[r + 1] - begin[r] - line) / 2;
+    boards_.push_back({reinterpret_cast<Turn*>(first),
+                       {reinterpret_cast<double*>(first + line),
+                        reinterpret_cast<double*>(first + line + half)}});
+  }
+  // Where ranks share processors, the one that is waited for may need this one.
+  patience_ = ranks <= std::thread::hardware_concurrency() ? 10000 : 100;
+}
+
+SharedExchange::~SharedExchange() {
+  if (memory_ != nullptr) {
+    munmap(memory_, memory_size_);
+  }
+}
+
+const double* SharedExchange::wait_for(int rank) const {
+  const Board& board = boards_[static_cast<std::size_t>(rank)];
+  for (int looks = 0; board.turn->load(std::memory_order_acquire) < turn_; ++looks) {
+    if (looks < patience_) {
+      pause_shortly();
+    } else {
+      // It may wait for a message that this rank has still to push on.
+      int found = 0;
+      MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, comm_, &found, MPI_STATUS_IGNORE);
+      sched_yield();
+    }
+  }
+  return board.values[turn_ % 2];
+}
+
+}  // namespace pounding

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <mpi.h>
+
+namespace pounding {
+
+/// Values that all ranks of a communicator show each other through common memory, turn after turn:
+/// less than a microsecond where a collective message takes several. Only for ranks of one node.
+///
+///     double* mine = exchange.begin_turn();  ... write ...  exchange.publish();
+///     for each other rank: read exchange.wait_for(rank)
+///
+/// Everybody waits for everybody in every turn: a rank's values then stay readable until all the
+/// others have published their next ones.
+class SharedExchange {
+ public:
+  /// `capacity`: values that this rank may write in a turn. Where the ranks have no memory in
+  /// common, or the system gives none, works() is false on all of them. Collective.
+  SharedExchange(MPI_Comm comm, std::size_t capacity);
+  SharedExchange(const SharedExchange&) = delete;
+  SharedExchange& operator=(const SharedExchange&) = delete;
+  ~SharedExchange();
+
+  bool works() const { return memory_ != nullptr; }
+
+  /// Where the values of the next turn go.
+  double* begin_turn() { return boards_[rank_].values[++turn_ % 2]; }
+  void publish() { boards_[rank_].turn->store(turn_, std::memory_order_release); }
+  /// What a rank published in this turn; waits until it has.
+  const double* wait_for(int rank) const;
+
+ private:
+  /// What one rank shares.
+  struct Board {
+    std::atomic<std::uint64_t>* turn = nullptr;  ///< last one published
+    double* values[2] = {nullptr, nullptr};      ///< of even and odd turns
+  };
+
+  MPI_Comm comm_;
+  std::size_t rank_ = 0;
+  std::vector<Board> boards_;  ///< per rank
+  std::uint64_t turn_ = 0;
+  int patience_ = 0;  ///< looks before the processor is given to somebody else
+  void* memory_ = nullptr;
+  std::size_t memory_size_ = 0;
+};
+
+}  // namespace pounding

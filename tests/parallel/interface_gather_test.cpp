@@ -1,0 +1,65 @@
+#include "contact/interface_gather.h"
+
+#include <gtest/gtest.h>
+#include <petscsys.h>
+
+#include "common/parallel.h"
+
+namespace pounding {
+namespace {
+
+/// Interface dofs dealt out in turns; the last of three or more ranks knows none.
+std::vector<int> dofs_of(int rank, int size, int dofs) {
+  const int members = size > 2 ? size - 1 : size;
+  std::vector<int> mine;
+  for (int dof = dofs - 1; dof >= 0; --dof) {
+    if (dof % members == rank) mine.push_back(dof);
+  }
+  return mine;
+}
+
+double value(int turn, int field, int dof) {
+  return 1e6 * turn + 1000.0 * field + dof;
+}
+
+class InterfaceGathered : public testing::TestWithParam<bool> {};
+
+/// So many turns that a rank that runs ahead would be seen to overwrite what another still reads.
+TEST_P(InterfaceGathered, EveryMemberGetsAllValuesInEveryTurn) {
+  const MPI_Comm comm = PETSC_COMM_WORLD;
+  constexpr int dofs = 37;
+  const std::vector<int> mine = dofs_of(rank_of(comm), size_of(comm), dofs);
+  InterfaceGather gather(comm, mine, GetParam());
+  EXPECT_EQ(gather.member(), !mine.empty());
+  EXPECT_EQ(gather.root(), 0);
+  EXPECT_EQ(gather.members(), size_of(comm) > 2 ? size_of(comm) - 1 : size_of(comm));
+  if (!gather.member()) return;
+  int wrong = 0;
+  for (int turn = 0; turn < 3000; ++turn) {
+    const int fields = 1 + turn % InterfaceGather::max_fields;
+    std::vector<double> known;
+    for (const int dof : mine) {
+      for (int field = 0; field < fields; ++field) known.push_back(value(turn, field, dof));
+    }
+    std::vector<double> all(static_cast<std::size_t>(fields * dofs), -1.0);
+    gather.gather(fields, known, all);
+    for (int field = 0; field < fields; ++field) {
+      for (int dof = 0; dof < dofs; ++dof) {
+        wrong += all[static_cast<std::size_t>(field * dofs + dof)] != value(turn, field, dof);
+      }
+    }
+    if (turn % 7 == 0) {
+      std::vector<double> sums(turn % 2 == 0 ? 5 : 100, rank_of(comm) + 1.0);
+      gather.add(sums);
+      const int members = gather.members();
+      for (const double sum : sums) wrong += sum != members * (members + 1) / 2;
+    }
+  }
+  EXPECT_EQ(wrong, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, InterfaceGathered, testing::Values(true, false),
+                         [](const auto& info) { return info.param ? "memory" : "messages"; });
+
+}  // namespace
+}  // namespace pounding
