@@ -59,6 +59,12 @@ Json describe_structure(const Scene& scene, const Model& model, std::size_t s) {
                                  {"coupled_dofs", scaling.dofs},
                                  {"largest_factor", scaling.largest_factor}};
   }
+  for (const Sliver& sliver : model.systems[s].slivers) {
+    structure["slivers"].push_back({{"element", sliver.element},
+                                    {"time_step", sliver.time_step},
+                                    {"median_of_group", sliver.median},
+                                    {"number_in_group", sliver.count}});
+  }
   structure["frequencies"] = Json::array();
   for (const Mode& mode : model.modal[s].modes) {
     double effective_mass = 0;

@@ -383,7 +383,8 @@ class MeshBuilder {
       }
     }
     mesh_.free_components = mesh_.components;
-    for (const std::string& name : structure_.clamp) {
+    for (const Clamp& clamp : structure_.clamps) {
+      const std::string& name = clamp.group;
       const auto found = mesh_.groups.find(name);
       const std::string option = "-" + structure_.name + "_clamp";
       if (found == mesh_.groups.end()) {
@@ -394,7 +395,8 @@ class MeshBuilder {
                         name + "'");
       }
       for (const GlobalIndex node : found->second.nodes) {
-        mesh_.free_components[static_cast<std::size_t>(node)] = 0;
+        mesh_.free_components[static_cast<std::size_t>(node)] &=
+            static_cast<std::uint8_t>(~clamp.components);
       }
     }
   }

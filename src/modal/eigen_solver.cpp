@@ -141,6 +141,17 @@ LargestEigenpair largest_eigenpair(const LinearSystem& system, const Mesh& mesh,
   PetscInt found = 0;
   POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
   if (found < 1) {
+    // Many equal elements crowd the frequencies at the upper end: a larger space tells them apart.
+    constexpr GlobalIndex large_space = 200;
+    constexpr PetscInt iterations = 1000;
+    POUNDING_PETSC(EPSSetDimensions(
+        solver.get(), 1, static_cast<PetscInt>(std::min(large_space, system.global_dofs)),
+        PETSC_DEFAULT));
+    POUNDING_PETSC(EPSSetTolerances(solver.get(), 1e-10, iterations));
+    POUNDING_PETSC(EPSSolve(solver.get()));
+    POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
+  }
+  if (found < 1) {
     throw std::runtime_error("structure " + system.name + ": " + what + " did not converge");
   }
   LargestEigenpair pair;

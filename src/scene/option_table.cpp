@@ -58,7 +58,7 @@ constexpr std::array table{
 
     OptionRow{Block::structure, "<structure>_mesh", Kind::text, "file", required, any, "a .geo or .msh file", "geometry to mesh (.geo) or mesh"},
     OptionRow{Block::structure, "<structure>_mesh_set", Kind::text, "pairs", value("none"), any, "name=value,name=value or none", "parameters of the .geo file"},
-    OptionRow{Block::structure, "<structure>_clamp", Kind::names, "names", value("none"), any, "", "physical groups fixed to the ground"},
+    OptionRow{Block::structure, "<structure>_clamp", Kind::names, "names", value("none"), any, "", "physical groups fixed to the ground, in some components only as group:y+rx+rz"},
     OptionRow{Block::structure, "<structure>_matrices", Kind::text, "folder", value("none"), any, "a folder with dofs.csv, stiffness.mtx, mass.mtx, or none", "its matrices, in place of its elements' own; the mesh says where faces and probes are"},
     OptionRow{Block::structure, "<structure>_model", Kind::choice, "word", value("full"), any, "full|modal", "the finite elements themselves, or a reduction to modes and attachment vectors"},
     OptionRow{Block::structure, "<structure>_modal_vectors", Kind::integer, "-", absent("this or the cut-off"), at_least_1, "", "modal: number of modes, the lowest ones"},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -62,12 +63,18 @@ struct ModalModel {
   std::string basis_file;              ///< where the basis is kept; empty: nowhere
 };
 
+/// A physical group fixed to the ground.
+struct Clamp {
+  std::string group;
+  std::uint8_t components = 0x3f;  ///< one bit each: 0-2 translations, 3-5 rotations
+};
+
 struct Structure {
   std::string name;
   std::string matrices;  ///< folder, see system/matrix_system.h; empty: of its elements
   std::string mesh;      ///< .geo or .msh
   std::vector<std::pair<std::string, std::string>> mesh_set;  ///< parameters of a .geo
-  std::vector<std::string> clamp;  ///< physical groups fixed to the ground
+  std::vector<Clamp> clamps;
   std::vector<Region> regions;
   Rayleigh damping;
   std::optional<ModalModel> modal;        ///< nothing: the finite-element model itself

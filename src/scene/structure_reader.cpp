@@ -7,6 +7,7 @@
 #include <set>
 
 #include "common/error.h"
+#include "scene/clamp_reader.h"
 #include "scene/damping_reader.h"
 #include "scene/modal_reader.h"
 #include "scene/nearest_name.h"
@@ -237,7 +238,7 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   structure.name = name;
   structure.mesh = options.text("<structure>_mesh", {name});
   structure.mesh_set = read_mesh_set(options, name);
-  structure.clamp = options.list("<structure>_clamp", {name});
+  structure.clamps = read_clamps(options, name);
   structure.matrices = read_matrices(options, name);
   structure.mass_scaling = options.real("<structure>_mass_scaling", {name});
   structure.initial_displacement = read_vector(options, "<structure>_initial_displacement", {name});

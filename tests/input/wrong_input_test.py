@@ -56,6 +56,7 @@ class WrongInput(unittest.TestCase):
 
     def test_unknown_clamp_group(self):
         self.refuse(CASE + ["-s2_clamp", "bottom"], "bottom", "base")
+        self.refuse(CASE + ["-s2_clamp", "base:up"], "base:up", "x, y, z, rx, ry, rz")
 
     def test_wrong_element_for_a_group(self):
         self.refuse(CASE + ["-s1_column_element", "hex8", "-s1_column_section", "none"], "column")

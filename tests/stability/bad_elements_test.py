@@ -68,6 +68,15 @@ class Warnings(unittest.TestCase):
         self.assertAlmostEqual(float(found[3]) * wave / 1e-5, 1, delta=1e-3)
         self.assertAlmostEqual(float(found[4]) * wave / 0.1, 1, delta=1e-3)
 
+    def test_the_summary_keeps_it(self):
+        folder, summary = program.must_run(self, [*scenes.column(1e-5), "-end_time", 1e-7, "-modes", 0])
+        shutil.rmtree(folder)
+        (structure,) = summary["structures"].values()
+        (sliver,) = structure["slivers"]
+        self.assertIn("of group 'body' at (0.05, 0.05, 0.5)", sliver["element"])
+        self.assertEqual(sliver["number_in_group"], 1)
+        self.assertAlmostEqual(sliver["time_step"] / sliver["median_of_group"] / 1e-4, 1, delta=2e-3)
+
     def test_even_meshes_are_not_blamed(self):
         for words in (scenes.column(0.1), scenes.column(0.02), program.COARSE_PAIR,
                       ["-options_file", "petsc-options/azalee/pair.yaml"],

@@ -13,8 +13,8 @@ void describe(std::ostream& out, const Structure& structure) {
   for (const auto& [name, value] : structure.mesh_set) {
     out << name << '=' << value << ' ';
   }
-  for (const std::string& group : structure.clamp) {
-    out << group << ' ';
+  for (const Clamp& clamp : structure.clamps) {
+    out << clamp.group << ' ' << static_cast<int>(clamp.components) << ' ';
   }
   out << structure.damping.alpha << ' ' << structure.damping.beta << '\n';
   out << structure.initial_displacement[0] << ' ' << structure.initial_velocity[0] << '\n';

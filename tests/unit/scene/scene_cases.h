@@ -33,7 +33,7 @@ inline OptionsDatabase pair() {
   database["structures"] = "tower,annex";
   database.merge(OptionsDatabase{{"title", "Pair: \"2 cm\", 0.15 g"},
                                  {"tower_mesh_set", "h=0.12,slab=hex"},
-                                 {"tower_clamp", "base, core"},
+                                 {"tower_clamp", "base, core:y+rx"},
                                  {"tower_damping_alpha", "0.1562"},
                                  {"tower_damping_beta", "1.2557e-5"},
                                  {"tower_column_element", "beam"},

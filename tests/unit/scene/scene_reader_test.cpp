@@ -36,7 +36,7 @@ TEST(SceneReader, SmallestSceneHoldsTheDefaults) {
   const Structure& tower = scene.structures[0];
   EXPECT_EQ(tower.mesh, "tower.geo");
   EXPECT_TRUE(tower.mesh_set.empty());
-  EXPECT_TRUE(tower.clamp.empty());
+  EXPECT_TRUE(tower.clamps.empty());
   EXPECT_EQ(tower.damping.alpha, 0);
   EXPECT_EQ(tower.damping.beta, 0);
   EXPECT_THAT(tower.initial_displacement, ElementsAre(0, 0, 0));
@@ -50,7 +50,11 @@ TEST(SceneReader, StructuresOfThePair) {
   const Structure& tower = scene.structures[0];
   EXPECT_EQ(tower.name, "tower");
   EXPECT_THAT(tower.mesh_set, ElementsAre(Pair("h", "0.12"), Pair("slab", "hex")));
-  EXPECT_THAT(tower.clamp, ElementsAre("base", "core"));
+  ASSERT_EQ(tower.clamps.size(), 2U);
+  EXPECT_EQ(tower.clamps[0].group, "base");
+  EXPECT_EQ(tower.clamps[0].components, 0b111111);
+  EXPECT_EQ(tower.clamps[1].group, "core");
+  EXPECT_EQ(tower.clamps[1].components, 0b001010);  // rx and y
   EXPECT_EQ(tower.damping.alpha, 0.1562);
   EXPECT_EQ(tower.damping.beta, 1.2557e-5);
   ASSERT_EQ(tower.regions.size(), 3U);
