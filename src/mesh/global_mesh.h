@@ -41,7 +41,7 @@ struct GlobalMesh {
   std::vector<ElementSet> regions;      ///< in the order of the structure's regions
   std::map<std::string, NodeGroup> groups;
   /// One bit per free component of a node: 0-2 translations, 3-5 rotations. Rotations exist where
-  /// an element asks for them; clamped nodes have none.
+  /// an element asks for them; what is clamped is not free.
   std::vector<std::uint8_t> free_components;
   /// The same before clamping.
   std::vector<std::uint8_t> components;
