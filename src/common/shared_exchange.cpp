@@ -1,5 +1,6 @@
 #include "common/shared_exchange.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <fcntl.h>
@@ -68,13 +69,13 @@ void* common_memory(MPI_Comm comm, std::size_t size) {
   return memory;
 }
 
+/// The same on all ranks.
 bool on_one_node(MPI_Comm comm) {
   MPI_Comm node = MPI_COMM_NULL;
   MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, rank_of(comm), MPI_INFO_NULL, &node);
-  int alone = size_of(node) == size_of(comm) ? 1 : 0;
+  const bool all = size_of(node) == size_of(comm);
   MPI_Comm_free(&node);
-  MPI_Allreduce(MPI_IN_PLACE, &alone, 1, MPI_INT, MPI_MIN, comm);
-  return alone != 0;
+  return all;
 }
 
 void pause_shortly() {
@@ -112,6 +113,12 @@ SharedExchange::~SharedExchange() {
   if (memory_ != nullptr) {
     munmap(memory_, memory_size_);
   }
+}
+
+void SharedExchange::publish(std::span<const double> values) {
+  const Board& board = boards_[rank_];
+  std::copy(values.begin(), values.end(), board.values[++turn_ % 2]);
+  board.turn->store(turn_, std::memory_order_release);
 }
 
 const double* SharedExchange::wait_for(int rank) const {

@@ -3,17 +3,18 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <mpi.h>
 
 namespace pounding {
 
-/// Values that all ranks of a communicator show each other through common memory, turn after turn:
-/// less than a microsecond where a collective message takes several. Only for ranks of one node.
+/// Values that all ranks of a communicator show each other through common memory, turn after turn,
+/// with less delay than a collective message. Only for ranks of one node.
 ///
-///     double* mine = exchange.begin_turn();  ... write ...  exchange.publish();
-///     for each other rank: read exchange.wait_for(rank)
+///     exchange.publish(mine);
+///     for each rank: read exchange.wait_for(rank)
 ///
 /// Everybody waits for everybody in every turn: a rank's values then stay readable until all the
 /// others have published their next ones.
@@ -28,9 +29,8 @@ class SharedExchange {
 
   bool works() const { return memory_ != nullptr; }
 
-  /// Where the values of the next turn go.
-  double* begin_turn() { return boards_[rank_].values[++turn_ % 2]; }
-  void publish() { boards_[rank_].turn->store(turn_, std::memory_order_release); }
+  /// Begins a turn: `values`, at most as many as the capacity, are copied.
+  void publish(std::span<const double> values);
   /// What a rank published in this turn; waits until it has.
   const double* wait_for(int rank) const;
 

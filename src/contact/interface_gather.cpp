@@ -68,8 +68,7 @@ void InterfaceGather::gather(int fields, std::span<const double> mine, std::span
     return;
   }
   if (shared_) {
-    std::copy(mine.begin(), mine.end(), shared_->begin_turn());
-    shared_->publish();
+    shared_->publish(mine);
     std::size_t first = 0;
     for (int m = 0; m < members_; ++m) {
       const std::size_t end =
@@ -95,8 +94,7 @@ void InterfaceGather::add(std::span<double> values) {
     return;
   }
   if (shared_ && values.size() <= most_added) {
-    std::copy(values.begin(), values.end(), shared_->begin_turn());
-    shared_->publish();
+    shared_->publish(values);
     std::fill(values.begin(), values.end(), 0.0);
     for (int m = 0; m < members_; ++m) {
       const double* const theirs = shared_->wait_for(m);

@@ -144,10 +144,12 @@ LargestEigenpair largest_eigenpair(const LinearSystem& system, const Mesh& mesh,
     // Many equal elements crowd the frequencies at the upper end: a larger space tells them apart.
     constexpr GlobalIndex large_space = 200;
     constexpr PetscInt iterations = 1000;
+    PetscReal tolerance = 0;
     POUNDING_PETSC(EPSSetDimensions(
         solver.get(), 1, static_cast<PetscInt>(std::min(large_space, system.global_dofs)),
         PETSC_DEFAULT));
-    POUNDING_PETSC(EPSSetTolerances(solver.get(), 1e-10, iterations));
+    POUNDING_PETSC(EPSGetTolerances(solver.get(), &tolerance, nullptr));
+    POUNDING_PETSC(EPSSetTolerances(solver.get(), tolerance, iterations));
     POUNDING_PETSC(EPSSolve(solver.get()));
     POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
   }

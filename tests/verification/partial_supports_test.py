@@ -7,6 +7,7 @@ A slender beam on two pins: omega_k = (k pi / L)^2 (E I / (density A))^(1/2).
 """
 import math
 import os
+import shutil
 import unittest
 
 import program
@@ -92,6 +93,7 @@ class HalvesOfSymmetricDecks(unittest.TestCase):
 class RodsAndBeams(unittest.TestCase):
     def frequencies(self, name, words, ranks):
         folder, summary = program.must_run(self, ["-structures", name, "-end_time", 1e-6, *words], ranks)
+        shutil.rmtree(folder)
         return [mode["frequency"] for mode in summary["structures"][name]["frequencies"]]
 
     def test_rod_between_smooth_walls(self):
@@ -101,9 +103,9 @@ class RodsAndBeams(unittest.TestCase):
             for ranks in (1, 2, 3):
                 found = self.frequencies("rod", [
                     "-modes", 4, "-rod_mesh", "tests/meshes/box.geo", "-rod_mesh_set",
-                    f"lx={length},nx={cells},ly=0.05,lz=0.05,ny=2,nz=2", "-rod_clamp", "x_min,body:y+z", "-rod_body_element", element,
-                    "-rod_body_material", "m", "-material_m_young", young, "-material_m_poisson", poisson,
-                    "-material_m_density", density], ranks)
+                    f"lx={length},nx={cells},ly=0.05,lz=0.05,ny=2,nz=2", "-rod_clamp", "x_min,body:y+z",
+                    "-rod_body_element", element, "-rod_body_material", "m", "-material_m_young", young,
+                    "-material_m_poisson", poisson, "-material_m_density", density], ranks)
                 axial = [speed * cells / length / math.pi * math.sin((2 * k - 1) * math.pi / (4 * cells))
                          for k in range(1, 4)]
                 for value in axial:
