@@ -6,7 +6,6 @@ from pathlib import Path
 from . import paper
 
 
-
 def both(**options) -> list:
     """Options of the two structures."""
     return [word for structure in ("s1", "s2") for name, value in options.items()
@@ -118,8 +117,9 @@ def make_case(gap: int, motion: str, variant: str, window: Window, quick: bool, 
     bases = str(root / "bases" / variant.lower())
     model, files = model_words(case, quick)
     shaking, sources = record.words(case.pga) if record else synthetic_words(case, window)
-    words = [*model, *[word.format(bases=bases) for word in FIDELITIES[fidelity]], *gap_words(case), *shaking, "-end_time", repr(window.end_time),
-             "-modes", "1", "-title", f"gap {gap} cm, {motion}, {VARIANTS[variant]}", *extra]
+    words = [*model, *[word.format(bases=bases) for word in FIDELITIES[fidelity]], *gap_words(case), *shaking,
+             "-end_time", repr(window.end_time), "-modes", "1",
+             "-title", f"gap {gap} cm, {motion}, {VARIANTS[variant]}", *extra]
     return Case(gap, motion, variant, tuple(words), tuple(map(str, [*files, *sources])))
 
 
@@ -128,3 +128,11 @@ def all_cases(window: Window = FULL, quick: bool = False, fidelity: str = "full"
     """In the order in which they are run: every variant of a gap and a motion together."""
     return [make_case(gap, motion, variant, window, quick, fidelity, list(extra), (records or {}).get(motion), root)
             for gap in gaps for motion in motions for variant in variants]
+
+
+def run_for(case: Case, among: list) -> Case:
+    """The case of the list `among` whose run answers `case`. Without pounding the response grows with
+    the peak of the motion, whatever the gap: one run serves all gaps."""
+    if case.pounds:
+        return case
+    return next(one for one in among if (one.motion, one.variant) == (case.motion, case.variant))

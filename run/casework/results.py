@@ -21,9 +21,11 @@ def read_table(path: Path) -> list:
 @dataclass
 class CaseResult:
     """`spectra`: channel -> pseudo-acceleration [m/s2] at `frequency` [Hz]; `treated`: the same by
-    treatment, for S2's second floor along x; empty where nothing pounded."""
+    treatment, for S2's second floor along x; empty where nothing pounded. `run`: the case that was run,
+    whose numbers are in `summary`; another one's are multiplied by the ratio of the peaks of motion."""
 
     case: Case
+    run: Case
     summary: dict
     impacts: list
     frequency: np.ndarray
@@ -44,13 +46,16 @@ class CaseResult:
         return self.spectra["s2_floor2.x"]
 
 
-def load(case: Case, folder: Path) -> CaseResult:
+def load(case: Case, run: Case, root: Path) -> CaseResult:
+    """`run`: the case that answers `case` (cases.run_for); `root`: folder of all cases."""
+    folder, factor = root / run.name, case.pga / run.pga
     rows = [row for row in read_table(folder / "spectra.csv") if float(row["damping"]) == 0.05]
     spectra = {}
     for row in rows:
         spectra.setdefault(f"{row['probe']}.{row['direction']}", []).append(row)
     frequency = np.array([float(row["frequency"]) for row in next(iter(spectra.values()))])
-    values = {name: np.array([float(row["pseudo_acceleration"]) for row in part]) for name, part in spectra.items()}
+    values = {name: factor * np.array([float(row["pseudo_acceleration"]) for row in part])
+              for name, part in spectra.items()}
     treated, peaks = {}, []
     if harvest.needs_treatment(case, folder):
         for row in read_table(folder / harvest.TREATED):
@@ -58,10 +63,11 @@ def load(case: Case, folder: Path) -> CaseResult:
         treated = {name: np.array(part) for name, part in treated.items()}
         peaks = [{name: float(value) for name, value in row.items() if name != "channel"}
                  for row in read_table(folder / harvest.PEAKS)]
-    series = dict(np.load(folder / harvest.SERIES))
+    series = {name: values if name.endswith("time") else factor * values
+              for name, values in np.load(folder / harvest.SERIES).items()}
     summary = json.loads((folder / "summary.json").read_text())
     impacts = harvest.impacts(folder) if case.pounds else []
-    return CaseResult(case, summary, impacts, frequency, values, treated, peaks, series)
+    return CaseResult(case, run, summary, impacts, frequency, values, treated, peaks, series)
 
 
 class Campaign:

@@ -156,7 +156,7 @@ def run_all(cases: list, root: Path, jobs: int, ranks: int, keep_histories: bool
     interrupted."""
     failures = {case: "" for case in cases}
     waiting = [case for case in cases if not is_finished(case, root / case.name)]
-    say(f"campaign: {len(cases)} cases, {len(cases) - len(waiting)} finished before, {jobs} at a time on "
+    say(f"campaign: {len(cases)} runs, {len(cases) - len(waiting)} finished before, {jobs} at a time on "
         f"{ranks} rank{'s' if ranks > 1 else ''} each; results in {root}")
     variables, running, clock = environment(), [], Clock(jobs)
     done, total = 0, len(waiting)

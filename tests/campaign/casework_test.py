@@ -55,6 +55,14 @@ class Cases(unittest.TestCase):
                 np.testing.assert_allclose(*[[float(v) for v in pair.split(",")] for pair in (asked, stated)])
             self.assertIn(f"pga: {case.pga:.10g},", text)
 
+    def test_without_pounding_one_run_serves_all_gaps(self):
+        every = cases.all_cases()
+        runs = {case: cases.run_for(case, every) for case in every}
+        self.assertEqual(len(set(runs.values())), 40)
+        for case, run in runs.items():
+            self.assertEqual((run.motion, run.variant), (case.motion, case.variant))
+            self.assertTrue(case == run or not case.pounds)
+
     def test_extra_options_come_last_and_win(self):
         case = cases.make_case(2, "Kobe", "A", cases.QUICK, True, "full", ["-courant", "0.5"])
         self.assertEqual(case.words[-2:], ("-courant", "0.5"))
@@ -118,7 +126,7 @@ def result(gap, variant, level=50.0, floor1=0, floor2=10, mode=1.0, wall_time=60
     treated = {"complete": roof, "all_peaks": 1.05 * roof, "highest_peak": 0.95 * roof,
                "without_peaks": 0.1 * roof, "dirac": 0.95 * roof * np.maximum(1, FREQUENCY / 200)}
     summary = {"wall_time": wall_time, "end_time": 25.0}
-    return CaseResult(case, summary, hits, FREQUENCY, {"s2_floor2.x": roof, "s1_floor1.x": 3 * bump},
+    return CaseResult(case, case, summary, hits, FREQUENCY, {"s2_floor2.x": roof, "s1_floor1.x": 3 * bump},
                       treated if case.pounds else {}, [], {})
 
 
