@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include <petscksp.h>
 #include <petscmat.h>
 #include <petscvec.h>
 #include <slepceps.h>
@@ -40,6 +41,7 @@ class PetscHandle {
 
 using VecHandle = PetscHandle<Vec, VecDestroy>;
 using MatHandle = PetscHandle<Mat, MatDestroy>;
+using KspHandle = PetscHandle<KSP, KSPDestroy>;
 using EpsHandle = PetscHandle<EPS, EPSDestroy>;
 
 /// Read access to the owned entries of a vector for as long as this object lives.

@@ -45,7 +45,6 @@ ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
   dof_impulse_.assign(dofs, 0.0);
   dof_increment_.assign(dofs, 0.0);
   smallest_gap_ = rows > 0 ? *std::min_element(gap_.begin(), gap_.end()) : 0;
-  rate_norm_.assign(systems.size(), 0.0);
   build_delassus();
   find_components();
 }
@@ -79,44 +78,24 @@ std::vector<int> ContactProblem::known_dofs() const {
 void ContactProblem::build_delassus() {
   for (int row = 0; row < operator_.rows(); ++row) {
     diagonal_.push_back(delassus_entry(row, row));
-    std::vector<double> norm(rate_norm_.size(), 0.0);
-    const auto columns = operator_.row_dofs(row);
-    const auto values = operator_.row_coefficients(row);
-    for (std::size_t a = 0; a < columns.size(); ++a) {
-      const auto dof = static_cast<std::size_t>(columns[a]);
-      const auto structure = static_cast<std::size_t>(operator_.dof_list()[dof].structure);
-      for (std::size_t b = 0; b < columns.size(); ++b) {
-        norm[structure] +=
-            values[a] * values[b] * compliance_.entry(dof, static_cast<std::size_t>(columns[b]));
-      }
-    }
-    for (std::size_t s = 0; s < norm.size(); ++s) {
-      rate_norm_[s] = std::max(rate_norm_[s], std::sqrt(std::max(norm[s], 0.0)));
-    }
   }
 }
 
-std::vector<double> ContactProblem::coordinate_rows(std::size_t structure) const {
+std::vector<double> ContactProblem::row_force(int row, std::size_t structure,
+                                              LocalIndex owned_dofs) const {
+  std::vector<double> force(static_cast<std::size_t>(owned_dofs), 0.0);
   const Trace& trace = traces_[structure];
-  const std::size_t width = trace.dofs().size();
-  std::vector<int> known_place(static_cast<std::size_t>(operator_.dofs()), -1);
+  const auto dofs = operator_.row_dofs(row);
+  const auto coefficients = operator_.row_coefficients(row);
   for (std::size_t k = 0; k < trace.known().size(); ++k) {
     const auto place = static_cast<std::size_t>(trace.known()[k]);
-    known_place[static_cast<std::size_t>(structure_dofs_[structure][place])] = static_cast<int>(k);
-  }
-  std::vector<double> result(static_cast<std::size_t>(operator_.rows()) * width, 0.0);
-  for (int row = 0; row < operator_.rows(); ++row) {
-    const auto dofs = operator_.row_dofs(row);
-    const auto coefficients = operator_.row_coefficients(row);
     for (std::size_t a = 0; a < dofs.size(); ++a) {
-      const int k = known_place[static_cast<std::size_t>(dofs[a])];
-      for (std::size_t i = 0; k >= 0 && i < width; ++i) {
-        result[static_cast<std::size_t>(row) * width + i] +=
-            coefficients[a] * trace.row(static_cast<std::size_t>(k))[i];
+      if (dofs[a] == structure_dofs_[structure][place]) {
+        trace.add_force(k, coefficients[a], force);
       }
     }
   }
-  return result;
+  return force;
 }
 
 double ContactProblem::delassus_entry(int row, int column) const {

@@ -65,12 +65,9 @@ class ContactProblem {
   /// Contact work 1/2 lambda^T L v- of the last solve [J].
   double total_work() const;
   double largest_residual() const { return largest_residual_; }
-  /// Largest sqrt(L M^-1 L^T) over the rows with only one structure's columns: bounds the gap rate
-  /// by that structure's kinetic energy [kg^-1/2].
-  double rate_norm(int structure) const { return rate_norm_[static_cast<std::size_t>(structure)]; }
   double gap_tolerance() const { return gap_tolerance_; }
-  /// Of a structure in generalised coordinates: its part of L T, shape (rows, owned coordinates).
-  std::vector<double> coordinate_rows(std::size_t structure) const;
+  /// A structure's part of (row of L T)^T over the dofs that this rank owns.
+  std::vector<double> row_force(int row, std::size_t structure, LocalIndex owned_dofs) const;
   /// Adds the values of all members up. Members only, collective over them.
   void add_over_members(std::span<double> values) { gather_.add(values); }
 
@@ -107,7 +104,6 @@ class ContactProblem {
   std::vector<double> diagonal_;  ///< H_ii
   std::vector<Component> components_;
   int coupled_rows_ = 0;
-  std::vector<double> rate_norm_;
   std::vector<double> mine_;           ///< shape (known, 1 or 2)
   std::vector<double> displacement_;   ///< per interface dof
   std::vector<double> velocities_;     ///< shape (2, dofs): before, free

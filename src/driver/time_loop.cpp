@@ -10,6 +10,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "driver/checkpoint_schedule.h"
+#include "driver/gap_bounds.h"
 #include "driver/stop_signal.h"
 #include "driver/watchdog.h"
 
@@ -41,9 +42,10 @@ std::unique_ptr<ContactProblem> make_contact(MPI_Comm comm, const Scene& scene,
                                           scene.gap_tolerance * model.interface.model_size);
 }
 
-GapWatch make_watch(const Model& model, const ContactProblem* contact) {
-  return {model.systems, GapWatch::bounds_of(model.systems, model.energy_margin, contact),
-          model.motion->peak_acceleration(), model.time_step};
+GapWatch make_watch(MPI_Comm comm, const Model& model, const ContactProblem* contact,
+                    Profile& profile) {
+  const ScopedTimer timer(profile, Phase::assembly);
+  return {model.systems, gap_bounds(comm, model, contact), model.motion->peaks(), model.time_step};
 }
 
 }  // namespace
@@ -59,9 +61,9 @@ TimeLoop::TimeLoop(MPI_Comm comm, const Scene& scene, const Model& model, Profil
       smallest_gaps_(scene.contacts.size(), 0.0),
       energies_(model.systems.size()),
       ledger_(model.steps / scene.energy_interval + 2) {
-  stepper_ =
-      std::make_unique<CdLagrange>(comm, model.systems, *model.motion, contact_.get(),
-                                   make_watch(model, contact_.get()), model.time_step, profile);
+  stepper_ = std::make_unique<CdLagrange>(comm, model.systems, *model.motion, contact_.get(),
+                                          make_watch(comm, model, contact_.get(), profile),
+                                          model.time_step, profile);
 }
 
 double TimeLoop::measure(int steps) {

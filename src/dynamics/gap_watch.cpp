@@ -6,41 +6,26 @@
 
 namespace pounding {
 
-std::vector<GapWatch::Bound> GapWatch::bounds_of(std::span<const LinearSystem> systems,
-                                                 std::span<const double> margins,
-                                                 const ContactProblem* contact) {
-  std::vector<Bound> bounds;
-  for (std::size_t s = 0; s < systems.size(); ++s) {
-    Bound& bound = bounds.emplace_back();
-    bound.energy_margin = margins[s];
-    if (contact != nullptr) {
-      bound.rate_norm = contact->rate_norm(static_cast<int>(s));
-      if (systems[s].generalised) {
-        bound.coordinate_rows = contact->coordinate_rows(s);
-      }
-    }
-  }
-  return bounds;
-}
-
 GapWatch::GapWatch(std::span<const LinearSystem> systems, std::vector<Bound> bounds,
-                   double peak_acceleration, double time_step)
+                   const Vector3& peaks, double time_step)
     : time_step_(time_step),
       coordinates_(systems.size()),
       measured_(2 * systems.size(), 0.0),
       root_energy_(systems.size(), 0.0) {
   for (std::size_t s = 0; s < systems.size(); ++s) {
     const Vector3& g = systems[s].gravity;
-    const double acceleration = peak_acceleration + std::hypot(g[0], g[1], g[2]);
-    const double margin = bounds[s].energy_margin;
+    rate_norm_.push_back(bounds[s].rate_norm);
+    double growth = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+      growth += time_step * (peaks[d] + std::abs(g[d])) * bounds[s].force_norm[d];
+    }
+    growth_.push_back(growth);
     // Tension-only bars hold energy that the bound does not know of.
-    possible_ = possible_ && !systems[s].tension_bars && margin > 0;
-    const double root = std::sqrt(std::max(margin, 1e-300));
-    rate_per_root_energy_.push_back(bounds[s].rate_norm / root);
-    growth_.push_back(std::sqrt(systems[s].total_mass) * acceleration * time_step / root);
-    if (systems[s].generalised && !systems[s].has_devices()) {
+    possible_ = possible_ && !systems[s].tension_bars && std::isfinite(bounds[s].rate_norm);
+    if (goes_by_coordinates(systems[s])) {
       coordinates_[s] = std::make_unique<CoordinateRates>(
-          systems[s], std::move(bounds[s].coordinate_rows), acceleration, time_step);
+          systems[s], std::move(bounds[s].coordinate_rows),
+          std::hypot(peaks[0], peaks[1], peaks[2]) + std::hypot(g[0], g[1], g[2]), time_step);
       measures_ = true;
     } else {
       needs_energy_ = true;
@@ -89,7 +74,7 @@ double GapWatch::rate_bound(std::int64_t look, std::int64_t step) const {
     } else {
       const double root =
           root_energy_[s] + growth_[s] * static_cast<double>(step + 2 - energy_step_);
-      rate += rate_per_root_energy_[s] * root;
+      rate += rate_norm_[s] * root;
     }
   }
   return rate;

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "common/saved_state.h"
-#include "contact/contact_problem.h"
 #include "dynamics/coordinate_rates.h"
 #include "dynamics/energy_balance.h"
 #include "system/linear_system.h"
@@ -15,29 +15,31 @@ namespace pounding {
 
 /// When the interface has to be looked at again: no message is sent while no gap can close.
 ///
-/// The discrete energy bounds every velocity, |v|_M <= sqrt(2 E / eta), eta the energy margin of
-/// the time step, so |L v| <= sqrt(L M^-1 L^T) sqrt(2 E / eta) for each structure's part of a row.
-/// Without contact the energy grows by the ground motion only: sqrt(2 E) rises at most by
-/// |iota|_M |a_g| / sqrt(eta) per unit of time. Structures in generalised coordinates are bounded
-/// coordinate by coordinate, far more closely. Bounds, not estimates: a contact is never missed.
+/// The discrete energy bounds every velocity, v^T A v <= 2 E with A = M - dt/2 C - dt^2/4 K, so
+/// |L v| <= sqrt(L A^-1 L^T) sqrt(2 E) for each structure's part of a row. Without contact the
+/// energy grows by the ground motion only: sqrt(2 E) rises at most by |M iota a_g| in the norm of
+/// A^-1 per unit of time. Structures in generalised coordinates are bounded coordinate by
+/// coordinate, far more closely. Bounds, not estimates: a contact is never missed.
 class GapWatch {
  public:
   /// What bounds the velocities of one structure.
   struct Bound {
-    double energy_margin = 0;  ///< of the time step [-]
-    double rate_norm = 0;      ///< largest sqrt(L M^-1 L^T) [kg^-1/2]
-    /// In generalised coordinates: L T, see CoordinateRates.
+    /// At least the largest sqrt(L A^-1 L^T) [kg^-1/2]; infinite where A is not positive definite.
+    double rate_norm = 0;
+    /// At least |M iota| of each direction in the norm of A^-1 [kg^1/2].
+    std::array<double, 3> force_norm{};
+    /// L T in place of these two where the structure goes by coordinates, see CoordinateRates.
     std::vector<double> coordinate_rows;
   };
 
-  /// Bounds of all structures from their energy margins and the interface; `contact` may be null.
-  static std::vector<Bound> bounds_of(std::span<const LinearSystem> systems,
-                                      std::span<const double> margins,
-                                      const ContactProblem* contact);
+  /// Whether a structure is bounded coordinate by coordinate.
+  static bool goes_by_coordinates(const LinearSystem& system) {
+    return system.generalised && !system.has_devices();
+  }
 
-  /// `peak_acceleration`: largest norm of the ground acceleration [m/s2]. Collective.
-  GapWatch(std::span<const LinearSystem> systems, std::vector<Bound> bounds,
-           double peak_acceleration, double time_step);
+  /// `peaks`: largest ground acceleration in each direction [m/s2]. Collective.
+  GapWatch(std::span<const LinearSystem> systems, std::vector<Bound> bounds, const Vector3& peaks,
+           double time_step);
 
   /// Energies per structure after step `step` [J].
   void energies_known(std::int64_t step, std::span<const StructureEnergy> energies);
@@ -61,10 +63,10 @@ class GapWatch {
 
   double time_step_;
   std::vector<std::unique_ptr<CoordinateRates>> coordinates_;  ///< per structure; null: by energy
-  std::vector<double> measured_;              ///< per structure, rate [m/s] and growth per step
-  std::vector<double> rate_per_root_energy_;  ///< per structure: rate norm / sqrt(eta)
-  std::vector<double> growth_;                ///< of sqrt(2 E) per step
-  std::vector<double> root_energy_;           ///< sqrt(2 E) at energy_step_
+  std::vector<double> measured_;     ///< per structure, rate [m/s] and growth per step
+  std::vector<double> rate_norm_;    ///< per structure
+  std::vector<double> growth_;       ///< of sqrt(2 E) per step
+  std::vector<double> root_energy_;  ///< sqrt(2 E) at energy_step_
   std::int64_t energy_step_ = -1;
   std::int64_t last_touch_ = -1;
   std::int64_t next_look_ = 0;

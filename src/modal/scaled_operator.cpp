@@ -87,6 +87,12 @@ void ScaledOperator::to_motion(std::vector<double>& y) const {
   solve_coupled(vector.get(), Half::transposed);
 }
 
+void ScaledOperator::from_force(std::vector<double>& f) const {
+  const VecHandle vector = wrap_vector(system_, f);
+  POUNDING_PETSC(VecPointwiseMult(vector.get(), diagonal_.get(), vector.get()));
+  solve_coupled(vector.get(), Half::plain);
+}
+
 double ScaledOperator::quotient(std::vector<double>& y) const {
   const VecHandle vector = wrap_vector(system_, y);
   VecHandle product;

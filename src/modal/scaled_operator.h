@@ -26,6 +26,8 @@ class ScaledOperator {
   void apply(Vec x, Vec y) const;
   /// G^-T y of a vector over the owned dofs: the motion that y stands for.
   void to_motion(std::vector<double>& y) const;
+  /// G^-1 f of a force over the owned dofs.
+  void from_force(std::vector<double>& f) const;
   /// y^T A y of a vector over the owned dofs. Collective.
   double quotient(std::vector<double>& y) const;
 

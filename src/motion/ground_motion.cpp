@@ -54,8 +54,13 @@ GroundMotion::GroundMotion(const std::array<std::optional<MotionComponent>, 3>& 
   }
 }
 
+Vector3 GroundMotion::peaks() const {
+  return {components_[0].peak(), components_[1].peak(), components_[2].peak()};
+}
+
 double GroundMotion::peak_acceleration() const {
-  return std::hypot(components_[0].peak(), components_[1].peak(), components_[2].peak());
+  const Vector3 peak = peaks();
+  return std::hypot(peak[0], peak[1], peak[2]);
 }
 
 double GroundMotion::end_time() const {

@@ -48,6 +48,8 @@ class GroundMotion {
     return components_[static_cast<std::size_t>(direction)];
   }
 
+  /// Largest |acceleration| of each component [m/s2].
+  Vector3 peaks() const;
   /// Bound of |a_g| at all times: the norm of the components' peaks, which may coincide [m/s2].
   double peak_acceleration() const;
   double end_time() const;  ///< last sample of the longest component [s]; 0 without any

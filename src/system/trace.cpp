@@ -117,6 +117,18 @@ void Trace::apply(const double* owned, double* out, std::size_t stride) const {
   multiply_rows(rows_.data(), known_.size(), dofs_.size(), owned, out, stride);
 }
 
+void Trace::add_force(std::size_t k, double f, std::span<double> owned) const {
+  if (!dense_) {
+    if (own_dof_[k] >= 0) {
+      owned[static_cast<std::size_t>(dofs_[static_cast<std::size_t>(own_dof_[k])])] += f;
+    }
+    return;
+  }
+  for (std::size_t i = 0; i < dofs_.size(); ++i) {
+    owned[static_cast<std::size_t>(dofs_[i])] += f * rows_[k * dofs_.size() + i];
+  }
+}
+
 void Trace::add_impulse(const double* f, double* x) {
   std::fill(force_.begin(), force_.end(), 0.0);
   for (std::size_t k = 0; k < known_.size(); ++k) {

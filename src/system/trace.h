@@ -40,6 +40,8 @@ class Trace {
   std::span<const double> row(std::size_t k) const {
     return {rows_.data() + k * dofs_.size(), dofs_.size()};
   }
+  /// owned += f (row k of T)^T, over all owned dofs.
+  void add_force(std::size_t k, double f, std::span<double> owned) const;
   /// The part of (T M^-1 T^T) of two known places [1/kg].
   double compliance(std::size_t a, std::size_t b);
   /// An impulse at one place may move others, on some rank.

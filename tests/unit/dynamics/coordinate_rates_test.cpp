@@ -102,7 +102,7 @@ TEST(CoordinateRates, LetTheWatchWaitWithoutEnergies) {
   std::vector<LinearSystem> systems;
   systems.push_back(four_coordinates());
   CoordinateRates rates(systems[0], rows, peak, time_step);
-  GapWatch watch(systems, {{0.1, 1e3, rows}}, peak, time_step);
+  GapWatch watch(systems, {{1e3, {}, rows}}, {peak, 0, 0}, time_step);
   Motion motion(systems[0]);
   motion.step(peak);
   ASSERT_TRUE(watch.measures());

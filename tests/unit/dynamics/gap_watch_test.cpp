@@ -1,6 +1,8 @@
 #include "dynamics/gap_watch.h"
 
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -8,19 +10,9 @@ namespace pounding {
 namespace {
 
 constexpr double time_step = 1e-3;
-constexpr double margin = 0.5;
 constexpr double energy = 8;      // J
 constexpr double rate_norm = 3;   // kg^-1/2
 constexpr double clearance = 10;  // m
-
-/// Damping in a system that is only asked whether it has some.
-class NoForce final : public Stiffness {
- public:
-  void start(const StiffnessArgument&) const override {}
-  void finish(const StiffnessArgument&, ForceReceiver&) const override {}
-  void apply(Vec, Vec) const override {}
-  Mat matrix() const override { return nullptr; }
-};
 
 std::vector<LinearSystem> one_system() {
   std::vector<LinearSystem> systems(1);
@@ -29,9 +21,10 @@ std::vector<LinearSystem> one_system() {
 }
 
 /// The step of the next look after one at step 1, nothing touching.
-std::int64_t next_look(std::span<const LinearSystem> systems, double energy_margin) {
+std::int64_t next_look(double norm, const std::array<double, 3>& force_norm = {},
+                       const Vector3& peaks = {}) {
   const std::vector<StructureEnergy> energies{{energy, 0, energy}};
-  GapWatch watch(systems, {{energy_margin, rate_norm, {}}}, 0, time_step);
+  GapWatch watch(one_system(), {{norm, force_norm, {}}}, peaks, time_step);
   watch.energies_known(0, energies);
   watch.looked(1, clearance, false);
   std::int64_t step = 2;
@@ -41,24 +34,31 @@ std::int64_t next_look(std::span<const LinearSystem> systems, double energy_marg
   return step;
 }
 
-/// No gap closes faster than rate_norm sqrt(2 E / margin).
+/// No gap closes faster than rate_norm sqrt(2 E).
 TEST(GapWatch, LooksBeforeTheEnergyCanCloseTheGap) {
-  const double fastest = rate_norm * std::sqrt(2 * energy / margin);
+  const double fastest = rate_norm * std::sqrt(2 * energy);
   const double steps = clearance / (fastest * time_step);
-  const auto found = static_cast<double>(next_look(one_system(), margin) - 1);
+  const auto found = static_cast<double>(next_look(rate_norm) - 1);
   EXPECT_LE(found, steps);
   EXPECT_GT(found, steps / 4);
 }
 
-TEST(GapWatch, TakesTheMarginOfExtraDamping) {
-  auto systems = one_system();
-  systems[0].extra_damping = std::make_unique<NoForce>();
-  EXPECT_EQ(next_look(systems, margin), next_look(one_system(), margin));
-  EXPECT_LT(next_look(systems, margin / 100), next_look(systems, margin));
+/// The ground adds (|a_x| |M iota_x| + ...) t to sqrt(2 E).
+TEST(GapWatch, LooksBeforeTheGroundCanCloseTheGap) {
+  const Vector3 peaks{3, 0, 2};
+  const std::array<double, 3> force_norm{2, 50, 4};
+  const auto moved = [&](double steps) {
+    const double root = std::sqrt(2 * energy) + 14 * time_step * (steps + 2);
+    return rate_norm * root * steps * time_step;
+  };
+  const auto found = static_cast<double>(next_look(rate_norm, force_norm, peaks) - 1);
+  EXPECT_LT(moved(found), clearance);
+  EXPECT_GT(moved(4 * found), clearance);
+  EXPECT_LT(found, static_cast<double>(next_look(rate_norm) - 1));
 }
 
 TEST(GapWatch, LooksAtEveryStepWhereTheEnergyIsNoBound) {
-  EXPECT_EQ(next_look(one_system(), -1e-3), 2);
+  EXPECT_EQ(next_look(std::numeric_limits<double>::infinity()), 2);
 }
 
 }  // namespace

@@ -1,0 +1,65 @@
+#include "driver/gap_bounds.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
+#include "modal/energy_norm.h"
+
+namespace pounding {
+namespace {
+
+/// Products times dofs per structure: seconds.
+constexpr double work = 5e8;
+
+/// L T over the owned coordinates, all rows.
+std::vector<double> coordinate_rows(const ContactProblem& contact, std::size_t structure,
+                                    const LinearSystem& system) {
+  std::vector<double> rows;
+  for (int row = 0; row < contact.rows(); ++row) {
+    const std::vector<double> one = contact.row_force(row, structure, system.owned_dofs());
+    rows.insert(rows.end(), one.begin(), one.end());
+  }
+  return rows;
+}
+
+GapWatch::Bound energy_bound(const ContactProblem& contact, std::size_t structure,
+                             const LinearSystem& system, double time_step, double margin) {
+  GapWatch::Bound bound;
+  EnergyNorm norm(system, time_step, margin, work);
+  for (std::size_t d = 0; d < 3; ++d) {
+    std::vector<double> force = system.influence(static_cast<int>(d));
+    std::transform(force.begin(), force.end(), system.lumped_mass.begin(), force.begin(),
+                   std::multiplies<>());
+    bound.force_norm[d] = norm.bound(std::move(force));
+  }
+  for (int row = 0; row < contact.rows(); ++row) {
+    bound.rate_norm = std::max(bound.rate_norm,
+                               norm.bound(contact.row_force(row, structure, system.owned_dofs())));
+  }
+  return bound;
+}
+
+}  // namespace
+
+std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, const Model& model,
+                                        const ContactProblem* contact) {
+  std::vector<GapWatch::Bound> bounds(model.systems.size());
+  for (std::size_t s = 0; contact != nullptr && s < bounds.size(); ++s) {
+    const LinearSystem& system = model.systems[s];
+    if (GapWatch::goes_by_coordinates(system)) {
+      bounds[s].coordinate_rows = coordinate_rows(*contact, s, system);
+      continue;
+    }
+    GapWatch::Bound& bound = bounds[s];
+    bound = energy_bound(*contact, s, system, model.time_step, model.energy_margin[s]);
+    std::array<double, 4> values{bound.rate_norm, bound.force_norm[0], bound.force_norm[1],
+                                 bound.force_norm[2]};
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), 4, MPI_DOUBLE, MPI_MAX, comm);
+    bound.rate_norm = values[0];
+    std::copy(values.begin() + 1, values.end(), bound.force_norm.begin());
+  }
+  return bounds;
+}
+
+}  // namespace pounding

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <vector>
+
+#include "modal/stability_limit.h"
+#include "support/built_system.h"
+#include "support/dense_damping.h"
+#include "system/mass_scaling.h"
+
+/// A small structure whose stiff elements have their mass scaled, and its dense mass.
+namespace pounding::testing {
+
+/// Bricks on springs with dashpots, and a chain of stiff bars along the lower edges of the body,
+/// all of whose springs and bars have their mass scaled.
+inline DampedStructure scaled_structure(unsigned seed) {
+  DampedStructure damped = random_structure(seed);
+  Region& ties = add_region(damped, "ties", ElementType::bar, {0, 1, 1, 2, 2, 3, 3, 7});
+  ties.material = {"steel", 2e11, 0.3, 100};
+  ties.area = 0.01;
+  const BuiltSystem plain = build_system(damped.mesh, damped.structure);
+  damped.structure.mass_scaling = 2 * stability_limit(plain.system, plain.mesh);
+  return damped;
+}
+
+/// M + S over all dofs.
+inline std::vector<double> dense_mass(const DampedStructure& damped, const DenseSystem& dense) {
+  const std::size_t n = dense.mass.size();
+  std::vector<double> mass(n * n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    mass[i * n + i] = dense.mass[i];
+  }
+  for (const ElementSet& set : damped.mesh.regions) {
+    const Region& region = damped.structure.regions[static_cast<std::size_t>(set.region)];
+    const auto nodes = static_cast<std::size_t>(element_layout(set.type).nodes);
+    const std::size_t size = 3 * nodes;
+    for (std::size_t e = 0; may_be_scaled(set.type) && e < set.tags.size(); ++e) {
+      std::vector<double> x, k(size * size), m(size), d(size * size), added(size * size);
+      std::vector<std::size_t> dofs;
+      for (std::size_t a = 0; a < nodes; ++a) {
+        const GlobalIndex node = set.connectivity[e * nodes + a];
+        const Vector3 position = damped.mesh.position(node);
+        x.insert(x.end(), position.begin(), position.end());
+        for (int c = 0; c < 3; ++c) {
+          const auto found = dense.dof.find({node, c});
+          dofs.push_back(found == dense.dof.end() ? n : found->second);
+        }
+      }
+      element_matrices(set.type, x, element_properties(region), k, m);
+      element_dashpots(set.type, element_properties(region), d);
+      add_element_mass(damped.structure.mass_scaling, damped.structure.damping_of(region), k, m, d,
+                       added);
+      for (std::size_t i = 0; i < size; ++i) {
+        for (std::size_t j = 0; j < size; ++j) {
+          if (dofs[i] < n && dofs[j] < n) mass[dofs[i] * n + dofs[j]] += added[i * size + j];
+        }
+      }
+    }
+  }
+  return mass;
+}
+
+}  // namespace pounding::testing
