@@ -14,7 +14,7 @@ def both(**options) -> list:
 
 # Fidelity: options in front of those of the case; {bases} is where bases are kept, one pair per variant.
 FIDELITIES = {
-    "full": [],
+    "full": ["-courant", "0.99", "-gap_interval", "1e-3"],
     "scaled": [*both(mass_scaling="2.2e-5"), "-courant", "0.99", "-gap_interval", "1e-3"],
     "modal": [*both(model="modal", modal_vectors="400", mass_scaling="5.5e-5"),
               "-courant", "0.99", "-gap_interval", "1e-3",

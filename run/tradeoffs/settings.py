@@ -66,7 +66,7 @@ SAVINGS = [
             (*both("mass_scaling", 2.2e-5), ("courant", 0.99), RARE)),
     Setting("mass-2.2e-5-coarse", "the same on the 24 cm mesh", (*both("mass_scaling", 2.2e-5), *COARSE)),
     *[Setting(f"modal-{n}", f"{n} modes and attachment vectors, gaps every 0.01 s", modal(n, RARE))
-      for n in (40, 100, 200, 400, 800)],
+      for n in (40, 100, 200, 400, 800, 1000)],
     *[Setting(f"modal-{n}-of-400", f"{n} modes chosen of 400, likewise", modal(n, RARE, candidates=400))
       for n in (60, 80, 100, 150)],
     *[Setting(f"modal-{n}-of-400-fast", f"the same with {n}, mass scaled for 5.5e-5 s, 0.99 of the stable step",
