@@ -1,5 +1,7 @@
 """The study: every setting on every case, rows of figures, and what they recommend."""
 
+from statistics import median
+
 from .metrics import class_of, compare
 from .runs import Case, Outcome, run
 from .settings import NOISE, REFERENCE, Setting
@@ -69,7 +71,7 @@ def study(list_of_cases: list, settings: list, ranks: int, folder, log) -> list:
 
 
 def summarised(rows: list) -> list:
-    """One row per setting: costs averaged over the cases, errors the worst of them."""
+    """One row per setting: costs averaged over the cases, errors the worst of them, and the median rms."""
     result = []
     for name in dict.fromkeys(row["setting"] for row in rows):
         mine = [row for row in rows if row["setting"] == name]
@@ -79,6 +81,7 @@ def summarised(rows: list) -> list:
                  for key in ("rms", "max", "rms 1-10", "rms 10-50", "rms 50-150", "rms 150-400",
                              "impulse_error", "drift_error", "energy_residual")}
         result.append({"setting": name, "noise": mine[0]["noise"], "cases": len(mine), **mean, **worst,
+                       "median rms": median(row["rms"] for row in mine),
                        "class": class_of(worst["rms"], worst["max"])})
     return result
 
