@@ -90,6 +90,27 @@ struct DenseSystem {
   std::vector<double> damping;    ///< shape (n, n)
 };
 
+struct DenseElement {
+  std::vector<double> x;          ///< positions of its nodes, one after the other [m]
+  std::vector<std::size_t> dofs;  ///< of its displacements; the number of dofs where clamped
+};
+
+inline DenseElement dense_element(const GlobalMesh& mesh, const ElementSet& set, std::size_t e,
+                                  const DenseSystem& dense) {
+  const auto nodes = static_cast<std::size_t>(element_layout(set.type).nodes);
+  DenseElement element;
+  for (std::size_t a = 0; a < nodes; ++a) {
+    const GlobalIndex node = set.connectivity[e * nodes + a];
+    const Vector3 position = mesh.position(node);
+    element.x.insert(element.x.end(), position.begin(), position.end());
+    for (int c = 0; c < 3; ++c) {
+      const auto found = dense.dof.find({node, c});
+      element.dofs.push_back(found == dense.dof.end() ? dense.dof.size() : found->second);
+    }
+  }
+  return element;
+}
+
 /// For elements with displacements only.
 inline DenseSystem dense_system(const DampedStructure& damped) {
   const GlobalMesh& mesh = damped.mesh;
@@ -108,20 +129,10 @@ inline DenseSystem dense_system(const DampedStructure& damped) {
   for (const ElementSet& set : mesh.regions) {
     const Region& region = damped.structure.regions[static_cast<std::size_t>(set.region)];
     const Rayleigh rayleigh = region.damping ? *region.damping : damped.structure.damping;
-    const auto nodes = static_cast<std::size_t>(element_layout(set.type).nodes);
-    const std::size_t size = 3 * nodes;
+    const std::size_t size = 3 * static_cast<std::size_t>(element_layout(set.type).nodes);
     for (std::size_t e = 0; e < set.tags.size(); ++e) {
-      std::vector<double> x, k(size * size), m(size), d(size * size);
-      std::vector<std::size_t> dofs;
-      for (std::size_t a = 0; a < nodes; ++a) {
-        const GlobalIndex node = set.connectivity[e * nodes + a];
-        const Vector3 position = mesh.position(node);
-        x.insert(x.end(), position.begin(), position.end());
-        for (int c = 0; c < 3; ++c) {
-          const auto found = dense.dof.find({node, c});
-          dofs.push_back(found == dense.dof.end() ? n : found->second);
-        }
-      }
+      std::vector<double> k(size * size), m(size), d(size * size);
+      const auto [x, dofs] = dense_element(mesh, set, e, dense);
       element_matrices(set.type, x, element_properties(region), k, m);
       element_dashpots(set.type, element_properties(region), d);
       for (std::size_t i = 0; i < size; ++i) {

@@ -31,20 +31,10 @@ inline std::vector<double> dense_mass(const DampedStructure& damped, const Dense
   }
   for (const ElementSet& set : damped.mesh.regions) {
     const Region& region = damped.structure.regions[static_cast<std::size_t>(set.region)];
-    const auto nodes = static_cast<std::size_t>(element_layout(set.type).nodes);
-    const std::size_t size = 3 * nodes;
+    const std::size_t size = 3 * static_cast<std::size_t>(element_layout(set.type).nodes);
     for (std::size_t e = 0; may_be_scaled(set.type) && e < set.tags.size(); ++e) {
-      std::vector<double> x, k(size * size), m(size), d(size * size), added(size * size);
-      std::vector<std::size_t> dofs;
-      for (std::size_t a = 0; a < nodes; ++a) {
-        const GlobalIndex node = set.connectivity[e * nodes + a];
-        const Vector3 position = damped.mesh.position(node);
-        x.insert(x.end(), position.begin(), position.end());
-        for (int c = 0; c < 3; ++c) {
-          const auto found = dense.dof.find({node, c});
-          dofs.push_back(found == dense.dof.end() ? n : found->second);
-        }
-      }
+      std::vector<double> k(size * size), m(size), d(size * size), added(size * size);
+      const auto [x, dofs] = dense_element(damped.mesh, set, e, dense);
       element_matrices(set.type, x, element_properties(region), k, m);
       element_dashpots(set.type, element_properties(region), d);
       add_element_mass(damped.structure.mass_scaling, damped.structure.damping_of(region), k, m, d,
