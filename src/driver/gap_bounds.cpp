@@ -42,17 +42,18 @@ GapWatch::Bound energy_bound(const ContactProblem& contact, std::size_t structur
 
 }  // namespace
 
-std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, const Model& model,
+std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSystem> systems,
+                                        std::span<const double> energy_margins, double time_step,
                                         const ContactProblem* contact) {
-  std::vector<GapWatch::Bound> bounds(model.systems.size());
+  std::vector<GapWatch::Bound> bounds(systems.size());
   for (std::size_t s = 0; contact != nullptr && s < bounds.size(); ++s) {
-    const LinearSystem& system = model.systems[s];
+    const LinearSystem& system = systems[s];
     if (GapWatch::goes_by_coordinates(system)) {
       bounds[s].coordinate_rows = coordinate_rows(*contact, s, system);
       continue;
     }
     GapWatch::Bound& bound = bounds[s];
-    bound = energy_bound(*contact, s, system, model.time_step, model.energy_margin[s]);
+    bound = energy_bound(*contact, s, system, time_step, energy_margins[s]);
     std::array<double, 4> values{bound.rate_norm, bound.force_norm[0], bound.force_norm[1],
                                  bound.force_norm[2]};
     MPI_Allreduce(MPI_IN_PLACE, values.data(), 4, MPI_DOUBLE, MPI_MAX, comm);

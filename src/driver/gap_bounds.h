@@ -1,16 +1,18 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "contact/contact_problem.h"
-#include "driver/model.h"
 #include "dynamics/gap_watch.h"
+#include "system/linear_system.h"
 
 namespace pounding {
 
-/// What bounds the gap rates of a model's structures at its time step, the same on all ranks;
-/// `contact` may be null. Collective over `comm`.
-std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, const Model& model,
+/// What bounds the gap rates of structures at a time step [s] with their energy margins (see
+/// EnergyNorm), the same on all ranks; `contact` may be null. Collective over `comm`.
+std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSystem> systems,
+                                        std::span<const double> energy_margins, double time_step,
                                         const ContactProblem* contact);
 
 }  // namespace pounding

@@ -45,7 +45,9 @@ std::unique_ptr<ContactProblem> make_contact(MPI_Comm comm, const Scene& scene,
 GapWatch make_watch(MPI_Comm comm, const Model& model, const ContactProblem* contact,
                     Profile& profile) {
   const ScopedTimer timer(profile, Phase::assembly);
-  return {model.systems, gap_bounds(comm, model, contact), model.motion->peaks(), model.time_step};
+  return {model.systems,
+          gap_bounds(comm, model.systems, model.energy_margin, model.time_step, contact),
+          model.motion->peaks(), model.time_step};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "benchmark/timed_step.h"
+#include "driver/gap_bounds.h"
 #include "dynamics/cd_lagrange.h"
 #include "dynamics/stable_time_step.h"
 #include "scene/option_table.h"
@@ -17,8 +18,8 @@ GapWatch make_watch(const SteppedModel& model, const ContactProblem* contact) {
     margins.push_back(
         energy_margin(system.damping, system.element_frequency_bound, model.time_step));
   }
-  return {model.systems, GapWatch::bounds_of(model.systems, margins, contact),
-          model.motion->peak_acceleration(), model.time_step};
+  return {model.systems, gap_bounds(model.comm, model.systems, margins, model.time_step, contact),
+          model.motion->peaks(), model.time_step};
 }
 
 class ProgramStep final : public TimedStep {
