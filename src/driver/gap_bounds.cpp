@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <limits>
 
 #include "modal/energy_norm.h"
 
@@ -48,6 +49,11 @@ std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSys
   std::vector<GapWatch::Bound> bounds(systems.size());
   for (std::size_t s = 0; contact != nullptr && s < bounds.size(); ++s) {
     const LinearSystem& system = systems[s];
+    // Tension-only bars hold energy that no bound knows of.
+    if (system.tension_bars || !(energy_margins[s] > 0)) {
+      bounds[s].rate_norm = std::numeric_limits<double>::infinity();
+      continue;
+    }
     if (GapWatch::goes_by_coordinates(system)) {
       bounds[s].coordinate_rows = coordinate_rows(*contact, s, system);
       continue;

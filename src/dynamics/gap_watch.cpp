@@ -20,8 +20,7 @@ GapWatch::GapWatch(std::span<const LinearSystem> systems, std::vector<Bound> bou
       growth += time_step * (peaks[d] + std::abs(g[d])) * bounds[s].force_norm[d];
     }
     growth_.push_back(growth);
-    // Tension-only bars hold energy that the bound does not know of.
-    possible_ = possible_ && !systems[s].tension_bars && std::isfinite(bounds[s].rate_norm);
+    possible_ = possible_ && std::isfinite(bounds[s].rate_norm);
     if (goes_by_coordinates(systems[s])) {
       coordinates_[s] = std::make_unique<CoordinateRates>(
           systems[s], std::move(bounds[s].coordinate_rows),

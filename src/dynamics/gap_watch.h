@@ -24,7 +24,7 @@ class GapWatch {
  public:
   /// What bounds the velocities of one structure.
   struct Bound {
-    /// At least the largest sqrt(L A^-1 L^T) [kg^-1/2]; infinite where A is not positive definite.
+    /// At least the largest sqrt(L A^-1 L^T) [kg^-1/2]; infinite where nothing bounds it.
     double rate_norm = 0;
     /// At least |M iota| of each direction in the norm of A^-1 [kg^1/2].
     std::array<double, 3> force_norm{};

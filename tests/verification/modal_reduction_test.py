@@ -180,6 +180,20 @@ class Bricks(unittest.TestCase):
             self.assertAlmostEqual(impulse / full, 1, delta=0.02)
 
 
+class AboveTheStableStep(unittest.TestCase):
+    """There no energy bounds the gaps, so the interface is looked at in every step."""
+
+    def test_the_interface_is_looked_at_in_every_step(self):
+        words = PAIR + reduced("s1", 20) + reduced("s2", 20) + ["-floor1_gap", 0.02, "-floor2_gap", 0.02,
+                                                                "-gap_interval", 0.02, "-end_time", 0.02]
+        for ranks in (1, 2):
+            stable = program.must_run(self, words, ranks)[1]
+            self.assertLess(stable["interface_looks"], 0.2 * stable["steps"])
+            beyond = ["-allow_unstable", "-time_step", 1.1 * stable["stable_time_step"]]
+            _, unstable = program.must_run(self, words + beyond, ranks)
+            self.assertGreaterEqual(unstable["interface_looks"], unstable["steps"])
+
+
 class Damping(unittest.TestCase):
     """A ratio per mode that says what mass-proportional damping says of it: xi = alpha / (2 omega)."""
 
