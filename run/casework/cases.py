@@ -13,11 +13,11 @@ def both(**options) -> list:
 
 
 # Fidelity: options in front of those of the case; {bases} is where bases are kept, one pair per variant.
+COMMON = ["-courant", "0.99", "-gap_interval", "1e-3"]
 FIDELITIES = {
-    "full": ["-courant", "0.99", "-gap_interval", "1e-3"],
-    "scaled": [*both(mass_scaling="2.2e-5"), "-courant", "0.99", "-gap_interval", "1e-3"],
-    "modal": [*both(model="modal", modal_vectors="400", mass_scaling="5.5e-5"),
-              "-courant", "0.99", "-gap_interval", "1e-3",
+    "full": COMMON,
+    "scaled": [*both(mass_scaling="2.2e-5"), *COMMON],
+    "modal": [*both(model="modal", modal_vectors="400", mass_scaling="5.5e-5"), *COMMON,
               "-s1_modal_basis", "{bases}-s1.h5", "-s2_modal_basis", "{bases}-s2.h5"],
 }
 

@@ -29,9 +29,15 @@ ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
     initial_gap_.push_back(constraint.initial_gap);
   }
   std::size_t known = 0;
-  for (const Trace& trace : traces_) {
+  known_place_.assign(dofs, -1);
+  for (std::size_t s = 0; s < traces_.size(); ++s) {
+    const std::vector<int>& places = traces_[s].known();
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const int dof = structure_dofs_[s][static_cast<std::size_t>(places[k])];
+      known_place_[static_cast<std::size_t>(dof)] = static_cast<int>(k);
+    }
     first_known_.push_back(known);
-    known += trace.known().size();
+    known += places.size();
   }
   mine_.assign(InterfaceGather::max_fields * known, 0.0);
   place_impulse_.assign(known, 0.0);
@@ -84,18 +90,28 @@ void ContactProblem::build_delassus() {
 std::vector<double> ContactProblem::row_force(int row, std::size_t structure,
                                               LocalIndex owned_dofs) const {
   std::vector<double> force(static_cast<std::size_t>(owned_dofs), 0.0);
-  const Trace& trace = traces_[structure];
   const auto dofs = operator_.row_dofs(row);
-  const auto coefficients = operator_.row_coefficients(row);
-  for (std::size_t k = 0; k < trace.known().size(); ++k) {
-    const auto place = static_cast<std::size_t>(trace.known()[k]);
-    for (std::size_t a = 0; a < dofs.size(); ++a) {
-      if (dofs[a] == structure_dofs_[structure][place]) {
-        trace.add_force(k, coefficients[a], force);
-      }
+  for (std::size_t a = 0; a < dofs.size(); ++a) {
+    const auto dof = static_cast<std::size_t>(dofs[a]);
+    if (structure_of(dof) == structure && known_place_[dof] >= 0) {
+      traces_[structure].add_force(static_cast<std::size_t>(known_place_[dof]),
+                                   operator_.row_coefficients(row)[a], force);
     }
   }
   return force;
+}
+
+double ContactProblem::row_compliance(int row, std::size_t structure) const {
+  const auto dofs = operator_.row_dofs(row);
+  const auto values = operator_.row_coefficients(row);
+  double sum = 0;
+  for (std::size_t a = 0; a < dofs.size(); ++a) {
+    const auto dof = static_cast<std::size_t>(dofs[a]);
+    for (std::size_t b = 0; structure_of(dof) == structure && b < dofs.size(); ++b) {
+      sum += values[a] * values[b] * compliance_.entry(dof, static_cast<std::size_t>(dofs[b]));
+    }
+  }
+  return std::max(sum, 0.0);
 }
 
 double ContactProblem::delassus_entry(int row, int column) const {

@@ -68,6 +68,8 @@ class ContactProblem {
   double gap_tolerance() const { return gap_tolerance_; }
   /// A structure's part of (row of L T)^T over the dofs that this rank owns.
   std::vector<double> row_force(int row, std::size_t structure, LocalIndex owned_dofs) const;
+  /// L M^-1 L^T of a row with only one structure's columns [1/kg]; the same on all ranks.
+  double row_compliance(int row, std::size_t structure) const;
   /// Adds the values of all members up. Members only, collective over them.
   void add_over_members(std::span<double> values) { gather_.add(values); }
 
@@ -87,6 +89,9 @@ class ContactProblem {
   std::vector<int> known_dofs() const;
   void build_delassus();
   double delassus_entry(int row, int column) const;
+  std::size_t structure_of(std::size_t dof) const {
+    return static_cast<std::size_t>(operator_.dof_list()[dof].structure);
+  }
   void find_components();
   void solve_component(const Component& component);
   void solve_coupled(const Component& component);
@@ -97,6 +102,7 @@ class ContactProblem {
   std::vector<std::vector<int>> structure_dofs_;  ///< per structure: its interface dofs
   std::vector<Trace> traces_;                     ///< per structure
   std::vector<std::size_t> first_known_;          ///< per structure, into the values of this rank
+  std::vector<int> known_place_;                  ///< per interface dof, in its trace; -1: none
   InterfaceGather gather_;
   InterfaceCompliance compliance_;
   double gap_tolerance_;

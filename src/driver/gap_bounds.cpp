@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -35,8 +36,14 @@ GapWatch::Bound energy_bound(const ContactProblem& contact, std::size_t structur
     bound.force_norm[d] = norm.bound(std::move(force));
   }
   for (int row = 0; row < contact.rows(); ++row) {
-    bound.rate_norm = std::max(bound.rate_norm,
-                               norm.bound(contact.row_force(row, structure, system.owned_dofs())));
+    const double coarse = std::sqrt(contact.row_compliance(row, structure) / margin);
+    if (coarse <= bound.rate_norm) {
+      continue;
+    }
+    const double found = norm.exhausted()
+                             ? coarse
+                             : norm.bound(contact.row_force(row, structure, system.owned_dofs()));
+    bound.rate_norm = std::max(bound.rate_norm, found);
   }
   return bound;
 }

@@ -13,8 +13,8 @@
 
 namespace pounding {
 
-/// Per structure the rank that has all generalised coordinates of a reduced one, else -1. Each rank
-/// takes as many as another; neighbours in the scene's list stay together where they can.
+/// Per structure the rank that has all generalised coordinates of a reduced one, else -1. No rank
+/// takes more than it must; neighbours in the scene's list stay together.
 std::vector<int> owners_of_reduced(MPI_Comm comm, const Scene& scene);
 
 /// Per structure the basis of a reduced one, nothing for the others: out of its file if that still

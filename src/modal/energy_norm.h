@@ -25,6 +25,8 @@ class EnergyNorm {
   /// together may cost; beyond it bounds get wider. Collective.
   EnergyNorm(const LinearSystem& system, double time_step, double energy_margin, double work);
 
+  /// Nothing is left of the work: bounds are no closer than |f|_M^-1 / sqrt(eta).
+  bool exhausted() const { return iterations_left_ < 1; }
   /// At least |f|, f over the owned dofs [N s or kg m/s: then kg^1/2 m/s; rows of a contact
   /// operator: kg^-1/2]. Infinite if the energy margin is not above 0. Collective.
   double bound(std::vector<double> f);

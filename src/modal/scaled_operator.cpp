@@ -81,16 +81,18 @@ void ScaledOperator::apply(Vec x, Vec y) const {
   POUNDING_PETSC(VecAXPY(y, shift_, x));
 }
 
-void ScaledOperator::to_motion(std::vector<double>& y) const {
-  const VecHandle vector = wrap_vector(system_, y);
+void ScaledOperator::solve(std::vector<double>& x, Half half) const {
+  const VecHandle vector = wrap_vector(system_, x);
   POUNDING_PETSC(VecPointwiseMult(vector.get(), diagonal_.get(), vector.get()));
-  solve_coupled(vector.get(), Half::transposed);
+  solve_coupled(vector.get(), half);
+}
+
+void ScaledOperator::to_motion(std::vector<double>& y) const {
+  solve(y, Half::transposed);
 }
 
 void ScaledOperator::from_force(std::vector<double>& f) const {
-  const VecHandle vector = wrap_vector(system_, f);
-  POUNDING_PETSC(VecPointwiseMult(vector.get(), diagonal_.get(), vector.get()));
-  solve_coupled(vector.get(), Half::plain);
+  solve(f, Half::plain);
 }
 
 double ScaledOperator::quotient(std::vector<double>& y) const {
