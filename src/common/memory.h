@@ -19,6 +19,29 @@ void return_freed_memory();
 /// Zeros that a step streams through: of a large array on large pages, where the system has them.
 std::vector<double> zeros_on_large_pages(std::size_t size);
 
+/// Memory that begins with a cache line: vectors of it, counted in whole ones, cross none.
+template <typename Value>
+struct CacheLineAllocator {
+  using value_type = Value;
+  static constexpr std::align_val_t line{64};  // [B]
+
+  CacheLineAllocator() = default;
+  template <typename Other>
+  CacheLineAllocator(const CacheLineAllocator<Other>&) {}
+
+  Value* allocate(std::size_t count) {
+    return static_cast<Value*>(::operator new(count * sizeof(Value), line));
+  }
+  void deallocate(Value* values, std::size_t) { ::operator delete(values, line); }
+  template <typename Other>
+  bool operator==(const CacheLineAllocator<Other>&) const {
+    return true;
+  }
+};
+
+/// Doubles for work in vectors.
+using LaneArray = std::vector<double, CacheLineAllocator<double>>;
+
 /// Doubles that start as zero. Of a large array only the pages that are used take memory.
 class ZeroedArray {
  public:

@@ -21,6 +21,30 @@ bool directions_are(const LinearSystem& system, std::size_t dof, std::array<int,
   return true;
 }
 
+/// The number of values that fill a vector; others are given as a number below.
+struct AllLanes {};
+
+inline void load_first(const double* from, AllLanes, Lanes& to) {
+  load(from, to);
+}
+inline void store_first(const Lanes& from, AllLanes, double* to) {
+  store(to, from);
+}
+inline void keep_first(AllLanes, Lanes&) {}
+
+/// The others become zero.
+inline void load_first(const double* from, std::size_t count, Lanes& to) {
+  to = Lanes{from[0], count > 1 ? from[1] : 0, count > 2 ? from[2] : 0, 0};
+}
+inline void store_first(const Lanes& from, std::size_t count, double* to) {
+  to[0] = from[0];
+  if (count > 1) to[1] = from[1];
+  if (count > 2) to[2] = from[2];
+}
+inline void keep_first(std::size_t count, Lanes& values) {
+  values = Lanes{values[0], count > 1 ? values[1] : 0, count > 2 ? values[2] : 0, 0};
+}
+
 /// Masses of the three vectors of a pattern, from one value per node of four nodes.
 class NodeMasses {
  public:
@@ -31,8 +55,8 @@ class NodeMasses {
     load(mass_ + number * lanes, values_);
     load(inverse_mass_ + number * lanes, inverses_);
   }
-  template <int vector>
-  void at(Lanes& mass, Lanes& inverse) const {
+  template <int vector, typename Count>
+  void at(Count, Lanes& mass, Lanes& inverse) const {
     constexpr LaneMask places[3]{{0, 0, 0, 1}, {1, 1, 2, 2}, {2, 3, 3, 3}};
     mass = __builtin_shuffle(values_, places[vector]);
     inverse = __builtin_shuffle(inverses_, places[vector]);
@@ -52,10 +76,10 @@ class DofMasses {
       : mass_(mass), inverse_mass_(inverse_mass) {}
 
   void begin_pattern(std::size_t number) { offset_ = number * pattern; }
-  template <int vector>
-  void at(Lanes& mass, Lanes& inverse) const {
-    load(mass_ + offset_ + vector * lanes, mass);
-    load(inverse_mass_ + offset_ + vector * lanes, inverse);
+  template <int vector, typename Count>
+  void at(Count count, Lanes& mass, Lanes& inverse) const {
+    load_first(mass_ + offset_ + vector * lanes, count, mass);
+    load_first(inverse_mass_ + offset_ + vector * lanes, count, inverse);
   }
 
  private:
@@ -195,14 +219,14 @@ void BodyStep::advance_patterns(std::size_t first, std::size_t end, const double
   Lanes stiffness_before = sums_.stiffness_before;
   Lanes stiffness_across = sums_.stiffness_across;
   Lanes mass_sum = sums_.mass_sum;
-  const auto advance_vector = [&]<int k>(std::size_t i, const double* from)
+  const auto advance_vector = [&]<int k>(std::size_t i, const double* from, auto count)
       __attribute__((always_inline)) {
     Lanes q, u, v, ku, weight, m;
-    load(from, q);
-    load(displacement + i, u);
-    load(velocity + i, v);
-    load(stiffness + i, ku);
-    masses.template at<k>(m, weight);
+    load_first(from, count, q);
+    load_first(displacement + i, count, u);
+    load_first(velocity + i, count, v);
+    load_first(stiffness + i, count, ku);
+    masses.template at<k>(count, m, weight);
     if constexpr (with_energies) {
       sums_.kinetic_before += m * v * v;
       sums_.strain_before += u * ku;
@@ -210,13 +234,14 @@ void BodyStep::advance_patterns(std::size_t first, std::size_t end, const double
     }
     const Lanes kv = (q - ku) * inverse;
     Lanes after = -ground_step[k];
+    keep_first(count, after);
     add_product(decay, v, after);
     subtract_product(time_step, weight * q, after);
     add_product(time_step, kv, ku);
     add_product(time_step, after, u);
-    store(stiffness + i, ku);
-    store(velocity + i, after);
-    store(displacement + i, u);
+    store_first(ku, count, stiffness + i);
+    store_first(after, count, velocity + i);
+    store_first(u, count, displacement + i);
     add_product(v, kv, stiffness_before);
     add_product(after, kv, stiffness_across);
     const Lanes sum = after + v;
@@ -224,16 +249,26 @@ void BodyStep::advance_patterns(std::size_t first, std::size_t end, const double
     add_product(both, sum, mass_sum);
     momentum_sum[k] += both;
   };
+  constexpr AllLanes all;
   std::size_t i = first, number = 0;
   for (; i + pattern <= end; i += pattern, force += pattern, ++number) {
     masses.begin_pattern(number);
-    advance_vector.template operator()<0>(i, force);
-    advance_vector.template operator()<1>(i + lanes, force + lanes);
-    advance_vector.template operator()<2>(i + 2 * lanes, force + 2 * lanes);
+    advance_vector.template operator()<0>(i, force, all);
+    advance_vector.template operator()<1>(i + lanes, force + lanes, all);
+    advance_vector.template operator()<2>(i + 2 * lanes, force + 2 * lanes, all);
   }
   masses.begin_pattern(number);
-  if (i + lanes <= end) advance_vector.template operator()<0>(i, force);
-  if (i + 2 * lanes <= end) advance_vector.template operator()<1>(i + lanes, force + lanes);
+  const std::size_t whole = (end - i) / lanes;
+  const std::size_t rest = (end - i) % lanes;
+  if (whole > 0) advance_vector.template operator()<0>(i, force, all);
+  if (whole > 1) advance_vector.template operator()<1>(i + lanes, force + lanes, all);
+  if (rest > 0) {
+    i += whole * lanes;
+    force += whole * lanes;
+    if (whole == 0) advance_vector.template operator()<0>(i, force, rest);
+    if (whole == 1) advance_vector.template operator()<1>(i, force, rest);
+    if (whole == 2) advance_vector.template operator()<2>(i, force, rest);
+  }
   std::copy(momentum_sum, momentum_sum + 3, momentum);
   sums_.stiffness_before = stiffness_before;
   sums_.stiffness_across = stiffness_across;
@@ -306,13 +341,15 @@ void BodyStep::advance(const Segment& segment, LocalIndex begin, LocalIndex end,
     advance_patterns<with_energies>(done, stop, force,
                                     NodeMasses(&node_mass_[node], &node_inverse_mass_[node]),
                                     ground_[0], sums_.momentum[0]);
-    done += (stop - done) / lanes * lanes;
-  } else if (segment.order == Order::nodes_of_six && duration_ == time_step_) {
+    return;
+  }
+  if (segment.order == Order::nodes_of_six && duration_ == time_step_) {
     advance_patterns<with_energies>(
         done, stop, force, DofMasses(&system_.lumped_mass[done], &system_.inverse_mass[done]),
         ground_[1], sums_.momentum[1]);
-    done += (stop - done) / lanes * lanes;
-  } else if (segment.order == Order::generalised && duration_ == time_step_ && !with_energies) {
+    return;
+  }
+  if (segment.order == Order::generalised && duration_ == time_step_ && !with_energies) {
     advance_generalised(done, stop, force);
     done += (stop - done) / lanes * lanes;
   }

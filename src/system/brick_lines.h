@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "common/memory.h"
 #include "elements/matrix3.h"
 #include "system/brick_chains.h"
 #include "system/brick_class.h"
@@ -52,25 +53,19 @@ class BrickLines final : public ElementLines {
     std::size_t growing = 0;  ///< which of the ranges that grow in turns
   };
 
-  struct PairEnd {
-    int node = 0;
-    std::array<LocalIndex, 3> near{};  ///< places of x, y, z, as in ChainEnd
-    std::array<LocalIndex, 3> far{};
-  };
   /// How a pair of rows is loaded: a stretch of both in vectors, other nodes one by one.
   struct PairLoad {
     int begin = 0;
     int count = 0;
-    std::array<LocalIndex, 2> first{};  ///< dofs of the first node
-    std::vector<PairEnd> ends;
+    std::array<LocalIndex, 2> first{};          ///< dofs of the first node
+    std::vector<std::array<ChainEnd, 2>> ends;  ///< near, far
   };
 
   void sort_stores(std::size_t begin, std::size_t end);
   void unite_ranges();
   void find_deferred();
   void load_chain(const ChainLoad& load, const StiffnessArgument& w, const double* ghosts) const;
-  Vector3 value(const std::array<LocalIndex, 3>& place, const StiffnessArgument& w,
-                const double* ghosts) const;
+  Vector3 value(const ChainEnd& node, const StiffnessArgument& w, const double* ghosts) const;
   PairLoad plan_load(const PairPlace& place) const;
   void load_pair(const PairPlace& place, const PairLoad& load, const StiffnessArgument& w,
                  const double* ghosts) const;
@@ -98,10 +93,10 @@ class BrickLines final : public ElementLines {
   std::vector<char> deferred_;        ///< per join: done as the two rows are stored
   int line_stride_ = 0;
   /// Lines of shape (6, line_stride): displacement, force. Work space of `apply`.
-  mutable std::vector<double> buffer_;
-  mutable std::vector<double> range_;  ///< forces of the ranges that grow until handed over
-  int range_stride_ = 0;               ///< between those, in range_
-  mutable std::vector<double> added_;  ///< of a chain that is added to q
+  mutable LaneArray buffer_;
+  mutable LaneArray range_;  ///< forces of the ranges that grow until handed over
+  int range_stride_ = 0;     ///< between those, in range_
+  mutable LaneArray added_;  ///< of a chain that is added to q
 };
 
 }  // namespace pounding

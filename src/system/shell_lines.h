@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "common/memory.h"
 #include "elements/matrix3.h"
 #include "system/dof_places.h"
 #include "system/element_lines.h"
@@ -79,8 +80,8 @@ class ShellLines final : public ElementLines {
   std::vector<Transfer> stores_;
   int line_stride_ = 0;
   /// Lines of shape (12, line_stride): displacement, force. Work space of `apply`.
-  mutable std::vector<double> buffer_;
-  mutable std::vector<double> range_;  ///< forces of the range that is being handed over
+  mutable LaneArray buffer_;
+  mutable LaneArray range_;  ///< forces of the range that is being handed over
 };
 
 }  // namespace pounding
