@@ -116,9 +116,12 @@ SharedExchange::~SharedExchange() {
 }
 
 void SharedExchange::publish(std::span<const double> values) {
-  const Board& board = boards_[rank_];
-  std::copy(values.begin(), values.end(), board.values[++turn_ % 2]);
-  board.turn->store(turn_, std::memory_order_release);
+  std::copy(values.begin(), values.end(), draft());
+  publish();
+}
+
+void SharedExchange::publish() {
+  boards_[rank_].turn->store(++turn_, std::memory_order_release);
 }
 
 const double* SharedExchange::wait_for(int rank) const {

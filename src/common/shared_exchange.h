@@ -10,14 +10,14 @@
 
 namespace pounding {
 
-/// Values that all ranks of a communicator show each other through common memory, turn after turn,
-/// with less delay than a collective message. Only for ranks of one node.
+/// Values that ranks of a communicator show each other through common memory, turn after turn, with
+/// less delay than messages. Only for ranks of one node.
 ///
 ///     exchange.publish(mine);
 ///     for each rank: read exchange.wait_for(rank)
 ///
-/// Everybody waits for everybody in every turn: a rank's values then stay readable until all the
-/// others have published their next ones.
+/// In every turn a rank waits for everybody who reads its values, whether it reads theirs or not:
+/// what it published then stays readable until those have published their next values.
 class SharedExchange {
  public:
   /// `capacity`: values that this rank may write in a turn. Where the ranks have no memory in
@@ -31,6 +31,9 @@ class SharedExchange {
 
   /// Begins a turn: `values`, at most as many as the capacity, are copied.
   void publish(std::span<const double> values);
+  /// The same in two steps: where the values of the next turn go, and that they are there.
+  double* draft() const { return boards_[rank_].values[(turn_ + 1) % 2]; }
+  void publish();
   /// What a rank published in this turn; waits until it has.
   const double* wait_for(int rank) const;
 

@@ -20,7 +20,7 @@ std::vector<int> starts_of(const std::vector<int>& counts) {
 }  // namespace
 
 Halo::Halo(MPI_Comm comm, GlobalIndex first_owned, LocalIndex owned_count,
-           std::span<const GlobalIndex> ghosts) {
+           std::span<const GlobalIndex> ghosts, bool common_memory) {
   MPI_Comm_dup(comm, &comm_);
   const auto ranks = static_cast<std::size_t>(size_of(comm_));
   std::vector<GlobalIndex> ends(ranks);
@@ -51,19 +51,35 @@ Halo::Halo(MPI_Comm comm, GlobalIndex first_owned, LocalIndex owned_count,
   for (const GlobalIndex dof : asked) {
     sent_dofs_.push_back(static_cast<LocalIndex>(dof - first_owned));
   }
-  send_.resize(asked.size());
   received_.resize(ghosts.size());
+  std::vector<int> their_start(ranks, 0);
+  MPI_Alltoall(send_start.data(), 1, MPI_INT, their_start.data(), 1, MPI_INT, comm_);
   for (std::size_t r = 0; r < ranks; ++r) {
-    neighbour_count_ += needed[r] > 0 || given[r] > 0 ? 1 : 0;
-    if (needed[r] > 0) {
-      MPI_Recv_init(received_.data() + receive_start[r], needed[r], MPI_DOUBLE, static_cast<int>(r),
+    if (needed[r] == 0 && given[r] == 0) continue;
+    neighbours_.push_back({static_cast<int>(r), needed[r], receive_start[r], given[r],
+                           send_start[r], their_start[r]});
+  }
+  int sharing = neighbours_.empty() ? 0 : 1;
+  MPI_Allreduce(MPI_IN_PLACE, &sharing, 1, MPI_INT, MPI_MAX, comm_);
+  if (sharing != 0 && common_memory) {
+    shared_ = std::make_unique<SharedExchange>(comm_, sent_dofs_.size());
+    if (!shared_->works()) shared_.reset();
+  }
+  if (!shared_) prepare_messages();
+}
+
+void Halo::prepare_messages() {
+  send_.resize(sent_dofs_.size());
+  for (const Neighbour& other : neighbours_) {
+    if (other.received > 0) {
+      MPI_Recv_init(received_.data() + other.received_begin, other.received, MPI_DOUBLE, other.rank,
                     tag, comm_, &requests_.emplace_back());
     }
   }
-  for (std::size_t r = 0; r < ranks; ++r) {
-    if (given[r] > 0) {
-      MPI_Send_init(send_.data() + send_start[r], given[r], MPI_DOUBLE, static_cast<int>(r), tag,
-                    comm_, &requests_.emplace_back());
+  for (const Neighbour& other : neighbours_) {
+    if (other.sent > 0) {
+      MPI_Send_init(send_.data() + other.sent_begin, other.sent, MPI_DOUBLE, other.rank, tag, comm_,
+                    &requests_.emplace_back());
     }
   }
 }
@@ -76,13 +92,20 @@ Halo::~Halo() {
 }
 
 void Halo::start() {
-  if (!requests_.empty()) {
+  if (shared_) {
+    shared_->publish();
+  } else if (!requests_.empty()) {
     MPI_Startall(static_cast<int>(requests_.size()), requests_.data());
   }
 }
 
 void Halo::end() {
-  if (!requests_.empty()) {
+  if (shared_) {
+    for (const Neighbour& other : neighbours_) {
+      const double* const theirs = shared_->wait_for(other.rank) + other.their_begin;
+      std::copy(theirs, theirs + other.received, received_.begin() + other.received_begin);
+    }
+  } else if (!requests_.empty()) {
     MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
   }
 }
