@@ -179,9 +179,11 @@ class PairFinder {
 BrickPairs pair_chains(const BrickRows& rows) {
   BrickPairs third = PairFinder(rows, true).run();
   BrickPairs second = PairFinder(rows, false).run();
-  if (third.steps.size() != second.steps.size()) {
-    return third.steps.size() < second.steps.size() ? third : second;
-  }
+  const auto clearly_fewer = [](const BrickPairs& a, const BrickPairs& b) {
+    return 10 * a.steps.size() < 9 * b.steps.size();
+  };
+  if (clearly_fewer(third, second)) return third;
+  if (clearly_fewer(second, third)) return second;
   return count_neighbours(rows, 1, 3) >= count_neighbours(rows, 2, 3) ? third : second;
 }
 

@@ -40,7 +40,9 @@ struct BrickPairs {
 };
 
 /// Pairs the chains of all runs. Of the two axes across them the thickness is the one that leaves
-/// fewer steps: in a slab one brick thick, its own.
+/// clearly fewer steps (in a slab one brick thick, its own), else the one along which runs follow
+/// each other less often: pairs that follow each other then share chains, and few are in use at a
+/// time.
 BrickPairs pair_chains(const BrickRows& rows);
 
 }  // namespace pounding

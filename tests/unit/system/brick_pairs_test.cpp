@@ -90,6 +90,13 @@ TEST(BrickPairs, LayersShareChains) {
                            [](const ChainPair& pair) { return pair.alone; }));
 }
 
+/// In a block a step more or less does not matter: pairs follow each other as the runs do.
+TEST(BrickPairs, ABlockIsDoneInTheOrderOfItsRuns) {
+  const std::array<int, 3> in_order{0, 1, 2};
+  EXPECT_EQ(pair_chains(find_rows(grid(10, 12, 11), 11 * 13 * 12, 0)).axes, in_order);
+  EXPECT_EQ(pair_chains(find_rows(grid(10, 11, 12), 11 * 12 * 13, 0)).axes, in_order);
+}
+
 /// A longer row on a shorter one: what they share goes together, the rest apart.
 TEST(BrickPairs, RowsOfTwoLengths) {
   auto bricks = grid(20, 2, 1);
