@@ -13,7 +13,7 @@ from .series import Series
 from .workers import (ELEMENT_MEMORY, SOURCE, MeasuringError, Stepper, block_cells, mpirun,
                       step_benchmark, storey_cells, usable_memory, with_environment)
 
-SCENE_TIME = 0.01  # of the scene in a measurement [s]
+SCENE_TIME = 0.1  # of the scene in a measurement [s]: more than a second of steps
 
 
 @dataclass
