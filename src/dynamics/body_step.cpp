@@ -258,17 +258,17 @@ void BodyStep::advance_patterns(std::size_t first, std::size_t end, const double
     advance_vector.template operator()<2>(i + 2 * lanes, force + 2 * lanes, all);
   }
   masses.begin_pattern(number);
-  const std::size_t whole = (end - i) / lanes;
-  const std::size_t rest = (end - i) % lanes;
-  if (whole > 0) advance_vector.template operator()<0>(i, force, all);
-  if (whole > 1) advance_vector.template operator()<1>(i + lanes, force + lanes, all);
-  if (rest > 0) {
-    i += whole * lanes;
-    force += whole * lanes;
-    if (whole == 0) advance_vector.template operator()<0>(i, force, rest);
-    if (whole == 1) advance_vector.template operator()<1>(i, force, rest);
-    if (whole == 2) advance_vector.template operator()<2>(i, force, rest);
-  }
+  const auto advance_last = [&]<int k>() __attribute__((always_inline)) {
+    const std::size_t begin = i + k * lanes;
+    if (begin + lanes <= end) {
+      advance_vector.template operator()<k>(begin, force + k * lanes, all);
+    } else if (begin < end) {
+      advance_vector.template operator()<k>(begin, force + k * lanes, end - begin);
+    }
+  };
+  advance_last.template operator()<0>();
+  advance_last.template operator()<1>();
+  advance_last.template operator()<2>();
   std::copy(momentum_sum, momentum_sum + 3, momentum);
   sums_.stiffness_before = stiffness_before;
   sums_.stiffness_across = stiffness_across;

@@ -98,25 +98,20 @@ const BrickChain& BrickChains::add(const DofPlaces& places, const std::vector<Lo
   chain.ends = static_cast<int>(ends_.size());
   for (int p = 0; p < chain.length; ++p) {
     if (chain.in_core(p)) continue;
-    const LocalIndex node = nodes[static_cast<std::size_t>(p)];
-    const Place& place = place_of(places, node);
-    ends_.push_back({p, {place[0], place[1], place[2]}, is_plain(places, node)});
+    const Place& place = place_of(places, nodes[static_cast<std::size_t>(p)]);
+    ends_.push_back({p, {place[0], place[1], place[2]}});
   }
   return chains_.emplace_back(chain);
 }
 
-ChainEnd BrickChains::node(const BrickChain& chain, int number) const {
-  if (!chain.in_core(number)) {
-    return ends(
-        chain)[static_cast<std::size_t>(number < chain.first ? number : number - chain.core)];
+LocalIndex BrickChains::place(const BrickChain& chain, int node, int component) const {
+  if (!chain.in_core(node)) {
+    const auto number = static_cast<std::size_t>(node < chain.first ? node : node - chain.core);
+    return ends(chain)[number].place[static_cast<std::size_t>(component)];
   }
-  const int in_core = number - chain.first;
-  const LocalIndex x = chain.plain ? places(chain)[in_core] : chain.first_ghost + 3 * in_core;
-  return {number, {x, x + 1, x + 2}, chain.plain};
-}
-
-LocalIndex BrickChains::place(const BrickChain& chain, int number, int component) const {
-  return node(chain, number).place[static_cast<std::size_t>(component)];
+  const int in_core = node - chain.first;
+  if (!chain.plain) return chain.first_ghost + 3 * in_core + component;
+  return places(chain)[in_core] + component;
 }
 
 }  // namespace pounding

@@ -13,7 +13,6 @@ namespace pounding {
 struct ChainEnd {
   int node = 0;
   std::array<LocalIndex, 3> place{};
-  bool plain = false;  ///< x, y, z are owned and in a row, and one more dof follows
 };
 
 /// Nodes of bricks in a row, and where their dofs are. Most of them form a core whose values move
@@ -40,10 +39,8 @@ class BrickChains {
   /// Adds a chain; returns it.
   const BrickChain& add(const DofPlaces& places, const std::vector<LocalIndex>& nodes);
   const BrickChain& at(int number) const { return chains_[static_cast<std::size_t>(number)]; }
-  /// Any node, as if it were outside the core.
-  ChainEnd node(const BrickChain& chain, int number) const;
   /// Of a component (0-2) of a chain's node; -1 where there is none.
-  LocalIndex place(const BrickChain& chain, int number, int component) const;
+  LocalIndex place(const BrickChain& chain, int node, int component) const;
   /// Of a plain core's nodes.
   const LocalIndex* places(const BrickChain& chain) const { return places_.data() + chain.begin; }
   /// Nodes outside the core, in their order.

@@ -87,7 +87,7 @@ void BrickLines::load_chain(const ChainLoad& load, const StiffnessArgument& w,
     load_nodes(w, chains_.places(chain), chain.core, core);
   }
   for (const ChainEnd& end : chains_.ends(chain)) {
-    const Vector3 x = value(end, w, ghosts);
+    const Vector3 x = value(end.place, w, ghosts);
     to.x[end.node] = x[0];
     to.y[end.node] = x[1];
     to.z[end.node] = x[2];
@@ -100,13 +100,8 @@ void BrickLines::load_chain(const ChainLoad& load, const StiffnessArgument& w,
 }
 
 /// w of a node, less its origin.
-Vector3 BrickLines::value(const ChainEnd& node, const StiffnessArgument& w,
+Vector3 BrickLines::value(const std::array<LocalIndex, 3>& place, const StiffnessArgument& w,
                           const double* ghosts) const {
-  const auto& place = node.place;
-  if (node.plain) {
-    const LocalIndex x = place[0];
-    return {w[x] - w.origin[0], w[x + 1] - w.origin[1], w[x + 2] - w.origin[2]};
-  }
   return {value_at(place[0], owned_dofs_, w, ghosts) - w.origin[0],
           value_at(place[1], owned_dofs_, w, ghosts) - w.origin[1],
           value_at(place[2], owned_dofs_, w, ghosts) - w.origin[2]};
@@ -123,7 +118,12 @@ BrickLines::PairLoad BrickLines::plan_load(const PairPlace& place) const {
                 far.range.begin + 3 * (load.begin - far.first)};
   for (int p = 0; p < place.length; ++p) {
     if (load.begin <= p && p < load.begin + load.count) continue;
-    load.ends.push_back({chains_.node(near, p), chains_.node(far, p)});
+    PairEnd& end = load.ends.emplace_back();
+    end.node = p;
+    for (int c = 0; c < 3; ++c) {
+      end.near[static_cast<std::size_t>(c)] = chains_.place(near, p, c);
+      end.far[static_cast<std::size_t>(c)] = chains_.place(far, p, c);
+    }
   }
   return load;
 }
@@ -135,16 +135,15 @@ void BrickLines::load_pair(const PairPlace& place, const PairLoad& load, const S
   const ComponentArrays difference = displacements(place.line[1]);
   load_row_pair(w, load.first, load.count, shifted(sum, load.begin),
                 shifted(difference, load.begin));
-  for (const auto& end : load.ends) {
-    const int p = end[0].node;
-    const Vector3 near = value(end[0], w, ghosts);
-    const Vector3 far = value(end[1], w, ghosts);
-    sum.x[p] = near[0] + far[0];
-    sum.y[p] = near[1] + far[1];
-    sum.z[p] = near[2] + far[2];
-    difference.x[p] = far[0] - near[0];
-    difference.y[p] = far[1] - near[1];
-    difference.z[p] = far[2] - near[2];
+  for (const PairEnd& end : load.ends) {
+    const Vector3 near = value(end.near, w, ghosts);
+    const Vector3 far = value(end.far, w, ghosts);
+    sum.x[end.node] = near[0] + far[0];
+    sum.y[end.node] = near[1] + far[1];
+    sum.z[end.node] = near[2] + far[2];
+    difference.x[end.node] = far[0] - near[0];
+    difference.y[end.node] = far[1] - near[1];
+    difference.z[end.node] = far[2] - near[2];
   }
 }
 
@@ -226,16 +225,15 @@ void BrickLines::add_ends(const Store& store, double* q) const {
   if (chain.core == chain.length) return;
   const PairPlace* const pair = deferred_pair(store);
   const ComponentArrays force = forces(pair != nullptr ? pair->line[0] : store.place.start);
-  const ComponentArrays odd = pair != nullptr ? forces(pair->line[1]) : force;
-  const double sign = pair == nullptr ? 0 : pair->chain[0] == store.place.chain ? -1 : 1;
+  const ComponentArrays difference = pair != nullptr ? forces(pair->line[1]) : force;
+  const double sign = pair != nullptr && pair->chain[0] == store.place.chain ? -1 : 1;
+  const auto add = [&](LocalIndex dof, int p, const double* sum, const double* odd) {
+    if (dof >= 0 && dof < owned_dofs_) q[dof] += pair != nullptr ? sum[p] + sign * odd[p] : sum[p];
+  };
   for (const ChainEnd& end : chains_.ends(chain)) {
-    const int p = end.node;
-    const Vector3 f{force.x[p] + sign * odd.x[p], force.y[p] + sign * odd.y[p],
-                    force.z[p] + sign * odd.z[p]};
-    for (std::size_t c = 0; c < 3; ++c) {
-      const LocalIndex dof = end.place[c];
-      if (end.plain || (dof >= 0 && dof < owned_dofs_)) q[dof] += f[c];
-    }
+    add(end.place[0], end.node, force.x, difference.x);
+    add(end.place[1], end.node, force.y, difference.y);
+    add(end.place[2], end.node, force.z, difference.z);
   }
 }
 

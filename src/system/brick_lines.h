@@ -53,19 +53,25 @@ class BrickLines final : public ElementLines {
     std::size_t growing = 0;  ///< which of the ranges that grow in turns
   };
 
+  struct PairEnd {
+    int node = 0;
+    std::array<LocalIndex, 3> near{};  ///< places of x, y, z, as in ChainEnd
+    std::array<LocalIndex, 3> far{};
+  };
   /// How a pair of rows is loaded: a stretch of both in vectors, other nodes one by one.
   struct PairLoad {
     int begin = 0;
     int count = 0;
-    std::array<LocalIndex, 2> first{};          ///< dofs of the first node
-    std::vector<std::array<ChainEnd, 2>> ends;  ///< near, far
+    std::array<LocalIndex, 2> first{};  ///< dofs of the first node
+    std::vector<PairEnd> ends;
   };
 
   void sort_stores(std::size_t begin, std::size_t end);
   void unite_ranges();
   void find_deferred();
   void load_chain(const ChainLoad& load, const StiffnessArgument& w, const double* ghosts) const;
-  Vector3 value(const ChainEnd& node, const StiffnessArgument& w, const double* ghosts) const;
+  Vector3 value(const std::array<LocalIndex, 3>& place, const StiffnessArgument& w,
+                const double* ghosts) const;
   PairLoad plan_load(const PairPlace& place) const;
   void load_pair(const PairPlace& place, const PairLoad& load, const StiffnessArgument& w,
                  const double* ghosts) const;
