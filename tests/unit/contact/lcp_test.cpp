@@ -15,6 +15,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "support/source_folder.h"
+
 namespace pounding {
 namespace {
 
@@ -112,8 +114,7 @@ void expect_near(const Vector& actual, const Vector& expected, double tolerance)
 
 nlohmann::json read_fixture(const std::string& name) {
   const char* folder = std::getenv("POUNDING_SHARED");
-  const std::filesystem::path shared =
-      folder != nullptr ? folder : POUNDING_SOURCE_DIR "/../shared";
+  const std::filesystem::path shared = folder != nullptr ? folder : source_folder() + "/../shared";
   std::ifstream file(shared / "fixtures" / name);
   return file ? nlohmann::json::parse(file) : nlohmann::json();
 }

@@ -11,6 +11,7 @@
 
 #include "dense_eigen.h"
 #include "elements/element.h"
+#include "support/source_folder.h"
 
 namespace pounding::testing_support {
 
@@ -134,7 +135,7 @@ class DenseModel {
 inline std::filesystem::path reference_data() {
   const char* folder = std::getenv("POUNDING_SHARED");
   return folder ? std::filesystem::path(folder)
-                : std::filesystem::path(POUNDING_SOURCE_DIR "/../shared");
+                : std::filesystem::path(source_folder() + "/../shared");
 }
 
 }  // namespace pounding::testing_support

@@ -10,13 +10,14 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "support/source_folder.h"
 
 namespace pounding::testing_support {
 
 /// A file of the reference data; empty when the data are not there.
 inline std::string shared_file(const std::string& name) {
   const char* set = std::getenv("POUNDING_SHARED");
-  const std::filesystem::path folder = set ? set : POUNDING_SOURCE_DIR "/../shared";
+  const std::filesystem::path folder = set ? set : source_folder() + "/../shared";
   return std::filesystem::exists(folder / name) ? (folder / name).string() : std::string();
 }
 

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "motion_files.h"
+#include "support/source_folder.h"
 
 namespace pounding {
 namespace {
@@ -21,7 +22,7 @@ using testing_support::refusal;
 class Synthetic : public MotionFiles {
  protected:
   static TargetSpectrum target(const std::string& name) {
-    return read_target_spectrum(std::string(POUNDING_SOURCE_DIR "/petsc-options/spectra/") + name);
+    return read_target_spectrum(source_folder() + "/petsc-options/spectra/" + name);
   }
 
   static SyntheticMotion seeded(int seed) {
