@@ -7,6 +7,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "driver/reduction.h"
+#include "driver/warnings.h"
 #include "dynamics/stable_time_step.h"
 #include "mesh/gmsh_reader.h"
 #include "modal/reduced_system.h"
@@ -150,6 +151,10 @@ Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile) {
     } else {
       add_full(scene, s, profile, model);
     }
+  }
+  for (const LinearSystem& system : model.systems) {
+    const std::vector<std::string> warnings = sliver_warnings(system);
+    model.warnings.insert(model.warnings.end(), warnings.begin(), warnings.end());
   }
   choose_time_step(scene, model);
   const ScopedTimer timer(profile, Phase::modes);

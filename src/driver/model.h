@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/profile.h"
@@ -31,8 +32,9 @@ struct Model {
   std::unique_ptr<GroundMotion> motion;
   double partition_imbalance = 1;
   long partition_edge_cut = 0;
-  double time_step = 0;    ///< in force [s]
-  std::int64_t steps = 0;  ///< until the end time
+  double time_step = 0;               ///< in force [s]
+  std::int64_t steps = 0;             ///< until the end time
+  std::vector<std::string> warnings;  ///< one line each, on rank 0: what may not be meant
   double smallest_stable_time_step() const;
 };
 

@@ -90,17 +90,6 @@ void print_time_step_limit(const Model& model, std::size_t s) {
   }
 }
 
-/// Elements that cost the whole structure its time step, mostly by an accident of meshing.
-void warn_slivers(const LinearSystem& system) {
-  for (const Sliver& sliver : system.slivers) {
-    std::printf(
-        "  warning: sliver: %s allows by itself %.3e s, the median of its group %.3e s (%lld such "
-        "elements in it); mend the mesh\n",
-        sliver.element.c_str(), sliver.time_step, sliver.median,
-        static_cast<long long>(sliver.count));
-  }
-}
-
 void print_structure(const Scene& scene, const Model& model, std::size_t s) {
   const Mesh& mesh = model.meshes[s];
   const LinearSystem& system = model.systems[s];
@@ -132,7 +121,6 @@ void print_structure(const Scene& scene, const Model& model, std::size_t s) {
                 model.stable_time_step[s], model.largest[s].location.c_str());
   } else {
     print_time_step_limit(model, s);
-    warn_slivers(system);
   }
 }
 
@@ -188,18 +176,9 @@ void print_probes(const Recorder& recorder, const std::vector<ProbeSpectrum>& sp
   }
 }
 
-/// Small displacements: the geometry of contacts and elements is that of the mesh.
-void warn_large_displacements(const Model& model, const Recorder& recorder) {
-  constexpr double small = 0.05;  // of the model
-  double largest = 0;
-  for (const ChannelPeaks& peak : recorder.peaks()) {
-    largest = std::max(largest, peak.displacement);
-  }
-  if (largest > small * model.interface.model_size) {
-    std::printf(
-        "\nwarning: displacements reach %.3g m in a model of %.3g m; the theory is one of small "
-        "displacements\n",
-        largest, model.interface.model_size);
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) {
+    std::printf("warning: %s\n", warning.c_str());
   }
 }
 
@@ -218,6 +197,7 @@ void print_title(const Scene& scene, int ranks) {
   if (!scene.fidelity_note.empty()) {
     std::printf("%s\n", scene.fidelity_note.c_str());
   }
+  print_warnings(scene.warnings);
 }
 
 void print_model(const Scene& scene, const Model& model) {
@@ -234,6 +214,7 @@ void print_model(const Scene& scene, const Model& model) {
   }
   std::printf("\npartition: imbalance %.3f, cut edges %ld\n", model.partition_imbalance,
               model.partition_edge_cut);
+  print_warnings(model.warnings);
 }
 
 void print_time_step(const Scene& scene, const Model& model, double seconds_per_step) {
@@ -253,13 +234,14 @@ void print_restart(const Scene& scene, const Model& model, std::int64_t step) {
   std::fflush(stdout);
 }
 
-void print_results(const Scene& scene, const Model& model, const RunStatistics& statistics,
+void print_results(const Scene& scene, const RunStatistics& statistics,
                    const ImpactCatalogue& impacts, const Recorder& recorder,
                    const std::vector<ProbeSpectrum>& spectra) {
   std::printf("\n");
   print_impacts(scene, statistics, impacts);
   print_probes(recorder, spectra);
-  warn_large_displacements(model, recorder);
+  std::printf("\n");
+  print_warnings(statistics.warnings);
   const EnergyLine& energy = statistics.energy;
   std::printf(
       "\nenergy at the end [J]: kinetic %.4g, strain %.4g, damping loss %.4g, contact work %.4g, "

@@ -15,7 +15,7 @@ void print_model(const Scene& scene, const Model& model);
 void print_time_step(const Scene& scene, const Model& model, double seconds_per_step);
 /// `step`: that of the checkpoint from which the run continues.
 void print_restart(const Scene& scene, const Model& model, std::int64_t step);
-void print_results(const Scene& scene, const Model& model, const RunStatistics& statistics,
+void print_results(const Scene& scene, const RunStatistics& statistics,
                    const ImpactCatalogue& impacts, const Recorder& recorder,
                    const std::vector<ProbeSpectrum>& spectra);
 

@@ -18,6 +18,7 @@
 #include "driver/stop_signal.h"
 #include "driver/summary.h"
 #include "driver/time_loop.h"
+#include "driver/warnings.h"
 #include "output/energy_ledger.h"
 
 namespace pounding {
@@ -126,10 +127,11 @@ void run_scene(MPI_Comm comm, const Scene& scene, const std::string& resolved) {
   const std::vector<ProbeSpectrum> spectra = compute_floor_spectra(comm, scene, loop.recorder());
   on_rank0(comm, [&] {
     write_floor_spectra(scene.output + "/spectra.csv", spectra, loop.recorder().interval());
+    statistics.warnings = displacement_warnings(model, loop.recorder());
     statistics.wall_time = MPI_Wtime() - start;
     write_summary(scene.output + "/summary.json", scene, resolved, model, statistics,
                   loop.recorder(), size_of(comm));
-    print_results(scene, model, statistics, loop.impacts(), loop.recorder(), spectra);
+    print_results(scene, statistics, loop.impacts(), loop.recorder(), spectra);
   });
 }
 

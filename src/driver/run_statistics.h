@@ -26,6 +26,7 @@ struct RunStatistics {
   std::int64_t interface_looks = 0;   ///< steps that looked at the gaps
   std::vector<ImpactTotals> impacts;  ///< per contact
   ImpactTotals all_impacts;
+  std::vector<std::string> warnings;  ///< one line each: what the run came upon
   std::vector<double> phase_seconds;  ///< largest over the ranks, per Phase
 };
 

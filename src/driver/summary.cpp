@@ -170,6 +170,12 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
   for (std::size_t p = 0; p < recorder.probes().size(); ++p) {
     summary["probes"][recorder.probes()[p].name] = describe_probe(scene, recorder, p);
   }
+  summary["warnings"] = Json::array();
+  for (const auto* warnings : {&scene.warnings, &model.warnings, &statistics.warnings}) {
+    for (const std::string& warning : *warnings) {
+      summary["warnings"].push_back(warning);
+    }
+  }
   summary["options"] = Json::object();
   for (const auto& [name, value] : resolved_values(resolved)) {
     summary["options"][name] = value;

@@ -160,7 +160,8 @@ struct SpectraRequest {
 
 struct Scene {
   std::string title;
-  std::string fidelity_note;  ///< what -fidelity_target chose; empty without it
+  std::string fidelity_note;          ///< what -fidelity_target chose; empty without it
+  std::vector<std::string> warnings;  ///< one line each: options that may not be meant
   std::vector<Structure> structures;
   std::vector<Contact> contacts;
   std::array<std::optional<MotionComponent>, 3> motion;

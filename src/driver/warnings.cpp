@@ -1,0 +1,37 @@
+#include "driver/warnings.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace pounding {
+
+std::vector<std::string> sliver_warnings(const LinearSystem& system) {
+  std::vector<std::string> warnings;
+  for (const Sliver& sliver : system.slivers) {
+    std::ostringstream text;
+    text.precision(4);
+    text << "structure " << system.name << ": sliver: " << sliver.element << " allows by itself "
+         << sliver.time_step << " s, the median of its group " << sliver.median << " s ("
+         << sliver.count << " such elements in it); mend the mesh";
+    warnings.push_back(text.str());
+  }
+  return warnings;
+}
+
+std::vector<std::string> displacement_warnings(const Model& model, const Recorder& recorder) {
+  constexpr double small = 0.05;  // of the model
+  double largest = 0;
+  for (const ChannelPeaks& peak : recorder.peaks()) {
+    largest = std::max(largest, peak.displacement);
+  }
+  if (!(largest > small * model.interface.model_size)) {
+    return {};
+  }
+  std::ostringstream text;
+  text.precision(3);
+  text << "displacements reach " << largest << " m in a model of " << model.interface.model_size
+       << " m; the theory is one of small displacements";
+  return {text.str()};
+}
+
+}  // namespace pounding

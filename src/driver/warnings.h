@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "driver/model.h"
+#include "output/recorder.h"
+
+/// Lines of doubt, each about one thing that a user should look at. The program prints them with
+/// "warning: " before them and lists them in summary.json.
+namespace pounding {
+
+/// Elements that cost the whole structure its time step, mostly by an accident of meshing.
+std::vector<std::string> sliver_warnings(const LinearSystem& system);
+
+/// What the recorded motion says against the theory of small displacements. Rank 0 only.
+std::vector<std::string> displacement_warnings(const Model& model, const Recorder& recorder);
+
+}  // namespace pounding
