@@ -47,6 +47,13 @@ class Outcome:
         if self.end == RUNS:
             with h5py.File(folder / "history.h5", "r") as file:
                 self.history = {name: file[name][()] for name in file}
+        self.ledger = self._ledger(folder) if self.end == RUNS else {}
+
+    @staticmethod
+    def _ledger(folder: Path) -> dict:
+        """Columns of energy.csv."""
+        columns = program.read_csv(folder / "energy.csv")
+        return {name: np.array(values, dtype=float) for name, values in columns.items()}
 
     @staticmethod
     def _end(status: int, errors: list, folder: Path) -> str:

@@ -21,6 +21,7 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
       energy_(comm, systems, time_step),
       counts_work_(contact != nullptr && contact->root() == rank_of(comm)),
       sums_(systems.size()) {
+  body_steps_.reserve(systems_.size());
   for (std::size_t b = 0; b < systems_.size(); ++b) {
     BodyState& body = state_.bodies[b];
     body_steps_.emplace_back(systems_[b], body, time_step);
@@ -30,6 +31,10 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
       device_velocities_[b] = wrap_vector(systems_[b], body.velocity);
       device_forces_[b] = wrap_vector(systems_[b], body.device_force);
     }
+    const bool bars = systems_[b].tension_bars != nullptr;
+    bar_steps_.push_back(
+        bars ? std::make_unique<TensionBarStep>(systems_[b], body, body_steps_[b], time_step)
+             : nullptr);
     StoredForces store(body.stiffness_displacement.data());  // K u_0
     systems_[b].stiffness->apply({body.displacement.data(), body.displacement.data(), 0}, store);
   }
@@ -54,10 +59,16 @@ void CdLagrange::step(bool look_at_gap, bool with_energies) {
     }
     for (std::size_t b = 0; b < systems_.size(); ++b) {
       sums_[b].extra_damping_before = apply_devices(b);
+      if (bar_steps_[b]) {
+        bar_steps_[b]->begin();
+      }
       body_steps_[b].begin(force_duration_, acceleration_, first,
                            with_energies || energy_.needs_energies());
       systems_[b].stiffness->finish(argument(b), body_steps_[b]);  // q, v_free, u_{n+1}
       body_steps_[b].complete();
+      if (bar_steps_[b]) {
+        bar_steps_[b]->pull(first);
+      }
     }
   }
   if (touching_) {
@@ -67,6 +78,9 @@ void CdLagrange::step(bool look_at_gap, bool with_energies) {
     const double extra_damping = sums_[b].extra_damping_before;
     sums_[b] = body_steps_[b].sums();
     sums_[b].extra_damping_before = extra_damping;
+    if (bar_steps_[b]) {
+      bar_steps_[b]->finish(sums_[b]);
+    }
   }
   energy_.add_step(sums_, acceleration_, touching_ && counts_work_ ? contact_->total_work() : 0);
   ++state_.step;
@@ -103,15 +117,6 @@ double CdLagrange::apply_devices(std::size_t b) {
     system.extra_damping->apply(device_velocities_[b].get(), device_forces_[b].get());
     extra_damping = std::inner_product(body.velocity.begin(), body.velocity.end(),
                                        body.device_force.begin(), 0.0);
-  } else {
-    std::fill(body.device_force.begin(), body.device_force.end(), 0.0);
-  }
-  if (system.tension_bars) {
-    const StiffnessArgument w = argument(b);
-    for (std::size_t i = 0; i < body.device_argument.size(); ++i) {
-      body.device_argument[i] = w[i];
-    }
-    system.tension_bars->add_force(body.device_argument.data(), body.device_force.data());
   }
   return extra_damping;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "dynamics/energy_balance.h"
 #include "dynamics/gap_watch.h"
 #include "dynamics/state.h"
+#include "dynamics/tension_bar_step.h"
 #include "motion/ground_motion.h"
 #include "system/linear_system.h"
 
@@ -25,9 +27,9 @@ namespace pounding {
 ///     v_{n+1/2} = v_free + M^-1 L^T lambda
 ///     u_{n+1}   = u_n + dt v_{n+1/2}
 ///
-/// with x the force of dashpots and tension-only bars, if there are any. The stiffness hands its
-/// forces over range by range, and BodyStep updates velocity and displacement there while they are
-/// in the nearest cache; contact then corrects the few dofs of the interface.
+/// with x the force of dashpots and of tension-only bars (TensionBarStep), if there are any. The
+/// stiffness hands its forces over range by range, and BodyStep updates velocity and displacement
+/// there while they are in the nearest cache; contact then corrects the few dofs of the interface.
 ///
 /// The first step is half a step of velocity from v_0 at t_0, which makes the scheme second order
 /// without damping. Times are n dt, never accumulated. Stable for dt below `stable_time_step`;
@@ -66,7 +68,7 @@ class CdLagrange {
 
  private:
   StiffnessArgument argument(std::size_t body) const;
-  /// Forces of dashpots, extra damping D and tension-only bars; returns v-^T D v-.
+  /// Forces of the extra damping D, dashpots included; returns v-^T D v-.
   double apply_devices(std::size_t body);
   /// Gathers u_n, finds A; true if it is not empty, and then what contact will change is kept.
   bool look_at_interface();
@@ -81,6 +83,7 @@ class CdLagrange {
   Profile& profile_;
   State state_;
   std::vector<BodyStep> body_steps_;
+  std::vector<std::unique_ptr<TensionBarStep>> bar_steps_;  ///< null where there are no such bars
   EnergyBalance energy_;
   bool counts_work_;  ///< this rank adds the contact work to the ledger
   std::vector<StepSums> sums_;

@@ -33,12 +33,15 @@ void EnergyBalance::add_step(std::span<const StepSums> sums,
   }
   if (steps_ == 1) {
     initial_lagged_damping_ = lagged_damping_;
+    initial_ -= open_.contact;
+    contact_.add(open_.contact);
   }
   if (steps_ > 1) {
     damping_.add(open_.damping);
     input_.add(open_.input);
     contact_.add(open_.contact);
     device_.add(open_.device);
+    bars_.add(open_.bars);
   }
   open_ = works(sums, ground_acceleration, contact_work);
   ++steps_;
@@ -60,6 +63,7 @@ EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
           time_step_ / 2 * (systems_[b].gravity[d] - ground_acceleration[d]) * sums[b].momentum[d];
     }
     result.device += time_step_ / 2 * sums[b].device;
+    result.bars += sums[b].bar_loss;
   }
   return result;
 }
@@ -70,8 +74,8 @@ StructureEnergy EnergyBalance::energy(const LinearSystem& system, const StepSums
       (1 - dt / 2 * mass_damping(system)) * sums.kinetic_before + sums.added_kinetic_before;
   const double damped =
       inertia - dt / 2 * (system.damping.beta * sums.stiffness_before + sums.extra_damping_before);
-  return {damped / 2, sums.strain_before / 2, (damped - dt * dt / 4 * sums.stiffness_before) / 2,
-          sums.displacement_mass};
+  return {damped / 2, sums.strain_before / 2 + sums.bar_energy_before,
+          (damped - dt * dt / 4 * sums.stiffness_before) / 2, sums.displacement_mass};
 }
 
 EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
@@ -79,9 +83,13 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   std::copy(energies_.begin(), energies_.end(), structures.begin());
   MPI_Allreduce(MPI_IN_PLACE, structures.data(), static_cast<int>(values * structures.size()),
                 MPI_DOUBLE, MPI_SUM, comm_);
-  std::array<double, 5> sums{initial_, damping_.total(), contact_.total(), input_.total(),
-                             device_.total() + lagged_damping_ - initial_lagged_damping_};
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 5, MPI_DOUBLE, MPI_SUM, comm_);
+  std::array<double, 6> sums{initial_,
+                             damping_.total(),
+                             contact_.total(),
+                             input_.total(),
+                             device_.total() + lagged_damping_ - initial_lagged_damping_,
+                             bars_.total()};
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 6, MPI_DOUBLE, MPI_SUM, comm_);
   EnergyLine line;
   line.time = static_cast<double>(closed_steps() - 1) * time_step_;
   for (const StructureEnergy& structure : structures) {
@@ -91,7 +99,8 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   line.damping_loss = sums[1];
   line.contact_work = sums[2];
   line.input_work = sums[3];
-  line.device_work = sums[4];
+  line.bar_loss = sums[5];
+  line.device_work = sums[4] + line.bar_loss;
   line.residual = line.energy() - sums[0] + line.damping_loss + line.device_work -
                   line.contact_work - line.input_work;
   return line;
@@ -99,14 +108,15 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
 
 template <typename Balance, typename Function>
 void EnergyBalance::for_each_sum(Balance& balance, Function&& function) {
-  for (auto* sum : {&balance.damping_, &balance.input_, &balance.contact_, &balance.device_}) {
+  for (auto* sum :
+       {&balance.damping_, &balance.input_, &balance.contact_, &balance.device_, &balance.bars_}) {
     function(sum->value);
     function(sum->correction);
   }
   function(balance.initial_);
   function(balance.initial_lagged_damping_);
   for (auto* work : {&balance.open_.damping, &balance.open_.input, &balance.open_.contact,
-                     &balance.open_.device}) {
+                     &balance.open_.device, &balance.open_.bars}) {
     function(*work);
   }
 }

@@ -17,7 +17,7 @@ namespace pounding {
 struct EnergyLine {
   double time = 0;     ///< t_n; the energies stand half a step later
   double kinetic = 0;  ///< 1/2 v^T (M + S - dt/2 C) v
-  double strain = 0;   ///< 1/2 u_{n+1}^T K u_n
+  double strain = 0;   ///< 1/2 u_{n+1}^T K u_n, and the energy of tension-only bars
   double damping_loss = 0;
   double contact_work = 0;
   double input_work = 0;  ///< of ground motion and gravity
@@ -26,6 +26,7 @@ struct EnergyLine {
   double device_work = 0;
   double residual = 0;  ///< energy - initial energy + damping loss + device work - contact work
                         ///< - input work
+  double bar_loss = 0;  ///< of tension-only bars alone: what they took and did not keep
 
   double energy() const { return kinetic + strain; }
 };
@@ -48,9 +49,9 @@ struct StructureEnergy {
 ///     E_{n+1/2} - E_{n-1/2} = -dt vbar^T C vbar + dt vbar^T (f_n - x_n) + 1/2 lambda^T L v_{n-1/2}
 ///     E_{n+1/2}             = 1/2 v^T (M + S - dt/2 C) v + 1/2 u_{n+1}^T K u_n
 ///
-/// with S the mass that scaled elements are given, x the force of tension-only bars, and C all
-/// damping, alpha M + beta K + D. The forces of D lag like the others: they come as D v_{n-1/2},
-/// and
+/// with S the mass that scaled elements are given, x the force of tension-only bars, whose energy
+/// W_{n+1/2} stands beside the strain energy (see TensionLaw), and C all damping, alpha M + beta K
+/// + D. The forces of D lag like the others: they come as D v_{n-1/2}, and
 ///
 ///     vbar^T D vbar = vbar^T D v- + (v+^T D v+ - v-^T D v-) / 4
 ///
@@ -59,8 +60,8 @@ struct StructureEnergy {
 ///
 ///     4 vbar^T K vbar = v+^T K v+ + 2 v+^T K v- + v-^T K v-
 ///
-/// Sums are kept per rank and added up only when a line is asked for. The balance starts at
-/// E_{1/2}.
+/// Sums are kept per rank and added up only when a line is asked for. The balance starts at E_{1/2}
+/// without the contact work of the first half step, which is the first that it counts.
 class EnergyBalance {
  public:
   EnergyBalance(MPI_Comm comm, std::span<const LinearSystem> systems, double time_step);
@@ -103,6 +104,7 @@ class EnergyBalance {
     double input = 0;
     double contact = 0;
     double device = 0;
+    double bars = 0;
   };
   /// Calls `function` with each number of this rank that adds up over ranks.
   template <typename Balance, typename Function>
@@ -127,6 +129,7 @@ class EnergyBalance {
   Sum input_;
   Sum contact_;
   Sum device_;
+  Sum bars_;
   std::int64_t steps_ = 0;
   double largest_term_ = 0;
   double largest_residual_ = 0;

@@ -15,10 +15,7 @@ struct BodyState {
   std::vector<double> displacement;            ///< u_n [m, rad]
   std::vector<double> velocity;                ///< v_{n-1/2} [m/s, rad/s]
   std::vector<double> stiffness_displacement;  ///< K u_{n-1} [N, N m]
-  /// Force of dashpots and tension-only bars in the step, and u_n + beta v_{n-1/2} for them; empty
-  /// without them.
-  std::vector<double> device_force;
-  std::vector<double> device_argument;
+  std::vector<double> device_force;            ///< of dashpots in the step; empty without them
 };
 
 struct State {
@@ -30,7 +27,7 @@ struct State {
       const std::size_t dofs = system.lumped_mass.size();
       const std::vector<double> device(system.has_devices() ? dofs : 0, 0.0);
       bodies.push_back({zeros_on_large_pages(dofs), zeros_on_large_pages(dofs),
-                        zeros_on_large_pages(dofs), device, device});
+                        zeros_on_large_pages(dofs), device});
       for (std::size_t d = 0; d < 3; ++d) {
         const std::vector<double> iota = system.influence(static_cast<int>(d));
         for (std::size_t i = 0; i < iota.size(); ++i) {

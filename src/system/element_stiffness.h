@@ -49,6 +49,9 @@ class ElementStiffness final : public Stiffness {
   Mat matrix() const override { return assembled_ != nullptr ? assembled_->matrix() : nullptr; }
   void release_matrix() override { assembled_.reset(); }
 
+  /// The matrix that was lent, null if there is none.
+  std::unique_ptr<Stiffness> take_matrix() { return std::move(assembled_); }
+
   const ElementKinds& kinds() const { return kinds_; }
 
  private:

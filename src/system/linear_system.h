@@ -81,8 +81,8 @@ struct LinearSystem {
   /// K for eigenvalues: every bar taut.
   const Stiffness& stiffest() const { return taut ? *taut : *stiffness; }
   Mat stiffest_matrix() const { return stiffest().matrix(); }
-  /// Forces beside K u, alpha M v and beta K v.
-  bool has_devices() const { return tension_bars || extra_damping; }
+  /// Forces that act on all dofs beside K u, alpha M v and beta K v.
+  bool has_devices() const { return extra_damping != nullptr; }
   /// iota of a direction [-].
   std::vector<double> influence(int d) const;
   LocalIndex owned_dofs() const { return static_cast<LocalIndex>(lumped_mass.size()); }

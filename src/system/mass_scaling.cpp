@@ -57,6 +57,55 @@ class Groups {
   std::vector<std::size_t> parent_;
 };
 
+/// Nodes of the whole mesh that one rank must own together.
+class Couplings {
+ public:
+  explicit Couplings(const GlobalMesh& mesh)
+      : mesh_(mesh),
+        groups_(mesh.node_count()),
+        coupled_(static_cast<std::size_t>(mesh.node_count()), 0),
+        scaled_(coupled_) {}
+
+  /// Clamped nodes connect nothing.
+  void join(std::span<const GlobalIndex> nodes, bool scaled) {
+    GlobalIndex first = -1;
+    for (const GlobalIndex node : nodes) {
+      const auto n = static_cast<std::size_t>(node);
+      if (mesh_.free_components[n] == 0) {
+        continue;
+      }
+      coupled_[n] = 1;
+      scaled_[n] = scaled || scaled_[n] != 0;
+      if (first >= 0) {
+        groups_.join(first, node);
+      }
+      first = node;
+    }
+  }
+
+  struct Group {
+    NodeCluster cluster;
+    GlobalIndex scaled_dofs = 0;
+  };
+  std::map<std::size_t, Group> groups() {
+    std::map<std::size_t, Group> result;
+    for (std::size_t n = 0; n < coupled_.size(); ++n) {
+      if (coupled_[n] != 0) {
+        Group& group = result[groups_.root(n)];
+        group.cluster.nodes.push_back(static_cast<GlobalIndex>(n));
+        group.scaled_dofs += scaled_[n] != 0 ? component_count(mesh_.free_components[n]) : 0;
+      }
+    }
+    return result;
+  }
+
+ private:
+  const GlobalMesh& mesh_;
+  Groups groups_;
+  std::vector<char> coupled_;
+  std::vector<char> scaled_;
+};
+
 /// Whether an element of the whole mesh is scaled.
 class Decision {
  public:
@@ -105,7 +154,6 @@ bool may_be_scaled(ElementType type) {
   switch (type) {
     case ElementType::beam:
     case ElementType::bar:
-    case ElementType::tension_bar:
     case ElementType::grounded_spring:
     case ElementType::grounded_spring6:
     case ElementType::spring:
@@ -133,54 +181,32 @@ double add_element_mass(double time_step, const Rayleigh& damping,
 
 std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalMesh& mesh,
                                        int structure_number) {
-  if (structure.mass_scaling == 0) {
-    return {};
-  }
-  Groups groups(mesh.node_count());
+  const bool scaling = structure.mass_scaling > 0;
+  Couplings couplings(mesh);
   Decision decision(structure, mesh);
-  std::vector<char> coupled(static_cast<std::size_t>(mesh.node_count()), 0);
   for (const Region& region : structure.regions) {
     check_alpha(structure, region);
   }
   for (const ElementSet& set : mesh.regions) {
+    const bool tension = set.type == ElementType::tension_bar;
     const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
-    for (std::size_t e = 0; may_be_scaled(set.type) && e < set.tags.size(); ++e) {
+    const bool looked_at = tension || (scaling && may_be_scaled(set.type));
+    for (std::size_t e = 0; looked_at && e < set.tags.size(); ++e) {
       const std::span<const GlobalIndex> nodes(&set.connectivity[e * width], width);
-      if (!decision.scales(set, nodes)) {
-        continue;
+      if (tension || decision.scales(set, nodes)) {
+        couplings.join(nodes, !tension);
       }
-      GlobalIndex first = -1;
-      for (const GlobalIndex node : nodes) {
-        const auto n = static_cast<std::size_t>(node);
-        if (mesh.free_components[n] == 0) {
-          continue;  // clamped nodes connect nothing
-        }
-        coupled[n] = 1;
-        if (first >= 0) {
-          groups.join(first, node);
-        }
-        first = node;
-      }
-    }
-  }
-  std::map<std::size_t, NodeCluster> clusters;
-  for (std::size_t n = 0; n < coupled.size(); ++n) {
-    if (coupled[n] != 0) {
-      clusters[groups.root(n)].nodes.push_back(static_cast<GlobalIndex>(n));
     }
   }
   std::vector<NodeCluster> result;
-  for (auto& [root, cluster] : clusters) {
-    GlobalIndex dofs = 0;
-    for (const GlobalIndex node : cluster.nodes) {
-      dofs += component_count(mesh.free_components[static_cast<std::size_t>(node)]);
+  for (auto& [root, group] : couplings.groups()) {
+    if (group.scaled_dofs > most_dofs) {
+      refuse(structure, "it couples " + std::to_string(group.scaled_dofs) +
+                            " dofs with each other, more than " + std::to_string(most_dofs) +
+                            "; ask for a smaller step");
     }
-    if (dofs > most_dofs) {
-      refuse(structure, "it couples " + std::to_string(dofs) + " dofs with each other, more than " +
-                            std::to_string(most_dofs) + "; ask for a smaller step");
-    }
-    cluster.structure = structure_number;
-    result.push_back(std::move(cluster));
+    group.cluster.structure = structure_number;
+    result.push_back(std::move(group.cluster));
   }
   return result;
 }

@@ -9,8 +9,9 @@
 
 namespace pounding {
 
-/// Selective mass scaling: the few stiff beams, bars and springs that would hold the time step of a
-/// structure below the wanted one get mass in proportion to their stiffness, S_e = c_e K_e, with
+/// Selective mass scaling: the few stiff beams, bars (but not tension-only ones) and springs that
+/// would hold the time step of a structure below the wanted one get mass in proportion to their
+/// stiffness, S_e = c_e K_e, with
 ///
 ///     c_e = max(0, (2 dt beta + dt^2) / 4 - (1 - dt alpha / 2) / omega_e^2)
 ///
@@ -44,9 +45,10 @@ double add_element_mass(double time_step, const Rayleigh& damping,
                         std::span<const double> stiffness, std::span<const double> lumped_mass,
                         std::span<const double> dashpots, std::span<double> added);
 
-/// Nodes that scaled elements connect, group by group: M + S couples their dofs, so one rank must
-/// own them. `structure_number` is copied. Throws UserError where alpha alone forbids the wanted
-/// step or a group is too large to be factorised. Serial.
+/// Nodes that scaled elements or tension-only bars connect, group by group: M + S couples the dofs
+/// of the ones, the step solves for the tensions of the others together, so one rank must own them.
+/// `structure_number` is copied. Throws UserError where alpha alone forbids the wanted step or the
+/// scaled nodes of a group are too many to be factorised. Serial.
 std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalMesh& mesh,
                                        int structure_number);
 

@@ -4,6 +4,8 @@
 
 #include "common/parallel.h"
 #include "common/petsc.h"
+#include "support/built_system.h"
+#include "system/trace.h"
 
 namespace pounding {
 namespace {
@@ -28,10 +30,7 @@ GlobalMesh chain(int cells) {
   return mesh;
 }
 
-TEST(TensionBars, PullWhenStretchedAndAreSlackWhenShortened) {
-  constexpr int cells = 9;
-  const MPI_Comm comm = PETSC_COMM_WORLD;
-  const GlobalMesh global = chain(cells);
+Structure ties() {
   Structure structure;
   structure.name = "chain";
   Region region;
@@ -40,28 +39,36 @@ TEST(TensionBars, PullWhenStretchedAndAreSlackWhenShortened) {
   region.material = {"steel", 200, 0.3, 1};
   region.area = 0.5;
   structure.regions.push_back(region);
-  Partition partition;
-  if (rank_of(comm) == 0) {
-    partition = partition_meshes({&global, 1}, {}, size_of(comm));
-  }
-  const Mesh mesh = distribute_mesh(comm, "chain", global, partition, 0);
-  const auto bars = TensionBars::build(structure, mesh);
-  ASSERT_TRUE(bars);
-  EXPECT_EQ(bars->count(), cells);
-  // Bar i is stretched by +0.01 if i is even, shortened if it is odd.
+  return structure;
+}
+
+TEST(TensionBars, ThatShareNodesLiveOnOneRank) {
+  constexpr int cells = 9;
+  const auto built = testing::build_system(chain(cells), ties());
+  ASSERT_TRUE(built.system.tension_bars);
+  EXPECT_EQ(built.system.tension_bars->count(), cells);
+  const auto here = static_cast<int>(built.system.tension_bars->bars().size());
+  EXPECT_TRUE(here == 0 || here == cells);
+  int all = here;
+  MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_SUM, PETSC_COMM_WORLD);
+  EXPECT_EQ(all, cells);
+}
+
+TEST(TensionBars, MeasureElongationsAlongTheirAxes) {
+  const auto built = testing::build_system(chain(4), ties());
+  const TensionBars& bars = *built.system.tension_bars;
+  const Mesh& mesh = built.mesh;
   std::vector<double> w(static_cast<std::size_t>(mesh.owned_dofs), 0.0);
-  std::vector<double> force(w.size(), 0.0);
   for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
     const GlobalIndex number = mesh.file_node[static_cast<std::size_t>(node)];
-    w[static_cast<std::size_t>(mesh.dof(node, 0))] = number % 2 == 0 ? 0 : 0.01;
+    w[static_cast<std::size_t>(mesh.dof(node, 0))] = 0.01 * static_cast<double>(number * number);
+    w[static_cast<std::size_t>(mesh.dof(node, 1))] = 5;
   }
-  bars->add_force(w.data(), force.data());
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    const GlobalIndex number = mesh.file_node[static_cast<std::size_t>(node)];
-    // 100 N/m x 0.01 m; the end of a chain of odd length hangs on a stretched bar too.
-    const double expected = number % 2 == 0 ? -1.0 : 1.0;
-    EXPECT_NEAR(force[static_cast<std::size_t>(mesh.dof(node, 0))], expected, 1e-12) << number;
-    EXPECT_EQ(force[static_cast<std::size_t>(mesh.dof(node, 1))], 0);
+  std::vector<double> field(bars.trace().known().size());
+  bars.trace().apply(w.data(), field.data(), 1);
+  for (std::size_t b = 0; b < bars.bars().size(); ++b) {
+    EXPECT_NEAR(bars.bars()[b].elongation(field), 0.01 * (2 * static_cast<double>(b) + 1), 1e-14);
+    EXPECT_DOUBLE_EQ(bars.bars()[b].stiffness, 100);
   }
 }
 

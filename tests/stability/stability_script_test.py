@@ -16,6 +16,7 @@ class Stability(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp(prefix="pounding-")
         cls.result = stability("--quick", "--only", "mass_ratio", "--only", "one_element", "--only", "time_step",
+                               "--only", "switching_bars", "--only", "passive_devices",
                                "--output", cls.folder)
         with open(os.path.join(cls.folder, "stability.csv"), newline="") as file:
             cls.rows = list(csv.DictReader(file))
@@ -39,6 +40,12 @@ class Stability(unittest.TestCase):
         for row in self.sweep("one element") + self.sweep("mass ratio"):
             self.assertEqual((row["outcome"], row["verdict"]), ("runs", "as expected"), row)
             self.assertLessEqual(float(row["measure"]), float(row["limit"]), row)
+
+    def test_what_can_only_take_energy_gives_none(self):
+        self.assertEqual(len(self.sweep("switching bars")), 8)
+        self.assertEqual(len(self.sweep("passive devices")), 5)
+        for row in self.sweep("switching bars") + self.sweep("passive devices"):
+            self.assertEqual((row["outcome"], row["verdict"]), ("runs", "as expected"), row)
 
     def test_end_of_the_method_is_told(self):
         *below, above, unasked = self.sweep("time step")

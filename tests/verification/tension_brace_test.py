@@ -3,7 +3,7 @@
 Two bars on each side, inclined 3 in 4: whichever way the mass moves, one pair is taut, so it
 vibrates as if one pair always held it, with k = 2 (E A / L) (4/5)^2. One pair beside a grounded
 spring k1: half periods pi sqrt(m / (k1 + k)) and pi sqrt(m / k1), amplitudes v0 / omega on either
-side. References: closed forms; for the first case also that of the scheme itself.
+side. References: closed forms.
 """
 import math
 import unittest
@@ -49,12 +49,9 @@ class BracesOnBothSides(unittest.TestCase):
         time_step = self.PERIOD / 1000
         for ranks in (1, 2, 3):
             run = Recorded(self, scene(("left", "right"), 0, time_step, 3.1 * self.PERIOD), ranks)
-            # Of the scheme: u_n = v0 dt sin(n theta) / sin(theta), sin(theta / 2) = omega dt / 2
-            theta = 2 * math.asin(self.OMEGA * time_step / 2)
-            steps = numpy.arange(len(run.time))
-            exact = SPEED * time_step * numpy.sin(steps * theta) / math.sin(theta)
+            exact = SPEED / self.OMEGA * numpy.sin(self.OMEGA * run.time)
             u = run.displacement("hung.x")
-            self.assertLess(abs(u - exact).max(), 1e-10 * abs(exact).max())
+            self.assertLess(abs(u - exact).max(), 1e-4 * abs(exact).max())
             self.assertAlmostEqual(u.max(), SPEED / self.OMEGA, delta=1e-5 * SPEED / self.OMEGA)
             self.assertAlmostEqual(u.min(), -SPEED / self.OMEGA, delta=1e-5 * SPEED / self.OMEGA)
             halves = numpy.diff(crossings(run))
@@ -62,13 +59,19 @@ class BracesOnBothSides(unittest.TestCase):
             self.assertLess(abs(halves / (self.PERIOD / 2) - 1).max(), 1e-5)
             self.assertLess(abs(run.displacement("hung.y")).max(), 1e-12 * SPEED / self.OMEGA)
 
+    def test_answers_are_the_same_on_every_number_of_ranks(self):
+        one, *others = (Recorded(self, scene(("left", "right"), 0, self.PERIOD / 50, 3 * self.PERIOD), ranks)
+                        for ranks in (1, 2, 3))
+        for other in others:
+            self.assertTrue(numpy.array_equal(one.displacement("hung.x"), other.displacement("hung.x")))
+
     def test_bars_hold_the_energy_at_the_turn(self):
         time_step = self.PERIOD / 1000
         run = Recorded(self, scene(("left", "right"), 0, time_step, self.PERIOD / 4))
         held = MASS * SPEED**2 / 2
-        self.assertAlmostEqual(run.energy["devices"] / held, 1, delta=1e-4)
+        self.assertAlmostEqual(run.energy["strain"] / held, 1, delta=1e-4)
         self.assertLess(run.energy["kinetic"], 1e-4 * held)
-        self.assertEqual(run.energy["strain"], 0)
+        self.assertLess(abs(run.energy["devices"]), 1e-12 * held)
 
 
 class BracesOnOneSideBesideASpring(unittest.TestCase):
