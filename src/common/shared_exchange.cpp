@@ -18,6 +18,9 @@ namespace {
 
 constexpr std::size_t line = 128;  // [B] a cache line and the one that is fetched with it
 
+constexpr int least_patience = 100;  // looks
+constexpr int short_wait = 20;       // times the processor was given away
+
 using Turn = std::atomic<std::uint64_t>;
 static_assert(Turn::is_always_lock_free, "turns are read by other processes");
 
@@ -106,7 +109,8 @@ SharedExchange::SharedExchange(MPI_Comm comm, std::size_t capacity)
                         reinterpret_cast<double*>(first + line + half)}});
   }
   // Where ranks share processors, the one that is waited for may need this one.
-  patience_ = ranks <= std::thread::hardware_concurrency() ? 10000 : 100;
+  most_patience_ = ranks <= std::thread::hardware_concurrency() ? 10000 : least_patience;
+  patience_ = most_patience_;
 }
 
 SharedExchange::~SharedExchange() {
@@ -126,7 +130,8 @@ void SharedExchange::publish() {
 
 const double* SharedExchange::wait_for(int rank) const {
   const Board& board = boards_[static_cast<std::size_t>(rank)];
-  for (int looks = 0; board.turn->load(std::memory_order_acquire) < turn_; ++looks) {
+  int looks = 0;
+  for (; board.turn->load(std::memory_order_acquire) < turn_; ++looks) {
     if (looks < patience_) {
       pause_shortly();
     } else {
@@ -136,6 +141,8 @@ const double* SharedExchange::wait_for(int rank) const {
       sched_yield();
     }
   }
+  patience_ =
+      looks > patience_ + short_wait ? least_patience : std::min(2 * patience_, most_patience_);
   return board.values[turn_ % 2];
 }
 

@@ -48,7 +48,10 @@ class SharedExchange {
   std::size_t rank_ = 0;
   std::vector<Board> boards_;  ///< per rank
   std::uint64_t turn_ = 0;
-  int patience_ = 0;  ///< looks before the processor is given to somebody else
+  int most_patience_ = 0;
+  /// Looks before the processor is given to somebody else: few once that had to be done for long,
+  /// more again after waits that were short.
+  mutable int patience_ = 0;
   void* memory_ = nullptr;
   std::size_t memory_size_ = 0;
 };

@@ -153,8 +153,7 @@ Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile) {
     }
   }
   for (const LinearSystem& system : model.systems) {
-    const std::vector<std::string> warnings = sliver_warnings(system);
-    model.warnings.insert(model.warnings.end(), warnings.begin(), warnings.end());
+    append(sliver_warnings(system), model.warnings);
   }
   choose_time_step(scene, model);
   const ScopedTimer timer(profile, Phase::modes);

@@ -128,6 +128,7 @@ void run_scene(MPI_Comm comm, const Scene& scene, const std::string& resolved) {
   on_rank0(comm, [&] {
     write_floor_spectra(scene.output + "/spectra.csv", spectra, loop.recorder().interval());
     statistics.warnings = displacement_warnings(model, loop.recorder());
+    append(contact_warnings(statistics.complementarity_residual), statistics.warnings);
     statistics.wall_time = MPI_Wtime() - start;
     write_summary(scene.output + "/summary.json", scene, resolved, model, statistics,
                   loop.recorder(), size_of(comm));

@@ -62,6 +62,7 @@ TimeLoop::TimeLoop(MPI_Comm comm, const Scene& scene, const Model& model, Profil
                  places_of(model.interface), scene.impact_merge_time),
       smallest_gaps_(scene.contacts.size(), 0.0),
       energies_(model.systems.size()),
+      energy_round_off_(model.systems.size()),
       ledger_(model.steps / scene.energy_interval + 2) {
   stepper_ = std::make_unique<CdLagrange>(comm, model.systems, *model.motion, contact_.get(),
                                           make_watch(comm, model, contact_.get(), profile),
@@ -179,7 +180,12 @@ void TimeLoop::close_ledger_line() {
   energy.note(line);
   watch_divergence(model_, stepper_->state(), line, energies_);
   watch_identity(model_, line, energies_, energy.largest_term());
-  stepper_->gap_watch().energies_known(energy.closed_steps() - 1, energies_);
+  watch_passivity(line, energy.largest_term());
+  watch_contact(comm_, contact_.get(), line.time);
+  for (std::size_t s = 0; s < energies_.size(); ++s) {
+    energy_round_off_[s] = energy_round_off(model_, s, energies_[s]);
+  }
+  stepper_->gap_watch().energies_known(energy.closed_steps() - 1, energies_, energy_round_off_);
   ledger_.add(line);
 }
 

@@ -52,6 +52,7 @@ class TimeLoop {
   std::vector<double> smallest_gaps_;  ///< per contact
   std::int64_t gap_stride_ = 1;        ///< steps between two samples of the gaps
   std::vector<StructureEnergy> energies_;
+  std::vector<double> energy_round_off_;  ///< of each of them [J]
   EnergyLedger ledger_;
   std::int64_t first_step_ = 0;
 };

@@ -34,4 +34,17 @@ std::vector<std::string> displacement_warnings(const Model& model, const Recorde
   return {text.str()};
 }
 
+std::vector<std::string> contact_warnings(double residual) {
+  constexpr double solved = 1e-6;
+  if (!(residual > solved)) {
+    return {};
+  }
+  std::ostringstream text;
+  text.precision(3);
+  text << "the contact problem of some step was not solved to the end: complementarity residual "
+       << residual << " of the largest closing velocity (below " << solved
+       << " is as good as exact); look at contacts that hold the same place twice";
+  return {text.str()};
+}
+
 }  // namespace pounding

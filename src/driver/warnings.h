@@ -10,10 +10,19 @@
 /// "warning: " before them and lists them in summary.json.
 namespace pounding {
 
+/// Adds lines to a list.
+inline void append(const std::vector<std::string>& lines, std::vector<std::string>& to) {
+  to.insert(to.end(), lines.begin(), lines.end());
+}
+
 /// Elements that cost the whole structure its time step, mostly by an accident of meshing.
 std::vector<std::string> sliver_warnings(const LinearSystem& system);
 
 /// What the recorded motion says against the theory of small displacements. Rank 0 only.
 std::vector<std::string> displacement_warnings(const Model& model, const Recorder& recorder);
+
+/// Steps whose contact problem was not solved to the end. `residual`: the largest complementarity
+/// residual of the run [-].
+std::vector<std::string> contact_warnings(double residual);
 
 }  // namespace pounding

@@ -14,6 +14,9 @@ namespace {
 /// Part of the largest energy term beyond which the identity is broken.
 constexpr double broken_identity = 1e-6;
 
+/// Part of the largest energy term that what can only take energy may have given.
+constexpr double given_energy = 1e-6;
+
 /// Round-off of u^T K u over omega_max^2 u^T M u, with a margin for sums over many steps.
 constexpr double product_round_off = 1e-14;
 
@@ -55,6 +58,43 @@ void watch_divergence(const Model& model, const State& state, const EnergyLine& 
   }
 }
 
+double energy_round_off(const Model& model, std::size_t structure, const StructureEnergy& energy) {
+  // K keeps its stiff entries whatever the mass is that they meet.
+  const double omega = std::max(model.largest[structure].omega_max,
+                                model.systems[structure].mass_scaling.row_frequency);
+  return product_round_off * omega * omega * energy.displacement_mass;
+}
+
+void watch_passivity(const EnergyLine& line, double largest_term) {
+  const auto refuse = [&](const char* what, double loss) {
+    std::ostringstream text;
+    text << what << " gave " << -loss << " J more than it took until t = " << line.time
+         << " s (largest term of the energies " << largest_term
+         << " J); the run is stopped, its results cannot be trusted; try a smaller time step";
+    throw DivergenceError(text.str());
+  };
+  const double allowed = given_energy * largest_term;
+  if (line.bar_loss < -allowed) {
+    refuse("the tension-only bars", line.bar_loss);
+  }
+  const double dashpots = line.device_work - line.bar_loss;
+  if (line.damping_loss + dashpots < -allowed) {
+    refuse("damping", line.damping_loss + dashpots);
+  }
+}
+
+void watch_contact(MPI_Comm comm, const ContactProblem* contact, double time) {
+  double residual = contact != nullptr ? contact->largest_residual() : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &residual, 1, MPI_DOUBLE, MPI_MAX, comm);
+  if (!std::isfinite(residual)) {
+    std::ostringstream text;
+    text << "the run diverged: before t = " << time
+         << " s the contact problem held a number that is not finite, and its impulses were left "
+            "out; look at masses and stiffnesses beside the contacts";
+    throw DivergenceError(text.str());
+  }
+}
+
 void watch_identity(const Model& model, const EnergyLine& line,
                     std::span<const StructureEnergy> structures, double largest_term) {
   double allowed = broken_identity * largest_term;
@@ -63,10 +103,7 @@ void watch_identity(const Model& model, const EnergyLine& line,
     const Vector3& g = model.systems[s].gravity;
     const double speed = model.time_step * (shaking + std::hypot(g[0], g[1], g[2]));
     allowed += broken_identity * model.systems[s].total_mass * speed * speed / 2;
-    // K keeps its stiff entries whatever the mass is that they meet.
-    const double omega =
-        std::max(model.largest[s].omega_max, model.systems[s].mass_scaling.row_frequency);
-    allowed += product_round_off * omega * omega * structures[s].displacement_mass;
+    allowed += energy_round_off(model, s, structures[s]);
   }
   if (std::abs(line.residual) > allowed) {
     std::ostringstream text;

@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "contact/contact_problem.h"
 #include "driver/model.h"
 #include "dynamics/energy_balance.h"
 #include "dynamics/state.h"
@@ -15,11 +16,22 @@ namespace pounding {
 void watch_divergence(const Model& model, const State& state, const EnergyLine& line,
                       std::span<const StructureEnergy> structures);
 
+/// Round-off of a structure's energy [J]: that of the products K u, whose parts may be far larger
+/// than their sum, up to omega_max^2 u^T M u.
+double energy_round_off(const Model& model, std::size_t structure, const StructureEnergy& energy);
+
 /// Throws DivergenceError if the energy identity, exact but for round-off, does not close: the
 /// state or the matrices are damaged. Round-off is that of the largest term [J] so far, of what one
-/// step of the load could do, and of the products K u, whose parts may be far larger than their
-/// sum: up to omega_max^2 u^T M u.
+/// step of the load could do, and of the structures' energies.
 void watch_identity(const Model& model, const EnergyLine& line,
                     std::span<const StructureEnergy> structures, double largest_term);
+
+/// Throws DivergenceError if what can only take energy has given some: damping and devices
+/// together, or tension-only bars, by more than a millionth of the largest term [J] so far.
+void watch_passivity(const EnergyLine& line, double largest_term);
+
+/// Throws DivergenceError if some rank's contact problem had no finite answer and so was left out.
+/// `contact` may be null. Collective.
+void watch_contact(MPI_Comm comm, const ContactProblem* contact, double time);
 
 }  // namespace pounding

@@ -275,6 +275,7 @@ void BodyStep::advance_patterns(std::size_t first, std::size_t end, const double
   sums_.mass_sum = mass_sum;
 }
 
+template <bool with_energies>
 void BodyStep::advance_generalised(std::size_t first, std::size_t end, const double* force) {
   double* const displacement = state_.displacement.data();
   double* const velocity = state_.velocity.data();
@@ -296,6 +297,11 @@ void BodyStep::advance_generalised(std::size_t first, std::size_t end, const dou
     load(&system_.inverse_mass[i], weight);
     for (std::size_t d = 0; d < 3; ++d) {
       load(&influence[d][i], iota[d]);
+    }
+    if constexpr (with_energies) {
+      sums_.kinetic_before += m * v * v;
+      sums_.strain_before += u * ku;
+      sums_.displacement_mass += m * u * u;
     }
     const Lanes kv = (q - ku) * inverse;
     Lanes after = decay * v;
@@ -349,8 +355,8 @@ void BodyStep::advance(const Segment& segment, LocalIndex begin, LocalIndex end,
         ground_[1], sums_.momentum[1]);
     return;
   }
-  if (segment.order == Order::generalised && duration_ == time_step_ && !with_energies) {
-    advance_generalised(done, stop, force);
+  if (segment.order == Order::generalised && duration_ == time_step_) {
+    advance_generalised<with_energies>(done, stop, force);
     done += (stop - done) / lanes * lanes;
   }
   for (; done < stop; ++done) {

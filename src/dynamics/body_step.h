@@ -84,6 +84,7 @@ class BodyStep final : public ForceReceiver {
   void advance_patterns(std::size_t first, std::size_t end, const double* force, Masses masses,
                         const Lanes* ground, Lanes* momentum);
   /// Whole vectors of generalised coordinates.
+  template <bool with_energies>
   void advance_generalised(std::size_t first, std::size_t end, const double* force);
   template <bool with_energies>
   void advance_dof(LocalIndex dof, double force);

@@ -47,11 +47,14 @@ void GapWatch::load(const SavedState& saved) {
   next_look_ = static_cast<std::int64_t>(steps[2]);
 }
 
-void GapWatch::energies_known(std::int64_t step, std::span<const StructureEnergy> energies) {
+void GapWatch::energies_known(std::int64_t step, std::span<const StructureEnergy> energies,
+                              std::span<const double> round_off) {
   energy_step_ = step;
   for (std::size_t s = 0; s < energies.size(); ++s) {
-    // Round-off of a structure at rest must not count as knowledge that nothing moves.
-    root_energy_[s] = std::sqrt(2 * std::max(0.0, energies[s].energy())) * (1 + 1e-6);
+    // Round-off of a structure at rest, or far from its place, must not count as knowledge that
+    // nothing moves.
+    root_energy_[s] =
+        std::sqrt(2 * (std::max(0.0, energies[s].energy()) + round_off[s])) * (1 + 1e-6);
   }
 }
 

@@ -41,8 +41,10 @@ class GapWatch {
   GapWatch(std::span<const LinearSystem> systems, std::vector<Bound> bounds, const Vector3& peaks,
            double time_step);
 
-  /// Energies per structure after step `step` [J].
-  void energies_known(std::int64_t step, std::span<const StructureEnergy> energies);
+  /// Energies per structure after step `step` [J], and by how much round-off may have made each
+  /// one smaller than it is [J].
+  void energies_known(std::int64_t step, std::span<const StructureEnergy> energies,
+                      std::span<const double> round_off);
 
   /// Some structure is bounded by what `measure` reads; the same on all ranks.
   bool measures() const { return measures_; }
@@ -66,7 +68,7 @@ class GapWatch {
   std::vector<double> measured_;     ///< per structure, rate [m/s] and growth per step
   std::vector<double> rate_norm_;    ///< per structure
   std::vector<double> growth_;       ///< of sqrt(2 E) per step
-  std::vector<double> root_energy_;  ///< sqrt(2 E) at energy_step_
+  std::vector<double> root_energy_;  ///< sqrt(2 E) at energy_step_, round-off included
   std::int64_t energy_step_ = -1;
   std::int64_t last_touch_ = -1;
   std::int64_t next_look_ = 0;

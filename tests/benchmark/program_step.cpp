@@ -29,7 +29,8 @@ class ProgramStep final : public TimedStep {
         stepper_(model.comm, model.systems, *model.motion, contact_.get(),
                  make_watch(model, contact_.get()), model.time_step, profile_),
         ledger_interval_(std::stol(std::string(option_row("energy_interval").preset.text))),
-        energies_(model.systems.size()) {}
+        energies_(model.systems.size()),
+        no_round_off_(model.systems.size(), 0.0) {}
 
   void run(long steps) override {
     for (long i = 0; i < steps; ++i, ++step_) {
@@ -68,7 +69,7 @@ class ProgramStep final : public TimedStep {
   void close_ledger_line() {
     EnergyBalance& energy = stepper_.energy();
     energy.note(energy.line(energies_));
-    stepper_.gap_watch().energies_known(energy.closed_steps() - 1, energies_);
+    stepper_.gap_watch().energies_known(energy.closed_steps() - 1, energies_, no_round_off_);
     if (!(energy.relative_residual() < 1e-6)) {
       throw std::runtime_error("the energy identity does not close");
     }
@@ -79,6 +80,7 @@ class ProgramStep final : public TimedStep {
   CdLagrange stepper_;
   long ledger_interval_;
   std::vector<StructureEnergy> energies_;
+  std::vector<double> no_round_off_;
   long step_ = 0;
 };
 

@@ -47,6 +47,34 @@ class Interval(unittest.TestCase):
             self.assertTrue(numpy.isfinite(often.data["gap"]).all())
 
 
+class FarFromItsPlace(unittest.TestCase):
+    def test_slow_body_is_not_missed_where_its_energy_is_round_off(self):
+        """100 km from its mesh the parts of u^T K u cancel to some joules of either sign, a hundred times
+        what the block has at 1 cm/s. No step may carry it further into the wall than one step's way."""
+        speed, time_step = 0.01, 1e-6
+        run = History(self, [
+            "-structures", "one", "-one_mesh", "tests/meshes/box.geo", "-one_mesh_set", "x0=100000",
+            "-one_body_element", "hex8_full", "-one_body_material", "c", *scenes.material("c", YOUNG, 0.2, DENSITY),
+            "-stiffness", "assembled", "-one_initial_displacement", "-99999.9995,0,0",
+            "-one_initial_velocity", f"{-speed},0,0", "-contacts", "stop", "-stop_secondary", "one:x_min",
+            "-stop_primary", "wall", "-stop_gap", 100000, "-time_step", time_step, "-end_time", 0.06,
+            "-output_interval", 0.01, *scenes.cheap("one:x_min")], 1)
+        self.assertEqual(run.summary["impacts"]["episodes"], 1)
+        self.assertLess(run.summary["impacts"]["max_penetration"], 1.05 * speed * time_step)
+
+
+class TouchingAtTheStart(unittest.TestCase):
+    def test_the_ledger_knows_what_the_first_impulse_took(self):
+        """Faces of 1 kg each, one at 2 m/s, in contact from the first: of 4 J of the cubes 1 J is lost."""
+        for ranks in (1, 2):
+            run = History(self, scenes.blocks((2.0, 2.0), speed=2.0, gap=0.0, young=SOFT, end_time=0.005), ranks)
+            energy = run.summary["energy"]
+            self.assertAlmostEqual(run.summary["impacts"]["energy_lost"], 1, delta=1e-12)
+            self.assertAlmostEqual(energy["contact"], -1, delta=1e-12)
+            self.assertAlmostEqual(energy["kinetic"], 3, delta=1e-12)
+            self.assertLess(energy["relative_residual"], 1e-14)
+
+
 class Overlap(unittest.TestCase):
     def masses(self, speed):
         return History(self, scenes.blocks((2.0, 2.0), speed=speed, gap=-1e-3, young=SOFT, end_time=0.005), 2)

@@ -32,6 +32,15 @@ class Restart(RestartCase):
                 self.assertGreater(program.summary(whole)["impacts"]["episodes"], 1)
                 self.assert_same_results(whole, self.continued([], ranks, ranks))
 
+    def test_from_the_end_of_a_shorter_run_and_with_another_interval_of_the_ledger(self):
+        whole = self.complete(PAIR + END + ["-energy_interval", 10], 1)
+        for interval in (1, 999):
+            with self.subTest(interval=interval):
+                self.assert_same_motion(whole, self.complete(PAIR + END + ["-energy_interval", interval], 1))
+        first = self.complete(PAIR + ["-end_time", STEP * TIME_STEP, "-checkpoint_steps", STEP, "-energy_interval", 10], 1)
+        self.assert_same_results(whole, self.complete(
+            PAIR + END + ["-restart", checkpoint(first), "-energy_interval", 10], 1))
+
     def test_on_other_ranks_the_motion_has_the_same_bits_and_energies_are_summed_otherwise(self):
         whole, other = self.complete(PAIR + END, 2), self.continued([], 1, 3)
         self.assert_same_motion(whole, other)

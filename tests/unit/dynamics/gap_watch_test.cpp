@@ -22,10 +22,10 @@ std::vector<LinearSystem> one_system() {
 
 /// The step of the next look after one at step 1, nothing touching.
 std::int64_t next_look(double norm, const std::array<double, 3>& force_norm = {},
-                       const Vector3& peaks = {}) {
-  const std::vector<StructureEnergy> energies{{energy, 0, energy}};
+                       const Vector3& peaks = {}, double known = energy, double round_off = 0) {
+  const std::vector<StructureEnergy> energies{{known, 0, known}};
   GapWatch watch(one_system(), {{norm, force_norm, {}}}, peaks, time_step);
-  watch.energies_known(0, energies);
+  watch.energies_known(0, energies, {&round_off, 1});
   watch.looked(1, clearance, false);
   std::int64_t step = 2;
   while (!watch.due(step)) {
@@ -41,6 +41,12 @@ TEST(GapWatch, LooksBeforeTheEnergyCanCloseTheGap) {
   const auto found = static_cast<double>(next_look(rate_norm) - 1);
   EXPECT_LE(found, steps);
   EXPECT_GT(found, steps / 4);
+}
+
+/// An energy that round-off ate is no sign of rest.
+TEST(GapWatch, TakesRoundOffOfTheEnergyForMotion) {
+  EXPECT_EQ(next_look(rate_norm, {}, {}, -0.1, energy), next_look(rate_norm));
+  EXPECT_EQ(next_look(rate_norm, {}, {}, energy / 4, 3 * energy / 4), next_look(rate_norm));
 }
 
 /// The ground adds (|a_x| |M iota_x| + ...) t to sqrt(2 E).
