@@ -247,7 +247,7 @@ void print_results(const Scene& scene, const RunStatistics& statistics,
       "\nenergy at the end [J]: kinetic %.4g, strain %.4g, damping loss %.4g, contact work %.4g, "
       "input work %.4g\n",
       energy.kinetic, energy.strain, energy.damping_loss, energy.contact_work, energy.input_work);
-  if (energy.device_work != 0) {
+  if (std::abs(energy.device_work) > 1e-12 * std::abs(energy.energy())) {
     std::printf(
         "  device work %.4g: of dashpots, tension-only bars, and what regions with damping of "
         "their own\n  lose beside the damping of their structure\n",

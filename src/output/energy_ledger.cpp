@@ -67,7 +67,8 @@ void write_energy(const std::string& path, const std::vector<EnergyLine>& lines)
   CsvFile file(path);
   file.comment("energy ledger of all structures [J] at time + half a time step [s];");
   file.comment(
-      "kinetic = v^T (M - dt/2 C) v / 2, strain = u_{n+1}^T K u_n / 2; the residual closes the "
+      "kinetic = v^T (M - dt/2 C) v / 2, strain = u_{n+1}^T K u_n / 2 and tension-only bars; the "
+      "residual closes the "
       "identity");
   file.header("time,kinetic,strain,damping_loss,contact_work,input_work,device_work,residual");
   for (const EnergyLine& line : lines) {

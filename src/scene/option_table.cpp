@@ -67,7 +67,7 @@ constexpr std::array table{
     OptionRow{Block::structure, "<structure>_modal_attachment", Kind::boolean, "flag", value("true"), any, "", "modal: static responses to unit forces at the contact dofs beside the modes"},
     OptionRow{Block::structure, "<structure>_modal_damping", Kind::reals, "-", absent("left out: that of the structure"), damping_ratio, "a comma-separated list of numbers", "modal: damping ratio of mode 1, 2, ..., the last one for all that follow"},
     OptionRow{Block::structure, "<structure>_modal_basis", Kind::text, "file", value("none"), any, "a file or none", "modal: where the basis is kept, to be used again while the structure stays the same"},
-    OptionRow{Block::structure, "<structure>_mass_scaling", Kind::real, "s", value("0"), not_negative, "", "stable time step that stiff beams, bars and springs, or fast generalised coordinates, get mass in proportion to their stiffness for; 0: none"},
+    OptionRow{Block::structure, "<structure>_mass_scaling", Kind::real, "s", value("0"), not_negative, "", "stable time step that stiff beams, bars (not tension-only ones) and springs, or fast generalised coordinates, get mass in proportion to their stiffness for; 0: none"},
     OptionRow{Block::structure, "<structure>_initial_displacement", Kind::reals, "m", value("0,0,0"), any, "three numbers x,y,z", "of every free node at t = 0"},
     OptionRow{Block::structure, "<structure>_initial_velocity", Kind::reals, "m/s", value("0,0,0"), any, "three numbers x,y,z", "of every free node at t = 0"},
     OptionRow{Block::structure, "<structure>_gravity", Kind::reals, "m/s2", value("0,0,0"), any, "three numbers x,y,z", "constant body acceleration, applied at once at t = 0"},

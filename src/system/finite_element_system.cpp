@@ -195,8 +195,8 @@ bool multiplies_elements(const Mesh& mesh, StiffnessMethod method) {
          (method == StiffnessMethod::automatic && 4 * shaped >= elements);
 }
 
-/// Elements without a kernel of their own cost a little more in rows of the product's than in an
-/// assembled matrix (92 and 75 ns per dof for panels of irregular quadrangles), the others a tenth.
+/// Elements without a kernel of their own cost somewhat more in the rows of the product than in an
+/// assembled matrix, the others a tenth of that or less.
 bool pays(const ElementKinds& kinds) {
   const GlobalIndex fast = kinds.bricks + kinds.rectangles + kinds.congruent + kinds.beams;
   return kinds.other <= 4 * fast;

@@ -246,5 +246,22 @@ TEST(ShellStiffness, IsChosenForShells) {
             "element by element (0 bricks, 80 rectangles, 0 congruent, 60 beams, 0 others)");
 }
 
+TEST(ShellStiffness, GivesWayToTheMatrixWhereQuadranglesAreIrregular) {
+  FrameMesh panel;
+  panel.add_plate({0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {12, 8}, 0.2);
+  for (std::size_t i = 0; i < panel.mesh().coordinates.size(); i += 3) {
+    panel.mesh().coordinates[i] += 0.02 * std::sin(7.3 * static_cast<double>(i));
+    panel.mesh().coordinates[i + 1] += 0.02 * std::sin(3.1 * static_cast<double>(i));
+  }
+  const auto built = testing::build_system(panel.mesh(), panel.structure());
+  const auto method = [&](StiffnessMethod asked, bool with_matrix) {
+    return build_finite_element_system(panel.structure(), built.mesh, asked, with_matrix)
+        .stiffness_method;
+  };
+  EXPECT_EQ(method(StiffnessMethod::automatic, false), "assembled");
+  EXPECT_EQ(method(StiffnessMethod::automatic, true), "assembled");
+  EXPECT_EQ(method(StiffnessMethod::element, false).substr(0, 18), "element by element");
+}
+
 }  // namespace
 }  // namespace pounding
