@@ -1,34 +1,44 @@
 #include <cstdio>
-#include <cstring>
-
-#include <slepcsys.h>
+#include <optional>
+#include <span>
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "common/petsc_session.h"
 #include "driver/run_scene.h"
+#include "scene/command_line.h"
 #include "scene/options_database.h"
 #include "scene/scene_reader.h"
 
 namespace {
 
-bool wants_help(int count, char** words) {
-  for (int i = 1; i < count; ++i) {
-    if (std::strcmp(words[i], "-help") == 0 || std::strcmp(words[i], "--help") == 0 ||
-        std::strcmp(words[i], "-h") == 0) {
-      return true;
+/// Does what the words ask. PETSc is started when the scene is read, and outlives the run.
+void run_words(MPI_Comm comm, std::span<const std::string> words,
+               std::optional<pounding::PetscSession>& petsc) {
+  const bool root = pounding::rank_of(comm) == 0;
+  const pounding::CommandLine line = pounding::read_command_line(words);
+  if (line.help || line.version) {
+    if (root) {
+      std::fputs((line.help ? pounding::help_text() : pounding::version_text()).c_str(), stdout);
     }
+    return;
   }
-  return false;
+  const pounding::OptionsDatabase database = pounding::read_options_database(comm, line);
+  pounding::ReadScene read = pounding::read_scene(database);
+  for (const std::string& ignored : pounding::ignored_variables()) {
+    read.scene.warnings.push_back(ignored);
+  }
+  petsc.emplace(pounding::petsc_options(database));
+  pounding::run_scene(comm, read.scene, read.resolved);
 }
 
 /// Exit status of the job: 0, 1 after an error, 2 stopped by a signal; messages are one line from
 /// rank 0.
-int run_job(MPI_Comm comm, const std::vector<std::string>& option_files) {
+int run_job(MPI_Comm comm, std::span<const std::string> words) {
   const bool root = pounding::rank_of(comm) == 0;
+  std::optional<pounding::PetscSession> petsc;  // ends after the messages: a rank may fail alone
   try {
-    const pounding::ReadScene read =
-        pounding::read_scene(pounding::read_options_database(option_files));
-    pounding::run_scene(comm, read.scene, read.resolved);
+    run_words(comm, words, petsc);
     return 0;
   } catch (const pounding::UserError& error) {
     if (root) {
@@ -55,18 +65,8 @@ int run_job(MPI_Comm comm, const std::vector<std::string>& option_files) {
 
 int main(int count, char** words) {
   MPI_Init(&count, &words);
-  const std::vector<std::string> option_files = pounding::take_option_files(count, words);
-  int status = 0;
-  if (wants_help(count, words)) {
-    if (pounding::rank_of(MPI_COMM_WORLD) == 0) {
-      std::fputs(pounding::help_text().c_str(), stdout);
-    }
-  } else if (SlepcInitialize(&count, &words, nullptr, nullptr) != 0) {
-    status = 1;
-  } else {
-    status = run_job(PETSC_COMM_WORLD, option_files);
-    SlepcFinalize();
-  }
+  const std::vector<std::string> arguments(words + 1, words + count);
+  const int status = run_job(MPI_COMM_WORLD, arguments);
   MPI_Finalize();
   return status;
 }

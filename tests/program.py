@@ -6,7 +6,7 @@ import tempfile
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BUILD = os.environ.get("POUNDING_BUILD", os.path.join(SOURCE, "build"))
-PROGRAM = os.path.join(BUILD, "pounding")
+PROGRAM = os.path.abspath(os.path.join(BUILD, "pounding"))
 SHARED = os.environ.get("POUNDING_SHARED", os.path.join(os.path.dirname(SOURCE), "shared"))
 
 
@@ -27,8 +27,8 @@ def words(arguments, ranks):
     return line + ["-partition", "elements"] if ranks > 1 and "-partition" not in line else line
 
 
-def run(arguments, ranks=2, timeout=900):
-    return subprocess.run(words(arguments, ranks), cwd=SOURCE, env=ENVIRONMENT, capture_output=True,
+def run(arguments, ranks=2, timeout=900, folder=SOURCE, environment=None):
+    return subprocess.run(words(arguments, ranks), cwd=folder, env=environment or ENVIRONMENT, capture_output=True,
                           text=True, timeout=timeout)
 
 

@@ -4,9 +4,50 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/error.h"
+#include "common/petsc_message.h"
 #include "modal/factorisation.h"
 
 namespace pounding {
+namespace {
+
+/// The user's option of a solver that may be to blame for its failure: " (-lowest_eps_ncv given)".
+std::string given_option(EPS solver) {
+  const char* prefix = nullptr;
+  POUNDING_PETSC(EPSGetOptionsPrefix(solver, &prefix));
+  for (const char* name : {"-eps_type", "-eps_ncv", "-eps_mpd", "-eps_max_it", "-eps_tol"}) {
+    PetscBool given = PETSC_FALSE;
+    POUNDING_PETSC(PetscOptionsHasName(nullptr, prefix, name, &given));
+    if (given == PETSC_TRUE) {
+      return "-" + std::string(prefix) + (name + 1);
+    }
+  }
+  return "";
+}
+
+/// Sets the solver up by the user's options and solves. Throws UserError where it does not work
+/// with such an option.
+void solve(EPS solver) {
+  PetscErrorCode error = EPSSetFromOptions(solver);
+  error = error != 0 ? error : EPSSolve(solver);
+  const std::string option = error != 0 ? given_option(solver) : "";
+  if (!option.empty()) {
+    throw UserError("option " + option + ": the eigenvalue solver does not work with it (" +
+                    take_petsc_message() + "); leave it out");
+  }
+  POUNDING_PETSC(error);
+}
+
+/// Throws that the solver did not converge: UserError where options were given for it.
+[[noreturn]] void refuse_unconverged(EPS solver, const std::string& what) {
+  const std::string option = given_option(solver);
+  if (!option.empty()) {
+    throw UserError(what + "; leave option " + option + " out");
+  }
+  throw std::runtime_error(what);
+}
+
+}  // namespace
 
 MatHandle mass_scaled(const LinearSystem& system, Mat matrix) {
   std::vector<double> scale(system.inverse_mass.size());
@@ -119,13 +160,13 @@ EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix,
   POUNDING_PETSC(KSPSetType(factorised, KSPPREONLY));
   POUNDING_PETSC(KSPGetPC(factorised, &factorisation));
   factorise_with_mumps(factorisation);
-  POUNDING_PETSC(EPSSetFromOptions(solver.get()));
-  POUNDING_PETSC(EPSSolve(solver.get()));
+  solve(solver.get());
   PetscInt found = 0;
   POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
   if (found < count) {
-    throw std::runtime_error("structure " + system.name + ": only " + std::to_string(found) +
-                             " of " + std::to_string(count) + " modes converged");
+    refuse_unconverged(solver.get(), "structure " + system.name + ": only " +
+                                         std::to_string(found) + " of " + std::to_string(count) +
+                                         " modes converged");
   }
   return solver;
 }
@@ -136,8 +177,7 @@ LargestEigenpair largest_eigenpair(const LinearSystem& system, const Mesh& mesh,
   POUNDING_PETSC(EPSSetDimensions(solver.get(), 1, PETSC_DEFAULT, PETSC_DEFAULT));
   POUNDING_PETSC(EPSSetWhichEigenpairs(solver.get(), EPS_LARGEST_REAL));
   POUNDING_PETSC(EPSSetTolerances(solver.get(), 1e-10, PETSC_DEFAULT));
-  POUNDING_PETSC(EPSSetFromOptions(solver.get()));
-  POUNDING_PETSC(EPSSolve(solver.get()));
+  solve(solver.get());
   PetscInt found = 0;
   POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
   if (found < 1) {
@@ -154,7 +194,8 @@ LargestEigenpair largest_eigenpair(const LinearSystem& system, const Mesh& mesh,
     POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
   }
   if (found < 1) {
-    throw std::runtime_error("structure " + system.name + ": " + what + " did not converge");
+    refuse_unconverged(solver.get(),
+                       "structure " + system.name + ": " + what + " did not converge");
   }
   LargestEigenpair pair;
   pair.vector.resize(system.lumped_mass.size());

@@ -6,8 +6,10 @@
 namespace pounding {
 namespace {
 
-constexpr std::array<std::string_view, 4> reserved_heads{"material", "section", "motion",
-                                                         "spectra"};
+constexpr std::array<std::string_view, 6> reserved_heads{"material", "section", "motion",
+                                                         "spectra",  "lowest",  "largest"};
+constexpr std::array<std::string_view, 7> reserved_words{
+    "none", "wall", "include", "options", "options_file", "help", "version"};
 
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -64,13 +66,13 @@ std::optional<std::string> name_fault(const std::string& name) {
     return "'" + name + "' is not a name (a letter, then letters, digits and _)";
   }
   const bool own_word =
-      name == "none" || name == "wall" ||
+      std::ranges::find(reserved_words, name) != reserved_words.end() ||
       std::ranges::any_of(option_table(),
                           [&](const OptionRow& row) { return row.pattern == name; }) ||
       std::ranges::any_of(reserved_heads, [&](std::string_view head) {
         return name == head || name.starts_with(std::string(head) + "_");
       });
-  if (own_word || is_petsc_option(name) || is_petsc_option(name + "_")) {
+  if (own_word || is_petsc_option(name)) {
     return "'" + name + "' is a word of the options or of PETSc's, choose another name";
   }
   return std::nullopt;

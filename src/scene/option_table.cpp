@@ -127,14 +127,6 @@ constexpr std::array table{
     OptionRow{Block::spectra, "spectra_frequencies", Kind::text, "Hz", value("0.5:400:200log"), positive, "start:stop:COUNTlog, start:stop:COUNTlin (COUNT 2 to 100000) or an increasing list", "frequencies of the oscillators"},
 };
 
-// What carries the solvers' prefixes lowest_ (modes) and largest_ (omega_max), and what has none.
-constexpr std::array petsc_patterns = std::to_array<std::string_view>({
-    "blas*", "citations*", "debugger_*", "fp_trap", "get_total_flops", "help", "include", "info*",
-    "largest_*", "log_*", "lowest_*", "malloc*", "mat_*", "matmult_*", "memory_*", "mpi_*",
-    "no_signal_handler", "nox*", "objects_*", "on_error_*", "options_*", "petsc*", "sf_*",
-    "skip_petscrc", "slepc*", "start_in_debugger", "use_gpu_aware_mpi", "vec_*", "version",
-    "viewer_*"});
-
 // What does not touch the motion nor its records; the time step itself is compared, not its options.
 constexpr std::array changeable_on_restart = std::to_array<std::string_view>({
     "title", "end_time", "courant", "time_step", "allow_unstable", "modes", "write_modes", "dry_run", "output",
@@ -237,20 +229,9 @@ std::string expected_text(const OptionRow& row) {
   return std::string(row.form) + (ranged ? ", each" + within : "") + (numeric ? unit : "");
 }
 
-std::span<const std::string_view> petsc_option_patterns() {
-  return petsc_patterns;
-}
-
 bool may_change_on_restart(std::string_view name) {
   return is_petsc_option(name) ||
          std::ranges::find(changeable_on_restart, name) != changeable_on_restart.end();
-}
-
-bool is_petsc_option(std::string_view name) {
-  return std::ranges::any_of(petsc_patterns, [name](std::string_view pattern) {
-    return pattern.ends_with('*') ? name.starts_with(pattern.substr(0, pattern.size() - 1))
-                                  : name == pattern;
-  });
 }
 
 }  // namespace pounding

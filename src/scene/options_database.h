@@ -1,21 +1,19 @@
 #pragma once
 
-#include <string>
-#include <vector>
+#include <mpi.h>
 
-#include "scene/option_table.h"
+#include "scene/command_line.h"
 
 namespace pounding {
 
-/// Takes every `-options_file FILE` out of the command line, before PETSc sees it, and returns the
-/// files in their order. PETSc would stop with a traceback at a missing file or a YAML mistake.
-std::vector<std::string> take_option_files(int& count, char** words);
+/// The options of the command line, then those of its files, the later before the earlier, then
+/// those of the files that they `include`: who comes first wins. Rank 0 reads the files, every rank
+/// gets their text. Relative paths are relative to the folder in which the program runs. Throws
+/// UserError on every rank alike (missing or unreadable file, what parse_options_file refuses,
+/// files that include each other). Collective.
+OptionsDatabase read_options_database(MPI_Comm comm, const CommandLine& line);
 
-/// The options of the command line (what PETSc has not used itself), then those of the files, the
-/// later before the earlier, then those of the files that they `include`: who comes first wins.
-/// Options meant for PETSc or SLEPc are passed on to them. Relative paths are relative to the
-/// folder in which the program runs. Throws UserError (missing or unreadable file, files that
-/// include each other). Collective over PETSC_COMM_WORLD.
-OptionsDatabase read_options_database(const std::vector<std::string>& files);
+/// The options in it that are meant for PETSc and SLEPc.
+OptionsDatabase petsc_options(const OptionsDatabase& database);
 
 }  // namespace pounding

@@ -28,12 +28,6 @@ std::string yaml_line(const std::string& name, const std::string& value) {
   return (plain ? name : quoted(name)) + ": " + quoted(value) + "\n";
 }
 
-/// Files are read already, and the others do not belong to the run.
-bool belongs_to_the_run(const std::string& name) {
-  return is_petsc_option(name) && !name.starts_with("options_") && name != "include" &&
-         name != "help" && name != "version";
-}
-
 }  // namespace
 
 std::string resolved_yaml(const OptionReader& options) {
@@ -43,7 +37,7 @@ std::string resolved_yaml(const OptionReader& options) {
     text += yaml_line(name, value);
   }
   for (const auto& [name, value] : options.database()) {
-    if (belongs_to_the_run(name)) {
+    if (is_petsc_option(name)) {
       text += yaml_line(name, value);
     }
   }

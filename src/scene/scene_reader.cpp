@@ -86,8 +86,8 @@ class SceneReader {
         options_.choice("resampling") == "linear" ? Resampling::linear : Resampling::band_limited;
   }
 
-  /// A list of the user's names, none of them used before. PETSc does not tell upper from lower
-  /// case in the names of options.
+  /// A list of the user's names, none of them used before. Two that differ in upper and lower case
+  /// only would be taken for each other.
   std::vector<std::string> read_names(std::string_view pattern) {
     std::vector<std::string> list = options_.list(pattern);
     for (const std::string& name : list) {

@@ -6,6 +6,7 @@
 #include "scene/nearest_name.h"
 #include "scene/option_blocks.h"
 #include "scene/option_values.h"
+#include "scene/petsc_options.h"
 
 namespace pounding {
 namespace {
@@ -94,6 +95,9 @@ void refuse_unknown_options(const OptionsDatabase& database, const ListedNames& 
   }
   const NameSet lookup(known.begin(), known.end());
   for (const auto& [option, value] : database) {
+    if (const auto fault = petsc_value_fault(option, value)) {
+      throw UserError("option -" + option + " " + shown_value(value) + ": " + *fault);
+    }
     if (lookup.contains(option) || is_petsc_option(option)) {
       continue;
     }

@@ -160,16 +160,11 @@ TEST(ResolvedOptions, HoldTheDefaults) {
   EXPECT_EQ(resolved.at("courant"), "0.9");
 }
 
-TEST(ResolvedOptions, KeepTheLibrariesOptionsOfTheRunAndDropTheRest) {
-  const OptionsDatabase resolved =
-      read_flat_yaml(read_scene(with(pair(), {{"mat_mumps_icntl_14", "50"},
-                                              {"options_file", "case.yaml"},
-                                              {"options_left", ""},
-                                              {"contacts", "floor2"}}))
-                         .resolved);
-  EXPECT_EQ(resolved.at("mat_mumps_icntl_14"), "50");
-  EXPECT_FALSE(resolved.contains("options_file"));
-  EXPECT_FALSE(resolved.contains("options_left"));
+TEST(ResolvedOptions, KeepTheLibrariesOptionsAndDropWhatIsNotUsed) {
+  const OptionsDatabase resolved = read_flat_yaml(
+      read_scene(with(pair(), {{"lowest_st_mat_mumps_icntl_14", "50"}, {"contacts", "floor2"}}))
+          .resolved);
+  EXPECT_EQ(resolved.at("lowest_st_mat_mumps_icntl_14"), "50");
   EXPECT_FALSE(resolved.contains("floor1_primary"));
   EXPECT_TRUE(resolved.contains("floor2_primary"));
 }

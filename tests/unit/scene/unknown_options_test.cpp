@@ -60,7 +60,10 @@ TEST(UnknownOptions, PiecesOfAnUnusedBlockAreMistakes) {
 TEST(UnknownOptions, OptionsOfTheLibrariesPass) {
   EXPECT_NO_THROW(read_scene(with(
       pair(),
-      {{"log_view", ""}, {"mat_mumps_icntl_14", "50"}, {"lowest_eps_tol", "1e-9"}, {"info", ""}})));
+      {{"log_view", ""}, {"lowest_st_mat_mumps_icntl_14", "50"}, {"lowest_eps_tol", "1e-9"}})));
+  expect_refused(with(pair(), {{"log_view", ":elsewhere.txt"}}), {"-log_view :elsewhere.txt"});
+  expect_refused(with(pair(), {{"info", "elsewhere"}}), {"-info"});
+  expect_refused(with(pair(), {{"options_file", "case.yaml"}}), {"-options_file"});
 }
 
 }  // namespace

@@ -1,0 +1,35 @@
+#include "common/petsc_session.h"
+
+#include <cstdlib>
+
+#include "common/petsc.h"
+#include "common/petsc_message.h"
+
+namespace pounding {
+
+PetscSession::PetscSession(const std::map<std::string, std::string>& options) {
+  unsetenv("PETSC_OPTIONS");
+  unsetenv("PETSC_OPTIONS_YAML");
+  words_ = {"pounding", "-skip_petscrc"};
+  for (const auto& [name, value] : options) {
+    words_.push_back("-" + name);
+    if (!value.empty()) {
+      words_.push_back(value);
+    }
+  }
+  for (std::string& word : words_) {
+    pointers_.push_back(word.data());
+  }
+  pointers_.push_back(nullptr);
+  count_ = static_cast<int>(words_.size());
+  char** words = pointers_.data();
+  POUNDING_PETSC(SlepcInitialize(&count_, &words, nullptr, nullptr));
+  POUNDING_PETSC(PetscOptionsClearValue(nullptr, "-skip_petscrc"));
+  POUNDING_PETSC(PetscPushErrorHandler(keep_petsc_message, nullptr));
+}
+
+PetscSession::~PetscSession() {
+  SlepcFinalize();
+}
+
+}  // namespace pounding

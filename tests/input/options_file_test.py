@@ -1,0 +1,165 @@
+"""Options from files, the command line and the surroundings: what is wrong is told with its place, and nothing but
+the scene's own files and words has a say in the run."""
+import os
+import shutil
+import tempfile
+import unittest
+
+import program
+
+CASE = program.COARSE_PAIR + ["-end_time", "0.001"]
+
+
+class Options(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="pounding-")
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def file(self, name, text):
+        path = os.path.join(self.folder, name)
+        with open(path, "wb") as file:
+            file.write(text if isinstance(text, bytes) else text.encode())
+        return path
+
+    def refuse(self, arguments, *words):
+        """One line on 1 and on 2 ranks, the same one, that holds the words; status 1; nothing left behind."""
+        lines = set()
+        for ranks in (1, 2):
+            output = os.path.join(self.folder, "results")
+            result = program.run([*arguments, "-output", output], ranks, timeout=60)
+            self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+            self.assertFalse(os.path.exists(output))
+            self.assertNotIn("PETSC", result.stderr)
+            self.assertEqual(len(program.error_lines(result)), 1, result.stderr)
+            lines.update(program.error_lines(result))
+        (line,) = lines
+        for word in words:
+            self.assertIn(word, line)
+
+
+class Files(Options):
+    def refuse_text(self, text, *words):
+        path = self.file("case.yaml", text)
+        self.refuse(["-options_file", path], path, *words)
+
+    def test_broken_yaml(self):
+        self.refuse_text("s1: {mesh: a.geo\n  b: [\n", "line 2, column 4", "not YAML")
+
+    def test_tab(self):
+        self.refuse_text("s1:\n\tmesh: a.geo\n", "line 2, column 1", "a tab")
+
+    def test_names_that_stand_twice(self):
+        self.refuse_text("end_time: 1\ncourant: 0.5\nend_time: 2\n", "line 3", "end_time", "line 1")
+
+    def test_structures_contacts_and_probes_that_stand_twice(self):
+        for name in ("left", "floor1", "corner"):
+            self.refuse_text(f"{name}: {{mesh: a.geo}}\n{name}: {{mesh: b.geo}}\n", "line 2", name, "line 1")
+
+    def test_two_of_the_same_name_in_a_list(self):
+        for option in ("structures", "contacts", "probes"):
+            self.refuse(CASE + ["-" + option, "s1,s1"], "-" + option, "s1", "twice")
+
+    def test_second_document(self):
+        self.refuse_text("end_time: 1\n---\ncourant: 0.5\n", "line 3", "second document")
+
+    def test_empty(self):
+        self.refuse_text("", "holds no options")
+        self.refuse_text("# nothing yet\n", "holds no options")
+
+    def test_no_options(self):
+        self.refuse_text("-end_time 1\n", "line 1", "expected lines like end_time: 25")
+
+    def test_binary(self):
+        self.refuse_text(b"\x7fELF\x02\x01\x01\x00\x00", "not YAML", "is it an options file?")
+
+    def test_broken_file_that_is_included(self):
+        path = self.file("inner.yaml", "a: [\n")
+        outer = self.file("outer.yaml", f"include: {path}\n")
+        self.refuse(["-options_file", outer], path, "line 2", "not YAML")
+
+    def test_merged_names_yield_to_those_beside_them(self):
+        path = self.file("case.yaml", "include: petsc-options/azalee/gap2.yaml\n$$short: &short {end_time: 1e-4, modes: 2}\n"
+                                      "<<: *short\nmodes: 0\nspectra: {frequencies: [1, 2, 5]}\n")
+        _, summary = program.must_run(self, ["-options_file", path, *program.COARSE_PAIR[2:]], 2, timeout=120)
+        self.assertEqual(summary["options"]["end_time"], "1e-4")
+        self.assertEqual(summary["options"]["modes"], "0")
+        self.assertEqual(summary["options"]["spectra_frequencies"], "1,2,5")
+
+
+class CommandLine(Options):
+    def test_file_without_a_name(self):
+        self.refuse(["case.yaml"], "did you mean -options_file case.yaml?")
+
+    def test_equals_signs(self):
+        self.refuse([*CASE, "end_time=0.1"], "did you mean -end_time 0.1?")
+        self.refuse([*CASE, "-end_time=0.1"], "write -end_time 0.1")
+
+    def test_stray_word(self):
+        self.refuse([*CASE, "now"], "'now'", "no option")
+
+    def test_options_file_without_a_file(self):
+        self.refuse(["-options_file"], "-options_file needs a file")
+
+    def test_version(self):
+        for word in ("-version", "--version"):
+            result = program.run([word], 2, timeout=60)
+            self.assertEqual(result.returncode, 0)
+            self.assertRegex(result.stdout, r"^pounding \d+\.\d+\.\d+ \(\w+\)\n$")
+
+
+class Libraries(Options):
+    """PETSc and SLEPc get what the scene gives them, and write where the scene says."""
+
+    def test_files_elsewhere(self):
+        elsewhere = os.path.join(self.folder, "elsewhere")
+        for name, value in (("log_view", ":" + elsewhere), ("malloc_view", elsewhere), ("info", ":" + elsewhere),
+                            ("lowest_eps_view", "ascii:" + elsewhere), ("largest_eps_monitor", "ascii:" + elsewhere),
+                            ("lowest_eps_view_vectors", "binary:" + elsewhere), ("mat_view", ":" + elsewhere),
+                            ("log_trace", elsewhere), ("options_view", ":" + elsewhere),
+                            ("viewer_binary_filename", elsewhere)):
+            self.refuse([*CASE, "-" + name, value], "-" + name)
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_debuggers(self):
+        for name in ("start_in_debugger", "on_error_attach_debugger", "debugger_pause"):
+            self.refuse([*CASE, "-" + name], "-" + name)
+
+    def test_solver_that_is_not_there(self):
+        self.refuse([*CASE, "-lowest_eps_type", "nope"], "-lowest_eps_type nope", "krylovschur")
+
+    def test_solver_that_cannot_work(self):
+        self.refuse([*CASE, "-lowest_eps_ncv", "3"], "-lowest_eps_ncv", "at least nev+1")
+        self.refuse([*CASE, "-lowest_eps_max_it", "1"], "-lowest_eps_max_it", "modes converged")
+
+    def test_only_the_scene_is_read(self):
+        """Options in .petscrc, ~/.petscrc and PETSC_OPTIONS that would end the run or write files do not."""
+        self.file(".petscrc", "-lowest_eps_type nope\n-log_view :log.txt\n-end_time 7\n")
+        home = os.path.join(self.folder, "home")
+        os.mkdir(home)
+        shutil.copy(os.path.join(self.folder, ".petscrc"), home)
+        environment = {**program.ENVIRONMENT, "HOME": home,
+                       "PETSC_OPTIONS": "-largest_eps_type nope -options_view :table.txt -end_time 9"}
+        scene = self.file("case.yaml", "include: petsc-options/azalee/gap2.yaml\nend_time: 1e-4\n")
+        words = ["-options_file", scene, *program.COARSE_PAIR[2:], "-output", os.path.join(self.folder, "results")]
+        for name in ("petsc-options", "meshes"):
+            os.symlink(os.path.join(program.SOURCE, name), os.path.join(self.folder, name))
+        for ranks in (1, 2):
+            result = program.run(words, ranks, timeout=120, folder=self.folder, environment=environment)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            summary = program.summary(os.path.join(self.folder, "results"))
+            self.assertEqual(summary["end_time"], 1e-4)
+            (doubt,) = [line for line in summary["warnings"] if "PETSC_OPTIONS" in line]
+            self.assertIn("is not read", doubt)
+            self.assertIn("warning: " + doubt, result.stdout)
+        self.assertEqual(sorted(os.listdir(self.folder)),
+                         [".petscrc", "case.yaml", "home", "meshes", "petsc-options", "results"])
+
+    def test_no_option_of_the_scene_is_called_unused(self):
+        for ranks in (1, 2):
+            result = program.run([*CASE, "-dry_run", "-options_left", "-output", self.folder], ranks, timeout=120)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("There are no unused options", result.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
