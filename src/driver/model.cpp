@@ -6,7 +6,9 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "driver/probe_warnings.h"
 #include "driver/reduction.h"
+#include "driver/run_warnings.h"
 #include "driver/warnings.h"
 #include "dynamics/stable_time_step.h"
 #include "mesh/gmsh_reader.h"
@@ -30,6 +32,7 @@ void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& mo
       }
       model.interface = find_interface(scene, meshes);
       model.probes = resolve_probes(scene, meshes);
+      model.warnings = probe_warnings(model.probes, meshes, model.interface);
     });
     broadcast_interface(comm, model.interface);
     broadcast_probes(comm, model.probes);
@@ -84,6 +87,14 @@ void choose_time_step(const Scene& scene, Model& model) {
     std::ostringstream text;
     text << "option -time_step " << model.time_step << " s: above the stable time step " << stable
          << " s; give a smaller one (or leave it out), or -allow_unstable for a study";
+    throw UserError(text.str());
+  }
+  constexpr double most_steps = 1e12;
+  if (scene.end_time / model.time_step > most_steps) {
+    std::ostringstream text;
+    text << "option -end_time " << scene.end_time << " s: " << scene.end_time / model.time_step
+         << " steps of " << model.time_step << " s, above " << most_steps << "; give a shorter time"
+         << (scene.time_step > 0 ? ", or a longer -time_step" : "");
     throw UserError(text.str());
   }
   model.steps = static_cast<std::int64_t>(std::ceil(scene.end_time / model.time_step - 1e-9));
@@ -156,6 +167,8 @@ Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile) {
     append(sliver_warnings(system), model.warnings);
   }
   choose_time_step(scene, model);
+  const std::vector<std::string> doubts = run_warnings(scene, model);
+  model.warnings.insert(model.warnings.end(), doubts.begin(), doubts.end());
   const ScopedTimer timer(profile, Phase::modes);
   find_energy_margins(scene, model);
   return model;

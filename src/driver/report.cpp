@@ -176,6 +176,23 @@ void print_probes(const Recorder& recorder, const std::vector<ProbeSpectrum>& sp
   }
 }
 
+/// Where each probe sits, and how far that is from the place asked for.
+void print_probe_places(const Scene& scene, const std::vector<ResolvedProbe>& probes) {
+  constexpr std::size_t shown = 20;
+  std::printf("%s", probes.empty() ? "" : "\n");
+  for (std::size_t p = 0; p < std::min(shown, probes.size()); ++p) {
+    const ResolvedProbe& probe = probes[p];
+    std::printf(
+        "probe %s: %zu node%s of %s at (%.6g, %.6g, %.6g), at most %.3g mm from what was asked\n",
+        probe.name.c_str(), probe.nodes.size(), probe.nodes.size() == 1 ? "" : "s",
+        scene.structures[static_cast<std::size_t>(probe.structure)].name.c_str(), probe.position[0],
+        probe.position[1], probe.position[2], 1000 * probe.snap_distance);
+  }
+  if (probes.size() > shown) {
+    std::printf("  ... and %zu more probes\n", probes.size() - shown);
+  }
+}
+
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) {
     std::printf("warning: %s\n", warning.c_str());
@@ -212,6 +229,7 @@ void print_model(const Scene& scene, const Model& model) {
         1000 * report.smallest_gap, 1000 * report.largest_gap, report.normal[0], report.normal[1],
         report.normal[2]);
   }
+  print_probe_places(scene, model.probes);
   std::printf("\npartition: imbalance %.3f, cut edges %ld\n", model.partition_imbalance,
               model.partition_edge_cut);
   print_warnings(model.warnings);

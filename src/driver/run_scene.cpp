@@ -1,7 +1,9 @@
 #include "driver/run_scene.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <optional>
 #include <sstream>
 
@@ -14,6 +16,7 @@
 #include "driver/mode_shapes.h"
 #include "driver/model.h"
 #include "driver/report.h"
+#include "driver/results_folder.h"
 #include "driver/run_identity.h"
 #include "driver/stop_signal.h"
 #include "driver/summary.h"
@@ -24,15 +27,22 @@
 namespace pounding {
 namespace {
 
-/// The result folder exists and can be written; the resolved options are the first thing in it.
-void prepare_output(const Scene& scene, const std::string& resolved) {
+void create_output(const Scene& scene) {
   std::error_code failure;
   std::filesystem::create_directories(scene.output, failure);
+  if (failure) {
+    throw UserError("option -output " + scene.output + ": the folder cannot be created");
+  }
+}
+
+/// The result folder exists; the resolved options are the first thing in it.
+void prepare_output(const Scene& scene, const std::string& resolved) {
+  create_output(scene);
   std::ofstream file(scene.output + "/resolved.yaml");
   file << resolved;
   file.close();
-  if (failure || !file) {
-    throw UserError("option -output " + scene.output + ": the folder cannot be created or written");
+  if (!file) {
+    throw UserError("option -output " + scene.output + ": resolved.yaml cannot be written there");
   }
 }
 
@@ -74,12 +84,21 @@ std::optional<SavedState> read_restart(MPI_Comm comm, const Scene& scene, const 
 
 }  // namespace
 
-void run_scene(MPI_Comm comm, const Scene& scene, const std::string& resolved) {
+void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
   flush_subnormal_numbers();
   return_large_arrays();
   const double start = MPI_Wtime();
   const bool root = rank_of(comm) == 0;
   Profile profile;
+  const bool writes = !scene.dry_run || scene.write_modes;
+  on_rank0(comm, [&] {
+    if (writes) {
+      try_results_folder(scene.output);
+    }
+    if (!scene.dry_run) {
+      std::ranges::copy(replaced_results(scene, resolved), std::back_inserter(scene.warnings));
+    }
+  });
   if (root) {
     print_title(scene, size_of(comm));
   }
@@ -96,6 +115,10 @@ void run_scene(MPI_Comm comm, const Scene& scene, const std::string& resolved) {
   }
   const RunIdentity identity = identity_of(resolved, model);
   const std::optional<SavedState> restart = read_restart(comm, scene, model, identity);
+  if (scene.write_modes) {
+    on_rank0(comm, [&] { create_output(scene); });
+    write_mode_shapes(comm, scene.output + "/modes.h5", model);
+  }
   if (scene.dry_run) {
     const double seconds = TimeLoop(comm, scene, model, profile).measure(200);
     if (root) {
@@ -104,9 +127,6 @@ void run_scene(MPI_Comm comm, const Scene& scene, const std::string& resolved) {
     return;
   }
   on_rank0(comm, [&] { prepare_output(scene, resolved); });
-  if (scene.write_modes) {
-    write_mode_shapes(comm, scene.output + "/modes.h5", model);
-  }
   const double seconds = TimeLoop(comm, scene, model, profile).measure(50);
   if (root) {
     print_time_step(scene, model, seconds);

@@ -12,6 +12,6 @@ namespace pounding {
 /// `resolved`: the options in force, for `resolved.yaml`. Needs MPI, PETSc and SLEPc initialised
 /// over `comm` = PETSC_COMM_WORLD. Throws UserError and DivergenceError on every rank alike.
 /// Collective.
-void run_scene(MPI_Comm comm, const Scene& scene, const std::string& resolved);
+void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved);
 
 }  // namespace pounding

@@ -5,13 +5,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
-#include <unistd.h>
 
 #include "common/error.h"
 #include "common/parallel.h"
 #include "driver/checkpoint_schedule.h"
 #include "driver/gap_bounds.h"
 #include "driver/stop_signal.h"
+#include "driver/terminal.h"
 #include "driver/watchdog.h"
 
 namespace pounding {
@@ -92,8 +92,9 @@ void TimeLoop::create_recorder(bool continued) {
     layout.contacts.push_back(contact.name);
   }
   layout.interface_root = contact_ ? contact_->root() : -1;
-  const auto whole = [&](double count) {  // never more than the run has
-    return std::clamp(count, 1.0, static_cast<double>(model_.steps) + 1);
+  const auto whole = [&](double count) {  // never more than the run has, nor than an int holds
+    constexpr double most = std::numeric_limits<int>::max();
+    return std::clamp(count, 1.0, std::min(static_cast<double>(model_.steps) + 1, most));
   };
   layout.stride = static_cast<int>(whole(scene_.output_interval / model_.time_step));
   layout.time_step = model_.time_step;
@@ -107,6 +108,7 @@ void TimeLoop::create_recorder(bool continued) {
 
 int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
   const StopSignal stop_signal;
+  watched_ = is_watched();
   create_recorder(restart != nullptr);
   if (restart != nullptr) {
     load(*restart);
@@ -225,7 +227,7 @@ void TimeLoop::show_progress(double start) {
     now = {contact_->smallest_gap(), -static_cast<double>(catalogue_.episodes())};
   }
   MPI_Allreduce(MPI_IN_PLACE, now.data(), 2, MPI_DOUBLE, MPI_MIN, comm_);
-  if (rank_of(comm_) != 0 || isatty(STDOUT_FILENO) == 0) {
+  if (rank_of(comm_) != 0 || !watched_) {
     return;
   }
   const double elapsed = MPI_Wtime() - start;

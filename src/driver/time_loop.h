@@ -55,6 +55,7 @@ class TimeLoop {
   std::vector<double> energy_round_off_;  ///< of each of them [J]
   EnergyLedger ledger_;
   std::int64_t first_step_ = 0;
+  bool watched_ = false;  ///< somebody sees the line of progress
 };
 
 }  // namespace pounding

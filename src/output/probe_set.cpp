@@ -1,39 +1,78 @@
 #include "output/probe_set.h"
 
+#include <algorithm>
 #include <limits>
+#include <span>
 #include <sstream>
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "elements/element.h"
 #include "mesh/bounding_box.h"
 #include "mesh/group_names.h"
 
 namespace pounding {
 namespace {
 
-GlobalIndex nearest_node(const GlobalMesh& mesh, const Probe& probe, const Vector3& point) {
+/// A node that a probe records, and how it was found.
+struct ProbeNode {
+  GlobalIndex node = 0;
+  double snap_distance = 0;  ///< to the point asked for [m]
+  double element_size = 0;   ///< of the elements there [m]
+};
+
+/// The largest distance between two nodes of an element that holds the node; 0 where no element has
+/// an extent.
+double element_size(const GlobalMesh& mesh, GlobalIndex node) {
+  double largest = 0;
+  for (const ElementSet& set : mesh.regions) {
+    const auto nodes = static_cast<std::size_t>(element_layout(set.type).nodes);
+    for (std::size_t e = 0; e < set.tags.size(); ++e) {
+      const std::span<const GlobalIndex> corners(&set.connectivity[e * nodes], nodes);
+      if (std::ranges::find(corners, node) == corners.end()) {
+        continue;
+      }
+      for (const GlobalIndex a : corners) {
+        for (const GlobalIndex b : corners) {
+          largest = std::max(largest, distance(mesh.position(a), mesh.position(b)));
+        }
+      }
+    }
+  }
+  return largest;
+}
+
+ProbeNode nearest_node(const GlobalMesh& mesh, const Probe& probe, const Vector3& point) {
+  constexpr double far = 0.05;        // of the extent of the mesh
+  constexpr double round_off = 1e-9;  // m
   GlobalIndex best = 0;
   double best_distance = std::numeric_limits<double>::max();
   for (GlobalIndex node = 0; node < mesh.node_count(); ++node) {
     const double d = distance(mesh.position(node), point);
-    if (d < best_distance - 1e-9) {
+    if (d < best_distance - round_off) {
       best_distance = d;
       best = node;
     }
   }
-  if (best_distance > 0.05 * bounding_box({&mesh, 1}).diagonal()) {
+  best_distance = best_distance < round_off ? 0 : best_distance;
+  double farthest = far * bounding_box({&mesh, 1}).diagonal();
+  const double size = best_distance > 0 ? element_size(mesh, best) : 0;
+  if (size > 0) {
+    farthest = std::min(farthest, size);
+  }
+  if (best_distance > farthest) {
     std::ostringstream text;
     text << "option -" << probe.name << "_at: the point (" << point[0] << ", " << point[1] << ", "
          << point[2] << ") is " << best_distance << " m away from the nearest node of structure "
          << probe.structure << "; give a point on the mesh";
     throw UserError(text.str());
   }
-  return best;
+  return {best, best_distance, size > 0 ? size : farthest};
 }
 
-std::vector<GlobalIndex> probe_nodes(const Probe& probe, const GlobalMesh& mesh) {
+std::vector<ProbeNode> probe_nodes(const Probe& probe, const GlobalMesh& mesh) {
+  std::vector<ProbeNode> nodes;
   if (probe.group.empty()) {
-    std::vector<GlobalIndex> nodes;
     for (const Vector3& point : probe.points) {
       nodes.push_back(nearest_node(mesh, probe, point));
     }
@@ -45,16 +84,26 @@ std::vector<GlobalIndex> probe_nodes(const Probe& probe, const GlobalMesh& mesh)
                     "' is not in the mesh of " + probe.structure +
                     ", which has: " + group_names(mesh));
   }
-  return found->second.nodes;
+  for (const GlobalIndex node : found->second.nodes) {
+    nodes.push_back({node, 0, 0});
+  }
+  return nodes;
 }
 
 ResolvedProbe resolved(const std::string& name, int structure, const GlobalMesh& mesh,
-                       std::vector<GlobalIndex> nodes) {
-  ResolvedProbe probe{name, structure, std::move(nodes), {0, 0, 0}};
-  for (const GlobalIndex node : probe.nodes) {
-    const Vector3 x = mesh.position(node);
+                       std::span<const ProbeNode> nodes) {
+  ResolvedProbe probe;
+  probe.name = name;
+  probe.structure = structure;
+  for (const ProbeNode& each : nodes) {
+    probe.nodes.push_back(each.node);
+    const Vector3 x = mesh.position(each.node);
     for (std::size_t d = 0; d < 3; ++d) {
-      probe.position[d] += x[d] / static_cast<double>(probe.nodes.size());
+      probe.position[d] += x[d] / static_cast<double>(nodes.size());
+    }
+    if (each.snap_distance > probe.snap_distance) {
+      probe.snap_distance = each.snap_distance;
+      probe.element_size = each.element_size;
     }
   }
   return probe;
@@ -70,14 +119,15 @@ std::vector<ResolvedProbe> resolve_probes(const Scene& scene, std::span<const Gl
       ++structure;
     }
     const GlobalMesh& mesh = meshes[structure];
-    const std::vector<GlobalIndex> nodes = probe_nodes(probe, mesh);
+    const std::vector<ProbeNode> nodes = probe_nodes(probe, mesh);
     const int index = static_cast<int>(structure);
     if (probe.average || nodes.size() == 1) {
       probes.push_back(resolved(probe.name, index, mesh, nodes));
       continue;
     }
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      probes.push_back(resolved(probe.name + "." + std::to_string(i + 1), index, mesh, {nodes[i]}));
+      probes.push_back(
+          resolved(probe.name + "." + std::to_string(i + 1), index, mesh, {&nodes[i], 1}));
     }
   }
   return probes;

@@ -17,11 +17,13 @@ struct ResolvedProbe {
   int structure = 0;
   std::vector<GlobalIndex> nodes;  ///< file order; what is recorded is their mean
   Vector3 position{0, 0, 0};       ///< mean of the nodes [m]
+  double snap_distance = 0;        ///< largest from a point asked for to its node, rank 0 [m]
+  double element_size = 0;  ///< largest distance between nodes of an element there, rank 0 [m]
 };
 
 /// Snaps points to their nearest nodes and looks groups up; a probe that is not averaged becomes
 /// one per node, "name.1", "name.2", ... Serial, rank 0. Throws UserError (unknown group, a point
-/// farther from the mesh than 5 % of its extent).
+/// farther from its node than 5 % of the extent of the mesh, or than the largest element there).
 std::vector<ResolvedProbe> resolve_probes(const Scene& scene, std::span<const GlobalMesh> meshes);
 
 /// The probes of rank 0 on every rank. Collective.

@@ -1,0 +1,73 @@
+#include "driver/probe_warnings.h"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <utility>
+
+namespace pounding {
+namespace {
+
+constexpr double far_snap = 0.2;  // of the largest element at the node
+constexpr std::size_t share = 4;  // one node in four
+
+using NodeSet = std::set<std::pair<int, GlobalIndex>>;  // structure and node
+
+NodeSet contact_nodes(const Interface& interface) {
+  NodeSet nodes;
+  for (const Constraint& constraint : interface.constraints) {
+    for (const ConstraintTerm& term : constraint.terms) {
+      nodes.emplace(term.structure, term.node);
+    }
+  }
+  return nodes;
+}
+
+/// "probe roof: 2 of its 4 nodes are"; "probe roof: its node is".
+std::string subject(const ResolvedProbe& probe, std::size_t count) {
+  if (probe.nodes.size() == 1) {
+    return "probe " + probe.name + ": its node is";
+  }
+  return "probe " + probe.name + ": " + std::to_string(count) + " of its " +
+         std::to_string(probe.nodes.size()) + " nodes are";
+}
+
+}  // namespace
+
+std::vector<std::string> probe_warnings(std::span<const ResolvedProbe> probes,
+                                        std::span<const GlobalMesh> meshes,
+                                        const Interface& interface) {
+  constexpr std::uint8_t translations = 7;
+  const NodeSet touching = contact_nodes(interface);
+  std::vector<std::string> warnings;
+  for (const ResolvedProbe& probe : probes) {
+    if (probe.snap_distance > far_snap * probe.element_size) {
+      std::ostringstream text;
+      text.precision(3);
+      text << "probe " << probe.name << ": its node is " << probe.snap_distance
+           << " m away from the point asked for, where elements measure " << probe.element_size
+           << " m; give the place of a node, or refine the mesh";
+      warnings.push_back(text.str());
+    }
+    const GlobalMesh& mesh = meshes[static_cast<std::size_t>(probe.structure)];
+    const auto clamped =
+        static_cast<std::size_t>(std::ranges::count_if(probe.nodes, [&](GlobalIndex node) {
+          return (mesh.free_components[static_cast<std::size_t>(node)] & translations) == 0;
+        }));
+    if (clamped > 0) {
+      warnings.push_back(subject(probe, clamped) + " clamped, and moves as the ground does");
+    }
+    const auto in_contact =
+        static_cast<std::size_t>(std::ranges::count_if(probe.nodes, [&](GlobalIndex node) {
+          return touching.contains({probe.structure, node});
+        }));
+    if (share * in_contact >= probe.nodes.size()) {
+      warnings.push_back(subject(probe, in_contact) +
+                         " part of a contact: the accelerations hold the impulses that act on it; "
+                         "for a floor take nodes one element away");
+    }
+  }
+  return warnings;
+}
+
+}  // namespace pounding

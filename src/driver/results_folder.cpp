@@ -1,0 +1,118 @@
+#include "driver/results_folder.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <unistd.h>
+
+#include "common/error.h"
+#include "scene/option_values.h"
+#include "scene/resolved_options.h"
+
+namespace pounding {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folders of a path that are not there yet, the innermost first.
+std::vector<fs::path> missing_folders(fs::path folder) {
+  std::vector<fs::path> missing;
+  std::error_code failure;
+  while (!folder.empty() && !fs::exists(fs::symlink_status(folder, failure))) {
+    missing.push_back(folder);
+    folder = folder.parent_path();
+  }
+  return missing;
+}
+
+[[noreturn]] void refuse(const std::string& folder, const std::string& why) {
+  throw UserError("option -output " + folder + ": the folder cannot be created or written (" + why +
+                  "); give another one");
+}
+
+void try_writing(const std::string& folder) {
+  const fs::path trial = fs::path(folder) / (".trial-" + std::to_string(getpid()));
+  errno = 0;
+  std::ofstream file(trial);
+  file << "trial\n";
+  file.close();
+  const std::string why = file ? "" : std::strerror(errno);
+  std::error_code failure;
+  fs::remove(trial, failure);
+  if (!why.empty()) {
+    refuse(folder, why);
+  }
+}
+
+bool tells_the_scene(const std::string& option) {
+  return option == "structures" || option == "contacts" || option.ends_with("_mesh") ||
+         option.ends_with("_mesh_set") || option.ends_with("_matrices") ||
+         option.starts_with("motion_");
+}
+
+std::map<std::string, std::string> scene_options(const std::string& resolved) {
+  std::map<std::string, std::string> options;
+  for (const auto& [name, value] : resolved_values(resolved)) {
+    if (tells_the_scene(name)) {
+      options[name] = value;
+    }
+  }
+  return options;
+}
+
+}  // namespace
+
+void try_results_folder(const std::string& folder) {
+  std::error_code failure;
+  const std::vector<fs::path> missing = missing_folders(fs::path(folder).lexically_normal());
+  fs::create_directories(folder, failure);
+  if (failure) {
+    refuse(folder, failure.message());
+  }
+  if (!fs::is_directory(folder, failure)) {
+    refuse(folder, "it is a file");
+  }
+  const auto restore = [&missing] {
+    std::error_code ignored;
+    for (const fs::path& made : missing) {
+      fs::remove(made, ignored);
+    }
+  };
+  try {
+    try_writing(folder);
+  } catch (const UserError&) {
+    restore();
+    throw;
+  }
+  restore();
+}
+
+std::vector<std::string> replaced_results(const Scene& scene, const std::string& resolved) {
+  std::ifstream file(scene.output + "/resolved.yaml");
+  if (!file || !scene.restart.empty()) {
+    return {};
+  }
+  std::ostringstream text;
+  text << file.rdbuf();
+  const auto before = scene_options(text.str());
+  const auto now = scene_options(resolved);
+  if (before.empty() || before == now) {
+    return {};
+  }
+  const auto other = std::ranges::find_if(now, [&before](const auto& option) {
+    const auto found = before.find(option.first);
+    return found != before.end() && found->second != option.second;
+  });
+  const std::string what = other == now.end()
+                               ? "other structures or motions"
+                               : "-" + other->first + " " + shown_value(before.at(other->first)) +
+                                     ", now " + shown_value(other->second);
+  return {"the folder " + scene.output + " holds results of another scene (" + what +
+          "); this run replaces them"};
+}
+
+}  // namespace pounding

@@ -1,0 +1,50 @@
+#include "driver/terminal.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <unistd.h>
+
+namespace pounding {
+namespace {
+
+/// Where the standard output of a process goes; "" where that is not to be seen.
+std::string standard_output(const std::string& process) {
+  std::error_code failure;
+  return std::filesystem::read_symlink("/proc/" + process + "/fd/1", failure);
+}
+
+/// The number of the process that started another one; "" where that is not to be seen.
+std::string parent_of(const std::string& process) {
+  std::ifstream status("/proc/" + process + "/status");
+  for (std::string word; status >> word;) {
+    if (word == "PPid:") {
+      status >> word;
+      return word;
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+bool is_watched() {
+  if (isatty(STDOUT_FILENO) == 0) {
+    return false;
+  }
+  if (std::getenv("OMPI_COMM_WORLD_RANK") == nullptr && std::getenv("PMI_RANK") == nullptr) {
+    return true;
+  }
+  // Scripts between mpirun and the program have the same terminal as the program.
+  const std::string own = standard_output("self");
+  std::string process = std::to_string(getppid());
+  while (process != "" && process != "0" && standard_output(process) == own) {
+    process = parent_of(process);
+  }
+  const std::string outer = standard_output(process);
+  return outer.empty() || outer.starts_with("/dev/pts/") || outer.starts_with("/dev/tty") ||
+         outer == "/dev/console";
+}
+
+}  // namespace pounding

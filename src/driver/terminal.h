@@ -1,0 +1,10 @@
+#pragma once
+
+namespace pounding {
+
+/// Whether somebody sees the standard output as it is written. mpirun gives rank 0 a terminal of
+/// its own even where its output goes to a file or a pipe: there the output of mpirun itself
+/// counts.
+bool is_watched();
+
+}  // namespace pounding

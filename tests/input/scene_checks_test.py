@@ -1,0 +1,194 @@
+"""The run that the options ask for: what cannot be is refused before the work, what may not be meant is told in one
+line of doubt, on the terminal and in the summary."""
+import os
+import pty
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import program
+
+# Two masses in a row on springs, 0.1 s of free vibration: nothing to doubt.
+CHAIN = ["-structures", "m", "-m_mesh", "tests/meshes/chain.geo", "-m_clamp", "ground", "-modes", "0",
+         "-m_initial_velocity", "1,0,0", "-end_time", "0.1", "-time_step", "1e-4", "-output_interval", "1e-3"]
+for mass in ("ground", "first", "second"):
+    CHAIN += [f"-m_{mass}_element", "point_mass", f"-m_{mass}_mass", "2"]
+for link in ("link1", "link2"):
+    CHAIN += [f"-m_{link}_element", "spring", f"-m_{link}_stiffness", "1e4,1e4,1e4"]
+PROBE = ["-probes", "p", "-p_structure", "m", "-p_at"]
+
+
+class Run(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="pounding-")
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.output = os.path.join(self.folder, "results")
+
+    def refuse(self, words, *expected):
+        for ranks in (1, 2):
+            result = program.run(["-output", self.output, *words], ranks, timeout=120)
+            self.assertEqual(result.returncode, 1, result.stdout[-1000:] + result.stderr[-1000:])
+            (line,) = program.error_lines(result)
+            for word in expected:
+                self.assertIn(word, line)
+            self.assertFalse(os.path.exists(self.output))
+
+    def doubts(self, words, again=False):
+        """Lines of doubt, the same in the summary, on the terminal, and on 1 and 2 ranks."""
+        found = []
+        for ranks in (1, 2):
+            if not again:
+                shutil.rmtree(self.output, ignore_errors=True)
+            result = program.run(["-output", self.output, *words], ranks, timeout=120)
+            self.assertEqual(result.returncode, 0, result.stdout[-1000:] + result.stderr[-1000:])
+            printed = [line[9:] for line in result.stdout.splitlines() if line.startswith("warning: ")]
+            self.assertEqual(program.summary(self.output)["warnings"], printed)
+            found.append(printed)
+            if again:
+                break
+        self.assertEqual(found[0], found[-1])
+        return found[0]
+
+    def doubt(self, words, *expected):
+        (line,) = self.doubts(words)
+        for word in expected:
+            self.assertIn(word, line)
+
+    def record(self, step, count):
+        path = os.path.join(self.folder, "record.txt")
+        with open(path, "w") as file:
+            file.writelines(f"{i * step:.6f} {(-1) ** i}\n" for i in range(count))
+        return path
+
+
+class Time(Run):
+    def test_nothing_to_doubt(self):
+        self.assertEqual(self.doubts([*CHAIN, *PROBE, "1,0,0"]), [])
+
+    def test_more_steps_than_can_be(self):
+        self.refuse([*CHAIN, "-end_time", "1e300"], "-end_time 1e+300", "1e+304 steps", "above 1e+12")
+        self.refuse([*CHAIN, "-time_step", "1e-300"], "1e+299 steps of 1e-300 s", "-time_step")
+
+    def test_nothing_moves(self):
+        self.doubt([*CHAIN, "-m_initial_velocity", "0,0,0"], "nothing makes the scene move", "-motion_x_record")
+
+    def test_gravity_moves(self):
+        self.assertFalse([line for line in self.doubts([*CHAIN, "-m_initial_velocity", "0,0,0", "-m_gravity", "0,0,-9.81"])
+                          if "nothing" in line])
+
+    def test_end_after_the_record(self):
+        motion = ["-motion_x_unit", "m/s2", "-motion_x_record"]
+        self.doubt([*CHAIN, *motion, self.record(0.005, 16)], "-end_time 0.1 s", "along x ends at 0.075 s")
+        self.assertEqual(self.doubts([*CHAIN, *motion, self.record(0.005, 21)]), [])
+
+    def test_step_longer_than_the_samples(self):
+        motion = ["-motion_y_unit", "m/s2", "-motion_y_record", self.record(0.0005, 201)]
+        self.doubt([*CHAIN, *motion, "-time_step", "0.001"], "time step 0.001 s", "motion along y, 0.0005 s")
+        self.doubt([*CHAIN, *PROBE, "1,0,0", "-time_step", "0.002"], "-output_interval, 0.001 s", "-time_step 0.001")
+
+
+class Probes(Run):
+    def test_far_from_the_mesh(self):
+        self.refuse([*CHAIN, *PROBE, "1.2,0,0"], "-p_at", "0.2 m away")
+
+    def test_beside_a_node(self):
+        self.doubt(["-structures", "m", "-m_mesh", "tests/meshes/line.geo", "-m_mesh_set", "length=10,n=10",
+                    "-m_line_element", "bar", "-m_line_area", "1", "-m_line_material", "s", "-material_s_young", "1e9",
+                    "-material_s_poisson", "0", "-material_s_density", "1000", "-m_clamp", "line:y+z",
+                    "-m_initial_velocity", "1,0,0", "-end_time", "0.01", "-modes", "0", *PROBE, "3.25,0,0",
+                    "-output_interval", "1e-3"], "probe p", "0.25 m away", "1 m")
+
+    def test_far_within_five_percent_of_the_extent(self):
+        self.refuse(["-structures", "m", "-m_mesh", "tests/meshes/line.geo", "-m_mesh_set", "length=100,n=100",
+                     "-m_line_element", "bar", "-m_line_area", "1", "-m_line_material", "s", "-material_s_young", "1e9",
+                     "-material_s_poisson", "0", "-material_s_density", "1000", "-m_clamp", "line:y+z",
+                     "-end_time", "0.01", *PROBE, "50,2,0"], "-p_at", "2 m away")
+
+    def test_on_a_clamped_node(self):
+        self.doubt([*CHAIN, *PROBE, "0,0,0"], "probe p: its node is clamped")
+
+    def test_on_a_contact_node(self):
+        lines = self.doubts(program.COARSE_PAIR + ["-end_time", "1e-3", "-modes", "0", "-motion_x_duration", "16"])
+        for name in ("s1_floor1", "s1_floor2", "s2_floor1", "s2_floor2"):
+            self.assertTrue([line for line in lines if line.startswith(f"probe {name}: 2 of its 4 nodes are part of a")])
+            self.assertTrue([line for line in lines if line.startswith(f"probe {name}: its node is 0.17 m away")])
+        self.assertEqual(len(lines), 8, lines)
+
+    def test_fine_pair_has_none(self):
+        result = program.run(["-options_file", "petsc-options/azalee/gap2.yaml", "-dry_run", "-modes", "0"], 2, timeout=300)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotIn("warning", result.stdout)
+        self.assertIn("probe s1_floor1: 4 nodes of s1 at (1.68, 1.14, 2.72), at most 0 mm", result.stdout)
+
+
+class Folder(Run):
+    def test_cannot_be_made(self):
+        """Refused before the meshes are read: the mesh is not there either."""
+        file = os.path.join(self.folder, "file")
+        open(file, "w").close()
+        for folder in ("/proc/nowhere/results", file, os.path.join(file, "results")):
+            for ranks in (1, 2):
+                result = program.run([*CHAIN, "-m_mesh", "none.geo", "-output", folder], ranks, timeout=60)
+                self.assertEqual(result.returncode, 1)
+                (line,) = program.error_lines(result)
+                self.assertIn("-output " + folder, line)
+        self.assertEqual(os.listdir(self.folder), ["file"])
+
+    def test_left_as_it_was_when_the_scene_is_wrong(self):
+        self.refuse([*CHAIN, "-m_mesh", "none.geo", "-output", os.path.join(self.output, "deep", "er")], "none.geo")
+        os.makedirs(self.output)
+        program.run([*CHAIN, "-m_mesh", "none.geo", "-output", self.output], 1, timeout=60)
+        self.assertEqual(os.listdir(self.output), [])
+
+    def test_results_of_another_scene_are_named(self):
+        self.assertEqual(self.doubts(CHAIN), [])
+        self.assertEqual(self.doubts([*CHAIN, "-end_time", "0.05"], again=True), [])
+        record = ["-motion_x_unit", "m/s2", "-motion_x_record", self.record(0.005, 21)]
+        (line,) = self.doubts([*CHAIN, *record], again=True)
+        self.assertIn(self.output + " holds results of another scene", line)
+        self.assertIn("-motion_x_record none, now", line)
+        self.assertEqual(self.doubts([*CHAIN, *record], again=True), [])
+
+    def test_dry_run_writes_modes_where_asked(self):
+        for ranks in (1, 2):
+            words = [*CHAIN, "-modes", "2", "-dry_run", "-output", self.output]
+            self.assertEqual(program.run(words, ranks, timeout=60).returncode, 0)
+            self.assertFalse(os.path.exists(self.output))
+            result = program.run([*words, "-write_modes"], ranks, timeout=60)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(os.listdir(self.output), ["modes.h5"])
+            shutil.rmtree(self.output)
+
+
+class Progress(Run):
+    def test_only_where_somebody_sees_it(self):
+        words = [*CHAIN, "-output", self.output]
+        for ranks in (1, 2):
+            self.assertNotIn("remaining", program.run(words, ranks, timeout=60).stdout)
+            with open(os.path.join(self.folder, "log"), "w+") as log:
+                subprocess.run(program.words(words, ranks), cwd=program.SOURCE, env=program.ENVIRONMENT, stdout=log,
+                               check=True, timeout=60)
+                log.seek(0)
+                text = log.read()
+            self.assertIn("results in", text)
+            self.assertNotIn("remaining", text)
+            self.assertIn("remaining", self.on_a_terminal(program.words(words, ranks)))
+
+    def on_a_terminal(self, command):
+        mine, theirs = pty.openpty()
+        process = subprocess.Popen(command, cwd=program.SOURCE, env=program.ENVIRONMENT, stdout=theirs, stdin=theirs)
+        os.close(theirs)
+        text = b""
+        try:
+            while piece := os.read(mine, 65536):
+                text += piece
+        except OSError:  # the other end is closed
+            pass
+        os.close(mine)
+        self.assertEqual(process.wait(60), 0)
+        return text.decode()
+
+
+if __name__ == "__main__":
+    unittest.main()
