@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <sstream>
 
 #include "common/error.h"
@@ -30,6 +31,25 @@ double smallest_distance(const GlobalMesh& mesh, const GlobalIndex* corner, std:
 }
 
 }  // namespace
+
+double element_size_at(const GlobalMesh& mesh, GlobalIndex node) {
+  double largest = 0;
+  for (const ElementSet& set : mesh.regions) {
+    const auto nodes = static_cast<std::size_t>(element_layout(set.type).nodes);
+    for (std::size_t e = 0; e < set.tags.size(); ++e) {
+      const std::span<const GlobalIndex> corners(&set.connectivity[e * nodes], nodes);
+      if (std::ranges::find(corners, node) == corners.end()) {
+        continue;
+      }
+      for (const GlobalIndex a : corners) {
+        for (const GlobalIndex b : corners) {
+          largest = std::max(largest, distance(mesh.position(a), mesh.position(b)));
+        }
+      }
+    }
+  }
+  return largest;
+}
 
 void check_element_sizes(const std::string& structure, const GlobalMesh& mesh) {
   const double least = smallest_edge * bounding_box({&mesh, 1}).diagonal();

@@ -7,8 +7,8 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
-#include "elements/element.h"
 #include "mesh/bounding_box.h"
+#include "mesh/element_sizes.h"
 #include "mesh/group_names.h"
 
 namespace pounding {
@@ -20,27 +20,6 @@ struct ProbeNode {
   double snap_distance = 0;  ///< to the point asked for [m]
   double element_size = 0;   ///< of the elements there [m]
 };
-
-/// The largest distance between two nodes of an element that holds the node; 0 where no element has
-/// an extent.
-double element_size(const GlobalMesh& mesh, GlobalIndex node) {
-  double largest = 0;
-  for (const ElementSet& set : mesh.regions) {
-    const auto nodes = static_cast<std::size_t>(element_layout(set.type).nodes);
-    for (std::size_t e = 0; e < set.tags.size(); ++e) {
-      const std::span<const GlobalIndex> corners(&set.connectivity[e * nodes], nodes);
-      if (std::ranges::find(corners, node) == corners.end()) {
-        continue;
-      }
-      for (const GlobalIndex a : corners) {
-        for (const GlobalIndex b : corners) {
-          largest = std::max(largest, distance(mesh.position(a), mesh.position(b)));
-        }
-      }
-    }
-  }
-  return largest;
-}
 
 ProbeNode nearest_node(const GlobalMesh& mesh, const Probe& probe, const Vector3& point) {
   constexpr double far = 0.05;        // of the extent of the mesh
@@ -56,7 +35,7 @@ ProbeNode nearest_node(const GlobalMesh& mesh, const Probe& probe, const Vector3
   }
   best_distance = best_distance < round_off ? 0 : best_distance;
   double farthest = far * bounding_box({&mesh, 1}).diagonal();
-  const double size = best_distance > 0 ? element_size(mesh, best) : 0;
+  const double size = best_distance > 0 ? element_size_at(mesh, best) : 0;
   if (size > 0) {
     farthest = std::min(farthest, size);
   }
