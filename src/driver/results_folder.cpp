@@ -29,12 +29,13 @@ std::vector<fs::path> missing_folders(fs::path folder) {
   return missing;
 }
 
-[[noreturn]] void refuse(const std::string& folder, const std::string& why) {
-  throw UserError("option -output " + folder + ": the folder cannot be created or written (" + why +
-                  "); give another one");
+[[noreturn]] void refuse(const std::string& option, const std::string& folder,
+                         const std::string& why) {
+  throw UserError("option -" + option + " " + folder +
+                  ": the folder cannot be created or written (" + why + "); give another one");
 }
 
-void try_writing(const std::string& folder) {
+void try_writing(const std::string& option, const std::string& folder) {
   const fs::path trial = fs::path(folder) / (".trial-" + std::to_string(getpid()));
   errno = 0;
   std::ofstream file(trial);
@@ -44,7 +45,7 @@ void try_writing(const std::string& folder) {
   std::error_code failure;
   fs::remove(trial, failure);
   if (!why.empty()) {
-    refuse(folder, why);
+    refuse(option, folder, why);
   }
 }
 
@@ -66,15 +67,15 @@ std::map<std::string, std::string> scene_options(const std::string& resolved) {
 
 }  // namespace
 
-void try_results_folder(const std::string& folder) {
+void try_folder(const std::string& option, const std::string& folder) {
   std::error_code failure;
   const std::vector<fs::path> missing = missing_folders(fs::path(folder).lexically_normal());
   fs::create_directories(folder, failure);
   if (failure) {
-    refuse(folder, failure.message());
+    refuse(option, folder, failure.message());
   }
   if (!fs::is_directory(folder, failure)) {
-    refuse(folder, "it is a file");
+    refuse(option, folder, "it is a file");
   }
   const auto restore = [&missing] {
     std::error_code ignored;
@@ -83,7 +84,7 @@ void try_results_folder(const std::string& folder) {
     }
   };
   try {
-    try_writing(folder);
+    try_writing(option, folder);
   } catch (const UserError&) {
     restore();
     throw;

@@ -10,7 +10,7 @@ namespace pounding {
 
 /// Tries that the folder can be made and written, and leaves everything as it was. Throws
 /// UserError. Rank 0.
-void try_results_folder(const std::string& folder);
+void try_folder(const std::string& option, const std::string& folder);
 
 /// One line where the folder holds results of other structures, meshes or motions than `resolved`
 /// tells, which this run replaces; none where a run is continued. Rank 0.

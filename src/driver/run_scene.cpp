@@ -93,7 +93,10 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
   const bool writes = !scene.dry_run || scene.write_modes;
   on_rank0(comm, [&] {
     if (writes) {
-      try_results_folder(scene.output);
+      try_folder("output", scene.output);
+    }
+    if (!scene.export_matrices.empty()) {
+      try_folder("export_matrices", scene.export_matrices);
     }
     if (!scene.dry_run) {
       std::ranges::copy(replaced_results(scene, resolved), std::back_inserter(scene.warnings));

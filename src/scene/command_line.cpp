@@ -50,18 +50,16 @@ void refuse_joined(const std::string& word) {
 
 CommandLine read_command_line(std::span<const std::string> words) {
   CommandLine line;
-  for (std::size_t i = 0; i < words.size(); ++i) {
+  line.help = std::ranges::any_of(words, [](const auto& word) {
+    return is_one_of(word, {"-help", "--help", "-h"});
+  });
+  line.version = std::ranges::any_of(words, [](const auto& word) {
+    return is_one_of(word, {"-version", "--version"});
+  });
+  for (std::size_t i = 0; i < words.size() && !line.help && !line.version; ++i) {
     const std::string& word = words[i];
     if (!is_option(word)) {
       refuse_stray(word);
-    }
-    if (is_one_of(word, {"-help", "--help", "-h"})) {
-      line.help = true;
-      continue;
-    }
-    if (is_one_of(word, {"-version", "--version"})) {
-      line.version = true;
-      continue;
     }
     refuse_joined(word);
     const bool has_value = i + 1 < words.size() && !is_option(words[i + 1]);

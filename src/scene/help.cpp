@@ -71,6 +71,7 @@ std::string help_text() {
       "pounding: what floors feel when two buildings hit each other in an earthquake\n"
       "\n"
       "  mpirun -n 2 pounding -options_file case.yaml [-name value ...]\n"
+      "  pounding -help | -version\n"
       "\n"
       "Options come from YAML files (nested keys join with _: s1: {slab: {element: hex8}} is\n"
       "-s1_slab_element hex8), from the files that they name as include, and from the command\n"

@@ -156,6 +156,9 @@ class OptionsReader {
       return;
     }
     const std::string text = value.type == YAML_SCALAR_NODE ? text_of(value) : joined(value);
+    if (text.find('\0') != std::string::npos) {
+      refuse(file_, value.start_mark, shown_value(option) + " holds a zero character");
+    }
     const auto [entry, fresh] = entries.try_emplace(option, Entry{text, key.start_mark.line + 1});
     if (!fresh) {
       refuse_twice(key, option, entry->second.line);

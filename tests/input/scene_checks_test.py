@@ -127,12 +127,13 @@ class Folder(Run):
         """Refused before the meshes are read: the mesh is not there either."""
         file = os.path.join(self.folder, "file")
         open(file, "w").close()
-        for folder in ("/proc/nowhere/results", file, os.path.join(file, "results")):
+        for words in (["-output", "/proc/nowhere/results"], ["-output", file], ["-output", os.path.join(file, "results")],
+                      ["-output", self.output, "-export_matrices", file]):
             for ranks in (1, 2):
-                result = program.run([*CHAIN, "-m_mesh", "none.geo", "-output", folder], ranks, timeout=60)
+                result = program.run([*CHAIN, "-m_mesh", "none.geo", *words], ranks, timeout=60)
                 self.assertEqual(result.returncode, 1)
                 (line,) = program.error_lines(result)
-                self.assertIn("-output " + folder, line)
+                self.assertIn(" ".join(words[-2:]), line)
         self.assertEqual(os.listdir(self.folder), ["file"])
 
     def test_left_as_it_was_when_the_scene_is_wrong(self):

@@ -45,6 +45,7 @@ TEST(CommandLine, LastOfTheSameNameCounts) {
 TEST(CommandLine, HelpAndVersion) {
   for (const char* word : {"-help", "--help", "-h"}) {
     EXPECT_TRUE(read({"-a", "1", word}).help) << word;
+    EXPECT_TRUE(read({"case.yaml", word}).help) << word;
   }
   for (const char* word : {"-version", "--version"}) {
     EXPECT_TRUE(read({word}).version) << word;

@@ -95,6 +95,10 @@ TEST(OptionsFile, WhatHoldsNoOptionsIsRefused) {
   }
 }
 
+TEST(OptionsFile, ZeroCharacterIsRefused) {
+  EXPECT_THAT(refusal("output: \"a\\0b\"\n"), testing::HasSubstr("zero character"));
+}
+
 TEST(OptionsFile, SecondDocumentIsRefused) {
   EXPECT_THAT(refusal("a: 1\n---\nb: 2\n"),
               testing::HasSubstr("line 3, column 1: a second document"));
