@@ -4,92 +4,84 @@
 #include <cmath>
 #include <map>
 
-#include "elements/element.h"
+#include "contact/facet_backing.h"
+#include "contact/shell_orientation.h"
 
 namespace pounding {
 namespace {
 
-Vector3 centroid(const GlobalMesh& mesh, std::span<const GlobalIndex> nodes) {
-  Vector3 sum{0, 0, 0};
-  for (const GlobalIndex node : nodes) {
-    const Vector3 x = mesh.position(node);
+/// The element behind a facet; null where several may be and no direction chooses.
+const Backing* element_towards(const FacetBacking& behind, const std::optional<Vector3>& towards) {
+  const std::vector<std::size_t> outer = behind.outer();
+  if (outer.size() > 1 && !towards) {
+    return nullptr;
+  }
+  const auto cosine = [&](std::size_t i) {
+    return towards ? dot(normalised(behind.elements[i].area), *towards) : 0.0;
+  };
+  return &behind.elements[*std::ranges::max_element(outer, {}, cosine)];
+}
+
+/// Normals of the nodes and of the whole, from the areas of the facets.
+void settle_normals(ContactFace& face) {
+  std::map<GlobalIndex, Vector3> sums;
+  Vector3 total{0, 0, 0};
+  for (std::size_t f = 0; f < face.facets.size(); ++f) {
     for (std::size_t d = 0; d < 3; ++d) {
-      sum[d] += x[d] / static_cast<double>(nodes.size());
-    }
-  }
-  return sum;
-}
-
-/// Twice the facet's area along its normal, for the node order of the facet.
-Vector3 area_vector(const GlobalMesh& mesh, const Facet& facet) {
-  const auto at = [&](std::size_t i) { return mesh.position(facet.nodes[i]); };
-  if (facet.count == 3) {
-    return cross(minus(at(1), at(0)), minus(at(2), at(0)));
-  }
-  return cross(minus(at(2), at(0)), minus(at(3), at(1)));
-}
-
-bool carries_faces(ElementType type) {
-  return is_hexahedron(type) || is_shell(type);
-}
-
-/// The element behind a facet.
-struct Backing {
-  bool found = false;
-  bool same_nodes = false;  ///< the facet is a whole shell element
-  Vector3 centroid{0, 0, 0};
-};
-
-/// For every facet the solid or shell element that holds all its nodes.
-std::vector<Backing> bodies_behind(const GlobalMesh& mesh, const std::vector<Facet>& facets) {
-  std::map<GlobalIndex, std::vector<std::size_t>> facets_at;
-  for (std::size_t f = 0; f < facets.size(); ++f) {
-    for (const GlobalIndex node : facets[f].corners()) {
-      facets_at[node].push_back(f);
-    }
-  }
-  std::vector<Backing> behind(facets.size());
-  for (const ElementSet& set : mesh.regions) {
-    if (!carries_faces(set.type)) {
-      continue;
-    }
-    const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
-    for (std::size_t e = 0; e < set.tags.size(); ++e) {
-      const std::span<const GlobalIndex> nodes(&set.connectivity[e * width], width);
-      std::map<std::size_t, int> shared;
-      for (const GlobalIndex node : nodes) {
-        const auto found = facets_at.find(node);
-        if (found != facets_at.end()) {
-          for (const std::size_t f : found->second) {
-            ++shared[f];
-          }
-        }
-      }
-      for (const auto& [f, count] : shared) {
-        // A shell face is turned to the other side of the contact, an edge of a solid is no face.
-        if (count == facets[f].count && (count > 2 || is_shell(set.type))) {
-          behind[f] = {true, static_cast<std::size_t>(count) == width, centroid(mesh, nodes)};
-        }
+      total[d] += face.facet_areas[f][d];
+      for (const GlobalIndex node : face.facets[f].corners()) {
+        sums[node][d] += face.facet_areas[f][d];
       }
     }
   }
-  return behind;
+  face.nodes.clear();
+  face.node_normals.clear();
+  for (const auto& [node, sum] : sums) {
+    face.nodes.push_back(node);
+    Vector3 normal = normalised(sum);
+    for (double& component : normal) {
+      // Round-off of a face along an axis would couple components that have nothing to do with it.
+      if (std::abs(component) < 1e-12) {
+        component = 0;
+      }
+    }
+    face.node_normals.push_back(normalised(normal));
+  }
+  face.mean_normal = normalised(total);
 }
 
-/// Area (length for an edge) of a facet along its outward normal.
-Vector3 outward_area(const GlobalMesh& mesh, const Facet& facet, const Backing& backing) {
-  const Vector3 out = minus(centroid(mesh, facet.corners()), backing.centroid);
-  if (facet.count == 2) {
-    const Vector3 edge = minus(mesh.position(facet.nodes[1]), mesh.position(facet.nodes[0]));
-    const double length = std::sqrt(dot(edge, edge));
-    const Vector3 along = normalised(edge);
-    const double part = dot(out, along);
-    const Vector3 normal =
-        normalised({out[0] - part * along[0], out[1] - part * along[1], out[2] - part * along[2]});
-    return {length * normal[0], length * normal[1], length * normal[2]};
+void turn(Vector3& area) {
+  area = {-area[0], -area[1], -area[2]};
+}
+
+/// Shells with a common edge look to the same side, in whatever order the mesh has their nodes.
+void align_shells(ContactFace& face) {
+  const std::vector<char> reversed = reversed_shells(face.facets, face.two_sided);
+  for (std::size_t f = 0; f < face.facets.size(); ++f) {
+    if (reversed[f] != 0) {
+      turn(face.facet_areas[f]);
+    }
   }
-  const Vector3 area = area_vector(mesh, facet);
-  return dot(area, out) < 0 ? Vector3{-area[0], -area[1], -area[2]} : area;
+}
+
+/// Everything of the nodes, from what is known of the facets.
+void settle_nodes(const GlobalMesh& mesh, ContactFace& face) {
+  settle_normals(face);
+  std::map<GlobalIndex, double> half_thickness;
+  std::map<GlobalIndex, double> depth;
+  for (std::size_t f = 0; f < face.facets.size(); ++f) {
+    for (const GlobalIndex node : face.facets[f].corners()) {
+      half_thickness[node] = std::max(half_thickness[node], face.facet_half_thickness[f]);
+      depth[node] = std::max(depth[node], face.facet_depth[f]);
+    }
+  }
+  for (const GlobalIndex node : face.nodes) {
+    face.node_half_thickness.push_back(half_thickness[node]);
+    face.node_depth.push_back(depth[node]);
+  }
+  if (!face.nodes.empty()) {
+    face.centroid = centroid(mesh, face.nodes);
+  }
 }
 
 std::optional<FacetPoint> meet_edge(const GlobalMesh& mesh, const Facet& facet,
@@ -121,6 +113,17 @@ std::optional<FacetPoint> meet_edge(const GlobalMesh& mesh, const Facet& facet,
 
 }  // namespace
 
+Vector3 centroid(const GlobalMesh& mesh, std::span<const GlobalIndex> nodes) {
+  Vector3 sum{0, 0, 0};
+  for (const GlobalIndex node : nodes) {
+    const Vector3 x = mesh.position(node);
+    for (std::size_t d = 0; d < 3; ++d) {
+      sum[d] += x[d] / static_cast<double>(nodes.size());
+    }
+  }
+  return sum;
+}
+
 double dot(const Vector3& a, const Vector3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -138,53 +141,49 @@ Vector3 normalised(const Vector3& a) {
   return length > 0 ? Vector3{a[0] / length, a[1] / length, a[2] / length} : a;
 }
 
-ContactFace build_contact_face(const GlobalMesh& mesh, const NodeGroup& group) {
+ContactFace build_contact_face(const GlobalMesh& mesh, std::span<const Region> regions,
+                               const NodeGroup& group, const std::optional<Vector3>& towards) {
   ContactFace face;
-  const std::vector<Backing> behind = bodies_behind(mesh, group.facets);
-  std::map<GlobalIndex, Vector3> sums;
-  Vector3 total{0, 0, 0};
+  const std::vector<FacetBacking> behind = elements_behind(mesh, regions, group.facets);
   for (std::size_t f = 0; f < group.facets.size(); ++f) {
-    if (!behind[f].found) {
+    if (behind[f].elements.empty()) {
       continue;
     }
-    const Facet& facet = group.facets[f];
-    face.sided = face.sided && !behind[f].same_nodes;
-    const Vector3 area = outward_area(mesh, facet, behind[f]);
-    face.facets.push_back(facet);
-    face.facet_normals.push_back(normalised(area));
-    for (std::size_t d = 0; d < 3; ++d) {
-      total[d] += area[d];
-      for (const GlobalIndex node : facet.corners()) {
-        sums[node][d] += area[d];
+    const Backing* const element = element_towards(behind[f], towards);
+    if (element == nullptr) {
+      for (const std::size_t i : behind[f].outer()) {
+        face.undecided.push_back(normalised(behind[f].elements[i].area));
       }
+      continue;
     }
+    face.inner_facets += behind[f].is_inner() ? 1 : 0;
+    face.facets.push_back(group.facets[f]);
+    face.facet_areas.push_back(element->area);
+    face.two_sided.push_back(element->two_sided ? 1 : 0);
+    face.facet_half_thickness.push_back(behind[f].half_thickness(normalised(element->area)));
+    face.facet_depth.push_back(element->depth);
   }
-  for (const auto& [node, sum] : sums) {
-    face.nodes.push_back(node);
-    Vector3 normal = normalised(sum);
-    for (double& component : normal) {
-      // Round-off of a face along an axis would couple components that have nothing to do with it.
-      if (std::abs(component) < 1e-12) {
-        component = 0;
-      }
-    }
-    face.node_normals.push_back(normalised(normal));
-  }
-  face.mean_normal = normalised(total);
-  if (!face.nodes.empty()) {
-    face.centroid = centroid(mesh, face.nodes);
-  }
+  align_shells(face);
+  settle_nodes(mesh, face);
   return face;
 }
 
 void turn_towards(ContactFace& face, const Vector3& point) {
-  if (face.sided || dot(face.mean_normal, minus(point, face.centroid)) >= 0) {
+  Vector3 normal{0, 0, 0};
+  for (std::size_t f = 0; f < face.facets.size(); ++f) {
+    for (std::size_t d = 0; d < 3; ++d) {
+      normal[d] += face.two_sided[f] != 0 ? face.facet_areas[f][d] : 0.0;
+    }
+  }
+  if (dot(normal, minus(point, face.centroid)) >= 0) {
     return;
   }
-  const auto turn = [](Vector3& normal) { normal = {-normal[0], -normal[1], -normal[2]}; };
-  std::for_each(face.node_normals.begin(), face.node_normals.end(), turn);
-  std::for_each(face.facet_normals.begin(), face.facet_normals.end(), turn);
-  turn(face.mean_normal);
+  for (std::size_t f = 0; f < face.facets.size(); ++f) {
+    if (face.two_sided[f] != 0) {
+      turn(face.facet_areas[f]);
+    }
+  }
+  settle_normals(face);
 }
 
 std::optional<FacetPoint> meet_facet(const GlobalMesh& mesh, const Facet& facet,

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "mesh/global_mesh.h"
+#include "scene/scene.h"
 
 namespace pounding {
 
@@ -12,18 +14,30 @@ namespace pounding {
 struct ContactFace {
   std::vector<GlobalIndex> nodes;     ///< file order
   std::vector<Vector3> node_normals;  ///< outward, unit, area-weighted mean of the facets around
+  std::vector<double> node_half_thickness;  ///< how far shells reach beyond the node: largest of
+                                            ///< the facets around [m]
+  std::vector<double> node_depth;           ///< of the elements behind it, see Backing::depth [m]
   std::vector<Facet> facets;
-  std::vector<Vector3> facet_normals;  ///< outward, unit
+  std::vector<Vector3> facet_areas;          ///< area (length for an edge) along the outward normal
+  std::vector<char> two_sided;               ///< per facet: both sides of a shell are outside
+  std::vector<double> facet_half_thickness;  ///< as of the nodes [m]
+  std::vector<double> facet_depth;           ///< as of the nodes [m]
   Vector3 mean_normal{0, 0, 0};
   Vector3 centroid{0, 0, 0};  ///< mean of the nodes
-  bool sided = true;          ///< false: both sides of a shell are outside
+  int inner_facets = 0;       ///< with elements on both of their sides
+  /// Unit normals among which nothing chose, of facets that are left out: see build_contact_face.
+  std::vector<Vector3> undecided;
 };
 
 /// Builds a face from the facets of a group that solids or shells hold; outward is away from those
-/// elements. Empty if there are none.
-ContactFace build_contact_face(const GlobalMesh& mesh, const NodeGroup& group);
+/// elements. Empty if there are none. A facet may hold to several elements, as the edge of a floor
+/// that ends at a wall: then that one lies behind it whose normal is closest to `towards`; without
+/// that direction such facets are left out, and their normals listed. `regions` of the structure.
+ContactFace build_contact_face(const GlobalMesh& mesh, std::span<const Region> regions,
+                               const NodeGroup& group,
+                               const std::optional<Vector3>& towards = std::nullopt);
 
-/// Turns all normals of a face that is not sided towards a point.
+/// Turns the normals of facets that are two-sided towards a point, all of them together.
 void turn_towards(ContactFace& face, const Vector3& point);
 
 /// Where a line meets a facet.
@@ -38,6 +52,9 @@ struct FacetPoint {
 std::optional<FacetPoint> meet_facet(const GlobalMesh& mesh, const Facet& facet,
                                      const Vector3& origin, const Vector3& direction,
                                      double tolerance, double reach = 0);
+
+/// Mean of the positions of some nodes.
+Vector3 centroid(const GlobalMesh& mesh, std::span<const GlobalIndex> nodes);
 
 double dot(const Vector3& a, const Vector3& b);
 Vector3 cross(const Vector3& a, const Vector3& b);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "contact/contact_components.h"
+#include "contact/interface_traces.h"
 
 namespace pounding {
 namespace {
@@ -18,9 +19,9 @@ ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
                                std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
                                double gap_tolerance)
     : operator_(comm, interface.constraints, meshes),
-      structure_dofs_(systems.size()),
-      traces_(make_traces(systems, meshes)),
-      gather_(comm, known_dofs()),
+      structure_dofs_(dofs_by_structure(operator_, systems.size())),
+      traces_(make_traces(operator_, systems, meshes, true)),
+      gather_(comm, known_dofs(structure_dofs_, traces_)),
       compliance_(comm, operator_.dof_list(), traces_),
       gap_tolerance_(gap_tolerance) {
   const auto dofs = static_cast<std::size_t>(operator_.dofs());
@@ -53,32 +54,6 @@ ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
   smallest_gap_ = rows > 0 ? *std::min_element(gap_.begin(), gap_.end()) : 0;
   build_delassus();
   find_components();
-}
-
-std::vector<Trace> ContactProblem::make_traces(std::span<const LinearSystem> systems,
-                                               std::span<const Mesh> meshes) {
-  std::vector<std::vector<TracePoint>> places(systems.size());
-  for (int i = 0; i < operator_.dofs(); ++i) {
-    const InterfaceDof& dof = operator_.dof_list()[static_cast<std::size_t>(i)];
-    const auto s = static_cast<std::size_t>(dof.structure);
-    places[s].push_back({dof.node, dof.component});
-    structure_dofs_[s].push_back(i);
-  }
-  std::vector<Trace> traces;
-  for (std::size_t s = 0; s < systems.size(); ++s) {
-    traces.emplace_back(systems[s], meshes[s], places[s], true);
-  }
-  return traces;
-}
-
-std::vector<int> ContactProblem::known_dofs() const {
-  std::vector<int> known;
-  for (std::size_t s = 0; s < traces_.size(); ++s) {
-    for (const int place : traces_[s].known()) {
-      known.push_back(structure_dofs_[s][static_cast<std::size_t>(place)]);
-    }
-  }
-  return known;
 }
 
 void ContactProblem::build_delassus() {

@@ -84,9 +84,6 @@ class ContactProblem {
     std::vector<double> delassus;  ///< shape (rows, rows); empty for a single row
   };
 
-  std::vector<Trace> make_traces(std::span<const LinearSystem> systems,
-                                 std::span<const Mesh> meshes);
-  std::vector<int> known_dofs() const;
   void build_delassus();
   double delassus_entry(int row, int column) const;
   std::size_t structure_of(std::size_t dof) const {

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "common/error.h"
 #include "common/parallel.h"
-#include "contact/contact_face.h"
+#include "contact/contact_checks.h"
+#include "contact/contact_sides.h"
+#include "contact/facet_finder.h"
 #include "mesh/bounding_box.h"
-#include "mesh/group_names.h"
 
 namespace pounding {
 namespace {
@@ -16,95 +18,16 @@ namespace {
 /// A weight this close to 1 is the node itself; one this close to 0 is not there.
 constexpr double snap = 1e-6;
 
-/// How far outside a facet, relative to its size, a node may lie and still face it.
-constexpr double facet_tolerance = 1e-6;
-
-std::size_t structure_index(const Scene& scene, const std::string& name) {
-  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
-    if (scene.structures[s].name == name) {
-      return s;
-    }
-  }
-  throw UserError("contact: structure '" + name + "' is not in the scene");
-}
-
-/// Bounding boxes of facets across the normal, so that few of them are met in earnest.
-class FacetFinder {
- public:
-  FacetFinder(const GlobalMesh& mesh, const ContactFace& face, double reach)
-      : mesh_(mesh), face_(face), reach_(reach) {
-    for (const Facet& facet : face.facets) {
-      Vector3 low = mesh.position(facet.nodes[0]);
-      Vector3 high = low;
-      for (const GlobalIndex node : facet.corners()) {
-        const Vector3 x = mesh.position(node);
-        for (std::size_t d = 0; d < 3; ++d) {
-          low[d] = std::min(low[d], x[d]);
-          high[d] = std::max(high[d], x[d]);
-        }
-      }
-      radius_.push_back(std::sqrt(dot(minus(high, low), minus(high, low))) / 2);
-      centre_.push_back({(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2});
-    }
-  }
-
-  /// The facet met nearest to `origin`, looking both ways: faces may overlap initially.
-  std::optional<std::pair<std::size_t, FacetPoint>> find(const Vector3& origin,
-                                                         const Vector3& direction) const {
-    std::optional<std::pair<std::size_t, FacetPoint>> best;
-    for (std::size_t f = 0; f < face_.facets.size(); ++f) {
-      const Vector3 to = minus(centre_[f], origin);
-      const double along = dot(to, direction);
-      const double across = std::sqrt(std::max(0.0, dot(to, to) - along * along));
-      if (across > 1.01 * radius_[f] + reach_) {
-        continue;
-      }
-      const auto point =
-          meet_facet(mesh_, face_.facets[f], origin, direction, facet_tolerance, reach_);
-      if (point && (!best || std::abs(point->distance) <
-                                 std::abs(best->second.distance) - 1e-9 * radius_[f])) {
-        best = {f, *point};
-      }
-    }
-    return best;
-  }
-
- private:
-  const GlobalMesh& mesh_;
-  const ContactFace& face_;
-  double reach_;
-  std::vector<Vector3> centre_;
-  std::vector<double> radius_;
-};
-
-/// One side of a contact with what is known of its structure.
-struct Side {
-  int structure = 0;
-  const GlobalMesh* mesh = nullptr;
-  ContactFace face;
-  double thickness = 0;  ///< of its thickest shell [m]
-};
-
-double shell_thickness(const Structure& structure) {
-  double thickness = 0;
-  for (const Region& region : structure.regions) {
-    thickness = std::max(thickness, region.thickness);
-  }
-  return thickness;
-}
-
 /// Finds the pairs of one contact.
 class PairFinder {
  public:
   PairFinder(const Scene& scene, std::span<const GlobalMesh> meshes, int contact)
-      : contact_(scene.contacts[static_cast<std::size_t>(contact)]), number_(contact) {
-    secondary_ = side_of(scene, meshes, "secondary", contact_.secondary);
-    if (!contact_.primary.is_wall()) {
-      primary_ = side_of(scene, meshes, "primary", contact_.primary);
-      turn_towards(secondary_.face, primary_.face.centroid);
-      turn_towards(primary_.face, secondary_.face.centroid);
-      check_facing();
-    }
+      : contact_(scene.contacts[static_cast<std::size_t>(contact)]),
+        number_(contact),
+        sides_(find_sides(scene, meshes, contact_)) {
+    report_.contact = contact_.name;
+    report_.normal = sides_.secondary.face.mean_normal;
+    report_.inner_facets = sides_.secondary.face.inner_facets + sides_.primary.face.inner_facets;
     find_tangent_axes();
   }
 
@@ -113,65 +36,38 @@ class PairFinder {
     if (contact_.primary.is_wall()) {
       pair_with_wall(interface);
     } else {
-      pair(secondary_, primary_, interface);
+      pair(sides_.secondary, sides_.primary, interface);
       if (contact_.passes == 2) {
-        pair(primary_, secondary_, interface);
+        pair(sides_.primary, sides_.secondary, interface);
       }
     }
     if (interface.constraints.size() == first) {
-      throw UserError(where("secondary") + ": no node of group '" + contact_.secondary.group +
-                      "' faces group '" + contact_.primary.group +
-                      "'; check that the two faces overlap across their normal");
+      refuse_without_pairs();
     }
     set_gaps({&interface.constraints[first], interface.constraints.size() - first});
-    report_.contact = contact_.name;
-    report_.normal = secondary_.face.mean_normal;
     interface.reports.push_back(report_);
   }
 
  private:
-  std::string where(const std::string& side) const {
-    const ContactSide& s = side == "secondary" ? contact_.secondary : contact_.primary;
-    return "option -" + contact_.name + "_" + side + " " + s.structure + ":" + s.group;
-  }
-
-  Side side_of(const Scene& scene, std::span<const GlobalMesh> meshes, const std::string& name,
-               const ContactSide& s) const {
-    const std::size_t index = structure_index(scene, s.structure);
-    const GlobalMesh& mesh = meshes[index];
-    const auto found = mesh.groups.find(s.group);
-    if (found == mesh.groups.end()) {
-      throw UserError(where(name) + ": group '" + s.group + "' is not in the mesh of " +
-                      s.structure + ", which has: " + group_names(mesh));
+  [[noreturn]] void refuse_without_pairs() const {
+    const std::string option = side_option(contact_, "secondary");
+    if (report_.left_behind == 0) {
+      throw UserError(option + ": no node of group '" + contact_.secondary.group +
+                      "' faces group '" + contact_.primary.group +
+                      "'; check that the two faces overlap across their normal");
     }
-    Side side{static_cast<int>(index), &mesh, build_contact_face(mesh, found->second),
-              shell_thickness(scene.structures[index])};
-    if (side.face.facets.empty()) {
-      throw UserError(where(name) + ": group '" + s.group +
-                      "' has no faces of solids or shells and no edges of shells");
-    }
-    if (std::all_of(side.face.nodes.begin(), side.face.nodes.end(), [&](GlobalIndex node) {
-          return mesh.free_components[static_cast<std::size_t>(node)] == 0;
-        })) {
-      throw UserError(where(name) + ": every node of group '" + s.group +
-                      "' is clamped; a contact needs a face that can move");
-    }
-    return side;
-  }
-
-  void check_facing() const {
-    const double cosine = dot(secondary_.face.mean_normal, primary_.face.mean_normal);
-    if (!(cosine < -0.5)) {
-      throw UserError(where("secondary") + " and -" + contact_.name + "_primary " +
-                      contact_.primary.structure + ":" + contact_.primary.group +
-                      ": the faces do not face each other (cosine of their outward normals " +
-                      std::to_string(cosine) + ", should be near -1)");
-    }
+    std::ostringstream text;
+    text << option << ": the primary " << contact_.primary.structure << ":"
+         << contact_.primary.group << " lies behind it, by up to " << report_.farthest_behind
+         << " m, more than the elements there are deep: the faces look away from each other, or "
+            "the bodies lie within each other; name the faces that look at each other, or move a "
+            "mesh";
+    throw UserError(text.str());
   }
 
   void find_tangent_axes() {
     int normal_axis = 0;
-    const Vector3& normal = secondary_.face.mean_normal;
+    const Vector3& normal = sides_.secondary.face.mean_normal;
     for (int d = 1; d < 3; ++d) {
       if (std::abs(normal[static_cast<std::size_t>(d)]) >
           std::abs(normal[static_cast<std::size_t>(normal_axis)]) + 1e-9) {
@@ -182,30 +78,37 @@ class PairFinder {
   }
 
   /// Keeps the nodes of one side out of the facets of the other.
-  void pair(const Side& nodes, const Side& facets, Interface& interface) {
+  void pair(const FaceSide& nodes, const FaceSide& facets, Interface& interface) {
     const double reach = (nodes.thickness + facets.thickness) / 2;
     const FacetFinder finder(*facets.mesh, facets.face, reach);
     for (std::size_t i = 0; i < nodes.face.nodes.size(); ++i) {
-      const auto found =
-          finder.find(nodes.mesh->position(nodes.face.nodes[i]), nodes.face.node_normals[i]);
-      if (found) {
-        add_pair(nodes, i, facets, facets.face.facets[found->first], found->second, interface);
-      } else {
-        ++report_.unmatched_nodes;
+      const FacetFinder::Result result =
+          finder.find(nodes.mesh->position(nodes.face.nodes[i]), nodes.face.node_normals[i],
+                      nodes.face.node_half_thickness[i], nodes.face.node_depth[i]);
+      if (result.faced) {
+        add_pair(nodes, i, facets, *result.faced, reach, interface);
+        continue;
+      }
+      ++report_.unmatched_nodes;
+      if (result.behind < 0) {
+        ++report_.left_behind;
+        report_.farthest_behind = std::max(report_.farthest_behind, -result.behind);
       }
     }
   }
 
   void pair_with_wall(Interface& interface) {
-    for (std::size_t i = 0; i < secondary_.face.nodes.size(); ++i) {
+    for (std::size_t i = 0; i < sides_.secondary.face.nodes.size(); ++i) {
       Constraint constraint;
       constraint.matched = true;
-      finish(secondary_, i, std::move(constraint), interface);
+      finish(sides_.secondary, i, std::move(constraint), interface);
     }
   }
 
-  void add_pair(const Side& nodes, std::size_t i, const Side& facets, const Facet& facet,
-                FacetPoint point, Interface& interface) {
+  void add_pair(const FaceSide& nodes, std::size_t i, const FaceSide& facets,
+                const FacedFacet& faced, double reach, Interface& interface) {
+    const Facet& facet = facets.face.facets[faced.facet];
+    FacetPoint point = faced.point;
     const Vector3& normal = nodes.face.node_normals[i];
     Constraint constraint;
     const auto count = static_cast<std::size_t>(facet.count);
@@ -221,12 +124,28 @@ class PairFinder {
         add_terms(facets.structure, facet.nodes[a], point.weights[a], normal, constraint);
       }
     }
-    constraint.geometric_gap = point.distance;
+    constraint.geometric_gap = faced.gap;
+    constraint.facet_size = facet_size(facets.face, faced.facet, reach);
+    note_half_thickness(nodes, nodes.face.node_half_thickness[i]);
+    note_half_thickness(facets, facets.face.facet_half_thickness[faced.facet]);
     finish(nodes, i, std::move(constraint), interface);
   }
 
+  /// Side of a square of the facet's area; of an edge its length, or what it reaches across if that
+  /// is less [m].
+  static double facet_size(const ContactFace& face, std::size_t facet, double reach) {
+    const Vector3& area = face.facet_areas[facet];
+    const double size = std::sqrt(dot(area, area));
+    return face.facets[facet].count == 2 ? std::min(size, reach) : std::sqrt(size / 2);
+  }
+
+  void note_half_thickness(const FaceSide& side, double half_thickness) {
+    double& largest = report_.half_thickness[&side == &sides_.secondary ? 0 : 1];
+    largest = std::max(largest, half_thickness);
+  }
+
   /// Adds the node's own terms and the place, and keeps the constraint.
-  void finish(const Side& nodes, std::size_t i, Constraint&& constraint, Interface& interface) {
+  void finish(const FaceSide& nodes, std::size_t i, Constraint&& constraint, Interface& interface) {
     const GlobalIndex node = nodes.face.nodes[i];
     constraint.contact = number_;
     add_terms(nodes.structure, node, -1, nodes.face.node_normals[i], constraint);
@@ -265,8 +184,8 @@ class PairFinder {
   void set_gaps(std::span<Constraint> constraints) {
     std::array<double, 2> low{1e300, 1e300};
     std::array<double, 2> high{-1e300, -1e300};
-    for (const GlobalIndex node : secondary_.face.nodes) {
-      const Vector3 x = secondary_.mesh->position(node);
+    for (const GlobalIndex node : sides_.secondary.face.nodes) {
+      const Vector3 x = sides_.secondary.mesh->position(node);
       for (std::size_t t = 0; t < 2; ++t) {
         const double value = x[static_cast<std::size_t>(report_.tangent_axes[t])];
         low[t] = std::min(low[t], value);
@@ -275,6 +194,7 @@ class PairFinder {
     }
     report_.smallest_gap = std::numeric_limits<double>::max();
     report_.largest_gap = -report_.smallest_gap;
+    report_.geometric_gap = {report_.smallest_gap, report_.largest_gap};
     for (Constraint& constraint : constraints) {
       std::array<double, 2> s{};
       for (std::size_t t = 0; t < 2; ++t) {
@@ -284,13 +204,15 @@ class PairFinder {
           contact_.gap.values.empty() ? constraint.geometric_gap : given_gap(s);
       report_.smallest_gap = std::min(report_.smallest_gap, constraint.initial_gap);
       report_.largest_gap = std::max(report_.largest_gap, constraint.initial_gap);
+      report_.overlapping += constraint.initial_gap < 0 ? 1 : 0;
+      report_.geometric_gap = {std::min(report_.geometric_gap[0], constraint.geometric_gap),
+                               std::max(report_.geometric_gap[1], constraint.geometric_gap)};
     }
   }
 
   const Contact& contact_;
   int number_;
-  Side secondary_;
-  Side primary_;
+  ContactSides sides_;
   InterfaceReport report_;
 };
 
@@ -302,6 +224,7 @@ Interface find_interface(const Scene& scene, std::span<const GlobalMesh> meshes)
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     PairFinder(scene, meshes, static_cast<int>(c)).find(interface);
   }
+  check_contacts(scene, interface);
   return interface;
 }
 
@@ -326,12 +249,13 @@ void broadcast_interface(MPI_Comm comm, Interface& interface) {
     int matched;
     double initial_gap;
     double geometric_gap;
+    double facet_size;
     std::array<double, 2> place;
   };
   std::vector<Head> heads;
   for (const Constraint& c : interface.constraints) {
     heads.push_back({c.contact, static_cast<int>(c.terms.size()), c.matched ? 1 : 0, c.initial_gap,
-                     c.geometric_gap, c.place});
+                     c.geometric_gap, c.facet_size, c.place});
     terms.insert(terms.end(), c.terms.begin(), c.terms.end());
   }
   broadcast_array(comm, heads);
@@ -347,6 +271,7 @@ void broadcast_interface(MPI_Comm comm, Interface& interface) {
                                      {next, next + head.terms},
                                      head.initial_gap,
                                      head.geometric_gap,
+                                     head.facet_size,
                                      head.place,
                                      head.matched != 0});
     next += head.terms;

@@ -32,7 +32,8 @@ struct Constraint {
   int contact = 0;  ///< index into the scene's contacts
   std::vector<ConstraintTerm> terms;
   double initial_gap = 0;         ///< [m]
-  double geometric_gap = 0;       ///< as the meshes stand [m]
+  double geometric_gap = 0;       ///< as the meshes stand, between the surfaces of shells [m]
+  double facet_size = 0;          ///< of the facet that it faces; 0: a wall, endless [m]
   std::array<double, 2> place{};  ///< secondary node on the tangent axes [m]
   bool matched = false;           ///< faces one primary node exactly
 };
@@ -45,21 +46,33 @@ struct InterfaceReport {
   int unmatched_nodes = 0;  ///< secondary nodes that face nothing
   double smallest_gap = 0;  ///< initial [m]
   double largest_gap = 0;
-  Vector3 normal{0, 0, 0};            ///< mean
-  std::array<int, 2> tangent_axes{};  ///< global axes of `place`
+  std::array<double, 2> geometric_gap{};   ///< smallest and largest as the meshes stand [m]
+  std::array<double, 2> half_thickness{};  ///< of the shells at the faces of the secondary and of
+                                           ///< the primary, the largest [m]
+  int overlapping = 0;                     ///< pairs whose initial gap is negative
+  int left_behind = 0;                     ///< of the unmatched nodes, those with a facet too far
+                                           ///< behind them
+  double farthest_behind = 0;              ///< how far that is at most [m]
+  int inner_facets = 0;                    ///< facets with elements on both of their sides
+  Vector3 normal{0, 0, 0};                 ///< mean
+  std::array<int, 2> tangent_axes{};       ///< global axes of `place`
 };
 
 struct Interface {
   std::vector<Constraint> constraints;  ///< in the order of the contacts, nodes in file order
   std::vector<InterfaceReport> reports;
-  double model_size = 0;  ///< largest extent of the scene [m]
+  double model_size = 0;              ///< largest extent of the scene [m]
+  std::vector<std::string> warnings;  ///< what may not be meant; rank 0 only
 };
 
 /// Finds the pairs of every contact of the scene: for each node of the secondary group the facet of
 /// the primary group that the normal through the node meets; weights are the facet's shape
 /// functions there, one node alone where it meets a node (matched). `meshes` in the order of the
-/// scene's structures. Serial, rank 0. Throws UserError (unknown group, group without facets, faces
-/// that do not face each other, no pair at all).
+/// scene's structures. A facet is met only if its outward normal looks against that of the node,
+/// and behind the node, where bodies overlap, only within the elements behind the node. The gap is
+/// that between surfaces: half of the thickness of shells is off on either side, but for edges in
+/// the plane of their shell. Serial, rank 0. Throws UserError as find_sides does, for no pair at
+/// all, and as check_contact does.
 Interface find_interface(const Scene& scene, std::span<const GlobalMesh> meshes);
 
 /// Facing nodes, for the partition.

@@ -166,6 +166,7 @@ Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile) {
   for (const LinearSystem& system : model.systems) {
     append(sliver_warnings(system), model.warnings);
   }
+  append(model.interface.warnings, model.warnings);
   choose_time_step(scene, model);
   const std::vector<std::string> doubts = run_warnings(scene, model);
   model.warnings.insert(model.warnings.end(), doubts.begin(), doubts.end());

@@ -9,6 +9,7 @@
 #include "common/error.h"
 #include "common/hash.h"
 #include "common/parallel.h"
+#include "contact/slide_watch.h"
 #include "mesh/mesh.h"
 #include "output/modal_basis_file.h"
 #include "system/build_system.h"
@@ -17,20 +18,25 @@
 namespace pounding {
 namespace {
 
-/// Where a run asks for the motion of a structure: contacts and probes.
+/// Where a run asks for the motion of a structure: contacts, along and across their normals, and
+/// probes.
 ModalRequest request_of(const Scene& scene, int s, const Interface& interface,
                         std::span<const ResolvedProbe> probes) {
   const ModalModel& modal = *scene.structures[static_cast<std::size_t>(s)].modal;
   ModalRequest request{modal.modes, modal.candidates, modal.cutoff, modal.attachment, {}, {}};
   std::set<TracePoint> known;
-  for (const Constraint& constraint : interface.constraints) {
-    for (const ConstraintTerm& term : constraint.terms) {
-      const TracePoint point{term.node, term.component};
-      if (term.structure == s && known.insert(point).second) {
-        request.contact_points.push_back(point);
+  const auto add = [&](std::span<const Constraint> rows, std::vector<TracePoint>& points) {
+    for (const Constraint& row : rows) {
+      for (const ConstraintTerm& term : row.terms) {
+        const TracePoint point{term.node, term.component};
+        if (term.structure == s && known.insert(point).second) {
+          points.push_back(point);
+        }
       }
     }
-  }
+  };
+  add(interface.constraints, request.contact_points);
+  add(tangential_rows(interface.constraints), request.other_points);
   for (const ResolvedProbe& probe : probes) {
     for (std::size_t k = 0; probe.structure == s && k < probe.nodes.size(); ++k) {
       for (int d = 0; d < 3; ++d) {

@@ -124,6 +124,23 @@ void print_structure(const Scene& scene, const Model& model, std::size_t s) {
   }
 }
 
+void print_contact(const InterfaceReport& report) {
+  std::printf(
+      "\ncontact %s: %d pairs (%d node to node), %d secondary nodes face nothing, initial gap "
+      "%.4g to %.4g mm, normal (%.3g, %.3g, %.3g)\n",
+      report.contact.c_str(), report.pairs, report.matched, report.unmatched_nodes,
+      1000 * report.smallest_gap, 1000 * report.largest_gap, report.normal[0], report.normal[1],
+      report.normal[2]);
+  const auto [secondary, primary] = report.half_thickness;
+  if (secondary > 0 || primary > 0) {
+    std::printf(
+        "  of the meshes %.4g to %.4g mm between surfaces, half a thickness off: %.4g and "
+        "%.4g mm\n",
+        1000 * report.geometric_gap[0], 1000 * report.geometric_gap[1], 1000 * secondary,
+        1000 * primary);
+  }
+}
+
 void print_impacts(const Scene& scene, const RunStatistics& statistics,
                    const ImpactCatalogue& impacts) {
   if (scene.contacts.empty()) {
@@ -147,6 +164,18 @@ void print_impacts(const Scene& scene, const RunStatistics& statistics,
   }
   if (impacts.impacts().size() > shown) {
     std::printf("  ... and %zu more in impacts.csv\n", impacts.impacts().size() - shown);
+  }
+}
+
+void print_slides(const Scene& scene, const RunStatistics& statistics) {
+  for (std::size_t c = 0; c < statistics.slides.size(); ++c) {
+    const Slide& slide = statistics.slides[c];
+    std::printf("  %-12s slid along itself by at most %.4g mm", scene.contacts[c].name.c_str(),
+                1000 * slide.distance);
+    if (slide.facet_size > 0) {
+      std::printf(", on a facet of %.4g mm", 1000 * slide.facet_size);
+    }
+    std::printf("\n");
   }
 }
 
@@ -222,12 +251,7 @@ void print_model(const Scene& scene, const Model& model) {
     print_structure(scene, model, s);
   }
   for (const InterfaceReport& report : model.interface.reports) {
-    std::printf(
-        "\ncontact %s: %d pairs (%d node to node), %d secondary nodes face nothing, initial gap "
-        "%.4g to %.4g mm, normal (%.3g, %.3g, %.3g)\n",
-        report.contact.c_str(), report.pairs, report.matched, report.unmatched_nodes,
-        1000 * report.smallest_gap, 1000 * report.largest_gap, report.normal[0], report.normal[1],
-        report.normal[2]);
+    print_contact(report);
   }
   print_probe_places(scene, model.probes);
   std::printf("\npartition: imbalance %.3f, cut edges %ld\n", model.partition_imbalance,
@@ -257,6 +281,7 @@ void print_results(const Scene& scene, const RunStatistics& statistics,
                    const std::vector<ProbeSpectrum>& spectra) {
   std::printf("\n");
   print_impacts(scene, statistics, impacts);
+  print_slides(scene, statistics);
   print_probes(recorder, spectra);
   std::printf("\n");
   print_warnings(statistics.warnings);

@@ -152,6 +152,7 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
     write_floor_spectra(scene.output + "/spectra.csv", spectra, loop.recorder().interval());
     statistics.warnings = displacement_warnings(model, loop.recorder());
     append(contact_warnings(statistics.complementarity_residual), statistics.warnings);
+    append(slide_warnings(scene, statistics), statistics.warnings);
     statistics.wall_time = MPI_Wtime() - start;
     write_summary(scene.output + "/summary.json", scene, resolved, model, statistics,
                   loop.recorder(), size_of(comm));

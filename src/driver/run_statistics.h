@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/profile.h"
+#include "contact/slide_watch.h"
 #include "dynamics/energy_balance.h"
 #include "output/impact_catalogue.h"
 #include "output/recorder.h"
@@ -26,6 +27,7 @@ struct RunStatistics {
   std::int64_t interface_looks = 0;   ///< steps that looked at the gaps
   std::vector<ImpactTotals> impacts;  ///< per contact
   ImpactTotals all_impacts;
+  std::vector<Slide> slides;          ///< per contact
   std::vector<std::string> warnings;  ///< one line each: what the run came upon
   std::vector<double> phase_seconds;  ///< largest over the ranks, per Phase
 };

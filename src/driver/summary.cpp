@@ -122,6 +122,19 @@ Json describe_probe(const Scene& scene, const Recorder& recorder, std::size_t p)
   return description;
 }
 
+Json describe_contact(const InterfaceReport& report, const Slide& slide) {
+  return {{"pairs", report.pairs},
+          {"matched", report.matched},
+          {"unmatched_nodes", report.unmatched_nodes},
+          {"initial_gap", {report.smallest_gap, report.largest_gap}},
+          {"geometric_gap", report.geometric_gap},
+          {"overlapping_pairs", report.overlapping},
+          {"half_thickness", report.half_thickness},
+          {"largest_slide", slide.distance},
+          {"slide_facet_size", slide.facet_size},
+          {"normal", report.normal}};
+}
+
 }  // namespace
 
 void write_summary(const std::string& path, const Scene& scene, const std::string& resolved,
@@ -152,6 +165,8 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
                           {"edge_cut", model.partition_edge_cut},
                           {"interface_ranks", statistics.interface_ranks}};
   summary["interface_looks"] = statistics.interface_looks;
+  summary["contact_rows"] = statistics.contact_rows;
+  summary["coupled_rows"] = statistics.coupled_rows;
   summary["energy"] = describe_energy(statistics);
   summary["impacts"] = describe_impacts(statistics.all_impacts);
   summary["impacts"]["complementarity_residual"] = statistics.complementarity_residual;
@@ -159,12 +174,7 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     const InterfaceReport& report = model.interface.reports[c];
     summary["impacts"][scene.contacts[c].name] = describe_impacts(statistics.impacts[c]);
-    summary["contacts"][scene.contacts[c].name] = {
-        {"pairs", report.pairs},
-        {"matched", report.matched},
-        {"unmatched_nodes", report.unmatched_nodes},
-        {"initial_gap", {report.smallest_gap, report.largest_gap}},
-        {"normal", report.normal}};
+    summary["contacts"][scene.contacts[c].name] = describe_contact(report, statistics.slides[c]);
   }
   summary["probes"] = Json::object();
   for (std::size_t p = 0; p < recorder.probes().size(); ++p) {

@@ -17,6 +17,9 @@
 namespace pounding {
 namespace {
 
+/// Faces slide with the sway of their structures: looked at this often, a slide is seen [s].
+constexpr double slide_interval = 1e-3;
+
 std::vector<int> contacts_of(const Interface& interface) {
   std::vector<int> contacts;
   for (const Constraint& constraint : interface.constraints) {
@@ -58,9 +61,14 @@ TimeLoop::TimeLoop(MPI_Comm comm, const Scene& scene, const Model& model, Profil
       model_(model),
       profile_(profile),
       contact_(make_contact(comm, scene, model)),
+      slides_(contact_
+                  ? std::make_unique<SlideWatch>(comm, model.interface, model.systems, model.meshes,
+                                                 static_cast<int>(scene.contacts.size()))
+                  : nullptr),
       catalogue_(static_cast<int>(scene.contacts.size()), contacts_of(model.interface),
                  places_of(model.interface), scene.impact_merge_time),
       smallest_gaps_(scene.contacts.size(), 0.0),
+      slide_stride_(static_cast<std::int64_t>(std::max(1.0, slide_interval / model.time_step))),
       energies_(model.systems.size()),
       energy_round_off_(model.systems.size()),
       ledger_(model.steps / scene.energy_interval + 2) {
@@ -124,6 +132,7 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
     if (records) {
       recorder_->take_displacements(stepper_->state());
     }
+    watch_slides(n);
     stepper_->step(records && n % gap_stride_ == 0, ledger);
     observe(n);
     if (ledger) {
@@ -175,6 +184,18 @@ void TimeLoop::observe(std::int64_t step) {
   recorder_->record(stepper_->state(), smallest_gaps_);
 }
 
+void TimeLoop::watch_slides(std::int64_t step) {
+  if (!slides_ || !slides_->member() || step % slide_stride_ != 0) {
+    return;
+  }
+  const ScopedTimer timer(profile_, Phase::output);
+  const std::vector<BodyState>& bodies = stepper_->state().bodies;
+  for (std::size_t s = 0; s < bodies.size(); ++s) {
+    slides_->set_displacement(s, bodies[s].displacement.data());
+  }
+  slides_->look(static_cast<double>(step) * model_.time_step);
+}
+
 void TimeLoop::close_ledger_line() {
   const ScopedTimer timer(profile_, Phase::energy);
   EnergyBalance& energy = stepper_->energy();
@@ -205,6 +226,9 @@ void TimeLoop::write_checkpoint(const RunIdentity& identity) {
   if (rank_of(comm_) == (contact_ ? contact_->root() : 0)) {
     catalogue_.save(saved);
   }
+  if (slides_ && slides_->root() == rank_of(comm_)) {
+    slides_->save(saved);
+  }
   if (rank_of(comm_) == 0) {
     ledger_.save(saved);
   }
@@ -216,6 +240,9 @@ void TimeLoop::load(const SavedState& saved) {
   stepper_->load(saved);
   recorder_->load(saved);
   catalogue_.load(saved);
+  if (slides_) {
+    slides_->load(saved);
+  }
   ledger_.load(saved);
   first_step_ = step() + 1;
 }
@@ -254,6 +281,8 @@ void TimeLoop::fill(RunStatistics& statistics) const {
     statistics.interface_looks = stepper_->looks();
     MPI_Allreduce(MPI_IN_PLACE, &statistics.interface_looks, 1, MPI_INT64_T, MPI_MAX, comm_);
     statistics.complementarity_residual = contact_->largest_residual();
+    statistics.slides = slides_->slides();
+    broadcast_array(comm_, statistics.slides, slides_->root());
   }
   statistics.peak_memory = peak_memory();
   MPI_Allreduce(MPI_IN_PLACE, &statistics.peak_memory, 1, MPI_DOUBLE, MPI_SUM, comm_);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "contact/slide_watch.h"
 #include "driver/model.h"
 #include "driver/run_statistics.h"
 #include "dynamics/cd_lagrange.h"
@@ -38,6 +39,8 @@ class TimeLoop {
   void load(const SavedState& saved);
   void write_checkpoint(const RunIdentity& identity);
   void observe(std::int64_t step);
+  /// Looks at how far the faces have slid, before the step to t_n.
+  void watch_slides(std::int64_t step);
   void close_ledger_line();
   void show_progress(double start);
 
@@ -46,11 +49,13 @@ class TimeLoop {
   const Model& model_;
   Profile& profile_;
   std::unique_ptr<ContactProblem> contact_;
+  std::unique_ptr<SlideWatch> slides_;  ///< null without contacts
   std::unique_ptr<CdLagrange> stepper_;
   ImpactCatalogue catalogue_;
   std::unique_ptr<Recorder> recorder_;
   std::vector<double> smallest_gaps_;  ///< per contact
   std::int64_t gap_stride_ = 1;        ///< steps between two samples of the gaps
+  std::int64_t slide_stride_ = 1;      ///< steps between two looks at the slides
   std::vector<StructureEnergy> energies_;
   std::vector<double> energy_round_off_;  ///< of each of them [J]
   EnergyLedger ledger_;

@@ -47,4 +47,23 @@ std::vector<std::string> contact_warnings(double residual) {
   return {text.str()};
 }
 
+std::vector<std::string> slide_warnings(const Scene& scene, const RunStatistics& statistics) {
+  std::vector<std::string> warnings;
+  for (std::size_t c = 0; c < statistics.slides.size(); ++c) {
+    const Slide& slide = statistics.slides[c];
+    if (slide.since < 0) {
+      continue;
+    }
+    std::ostringstream text;
+    text.precision(4);
+    text << "contact " << scene.contacts[c].name << ": its faces slid along each other by up to "
+         << slide.distance << " m, more than half of the facet there (" << slide.facet_size
+         << " m), from t = " << slide.since
+         << " s on; nodes stay with the facets that they face at the start, so that impacts after "
+            "that may hit what has moved away, or miss";
+    warnings.push_back(text.str());
+  }
+  return warnings;
+}
+
 }  // namespace pounding

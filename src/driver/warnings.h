@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "driver/model.h"
+#include "driver/run_statistics.h"
 #include "output/recorder.h"
 
 /// Lines of doubt, each about one thing that a user should look at. The program prints them with
@@ -24,5 +25,8 @@ std::vector<std::string> displacement_warnings(const Model& model, const Recorde
 /// Steps whose contact problem was not solved to the end. `residual`: the largest complementarity
 /// residual of the run [-].
 std::vector<std::string> contact_warnings(double residual);
+
+/// Contacts whose faces slid so far that nodes may have left the facets that they are paired with.
+std::vector<std::string> slide_warnings(const Scene& scene, const RunStatistics& statistics);
 
 }  // namespace pounding
