@@ -12,7 +12,7 @@ namespace {
 // Shares of the model's longest side.
 constexpr double round_off = 1e-9;         ///< an overlap below is none
 constexpr double deepest_overlap = 0.002;  ///< what lies deeper in each other was not meant to
-constexpr double other_unit = 0.1;         ///< by which a gap given may exceed that of the meshes
+constexpr double other_unit = 0.5;         ///< by which a gap given may exceed that of the meshes
 
 /// Checks one contact.
 class ContactCheck {

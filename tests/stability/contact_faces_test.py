@@ -10,6 +10,7 @@ import unittest
 import numpy
 
 from history import History, refused, scenes
+from modal_restart_test import PAIR
 from small_meshes import Mesh
 
 THICKNESS, STEP = 0.2, 1e-4
@@ -109,6 +110,17 @@ class Slides(unittest.TestCase):
         self.assertAlmostEqual(contact["largest_slide"], 5 * 0.081, delta=1e-6)
         self.assertAlmostEqual(contact["slide_facet_size"], 1, delta=1e-12)
         self.assertEqual(doubts(run), [])
+
+    def test_reduced_structures_slide_as_whole_ones(self):
+        cut = PAIR.index("-s1_model")
+        slides = []
+        for words, ranks in ((PAIR, 1), (PAIR, 2), (PAIR[:cut] + ["-time_step", 2e-5], 2)):
+            run = History(self, [*words, "-end_time", 0.1, "-s1_initial_velocity", "0,0.5,0"], ranks)
+            slides.append([contact["largest_slide"] for contact in run.summary["contacts"].values()])
+        self.assertEqual(slides[0], slides[1])
+        for reduced, whole in zip(slides[0], slides[2]):
+            self.assertGreater(whole, 5e-3)
+            self.assertAlmostEqual(reduced / whole, 1, delta=2e-3)
 
     def test_a_wall_is_endless(self):
         words = flight("1,8,0")

@@ -17,6 +17,7 @@ class Stability(unittest.TestCase):
         cls.folder = tempfile.mkdtemp(prefix="pounding-")
         cls.result = stability("--quick", "--only", "mass_ratio", "--only", "one_element", "--only", "time_step",
                                "--only", "switching_bars", "--only", "passive_devices",
+                               "--only", "contact_rows",
                                "--output", cls.folder)
         with open(os.path.join(cls.folder, "stability.csv"), newline="") as file:
             cls.rows = list(csv.DictReader(file))
@@ -46,6 +47,14 @@ class Stability(unittest.TestCase):
         self.assertEqual(len(self.sweep("passive devices")), 5)
         for row in self.sweep("switching bars") + self.sweep("passive devices"):
             self.assertEqual((row["outcome"], row["verdict"]), ("runs", "as expected"), row)
+
+    def test_rows_of_contacts_that_are_there_twice_change_nothing(self):
+        rows = self.sweep("contact rows")
+        self.assertEqual(len(rows), 5)
+        for row in rows:
+            self.assertEqual((row["outcome"], row["verdict"]), ("runs", "as expected"), row)
+            self.assertLessEqual(float(row["measure"]), 2e-9, row)
+            self.assertIn("32 rows, 32 of them coupled", row["seen"])
 
     def test_end_of_the_method_is_told(self):
         *below, above, unasked = self.sweep("time step")
