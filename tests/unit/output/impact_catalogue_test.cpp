@@ -37,6 +37,20 @@ TEST(ImpactCatalogue, MergesContactsWithinTheMergeTimeAndSeparatesOthers) {
   EXPECT_DOUBLE_EQ(catalogue.totals().largest_impulse, 4);
 }
 
+TEST(ImpactCatalogue, MergesAcrossSilencesUpToTheMergeTimeAndNoLonger) {
+  const auto episodes = [](double silence) {
+    ImpactCatalogue catalogue(1, {0}, {{0.0, 0.0}}, 0.01);
+    const std::vector<double> none{0.0};
+    const std::vector<double> one{1.0};
+    catalogue.add_step(1, 0.001, none, one, none);
+    catalogue.add_step(1.001 + silence, 0.001, none, one, none);
+    catalogue.finish(MPI_COMM_SELF, 0);
+    return catalogue.impacts().size();
+  };
+  EXPECT_EQ(episodes(0.0099), 1u);
+  EXPECT_EQ(episodes(0.0101), 2u);
+}
+
 TEST(ImpactCatalogue, ContinuesAnOpenEpisode) {
   const auto make = [] {
     return ImpactCatalogue(2, {0, 0, 1}, {{0.0, 1.0}, {2.0, 1.0}, {5.0, 5.0}}, 0.01);

@@ -1,0 +1,279 @@
+"""What the results say of themselves is true of them: times, units, columns, totals.
+
+Two oscillators (one hexahedron each, clamped at its far face) under 0.3 g sin(2 pi 2.6 t), 20 mm apart,
+recorded at every step and at every second one. Every label is compared with the motion itself:
+derivatives of what is recorded, the ground's own formula, forces step by step.
+"""
+import math
+import os
+import re
+import shutil
+import unittest
+
+import h5py
+import numpy
+from scipy.interpolate import CubicSpline
+
+import program
+from recorded import write_sine
+
+MASS = (9200.0, 7000.0)
+STIFFNESS = (1601718.3590439898, 3783216.759025573)
+ALPHA = (0.3958406743523139, 0.697433569096934)
+ACCELERATION, FREQUENCY = 0.30 * 9.81, 2.6
+TIME_STEP, END = 5e-4, 1.5
+FREE_FLIGHT = 0.3  # s: nothing touches before
+FILES = {"history.h5", "spectra.csv", "impacts.csv", "energy.csv", "summary.json", "resolved.yaml"}
+
+
+def scene(record, interval, merge_time=1e-3):
+    words = ["-structures", "left,right", "-end_time", END, "-time_step", TIME_STEP, "-modes", 0,
+             "-output_interval", interval, "-impact_merge_time", merge_time, "-energy_interval", 7,
+             "-contacts", "gap", "-gap_secondary", "left:x_max", "-gap_primary", "right:x_min", "-gap_gap", 0.02,
+             "-motion_x_record", record, "-motion_x_unit", "m/s2", "-title", "two oscillators",
+             "-spectra_frequencies", "1,5,20", "-spectra_damping", "0.02,0.05",
+             "-probes", "face1,face2", "-face1_structure", "left", "-face1_group", "x_max",
+             "-face2_structure", "right", "-face2_group", "x_min"]
+    for i, (name, start, wall) in enumerate((("left", -1, "x_min"), ("right", 0, "x_max"))):
+        words += [f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set", f"x0={start}",
+                  f"-{name}_clamp", wall, f"-{name}_body_element", "hex8",
+                  f"-{name}_body_material", name, f"-{name}_damping_alpha", ALPHA[i],
+                  f"-material_{name}_young", STIFFNESS[i], f"-material_{name}_poisson", 0,
+                  f"-material_{name}_density", 2 * MASS[i]]
+    return words
+
+
+class Results:
+    """What one run left, with the attributes of its history."""
+
+    def __init__(self, test, arguments, ranks):
+        folder, self.summary = program.must_run(test, arguments, ranks)
+        self.files = set(os.listdir(folder))
+        self.csv = {name: program.read_csv(os.path.join(folder, name)) for name in self.files
+                    if name.endswith(".csv")}
+        self.text = {}
+        for name in self.csv:
+            with open(os.path.join(folder, name)) as file:
+                self.text[name] = file.read()
+        with h5py.File(os.path.join(folder, "history.h5"), "r") as file:
+            self.data = {name: file[name][()] for name in file}
+            self.labels = {name: {key: value.decode() if isinstance(value, bytes) else value
+                                  for key, value in file[name].attrs.items()} for name in file}
+            self.title = file.attrs["title"]
+        shutil.rmtree(folder)
+        self.time = self.data["time"]
+
+    def column(self, file, name):
+        return numpy.array([float(value) for value in self.csv[file][name]])
+
+    def offset(self, name):
+        """Time of a sample after that of its row [s]."""
+        return float(self.labels[name].get("time_offset", 0.0))
+
+
+class Labels(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.record = write_sine(ACCELERATION, FREQUENCY, END)
+        test = unittest.TestCase()
+        cls.fine = Results(test, scene(cls.record, TIME_STEP / 2), 2)
+        cls.coarse = Results(test, scene(cls.record, 2 * TIME_STEP), 1)
+
+    @classmethod
+    def tearDownClass(cls):
+        os.remove(cls.record)
+
+    def agree(self, found, reference, shift, rate, label):
+        """Two histories agree far better than they would if one were labelled `shift` seconds off."""
+        difference = abs(found - reference).max()
+        self.assertLess(difference, 0.1 * abs(rate).max() * shift, label)
+
+    def test_rows_come_at_the_output_interval(self):
+        for results, interval in ((self.fine, TIME_STEP), (self.coarse, 2 * TIME_STEP)):
+            self.assertAlmostEqual(results.summary["output_interval"], interval, delta=1e-15)
+            numpy.testing.assert_allclose(results.time, interval * numpy.arange(len(results.time)), atol=1e-12)
+            self.assertGreaterEqual(results.time[-1], END - interval)
+
+    def test_times_of_velocities_are_those_of_the_displacements_slope(self):
+        for results in (self.fine, self.coarse):
+            self.assertEqual(results.offset("displacement"), 0)
+            free = results.time < FREE_FLIGHT
+            time = results.time[free]
+            for channel in (0, 3):
+                motion = CubicSpline(time, results.data["displacement"][free, channel])
+                inside = slice(2, -2)
+                at = time[inside] + results.offset("velocity")
+                self.agree(results.data["velocity"][free, channel][inside], motion(at, 1), TIME_STEP / 2,
+                           motion(at, 2), channel)
+
+    def test_times_of_accelerations_are_those_of_the_velocities_slope(self):
+        omega = 2 * math.pi * FREQUENCY
+        for results in (self.fine, self.coarse):
+            free = results.time < FREE_FLIGHT
+            time = results.time[free]
+            for channel in (0, 3):
+                velocity = CubicSpline(time + results.offset("velocity"), results.data["velocity"][free, channel])
+                inside = slice(2, -2)
+                at = time[inside] + results.offset("acceleration")
+                absolute = velocity(at, 1) + ACCELERATION * numpy.sin(omega * at)
+                self.agree(results.data["acceleration"][free, channel][inside], absolute, TIME_STEP / 2,
+                           velocity(at, 2), channel)
+
+    def test_times_of_the_ground_are_those_of_its_formula(self):
+        omega = 2 * math.pi * FREQUENCY
+        for results in (self.fine, self.coarse):
+            at = results.time[1:-1] + results.offset("ground_acceleration")
+            self.agree(results.data["ground_acceleration"][1:-1, 0], ACCELERATION * numpy.sin(omega * at),
+                       TIME_STEP / 2, numpy.array([ACCELERATION * omega]), "ground")
+            self.assertEqual(abs(results.data["ground_acceleration"][:, 1:]).max(), 0)
+
+    def test_units_and_names_in_the_history(self):
+        units = {"time": "s", "ground_acceleration": "m/s2", "displacement": "m", "velocity": "m/s",
+                 "acceleration": "m/s2", "gap": "m", "contact_force": "N"}
+        found = {name: labels.get("unit") for name, labels in self.fine.labels.items() if "unit" in labels}
+        self.assertEqual(found, units)
+        self.assertEqual(self.fine.labels["displacement"]["frame"], "relative to the ground")
+        self.assertEqual(self.fine.labels["velocity"]["frame"], "relative to the ground")
+        self.assertEqual(self.fine.labels["acceleration"]["frame"], "absolute, mean over the output interval")
+        self.assertEqual([name.decode() for name in self.fine.data["channels"]],
+                         ["face1.x", "face1.y", "face1.z", "face2.x", "face2.y", "face2.z"])
+        self.assertEqual([name.decode() for name in self.fine.data["contacts"]], ["gap"])
+        self.assertIn("two oscillators", (self.fine.title.decode() if isinstance(self.fine.title, bytes)
+                                          else self.fine.title))
+
+    def test_gap_is_that_of_the_faces(self):
+        u = self.fine.data["displacement"]
+        numpy.testing.assert_allclose(self.fine.data["gap"][:, 0], 0.02 + u[:, 3] - u[:, 0], atol=1e-12)
+
+    def test_files_and_columns(self):
+        self.assertEqual(self.fine.files, FILES)
+        self.assertEqual(list(self.fine.csv["impacts.csv"]),
+                         ["contact", "start", "end", "duration", "impulse", "peak_force", "points", "energy_lost",
+                          "max_penetration", "lateral", "vertical", "contact_time", "left", "bottom"])
+        self.assertEqual(list(self.fine.csv["energy.csv"]),
+                         ["time", "kinetic", "strain", "damping_loss", "contact_work", "input_work", "device_work",
+                          "residual"])
+        self.assertEqual(list(self.fine.csv["spectra.csv"]),
+                         ["probe", "direction", "damping", "frequency", "period", "displacement",
+                          "pseudo_velocity", "pseudo_acceleration"])
+
+    def episodes(self, merge_time):
+        """Impacts from the force of every step: first and last step of each."""
+        steps = numpy.nonzero(self.fine.data["contact_force"][:, 0] > 0)[0]
+        silence = (numpy.diff(steps) - 1) * TIME_STEP  # from the end of one step to the next force
+        cuts = numpy.nonzero(silence > merge_time)[0] + 1
+        return [(group[0], group[-1]) for group in numpy.split(steps, cuts)]
+
+    def test_impacts_are_merged_within_the_merge_time_and_no_more(self):
+        steps = numpy.nonzero(self.fine.data["contact_force"][:, 0] > 0)[0]
+        silence = numpy.unique((numpy.diff(steps) - 1) * TIME_STEP)
+        silence = silence[silence > TIME_STEP / 2]
+        self.assertGreaterEqual(len(silence), 2)
+        for merge_time in (0.75 * silence[0], 0.75 * silence[-1], 1.25 * silence[-1]):
+            results = Results(self, scene(self.record, TIME_STEP / 2, merge_time), 1)
+            expected = self.episodes(merge_time)
+            numpy.testing.assert_allclose(results.column("impacts.csv", "start"),
+                                          [TIME_STEP * first for first, _ in expected], atol=1e-9)
+            self.assertEqual(results.summary["impacts"]["episodes"], len(expected))
+
+    def test_impacts_are_those_of_the_forces(self):
+        force = self.fine.data["contact_force"][:, 0]
+        expected = self.episodes(1e-3)
+        column = {name: self.fine.column("impacts.csv", name) for name in self.fine.csv["impacts.csv"]
+                  if name != "contact"}
+        self.assertGreater(len(expected), 1)
+        numpy.testing.assert_allclose(column["start"], [TIME_STEP * a for a, _ in expected], atol=1e-9)
+        numpy.testing.assert_allclose(column["end"], [TIME_STEP * (b + 1) for _, b in expected], atol=1e-9)
+        numpy.testing.assert_allclose(column["duration"], column["end"] - column["start"], atol=1e-9)
+        numpy.testing.assert_allclose(column["impulse"], [force[a:b + 1].sum() * TIME_STEP for a, b in expected],
+                                      rtol=1e-9)
+        numpy.testing.assert_allclose(column["peak_force"], [force[a:b + 1].max() for a, b in expected], rtol=1e-9)
+        numpy.testing.assert_allclose(column["contact_time"],
+                                      [(force[a:b + 1] > 0).sum() * TIME_STEP for a, b in expected], atol=1e-9)
+        self.assertEqual(set(column["points"]), {4})
+        self.assertEqual(set(self.fine.csv["impacts.csv"]["contact"]), {"gap"})
+        numpy.testing.assert_allclose(column["left"], 0.5, atol=1e-6)
+        numpy.testing.assert_allclose(column["bottom"], 0.5, atol=1e-6)
+
+    def test_ledger_is_that_of_the_oscillators(self):
+        """At the step of each line: v_{n+1/2}, and u_n, u_{n+1}, of the two faces."""
+        step = numpy.rint(self.fine.column("energy.csv", "time") / TIME_STEP).astype(int)
+        self.assertEqual(step[1] - step[0], 7)
+        step = step[step + 1 < len(self.fine.time)]
+        kinetic, strain = numpy.zeros(len(step)), numpy.zeros(len(step))
+        for body, channel in ((0, 0), (1, 3)):
+            v = self.fine.data["velocity"][step, channel]
+            u, after = (self.fine.data["displacement"][step + k, channel] for k in (0, 1))
+            kinetic += MASS[body] * (1 - TIME_STEP / 2 * ALPHA[body]) * v * v / 2
+            strain += STIFFNESS[body] * after * u / 2
+        count = len(step)
+        for name, expected in (("kinetic", kinetic), ("strain", strain)):
+            found = self.fine.column("energy.csv", name)[:count]
+            self.assertLess(abs(found - expected).max(), 1e-9 * abs(expected).max(), name)
+
+    def test_summary_is_that_of_the_files(self):
+        for results in (self.fine, self.coarse):
+            summary = results.summary
+            for key, column in (("kinetic", "kinetic"), ("strain", "strain"), ("damping", "damping_loss"),
+                                ("contact", "contact_work"), ("input", "input_work"), ("devices", "device_work")):
+                last = results.column("energy.csv", column)[-1]
+                self.assertAlmostEqual(summary["energy"][key], last, delta=1e-9 * abs(last) + 1e-12, msg=key)
+            column = {name: results.column("impacts.csv", name)
+                      for name in ("impulse", "energy_lost", "max_penetration")}
+            for totals in (summary["impacts"], summary["impacts"]["gap"]):
+                self.assertEqual(totals["episodes"], len(column["impulse"]))
+                self.assertAlmostEqual(totals["total_impulse"], column["impulse"].sum(), delta=1e-6)
+                self.assertAlmostEqual(totals["largest_impulse"], column["impulse"].max(), delta=1e-6)
+                self.assertAlmostEqual(totals["energy_lost"], column["energy_lost"].sum(), delta=1e-6)
+                self.assertAlmostEqual(totals["max_penetration"], column["max_penetration"].max(), delta=1e-12)
+            for probe, first in (("face1", 0), ("face2", 3)):
+                for key, name in (("peak_acceleration", "acceleration"), ("peak_displacement", "displacement")):
+                    peaks = abs(results.data[name][:, first:first + 3]).max(axis=0)
+                    numpy.testing.assert_allclose(summary["probes"][probe][key], peaks, rtol=1e-12)
+                self.assertEqual(summary["probes"][probe]["nodes"], 4)
+            self.assertEqual(summary["probes"]["face1"]["structure"], "left")
+            self.assertEqual(summary["time_step"], TIME_STEP)
+            self.assertEqual(summary["steps"], round(END / TIME_STEP))
+            self.assertEqual(summary["end_time"], END)
+            self.assertLessEqual(sum(summary["phases"].values()), 1.05 * summary["wall_time"])
+            self.assertEqual(summary["contacts"]["gap"]["initial_gap"], [0.02, 0.02])
+            self.assertEqual(summary["contacts"]["gap"]["pairs"], 4)
+
+    def test_summary_of_the_structures(self):
+        for i, name in enumerate(("left", "right")):
+            structure = self.fine.summary["structures"][name]
+            self.assertEqual((structure["nodes"], structure["dofs"], structure["dofs_before_clamping"]), (8, 12, 24))
+            self.assertEqual((structure["elements"], structure["groups"]), (1, {"body": 1}))
+            self.assertAlmostEqual(structure["mass"], 2 * MASS[i], delta=1e-6)
+            self.assertEqual(structure["damping"], {"alpha": ALPHA[i], "beta": 0})
+            self.assertAlmostEqual(structure["stable_time_step_undamped"] * structure["omega_max"], 2, delta=1e-9)
+        smallest = min(one["stable_time_step"] for one in self.fine.summary["structures"].values())
+        self.assertEqual(self.fine.summary["stable_time_step"], smallest)
+        self.assertEqual((self.fine.summary["ranks"], self.coarse.summary["ranks"]), (2, 1))
+
+    def test_spectra_say_what_they_are(self):
+        for results in (self.fine, self.coarse):
+            interval = results.summary["output_interval"]
+            said = re.search(r"block means over ([0-9.e-]+) s", results.text["spectra.csv"])
+            self.assertAlmostEqual(float(said.group(1)), interval, delta=1e-4 * interval)
+            said = re.search(r"within 1 % of the continuous signal up to (\d+) Hz", results.text["spectra.csv"])
+            highest = float(said.group(1))
+            mean = math.sin(math.pi * highest * interval) / (math.pi * highest * interval)
+            self.assertLess(1 - mean, 0.01)   # a sine at that frequency, averaged over the interval
+            self.assertGreater(1 - mean, 0.002)
+            column = {name: results.column("spectra.csv", name) for name in results.csv["spectra.csv"]
+                      if name not in ("probe", "direction")}
+            omega = 2 * math.pi * column["frequency"]
+            numpy.testing.assert_allclose(column["period"], 1 / column["frequency"], rtol=1e-9)
+            numpy.testing.assert_allclose(column["pseudo_velocity"], omega * column["displacement"], rtol=1e-9)
+            numpy.testing.assert_allclose(column["pseudo_acceleration"], omega ** 2 * column["displacement"],
+                                          rtol=1e-9)
+            rows = list(zip(results.csv["spectra.csv"]["probe"], results.csv["spectra.csv"]["direction"],
+                            column["damping"], column["frequency"]))
+            self.assertEqual(rows, [(probe, direction, damping, frequency) for probe in ("face1", "face2")
+                                    for direction in "xyz" for damping in (0.02, 0.05)
+                                    for frequency in (1, 5, 20)])
+
+
+if __name__ == "__main__":
+    unittest.main()
