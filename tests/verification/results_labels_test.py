@@ -8,6 +8,7 @@ import math
 import os
 import re
 import shutil
+import tempfile
 import unittest
 
 import h5py
@@ -273,6 +274,41 @@ class Labels(unittest.TestCase):
             self.assertEqual(rows, [(probe, direction, damping, frequency) for probe in ("face1", "face2")
                                     for direction in "xyz" for damping in (0.02, 0.05)
                                     for frequency in (1, 5, 20)])
+
+    def test_what_is_printed_is_what_is_written(self):
+        """Units of the report: ms, kN, mm, per cent."""
+        folder = tempfile.mkdtemp(prefix="pounding-")
+        self.addCleanup(shutil.rmtree, folder)
+        result = program.run(scene(self.record, 2 * TIME_STEP) + ["-output", folder], 1)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        printed, written = result.stdout, self.coarse
+
+        said = re.search(r"initial gap ([0-9.]+) to ([0-9.]+) mm", printed)
+        self.assertEqual([float(word) for word in said.groups()], [20, 20])
+        rows = re.findall(r"^  gap +([0-9.]+) +([0-9.]+) +([0-9.]+) +([0-9.]+) +(\d+) +([0-9.-]+)$", printed,
+                          re.MULTILINE)
+        columns = [written.column("impacts.csv", name) * factor for name, factor in
+                   (("start", 1), ("duration", 1e3), ("impulse", 1), ("peak_force", 1e-3), ("points", 1),
+                    ("energy_lost", 1))]
+        numpy.testing.assert_allclose(numpy.array(rows, dtype=float), numpy.array(columns).T[:20], atol=0.051)
+        totals = re.search(r"impacts: (\d+) episodes, total impulse ([0-9.]+) N s, largest ([0-9.]+) N s", printed)
+        self.assertEqual(int(totals.group(1)), written.summary["impacts"]["episodes"])
+        self.assertAlmostEqual(float(totals.group(2)), written.summary["impacts"]["total_impulse"], delta=0.051)
+        self.assertAlmostEqual(float(totals.group(3)), written.summary["impacts"]["largest_impulse"], delta=0.051)
+        for probe in ("face1", "face2"):
+            said = re.search(rf"^  {probe}\.x +([0-9.]+) +([0-9.]+) .*?at ([0-9.]+) \(2 %\).*\(5 %\)$", printed,
+                             re.MULTILINE)
+            peaks = written.summary["probes"][probe]
+            self.assertAlmostEqual(float(said.group(1)), peaks["peak_acceleration"][0], delta=6e-4)
+            self.assertAlmostEqual(float(said.group(2)), 1e3 * peaks["peak_displacement"][0], delta=6e-4)
+        said = re.search(r"kinetic ([^,]+), strain ([^,]+), damping loss ([^,]+), contact work ([^,]+), "
+                         r"input work (\S+)", printed)
+        for word, name in zip(said.groups(), ("kinetic", "strain", "damping", "contact", "input")):
+            value = written.summary["energy"][name]
+            self.assertAlmostEqual(float(word), value, delta=1e-3 * abs(value), msg=name)
+        said = re.search(r"time step (\S+) s \(([0-9.]+) of the stable one\), (\d+) steps to (\S+) s", printed)
+        self.assertEqual([float(word) for word in said.groups()[::2]], [TIME_STEP, written.summary["steps"]])
+        self.assertAlmostEqual(float(said.group(2)), TIME_STEP / written.summary["stable_time_step"], delta=6e-4)
 
 
 if __name__ == "__main__":
