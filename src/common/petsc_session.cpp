@@ -10,7 +10,7 @@ namespace pounding {
 PetscSession::PetscSession(const std::map<std::string, std::string>& options) {
   unsetenv("PETSC_OPTIONS");
   unsetenv("PETSC_OPTIONS_YAML");
-  words_ = {"pounding", "-skip_petscrc"};
+  words_ = {"pounding", "-skip_petscrc", "-viewer_binary_skip_info"};
   for (const auto& [name, value] : options) {
     words_.push_back("-" + name);
     if (!value.empty()) {
@@ -25,6 +25,8 @@ PetscSession::PetscSession(const std::map<std::string, std::string>& options) {
   char** words = pointers_.data();
   POUNDING_PETSC(SlepcInitialize(&count_, &words, nullptr, nullptr));
   POUNDING_PETSC(PetscOptionsClearValue(nullptr, "-skip_petscrc"));
+  PetscBool obeyed = PETSC_FALSE;  // asked for here, so that -options_left does not miss it
+  POUNDING_PETSC(PetscOptionsHasName(nullptr, nullptr, "-viewer_binary_skip_info", &obeyed));
   POUNDING_PETSC(PetscPushErrorHandler(keep_petsc_message, nullptr));
 }
 

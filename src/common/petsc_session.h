@@ -7,9 +7,9 @@
 namespace pounding {
 
 /// PETSc and SLEPc for as long as this object lives, with the given options and no others: neither
-/// .petscrc nor variables of the environment are read. An error inside of them prints nothing; it
-/// comes back as the exception of the call. Throws std::runtime_error. Collective over
-/// MPI_COMM_WORLD.
+/// .petscrc nor variables of the environment nor .info files beside matrices are read. An error
+/// inside of them prints nothing; it comes back as the exception of the call. Throws
+/// std::runtime_error. Collective over MPI_COMM_WORLD.
 class PetscSession {
  public:
   /// Names without the dash; "" for a flag.

@@ -55,7 +55,8 @@ std::vector<std::string> probe_warnings(std::span<const ResolvedProbe> probes,
           return (mesh.free_components[static_cast<std::size_t>(node)] & translations) == 0;
         }));
     if (clamped > 0) {
-      warnings.push_back(subject(probe, clamped) + " clamped, and moves as the ground does");
+      warnings.push_back(subject(probe, clamped) +
+                         " clamped: the ground's own motion is recorded there");
     }
     const auto in_contact =
         static_cast<std::size_t>(std::ranges::count_if(probe.nodes, [&](GlobalIndex node) {

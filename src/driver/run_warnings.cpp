@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <sstream>
 
+#include "scene/option_table.h"
+#include "scene/option_values.h"
+
 namespace pounding {
 namespace {
 
@@ -29,7 +32,7 @@ void add_short_record(const Scene& scene, const Model& model, int direction,
     std::ostringstream text;
     text << "option -end_time " << scene.end_time << " s: the record along "
          << direction_names[static_cast<std::size_t>(direction)] << " ends at " << last
-         << " s, the ground stands still after it";
+         << " s, the ground stands still afterwards";
     warnings.push_back(text.str());
   }
 }
@@ -61,7 +64,9 @@ std::vector<std::string> run_warnings(const Scene& scene, const Model& model) {
                     model.motion->component(direction).time_step, model.time_step, warnings);
     }
   }
-  if (!scene.probes.empty()) {
+  // The interval that nobody asked for is as short as the step where that is longer.
+  const auto preset = parse_real(option_row("output_interval").preset.text);
+  if (!scene.probes.empty() && scene.output_interval != preset) {
     add_long_step("-output_interval", scene.output_interval, model.time_step, warnings);
   }
   return warnings;
