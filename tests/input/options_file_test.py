@@ -5,6 +5,9 @@ import shutil
 import tempfile
 import unittest
 
+import numpy
+import scipy.io
+
 import program
 
 CASE = program.COARSE_PAIR + ["-end_time", "0.001"]
@@ -153,6 +156,26 @@ class Libraries(Options):
             self.assertIn("warning: " + doubt, result.stdout)
         self.assertEqual(sorted(os.listdir(self.folder)),
                          [".petscrc", "case.yaml", "home", "meshes", "petsc-options", "results"])
+
+    def test_files_beside_matrices_are_not_read(self):
+        """PETSc takes options from the .info file beside a matrix: this one would end the run."""
+        scene = ["-structures", "m", "-m_mesh", "tests/meshes/line.geo", "-m_mesh_set", "length=10,n=5", "-m_clamp", "x_min",
+                 "-m_line_element", "bar", "-m_line_area", "1", "-m_line_material", "s", "-material_s_young", "1e9",
+                 "-material_s_poisson", "0", "-material_s_density", "1000", "-end_time", "1e-3", "-modes", "2", "-dry_run"]
+        matrices = os.path.join(self.folder, "matrices")
+        self.assertEqual(program.run([*scene, "-export_matrices", matrices], 1, timeout=60).returncode, 0)
+        folder = os.path.join(matrices, "m")
+        market = scipy.io.mmread(os.path.join(folder, "stiffness.mtx")).tocsr()
+        with open(os.path.join(folder, "stiffness.petsc"), "wb") as file:
+            for numbers, kind in (([1211216, *market.shape, market.nnz], ">i4"), (numpy.diff(market.indptr), ">i4"),
+                                  (market.indices, ">i4"), (market.data, ">f8")):
+                file.write(numpy.asarray(numbers, kind).tobytes())
+        os.remove(os.path.join(folder, "stiffness.mtx"))
+        with open(os.path.join(folder, "stiffness.petsc.info"), "w") as file:
+            file.write("-lowest_eps_type nope\n-largest_eps_type nope\n")
+        for ranks in (1, 2):
+            result = program.run([*scene, "-m_matrices", folder], ranks, timeout=60)
+            self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_no_option_of_the_scene_is_called_unused(self):
         for ranks in (1, 2):
