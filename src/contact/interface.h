@@ -46,7 +46,8 @@ struct InterfaceReport {
   int unmatched_nodes = 0;  ///< secondary nodes that face nothing
   double smallest_gap = 0;  ///< initial [m]
   double largest_gap = 0;
-  std::array<double, 2> geometric_gap{};   ///< smallest and largest as the meshes stand [m]
+  std::array<double, 2> geometric_gap{};   ///< smallest and largest as the meshes stand, not
+                                           ///< numbers for a wall [m]
   std::array<double, 2> half_thickness{};  ///< of the shells at the faces of the secondary and of
                                            ///< the primary, the largest [m]
   int overlapping = 0;                     ///< pairs whose initial gap is negative

@@ -9,6 +9,7 @@ import unittest
 
 import numpy
 
+import program
 from history import History, refused, scenes
 from modal_restart_test import PAIR
 from small_meshes import Mesh
@@ -111,6 +112,18 @@ class Slides(unittest.TestCase):
         self.assertAlmostEqual(contact["slide_facet_size"], 1, delta=1e-12)
         self.assertEqual(doubts(run), [])
 
+    def test_a_run_that_is_continued_knows_what_slid_before(self):
+        words = flight("1,8,0")
+        half = list(words)
+        half[half.index("-end_time") + 1] = 0.06
+        _, whole = program.must_run(self, words, 2)
+        cut, _ = program.must_run(self, [*half, "-checkpoint_steps", 100], 2)
+        _, continued = program.must_run(self, [*words, "-restart", os.path.join(cut, "checkpoint.h5")], 2)
+        self.assertEqual(continued["contacts"], whole["contacts"])
+        slid = [[line for line in summary["warnings"] if "slid" in line] for summary in (whole, continued)]
+        self.assertIn("from t = 0.019 s on", slid[0][0])
+        self.assertEqual(slid[0], slid[1])
+
     def test_reduced_structures_slide_as_whole_ones(self):
         cut = PAIR.index("-s1_model")
         slides = []
@@ -127,6 +140,7 @@ class Slides(unittest.TestCase):
         words[words.index("-joint_primary") + 1] = "wall"
         run = History(self, words)
         self.assertAlmostEqual(run.summary["contacts"]["joint"]["largest_slide"], 0.96, delta=1e-9)
+        self.assertEqual(run.summary["contacts"]["joint"]["geometric_gap"], [None, None])
         self.assertEqual(doubts(run), [])
 
 
