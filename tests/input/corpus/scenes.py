@@ -51,4 +51,20 @@ NO_SCENE = [
     spoilt("a value left out", ["-end_time"], ("end_time: 0.01", "end_time:")),
 ]
 
-CASES = NO_YAML + NO_SCENE
+TOO_MUCH = [
+    spoilt("a key twice", ["{folder}/scene.yaml", "end_time stands in line"],
+           ("modes: 0\n", "modes: 0\nend_time: 2\n")),
+    spoilt("a structure described twice", ["{folder}/scene.yaml", "right stands in line"],
+           ("material:\n", "right:\n  mesh: other.msh\nmaterial:\n")),
+    spoilt("a second document", ["{folder}/scene.yaml", "second document"],
+           ("modes: 0\n", "modes: 0\n---\nend_time: 2\n")),
+    spoilt("a sequence within a sequence", ["{folder}/scene.yaml", "list"],
+           ("structures: left,right", "structures: [[left], [right]]")),
+    Case("a scene without -options_file", ["{folder}/scene.yaml"], ["did you mean -options_file"], scene=""),
+    Case("-options_file without a file", ["-options_file"], ["-options_file needs a file"], scene=""),
+    Case("an option without a dash", ["end_time=0.1"], ["end_time=0.1", "-end_time 0.1"]),
+    Case("an option with an equal sign", ["-end_time=0.1"], ["-end_time=0.1", "with a blank"]),
+    Case("a stray word", ["again"], ["'again' on the command line"]),
+]
+
+CASES = NO_YAML + NO_SCENE + TOO_MUCH
