@@ -14,7 +14,7 @@ int main(int count, char** arguments) {
         return word == "--help" || word == "-help" || word == "-h";
       })) {
     std::fputs(pounding::spectra_help().c_str(), stdout);
-    return 0;
+    return std::fflush(stdout) == 0 ? 0 : 1;
   }
   try {
     pounding::run_spectra(pounding::read_spectra_options(words));

@@ -4,14 +4,17 @@
 
 namespace pounding {
 
-CsvFile::CsvFile(const std::string& path) : path_(path), file_(std::fopen(path.c_str(), "w")) {
+CsvFile::CsvFile(const std::string& path)
+    : standard_output_(path.empty() || path == "/dev/stdout"),
+      path_(standard_output_ ? "standard output" : path),
+      file_(standard_output_ ? stdout : std::fopen(path.c_str(), "w")) {
   if (file_ == nullptr) {
     throw std::runtime_error(path + ": cannot be written");
   }
 }
 
 CsvFile::~CsvFile() {
-  if (file_ != nullptr) {
+  if (file_ != nullptr && !standard_output_) {
     std::fclose(file_);
   }
 }
@@ -36,7 +39,7 @@ void CsvFile::row(const std::string& label, std::span<const double> values) {
 
 void CsvFile::close() {
   const bool failed = std::ferror(file_) != 0;
-  const bool lost = std::fclose(file_) != 0;
+  const bool lost = (standard_output_ ? std::fflush(file_) : std::fclose(file_)) != 0;
   file_ = nullptr;
   if (failed || lost) {
     throw std::runtime_error(path_ + ": could not be written completely (is the disk full?)");

@@ -11,6 +11,8 @@ namespace pounding {
 /// digits. Throws std::runtime_error if it cannot be opened or written.
 class CsvFile {
  public:
+  /// `path` empty or "/dev/stdout": the standard output of the program, wherever it stands; opened
+  /// by name it would begin again at the start of its file.
   explicit CsvFile(const std::string& path);
   CsvFile(const CsvFile&) = delete;
   CsvFile& operator=(const CsvFile&) = delete;
@@ -24,10 +26,11 @@ class CsvFile {
     row(label, std::span(values.begin(), values.size()));
   }
   void flush() { std::fflush(file_); }
-  /// Throws if anything was not written.
+  /// Throws if anything was not written. Standard output stays open.
   void close();
 
  private:
+  bool standard_output_ = false;
   std::string path_;
   std::FILE* file_ = nullptr;
 };

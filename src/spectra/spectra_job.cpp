@@ -180,7 +180,7 @@ void run_spectra(const SpectraOptions& options) {
     longest_step = std::max(longest_step, named.signal.time_step);
     inputs.push_back(prepare(options, std::move(named)));
   }
-  CsvFile file(options.output.empty() ? "/dev/stdout" : options.output);
+  CsvFile file(options.output);
   std::optional<CsvFile> peaks;
   if (!options.peaks.empty()) {
     peaks.emplace(options.peaks);

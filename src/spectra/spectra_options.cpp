@@ -200,6 +200,11 @@ void check_together(const SpectraOptions& options) {
     throw UserError(
         "--impacts, --contacts, --margin and --dirac-step have no effect without --treatment or "
         "--peaks");
+  const auto place = [](const std::string& file) {
+    return file.empty() ? std::string("/dev/stdout") : file;
+  };
+  if (!options.peaks.empty() && options.peaks == place(options.output))
+    throw UserError("--peaks " + options.peaks + ": the spectra go there; give another file");
 }
 
 }  // namespace
