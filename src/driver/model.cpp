@@ -163,6 +163,8 @@ Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile) {
       add_full(scene, s, profile, model);
     }
   }
+  const std::vector<std::string>& doubts = model.motion->doubts();
+  model.warnings.insert(model.warnings.end(), doubts.begin(), doubts.end());
   for (const LinearSystem& system : model.systems) {
     append(sliver_warnings(system), model.warnings);
   }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "common/version.h"
+#include "driver/motion_report.h"
 #include "dynamics/stable_time_step.h"
 
 namespace pounding {
@@ -247,6 +248,7 @@ void print_title(const Scene& scene, int ranks) {
 }
 
 void print_model(const Scene& scene, const Model& model) {
+  print_motion(*model.motion);
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
     print_structure(scene, model, s);
   }

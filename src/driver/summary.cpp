@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/version.h"
+#include "driver/motion_report.h"
 #include "dynamics/stable_time_step.h"
 #include "scene/resolved_options.h"
 
@@ -147,6 +148,7 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
     summary["structures"][model.systems[s].name] = describe_structure(scene, model, s);
   }
+  summary["motion"] = describe_motion(*model.motion);
   summary["time_step"] = model.time_step;
   summary["stable_time_step"] = model.smallest_stable_time_step();
   summary["steps"] = model.steps;

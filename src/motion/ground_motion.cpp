@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/error.h"
+#include "motion/record_text.h"
 #include "motion/resampling.h"
 #include "motion/synthetic.h"
 
@@ -14,44 +15,125 @@ namespace {
 
 constexpr double resampled_step = 5e-4;  // s
 
-Accelerogram make_component(const MotionComponent& component, const std::string& name) {
+constexpr double doubtful_pga = 3 * standard_gravity;  // m/s2
+constexpr double small_pga = 0.5;                      // m/s2: might be a number in g
+
+void check_scaling(const std::string& name, const MotionComponent& component) {
   const double pga = component.pga, scale = component.scale;
   if (!std::isfinite(pga) || pga < 0)
-    throw UserError(name + ": pga " + std::to_string(pga) + " must be positive [m/s2]");
+    throw UserError(name + ": pga " + text_of(pga) + " must be positive [m/s2]");
   if (!std::isfinite(scale))
-    throw UserError(name + ": scale " + std::to_string(scale) + " must be a finite number");
+    throw UserError(name + ": scale " + text_of(scale) + " must be a finite number");
   if (pga > 0 && scale != 1)
-    throw UserError(name + ": pga " + std::to_string(pga) + " and scale " + std::to_string(scale) +
+    throw UserError(name + ": pga " + text_of(pga) + " and scale " + text_of(scale) +
                     " exclude one another; give one of them");
+  if (pga == 0 && std::holds_alternative<SyntheticMotion>(component.source))
+    throw UserError(name + ": a synthetic motion needs a pga [m/s2]");
+}
 
-  if (const auto* synthetic = std::get_if<SyntheticMotion>(&component.source)) {
-    if (pga == 0) throw UserError(name + ": a synthetic motion needs a pga [m/s2]");
-    return generate_accelerogram(read_target_spectrum(synthetic->target), *synthetic, pga);
-  }
-  const auto& record = std::get<RecordedMotion>(component.source);
-  Accelerogram accelerogram = read_accelerogram(record);
-  double factor = scale;
-  if (pga > 0) {
-    factor = pga / accelerogram.peak();
-    if (!std::isfinite(factor))
-      throw UserError(name + ": " + record.file +
-                      " is zero throughout and cannot be scaled to pga " + std::to_string(pga) +
-                      "; leave pga out or give another record");
-  }
-  for (double& a : accelerogram.acceleration) a *= factor;
-  return accelerogram;
+double scaling_factor(const std::string& name, const MotionComponent& component,
+                      const MotionDescription& description) {
+  if (component.pga == 0) return component.scale;
+  const double factor = component.pga / description.file_peak;
+  if (!std::isfinite(factor))
+    throw UserError(name + ": " + description.source +
+                    " is zero throughout and cannot be scaled to pga " + text_of(component.pga) +
+                    "; leave pga out or give another record");
+  return factor;
+}
+
+void require_possible_peak(const std::string& name, const std::string& what, double peak) {
+  if (!(peak <= largest_peak))
+    throw UserError(name + ": " + what + " " + text_of(peak) + " m/s2 (" +
+                    text_of(peak / standard_gravity) + " g) is above " + text_of(largest_peak) +
+                    " m/s2 (20 g), more than any ground motion; correct unit, scale or pga");
+}
+
+MotionDescription describe_synthetic(const SyntheticMotion& motion) {
+  MotionDescription description;
+  description.source = motion.target;
+  description.layout = "synthetic, seed " + std::to_string(motion.seed);
+  return description;
+}
+
+MotionDescription describe_record(const std::string& file, const Accelerogram& record) {
+  MotionDescription description;
+  description.source = file;
+  description.layout = record.layout;
+  description.unit = record.unit;
+  description.file_peak = record.peak();
+  return description;
+}
+
+std::string scaling_text(const MotionComponent& component) {
+  if (component.pga > 0) return "to pga " + text_of(component.pga) + " m/s2";
+  return component.scale == 1 ? "none" : "by " + text_of(component.scale);
+}
+
+// Peaks of one direction that hint at another unit.
+std::vector<std::string> peak_doubts(const std::string& name, const MotionComponent& component,
+                                     const MotionDescription& description) {
+  if (component.pga > 0 && component.pga <= small_pga)
+    return {name + ": pga " + text_of(component.pga) + " m/s2 is " +
+            text_of(component.pga / standard_gravity) + " g; if g was meant, give " +
+            text_of(component.pga * standard_gravity)};
+  if (description.pga > doubtful_pga)
+    return {name + ": the peak of " + description.source + " is " + text_of(description.pga) +
+            " m/s2 (" + text_of(description.pga / standard_gravity) +
+            " g), above 3 g; are unit, scale and pga right?"};
+  return {};
 }
 
 }  // namespace
+
+void GroundMotion::add(std::size_t direction, const MotionComponent& component) {
+  const std::string name = std::string("motion ") + direction_names[direction];
+  check_scaling(name, component);
+  Accelerogram& accelerogram = components_[direction];
+  MotionDescription description;
+  if (const auto* synthetic = std::get_if<SyntheticMotion>(&component.source)) {
+    require_possible_peak(name, "pga", component.pga);
+    description = describe_synthetic(*synthetic);
+    accelerogram =
+        generate_accelerogram(read_target_spectrum(synthetic->target), *synthetic, component.pga);
+  } else {
+    const auto& record = std::get<RecordedMotion>(component.source);
+    accelerogram = read_accelerogram(record);
+    description = describe_record(record.file, accelerogram);
+    require_possible_peak(name, record.file + ": peak", description.file_peak);
+    const double factor = scaling_factor(name, component, description);
+    for (double& a : accelerogram.acceleration) a *= factor;
+    require_possible_peak(name, "scaled peak", accelerogram.peak());
+  }
+  description.direction = direction_names[direction];
+  description.points = accelerogram.acceleration.size();
+  description.time_step = accelerogram.time_step;
+  description.duration = accelerogram.duration();
+  description.scaling = scaling_text(component);
+  description.pga = accelerogram.peak();
+  for (const std::string& doubt : accelerogram.doubts) doubts_.push_back(name + ": " + doubt);
+  for (const std::string& doubt : peak_doubts(name, component, description))
+    doubts_.push_back(doubt);
+  descriptions_.push_back(std::move(description));
+}
 
 GroundMotion::GroundMotion(const std::array<std::optional<MotionComponent>, 3>& components,
                            Resampling resampling) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (!components[i]) continue;
-    components_[i] = make_component(*components[i], std::string("motion ") + direction_names[i]);
+    add(i, *components[i]);
     if (resampling == Resampling::band_limited)
       components_[i] = resample_band_limited(components_[i], resampled_step);
   }
+  double largest = 0;
+  bool as_given = !descriptions_.empty();  // peaks that no option names
+  for (const MotionDescription& description : descriptions_) {
+    largest = std::max(largest, description.pga);
+    as_given = as_given && description.file_peak > 0 && !description.scaling.starts_with("to pga");
+  }
+  if (as_given && largest <= small_pga)
+    doubts_.push_back("motion: the largest peak is " + text_of(largest) +
+                      " m/s2, not above 0.5 m/s2; are the files' numbers in g?");
 }
 
 Vector3 GroundMotion::peaks() const {

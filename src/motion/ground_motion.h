@@ -2,12 +2,28 @@
 
 #include <array>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "common/types.h"
 #include "motion/accelerogram.h"
 #include "scene/scene.h"
 
 namespace pounding {
+
+/// What was understood of the motion in one direction, before it is resampled.
+struct MotionDescription {
+  std::string direction;   ///< "x"
+  std::string source;      ///< file of the record or of the target spectrum
+  std::string layout;      ///< "rows of 8 values that follow one another", "synthetic, seed 3"
+  std::string unit;        ///< of the file, and who said it; empty for a synthetic motion
+  std::size_t points = 0;  ///< samples
+  double time_step = 0;    ///< between them [s]
+  double duration = 0;     ///< [s]
+  double file_peak = 0;    ///< as in the file [m/s2]; 0 for a synthetic motion
+  std::string scaling;     ///< "to pga 3.43 m/s2", "by 0.5", "none"
+  double pga = 0;          ///< as applied [m/s2]
+};
 
 /// Ground acceleration a_g(t) in the three directions: each component is read or generated, scaled
 /// (so that the peak of its samples is `pga`, or by `scale`), resampled if asked, and linear
@@ -17,7 +33,8 @@ class GroundMotion {
  public:
   /// Reads the files; every rank may do so, or one that shares the result. Band-limited resampling
   /// goes to steps of 5e-4 s or less. Throws UserError (see read_accelerogram,
-  /// generate_accelerogram; a pga for a record that is zero; a synthetic motion without pga).
+  /// generate_accelerogram; a pga for a record that is zero; a synthetic motion without pga; a peak
+  /// above 20 g, as in the file or as scaled).
   GroundMotion(const std::array<std::optional<MotionComponent>, 3>& components,
                Resampling resampling);
 
@@ -54,7 +71,16 @@ class GroundMotion {
   double peak_acceleration() const;
   double end_time() const;  ///< last sample of the longest component [s]; 0 without any
 
+  /// Of the directions that have a motion.
+  const std::vector<MotionDescription>& descriptions() const { return descriptions_; }
+  /// One line each: what may not be meant, by the files and by the peaks that come of them.
+  const std::vector<std::string>& doubts() const { return doubts_; }
+
  private:
+  void add(std::size_t direction, const MotionComponent& component);
+
+  std::vector<MotionDescription> descriptions_;
+  std::vector<std::string> doubts_;
   std::array<Accelerogram, 3> components_{Accelerogram{{}, 1}, Accelerogram{{}, 1},
                                           Accelerogram{{}, 1}};
 };

@@ -83,12 +83,14 @@ void take_sampling_row(const std::string& file, double time_step_option, RecordC
   const double first = row.values[0], last = row.values[size - 1];
   const double known = content.header.time_step().value_or(time_step_option);
   const bool counts = is_whole(first) && first >= 2 && first < 1e9;
-  if (counts && (size == 1 || (last > 0 && last < 1)))
-    content.header.declare(std::llround(first), size == 2 ? last : 0, row.line);
-  else if (!(size == 2 && known > 0 && std::abs(first / known - 1) < 1e-3))
+  if (counts && (size == 1 || (last > 0 && last < 1))) {
+    content.header.declare_count(first, row.line);
+    if (size == 2) content.header.declare_time_step(last, row.line);
+  } else if (!(size == 2 && known > 0 && std::abs(first / known - 1) < 1e-3)) {
     throw UserError(at_line(file, row.line) + std::to_string(size) +
                     " numbers where the next line has " + std::to_string(next) +
                     "; complete or remove the line");
+  }
   content.rows.erase(content.rows.begin());
 }
 

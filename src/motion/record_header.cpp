@@ -18,9 +18,11 @@ const std::string gap = R"([\s"',:=]*)";
 const std::string squared = R"(\s*/\s*S(?:EC)?\s*(?:/\s*S(?:EC)?|\^?\s*2|\*\*\s*2))";
 
 // NPTS= 4000 | Total No. of Points :",2000 | 3000 points of accel data
-const std::regex count_pattern("\\bNPTS" + gap + "(\\d+)|\\bNO\\.? OF POINTS" + gap +
-                                   R"((\d+)|(\d+)\s+POINTS\s+(?:OF|AT)\b)",
+const std::regex count_pattern("\\bNPTS" + gap + number + "|\\bNO\\.? OF POINTS" + gap + number +
+                                   R"(|(\d+)\s+POINTS\s+(?:OF|AT)\b)",
                                flags);
+// NPTS= ****
+const std::regex no_number_pattern(R"(\b(NPTS|DT)\s*[=:]\s*(?![-+.\d\s"',]))", flags);
 // DT= .01 SEC | equally spaced at .02 sec | equal spacing of 0.02 sec
 const std::regex step_pattern(R"((?:\bDT|\bSPACED\s+AT|\bSPACING\s+OF|\bTIME[ _]STEP))" + gap +
                                   number + R"(\s*(ms(?:ec)?\b)?)",
@@ -50,50 +52,63 @@ bool RecordHeader::declares_sampling(const std::string& line) {
          std::regex_search(text, trailing_names);
 }
 
-void RecordHeader::declare(long long number_of_values, double time_step, int line) {
-  const auto contradiction = [&](const char* what, const std::string& a, const std::string& b) {
-    throw UserError(at_line(file_, line) + "the header says " + what + " " + a + " here and " + b +
-                    " before; correct the file");
+void RecordHeader::contradiction(int line, const char* what, const std::string& here,
+                                 const std::string& before) const {
+  throw UserError(at_line(file_, line) + "the header says " + what + " " + here + " here and " +
+                  before + " before; correct the file");
+}
+
+void RecordHeader::declare_count(double number_of_values, int line) {
+  constexpr double most = 1e9;
+  if (!(number_of_values >= 2 && number_of_values <= most) ||
+      number_of_values != std::floor(number_of_values))
+    throw UserError(at_line(file_, line) + "the header announces " + text_of(number_of_values) +
+                    " values, which cannot be; correct the file");
+  const auto count = static_cast<long long>(number_of_values);
+  if (number_of_values_.value_or(count) != count)
+    contradiction(line, "number of values", std::to_string(count),
+                  std::to_string(*number_of_values_));
+  number_of_values_ = count;
+}
+
+void RecordHeader::declare_time_step(double time_step, int line) {
+  if (!(time_step > 0))
+    throw UserError(at_line(file_, line) + "time step " + text_of(time_step) +
+                    " is not positive; correct the file");
+  if (std::abs(time_step_.value_or(time_step) / time_step - 1) > 1e-3)
+    contradiction(line, "time step", std::to_string(time_step), std::to_string(*time_step_));
+  time_step_ = time_step;
+}
+
+void RecordHeader::read_sampling(const std::string& text, int line) {
+  const auto value = [](const std::ssub_match& match) {
+    return parse_number(match.str()).value_or(0);
   };
-  if (number_of_values > 0) {
-    if (number_of_values_.value_or(number_of_values) != number_of_values)
-      contradiction("number of values", std::to_string(number_of_values),
-                    std::to_string(*number_of_values_));
-    number_of_values_ = number_of_values;
+  std::smatch match;
+  if (std::regex_search(text, match, no_number_pattern))
+    throw UserError(at_line(file_, line) + "no number behind " + match[1].str() +
+                    "; correct the file");
+  if (std::regex_search(text, match, trailing_names)) {
+    declare_count(value(match[1]), line);
+    declare_time_step(value(match[2]), line);
+    return;
   }
-  if (time_step > 0) {
-    if (std::abs(time_step_.value_or(time_step) / time_step - 1) > 1e-3)
-      contradiction("time step", std::to_string(time_step), std::to_string(*time_step_));
-    time_step_ = time_step;
+  if (std::regex_search(text, match, count_pattern)) {
+    const auto& group = match[1].matched ? match[1] : (match[2].matched ? match[2] : match[3]);
+    declare_count(value(group), line);
+  }
+  if (std::regex_search(text, match, step_pattern))
+    declare_time_step(value(match[1]) * (match[2].matched ? 1e-3 : 1), line);
+  if (std::regex_search(text, match, numbers_in_comment) && value(match[2]) > 0 &&
+      value(match[2]) < 1) {
+    declare_count(value(match[1]), line);
+    declare_time_step(value(match[2]), line);
   }
 }
 
 void RecordHeader::read(const TextLine& line) {
   const std::string text = line.text.substr(0, longest_header_line);
-  const auto value = [](const std::ssub_match& match) {
-    return parse_number(match.str()).value_or(0);
-  };
-  const auto count = [&](const std::ssub_match& match) {
-    return match.length() < 10 ? static_cast<long long>(value(match)) : 0;
-  };
-  std::smatch match;
-  if (std::regex_search(text, match, trailing_names)) {
-    declare(count(match[1]), value(match[2]), line.number);
-  } else {
-    if (std::regex_search(text, match, count_pattern)) {
-      const auto& group = match[1].matched ? match[1] : (match[2].matched ? match[2] : match[3]);
-      declare(count(group), 0, line.number);
-    }
-    if (std::regex_search(text, match, step_pattern)) {
-      const double step = value(match[1]) * (match[2].matched ? 1e-3 : 1);
-      if (!(step > 0))
-        throw UserError(at_line(file_, line.number) + "time step " + match[1].str() +
-                        " is not positive; correct the file");
-      declare(0, step, line.number);
-    }
-    if (std::regex_search(text, match, numbers_in_comment) && value(match[2]) < 1)
-      declare(count(match[1]), value(match[2]), line.number);
-  }
+  read_sampling(text, line.number);
 
   auto& units = std::regex_search(text, peak_pattern) ? units_of_peak_ : units_;
   if (std::regex_search(text, cm_pattern)) units.insert("cm/s2");
@@ -118,23 +133,23 @@ void RecordHeader::require_acceleration() const {
                   "accelerogram");
 }
 
-double RecordHeader::unit_factor(const std::string& unit) const {
+RecordUnit RecordHeader::unit(const std::string& asked) const {
   const auto& stated = stated_units();
-  std::string used = unit;
-  if (unit.empty()) {
+  std::string used = asked;
+  if (asked.empty()) {
     if (stated.empty())
       throw UserError(file_ + ": the unit is not in the header; give unit: g, m/s2 or cm/s2");
     if (stated.size() > 1)
       throw UserError(file_ + ": the header names several units (" + *stated.begin() + ", " +
                       *stated.rbegin() + "); give unit: g, m/s2 or cm/s2");
     used = *stated.begin();
-  } else if (!stated.empty() && !stated.contains(unit)) {
-    throw UserError(file_ + ": unit " + unit + " is asked but the header says " + *stated.begin() +
+  } else if (!stated.empty() && !stated.contains(asked)) {
+    throw UserError(file_ + ": unit " + asked + " is asked but the header says " + *stated.begin() +
                     "; leave unit out or correct the file");
   }
-  if (used == "g") return standard_gravity;
-  if (used == "m/s2") return 1;
-  if (used == "cm/s2") return 0.01;
+  if (used == "g") return {used, standard_gravity};
+  if (used == "m/s2") return {used, 1};
+  if (used == "cm/s2") return {used, 0.01};
   throw UserError(file_ + ": unknown unit " + used + "; give g, m/s2 or cm/s2");
 }
 

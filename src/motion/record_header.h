@@ -8,6 +8,12 @@
 
 namespace pounding {
 
+/// Unit of a record and the factor from it to m/s2.
+struct RecordUnit {
+  std::string name;
+  double factor = 1;
+};
+
 /// What the lines before the values of a record say.
 class RecordHeader {
  public:
@@ -19,8 +25,10 @@ class RecordHeader {
   /// True when a line declares the number of values or the time step.
   static bool declares_sampling(const std::string& line);
 
-  /// Number of values and time step [s] seen at a line; 0: not given there.
-  void declare(long long number_of_values, double time_step, int line);
+  /// Number of values seen at a line. Throws UserError when it cannot be one.
+  void declare_count(double number_of_values, int line);
+  /// Time step [s] seen at a line. Throws UserError when it is not positive.
+  void declare_time_step(double time_step, int line);
 
   std::optional<long long> number_of_values() const { return number_of_values_; }
   std::optional<double> time_step() const { return time_step_; }
@@ -29,11 +37,15 @@ class RecordHeader {
   /// or when the first column is the period or the frequency of a spectrum.
   void require_acceleration() const;
 
-  /// Factor from the file's unit to m/s2: `unit` ("", "g", "m/s2", "cm/s2"), which the header must
-  /// not contradict, or else the header's. Throws UserError when neither tells it.
-  double unit_factor(const std::string& unit) const;
+  /// `asked` ("", "g", "m/s2", "cm/s2"), which the header must not contradict, or else the header's
+  /// unit. Throws UserError when neither tells it.
+  RecordUnit unit(const std::string& asked) const;
 
  private:
+  [[noreturn]] void contradiction(int line, const char* what, const std::string& here,
+                                  const std::string& before) const;
+  void read_sampling(const std::string& text, int line);
+
   const std::set<std::string>& stated_units() const {
     return units_.empty() ? units_of_peak_ : units_;
   }

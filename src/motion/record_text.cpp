@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -41,6 +42,12 @@ std::optional<std::vector<double>> parse_fixed_width(std::string_view text) {
 }
 
 }  // namespace
+
+std::string text_of(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.8g", value);
+  return buffer;
+}
 
 std::string at_line(const std::string& file, int line) {
   return file + ":" + std::to_string(line) + ": ";

@@ -41,6 +41,9 @@ std::optional<NumberRow> parse_row(const TextLine& line);
 /// The first word of a line that is not a finite number.
 std::string first_bad_word(std::string_view text);
 
+/// A number as messages show it.
+std::string text_of(double value);
+
 /// "file:line: "
 std::string at_line(const std::string& file, int line);
 

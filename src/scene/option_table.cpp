@@ -109,8 +109,8 @@ constexpr std::array table{
 
     OptionRow{Block::motion, "motion_<x|y|z>_record", Kind::text, "file", value("none"), any, "a file or none", "recorded accelerogram; none: no motion; wins over a target"},
     OptionRow{Block::motion, "motion_<x|y|z>_unit", Kind::choice, "word", value("auto"), any, "auto|g|m/s2|cm/s2", "unit of the record; auto: from the header of the file"},
-    OptionRow{Block::motion, "motion_<x|y|z>_time_step", Kind::real, "s", value("0"), not_negative, "", "time step of the record; 0: from the file"},
-    OptionRow{Block::motion, "motion_<x|y|z>_column", Kind::integer, "-", value("0"), not_negative, "", "column of the acceleration, from 1; 0: the last one"},
+    OptionRow{Block::motion, "motion_<x|y|z>_time_step", Kind::real, "s", value("0"), not_negative, "", "time step of the record; 0: from the file; needed where it is above 0.1 s"},
+    OptionRow{Block::motion, "motion_<x|y|z>_column", Kind::integer, "-", value("0"), not_negative, "", "column of the acceleration, from 1; 0: the only one beside the time"},
     OptionRow{Block::motion, "motion_<x|y|z>_target", Kind::text, "file", absent("optional"), any, "a file", "synthetic motion: file of its target spectrum; needs a pga"},
     OptionRow{Block::motion, "motion_<x|y|z>_seed", Kind::integer, "-", value("1"), not_negative, "", "synthetic motion: seed of the phases"},
     OptionRow{Block::motion, "motion_<x|y|z>_duration", Kind::real, "s", value("25"), positive, "", "synthetic motion: duration"},

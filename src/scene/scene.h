@@ -117,7 +117,7 @@ struct RecordedMotion {
   std::string unit;  ///< "", "g", "m/s2" or "cm/s2"; "" when the file's own header says it
   double time_step =
       0;           ///< [s]; needed for files without a time column or header; 0: from the file
-  int column = 0;  ///< column of the acceleration, 1-based; 0: the last one
+  int column = 0;  ///< column of the acceleration, 1-based; 0: the only one beside the time
 };
 
 /// A synthetic accelerogram matched to a 5 % target spectrum.

@@ -108,7 +108,8 @@ constexpr std::array option_specs{
                "the ground",
                read_frame},
     OptionSpec{"columns", "N,...", "column numbers from 1",
-               "record: which columns, counted from 1; the last one without this option",
+               "record: which columns, counted from 1; needed where there are more\n"
+               "than the time and one other",
                read_columns},
     OptionSpec{"unit", "g|m/s2|cm/s2", "g, m/s2 or cm/s2",
                "record: its unit, when its header does not say it", read_unit},

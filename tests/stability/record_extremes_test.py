@@ -35,7 +35,7 @@ class Records(unittest.TestCase):
     def follow(self, samples, interval, offset=0.0):
         """A run under the record against the scheme."""
         text = "".join(f"{offset + i * interval!r} {value!r}\n" for i, value in enumerate(samples))
-        run = History(self, self.words(text))
+        run = History(self, self.words(text, "-motion_x_time_step", repr(interval)))
         time = numpy.arange(STEPS + 1) * TIME_STEP
         ground = numpy.interp(time, numpy.arange(len(samples)) * interval, samples, right=0.0)
         u, v, exact = 0.0, 0.0, []

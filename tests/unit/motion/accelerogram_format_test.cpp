@@ -71,10 +71,6 @@ TEST_F(AccelerogramFormat, SurplusZerosAreDropped) {
          g);
 }
 
-TEST_F(AccelerogramFormat, HeaderMayAnnounceAFewValuesMore) {
-  expect(unit_line + "NPTS= 9, DT= .02\n" + rows, 0.02, seven, g);
-}
-
 TEST_F(AccelerogramFormat, BareColumnTakesUnitAndTimeStepFromTheOptions) {
   expect("1.5\n-2\n+.5D+01\n0\n", 0.01, {1.5, -2, 5, 0}, 0.01, options("cm/s2", 0.01));
 }
@@ -92,13 +88,41 @@ TEST_F(AccelerogramFormat, TwoColumnsGiveTheTimeStep) {
 }
 
 TEST_F(AccelerogramFormat, CommaSeparatedColumnsByNumber) {
-  const std::string text = "\xEF\xBB\xBFTime,Xg,Yg,Zg\n0,1,10,100\n0.5,2,20,200\n1,3,30,300";
-  expect(text, 0.5, {100, 200, 300}, 1, options("m/s2"));
-  expect(text, 0.5, {1, 2, 3}, 1, options("m/s2", 0, 2));
-  expect(text, 0.5, {10, 20, 30}, 1, options("m/s2", 0.5, 3));
+  const std::string text = "\xEF\xBB\xBFTime,Xg,Yg,Zg\n0,1,10,100\n0.05,2,20,200\n0.1,3,30,300";
+  expect(text, 0.05, {100, 200, 300}, 1, options("m/s2", 0, 4));
+  expect(text, 0.05, {1, 2, 3}, 1, options("m/s2", 0, 2));
+  expect(text, 0.05, {10, 20, 30}, 1, options("m/s2", 0.05, 3));
   expect("time,acc (g)\n0,0\n0.02,-6.00E-05\n", 0.02, {0, -6e-5}, g);
   expect("0;1\n0.1;2\n0.2;3\n", 0.1, {1, 2, 3}, 0.01, options("cm/s2"));
   expect("north,east\n1,2\n5,3\n4,6\n", 0.1, {1, 5, 4}, 1, options("m/s2", 0.1, 1));
+}
+
+TEST_F(AccelerogramFormat, TimeIsFoundBehindAnIndex) {
+  expect("index,time,acc\n0,0,1\n1,0.05,2\n2,0.1,3\n", 0.05, {1, 2, 3}, 1, options("m/s2", 0, 3));
+  expect("1 0 1\n2 0.05 2\n3 0.1 3\n", 0.05, {1, 2, 3}, 1, options("m/s2", 0, 3));
+  expect("1 0.5\n2 0.25\n3 0.5\n", 0.05, {0.5, 0.25, 0.5}, 1, options("m/s2", 0.05));
+}
+
+TEST_F(AccelerogramFormat, LongStepsWhereTheOptionSaysSo) {
+  expect("0 1\n0.5 2\n1 3\n", 0.5, {1, 2, 3}, 1, options("m/s2", 0.5));
+  expect("# unit m/s2, dt = 2\n1\n2\n", 2, {1, 2}, 1, options("", 2));
+}
+
+TEST_F(AccelerogramFormat, SaysHowItReadTheFile) {
+  const auto read = [&](const std::string& text, RecordedMotion motion) {
+    motion.file = write("record", text);
+    return read_accelerogram(motion);
+  };
+  const Accelerogram announced = read(unit_line + "NPTS= 7, DT= .02\n" + rows, {});
+  EXPECT_EQ(announced.layout, "rows of 3 values that follow one another");
+  EXPECT_EQ(announced.unit, "g (header)");
+  EXPECT_TRUE(announced.doubts.empty());
+  const Accelerogram bare = read(rows, options("m/s2", 0.02));
+  EXPECT_EQ(bare.unit, "m/s2 (as asked)");
+  ASSERT_EQ(bare.doubts.size(), 1u);  // three columns would look alike
+  EXPECT_EQ(read("t,ax,az\n0,1,3\n0.1,2,4\n", options("m/s2", 0, 3)).layout,
+            "column 3 of 3 (az), time in column 1");
+  EXPECT_EQ(read("1\n2\n", options("m/s2", 0.1)).layout, "one column");
 }
 
 TEST_F(AccelerogramFormat, RoundedTimesKeepTheMeanStep) {

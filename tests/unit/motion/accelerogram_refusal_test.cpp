@@ -56,6 +56,46 @@ TEST_F(AccelerogramRefusal, SurplusValuesThatAreNotZero) {
   EXPECT_THAT(refused(header + "NPTS= 5, DT= .02\n" + six), HasSubstr("announces 5 values but 6"));
 }
 
+TEST_F(AccelerogramRefusal, FewerValuesThanAnnounced) {
+  EXPECT_THAT(refused(header + "NPTS= 7, DT= .02\n" + six), HasSubstr("announces 7 values but 6"));
+  EXPECT_THAT(refused("{\"numPoints\": 4, \"dT\": 0.1, \"accel_data\": [1, 2, 3]}", "g"),
+              HasSubstr("announces 4 values but 3"));
+}
+
+TEST_F(AccelerogramRefusal, CountsAndStepsThatCannotBe) {
+  for (const std::string count : {"0", "-6", "1", "6.5", "12345678901", "****", "six"})
+    EXPECT_THAT(refused(header + "NPTS= " + count + ", DT= .02\n" + six), HasSubstr("record:3: "))
+        << count;
+  for (const std::string step : {"0", "-.02", "-1E-2", "****", "none"})
+    EXPECT_THAT(refused(header + "NPTS= 6, DT= " + step + "\n" + six), HasSubstr("record:3: "))
+        << step;
+  EXPECT_THAT(refused(header + "6  0.0  NPTS, DT\n" + six), HasSubstr("not positive"));
+  EXPECT_THAT(refused(header + "NPTS= 6, DT= 20\n" + six),
+              AllOf(HasSubstr("20 s"), HasSubstr("header"), HasSubstr("time_step")));
+  EXPECT_THAT(refused("# unit m/s2, dt = 0.11\n1\n2\n"), HasSubstr("above 0.1 s"));
+  const std::string list = "\"accel_data\": [0.1, 0.2, 0.1]}";
+  for (const std::string dt : {"0", "-0.01", "2", "\"fast\""})
+    refused("{\"dT\": " + dt + ", " + list, "g");
+  for (const std::string count : {"-3", "1e300", "2.5", "[]"})
+    refused("{\"dT\": 0.01, \"numPoints\": " + count + ", " + list, "g");
+}
+
+TEST_F(AccelerogramRefusal, SeveralColumnsOfWhichNoneIsAsked) {
+  EXPECT_THAT(refused("time,acc,vel,disp\n0,1,2,3\n0.1,2,3,4\n0.2,3,4,5\n", "m/s2"),
+              AllOf(HasSubstr("4 columns (time, acc, vel, disp)"), HasSubstr("time in column 1"),
+                    HasSubstr("give column: 1 to 4")));
+  EXPECT_THAT(refused("0 1 2 3\n0.1 2 3 4\n0.2 3 4 5\n", "m/s2"), HasSubstr("give column"));
+  EXPECT_THAT(refused("1 0 1\n2 0.05 2\n3 0.1 3\n", "m/s2"), HasSubstr("time in column 2"));
+}
+
+TEST_F(AccelerogramRefusal, TimesThatAreNotSeconds) {
+  const std::string milliseconds = "0 1\n10 2\n20 3\n30 4\n";
+  EXPECT_THAT(refused(milliseconds, "g"), AllOf(HasSubstr("10 s"), HasSubstr("time column")));
+  EXPECT_THAT(refused(milliseconds, "g", 0.01), HasSubstr("contradict"));
+  EXPECT_THAT(refused("index,acc\n1,1\n2,2\n3,3\n", "g"), HasSubstr("give time_step"));
+  EXPECT_THAT(refused("1 1\n2 2\n3 3\n", "g"), HasSubstr("give time_step"));
+}
+
 TEST_F(AccelerogramRefusal, HeaderThatContradictsItself) {
   EXPECT_THAT(refused(header + "NPTS= 6, DT= .02\n6 points at equal spacing of .01 sec\n" + six),
               HasSubstr("record:4: "));
@@ -97,7 +137,8 @@ TEST_F(AccelerogramRefusal, VelocityAndSpectra) {
                       "cm/s2"),
               HasSubstr("velocity or displacement"));
   EXPECT_THAT(refused("# unit cm/s\n0 1\n0.1 2\n0.2 3\n", "cm/s2"), HasSubstr("velocity"));
-  EXPECT_THAT(refused("time,acc (g),vel (cm/s)\n0,1,2\n0.1,2,3\n0.2,3,4\n"), HasSubstr("velocity"));
+  EXPECT_THAT(refused("time,acc (g),vel (cm/s)\n0,1,2\n0.1,2,3\n0.2,3,4\n", "", 0, 3),
+              HasSubstr("velocity"));
   EXPECT_THAT(refused("Period [s],Spectral Acceleration [g]\n0,1\n0.1,2\n0.2,3\n"),
               HasSubstr("spectrum"));
 }
@@ -106,7 +147,7 @@ TEST_F(AccelerogramRefusal, TimesThatAreNotUniform) {
   EXPECT_THAT(refused("0 1\n0.1 2\n0.2 3\n0.4 4\n0.5 5\n0.6 6\n", "g"), HasSubstr("uniform step"));
   EXPECT_THAT(refused("0 1\n0.1 2\n0.1 3\n0.2 4\n", "g"), HasSubstr("record:3: time 0.1"));
   EXPECT_THAT(refused("0 1\n0.2 2\n0.1 3\n0.3 4\n", "g"), HasSubstr("times must increase"));
-  EXPECT_THAT(refused("0 1 5\n1 2 6\n3 3 7\n7 1 1\n", "g"), HasSubstr("uniform step"));
+  EXPECT_THAT(refused("0 1 5\n1 2 6\n3 3 7\n7 1 1\n", "g", 0, 2), HasSubstr("uniform step"));
 }
 
 TEST_F(AccelerogramRefusal, OneLineMissingFromALongTimeColumn) {

@@ -122,6 +122,68 @@ TEST_F(GroundMotionTest, ZeroRecordIsAMotionButCannotBeScaled) {
               HasSubstr("motion y: "));
 }
 
+TEST_F(GroundMotionTest, RefusesPeaksThatNoGroundHas) {
+  const auto made = [&](const std::string& text, double pga, double scale) {
+    return refusal([&] {
+      GroundMotion(Components{record(text, 0.05, pga, scale), std::nullopt, std::nullopt},
+                   Resampling::linear);
+    });
+  };
+  EXPECT_THAT(made("0\n1e12\n", 0, 1), HasSubstr("1e+12 m/s2"));
+  EXPECT_THAT(made("0\n300\n", 3, 1), HasSubstr("300 m/s2"));
+  EXPECT_THAT(made(shape, 1e12, 1), HasSubstr("scaled peak 1e+12"));
+  EXPECT_THAT(made(shape, 0, 1000), HasSubstr("scaled peak 4000"));
+  SyntheticMotion synthetic{write("target.csv", "Hz, ratio\n1, 1\n5, 2.5\n30, 1\n"), 4, 10, {1, 5}};
+  EXPECT_THAT(refusal([&] {
+                GroundMotion(
+                    Components{MotionComponent{synthetic, 1e12, 1}, std::nullopt, std::nullopt},
+                    Resampling::linear);
+              }),
+              HasSubstr("pga 1e+12"));
+}
+
+TEST_F(GroundMotionTest, SaysWhatItUnderstood) {
+  const GroundMotion motion(
+      Components{record(shape, 0.05, 2), std::nullopt, record("0\n3\n", 0.1, 0, -0.5)},
+      Resampling::band_limited);
+  ASSERT_EQ(motion.descriptions().size(), 2u);
+  const MotionDescription& x = motion.descriptions()[0];
+  EXPECT_EQ(x.direction, "x");
+  EXPECT_EQ(x.layout, "one column");
+  EXPECT_EQ(x.unit, "m/s2 (as asked)");
+  EXPECT_EQ(x.points, 4u);
+  EXPECT_DOUBLE_EQ(x.time_step, 0.05);
+  EXPECT_DOUBLE_EQ(x.duration, 0.15);
+  EXPECT_DOUBLE_EQ(x.file_peak, 4);
+  EXPECT_EQ(x.scaling, "to pga 2 m/s2");
+  EXPECT_DOUBLE_EQ(x.pga, 2);
+  EXPECT_EQ(motion.descriptions()[1].direction, "z");
+  EXPECT_EQ(motion.descriptions()[1].scaling, "by -0.5");
+  EXPECT_TRUE(motion.doubts().empty());
+}
+
+TEST_F(GroundMotionTest, DoubtsPeaksOfAnotherUnit) {
+  const auto doubts = [&](double file_peak, double pga) {
+    const std::string text = "0\n" + std::to_string(file_peak) + "\n";
+    return GroundMotion(Components{record(text, 0.05, pga), std::nullopt, std::nullopt},
+                        Resampling::linear)
+        .doubts();
+  };
+  EXPECT_TRUE(doubts(3, 0).empty());
+  EXPECT_TRUE(doubts(0.3, 3.43).empty());
+  ASSERT_EQ(doubts(3, 0.35).size(), 1u);  // g meant
+  EXPECT_THAT(doubts(3, 0.35)[0], HasSubstr("give 3.43"));
+  ASSERT_EQ(doubts(0.35, 0).size(), 1u);  // a file in g
+  EXPECT_THAT(doubts(0.35, 0)[0], HasSubstr("in g?"));
+  ASSERT_EQ(doubts(34, 0).size(), 1u);  // a file in m/s2, said to be in g
+  EXPECT_THAT(doubts(34, 0)[0], HasSubstr("above 3 g"));
+  // A weak direction beside a strong one.
+  EXPECT_TRUE(GroundMotion(Components{record("0\n3\n", 0.1), std::nullopt, record("0\n0.3\n", 0.1)},
+                           Resampling::linear)
+                  .doubts()
+                  .empty());
+}
+
 TEST_F(GroundMotionTest, RefusesScalesThatMeanNothing) {
   const auto made = [&](double pga, double scale) {
     return refusal([&] {

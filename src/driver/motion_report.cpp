@@ -1,0 +1,43 @@
+#include "driver/motion_report.h"
+
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+namespace pounding {
+
+void print_motion(const GroundMotion& motion) {
+  std::printf("\n");
+  for (const MotionDescription& d : motion.descriptions()) {
+    std::printf("motion %s: %s\n  %s%s%s, %zu points every %.6g s, %.6g s", d.direction.c_str(),
+                d.source.c_str(), d.layout.c_str(), d.unit.empty() ? "" : ", in ", d.unit.c_str(),
+                d.points, d.time_step, d.duration);
+    if (!d.unit.empty()) {
+      std::printf(", peak %.4g m/s2 (%.4g g)", d.file_peak, d.file_peak / standard_gravity);
+    }
+    std::printf("\n  scaled: %s; pga %.4g m/s2 (%.4g g)\n", d.scaling.c_str(), d.pga,
+                d.pga / standard_gravity);
+  }
+  if (motion.descriptions().empty()) {
+    std::printf("motion: none\n");
+  }
+}
+
+nlohmann::ordered_json describe_motion(const GroundMotion& motion) {
+  nlohmann::ordered_json description{{"x", nullptr}, {"y", nullptr}, {"z", nullptr}};
+  for (const MotionDescription& d : motion.descriptions()) {
+    nlohmann::ordered_json& of = description[d.direction];
+    of = {{"file", d.source},       {"format", d.layout},
+          {"points", d.points},     {"time_step", d.time_step},
+          {"duration", d.duration}, {"scaled", d.scaling},
+          {"pga", d.pga},           {"pga_in_g", d.pga / standard_gravity}};
+    if (!d.unit.empty()) {
+      of["unit"] = d.unit;
+      of["file_peak"] = d.file_peak;
+      of["file_peak_in_g"] = d.file_peak / standard_gravity;
+    }
+  }
+  return description;
+}
+
+}  // namespace pounding

@@ -1,0 +1,116 @@
+"""What is understood of a record is said before it is used, and what may not be meant is refused or doubted."""
+import os
+import tempfile
+import unittest
+
+import program
+
+G = 9.80665
+
+
+def scene(*words):
+    """One mass on a grounded spring of 3 Hz."""
+    return ["-structures", "mass", "-mass_mesh", "tests/meshes/chain.geo", "-mass_first_element", "point_mass",
+            "-mass_first_mass", 50, "-mass_support_element", "grounded_spring",
+            "-mass_support_stiffness", "17765,17765,17765", "-end_time", 0.2, "-output_interval", 1e-3,
+            "-time_step", 1e-3, "-modes", 0, "-spectra_frequencies", 10, "-probes", "it",
+            "-it_structure", "mass", "-it_at", "1,0,0", *words]
+
+
+class Motion(unittest.TestCase):
+    def record(self, text):
+        handle, path = tempfile.mkstemp(suffix=".txt")
+        with os.fdopen(handle, "w") as file:
+            file.write(text)
+        self.addCleanup(os.remove, path)
+        return path
+
+    def refuse(self, text, *words, options=()):
+        path = self.record(text)
+        for ranks in (1, 2):
+            result = program.run(scene("-motion_x_record", path, *options, "-dry_run"), ranks, timeout=120)
+            self.assertEqual(result.returncode, 1, result.stdout)
+            line, = program.error_lines(result)
+            for word in words:
+                self.assertIn(word, line)
+
+    def test_several_columns_need_one_to_be_asked_for(self):
+        table = "time,acc,vel,disp\n0,1,0,0\n0.02,2,0,0\n0.04,1,0,0\n"
+        self.refuse(table, "4 columns (time, acc, vel, disp)", "give column",
+                    options=["-motion_x_unit", "m/s2"])
+        path = self.record(table)
+        _, summary = program.must_run(self, scene("-motion_x_record", path, "-motion_x_unit", "m/s2",
+                                                  "-motion_x_column", 2))
+        self.assertEqual(summary["motion"]["x"]["format"], "column 2 of 4 (acc), time in column 1")
+
+    def test_index_in_front_of_the_time(self):
+        table = "".join(f"{i} {0.02 * i:.2f} {i % 3}\n" for i in range(10))
+        self.refuse(table, "3 columns", "time in column 2", options=["-motion_x_unit", "m/s2"])
+        path = self.record(table)
+        for ranks in (1, 2):
+            _, summary = program.must_run(self, scene("-motion_x_record", path, "-motion_x_unit", "m/s2",
+                                                      "-motion_x_column", 3), ranks)
+            motion = summary["motion"]["x"]
+            self.assertEqual((motion["time_step"], motion["points"], motion["pga"]), (0.02, 10, 2))
+
+    def test_steps_longer_than_those_of_any_record(self):
+        table = "".join(f"{20 * i} {i % 3}\n" for i in range(10))  # milliseconds
+        unit = ["-motion_x_unit", "m/s2"]
+        self.refuse(table, "20 s", "time_step: 20", options=unit)
+        self.refuse("NPTS= 3, DT= 0.2 (g)\n.1\n.2\n.1\n", "0.2 s", "header")
+        path = self.record(table)
+        _, summary = program.must_run(self, scene("-motion_x_record", path, *unit, "-motion_x_time_step", 20))
+        self.assertEqual(summary["motion"]["x"]["duration"], 180)
+
+    def test_counts_that_are_not_those_of_the_file(self):
+        for header, word in (("NPTS= 4, DT= .02", "announces 4 values but 3"),
+                             ("NPTS= 2, DT= .02", "announces 2 values but 3"), ("NPTS= -3, DT= .02", "-3"),
+                             ("NPTS= 3, DT= 0.0", "not positive"), ("NPTS= 3, DT= -.02", "not positive")):
+            with self.subTest(header):
+                self.refuse(f"IN UNITS OF (G)\n{header}\n.1\n.2\n.1\n", word)
+
+    def test_no_ground_moves_like_that(self):
+        for unit, value in (("m/s2", 1e12), ("cm/s2", 1e12), ("g", 25)):
+            self.refuse(f"0 0\n0.02 {value}\n0.04 1\n", "g", options=["-motion_x_unit", unit])
+        quiet = "0 0\n0.02 1\n0.04 1\n"
+        self.refuse(quiet, "scaled peak", options=["-motion_x_unit", "m/s2", "-motion_x_scale", 1e9])
+        self.refuse(quiet, "scaled peak", options=["-motion_x_unit", "m/s2", "-motion_x_pga", 1e12])
+
+    def test_says_what_it_understood_in_dry_runs_and_runs(self):
+        path = self.record("A RECORD IN UNITS OF (G)\nNPTS= 5, DT= .01 SEC\n .1 -.2\n .1 .05\n 0.\n")
+        words = scene("-motion_x_record", path, "-motion_x_pga", 2.0, "-motion_z_target",
+                      "petsc-options/spectra/alluvial.csv", "-motion_z_pga", 1.0, "-motion_z_duration", 20)
+        for ranks in (1, 2):
+            for more in ([], ["-dry_run"]):
+                with tempfile.TemporaryDirectory() as folder:
+                    result = program.run([*words, *more, "-output", folder], ranks)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                for line in (f"motion x: {path}",
+                             "  rows of 2 values that follow one another, in g (header), 5 points every 0.01 s, "
+                             "0.04 s, peak 1.961 m/s2 (0.2 g)",
+                             "  scaled: to pga 2 m/s2; pga 2 m/s2 (0.2039 g)",
+                             "motion z: petsc-options/spectra/alluvial.csv"):
+                    self.assertIn("\n" + line, result.stdout)
+                self.assertEqual(result.stdout.count("synthetic, seed 1, "), 1)
+        _, summary = program.must_run(self, words)
+        motion = summary["motion"]
+        self.assertIsNone(motion["y"])
+        self.assertEqual((motion["x"]["file"], motion["x"]["unit"], motion["x"]["points"]), (path, "g (header)", 5))
+        self.assertAlmostEqual(motion["x"]["file_peak"], 0.2 * G, delta=1e-12)
+        self.assertAlmostEqual(motion["z"]["pga_in_g"], 1 / G, delta=1e-12)
+        self.assertEqual(motion["z"]["scaled"], "to pga 1 m/s2")
+
+    def test_rows_that_might_be_columns_are_doubted(self):
+        path = self.record("1 0.5 0.2\n-2 0.25 0.1\n1 0.5 0.2\n")
+        _, summary = program.must_run(self, scene("-motion_x_record", path, "-motion_x_unit", "m/s2",
+                                                  "-motion_x_time_step", 0.02))
+        self.assertEqual(summary["motion"]["x"]["points"], 9)
+        self.assertTrue(any("or columns?" in line for line in summary["warnings"]), summary["warnings"])
+
+    def test_no_motion_at_all_is_said(self):
+        result = program.run(scene("-mass_initial_velocity", "1,0,0", "-dry_run"), 1)
+        self.assertIn("\nmotion: none\n", result.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
