@@ -163,12 +163,14 @@ Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile) {
       add_full(scene, s, profile, model);
     }
   }
-  const std::vector<std::string>& doubts = model.motion->doubts();
-  model.warnings.insert(model.warnings.end(), doubts.begin(), doubts.end());
+  append(model.motion->doubts(), model.warnings);
   for (const LinearSystem& system : model.systems) {
     append(sliver_warnings(system), model.warnings);
   }
   append(model.interface.warnings, model.warnings);
+  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+    append(damping_warnings(scene.structures[s], model.modal[s]), model.warnings);
+  }
   choose_time_step(scene, model);
   const std::vector<std::string> doubts = run_warnings(scene, model);
   model.warnings.insert(model.warnings.end(), doubts.begin(), doubts.end());

@@ -1,7 +1,10 @@
 #include "driver/warnings.h"
 
 #include <algorithm>
+#include <numbers>
 #include <sstream>
+
+#include "dynamics/stable_time_step.h"
 
 namespace pounding {
 
@@ -18,12 +21,49 @@ std::vector<std::string> sliver_warnings(const LinearSystem& system) {
   return warnings;
 }
 
+std::vector<std::string> damping_warnings(const Structure& structure, const ModalResult& modal) {
+  constexpr double doubtful_ratio = 0.5;
+  constexpr double highest = 50;  // Hz
+  std::vector<double> frequencies;
+  for (const Mode& mode : modal.modes) {
+    if (frequencies.empty() || mode.frequency <= highest) {
+      frequencies.push_back(mode.frequency);
+    }
+  }
+  if (frequencies.empty()) {
+    frequencies = {1, highest};
+  }
+  std::vector<std::string> warnings;
+  const auto look_at = [&](const std::string& owner, const Rayleigh& damping) {
+    for (const double frequency : frequencies) {
+      const double ratio = damping_ratio(damping, 2 * std::numbers::pi * frequency);
+      if (!(ratio > doubtful_ratio) || !(frequency > 0)) {
+        continue;
+      }
+      std::ostringstream text;
+      text.precision(4);
+      text << owner << ": alpha " << damping.alpha << " 1/s and beta " << damping.beta << " s damp "
+           << 100 * ratio << " % of critical at " << frequency
+           << " Hz; are they meant? -damping_ratio with two frequencies is surer";
+      warnings.push_back(text.str());
+      return;
+    }
+  };
+  const bool by_mode = structure.modal && !structure.modal->damping_ratios.empty();
+  if (!by_mode) {
+    look_at("structure " + structure.name, structure.damping);
+  }
+  for (const Region& region : structure.regions) {
+    if (region.damping && !by_mode) {
+      look_at("structure " + structure.name + ", group " + region.group, *region.damping);
+    }
+  }
+  return warnings;
+}
+
 std::vector<std::string> displacement_warnings(const Model& model, const Recorder& recorder) {
   constexpr double small = 0.05;  // of the model
-  double largest = 0;
-  for (const ChannelPeaks& peak : recorder.peaks()) {
-    largest = std::max(largest, peak.displacement);
-  }
+  const double largest = recorder.largest_displacement();
   if (!(largest > small * model.interface.model_size)) {
     return {};
   }

@@ -19,6 +19,10 @@ inline void append(const std::vector<std::string>& lines, std::vector<std::strin
 /// Elements that cost the whole structure its time step, mostly by an accident of meshing.
 std::vector<std::string> sliver_warnings(const LinearSystem& system);
 
+/// Structures or regions whose Rayleigh damping is above half of the critical one at a mode up to
+/// 50 Hz, or at the first one; at 1 and 50 Hz where no modes were computed.
+std::vector<std::string> damping_warnings(const Structure& structure, const ModalResult& modal);
+
 /// What the recorded motion says against the theory of small displacements. Rank 0 only.
 std::vector<std::string> displacement_warnings(const Model& model, const Recorder& recorder);
 

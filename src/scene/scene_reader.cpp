@@ -5,6 +5,7 @@
 #include <set>
 
 #include "common/error.h"
+#include "scene/doubts.h"
 #include "scene/fidelity_target.h"
 #include "scene/motion_reader.h"
 #include "scene/nearest_name.h"
@@ -46,6 +47,8 @@ class SceneReader {
       scene_.probes.push_back(read_probe(name));
     }
     read_spectra();
+    const std::vector<std::string> doubts = scene_doubts(scene_);
+    scene_.warnings.insert(scene_.warnings.end(), doubts.begin(), doubts.end());
     return {scene_, resolved_yaml(options_)};
   }
 

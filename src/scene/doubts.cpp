@@ -1,0 +1,131 @@
+#include "scene/doubts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+namespace pounding {
+namespace {
+
+/// What is plausible of a quantity, and what its user may have meant.
+struct Plausible {
+  const char* what;
+  double low;
+  double high;
+  const char* unit;
+  const char* hint;
+};
+
+constexpr Plausible young{"young", 1e8, 1e12, "Pa", "is it in MPa or GPa?"};
+constexpr Plausible density{"density", 100, 25000, "kg/m3", "is it in t/m3 or kN/m3?"};
+constexpr Plausible poisson{"poisson", 0, 0.48, "-", "elements lock near 0.5"};
+constexpr Plausible thickness{"thickness", 1e-3, 10, "m", "is it in mm?"};
+constexpr Plausible bar_area{"area", 1e-6, 10, "m2", "is it in mm2 or cm2?"};
+constexpr Plausible gyration{"radius of gyration", 1e-3, 20, "m",
+                             "do area and inertias have one unit of length?"};
+
+/// Collects lines; a material or section that several groups share is looked at once.
+class Doubts {
+ public:
+  void add(const std::string& line) { lines_.push_back(line); }
+
+  void look_at(const std::string& owner, const Plausible& range, double value) {
+    if (value >= range.low && value <= range.high) {
+      return;
+    }
+    std::ostringstream text;
+    text << owner << ": " << range.what << " " << value << " " << range.unit << " is outside "
+         << range.low << " to " << range.high << " " << range.unit << "; " << range.hint;
+    add(text.str());
+  }
+
+  void look_at(const Material& material) {
+    const std::string owner = "material " + material.name;
+    if (seen_.insert(owner).second) {
+      look_at(owner, young, material.young);
+      look_at(owner, density, material.density);
+      look_at(owner, poisson, material.poisson);
+    }
+  }
+
+  void look_at(const Section& section) {
+    const std::string owner = "section " + section.name;
+    if (seen_.insert(owner).second) {
+      look_at(owner + ", sqrt(inertia_y / area)", gyration,
+              std::sqrt(section.inertia_y / section.area));
+      look_at(owner + ", sqrt(inertia_z / area)", gyration,
+              std::sqrt(section.inertia_z / section.area));
+    }
+  }
+
+  const std::vector<std::string>& lines() const { return lines_; }
+
+ private:
+  std::vector<std::string> lines_;
+  std::set<std::string> seen_;
+};
+
+bool has_material(ElementType element) {
+  return is_hexahedron(element) || is_shell(element) || element == ElementType::beam ||
+         element == ElementType::bar || element == ElementType::tension_bar;
+}
+
+void look_at_region(const std::string& structure, const Region& region, Doubts& doubts) {
+  if (!has_material(region.element)) {
+    return;
+  }
+  const std::string owner = structure + ", group " + region.group;
+  doubts.look_at(region.material);
+  if (region.section) {
+    doubts.look_at(*region.section);
+  }
+  if (is_shell(region.element)) {
+    doubts.look_at(owner, thickness, region.thickness);
+  }
+  if (region.element == ElementType::bar || region.element == ElementType::tension_bar) {
+    doubts.look_at(owner, bar_area, region.area);
+  }
+}
+
+/// Whether clamps or grounded springs hold a structure along a direction.
+bool is_held(const Structure& structure, std::size_t direction) {
+  const auto clamps = [&](const Clamp& clamp) { return (clamp.components >> direction & 1) != 0; };
+  const auto carries = [&](const Region& region) {
+    const bool grounded = region.element == ElementType::grounded_spring ||
+                          region.element == ElementType::grounded_spring6;
+    return grounded && region.stiffness[direction] > 0;
+  };
+  return std::ranges::any_of(structure.clamps, clamps) ||
+         std::ranges::any_of(structure.regions, carries);
+}
+
+/// There is no static start: what is held and gets its weight at once swings about its sagging.
+void look_at_gravity(const Structure& structure, Doubts& doubts) {
+  bool dropped = false;
+  for (std::size_t d = 0; d < 3; ++d) {
+    dropped = dropped || (structure.gravity[d] != 0 && is_held(structure, d));
+  }
+  if (!dropped) {
+    return;
+  }
+  doubts.add("structure " + structure.name +
+             ": gravity acts at once at t = 0 on a structure that is held: a drop test, it swings "
+             "about its sagging by as much again; leave gravity out, or let this die away before "
+             "-spectra_start and the motion");
+}
+
+}  // namespace
+
+std::vector<std::string> scene_doubts(const Scene& scene) {
+  Doubts doubts;
+  for (const Structure& structure : scene.structures) {
+    for (const Region& region : structure.regions) {
+      look_at_region("structure " + structure.name, region, doubts);
+    }
+    look_at_gravity(structure, doubts);
+  }
+  return doubts.lines();
+}
+
+}  // namespace pounding

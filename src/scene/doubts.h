@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace pounding {
+
+/// Lines of doubt about a scene as it was given: values outside what buildings have, as they come
+/// from a wrong unit (docs/input-checks.md lists the ranges), and gravity that is dropped on a
+/// structure that is held. Nothing is refused: models without units are as good.
+std::vector<std::string> scene_doubts(const Scene& scene);
+
+}  // namespace pounding
