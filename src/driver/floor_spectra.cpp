@@ -1,5 +1,6 @@
 #include "driver/floor_spectra.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "common/parallel.h"
@@ -9,19 +10,27 @@ namespace pounding {
 
 namespace {
 
-/// The accelerations of the channels that this rank works on: number rank, rank + size, ...
+/// The accelerations of the channels that this rank works on: number rank, rank + size, ...; from
+/// record `first` on.
 std::vector<std::vector<double>> share_accelerations(MPI_Comm comm, std::size_t channels,
-                                                     const Recorder& recorder) {
+                                                     const Recorder& recorder, std::size_t first) {
+  const auto counted = [&](std::size_t channel) {
+    std::vector<double> acceleration = recorder.acceleration(channel);
+    acceleration.erase(
+        acceleration.begin(),
+        acceleration.begin() + static_cast<std::ptrdiff_t>(std::min(first, acceleration.size())));
+    return acceleration;
+  };
   const auto ranks = static_cast<std::size_t>(size_of(comm));
   std::vector<std::vector<double>> mine;
   for (std::size_t channel = 0; channel < channels; ++channel) {
     const auto worker = static_cast<int>(channel % ranks);
     if (rank_of(comm) == 0 && worker != 0) {
-      send_array(comm, worker, recorder.acceleration(channel));
+      send_array(comm, worker, counted(channel));
     } else if (rank_of(comm) == worker) {
       std::vector<double>& acceleration = mine.emplace_back();
       if (worker == 0) {
-        acceleration = recorder.acceleration(channel);
+        acceleration = counted(channel);
       } else {
         receive_array(comm, 0, acceleration);
       }
@@ -36,7 +45,8 @@ std::vector<ProbeSpectrum> compute_floor_spectra(MPI_Comm comm, const Scene& sce
                                                  const Recorder& recorder) {
   const std::size_t channels = 3 * recorder.probes().size();
   const std::vector<double>& ratios = scene.spectra.damping_ratios;
-  const auto accelerations = share_accelerations(comm, channels, recorder);
+  const auto accelerations = share_accelerations(comm, channels, recorder,
+                                                 recorder.first_record_from(scene.spectra.start));
   std::vector<std::vector<SpectrumPoint>> mine;  // per channel and damping ratio
   on_every_rank(comm, [&] {
     for (const std::vector<double>& acceleration : accelerations) {
@@ -72,7 +82,7 @@ std::vector<ProbeSpectrum> compute_floor_spectra(MPI_Comm comm, const Scene& sce
 }
 
 void write_floor_spectra(const std::string& path, const std::vector<ProbeSpectrum>& spectra,
-                         double sampling_interval) {
+                         double sampling_interval, double start) {
   CsvFile file(path);
   char text[200];
   std::snprintf(text, sizeof text,
@@ -83,6 +93,11 @@ void write_floor_spectra(const std::string& path, const std::vector<ProbeSpectru
   std::snprintf(text, sizeof text, "within 1 %% of the continuous signal up to %.0f Hz",
                 0.045 / sampling_interval);
   file.comment(text);
+  if (start > 0) {
+    std::snprintf(text, sizeof text,
+                  "of the record from %.9g s on, when the oscillators are at rest;", start);
+    file.comment(text);
+  }
   file.comment("largest response until the end of the run;");
   file.comment(
       "frequency [Hz], period [s], displacement [m], pseudo_velocity [m/s], "

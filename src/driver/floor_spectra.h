@@ -22,8 +22,9 @@ struct ProbeSpectrum {
 std::vector<ProbeSpectrum> compute_floor_spectra(MPI_Comm comm, const Scene& scene,
                                                  const Recorder& recorder);
 
-/// `spectra.csv`; the header states the sampling and up to which frequency it holds.
+/// `spectra.csv`; the header states the sampling, up to which frequency it holds, and the start [s]
+/// of what counts unless it is 0.
 void write_floor_spectra(const std::string& path, const std::vector<ProbeSpectrum>& spectra,
-                         double sampling_interval);
+                         double sampling_interval, double start);
 
 }  // namespace pounding

@@ -180,9 +180,13 @@ void print_slides(const Scene& scene, const RunStatistics& statistics) {
   }
 }
 
-void print_probes(const Recorder& recorder, const std::vector<ProbeSpectrum>& spectra) {
+void print_probes(const Recorder& recorder, const std::vector<ProbeSpectrum>& spectra,
+                  double start) {
   if (recorder.channels().empty()) {
     return;
+  }
+  if (start > 0) {
+    std::printf("\npeaks and spectra from %.6g s on, the oscillators at rest then\n", start);
   }
   std::printf(
       "\nprobe             peak acceleration m/s2   peak displacement mm   spectrum peak m/s2 at "
@@ -284,7 +288,7 @@ void print_results(const Scene& scene, const RunStatistics& statistics,
   std::printf("\n");
   print_impacts(scene, statistics, impacts);
   print_slides(scene, statistics);
-  print_probes(recorder, spectra);
+  print_probes(recorder, spectra, scene.spectra.start);
   std::printf("\n");
   print_warnings(statistics.warnings);
   const EnergyLine& energy = statistics.energy;

@@ -149,7 +149,8 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
   }
   const std::vector<ProbeSpectrum> spectra = compute_floor_spectra(comm, scene, loop.recorder());
   on_rank0(comm, [&] {
-    write_floor_spectra(scene.output + "/spectra.csv", spectra, loop.recorder().interval());
+    write_floor_spectra(scene.output + "/spectra.csv", spectra, loop.recorder().interval(),
+                        scene.spectra.start);
     statistics.warnings = displacement_warnings(model, loop.recorder());
     append(contact_warnings(statistics.complementarity_residual), statistics.warnings);
     append(slide_warnings(scene, statistics), statistics.warnings);

@@ -106,6 +106,7 @@ void TimeLoop::create_recorder(bool continued) {
   };
   layout.stride = static_cast<int>(whole(scene_.output_interval / model_.time_step));
   layout.time_step = model_.time_step;
+  layout.peaks_start = scene_.spectra.start;
   for (const LinearSystem& system : model_.systems) {
     layout.initial_velocity.push_back(system.initial_velocity);
   }

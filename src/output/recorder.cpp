@@ -258,7 +258,7 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
     }
   }
   const std::span<const double> acceleration(accelerations_.begin() + first, accelerations_.end());
-  note_peaks(displacement, acceleration);
+  note_peaks(static_cast<std::size_t>(records_) - rows, displacement, acceleration);
   file_->append("time", time);
   if (channels > 0) {
     file_->append("displacement", displacement);
@@ -277,9 +277,19 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
   }
 }
 
-void Recorder::note_peaks(std::span<const double> displacement,
+std::size_t Recorder::first_record_from(double start) const {
+  const double middle = (layout_.time_step - interval()) / 2;  // of the first record's interval
+  return start > 0 ? static_cast<std::size_t>(std::ceil((start - middle) / interval() - 1e-6)) : 0;
+}
+
+void Recorder::note_peaks(std::size_t first_record, std::span<const double> displacement,
                           std::span<const double> acceleration) {
+  const std::size_t first = first_record_from(layout_.peaks_start);
   for (std::size_t i = 0; i < displacement.size(); ++i) {
+    largest_displacement_ = std::max(largest_displacement_, std::abs(displacement[i]));
+    if (first_record + i / channels_.size() < first) {
+      continue;
+    }
     ChannelPeaks& peaks = peaks_[i % channels_.size()];
     peaks.acceleration = std::max(peaks.acceleration, std::abs(acceleration[i]));
     peaks.displacement = std::max(peaks.displacement, std::abs(displacement[i]));

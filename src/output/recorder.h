@@ -16,7 +16,7 @@
 
 namespace pounding {
 
-/// Recorded histories of one probe and direction on rank 0.
+/// Largest recorded values of one probe and direction, from `peaks_start` on.
 struct ChannelPeaks {
   double acceleration = 0;  ///< absolute [m/s2]
   double displacement = 0;  ///< relative to the ground [m]
@@ -42,6 +42,7 @@ class Recorder {
     int interface_root = -1;  ///< rank that passes gaps and impulses, -1: none
     int stride = 1;
     double time_step = 0;
+    double peaks_start = 0;                 ///< records before do not count as peaks [s]
     std::vector<Vector3> initial_velocity;  ///< per structure [m/s]
   };
 
@@ -74,6 +75,10 @@ class Recorder {
   const std::vector<std::string>& channels() const { return channels_; }
   std::vector<double> acceleration(std::size_t channel) const;
   const std::vector<ChannelPeaks>& peaks() const { return peaks_; }
+  /// Of all channels and all records [m].
+  double largest_displacement() const { return largest_displacement_; }
+  /// The first record that counts: the middle of its interval is not before `start` [s].
+  std::size_t first_record_from(double start) const;
   double interval() const { return layout_.time_step * layout_.stride; }
   const std::vector<ResolvedProbe>& probes() const { return layout_.probes; }
 
@@ -104,7 +109,8 @@ class Recorder {
   void create_file(const std::string& path);
   void check_history(const Hdf5Reader& history) const;
   void copy_history(const Hdf5Reader& history);
-  void note_peaks(std::span<const double> displacement, std::span<const double> acceleration);
+  void note_peaks(std::size_t first_record, std::span<const double> displacement,
+                  std::span<const double> acceleration);
   void flush();
   void write_rows(std::size_t rows, const std::vector<double>& gathered,
                   const std::vector<int>& row_widths);
@@ -128,6 +134,7 @@ class Recorder {
   std::vector<double> last_velocity_;
   std::vector<double> accelerations_;  ///< all records, shape (records, channels)
   std::vector<ChannelPeaks> peaks_;
+  double largest_displacement_ = 0;
   std::int64_t records_ = 0;
 };
 

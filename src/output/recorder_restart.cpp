@@ -76,7 +76,7 @@ void Recorder::copy_history(const Hdf5Reader& history) {
     }
     if (!channels_.empty()) {
       const std::vector<double> acceleration = history.rows("acceleration", first, count);
-      note_peaks(history.rows("displacement", first, count), acceleration);
+      note_peaks(first, history.rows("displacement", first, count), acceleration);
       accelerations_.insert(accelerations_.end(), acceleration.begin(), acceleration.end());
     }
   }

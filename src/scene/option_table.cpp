@@ -125,13 +125,14 @@ constexpr std::array table{
 
     OptionRow{Block::spectra, "spectra_damping", Kind::reals, "-", value("0.05"), damping_ratio, "a comma-separated list of numbers", "damping ratios of the oscillators"},
     OptionRow{Block::spectra, "spectra_frequencies", Kind::text, "Hz", value("0.5:400:200log"), positive, "start:stop:COUNTlog, start:stop:COUNTlin (COUNT 2 to 100000) or an increasing list", "frequencies of the oscillators"},
+    OptionRow{Block::spectra, "spectra_start", Kind::real, "s", value("0"), not_negative, "", "time from which spectra and peak values count: the oscillators are at rest then"},
 };
 
 // What does not touch the motion nor its records; the time step itself is compared, not its options.
 constexpr std::array changeable_on_restart = std::to_array<std::string_view>({
     "title", "end_time", "courant", "time_step", "allow_unstable", "modes", "write_modes", "dry_run", "output",
     "checkpoint_interval", "checkpoint_steps", "export_matrices", "partition", "restart", "spectra_damping",
-    "spectra_frequencies"});
+    "spectra_frequencies", "spectra_start"});
 // clang-format on
 
 }  // namespace

@@ -156,6 +156,7 @@ struct Probe {
 struct SpectraRequest {
   std::vector<double> damping_ratios;  ///< [-]
   std::vector<double> frequencies;     ///< [Hz], increasing
+  double start = 0;                    ///< spectra and peaks leave out what comes before [s]
 };
 
 struct Scene {

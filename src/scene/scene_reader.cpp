@@ -229,6 +229,12 @@ class SceneReader {
       options_.refuse("spectra_frequencies", {});
     }
     scene_.spectra.frequencies = *frequencies;
+    scene_.spectra.start = options_.real("spectra_start");
+    const double last_start =
+        scene_.end_time - 2 * std::max(scene_.output_interval, scene_.time_step);
+    if (scene_.spectra.start > 0 && !(scene_.spectra.start <= last_start)) {
+      options_.refuse("spectra_start", {}, "the run ends before two samples are left");
+    }
   }
 
   OptionReader options_;

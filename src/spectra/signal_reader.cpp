@@ -110,6 +110,19 @@ void read_record(const std::string& path, const SpectraOptions& options,
   }
 }
 
+/// Takes the samples away whose middle comes before `start` [s].
+void begin_at(double start, NamedSignal& named) {
+  SampledSignal& signal = named.signal;
+  const double before = std::ceil((start - signal.first_time) / signal.time_step - 1e-6);
+  if (start == 0 || before <= 0) return;
+  if (before > static_cast<double>(signal.acceleration.size()) - 2)
+    throw UserError(named.name + ": ends before two samples are left after --start " +
+                    std::to_string(start));
+  signal.acceleration.erase(signal.acceleration.begin(),
+                            signal.acceleration.begin() + static_cast<std::ptrdiff_t>(before));
+  signal.first_time += before * signal.time_step;
+}
+
 }  // namespace
 
 std::vector<NamedSignal> read_signals(const SpectraOptions& options) {
@@ -123,7 +136,10 @@ std::vector<NamedSignal> read_signals(const SpectraOptions& options) {
     for (std::size_t i = first; options.files.size() > 1 && i < signals.size(); ++i)
       signals[i].name = file + ":" + signals[i].name;
   }
-  for (NamedSignal& signal : signals) std::ranges::replace(signal.name, ',', '_');
+  for (NamedSignal& signal : signals) {
+    std::ranges::replace(signal.name, ',', '_');
+    begin_at(options.start, signal);
+  }
   return signals;
 }
 

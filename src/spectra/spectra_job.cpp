@@ -132,6 +132,11 @@ void write_header(CsvFile& file, const SpectraOptions& options, double longest_s
       "%.4g Hz if they are means over the step",
       longest_step, 0.045 / longest_step);
   file.comment(text);
+  if (options.start > 0) {
+    std::snprintf(text, sizeof text, "from %.9g s on, when the oscillators are at rest",
+                  options.start);
+    file.comment(text);
+  }
   if (options.broadening > 0) {
     std::snprintf(text, sizeof text, "widened by %.4g %% to both sides, every column by itself",
                   100 * options.broadening);

@@ -118,6 +118,11 @@ constexpr std::array option_specs{
                [](const std::string& t, SpectraOptions& o) {
                  return read_number(t, tiny, no_limit, o.time_step);
                }},
+    OptionSpec{"start", "S", "a number above 0",
+               "leave out what comes before: the oscillators are at rest then [s]",
+               [](const std::string& t, SpectraOptions& o) {
+                 return read_number(t, tiny, no_limit, o.start);
+               }},
     OptionSpec{"damping", "RATIO,...", "ratios from 0, below 1", "damping ratios; default 0.05",
                read_damping},
     OptionSpec{"frequencies", "LIST",

@@ -13,10 +13,11 @@ namespace pounding {
 struct SpectraOptions {
   std::vector<std::string> files;
   std::vector<std::string> channels;  ///< of a history: probe or probe.direction; empty: all
-  std::vector<int> columns{0};        ///< of a record, 1-based; 0: the last one
+  std::vector<int> columns{0};        ///< of a record, 1-based; 0: the only one beside the time
   std::string unit;                   ///< of a record; "": as its header says
   double time_step = 0;               ///< of a record [s]; 0: as the file says
   bool relative = false;              ///< history: less the acceleration of the ground
+  double start = 0;                   ///< samples before do not count [s]
   std::vector<double> damping_ratios{0.05};
   std::vector<double> frequencies;  ///< [Hz], increasing, above 0
   bool true_peaks = false;          ///< columns of the true peaks beside the pseudo ones

@@ -1,0 +1,94 @@
+"""Gravity that is dropped on a structure which is held: one line of doubt, and spectra and peaks that leave
+out what comes before -spectra_start.
+
+One mass on a spring of 3 Hz with 20 % damping under its weight, shaken from 2.5 s on: at 2 s what the drop
+did is 5e-4 of it. The oscillators of the spectra are at rest at the start, so that the spectra are those of
+the recorded samples from there on."""
+import os
+import subprocess
+import tempfile
+import unittest
+
+import h5py
+import numpy
+
+import program
+
+START, END, FREQUENCIES = 2.0, 4.0, "0.5:50:40log"
+
+
+def scene(record, *words):
+    return ["-structures", "mass", "-mass_mesh", "tests/meshes/chain.geo", "-mass_first_element", "point_mass",
+            "-mass_first_mass", 50, "-mass_support_element", "grounded_spring",
+            "-mass_support_stiffness", "17765,17765,17765", "-mass_damping_alpha", 7.54,
+            "-mass_gravity", "0,0,-9.81", "-motion_z_record", record, "-motion_z_unit", "m/s2",
+            "-end_time", END, "-output_interval", 1e-3, "-time_step", 5e-4, "-modes", 1,
+            "-spectra_frequencies", FREQUENCIES, "-spectra_damping", "0.02,0.05", "-probes", "it",
+            "-it_structure", "mass", "-it_at", "1,0,0", *words]
+
+
+class SpectraStart(unittest.TestCase):
+    def setUp(self):
+        handle, self.record = tempfile.mkstemp(suffix=".txt")
+        with os.fdopen(handle, "w") as file:
+            for i in range(401):
+                file.write(f"{1.0 * numpy.sin(40 * (0.01 * i - 2.5)) if i >= 250 else 0.0:.12g}\n")
+        self.addCleanup(os.remove, self.record)
+
+    def run_scene(self, *words, ranks=1):
+        folder, summary = program.must_run(self, scene(self.record, "-motion_z_time_step", 0.01, *words), ranks)
+        with open(os.path.join(folder, "spectra.csv")) as file:
+            header = "".join(line for line in file if line.startswith("#"))
+        return folder, summary, header, program.read_csv(os.path.join(folder, "spectra.csv"))
+
+    def vertical(self, table):
+        return numpy.array([float(value) for value, direction, ratio in
+                            zip(table["pseudo_acceleration"], table["direction"], table["damping"])
+                            if direction == "z" and float(ratio) == 0.05])
+
+    def test_the_drop_is_left_out(self):
+        _, whole, header, table = self.run_scene()
+        self.assertNotIn("at rest", header)
+        dropped = self.vertical(table)
+        for ranks in (1, 2):
+            folder, summary, header, table = self.run_scene("-spectra_start", START, ranks=ranks)
+            self.assertIn("of the record from 2 s on, when the oscillators are at rest", header)
+            with h5py.File(os.path.join(folder, "history.h5")) as file:
+                offset = file["acceleration"].attrs["time_offset"]
+                counts = file["time"][()] + offset >= START - 1e-9
+                peak = abs(file["acceleration"][()][counts, 2]).max()
+                moved = abs(file["displacement"][()][counts, 2]).max()
+            self.assertAlmostEqual(summary["probes"]["it"]["peak_acceleration"][2] / peak, 1, delta=1e-12)
+            self.assertAlmostEqual(summary["probes"]["it"]["peak_displacement"][2] / moved, 1, delta=1e-12)
+            self.assertGreater(whole["probes"]["it"]["peak_acceleration"][2], 9)
+            self.assertLess(peak, 2)
+            later = self.vertical(table)
+            self.assertGreater(dropped.max() / later.max(), 3)
+            # The same from the other program, and from the samples alone.
+            result = subprocess.run([os.path.join(program.BUILD, "pounding-spectra"), "--start", str(START),
+                                     "--channels", "it.z", "--frequencies", FREQUENCIES,
+                                     os.path.join(folder, "history.h5")], capture_output=True, text=True, timeout=60)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("# from 2 s on, when the oscillators are at rest", result.stdout)
+            rows = [line.split(",") for line in result.stdout.splitlines() if line.startswith("it.z")]
+            other = numpy.array([float(row[7]) for row in rows])
+            self.assertLess(abs(other / later - 1).max(), 1e-12)
+
+    def test_gravity_on_what_is_held_is_doubted(self):
+        _, summary, _, _ = self.run_scene()
+        self.assertEqual(len([line for line in summary["warnings"] if "drop test" in line]), 1)
+        _, summary, _, _ = self.run_scene("-mass_gravity", "0,0,0")
+        self.assertEqual([line for line in summary["warnings"] if "gravity" in line], [])
+
+    def test_start_must_leave_something(self):
+        for start in (END, 3.9999, -1, "soon"):
+            for ranks in (1, 2):
+                result = program.run(scene(self.record, "-motion_z_time_step", 0.01, "-spectra_start", start,
+                                           "-dry_run"), ranks)
+                self.assertEqual(result.returncode, 1)
+                line, = program.error_lines(result)
+                self.assertIn("-spectra_start", line)
+
+
+if __name__ == "__main__":
+    unittest.main()
