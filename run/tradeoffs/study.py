@@ -39,6 +39,7 @@ def row_of(case: Case, setting: Setting, found: Outcome, reference: Outcome) -> 
            "speed_up": reference.per_second() / found.per_second(), "steps": found.summary["steps"],
            "time_step": found.summary["time_step"], "memory": found.summary["peak_memory"],
            "energy_residual": found.summary["energy"]["relative_residual"],
+           "structures_key": reference.summary["structures_key"],
            "rms": rms, "max": largest, "class": class_of(rms, largest),
            "impulse": impacts["total_impulse"], "episodes": impacts["episodes"],
            "impulse_error": impacts["total_impulse"] / expected["total_impulse"] - 1
@@ -80,7 +81,7 @@ def summarised(rows: list) -> list:
         worst = {key: max(abs(row[key]) for row in mine)
                  for key in ("rms", "max", "rms 1-10", "rms 10-50", "rms 50-150", "rms 150-400",
                              "impulse_error", "drift_error", "energy_residual")}
-        result.append({"setting": name, "noise": mine[0]["noise"], "cases": len(mine), **mean, **worst,
+        result.append({"setting": name, "structures_key": mine[0]["structures_key"], "noise": mine[0]["noise"], "cases": len(mine), **mean, **worst,
                        "median rms": median(row["rms"] for row in mine),
                        "class": class_of(worst["rms"], worst["max"])})
     return result
@@ -102,9 +103,10 @@ def portable(setting: Setting) -> str | None:
 
 
 def fidelity_table(summary: list, settings: list) -> str:
-    """What `-fidelity_table` reads: every setting that does for any scene, with error and cost."""
+    """What `-fidelity_table` reads: every setting that both buildings share, with error and cost."""
     lines = ["# Settings measured by run/tradeoff on the two-storey pair: rms of ln(floor spectrum / full order) on",
              "# floor 2, 1-400 Hz, in the worst case, and wall time per second of motion. Read by -fidelity_target.",
+             f"# structures: {summary[0]['structures_key']} the two-storey pair of petsc-options/azalee/pair.yaml",
              "setting,rms,cost,options"]
     for row in summary:
         setting = next((one for one in settings if one.name == row["setting"]), None)

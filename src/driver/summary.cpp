@@ -148,6 +148,7 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
     summary["structures"][model.systems[s].name] = describe_structure(scene, model, s);
   }
+  summary["structures_key"] = scene.structures_key;
   summary["motion"] = describe_motion(*model.motion);
   summary["time_step"] = model.time_step;
   summary["stable_time_step"] = model.smallest_stable_time_step();

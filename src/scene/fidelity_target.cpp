@@ -3,6 +3,7 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 #include "common/error.h"
@@ -39,20 +40,52 @@ Setting parse_setting(const std::string& line, const std::string& where) {
   return setting;
 }
 
-std::vector<Setting> read_table(const std::string& path) {
+/// What a study measured, and on which structures.
+struct Table {
+  std::string structures_key;  ///< empty if the file does not say it
+  std::string structures;      ///< in words
+  std::vector<Setting> settings;
+};
+
+Table read_table(const std::string& path) {
+  constexpr std::string_view key = "# structures: ";
   std::ifstream file(path);
   if (!file) {
     throw UserError("option -fidelity_table " + path +
                     ": no such file; run/tradeoff writes one, fidelity.csv");
   }
-  std::vector<Setting> settings;
+  Table table;
+  std::vector<Setting>& settings = table.settings;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
+    if (line.starts_with(key)) {
+      std::istringstream words(line.substr(key.size()));
+      words >> table.structures_key >> std::ws;
+      std::getline(words, table.structures);
+    }
     if (!line.empty() && line[0] != '#' && !line.starts_with("setting,")) {
       settings.push_back(parse_setting(line, path + ", line " + std::to_string(number)));
     }
   }
-  return settings;
+  return table;
+}
+
+/// Errors measured on other structures say nothing of these.
+void require_same_structures(const Table& table, const std::string& path,
+                             const std::string& structures_key) {
+  if (table.structures_key.empty()) {
+    throw UserError("option -fidelity_table " + path +
+                    ": does not say on which structures it was measured; let run/tradeoff write "
+                    "it, or add a line '# structures: KEY' with structures_key of the summary.json "
+                    "of that study");
+  }
+  if (table.structures_key != structures_key) {
+    throw UserError("option -fidelity_target: the errors in " + path +
+                    " were measured on other structures (" + table.structures + "; key " +
+                    table.structures_key + ", of this scene " + structures_key +
+                    "); nothing is known of these: leave the target out, or measure them as "
+                    "docs/fidelity.md tells");
+  }
 }
 
 /// The options of the scene that a setting stands for.
@@ -112,7 +145,7 @@ const Setting& fastest(const std::vector<Setting>& settings, double target,
 
 }  // namespace
 
-ChosenFidelity choose_fidelity(const OptionsDatabase& given) {
+ChosenFidelity choose_fidelity(const OptionsDatabase& given, const std::string& structures_key) {
   ChosenFidelity chosen{given, ""};
   OptionReader reader(given);
   if (!reader.given("fidelity_target")) {
@@ -120,9 +153,10 @@ ChosenFidelity choose_fidelity(const OptionsDatabase& given) {
   }
   const double target = reader.real("fidelity_target");
   const std::string path = reader.text("fidelity_table");
-  const std::vector<Setting> settings = read_table(path);
+  const Table table = read_table(path);
+  require_same_structures(table, path, structures_key);
   const std::vector<std::string> structures = reader.list("structures");
-  const Setting& setting = fastest(settings, target, given, structures, path);
+  const Setting& setting = fastest(table.settings, target, given, structures, path);
   std::string changes;
   for (const auto& [option, value] : options_of(setting, structures)) {
     if (chosen.options.try_emplace(option, value).second) {

@@ -18,9 +18,13 @@ struct ChosenFidelity {
 /// options for every structure. A setting one of whose options the user gave another value is
 /// passed over. Without the target nothing changes.
 ///
+/// An error that was measured on some structures says nothing of others: the table names those of
+/// the study in a line "# structures: KEY what they are", and a scene whose `structures_key` (see
+/// scene/structures_key.h) is another one is refused.
+///
 /// The table is a CSV file with the columns setting, rms, cost (wall time over motion) and options:
 /// words name=value, each set for every structure (`model=modal` becomes `-<structure>_model
 /// modal`), those that begin with a dash (`-courant=0.99`) for the run. Throws UserError.
-ChosenFidelity choose_fidelity(const OptionsDatabase& given);
+ChosenFidelity choose_fidelity(const OptionsDatabase& given, const std::string& structures_key);
 
 }  // namespace pounding

@@ -53,7 +53,7 @@ constexpr std::array table{
     OptionRow{Block::run, "partition", Kind::choice, "word", value("auto"), any, "auto|elements|structures", "what is shared out among the ranks: elements, whole structures, or whichever costs a step less"},
     OptionRow{Block::run, "stiffness", Kind::choice, "word", value("auto"), any, "auto|assembled|element", "how K is applied: as a matrix, element by element, or by what the mesh is"},
     OptionRow{Block::run, "fidelity_target", Kind::real, "-", absent("optional"), positive, "", "rms error of the floor spectra that is accepted (0.05: 5 %); takes the fastest setting of the table within it"},
-    OptionRow{Block::run, "fidelity_table", Kind::text, "file", value("petsc-options/fidelity.csv"), any, "a CSV file from run/tradeoff", "settings with their measured error and cost"},
+    OptionRow{Block::run, "fidelity_table", Kind::text, "file", value("petsc-options/azalee/fidelity.csv"), any, "a CSV file from run/tradeoff", "settings with their measured error and cost, and the structures that these were measured on"},
     OptionRow{Block::run, "resampling", Kind::choice, "word", value("linear"), any, "linear|band_limited", "how records are upsampled to the time step"},
 
     OptionRow{Block::structure, "<structure>_mesh", Kind::text, "file", required, any, "a .geo or .msh file", "geometry to mesh (.geo) or mesh"},

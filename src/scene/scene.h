@@ -162,6 +162,7 @@ struct SpectraRequest {
 struct Scene {
   std::string title;
   std::string fidelity_note;          ///< what -fidelity_target chose; empty without it
+  std::string structures_key;         ///< see scene/structures_key.h
   std::vector<std::string> warnings;  ///< one line each: options that may not be meant
   std::vector<Structure> structures;
   std::vector<Contact> contacts;

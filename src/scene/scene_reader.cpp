@@ -14,6 +14,7 @@
 #include "scene/option_values.h"
 #include "scene/resolved_options.h"
 #include "scene/structure_reader.h"
+#include "scene/structures_key.h"
 #include "scene/unknown_options.h"
 
 namespace pounding {
@@ -49,6 +50,7 @@ class SceneReader {
     read_spectra();
     const std::vector<std::string> doubts = scene_doubts(scene_);
     scene_.warnings.insert(scene_.warnings.end(), doubts.begin(), doubts.end());
+    scene_.structures_key = structures_key(options_.in_force());
     return {scene_, resolved_yaml(options_)};
   }
 
@@ -246,9 +248,12 @@ class SceneReader {
 }  // namespace
 
 ReadScene read_scene(const OptionsDatabase& database) {
-  const ChosenFidelity chosen = choose_fidelity(database);
-  ReadScene read = SceneReader(chosen.options).read();
-  read.scene.fidelity_note = chosen.note;
+  ReadScene read = SceneReader(database).read();
+  const ChosenFidelity chosen = choose_fidelity(database, read.scene.structures_key);
+  if (!chosen.note.empty()) {
+    read = SceneReader(chosen.options).read();
+    read.scene.fidelity_note = chosen.note;
+  }
   return read;
 }
 

@@ -2,11 +2,12 @@
 accepted, said aloud, and never against what the user asked for himself."""
 import csv
 import os
+import tempfile
 import unittest
 
 import program
 
-TABLE = os.path.join(program.SOURCE, "petsc-options", "fidelity.csv")
+TABLE = os.path.join(program.SOURCE, "petsc-options", "azalee", "fidelity.csv")
 
 
 def settings():
@@ -19,6 +20,24 @@ def fastest(target):
 
 
 class FidelityTarget(unittest.TestCase):
+    """On a coarse mesh, with the shipped table as if it had been measured there."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory(prefix="pounding-")
+        result = program.run(program.COARSE_PAIR + ["-end_time", 1e-4, "-modes", 0, "-output", cls.folder.name], 1)
+        assert result.returncode == 0, result.stderr
+        key = program.summary(cls.folder.name)["structures_key"]
+        path = os.path.join(cls.folder.name, "table.csv")
+        with open(TABLE) as file, open(path, "w") as copy:
+            for line in file:
+                copy.write(f"# structures: {key} coarse pair\n" if line.startswith("# structures: ") else line)
+        cls.coarse = program.COARSE_PAIR + ["-fidelity_table", path]
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
     def test_table_has_full_order_and_faster_settings_for_every_class(self):
         rows = {row["setting"]: row for row in settings()}
         self.assertEqual(float(rows["full"]["rms"]), 0)
@@ -30,7 +49,7 @@ class FidelityTarget(unittest.TestCase):
             chosen = fastest(target)
             for ranks in (1, 2):
                 folder, summary = program.must_run(
-                    self, program.COARSE_PAIR + ["-end_time", 0.02, "-modes", 1, "-fidelity_target", target], ranks)
+                    self, self.coarse + ["-end_time", 0.02, "-modes", 1, "-fidelity_target", target], ranks)
                 for word in chosen["options"].split():
                     name, value = word.split("=")
                     names = [name[1:]] if name.startswith("-") else [f"s1_{name}", f"s2_{name}"]
@@ -39,23 +58,41 @@ class FidelityTarget(unittest.TestCase):
                         self.assertTrue(found == value or float(found) == float(value), (option, found))
 
     def test_says_what_it_took_and_why(self):
-        result = program.run(program.COARSE_PAIR + ["-dry_run", "-fidelity_target", 0.05], 2)
+        result = program.run(self.coarse + ["-dry_run", "-fidelity_target", 0.05], 2)
         self.assertEqual(result.returncode, 0, result.stderr)
         line, = [line for line in result.stdout.splitlines() if line.startswith("fidelity target")]
         self.assertIn(f"'{fastest(0.05)['setting']}'", line)
-        plain = program.run(program.COARSE_PAIR + ["-dry_run"], 2)
+        plain = program.run(self.coarse + ["-dry_run"], 2)
         self.assertNotIn("fidelity target", plain.stdout)
 
     def test_what_the_user_gave_wins(self):
-        result = program.run(program.COARSE_PAIR + ["-dry_run", "-fidelity_target", 0.05, "-s1_model", "full"], 2)
+        result = program.run(self.coarse + ["-dry_run", "-fidelity_target", 0.05, "-s1_model", "full"], 2)
         self.assertEqual(result.returncode, 0, result.stderr)
         line, = [line for line in result.stdout.splitlines() if line.startswith("fidelity target")]
         self.assertNotIn("modal", line)
         self.assertIn("mass_scaling", line)
 
+    def test_other_structures_than_those_measured_are_refused(self):
+        pair = ["-options_file", "petsc-options/azalee/gap2.yaml"]
+        for words in (program.COARSE_PAIR, ["-options_file", "petsc-options/azalee/b-gap2.yaml"],
+                      pair + ["-s1_brace1_area", 130e-6], pair + ["-material_concrete_young", 28e9]):
+            for ranks in (1, 2):
+                result = program.run([*words, "-dry_run", "-fidelity_target", 0.05], ranks)
+                self.assertEqual(result.returncode, 1, result.stdout[-2000:])
+                line, = program.error_lines(result)
+                for word in ("measured on other structures", "pair.yaml", "docs/fidelity.md"):
+                    self.assertIn(word, line)
+
+    def test_shipped_cases_of_the_pair_are_those_measured(self):
+        for case in ("gap2", "demo"):
+            result = program.run(["-options_file", f"petsc-options/azalee/{case}.yaml", "-dry_run",
+                                  "-fidelity_target", 0.0013, "-modes", 1], 2)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("'courant-0.99'", result.stdout)
+
     def test_wrong_words_are_one_line(self):
         for words in (["-fidelity_target", -1], ["-fidelity_target", 0.05, "-fidelity_table", "nowhere.csv"]):
-            result = program.run(program.COARSE_PAIR + ["-dry_run"] + words, 2)
+            result = program.run(self.coarse + ["-dry_run"] + words, 2)
             self.assertEqual(result.returncode, 1)
             self.assertEqual(len(program.error_lines(result)), 1, result.stderr)
 

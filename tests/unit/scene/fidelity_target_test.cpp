@@ -11,11 +11,13 @@
 namespace pounding {
 namespace {
 
+const char* const key = "abc";
+
 /// A table of settings in a file of its own.
 class Table {
  public:
   explicit Table(const std::string& rows) {
-    std::ofstream(path_) << "# measured\nsetting,rms,cost,options\n" << rows;
+    std::ofstream(path_) << "# structures: abc two towers\nsetting,rms,cost,options\n" << rows;
   }
   Table(const Table&) = delete;
   Table& operator=(const Table&) = delete;
@@ -39,7 +41,7 @@ OptionsDatabase scene_with(const Table& table, const std::string& target) {
 
 std::string message_of(const OptionsDatabase& options) {
   try {
-    choose_fidelity(options);
+    choose_fidelity(options, key);
   } catch (const UserError& error) {
     return error.what();
   }
@@ -48,17 +50,17 @@ std::string message_of(const OptionsDatabase& options) {
 
 TEST(FidelityTarget, TakesTheFastestWithinItForEveryStructure) {
   const Table table(measured);
-  const ChosenFidelity chosen = choose_fidelity(scene_with(table, "0.05"));
+  const ChosenFidelity chosen = choose_fidelity(scene_with(table, "0.05"), key);
   EXPECT_EQ(chosen.options.at("left_model"), "modal");
   EXPECT_EQ(chosen.options.at("right_modal_vectors"), "400");
   EXPECT_THAT(chosen.note, testing::HasSubstr("'many'"));
   EXPECT_THAT(chosen.note, testing::HasSubstr("3 % from full order"));
-  EXPECT_EQ(choose_fidelity(scene_with(table, "0.2")).options.at("left_modal_vectors"), "40");
+  EXPECT_EQ(choose_fidelity(scene_with(table, "0.2"), key).options.at("left_modal_vectors"), "40");
 }
 
 TEST(FidelityTarget, SetsOptionsOfTheRun) {
   const Table table(measured);
-  const ChosenFidelity chosen = choose_fidelity(scene_with(table, "0.025"));
+  const ChosenFidelity chosen = choose_fidelity(scene_with(table, "0.025"), key);
   EXPECT_EQ(chosen.options.at("courant"), "0.99");
   EXPECT_EQ(chosen.options.at("left_mass_scaling"), "2e-5");
 }
@@ -66,7 +68,7 @@ TEST(FidelityTarget, SetsOptionsOfTheRun) {
 TEST(FidelityTarget, TakesFullOrderWhereNothingElseWillDo) {
   const Table table(measured);
   const OptionsDatabase given = scene_with(table, "0.001");
-  const ChosenFidelity chosen = choose_fidelity(given);
+  const ChosenFidelity chosen = choose_fidelity(given, key);
   EXPECT_EQ(chosen.options, given);
   EXPECT_THAT(chosen.note, testing::HasSubstr("nothing to change"));
 }
@@ -75,21 +77,41 @@ TEST(FidelityTarget, PassesOverWhatTheUserAskedOtherwise) {
   const Table table(measured);
   OptionsDatabase given = scene_with(table, "0.05");
   given["left_modal_vectors"] = "400.0";
-  EXPECT_THAT(choose_fidelity(given).note, testing::HasSubstr("'many'"));
+  EXPECT_THAT(choose_fidelity(given, key).note, testing::HasSubstr("'many'"));
   given["left_modal_vectors"] = "77";
-  const ChosenFidelity chosen = choose_fidelity(given);
+  const ChosenFidelity chosen = choose_fidelity(given, key);
   EXPECT_EQ(chosen.options.at("left_modal_vectors"), "77");
   EXPECT_EQ(chosen.options.at("right_mass_scaling"), "2e-5");
   EXPECT_THAT(chosen.note, testing::HasSubstr("'scaled'"));
   given["courant"] = "0.5";
-  EXPECT_THAT(choose_fidelity(given).note, testing::HasSubstr("'full'"));
+  EXPECT_THAT(choose_fidelity(given, key).note, testing::HasSubstr("'full'"));
 }
 
 TEST(FidelityTarget, WithoutItNothingChanges) {
   const OptionsDatabase given{{"structures", "left"}};
-  const ChosenFidelity chosen = choose_fidelity(given);
+  const ChosenFidelity chosen = choose_fidelity(given, key);
   EXPECT_EQ(chosen.options, given);
   EXPECT_EQ(chosen.note, "");
+}
+
+TEST(FidelityTarget, RefusesOtherStructuresThanThoseMeasured) {
+  const Table table(measured);
+  const auto message = [&](const std::string& path) {
+    try {
+      choose_fidelity(
+          {{"structures", "left"}, {"fidelity_target", "0.05"}, {"fidelity_table", path}}, "def");
+    } catch (const UserError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(message(table.path()),
+              testing::AllOf(testing::HasSubstr("two towers; key abc, of this scene def"),
+                             testing::HasSubstr("docs/fidelity.md")));
+  const std::string unknown = testing::TempDir() + "fidelity_target_unknown.csv";
+  std::ofstream(unknown) << "setting,rms,cost,options\n" << measured;
+  EXPECT_THAT(message(unknown), testing::HasSubstr("does not say on which structures"));
+  std::remove(unknown.c_str());
 }
 
 TEST(FidelityTarget, RefusesWhatItCannotRead) {

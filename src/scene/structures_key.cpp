@@ -1,0 +1,107 @@
+#include "scene/structures_key.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+#include "common/hash.h"
+#include "scene/option_table.h"
+#include "scene/option_values.h"
+
+namespace pounding {
+namespace {
+
+using Options = std::vector<std::pair<std::string, std::string>>;
+
+constexpr std::array<std::string_view, 4> representation{"model", "modal_", "mass_scaling",
+                                                         "initial_"};
+
+std::vector<std::string> names_in(const Options& in_force, std::string_view list) {
+  const auto found =
+      std::ranges::find(in_force, std::string(list), &std::pair<std::string, std::string>::first);
+  return found == in_force.end() ? std::vector<std::string>{} : split(found->second, ',');
+}
+
+/// Whether it is an option of a structure, not one of its groups, that only changes how it is
+/// represented or how it starts.
+bool is_representation(const std::string& option) {
+  const std::string pattern = "<structure>_" + option;
+  return std::ranges::any_of(representation,
+                             [&](std::string_view what) { return option.starts_with(what); }) &&
+         std::ranges::any_of(option_table(),
+                             [&](const OptionRow& row) { return row.pattern == pattern; });
+}
+
+/// Whether an option tells what the structures are.
+bool belongs(const std::string& name, const std::vector<std::string>& structures,
+             const std::vector<std::string>& contacts) {
+  if (name.starts_with("material_") || name.starts_with("section_")) {
+    return true;
+  }
+  const auto rest = [&](const std::vector<std::string>& owners) {
+    for (const std::string& owner : owners) {
+      if (name.starts_with(owner + "_")) {
+        return name.substr(owner.size() + 1);
+      }
+    }
+    return std::string();
+  };
+  const std::string of_contact = rest(contacts);
+  if (!of_contact.empty()) {
+    return of_contact != "gap";
+  }
+  const std::string of_structure = rest(structures);
+  return !of_structure.empty() && !is_representation(of_structure);
+}
+
+/// Numbers by their value, everything else by its text.
+void add_value(const std::string& value, Hash& hash) {
+  if (const auto numbers = parse_reals(value)) {
+    hash.add_all(*numbers);
+  } else {
+    hash.add(trimmed(value));
+  }
+}
+
+void add_file(const std::string& path, Hash& hash) {
+  std::error_code failure;
+  const auto size = std::filesystem::file_size(path, failure);
+  std::string beginning(std::size_t{1} << 20, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  beginning.resize(static_cast<std::size_t>(file.gcount()));
+  if (failure || beginning.empty()) {
+    hash.add(path);
+    return;
+  }
+  hash.add(static_cast<double>(size));
+  hash.add(beginning);
+}
+
+}  // namespace
+
+std::string structures_key(const Options& in_force) {
+  const std::vector<std::string> structures = names_in(in_force, "structures");
+  const std::vector<std::string> contacts = names_in(in_force, "contacts");
+  Options sorted = in_force;
+  std::ranges::sort(sorted);
+  Hash hash;
+  for (const auto& [name, value] : sorted) {
+    if (!belongs(name, structures, contacts)) {
+      continue;
+    }
+    hash.add(name);
+    const bool mesh = std::ranges::any_of(
+        structures, [&](const std::string& structure) { return name == structure + "_mesh"; });
+    if (mesh) {
+      add_file(value, hash);
+    } else {
+      add_value(value, hash);
+    }
+  }
+  return hash.text();
+}
+
+}  // namespace pounding
