@@ -12,10 +12,9 @@ import tempfile
 import unittest
 
 import numpy
-import scipy.linalg
-import scipy.signal
 
-from recorded import FIXTURES, Recorded, fixture, golden, needs_fixtures
+from recorded import Recorded
+from references import earthquake, response_spectra
 
 SAMPLING = 5e-5
 DAMPINGS = (0.0, 0.02, 0.05, 0.1)
@@ -40,25 +39,6 @@ def write_record(values, step):
         for i, value in enumerate(values):
             file.write(f"{i * step:.9f} {value:.17g}\n")
     return path
-
-
-def pseudo_acceleration(history, frequency, ratio):
-    """Of a piecewise linear record from rest, by the largest of samples every 10 microseconds."""
-    omega, step = 2 * math.pi * frequency, 1e-5
-    t = numpy.arange(0, history["t"][-1] + step / 2, step)
-    a = numpy.interp(t, history["t"], history["ag"])
-    # x' = A x with the states u, v, a and the increment of a over the step
-    system = numpy.zeros((4, 4))
-    system[:2, :2] = [[0, 1], [-omega**2, -2 * ratio * omega]]
-    system[1, 2], system[2, 3] = -1, 1 / step
-    advance = scipy.linalg.expm(system * step)
-    load = numpy.outer(advance[:2, 2], a[:-1]) + numpy.outer(advance[:2, 3], numpy.diff(a))
-    # u alone, by the characteristic polynomial of the step
-    drive = load[0].copy()
-    drive[1:] += advance[0, 1] * load[1][:-1] - advance[1, 1] * load[0][:-1]
-    square = advance[:2, :2]
-    u = scipy.signal.lfilter([1], [1, -numpy.trace(square), numpy.linalg.det(square)], drive)
-    return omega**2 * abs(u).max()
 
 
 class FreeMass(unittest.TestCase):
@@ -144,22 +124,15 @@ class Ground(unittest.TestCase):
             _, found = run.spectrum("base", "x")
             self.assertLess(abs(found / numpy.array(exact) - 1).max(), 5e-8)
 
-    @needs_fixtures
     def test_earthquake(self):
-        reference = fixture("D1_spectra.json")["quake_psa"]
-        history = golden(reference["record"])
-        run = Recorded(self, ground(os.path.join(FIXTURES, reference["record"]), 25,
-                                    reference["f"], time_step=2.5e-4))
-        frequency, found = run.spectrum("base", "x")
-        exact = numpy.array(reference["PSA"])
-        # Up to one turn of the oscillator per interval of the record, 5 ms; beyond, an interval may
-        # hold several extrema, which the reference does not look for: it is up to 0.3 % lower.
-        slow = frequency < 165
-        self.assertGreater(slow.sum(), 50)
-        self.assertLess(abs(found / exact - 1)[slow].max(), 1e-9)
-        self.assertLess((found / exact - 1)[~slow].max(), 3e-3)
-        for f, value in zip(frequency[~slow], found[~slow]):
-            self.assertAlmostEqual(value / pseudo_acceleration(history, f, 0.05), 1, delta=1e-5)
+        motion = earthquake.acceleration()
+        record = write_record(motion, earthquake.STEP)
+        frequencies = [0.5, 1, 2, 3.3, 5, 8, 13, 20, 33, 50, 80, 130, 200, 300, 400]
+        run = Recorded(self, ground(record, (len(motion) - 1) * earthquake.STEP, frequencies, time_step=2.5e-4))
+        os.remove(record)
+        for frequency, found in zip(*run.spectrum("base", "x")):
+            exact = response_spectra.pseudo_acceleration(motion, earthquake.STEP, frequency, 0.05)
+            self.assertAlmostEqual(found / exact, 1, delta=1e-6)
 
 
 if __name__ == "__main__":

@@ -1,42 +1,41 @@
 """One run of the program with all that it recorded, for the verification problems."""
 import csv
-import json
 import math
 import os
 import shutil
 import tempfile
-import unittest
 
 import h5py
 import numpy
 
 import program
 
-FIXTURES = os.path.join(program.SHARED, "fixtures")
-needs_fixtures = unittest.skipUnless(os.path.isdir(FIXTURES), "the reference data are not here")
+def reference(name):
+    """Columns of a CSV file of tests/references: numbers where every value is one, else text."""
+    with open(os.path.join(program.SOURCE, "tests", "references", name)) as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    columns = {}
+    for key in rows[0]:
+        try:
+            columns[key] = numpy.array([float(row[key]) for row in rows])
+        except ValueError:
+            columns[key] = numpy.array([row[key] for row in rows])
+    return columns
 
 
-def fixture(name):
-    """A JSON file of the reference data."""
-    with open(os.path.join(FIXTURES, name)) as file:
-        return json.load(file)
-
-
-def golden(name):
-    """Columns of a CSV file of the reference data."""
-    with open(os.path.join(FIXTURES, name)) as file:
-        rows = list(csv.DictReader(file))
-    return {key: numpy.array([float(row[key]) for row in rows]) for key in rows[0]}
+def write_samples(values, step):
+    """A record [m/s2] in a file of its own, which is returned."""
+    handle, path = tempfile.mkstemp(suffix=".txt")
+    with os.fdopen(handle, "w") as file:
+        for i, value in enumerate(values):
+            file.write(f"{i * step:.9f} {value:.17g}\n")
+    return path
 
 
 def write_sine(amplitude, frequency, end, step=1e-4):
     """A record amplitude sin(2 pi frequency t) [m/s2] in a file of its own, which is returned."""
-    handle, path = tempfile.mkstemp(suffix=".txt")
-    with os.fdopen(handle, "w") as file:
-        for i in range(round(end / step) + 1):
-            value = amplitude * math.sin(2 * math.pi * frequency * i * step)
-            file.write(f"{i * step:.7f} {value:.17g}\n")
-    return path
+    count = round(end / step) + 1
+    return write_samples([amplitude * math.sin(2 * math.pi * frequency * i * step) for i in range(count)], step)
 
 
 def lumped_fractions(positions):

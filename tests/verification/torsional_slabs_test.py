@@ -16,7 +16,7 @@ import unittest
 
 import numpy
 
-from recorded import Recorded, golden, needs_fixtures, write_sine
+from recorded import Recorded, reference, write_sine
 
 WIDTH, HEIGHT = 2.5, 1.4
 BETA = 4.6e-4  # below that which alone damps the torsion of the springs by 1.5 %
@@ -117,20 +117,19 @@ class TorsionalSlabs(unittest.TestCase):
 
     def errors(self, run, case):
         """Of the displacements and of the rotations, relative, root mean square: (left, right)."""
-        reference = golden(f"A4b_{case}.csv")
-        at = reference["t"] <= run.time[-1]
+        table = reference("torsional_slabs.csv")
+        at = (table["case"] == case) & (table["t"] <= run.time[-1])
         translations, rotations = [], []
         for name, number in (("left", 1), ("right", 2)):
-            above, below = (numpy.interp(reference["t"][at], run.time,
+            above, below = (numpy.interp(table["t"][at], run.time,
                                          run.displacement(f"{name}_{place}.x"))
                             for place in ("above", "below"))
             for found, column, errors in (((above + below) / 2, f"u{number}", translations),
                                           ((below - above) / WIDTH, f"th{number}", rotations)):
-                expected = reference[column][at]
+                expected = table[column][at]
                 errors.append(numpy.linalg.norm(found - expected) / numpy.linalg.norm(expected))
         return translations, rotations
 
-    @needs_fixtures
     def test_asymmetric_gaps(self):
         errors = {}
         for case, overdamping in (("gap2cm", 20), ("gap2cm", 10), ("gap0", 20)):
@@ -144,7 +143,6 @@ class TorsionalSlabs(unittest.TestCase):
         # what springs back falls as the square
         self.assertTrue(2.8 < errors["gap2cm", 10] / errors["gap2cm", 20] < 5, errors)
 
-    @needs_fixtures
     def test_symmetric_gap_does_not_turn_the_slabs(self):
         run = self.pound("gap2cm_sym", 20)
         self.check_impacts(run, "gap2cm_sym", 20)

@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
-#include <filesystem>
 #include <numbers>
-#include <string>
 #include <vector>
 
 #include "dense_eigen.h"
 #include "elements/element.h"
-#include "support/source_folder.h"
 
 namespace pounding::testing_support {
 
@@ -130,12 +126,5 @@ class DenseModel {
   std::vector<double> lumped_mass_;
   std::vector<bool> is_fixed_;
 };
-
-/// Folder of the reference data (records/, fixtures/, benchmark-meshes/).
-inline std::filesystem::path reference_data() {
-  const char* folder = std::getenv("POUNDING_SHARED");
-  return folder ? std::filesystem::path(folder)
-                : std::filesystem::path(source_folder() + "/../shared");
-}
 
 }  // namespace pounding::testing_support
