@@ -199,7 +199,7 @@ class Labels(unittest.TestCase):
     def test_ledger_is_that_of_the_oscillators(self):
         """At the step of each line: v_{n+1/2}, and u_n, u_{n+1}, of the two faces."""
         step = numpy.rint(self.fine.column("energy.csv", "time") / TIME_STEP).astype(int)
-        self.assertEqual(step[1] - step[0], 7)
+        self.assertEqual(list(step[:3]), [6, 13, 20])  # after 7, 14, 21 steps
         step = step[step + 1 < len(self.fine.time)]
         kinetic, strain = numpy.zeros(len(step)), numpy.zeros(len(step))
         for body, channel in ((0, 0), (1, 3)):
