@@ -54,7 +54,8 @@ def oscillator(name: str, stiffness: float, mass: float, speed: float, beta: flo
 
 def two_masses(name: str, soft: float, stiff: float, speed: float) -> list:
     """Masses of 1 kg: the first on a grounded spring, the second, at (2, 0, 0), tied to it."""
-    return [*oscillator(name, soft, 1.0, speed), f"-{name}_second_element", "point_mass",
+    return [*oscillator(name, soft, 1.0, speed), f"-{name}_mesh_set", "links=2",
+            f"-{name}_second_element", "point_mass",
             f"-{name}_second_mass", 1, f"-{name}_link2_element", "spring",
             f"-{name}_link2_stiffness", ",".join([repr(stiff)] * 3)]
 

@@ -6,6 +6,7 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "driver/mesh_checks.h"
 #include "driver/probe_warnings.h"
 #include "driver/reduction.h"
 #include "driver/run_warnings.h"
@@ -20,19 +21,34 @@
 namespace pounding {
 namespace {
 
+/// Refuses what cannot be meant in a mesh, keeps what is to be reported of it. Matrices from files
+/// hold and join as they like.
+void check_mesh(const Scene& scene, std::size_t s, const GlobalMesh& mesh, Model& model) {
+  const Structure& structure = scene.structures[s];
+  MeshFindings findings{examine_connectivity(structure, mesh),
+                        check_unused(scene, structure, mesh)};
+  if (structure.matrices.empty()) {
+    check_connectivity(scene, structure, findings.connectivity);
+  }
+  append(mesh_warnings(structure, mesh, findings.connectivity), model.warnings);
+  model.mesh_findings.push_back(std::move(findings));
+}
+
 /// Rank 0 reads the meshes and finds who faces whom; every rank gets its part. Bases of reduced
 /// structures come from the whole meshes.
 void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& model) {
   std::vector<GlobalMesh> meshes(scene.structures.size());
   {
     const ScopedTimer timer(profile, Phase::mesh);
+    const MeshLimits limits{scene.mesh_time_limit, scene.allow_geo_commands};
     on_rank0(comm, [&] {
       for (std::size_t s = 0; s < meshes.size(); ++s) {
-        meshes[s] = read_mesh(scene.structures[s]);
+        meshes[s] = read_mesh(scene.structures[s], limits);
+        check_mesh(scene, s, meshes[s], model);
       }
       model.interface = find_interface(scene, meshes);
       model.probes = resolve_probes(scene, meshes);
-      model.warnings = probe_warnings(model.probes, meshes, model.interface);
+      append(probe_warnings(model.probes, meshes, model.interface), model.warnings);
     });
     broadcast_interface(comm, model.interface);
     broadcast_probes(comm, model.probes);
@@ -171,9 +187,9 @@ Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile) {
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     append(damping_warnings(scene.structures[s], model.modal[s]), model.warnings);
   }
+  append(mechanism_warnings(scene, model), model.warnings);
   choose_time_step(scene, model);
-  const std::vector<std::string> doubts = run_warnings(scene, model);
-  model.warnings.insert(model.warnings.end(), doubts.begin(), doubts.end());
+  append(run_warnings(scene, model), model.warnings);
   const ScopedTimer timer(profile, Phase::modes);
   find_energy_margins(scene, model);
   return model;

@@ -7,6 +7,7 @@
 
 #include "common/profile.h"
 #include "contact/interface.h"
+#include "mesh/connectivity.h"
 #include "mesh/mesh.h"
 #include "modal/modal_analysis.h"
 #include "modal/modal_basis.h"
@@ -17,10 +18,17 @@
 
 namespace pounding {
 
+/// What the checks of a structure's mesh found.
+struct MeshFindings {
+  Connectivity connectivity;
+  std::vector<UnusedElements> unused;  ///< places that no option of the scene names
+};
+
 /// Everything about a scene that is constant in time, on this rank. Vectors run over the scene's
 /// structures.
 struct Model {
   std::vector<Mesh> meshes;
+  std::vector<MeshFindings> mesh_findings;  ///< on rank 0 only
   std::vector<LinearSystem> systems;
   std::vector<std::optional<ModalBasis>> bases;  ///< of the structures that are reduced; no rows
   std::vector<ModalResult> modal;

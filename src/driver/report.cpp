@@ -91,6 +91,41 @@ void print_time_step_limit(const Model& model, std::size_t s) {
   }
 }
 
+void print_places(const Places& places, const char* what) {
+  if (places.count > 0) {
+    std::printf("  %lld %s, the first at (%.6g, %.6g, %.6g)\n",
+                static_cast<long long>(places.count), what, places.first[0], places.first[1],
+                places.first[2]);
+  }
+}
+
+/// How the mesh hangs together.
+void print_findings(const MeshFindings& findings) {
+  const Connectivity& connectivity = findings.connectivity;
+  const GlobalIndex loose = connectivity.loose_pieces();
+  std::printf("  %zu connected piece%s, ", connectivity.pieces.size(),
+              connectivity.pieces.size() == 1 ? "" : "s");
+  if (loose == 0) {
+    std::printf("held%s\n", connectivity.wholly_held() ? "" : ", not against every rigid motion");
+  } else {
+    const Vector3& place = connectivity.loose_piece().place;
+    std::printf("%lld not held, one at (%.6g, %.6g, %.6g)\n", static_cast<long long>(loose),
+                place[0], place[1], place[2]);
+  }
+  print_places(connectivity.coincident_apart, "pairs of nodes of unjoined pieces coincide");
+  print_places(connectivity.ends_inside, "ends of lines lie in elements without a node there");
+  print_places(connectivity.hinges,
+               "nodes of solids, which hold no rotation, carry beams or shells");
+  print_places(connectivity.lone_hinges, "of them carry one beam alone: a hinge");
+  std::string unused;
+  for (const UnusedElements& elements : findings.unused) {
+    unused += (unused.empty() ? "" : ", ") + elements.group;
+  }
+  if (!unused.empty()) {
+    std::printf("  groups without a use: %s\n", unused.c_str());
+  }
+}
+
 void print_structure(const Scene& scene, const Model& model, std::size_t s) {
   const Mesh& mesh = model.meshes[s];
   const LinearSystem& system = model.systems[s];
@@ -102,6 +137,7 @@ void print_structure(const Scene& scene, const Model& model, std::size_t s) {
     std::printf("  %-14s %7lld %s\n", block.group.c_str(),
                 static_cast<long long>(block.global_count), element_name(block.type));
   }
+  print_findings(model.mesh_findings[s]);
   std::printf("  stiffness: %s\n", system.stiffness_method.c_str());
   if (model.bases[s]) {
     print_reduction(*scene.structures[s].modal, *model.bases[s], system.mass_scaling);

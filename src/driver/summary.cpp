@@ -22,6 +22,37 @@ Json describe_damping(const Rayleigh& damping) {
   return {{"alpha", damping.alpha}, {"beta", damping.beta}};
 }
 
+Json describe_places(const Places& places) {
+  Json description{{"count", places.count}};
+  if (places.count > 0) {
+    description["first"] = places.first;
+  }
+  return description;
+}
+
+Json describe_findings(const MeshFindings& findings) {
+  const Connectivity& connectivity = findings.connectivity;
+  Json description{{"pieces", connectivity.pieces.size()},
+                   {"pieces_not_held", connectivity.loose_pieces()},
+                   {"held_against_every_rigid_motion", connectivity.wholly_held()}};
+  for (const Piece& piece : connectivity.pieces) {
+    if (!piece.held) {
+      description["not_held"].push_back({{"nodes", piece.nodes}, {"place", piece.place}});
+    }
+  }
+  description["coincident_nodes_apart"] = describe_places(connectivity.coincident_apart);
+  description["coincident_nodes_inside"] = describe_places(connectivity.coincident_inside);
+  description["line_ends_in_elements"] = describe_places(connectivity.ends_inside);
+  description["hinges_at_solids"] = describe_places(connectivity.hinges);
+  description["single_beams_at_solids"] = describe_places(connectivity.lone_hinges);
+  description["groups_without_use"] = Json::array();
+  for (const UnusedElements& unused : findings.unused) {
+    description["groups_without_use"].push_back(
+        {{"group", unused.group}, {"kind", unused.kind}, {"elements", unused.count}});
+  }
+  return description;
+}
+
 Json describe_structure(const Scene& scene, const Model& model, std::size_t s) {
   Json structure;
   const Mesh& mesh = model.meshes[s];
@@ -34,6 +65,7 @@ Json describe_structure(const Scene& scene, const Model& model, std::size_t s) {
     elements += block.global_count;
   }
   structure["elements"] = elements;
+  structure["connectivity"] = describe_findings(model.mesh_findings[s]);
   structure["mass"] = model.systems[s].total_mass;
   structure["stiffness"] = model.systems[s].stiffness_method;
   structure["damping"] = describe_damping(scene.structures[s].damping);

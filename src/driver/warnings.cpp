@@ -61,6 +61,27 @@ std::vector<std::string> damping_warnings(const Structure& structure, const Moda
   return warnings;
 }
 
+std::vector<std::string> mechanism_warnings(const Scene& scene, const Model& model) {
+  std::vector<std::string> warnings;
+  for (std::size_t s = 0; s < model.mesh_findings.size(); ++s) {
+    const std::vector<Mode>& modes = model.modal[s].modes;
+    const auto count =
+        std::ranges::count_if(modes, [](const Mode& mode) { return !mode.location.empty(); });
+    const Connectivity& connectivity = model.mesh_findings[s].connectivity;
+    if (count == 0 || !connectivity.wholly_held() || scene.structures[s].allow_loose) {
+      continue;
+    }
+    const auto first =
+        std::ranges::find_if(modes, [](const Mode& mode) { return !mode.location.empty(); });
+    std::ostringstream text;
+    text << "structure " << scene.structures[s].name << ": " << count
+         << " of its lowest modes have no stiffness (0 Hz), the first moves most at "
+         << first->location << "; look for hinges, missing elements and supports";
+    warnings.push_back(text.str());
+  }
+  return warnings;
+}
+
 std::vector<std::string> displacement_warnings(const Model& model, const Recorder& recorder) {
   constexpr double small = 0.05;  // of the model
   const double largest = recorder.largest_displacement();

@@ -23,6 +23,10 @@ std::vector<std::string> sliver_warnings(const LinearSystem& system);
 /// 50 Hz, or at the first one; at 1 and 50 Hz where no modes were computed.
 std::vector<std::string> damping_warnings(const Structure& structure, const ModalResult& modal);
 
+/// Modes without stiffness in structures whose supports prevent every rigid motion: mechanisms.
+/// Rank 0 only.
+std::vector<std::string> mechanism_warnings(const Scene& scene, const Model& model);
+
 /// What the recorded motion says against the theory of small displacements. Rank 0 only.
 std::vector<std::string> displacement_warnings(const Model& model, const Recorder& recorder);
 

@@ -35,11 +35,22 @@ struct ElementSet {
   std::vector<GlobalIndex> connectivity;  ///< shape (n_elements, nodes of the type)
 };
 
+/// Elements of a physical group, or of none (""), that are in no region of the scene.
+struct UnusedElements {
+  std::string group;
+  std::string kind;       ///< "Line 2"
+  GlobalIndex count = 0;  ///< of the group
+  /// Of them, those that are not faces or edges of elements in use: left out of the structure.
+  GlobalIndex left_out = 0;
+  Vector3 place{0, 0, 0};  ///< of the first that is left out, or else of the first [m]
+};
+
 struct GlobalMesh {
   std::vector<double> coordinates;      ///< shape (n_nodes, 3) [m]
   std::vector<std::int64_t> node_tags;  ///< as in the file
   std::vector<ElementSet> regions;      ///< in the order of the structure's regions
   std::map<std::string, NodeGroup> groups;
+  std::vector<UnusedElements> unused;  ///< points do not count
   /// One bit per free component of a node: 0-2 translations, 3-5 rotations. Rotations exist where
   /// an element asks for them; what is clamped is not free.
   std::vector<std::uint8_t> free_components;

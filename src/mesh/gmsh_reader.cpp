@@ -7,31 +7,19 @@
 #include <fstream>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <unistd.h>
 #include <unordered_map>
-
-#include <gmsh.h>
 
 #include "common/error.h"
 #include "elements/element.h"
 #include "mesh/element_sizes.h"
+#include "mesh/geometry_file.h"
+#include "mesh/gmsh_process.h"
+#include "mesh/repeated_elements.h"
+#include "mesh/unused_elements.h"
 
 namespace pounding {
 namespace {
-
-/// The Gmsh library, open for as long as this object lives.
-class GmshSession {
- public:
-  GmshSession() {
-    gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0);
-    gmsh::option::setNumber("General.NumThreads", 1);
-  }
-  GmshSession(const GmshSession&) = delete;
-  GmshSession& operator=(const GmshSession&) = delete;
-  ~GmshSession() { gmsh::finalize(); }
-};
 
 /// A .geo file that sets parameters and then includes the user's. Given to Gmsh as -setnumber they
 /// would stay for the whole process, and reach the next structure.
@@ -68,30 +56,14 @@ std::string mesh_option(const Structure& structure) {
   return "-" + structure.name + "_mesh " + structure.mesh;
 }
 
-/// The text of a .geo file and of the files that it includes.
-std::string geometry_text(const std::filesystem::path& file, int depth = 0) {
-  std::ifstream stream(file);
-  std::stringstream text;
-  text << stream.rdbuf();
-  std::string all = text.str();
-  const std::string own = all;
-  const std::string keyword = "Include";
-  for (std::size_t at = own.find(keyword); at != std::string::npos && depth < 8;
-       at = own.find(keyword, at + 1)) {
-    const std::size_t open = own.find('"', at);
-    const std::size_t close = open == std::string::npos ? open : own.find('"', open + 1);
-    if (close != std::string::npos) {
-      all += geometry_text(file.parent_path() / own.substr(open + 1, close - open - 1), depth + 1);
-    }
+/// Gmsh takes any parameter in silence: refuse one that the geometry never mentions.
+void check_parameters(const Structure& structure, const GeometryWords& geometry) {
+  if (!is_geometry(structure.mesh) && !structure.mesh_set.empty()) {
+    throw UserError("option -" + structure.name + "_mesh_set: " + structure.mesh +
+                    " is a mesh, parameters apply to .geo files only");
   }
-  return all;
-}
-
-/// Gmsh takes any -setnumber in silence: refuse a parameter that the geometry never mentions.
-void check_parameters(const Structure& structure) {
-  const std::string text = geometry_text(structure.mesh);
   for (const auto& [name, value] : structure.mesh_set) {
-    if (text.find(name) == std::string::npos) {
+    if (!geometry.words.contains(name)) {
       throw UserError("option -" + structure.name + "_mesh_set: " + structure.mesh +
                       " has no parameter '" + name + "' (value " + value +
                       "); remove it or correct its name");
@@ -99,88 +71,40 @@ void check_parameters(const Structure& structure) {
   }
 }
 
-void open_model(const Structure& structure) {
-  if (!std::filesystem::is_regular_file(structure.mesh)) {
-    throw UserError("option " + mesh_option(structure) +
-                    ": no such file; give the path of a Gmsh .geo or .msh file");
+RawMesh read_raw_mesh(const Structure& structure, const MeshLimits& limits) {
+  MeshRequest request;
+  request.option = mesh_option(structure);
+  request.allow_commands = limits.allow_commands;
+  request.time_limit = limits.time;
+  check_parameters(structure,
+                   inspect_mesh_file(request.option, structure.mesh, limits.allow_commands));
+  if (is_geometry(structure.mesh)) {
+    const ParameterFile parameters(structure);
+    request.file = parameters.path();
+    request.make = true;
+    return run_gmsh(request);
   }
-  const bool geometry = std::filesystem::path(structure.mesh).extension() == ".geo";
-  if (geometry) {
-    check_parameters(structure);
-  } else if (!structure.mesh_set.empty()) {
-    throw UserError("option -" + structure.name + "_mesh_set: " + structure.mesh +
-                    " is a mesh, parameters apply to .geo files only");
-  }
-  bool thrown = false;
-  gmsh::logger::start();
-  try {
-    if (geometry) {
-      const ParameterFile parameters(structure);
-      gmsh::open(parameters.path());
-      gmsh::model::mesh::generate(3);
-    } else {
-      gmsh::open(structure.mesh);
-    }
-  } catch (const UserError&) {
-    throw;
-  } catch (...) {
-    thrown = true;
-  }
-  std::vector<std::string> log;
-  gmsh::logger::get(log);
-  gmsh::logger::stop();
-  const auto error = std::find_if(
-      log.begin(), log.end(), [](const std::string& line) { return line.rfind("Error", 0) == 0; });
-  if (thrown || error != log.end()) {
-    std::string failure = error != log.end() ? *error : "unreadable";
-    std::replace(failure.begin(), failure.end(), '\n', ' ');
-    throw UserError("option " + mesh_option(structure) + ": Gmsh could not read it (" + failure +
-                    ")");
-  }
+  request.file = std::filesystem::absolute(structure.mesh).string();
+  return run_gmsh(request);
 }
 
-struct PhysicalGroup {
-  int dimension = 0;
-  std::vector<int> entities;
-};
+using Groups = std::map<std::string, std::vector<RawGroup>>;
 
 /// Named physical groups; the same name in several dimensions is one group of several parts.
-std::map<std::string, std::vector<PhysicalGroup>> physical_groups() {
-  std::map<std::string, std::vector<PhysicalGroup>> groups;
-  gmsh::vectorpair pairs;
-  gmsh::model::getPhysicalGroups(pairs);
-  for (const auto& [dimension, tag] : pairs) {
-    std::string name;
-    gmsh::model::getPhysicalName(dimension, tag, name);
-    if (name.empty()) {
-      name = std::to_string(tag);
-    }
-    PhysicalGroup group;
-    group.dimension = dimension;
-    gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, group.entities);
-    groups[name].push_back(group);
+Groups physical_groups(const RawMesh& raw) {
+  Groups groups;
+  for (const RawGroup& group : raw.groups) {
+    groups[group.name].push_back(group);
   }
   return groups;
 }
 
-std::string names_of(const std::map<std::string, std::vector<PhysicalGroup>>& groups) {
+std::string names_of(const Groups& groups) {
   std::string names;
   for (const auto& [name, parts] : groups) {
     names += (names.empty() ? "" : ", ") + name;
   }
   return names.empty() ? "none" : names;
-}
-
-std::string kind_of(int gmsh_type) {
-  std::string name;
-  int dimension = 0;
-  int order = 0;
-  int nodes = 0;
-  int primary = 0;
-  std::vector<double> coordinates;
-  gmsh::model::mesh::getElementProperties(gmsh_type, name, dimension, order, nodes, coordinates,
-                                          primary);
-  return name;
 }
 
 /// The kind of element that a Gmsh type becomes in a region, or nothing if the region takes none of
@@ -214,8 +138,12 @@ std::optional<ElementType> kind_in_region(ElementType wanted, int gmsh_type) {
 /// Reads region by region; node tags are translated to the file order at the end.
 class MeshBuilder {
  public:
-  explicit MeshBuilder(const Structure& structure)
-      : structure_(structure), groups_(physical_groups()) {}
+  MeshBuilder(const Structure& structure, RawMesh raw)
+      : structure_(structure), raw_(std::move(raw)), groups_(physical_groups(raw_)) {
+    for (const RawEntity& entity : raw_.entities) {
+      entities_[{entity.dimension, entity.tag}] = &entity;
+    }
+  }
 
   GlobalMesh build() {
     for (const Region& region : structure_.regions) {
@@ -227,6 +155,8 @@ class MeshBuilder {
     }
     mark_components();
     check_element_sizes(structure_.name, mesh_);
+    check_repeated_elements(structure_.name, mesh_);
+    mesh_.unused = find_unused(raw_, mesh_);
     return std::move(mesh_);
   }
 
@@ -243,9 +173,9 @@ class MeshBuilder {
       unknown_group(region.group, option);
     }
     const std::size_t before = mesh_.regions.size();
-    for (const PhysicalGroup& part : found->second) {
+    for (const RawGroup& part : found->second) {
       for (const int entity : part.entities) {
-        read_entity(region, option, part.dimension, entity);
+        read_entity(region, option, elements_on(part.dimension, entity));
       }
     }
     if (mesh_.regions.size() == before) {
@@ -254,30 +184,37 @@ class MeshBuilder {
     }
   }
 
-  void read_entity(const Region& region, const std::string& option, int dimension, int entity) {
-    std::vector<int> types;
-    std::vector<std::vector<std::size_t>> tags;
-    std::vector<std::vector<std::size_t>> nodes;
-    gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
-    for (std::size_t k = 0; k < types.size(); ++k) {
-      const auto kind = kind_in_region(region.element, types[k]);
+  const std::vector<RawElements>& elements_on(int dimension, int entity) const {
+    static const std::vector<RawElements> none;
+    const auto found = entities_.find({dimension, entity});
+    return found == entities_.end() ? none : found->second->elements;
+  }
+
+  std::string kind_of(int gmsh_type) const {
+    const auto found = std::ranges::find(raw_.types, gmsh_type, &RawType::type);
+    return found == raw_.types.end() ? "unknown" : found->name;
+  }
+
+  void read_entity(const Region& region, const std::string& option,
+                   const std::vector<RawElements>& parts) {
+    for (const RawElements& part : parts) {
+      const auto kind = kind_in_region(region.element, part.type);
       if (!kind) {
         throw UserError("option " + option + ": group '" + region.group + "' of " +
-                        structure_.mesh + " holds " + kind_of(types[k]) +
+                        structure_.mesh + " holds " + kind_of(part.type) +
                         " elements, which do not become " + element_name(region.element));
       }
       ElementSet& set = set_of(region, *kind);
-      for (const std::size_t tag : tags[k]) {
+      for (const std::int64_t tag : part.tags) {
         if (!seen_.insert({tag, is_addition(*kind)}).second) {
           throw UserError("option " + option + ": element " + std::to_string(tag) + " of group '" +
-                          region.group + "' already belongs to another region of " +
-                          structure_.name);
+                          region.group +
+                          "' stands twice in it, or already belongs to another region of " +
+                          structure_.name + "; name each element once");
         }
-        set.tags.push_back(static_cast<std::int64_t>(tag));
+        set.tags.push_back(tag);
       }
-      for (const std::size_t tag : nodes[k]) {
-        set.connectivity.push_back(static_cast<GlobalIndex>(tag));
-      }
+      set.connectivity.insert(set.connectivity.end(), part.nodes.begin(), part.nodes.end());
     }
   }
 
@@ -319,45 +256,38 @@ class MeshBuilder {
         node = index_.at(node);
       }
     }
-    std::vector<std::size_t> tags;
-    std::vector<double> coordinates;
-    std::vector<double> parameters;
-    gmsh::model::mesh::getNodes(tags, coordinates, parameters);
     mesh_.coordinates.resize(3 * mesh_.node_tags.size());
-    for (std::size_t i = 0; i < tags.size(); ++i) {
-      const auto found = index_.find(static_cast<std::int64_t>(tags[i]));
+    for (std::size_t i = 0; i < raw_.node_tags.size(); ++i) {
+      const auto found = index_.find(raw_.node_tags[i]);
       if (found != index_.end()) {
-        std::copy_n(&coordinates[3 * i], 3,
+        std::copy_n(&raw_.coordinates[3 * i], 3,
                     &mesh_.coordinates[static_cast<std::size_t>(3 * found->second)]);
       }
     }
   }
 
-  void read_group(const std::string& name, const std::vector<PhysicalGroup>& parts) {
+  void read_group(const std::string& name, const std::vector<RawGroup>& parts) {
     NodeGroup& group = mesh_.groups[name];
     std::set<GlobalIndex> nodes_in_use;
-    for (const PhysicalGroup& part : parts) {
+    for (const RawGroup& part : parts) {
       for (const int entity : part.entities) {
-        std::vector<int> types;
-        std::vector<std::vector<std::size_t>> tags;
-        std::vector<std::vector<std::size_t>> nodes;
-        gmsh::model::mesh::getElements(types, tags, nodes, part.dimension, entity);
-        for (std::size_t k = 0; k < types.size(); ++k) {
-          add_elements(part.dimension, nodes[k], tags[k].size(), group, nodes_in_use);
+        for (const RawElements& elements : elements_on(part.dimension, entity)) {
+          add_elements(part.dimension, elements, group, nodes_in_use);
         }
       }
     }
     group.nodes.assign(nodes_in_use.begin(), nodes_in_use.end());
   }
 
-  void add_elements(int dimension, const std::vector<std::size_t>& nodes, std::size_t elements,
-                    NodeGroup& group, std::set<GlobalIndex>& nodes_in_use) const {
-    const std::size_t width = elements == 0 ? 0 : nodes.size() / elements;
-    for (std::size_t e = 0; e < elements; ++e) {
+  void add_elements(int dimension, const RawElements& elements, NodeGroup& group,
+                    std::set<GlobalIndex>& nodes_in_use) const {
+    const std::size_t count = elements.tags.size();
+    const std::size_t width = count == 0 ? 0 : elements.nodes.size() / count;
+    for (std::size_t e = 0; e < count; ++e) {
       Facet facet;
       bool whole = (dimension == 1 || dimension == 2) && width <= 4;
       for (std::size_t a = 0; a < width; ++a) {
-        const auto found = index_.find(static_cast<std::int64_t>(nodes[e * width + a]));
+        const auto found = index_.find(elements.nodes[e * width + a]);
         if (found == index_.end()) {
           whole = false;
           continue;
@@ -402,18 +332,18 @@ class MeshBuilder {
   }
 
   const Structure& structure_;
-  std::map<std::string, std::vector<PhysicalGroup>> groups_;
+  RawMesh raw_;
+  Groups groups_;
+  std::map<std::pair<int, int>, const RawEntity*> entities_;  ///< by dimension and tag
   GlobalMesh mesh_;
   std::unordered_map<std::int64_t, GlobalIndex> index_;
-  std::set<std::pair<std::size_t, bool>> seen_;
+  std::set<std::pair<std::int64_t, bool>> seen_;
 };
 
 }  // namespace
 
-GlobalMesh read_mesh(const Structure& structure) {
-  const GmshSession session;
-  open_model(structure);
-  return MeshBuilder(structure).build();
+GlobalMesh read_mesh(const Structure& structure, const MeshLimits& limits) {
+  return MeshBuilder(structure, read_raw_mesh(structure, limits)).build();
 }
 
 }  // namespace pounding

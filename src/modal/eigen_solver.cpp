@@ -1,7 +1,9 @@
 #include "modal/eigen_solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 #include "common/error.h"
@@ -38,13 +40,25 @@ void solve(EPS solver) {
   POUNDING_PETSC(error);
 }
 
-/// Throws that the solver did not converge: UserError where options were given for it.
+/// Throws that the solver did not converge, for reasons that lie in the model or in its options.
 [[noreturn]] void refuse_unconverged(EPS solver, const std::string& what) {
   const std::string option = given_option(solver);
-  if (!option.empty()) {
-    throw UserError(what + "; leave option " + option + " out");
+  throw UserError(what + (option.empty() ? "" : "; leave option " + option + " out"));
+}
+
+/// Of the box around all nodes [m]. Collective.
+double longest_side(const LinearSystem& system, const Mesh& mesh) {
+  std::array<double, 6> ends;  // largest coordinates, and largest of their opposites
+  ends.fill(-1e300);
+  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
+    const Vector3 x = mesh.position(node);
+    for (std::size_t d = 0; d < 3; ++d) {
+      ends[d] = std::max(ends[d], x[d]);
+      ends[d + 3] = std::max(ends[d + 3], -x[d]);
+    }
   }
-  throw std::runtime_error(what);
+  MPI_Allreduce(MPI_IN_PLACE, ends.data(), 6, MPI_DOUBLE, MPI_MAX, system.comm);
+  return std::max({ends[0] + ends[3], ends[1] + ends[4], ends[2] + ends[5]});
 }
 
 }  // namespace
@@ -164,9 +178,12 @@ EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix,
   PetscInt found = 0;
   POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
   if (found < count) {
-    refuse_unconverged(solver.get(), "structure " + system.name + ": only " +
-                                         std::to_string(found) + " of " + std::to_string(count) +
-                                         " modes converged");
+    std::ostringstream text;
+    text << "structure " << system.name << ": only " << found << " of " << count
+         << " modes converged; its mesh is " << longest_side(system, mesh)
+         << " m long: look at the units of mesh and materials and at parts that nothing holds, or "
+            "leave the modes out with -modes 0";
+    refuse_unconverged(solver.get(), text.str());
   }
   return solver;
 }
@@ -195,7 +212,8 @@ LargestEigenpair largest_eigenpair(const LinearSystem& system, const Mesh& mesh,
   }
   if (found < 1) {
     refuse_unconverged(solver.get(),
-                       "structure " + system.name + ": " + what + " did not converge");
+                       "structure " + system.name + ": " + what +
+                           " did not converge: look at the units of mesh and materials");
   }
   LargestEigenpair pair;
   pair.vector.resize(system.lumped_mass.size());

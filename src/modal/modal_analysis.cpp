@@ -66,6 +66,7 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
   for (int i = 0; i < found; ++i) {
     double eigenvalue = 0;
     POUNDING_PETSC(EPSGetEigenpair(solver.get(), i, &eigenvalue, nullptr, vector.get(), nullptr));
+    const double bound = near_zero * system.element_frequency_bound;
     std::vector<double> shape;
     if (keep_shapes) {
       shape = storage;
@@ -80,6 +81,9 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
     result.modes.push_back(
         describe_mode(eigenvalue, motions.participation(storage.data()), motions.inertia()));
     result.modes.back().shape = std::move(shape);
+    if (eigenvalue < bound * bound) {
+      result.modes.back().location = locate_largest(mesh, storage);
+    }
   }
   std::stable_sort(result.modes.begin(), result.modes.end(),
                    [](const Mode& a, const Mode& b) { return a.frequency < b.frequency; });

@@ -15,6 +15,7 @@ struct Mode {
                                                  ///< the centre of mass [kg m2]
   std::string direction;                         ///< "x" ... "rz": where most of the mass moves
   double direction_fraction = 0;                 ///< of the mass (rotary inertia) in that direction
+  std::string location;                          ///< where it moves most, of modes near zero only
   std::vector<double> shape;                     ///< phi over the owned dofs; empty unless asked
 };
 
@@ -23,6 +24,10 @@ struct ModalResult {
   double mass = 0;          ///< of the free dofs [kg]
   Vector3 centre_of_mass{0, 0, 0};
 };
+
+/// A mode is near zero below this part of the largest frequency of a single element, which is some
+/// thirty times the round-off of its frequency.
+inline constexpr double near_zero = 1e-6;
 
 /// The largest circular frequency and where its mode lives.
 struct LargestFrequency {
@@ -40,7 +45,7 @@ Mode describe_mode(double eigenvalue, const std::array<double, 6>& participation
 /// and M + S where mass is coupled.
 /// Frequencies of rigid-body modes come out as 0. Participation: Gamma = phi^T M iota, effective
 /// mass Gamma^2. `keep_shapes`: with phi, phi^T M phi = 1. Needs the matrix of the system unless
-/// `count` is 0. Throws std::runtime_error when SLEPc finds fewer than asked. Collective.
+/// `count` is 0. Throws UserError when SLEPc finds fewer than asked. Collective.
 ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count,
                          bool keep_shapes = false);
 

@@ -44,6 +44,8 @@ constexpr std::array table{
     OptionRow{Block::run, "output_interval", Kind::real, "s", value("5e-5"), positive, "", "time between two samples of the probes"},
     OptionRow{Block::run, "gap_interval", Kind::real, "s", value("0"), not_negative, "", "time between two samples of the gaps, not a number in between unless they were looked at anyway; 0: with every sample of the probes"},
     OptionRow{Block::run, "energy_interval", Kind::integer, "steps", value("100"), at_least_1, "", "steps between two lines of the energy balance"},
+    OptionRow{Block::run, "mesh_time_limit", Kind::real, "s", value("600"), positive, "", "time that Gmsh may take for one mesh"},
+    OptionRow{Block::run, "allow_geo_commands", Kind::boolean, "flag", value("false"), any, "", "let .geo files run commands and write files, as Gmsh itself does"},
     OptionRow{Block::run, "dry_run", Kind::boolean, "flag", value("false"), any, "", "check the model, print what a run would cost, and stop"},
     OptionRow{Block::run, "output", Kind::text, "folder", value("results"), any, "a folder", "result folder"},
     OptionRow{Block::run, "checkpoint_interval", Kind::real, "s", value("0"), not_negative, "", "wall time between two checkpoints; 0: one only when a signal stops the run"},
@@ -59,6 +61,8 @@ constexpr std::array table{
     OptionRow{Block::structure, "<structure>_mesh", Kind::text, "file", required, any, "a .geo or .msh file", "geometry to mesh (.geo) or mesh"},
     OptionRow{Block::structure, "<structure>_mesh_set", Kind::text, "pairs", value("none"), any, "name=value,name=value or none", "parameters of the .geo file"},
     OptionRow{Block::structure, "<structure>_clamp", Kind::names, "names", value("none"), any, "", "physical groups fixed to the ground, in some components only as group:y+rx+rz"},
+    OptionRow{Block::structure, "<structure>_ignore", Kind::names, "names", value("none"), any, "", "physical groups of the mesh that are left out on purpose"},
+    OptionRow{Block::structure, "<structure>_allow_loose", Kind::boolean, "flag", value("false"), any, "", "pieces that nothing holds, and coincident nodes that nothing joins, are meant"},
     OptionRow{Block::structure, "<structure>_matrices", Kind::text, "folder", value("none"), any, "a folder with dofs.csv, stiffness.mtx, mass.mtx, or none", "its matrices, in place of its elements' own; the mesh says where faces and probes are"},
     OptionRow{Block::structure, "<structure>_model", Kind::choice, "word", value("full"), any, "full|modal", "the finite elements themselves, or a reduction to modes and attachment vectors"},
     OptionRow{Block::structure, "<structure>_modal_vectors", Kind::integer, "-", absent("this or the cut-off"), at_least_1, "", "modal: number of modes, the lowest ones"},
@@ -130,7 +134,7 @@ constexpr std::array table{
 
 // What does not touch the motion nor its records; the time step itself is compared, not its options.
 constexpr std::array changeable_on_restart = std::to_array<std::string_view>({
-    "title", "end_time", "courant", "time_step", "allow_unstable", "modes", "write_modes", "dry_run", "output",
+    "title", "end_time", "courant", "time_step", "allow_unstable", "modes", "write_modes", "mesh_time_limit", "dry_run", "output",
     "checkpoint_interval", "checkpoint_steps", "export_matrices", "partition", "restart", "spectra_damping",
     "spectra_frequencies", "spectra_start"});
 // clang-format on

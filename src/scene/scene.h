@@ -74,6 +74,8 @@ struct Structure {
   std::string matrices;  ///< folder, see system/matrix_system.h; empty: of its elements
   std::string mesh;      ///< .geo or .msh
   std::vector<std::pair<std::string, std::string>> mesh_set;  ///< parameters of a .geo
+  std::vector<std::string> ignored_groups;                    ///< of the mesh, left out on purpose
+  bool allow_loose = false;  ///< pieces and coincident nodes that nothing joins
   std::vector<Clamp> clamps;
   std::vector<Region> regions;
   Rayleigh damping;
@@ -183,6 +185,8 @@ struct Scene {
   double output_interval = 0;    ///< of the probes [s]
   double gap_interval = 0;       ///< of the gaps at least; 0: with every sample of the probes [s]
   int energy_interval = 0;       ///< steps between two lines of the energy ledger
+  double mesh_time_limit = 0;    ///< for Gmsh to make or read one mesh [s]
+  bool allow_geo_commands = false;  ///< .geo files may run commands and write files
   bool dry_run = false;
   double checkpoint_interval = 0;  ///< wall time between checkpoints [s]; 0: none
   int checkpoint_steps = 0;        ///< steps between checkpoints; 0: none

@@ -64,6 +64,8 @@ class SceneReader {
     options_.text("fidelity_table");
     scene_.time_step = options_.real("time_step");
     scene_.allow_unstable = options_.boolean("allow_unstable");
+    scene_.mesh_time_limit = options_.real("mesh_time_limit");
+    scene_.allow_geo_commands = options_.boolean("allow_geo_commands");
     scene_.modes = options_.integer("modes");
     scene_.write_modes = options_.boolean("write_modes");
     scene_.gap_tolerance = options_.real("gap_tolerance");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <iterator>
 #include <map>
 #include <set>
@@ -59,6 +60,20 @@ Vector3 read_vector(OptionReader& options, std::string_view pattern, const Names
   return {values[0], values[1], values[2]};
 }
 
+/// A name that Gmsh's language takes for a variable.
+bool is_parameter(const std::string& name) {
+  return std::isdigit(static_cast<unsigned char>(name[0])) == 0 &&
+         std::ranges::all_of(name,
+                             [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+}
+
+/// A value that can stand between quotes in Gmsh's language.
+bool is_plain(const std::string& value) {
+  return std::ranges::none_of(value, [](unsigned char c) {
+    return std::iscntrl(c) != 0 || c == '"' || c == '\'' || c == '\\';
+  });
+}
+
 std::vector<std::pair<std::string, std::string>> read_mesh_set(OptionReader& options,
                                                                const std::string& structure) {
   std::vector<std::pair<std::string, std::string>> pairs;
@@ -66,6 +81,11 @@ std::vector<std::pair<std::string, std::string>> read_mesh_set(OptionReader& opt
     const std::vector<std::string> sides = split(item, '=');
     if (sides.size() != 2 || sides[0].empty() || sides[1].empty()) {
       options.refuse("<structure>_mesh_set", {structure}, "'" + item + "' is not name=value");
+    }
+    if (!is_parameter(sides[0]) || !is_plain(sides[1])) {
+      options.refuse("<structure>_mesh_set", {structure},
+                     "a name takes letters, digits and _, a value no quotes and no control "
+                     "characters");
     }
     for (const auto& [name, value] : pairs) {
       if (name == sides[0]) {
@@ -239,6 +259,8 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   structure.mesh = options.text("<structure>_mesh", {name});
   structure.mesh_set = read_mesh_set(options, name);
   structure.clamps = read_clamps(options, name);
+  structure.ignored_groups = options.list("<structure>_ignore", {name});
+  structure.allow_loose = options.boolean("<structure>_allow_loose", {name});
   structure.matrices = read_matrices(options, name);
   structure.mass_scaling = options.real("<structure>_mass_scaling", {name});
   structure.initial_displacement = read_vector(options, "<structure>_initial_displacement", {name});

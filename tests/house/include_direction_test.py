@@ -22,6 +22,7 @@ MAY_INCLUDE = {
     "spectra": {"common", "scene", "motion", "output"},
     "main.cpp": {"common", "scene", "driver"},
     "spectra_main.cpp": {"spectra"},
+    "mesh_main.cpp": {"mesh"},
 }
 
 PURE = {"elements": ("mpi.h", "petsc", "slepc"), "motion": ("mpi.h", "petsc", "slepc")}

@@ -10,8 +10,8 @@ import unittest
 import program
 
 # Two masses in a row on springs, 0.1 s of free vibration: nothing to doubt.
-CHAIN = ["-structures", "m", "-m_mesh", "tests/meshes/chain.geo", "-m_clamp", "ground", "-modes", "0",
-         "-m_initial_velocity", "1,0,0", "-end_time", "0.1", "-time_step", "1e-4", "-output_interval", "1e-3"]
+CHAIN = ["-structures", "m", "-m_mesh", "tests/meshes/chain.geo", "-m_mesh_set", "links=3", "-m_clamp", "ground",
+         "-modes", "0", "-m_initial_velocity", "1,0,0", "-end_time", "0.1", "-time_step", "1e-4", "-output_interval", "1e-3"]
 for mass in ("ground", "first", "second"):
     CHAIN += [f"-m_{mass}_element", "point_mass", f"-m_{mass}_mass", "2"]
 for link in ("link1", "link2"):

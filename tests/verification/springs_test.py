@@ -81,7 +81,7 @@ class DampedMass(unittest.TestCase):
             self.check("grounded_spring", "support", ranks)
 
     def test_spring_to_a_clamped_point(self):
-        self.check("spring", "link1", 2, "-chain_clamp", "ground")
+        self.check("spring", "link1", 2, "-chain_clamp", "ground", "-chain_mesh_set", "links=1")
 
     def test_frequency_along_each_axis(self):
         stiffness = self.MASS * self.OMEGA**2
@@ -100,7 +100,8 @@ class TwoMasses(unittest.TestCase):
         time_step = 1e-4
         words = chain(time_step, 1.0, *point("first", mass[0]), *point("second", mass[1]),
                       *spring("support", "grounded_spring", f"{stiffness[0]},1e4,1e4"),
-                      *spring("link2", "spring", f"{stiffness[1]},1e4,1e4"))
+                      *spring("link2", "spring", f"{stiffness[1]},1e4,1e4"),
+                      "-chain_mesh_set", "links=2")
         matrix = numpy.array([[sum(stiffness), -stiffness[1]], [-stiffness[1], stiffness[1]]])
         root = numpy.sqrt(mass)
         squares, modes = numpy.linalg.eigh(matrix / numpy.outer(root, root))

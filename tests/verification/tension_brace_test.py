@@ -28,6 +28,7 @@ def scene(sides, spring, time_step, end_time):
     for side in sides:
         words += [f"-frame_{side}_element", "bar", f"-frame_{side}_material", "steel",
                   f"-frame_{side}_area", AREA, f"-frame_{side}_tension_only", "true"]
+    words += ["-frame_ignore", ",".join({"left", "right"} - set(sides)) or "none"]
     if spring:
         words += ["-frame_support_element", "grounded_spring", "-frame_support_stiffness",
                   f"{spring},{spring},{spring}"]

@@ -1,0 +1,177 @@
+#include "driver/mesh_checks.h"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "common/error.h"
+#include "mesh/bounding_box.h"
+
+namespace pounding {
+namespace {
+
+/// In -<structure>_ignore: elements in no physical group.
+constexpr const char* ungrouped = "ungrouped";
+
+/// Longer structures are meshes in millimetres, or in feet.
+constexpr double longest_structure = 500;  // m
+
+std::string place_text(const Vector3& place) {
+  std::ostringstream text;
+  text.precision(6);
+  text << "(" << place[0] << ", " << place[1] << ", " << place[2] << ")";
+  return text.str();
+}
+
+std::string found_at(const Places& places, const char* what) {
+  return std::to_string(places.count) + what + place_text(places.first);
+}
+
+/// Groups that clamps, contacts and probes name, and those that are left out on purpose.
+std::set<std::string> named_groups(const Scene& scene, const Structure& structure) {
+  std::set<std::string> names(structure.ignored_groups.begin(), structure.ignored_groups.end());
+  for (const Clamp& clamp : structure.clamps) {
+    names.insert(clamp.group);
+  }
+  for (const Contact& contact : scene.contacts) {
+    for (const ContactSide& side : {contact.secondary, contact.primary}) {
+      if (side.structure == structure.name) {
+        names.insert(side.group);
+      }
+    }
+  }
+  for (const Probe& probe : scene.probes) {
+    if (probe.structure == structure.name) {
+      names.insert(probe.group);
+    }
+  }
+  return names;
+}
+
+[[noreturn]] void refuse_unused(const Structure& structure, const UnusedElements& unused) {
+  const std::string count = std::to_string(unused.left_out) + " element" +
+                            (unused.left_out == 1 ? "" : "s") + " (" + unused.kind + ")";
+  const std::string place = ", the first at " + place_text(unused.place);
+  const std::string option = "-" + structure.name + "_";
+  if (unused.group.empty()) {
+    throw UserError("structure " + structure.name + ": " + structure.mesh + " has " + count +
+                    " in no physical group" + place +
+                    ": they would be left out; put them into a group, or give " + option +
+                    "ignore " + ungrouped);
+  }
+  throw UserError("structure " + structure.name + ": group '" + unused.group + "' of " +
+                  structure.mesh + " has " + count + " that no option uses" + place +
+                  ": they would be left out; give " + option + unused.group + "_element, or name " +
+                  "it in " + option + "ignore");
+}
+
+bool is_zero(const Vector3& vector) {
+  return vector == Vector3{0, 0, 0};
+}
+
+bool is_shaken(const Scene& scene) {
+  return std::ranges::any_of(scene.motion,
+                             [](const auto& component) { return component.has_value(); });
+}
+
+bool starts_in_motion(const Structure& structure) {
+  return !is_zero(structure.initial_velocity) || !is_zero(structure.initial_displacement);
+}
+
+/// A block that stands on another by its weight.
+bool may_rest(const Scene& scene, const Structure& structure) {
+  const auto touches = [&](const Contact& contact) {
+    return contact.secondary.structure == structure.name ||
+           contact.primary.structure == structure.name;
+  };
+  return !is_zero(structure.gravity) && std::ranges::any_of(scene.contacts, touches);
+}
+
+bool may_fly(const Scene& scene, const Structure& structure) {
+  return !is_shaken(scene) || starts_in_motion(structure) || may_rest(scene, structure);
+}
+
+[[noreturn]] void refuse(const Structure& structure, const std::string& what) {
+  throw UserError("structure " + structure.name + ": " + what + ", or give -" + structure.name +
+                  "_allow_loose if that is meant");
+}
+
+}  // namespace
+
+std::vector<UnusedElements> check_unused(const Scene& scene, const Structure& structure,
+                                         const GlobalMesh& mesh) {
+  for (const std::string& name : structure.ignored_groups) {
+    if (name != ungrouped && !mesh.groups.contains(name)) {
+      throw UserError("option -" + structure.name + "_ignore: group '" + name + "' is not in " +
+                      structure.mesh);
+    }
+  }
+  const std::set<std::string> named = named_groups(scene, structure);
+  std::vector<UnusedElements> places;
+  for (const UnusedElements& unused : mesh.unused) {
+    if (named.contains(unused.group.empty() ? ungrouped : unused.group)) {
+      continue;
+    }
+    if (unused.left_out > 0 && structure.matrices.empty()) {
+      refuse_unused(structure, unused);
+    }
+    if (!unused.group.empty()) {
+      places.push_back(unused);
+    }
+  }
+  return places;
+}
+
+void check_connectivity(const Scene& scene, const Structure& structure,
+                        const Connectivity& connectivity) {
+  if (structure.allow_loose) {
+    return;
+  }
+  if (connectivity.coincident_apart.count > 0) {
+    refuse(
+        structure,
+        found_at(connectivity.coincident_apart,
+                 " pairs of nodes of pieces that nothing joins lie on each other, the first at ") +
+            "; make them one node (Coherence in a .geo file)");
+  }
+  if (connectivity.ends_inside.count > 0) {
+    refuse(structure, found_at(connectivity.ends_inside,
+                               " ends of lines lie in an element without a node of it, the first "
+                               "at ") +
+                          "; let the mesh have a node there that both share");
+  }
+  if (connectivity.nothing_held() && !may_fly(scene, structure)) {
+    refuse(structure, "nothing holds it to the ground that shakes; give -" + structure.name +
+                          "_clamp or grounded springs");
+  }
+  if (connectivity.loose_pieces() > 0 && !connectivity.nothing_held() &&
+      !starts_in_motion(structure)) {
+    const Piece& piece = connectivity.loose_piece();
+    refuse(structure, std::to_string(connectivity.loose_pieces()) + " of its " +
+                          std::to_string(connectivity.pieces.size()) +
+                          " pieces are neither held nor joined to another, the largest with " +
+                          std::to_string(piece.nodes) + " nodes, one at " +
+                          place_text(piece.place) + "; join or clamp them");
+  }
+}
+
+std::vector<std::string> mesh_warnings(const Structure& structure, const GlobalMesh& mesh,
+                                       const Connectivity& connectivity) {
+  std::vector<std::string> warnings;
+  if (connectivity.coincident_inside.count > 0 && !structure.allow_loose) {
+    warnings.push_back(
+        "structure " + structure.name + ": " +
+        found_at(connectivity.coincident_inside,
+                 " pairs of nodes lie on each other and are not one, the first at "));
+  }
+  const double longest = bounding_box({&mesh, 1}).longest_side();
+  if (longest > longest_structure) {
+    std::ostringstream text;
+    text << "structure " << structure.name << ": its mesh is " << longest
+         << " m long; meshes are in metres, is this one in millimetres?";
+    warnings.push_back(text.str());
+  }
+  return warnings;
+}
+
+}  // namespace pounding

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/connectivity.h"
+#include "mesh/global_mesh.h"
+#include "scene/scene.h"
+
+/// What cannot be meant in a structure's mesh, in view of the whole scene. Serial; the thresholds
+/// are in docs/input-checks.md.
+namespace pounding {
+
+/// The groups of places that no option of the scene names. Throws UserError where elements are left
+/// out: those of a group that no option names, or of no group, unless `<structure>_ignore` does.
+std::vector<UnusedElements> check_unused(const Scene& scene, const Structure& structure,
+                                         const GlobalMesh& mesh);
+
+/// Throws UserError where pieces are not joined that lie on each other, or where nothing holds what
+/// must be held, unless `<structure>_allow_loose`. Pieces may fly with an initial motion; a
+/// structure that nothing holds, with gravity and a contact as well, or where no ground motion
+/// acts.
+void check_connectivity(const Scene& scene, const Structure& structure,
+                        const Connectivity& connectivity);
+
+/// Doubts about a mesh: nodes that coincide within one piece, and the size of a whole.
+std::vector<std::string> mesh_warnings(const Structure& structure, const GlobalMesh& mesh,
+                                       const Connectivity& connectivity);
+
+}  // namespace pounding

@@ -1,0 +1,282 @@
+#include "mesh/connectivity.h"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <span>
+
+#include "elements/element.h"
+#include "mesh/bounding_box.h"
+#include "mesh/near_nodes.h"
+#include "mesh/point_in_element.h"
+#include "mesh/rigid_rank.h"
+
+namespace pounding {
+namespace {
+
+constexpr std::uint8_t rotations = 0x38;
+
+bool is_line(ElementType type) {
+  return type == ElementType::beam || type == ElementType::bar ||
+         type == ElementType::tension_bar || type == ElementType::spring ||
+         type == ElementType::spring6;
+}
+
+bool is_grounded(ElementType type) {
+  return type == ElementType::grounded_spring || type == ElementType::grounded_spring6;
+}
+
+/// What meets at a node.
+struct Meeting {
+  int lines = 0;
+  int beams = 0;
+  int shells = 0;
+  int solids = 0;
+};
+
+class Examination {
+ public:
+  Examination(const Structure& structure, const GlobalMesh& mesh)
+      : structure_(structure), mesh_(mesh), meeting_(size_of_mesh()), parent_(size_of_mesh()) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+
+  Connectivity run() {
+    for (const ElementSet& set : mesh_.regions) {
+      for (std::size_t e = 0; e < set.tags.size(); ++e) {
+        join(set, nodes_of(set, e));
+      }
+    }
+    find_pieces();
+    find_coincident();
+    find_ends_inside();
+    find_hinges();
+    return std::move(found_);
+  }
+
+ private:
+  std::size_t size_of_mesh() const { return mesh_.node_tags.size(); }
+
+  static std::span<const GlobalIndex> nodes_of(const ElementSet& set, std::size_t element) {
+    const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
+    return {&set.connectivity[element * width], width};
+  }
+
+  std::size_t piece_of(GlobalIndex node) {
+    auto i = static_cast<std::size_t>(node);
+    while (parent_[i] != i) {
+      parent_[i] = parent_[parent_[i]];
+      i = parent_[i];
+    }
+    return i;
+  }
+
+  void join(const ElementSet& set, std::span<const GlobalIndex> nodes) {
+    for (const GlobalIndex node : nodes) {
+      parent_[piece_of(node)] = piece_of(nodes.front());
+      Meeting& meeting = meeting_[static_cast<std::size_t>(node)];
+      meeting.lines += is_line(set.type) ? 1 : 0;
+      meeting.beams += set.type == ElementType::beam ? 1 : 0;
+      meeting.shells += is_shell(set.type) ? 1 : 0;
+      meeting.solids += is_hexahedron(set.type) ? 1 : 0;
+    }
+  }
+
+  std::uint8_t clamped(GlobalIndex node) const {
+    const auto i = static_cast<std::size_t>(node);
+    return mesh_.components[i] & static_cast<std::uint8_t>(~mesh_.free_components[i]);
+  }
+
+  bool clamped_anyhow(GlobalIndex node) const { return clamped(node) != 0; }
+
+  void find_pieces() {
+    const double size = std::max(bounding_box({&mesh_, 1}).diagonal(), 1e-300);
+    std::vector<std::ptrdiff_t> number(size_of_mesh(), -1);
+    std::vector<RigidRank> possible;
+    std::vector<RigidRank> prevented;
+    for (GlobalIndex node = 0; node < mesh_.node_count(); ++node) {
+      const std::size_t root = piece_of(node);
+      if (number[root] < 0) {
+        number[root] = static_cast<std::ptrdiff_t>(found_.pieces.size());
+        found_.pieces.push_back({0, false, mesh_.position(node)});
+        possible.emplace_back(mesh_.position(node), size);
+        prevented.emplace_back(mesh_.position(node), size);
+      }
+      const auto piece = static_cast<std::size_t>(number[root]);
+      ++found_.pieces[piece].nodes;
+      add_components(node, mesh_.components[static_cast<std::size_t>(node)], possible[piece]);
+      add_components(node, clamped(node), prevented[piece]);
+    }
+    for (const ElementSet& set : mesh_.regions) {
+      for (std::size_t i = 0; is_grounded(set.type) && i < set.connectivity.size(); ++i) {
+        const GlobalIndex node = set.connectivity[i];
+        add_components(node, stiff_components(set),
+                       prevented[static_cast<std::size_t>(number[piece_of(node)])]);
+      }
+    }
+    for (std::size_t p = 0; p < found_.pieces.size(); ++p) {
+      found_.pieces[p].rigid_motions = possible[p].rank();
+      found_.pieces[p].held_motions = prevented[p].rank();
+      found_.pieces[p].held = prevented[p].rank() > 0;
+    }
+    std::ranges::stable_sort(found_.pieces, std::ranges::greater{}, &Piece::nodes);
+  }
+
+  void add_components(GlobalIndex node, std::uint8_t mask, RigidRank& motions) const {
+    for (int c = 0; c < 6; ++c) {
+      if ((mask >> c & 1) != 0) {
+        motions.add(mesh_.position(node), c);
+      }
+    }
+  }
+
+  /// Components that a grounded spring or its dashpot resists.
+  std::uint8_t stiff_components(const ElementSet& set) const {
+    const Region& region = structure_.regions[static_cast<std::size_t>(set.region)];
+    unsigned mask = 0;
+    for (std::size_t c = 0; c < 6; ++c) {
+      mask |= region.stiffness[c] > 0 || region.dashpot[c] > 0 ? 1U << c : 0U;
+    }
+    return static_cast<std::uint8_t>(mask);
+  }
+
+  void find_coincident() {
+    const double near = coincidence * bounding_box({&mesh_, 1}).diagonal();
+    if (!(near > 0)) {
+      return;
+    }
+    auto pairs = near_nodes(mesh_, near);
+    std::erase_if(pairs, [this](const auto& pair) {
+      return mesh_.free_components[static_cast<std::size_t>(pair.first)] == 0 &&
+             mesh_.free_components[static_cast<std::size_t>(pair.second)] == 0;
+    });
+    std::set<std::pair<GlobalIndex, GlobalIndex>> joined;
+    for (const ElementSet& set : mesh_.regions) {
+      for (std::size_t e = 0; !pairs.empty() && is_line(set.type) && e < set.tags.size(); ++e) {
+        const auto nodes = nodes_of(set, e);
+        joined.insert(std::minmax(nodes[0], nodes[1]));
+      }
+    }
+    for (const auto& pair : pairs) {
+      if (!joined.contains(pair)) {
+        const bool apart = piece_of(pair.first) != piece_of(pair.second);
+        (apart ? found_.coincident_apart : found_.coincident_inside)
+            .add(mesh_.position(pair.first));
+      }
+    }
+  }
+
+  /// Ends of lines at which nothing else is and nothing holds, by increasing x.
+  std::vector<GlobalIndex> free_ends() const {
+    std::vector<GlobalIndex> ends;
+    for (GlobalIndex node = 0; node < mesh_.node_count(); ++node) {
+      const Meeting& meeting = meeting_[static_cast<std::size_t>(node)];
+      if (meeting.lines == 1 && meeting.shells == 0 && meeting.solids == 0 &&
+          !clamped_anyhow(node)) {
+        ends.push_back(node);
+      }
+    }
+    std::ranges::sort(ends, {}, [this](GlobalIndex node) { return mesh_.position(node)[0]; });
+    return ends;
+  }
+
+  void find_ends_inside() {
+    const std::vector<GlobalIndex> ends = free_ends();
+    std::set<GlobalIndex> inside;
+    for (const ElementSet& set : mesh_.regions) {
+      const bool solid = is_hexahedron(set.type) || is_shell(set.type) || is_line(set.type);
+      for (std::size_t e = 0; solid && !ends.empty() && e < set.tags.size(); ++e) {
+        find_ends_in(set, nodes_of(set, e), ends, inside);
+      }
+    }
+    for (const GlobalIndex node : inside) {
+      found_.ends_inside.add(mesh_.position(node));
+    }
+  }
+
+  void find_ends_in(const ElementSet& set, std::span<const GlobalIndex> nodes,
+                    const std::vector<GlobalIndex>& ends, std::set<GlobalIndex>& inside) const {
+    constexpr double tolerance = 1e-4;  // of the element
+    std::array<Vector3, max_element_nodes> corners;
+    BoundingBox box;
+    for (std::size_t a = 0; a < nodes.size(); ++a) {
+      corners[a] = mesh_.position(nodes[a]);
+      for (std::size_t d = 0; d < 3; ++d) {
+        box.low[d] = std::min(box.low[d], corners[a][d]);
+        box.high[d] = std::max(box.high[d], corners[a][d]);
+      }
+    }
+    const double thickness =
+        is_shell(set.type) ? structure_.regions[static_cast<std::size_t>(set.region)].thickness : 0;
+    const double reach = tolerance * box.diagonal() + thickness / 2;
+    const auto x_of = [this](GlobalIndex node) { return mesh_.position(node)[0]; };
+    const auto first = std::ranges::lower_bound(ends, box.low[0] - reach, {}, x_of);
+    for (auto end = first; end != ends.end() && x_of(*end) <= box.high[0] + reach; ++end) {
+      if (std::ranges::find(nodes, *end) == nodes.end() &&
+          is_in_element(mesh_.position(*end), {corners.data(), nodes.size()}, reach) &&
+          !shares_line(*end, nodes)) {
+        inside.insert(*end);
+      }
+    }
+  }
+
+  /// Whether the other end of a free end's line is a node of an element: a line may leave it along
+  /// one of its faces.
+  bool shares_line(GlobalIndex end, std::span<const GlobalIndex> nodes) const {
+    for (const ElementSet& set : mesh_.regions) {
+      for (std::size_t e = 0; is_line(set.type) && e < set.tags.size(); ++e) {
+        const auto line = nodes_of(set, e);
+        if (line[0] == end || line[1] == end) {
+          const GlobalIndex other = line[0] == end ? line[1] : line[0];
+          return std::ranges::find(nodes, other) != nodes.end();
+        }
+      }
+    }
+    return false;
+  }
+
+  void find_hinges() {
+    for (GlobalIndex node = 0; node < mesh_.node_count(); ++node) {
+      const Meeting& meeting = meeting_[static_cast<std::size_t>(node)];
+      const bool turns =
+          (mesh_.free_components[static_cast<std::size_t>(node)] & rotations) == rotations;
+      if (meeting.solids > 0 && meeting.beams + meeting.shells > 0 && turns) {
+        found_.hinges.add(mesh_.position(node));
+        if (meeting.beams == 1 && meeting.shells == 0) {
+          found_.lone_hinges.add(mesh_.position(node));
+        }
+      }
+    }
+  }
+
+  const Structure& structure_;
+  const GlobalMesh& mesh_;
+  std::vector<Meeting> meeting_;
+  std::vector<std::size_t> parent_;  ///< union-find over the nodes
+  Connectivity found_;
+};
+
+}  // namespace
+
+GlobalIndex Connectivity::loose_pieces() const {
+  return std::ranges::count(pieces, false, &Piece::held);
+}
+
+bool Connectivity::nothing_held() const {
+  return loose_pieces() == static_cast<GlobalIndex>(pieces.size());
+}
+
+bool Connectivity::wholly_held() const {
+  return std::ranges::all_of(
+      pieces, [](const Piece& piece) { return piece.held_motions >= piece.rigid_motions; });
+}
+
+const Piece& Connectivity::loose_piece() const {
+  return *std::ranges::find(pieces, false, &Piece::held);
+}
+
+Connectivity examine_connectivity(const Structure& structure, const GlobalMesh& mesh) {
+  return Examination(structure, mesh).run();
+}
+
+}  // namespace pounding

@@ -1,0 +1,177 @@
+#include "mesh/gmsh_process.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <poll.h>
+#include <spawn.h>
+#include <sstream>
+#include <stdexcept>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "common/error.h"
+
+namespace pounding {
+namespace {
+
+/// Where pounding-mesh writes its answer.
+constexpr int answer_descriptor = 3;
+
+/// pounding-mesh, beside this program or in the folder above (tests are a folder below).
+std::string mesh_program() {
+  const std::filesystem::path folder =
+      std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  for (const std::filesystem::path& place : {folder, folder.parent_path()}) {
+    if (std::filesystem::exists(place / "pounding-mesh")) {
+      return (place / "pounding-mesh").string();
+    }
+  }
+  throw UserError("the program pounding-mesh is not beside this one in " + folder.string() +
+                  "; build it, or put both into one folder");
+}
+
+/// This process's variables without those by which MPI finds its job.
+std::vector<char*> environment_without_mpi() {
+  std::vector<char*> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text(*variable);
+    if (!text.starts_with("OMPI_") && !text.starts_with("PMIX_") && !text.starts_with("PMI_")) {
+      variables.push_back(*variable);
+    }
+  }
+  variables.push_back(nullptr);
+  return variables;
+}
+
+/// A running pounding-mesh, which does not outlive this object.
+class GmshProcess {
+ public:
+  explicit GmshProcess(const MeshRequest& request) {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) {
+      throw std::runtime_error("no pipe to the mesher");
+    }
+    answer_ = ends[0];
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], answer_descriptor);
+    posix_spawn_file_actions_addclosefrom_np(&actions, answer_descriptor + 1);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t none;
+    sigemptyset(&none);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+    std::array<std::string, 4> words{mesh_program(), request.file, request.make ? "make" : "open",
+                                     request.allow_commands ? "free" : "guarded"};
+    std::array<char*, 5> pointers{};
+    std::ranges::transform(words, pointers.begin(), [](std::string& word) { return word.data(); });
+    std::vector<char*> environment = environment_without_mpi();
+    const int failure = posix_spawn(&process_, words[0].c_str(), &actions, &attributes,
+                                    pointers.data(), environment.data());
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+    if (failure != 0) {
+      close(answer_);
+      throw UserError(words[0] + " cannot be run: " + std::strerror(failure));
+    }
+  }
+  GmshProcess(const GmshProcess&) = delete;
+  GmshProcess& operator=(const GmshProcess&) = delete;
+  ~GmshProcess() {
+    end();
+    close(answer_);
+  }
+
+  /// Everything it writes until it closes its end; false if that takes longer than the limit.
+  bool read_all(double time_limit, std::vector<char>& bytes) const {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    std::vector<char> piece(1 << 20);
+    while (true) {
+      const double left = time_limit - std::chrono::duration<double>(Clock::now() - start).count();
+      if (left <= 0) {
+        return false;
+      }
+      pollfd waiting{answer_, POLLIN, 0};
+      const int ready = poll(&waiting, 1, static_cast<int>(std::min(1e3 * left + 1, 1e4)));
+      if (ready <= 0) {
+        continue;  // a signal, or the next turn of a long wait
+      }
+      const ssize_t count = read(answer_, piece.data(), piece.size());
+      if (count == 0) {
+        return true;
+      }
+      if (count < 0 && errno != EINTR) {
+        throw std::runtime_error("the pipe from the mesher cannot be read");
+      }
+      bytes.insert(bytes.end(), piece.begin(), piece.begin() + std::max<ssize_t>(count, 0));
+    }
+  }
+
+  /// Its exit as waitpid tells it; ends it if it still runs.
+  int end(bool by_force = true) {
+    if (process_ > 0) {
+      if (by_force) {
+        kill(-process_, SIGKILL);
+      }
+      while (waitpid(process_, &status_, 0) < 0 && errno == EINTR) {
+      }
+      process_ = 0;
+    }
+    return status_;
+  }
+
+ private:
+  pid_t process_ = 0;
+  int answer_ = -1;
+  int status_ = 0;
+};
+
+/// Why no whole answer came.
+std::string describe_end(int status) {
+  if (WIFSIGNALED(status)) {
+    const int signal = WTERMSIG(status);
+    return "Gmsh crashed on it (signal " + std::to_string(signal) + ", " + strsignal(signal) +
+           (signal == SIGKILL ? ": was the memory enough?" : "") + ")";
+  }
+  return "Gmsh ended without an answer (exit status " + std::to_string(WEXITSTATUS(status)) + ")";
+}
+
+}  // namespace
+
+RawMesh run_gmsh(const MeshRequest& request) {
+  GmshProcess process(request);
+  std::vector<char> bytes;
+  if (!process.read_all(request.time_limit, bytes)) {
+    std::ostringstream text;
+    text << "option " << request.option << ": Gmsh was not done after " << request.time_limit
+         << " s; look for a loop without end or too fine a mesh, or give a larger "
+            "-mesh_time_limit";
+    throw UserError(text.str());
+  }
+  const int status = process.end(false);
+  if (status != 0) {
+    throw UserError("option " + request.option + ": " + describe_end(status) +
+                    "; look at the file and at the values of its parameters");
+  }
+  RawAnswer answer = from_bytes(bytes);
+  if (!answer.error.empty()) {
+    std::ranges::replace(answer.error, '\n', ' ');
+    throw UserError("option " + request.option + ": Gmsh could not read it (" + answer.error + ")");
+  }
+  return std::move(answer.mesh);
+}
+
+}  // namespace pounding

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "mesh/global_mesh.h"
+
+namespace pounding {
+
+/// Pairs of nodes (the lower number first, in increasing order) at most `distance` > 0 [m] apart,
+/// found in cells of a grid. Serial.
+std::vector<std::pair<GlobalIndex, GlobalIndex>> near_nodes(const GlobalMesh& mesh,
+                                                            double distance);
+
+}  // namespace pounding

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+/// What a mesh file says, before a scene gives its groups a meaning. It crosses from the program
+/// that runs Gmsh to the one that computes as a string of bytes.
+namespace pounding {
+
+/// Elements of one Gmsh type on one entity.
+struct RawElements {
+  int type = 0;                     ///< Gmsh's number: 1 line, 2 triangle, 3 quadrangle, ...
+  std::vector<std::int64_t> tags;   ///< as in the file
+  std::vector<std::int64_t> nodes;  ///< node tags, shape (elements, nodes of the type)
+};
+
+/// A point, curve, surface or volume of the geometry with the elements on it.
+struct RawEntity {
+  int dimension = 0;
+  int tag = 0;
+  bool bounds_another = false;  ///< an entity of the next dimension ends on it
+  std::vector<RawElements> elements;
+};
+
+/// A physical group of one dimension; its number stands for a name that it has not.
+struct RawGroup {
+  std::string name;
+  int dimension = 0;
+  std::vector<int> entities;  ///< their tags
+};
+
+/// A Gmsh element type that the mesh holds.
+struct RawType {
+  int type = 0;
+  int nodes = 0;     ///< of one element
+  std::string name;  ///< "Hexahedron 8"
+};
+
+struct RawMesh {
+  std::vector<std::int64_t> node_tags;
+  std::vector<double> coordinates;  ///< shape (nodes, 3), in the order of the tags [m]
+  std::vector<RawEntity> entities;
+  std::vector<RawGroup> groups;
+  std::vector<RawType> types;
+};
+
+/// The mesh, or why there is none: `error` is empty or a line of Gmsh's.
+struct RawAnswer {
+  RawMesh mesh;
+  std::string error;
+};
+
+/// The answer as bytes, for the same machine to read.
+std::vector<char> to_bytes(const RawAnswer& answer);
+
+/// The answer of such bytes. Throws std::runtime_error where they are cut or are no such answer.
+RawAnswer from_bytes(std::span<const char> bytes);
+
+}  // namespace pounding

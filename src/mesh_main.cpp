@@ -1,0 +1,58 @@
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "mesh/gmsh_model.h"
+#include "mesh/raw_mesh.h"
+
+/// The program pounding-mesh, which `pounding` runs once per mesh: Gmsh's failures, and what a .geo
+/// file may do, stay in a process of its own.
+///
+///     pounding-mesh FILE make|open guarded|free
+///
+/// FILE is a geometry to mesh or a mesh to open; the answer (mesh/raw_mesh.h) goes to descriptor 3.
+namespace {
+
+constexpr int answer_descriptor = 3;
+
+/// It ends with the process that started it, it is the first to go where memory ends, and it writes
+/// no file.
+void restrict_process(bool guarded) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (std::FILE* file = std::fopen("/proc/self/oom_score_adj", "w")) {
+    std::fputs("1000", file);
+    std::fclose(file);
+  }
+  if (guarded) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit none{0, 0};
+    setrlimit(RLIMIT_FSIZE, &none);
+  }
+}
+
+bool write_answer(const std::vector<char>& bytes) {
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t count = write(answer_descriptor, bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno != EINTR) {
+      return false;
+    }
+    done += count > 0 ? static_cast<std::size_t>(count) : 0;
+  }
+  return true;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count != 4) {
+    std::fputs("pounding-mesh is run by pounding, not by hand\n", stderr);
+    return 1;
+  }
+  restrict_process(std::strcmp(words[3], "free") != 0);
+  const bool make = std::strcmp(words[2], "make") == 0;
+  return write_answer(pounding::to_bytes(pounding::gmsh_mesh(words[1], make))) ? 0 : 1;
+}

@@ -1,0 +1,86 @@
+#include "mesh/raw_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include "common/error.h"
+#include "mesh/repeated_elements.h"
+#include "mesh/unused_elements.h"
+#include "support/box_mesh.h"
+
+namespace pounding {
+namespace {
+
+RawAnswer sample() {
+  RawAnswer answer;
+  answer.error = "";
+  answer.mesh.node_tags = {3, 5};
+  answer.mesh.coordinates = {0, 1, 2, 3, 4, 5};
+  answer.mesh.entities = {{1, 7, true, {{1, {11}, {3, 5}}}}, {2, 8, false, {}}};
+  answer.mesh.groups = {{"column", 1, {7}}};
+  answer.mesh.types = {{1, 2, "Line 2"}};
+  return answer;
+}
+
+TEST(RawMesh, ComesBackFromItsBytes) {
+  const std::vector<char> bytes = to_bytes(sample());
+  const RawAnswer answer = from_bytes(bytes);
+  EXPECT_EQ(answer.mesh.node_tags, sample().mesh.node_tags);
+  EXPECT_EQ(answer.mesh.coordinates, sample().mesh.coordinates);
+  ASSERT_EQ(answer.mesh.entities.size(), 2U);
+  EXPECT_TRUE(answer.mesh.entities[0].bounds_another);
+  EXPECT_EQ(answer.mesh.entities[0].elements[0].nodes, (std::vector<std::int64_t>{3, 5}));
+  EXPECT_EQ(answer.mesh.groups[0].name, "column");
+  EXPECT_EQ(answer.mesh.groups[0].entities, std::vector<int>{7});
+  EXPECT_EQ(answer.mesh.types[0].name, "Line 2");
+  EXPECT_EQ(to_bytes(answer), bytes);
+}
+
+TEST(RawMesh, EveryCutIsRefused) {
+  const std::vector<char> bytes = to_bytes(sample());
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_THROW(from_bytes(std::span(bytes).first(size)), std::runtime_error) << size;
+  }
+}
+
+/// A brick with a group on one of its faces, and lines: along an edge, and across.
+RawMesh raw_box(const GlobalMesh& mesh) {
+  RawMesh raw;
+  raw.node_tags = mesh.node_tags;
+  raw.coordinates = mesh.coordinates;
+  raw.types = {{1, 2, "Line 2"}, {3, 4, "Quadrangle 4"}, {5, 8, "Hexahedron 8"}};
+  raw.entities = {{3, 1, false, {{5, {1}, {1, 2, 4, 3, 5, 6, 8, 7}}}},
+                  {2, 1, true, {{3, {10}, {3, 4, 2, 1}}}},
+                  {1, 1, false, {{1, {20}, {1, 2}}}},
+                  {1, 2, false, {{1, {21}, {1, 8}}}},
+                  {1, 3, true, {{1, {22}, {3, 4}}}}};
+  raw.groups = {{"body", 3, {1}}, {"z_min", 2, {1}}, {"edge", 1, {1}}};
+  return raw;
+}
+
+TEST(UnusedElements, FacesArePlacesAndLinesAreLeftOut) {
+  const GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
+  const std::vector<UnusedElements> unused = find_unused(raw_box(mesh), mesh);
+  ASSERT_EQ(unused.size(), 3U);
+  EXPECT_EQ(unused[0].group, "");
+  EXPECT_EQ(unused[0].left_out, 1);
+  EXPECT_EQ(unused[0].place, (Vector3{0.5, 0.5, 0.5}));
+  EXPECT_EQ(unused[1].group, "edge");
+  EXPECT_EQ(unused[1].left_out, 1);
+  EXPECT_EQ(unused[2].group, "z_min");
+  EXPECT_EQ(unused[2].count, 1);
+  EXPECT_EQ(unused[2].left_out, 0);
+}
+
+TEST(RepeatedElements, AreRefusedInSolidsOfTwoGroups) {
+  GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
+  EXPECT_NO_THROW(check_repeated_elements("s", mesh));
+  ElementSet again = mesh.regions[0];
+  again.group = "again";
+  again.tags = {99};
+  std::swap(again.connectivity[0], again.connectivity[5]);
+  mesh.regions.push_back(again);
+  EXPECT_THROW(check_repeated_elements("s", mesh), UserError);
+}
+
+}  // namespace
+}  // namespace pounding
