@@ -13,6 +13,7 @@
 #include "driver/warnings.h"
 #include "dynamics/stable_time_step.h"
 #include "mesh/gmsh_reader.h"
+#include "modal/definiteness.h"
 #include "modal/reduced_system.h"
 #include "modal/stability_limit.h"
 #include "system/build_system.h"
@@ -150,6 +151,7 @@ void add_full(const Scene& scene, std::size_t s, Profile& profile, Model& model)
         build_system(scene.structures[s], mesh, scene.stiffness, scene.modes > 0 || exported));
   }
   const ScopedTimer timer(profile, Phase::modes);
+  require_passive_matrices(scene.structures[s], model.systems.back());
   const LinearSystem& system = model.systems.back();
   model.modal.push_back(lowest_modes(system, mesh, scene.modes, scene.write_modes));
   if (!exported) {

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "common/error.h"
 #include "mesh/location.h"
 #include "modal/eigen_solver.h"
 #include "modal/rigid_motions.h"
@@ -97,6 +98,11 @@ LargestFrequency largest_frequency(const LinearSystem& system, const Mesh& mesh)
   if (system.mass_scaling.elements > 0) {
     scaled.to_motion(pair.vector);
     weigh(system, pair.vector);
+  }
+  if (!(pair.value + pair.error >= 0)) {
+    throw UserError("structure " + system.name +
+                    ": no largest frequency, since omega_max^2 comes out as " +
+                    std::to_string(pair.value) + " 1/s2; look at its materials and matrices");
   }
   LargestFrequency result;
   result.omega_max = std::sqrt(pair.value + pair.error);

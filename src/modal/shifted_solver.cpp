@@ -17,6 +17,16 @@ ShiftedSolver::ShiftedSolver(const LinearSystem& system, Mat matrix, double shif
   factorise_with_mumps(factorisation);
   POUNDING_PETSC(KSPSetOperators(solver_.get(), shifted_.get(), shifted_.get()));
   POUNDING_PETSC(KSPSetFromOptions(solver_.get()));
+  // On several ranks MUMPS counts pivots only if it factorises the last block on one of them.
+  int ranks = 1;
+  MPI_Comm_size(system.comm, &ranks);
+  if (ranks > 1) {
+    constexpr PetscInt root_on_one_rank = 13;
+    Mat factor = nullptr;
+    POUNDING_PETSC(PCFactorSetUpMatSolverType(factorisation));
+    POUNDING_PETSC(PCFactorGetMatrix(factorisation, &factor));
+    POUNDING_PETSC(MatMumpsSetIcntl(factor, root_on_one_rank, 1));
+  }
   POUNDING_PETSC(KSPSetUp(solver_.get()));
 }
 

@@ -251,6 +251,27 @@ void forbid_tension_bars(const OptionReader& options, const Structure& structure
   }
 }
 
+/// Beside matrices no element makes damping: it has to stand in the files.
+void forbid_damping_of_regions(const OptionReader& options, const Structure& structure) {
+  const std::string remedy = "would be lost beside -" + structure.name +
+                             "_matrices, which holds the damping of regions and dashpots in " +
+                             "damping.mtx only; write it there and ";
+  for (const Region& region : structure.regions) {
+    const OptionReader::Names names{structure.name, region.group};
+    const bool dashpot = std::ranges::any_of(region.dashpot, [](double rate) { return rate > 0; });
+    if (dashpot) {
+      options.forbid("<structure>_<group>_dashpot", names, remedy + "give 0 or nothing here");
+    }
+    const Rayleigh own = structure.damping_of(region);
+    if (own.alpha != structure.damping.alpha || own.beta != structure.damping.beta) {
+      const std::string here = remedy + "give the structure's own here, or nothing";
+      for (const char* option : {"alpha", "beta", "ratio"}) {
+        options.forbid(std::string("<structure>_<group>_damping_") + option, names, here);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Structure read_structure(OptionReader& options, const std::string& name) {
@@ -275,6 +296,9 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   forbid_tension_bars(options, structure);
   structure.modal = read_modal_model(options, structure);
   forbid_mass_scaling(options, structure);
+  if (!structure.matrices.empty()) {
+    forbid_damping_of_regions(options, structure);
+  }
   return structure;
 }
 

@@ -7,10 +7,13 @@
 #include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 #include "common/error.h"
+#include "system/petsc_binary.h"
 
 namespace pounding {
 namespace {
@@ -39,9 +42,11 @@ class MarketReader {
       const MatrixEntry entry = coordinate_ ? coordinates(size) : array_entry(k, size);
       receive(entry);
       if (symmetric_ && entry.row != entry.column) {
+        check_triangle(entry);
         receive({entry.column, entry.row, entry.value});
       }
     }
+    check_end(entries);
     return size;
   }
 
@@ -71,14 +76,41 @@ class MarketReader {
     }
   }
 
-  std::vector<double> numbers(std::size_t wanted) {
+  /// A symmetric file holds one triangle: an entry given in both would count twice.
+  void check_triangle(const MatrixEntry& entry) {
+    const bool lower = entry.row > entry.column;
+    if (one_triangle_ && lower != *one_triangle_) {
+      fail("row " + std::to_string(entry.row + 1) + ", column " + std::to_string(entry.column + 1) +
+           (lower ? " is below the diagonal, entries before it above"
+                  : " is above the diagonal, entries before it below") +
+           ": a symmetric file holds one triangle only; leave one out, or say general");
+    }
+    one_triangle_ = lower;
+  }
+
+  void check_end(long long entries) {
     std::string text;
+    if (next_line(text)) {
+      fail("more than the " + std::to_string(entries) + " entries that the file announces");
+    }
+  }
+
+  /// The next line that is neither empty nor a comment; false at the end.
+  bool next_line(std::string& text) {
     do {
       if (!std::getline(file_, text)) {
-        fail("the file ends too early");
+        return false;
       }
       ++line_;
-    } while (text.empty() || text[0] == '%' || text == "\r");
+    } while (text[0] == '%' || text.find_first_not_of(" \t\r") == std::string::npos);
+    return true;
+  }
+
+  std::vector<double> numbers(std::size_t wanted) {
+    std::string text;
+    if (!next_line(text)) {
+      fail("the file ends too early");
+    }
     std::vector<double> values;
     const char* place = text.c_str();
     char* end = nullptr;
@@ -86,7 +118,8 @@ class MarketReader {
       values.push_back(value);
       place = end;
     }
-    if (values.size() != wanted) {
+    const bool all = std::string_view(place).find_first_not_of(" \t\r") == std::string_view::npos;
+    if (values.size() != wanted || !all) {
       fail("expected " + std::to_string(wanted) + " numbers");
     }
     return values;
@@ -127,46 +160,15 @@ class MarketReader {
   long line_ = 0;
   bool coordinate_ = true;
   bool symmetric_ = false;
+  std::optional<bool> one_triangle_;  ///< of a symmetric file so far: the lower one
 };
-
-MatrixSize read_binary(const std::string& path,
-                       const std::function<void(const MatrixEntry&)>& receive) {
-  if (!std::ifstream(path)) {
-    throw UserError(path + ": no such file, or it cannot be read");
-  }
-  PetscViewer viewer = nullptr;
-  MatHandle matrix;
-  POUNDING_PETSC(MatCreate(PETSC_COMM_SELF, matrix.out()));
-  POUNDING_PETSC(MatSetType(matrix.get(), MATSEQAIJ));
-  POUNDING_PETSC(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
-  PetscErrorCode error =
-      PetscViewerBinaryOpen(PETSC_COMM_SELF, path.c_str(), FILE_MODE_READ, &viewer);
-  error = error != 0 ? error : MatLoad(matrix.get(), viewer);
-  POUNDING_PETSC(PetscPopErrorHandler());
-  PetscViewerDestroy(&viewer);
-  if (error != 0) {
-    throw UserError(path + ": not a matrix in PETSc's binary format (Matrix Market ends in .mtx)");
-  }
-  MatrixSize size;
-  POUNDING_PETSC(MatGetSize(matrix.get(), &size.rows, &size.columns));
-  for (PetscInt row = 0; row < size.rows; ++row) {
-    PetscInt entries = 0;
-    const PetscInt* columns = nullptr;
-    const double* values = nullptr;
-    POUNDING_PETSC(MatGetRow(matrix.get(), row, &entries, &columns, &values));
-    for (PetscInt k = 0; k < entries; ++k) {
-      receive({row, columns[k], values[k]});
-    }
-    POUNDING_PETSC(MatRestoreRow(matrix.get(), row, &entries, &columns, &values));
-  }
-  return size;
-}
 
 }  // namespace
 
 MatrixSize read_matrix(const std::string& path,
                        const std::function<void(const MatrixEntry&)>& receive) {
-  return path.ends_with(".mtx") ? MarketReader(path).read(receive) : read_binary(path, receive);
+  return path.ends_with(".mtx") ? MarketReader(path).read(receive)
+                                : read_petsc_binary(path, receive);
 }
 
 void write_matrix(const std::string& path, const std::string& comment, const MatrixSize& size,
@@ -174,7 +176,7 @@ void write_matrix(const std::string& path, const std::string& comment, const Mat
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "w"),
                                                              std::fclose);
   if (!file) {
-    throw std::runtime_error(path + ": cannot be written");
+    throw UserError(path + ": cannot be written");
   }
   std::fprintf(file.get(), "%%%%MatrixMarket matrix coordinate real general\n%% %s\n%d %d %zu\n",
                comment.c_str(), size.rows, size.columns, entries.size());
@@ -182,7 +184,7 @@ void write_matrix(const std::string& path, const std::string& comment, const Mat
     std::fprintf(file.get(), "%d %d %.17g\n", entry.row + 1, entry.column + 1, entry.value);
   }
   if (std::fflush(file.get()) != 0 || std::ferror(file.get()) != 0) {
-    throw std::runtime_error(path + ": could not be written completely (is the disk full?)");
+    throw UserError(path + ": could not be written completely (is the disk full?)");
   }
 }
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <sstream>
 
 #include "common/error.h"
@@ -14,6 +15,7 @@
 #include "mesh/location.h"
 #include "system/critical_time_step.h"
 #include "system/matrix_market.h"
+#include "system/square_matrix.h"
 
 namespace pounding {
 namespace {
@@ -21,8 +23,6 @@ namespace {
 constexpr std::array<const char*, 6> component_names{"ux", "uy", "uz", "rx", "ry", "rz"};
 /// Positions of a row and of a node that differ by less than this part of the mesh are the same.
 constexpr double same_place = 1e-6;
-/// Largest |K_ij - K_ji| over the largest |K_ij| that is taken for round-off.
-constexpr double unsymmetric = 1e-9;
 
 /// What a row of the matrices stands for.
 struct Row {
@@ -111,27 +111,15 @@ class MatrixSystem {
     on_every_rank(mesh_.comm, [&] { read_mass(system); });
     MPI_Allreduce(MPI_IN_PLACE, &system.total_mass, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm);
     system.stiffness = std::make_unique<AssembledStiffness>(read_square("stiffness"));
-    check_symmetry(system.stiffness->matrix());
-    if (!path_of("damping").empty()) {
+    if (!matrix_file(folder_, "damping").empty()) {
       system.extra_damping = std::make_unique<AssembledStiffness>(read_square("damping"));
     }
     bound_frequency(system);
   }
 
  private:
-  /// The file of a matrix; empty if there is none.
-  std::string path_of(const std::string& name) const {
-    for (const char* extension : {".mtx", ".petsc"}) {
-      const std::string path = folder_ + "/" + name + extension;
-      if (std::filesystem::exists(path)) {
-        return path;
-      }
-    }
-    return "";
-  }
-
   std::string needed_path_of(const std::string& name) const {
-    const std::string path = path_of(name);
+    const std::string path = matrix_file(folder_, name);
     if (path.empty()) {
       throw UserError(folder_ + ": neither " + name + ".mtx nor " + name + ".petsc is there");
     }
@@ -239,63 +227,52 @@ class MatrixSystem {
   }
 
   MatHandle read_square(const std::string& name) const {
-    std::vector<std::vector<std::pair<PetscInt, double>>> entries(
-        static_cast<std::size_t>(mesh_.owned_dofs));
+    std::optional<SquareMatrix> read;
     on_every_rank(mesh_.comm, [&] {
       const std::string path = needed_path_of(name);
+      SquareMatrix& matrix =
+          read.emplace(path, owned_dof_, number_, static_cast<std::size_t>(mesh_.owned_dofs));
       const MatrixSize size = read_matrix(path, [&](const MatrixEntry& entry) {
-        if (inside(entry, false) && owned_dof_[static_cast<std::size_t>(entry.row)] >= 0 &&
-            number_[static_cast<std::size_t>(entry.column)] >= 0) {
-          entries[static_cast<std::size_t>(owned_dof_[static_cast<std::size_t>(entry.row)])]
-              .emplace_back(number_[static_cast<std::size_t>(entry.column)], entry.value);
+        if (inside(entry, false)) {
+          matrix.add(entry);
         }
       });
       check_size(path, size, false);
+      matrix.finish();
+      matrix.check();
     });
-    return assemble(entries);
+    return assemble(read->rows());
   }
 
-  MatHandle assemble(const std::vector<std::vector<std::pair<PetscInt, double>>>& entries) const {
+  MatHandle assemble(const std::vector<std::vector<SquareMatrix::Entry>>& rows) const {
     const auto first = static_cast<PetscInt>(mesh_.first_owned_dof);
-    std::vector<PetscInt> own;
+    const auto number = [&](const SquareMatrix::Entry& entry) {
+      return number_[static_cast<std::size_t>(entry.first)];
+    };
+    std::vector<PetscInt> own;  // with one more, for a diagonal that the file leaves out
     std::vector<PetscInt> other;
-    for (const auto& row : entries) {
-      const auto mine = std::ranges::count_if(row, [&](const auto& entry) {
-        return entry.first >= first && entry.first < first + mesh_.owned_dofs;
+    for (const auto& row : rows) {
+      const auto mine = std::ranges::count_if(row, [&](const SquareMatrix::Entry& entry) {
+        return number(entry) >= first && number(entry) < first + mesh_.owned_dofs;
       });
-      own.push_back(static_cast<PetscInt>(mine));
-      other.push_back(static_cast<PetscInt>(row.size()) - own.back());
+      own.push_back(static_cast<PetscInt>(mine) + 1);
+      other.push_back(static_cast<PetscInt>(row.size()) - static_cast<PetscInt>(mine));
     }
     MatHandle matrix;
     POUNDING_PETSC(MatCreateAIJ(mesh_.comm, mesh_.owned_dofs, mesh_.owned_dofs, PETSC_DETERMINE,
                                 PETSC_DETERMINE, 0, own.data(), 0, other.data(), matrix.out()));
     POUNDING_PETSC(MatSetOption(matrix.get(), MAT_USE_INODES, PETSC_FALSE));
     POUNDING_PETSC(MatSetOption(matrix.get(), MAT_SYMMETRIC, PETSC_TRUE));
-    for (std::size_t row = 0; row < entries.size(); ++row) {
-      for (const auto& [column, value] : entries[row]) {
-        POUNDING_PETSC(MatSetValue(matrix.get(), first + static_cast<PetscInt>(row), column, value,
-                                   ADD_VALUES));
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      const PetscInt place = first + static_cast<PetscInt>(row);
+      POUNDING_PETSC(MatSetValue(matrix.get(), place, place, 0, ADD_VALUES));
+      for (const SquareMatrix::Entry& entry : rows[row]) {
+        POUNDING_PETSC(MatSetValue(matrix.get(), place, number(entry), entry.second, ADD_VALUES));
       }
     }
     POUNDING_PETSC(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
     POUNDING_PETSC(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
     return matrix;
-  }
-
-  void check_symmetry(Mat matrix) const {
-    MatHandle transposed;
-    POUNDING_PETSC(MatTranspose(matrix, MAT_INITIAL_MATRIX, transposed.out()));
-    POUNDING_PETSC(MatAXPY(transposed.get(), -1, matrix, DIFFERENT_NONZERO_PATTERN));
-    double difference = 0;
-    double size = 0;
-    POUNDING_PETSC(MatNorm(transposed.get(), NORM_INFINITY, &difference));
-    POUNDING_PETSC(MatNorm(matrix, NORM_INFINITY, &size));
-    if (difference > unsymmetric * size) {
-      std::ostringstream text;
-      text << needed_path_of("stiffness") << ": not symmetric, the sums of |K_ij - K_ji| reach "
-           << difference << " where those of |K_ij| reach " << size;
-      throw UserError(text.str());
-    }
   }
 
   /// Gershgorin on M^-1/2 K M^-1/2: no omega^2 is beyond the largest sum of |K_ij| (m_i m_j)^-1/2
@@ -326,6 +303,18 @@ class MatrixSystem {
 };
 
 }  // namespace
+
+std::string matrix_file(const std::string& folder, const std::string& name) {
+  const std::string text = folder + "/" + name + ".mtx";
+  const std::string binary = folder + "/" + name + ".petsc";
+  const bool is_text = std::filesystem::exists(text);
+  const bool is_binary = std::filesystem::exists(binary);
+  if (is_text && is_binary) {
+    throw UserError(text + ": the same matrix is in " + name +
+                    ".petsc as well; remove one of them");
+  }
+  return is_text ? text : (is_binary ? binary : "");
+}
 
 LinearSystem build_matrix_system(const Structure& structure, const Mesh& mesh) {
   LinearSystem system = describe_system(structure, mesh);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "mesh/mesh.h"
 #include "scene/scene.h"
 #include "system/linear_system.h"
@@ -17,7 +19,13 @@ namespace pounding {
 ///
 /// each .mtx, or the same name with .petsc in PETSc's binary format. The mesh says where faces and
 /// probes are and what is clamped: rows find their dofs by position and component; rows of clamped
-/// dofs are left out. Throws UserError on every rank alike. Collective.
+/// dofs are left out. Stiffness and damping are checked entry by entry as far as that tells whether
+/// some motion has negative energy; the rest is require_passive_matrices' in modal/. Throws
+/// UserError on every rank alike. Collective.
 LinearSystem build_matrix_system(const Structure& structure, const Mesh& mesh);
+
+/// The file of a matrix ("stiffness", "mass", "damping") in such a folder; empty if there is none.
+/// Throws UserError if there are two.
+std::string matrix_file(const std::string& folder, const std::string& name);
 
 }  // namespace pounding

@@ -17,9 +17,9 @@ import program
 from recorded import Recorded, assert_follows
 
 STEPS = ["-end_time", 0.1, "-s1_initial_velocity", "0.5,0,0", "-time_step", 1.5e-5,
-         "-floor2_gap", "0.004,0.003", "-s1_slab_damping_beta", 2e-5,
-         "-s1_slab_damping_alpha", 0.1562]
-PAIR = program.COARSE_PAIR + STEPS
+         "-floor2_gap", "0.004,0.003"]
+ONE_DAMPING = program.COARSE_PAIR + STEPS
+PAIR = ONE_DAMPING + ["-s1_slab_damping_beta", 2e-5, "-s1_slab_damping_alpha", 0.1562]
 IDENTITY = 1e-11  # with a region's own damping; measured: 2e-12
 
 
@@ -40,7 +40,7 @@ class Matrices(unittest.TestCase):
         return place
 
     def from_files(self, place):
-        return PAIR + ["-s1_matrices", f"{place}/s1",
+        return ONE_DAMPING + ["-s1_matrices", f"{place}/s1",
                        "-s2_matrices", f"{place}/s2"]
 
     def matrix(self, place, name):
@@ -129,6 +129,25 @@ class Matrices(unittest.TestCase):
         def moved(lines):
             return lines[:2] + ["9,9,9,ux"] + lines[3:]
 
+        def negative(lines):
+            entries = [line.split() for line in lines[3:]]
+            return lines[:3] + [f"{i} {j} -{v}".replace("--", "") for i, j, v in entries]
+
+        def indefinite(lines):
+            """Softer along the slab, by far more than the column below gives."""
+            head, entries = lines[:3], [line.split() for line in lines[3:]]
+            diagonal = max((e for e in entries if e[0] == e[1]), key=lambda e: float(e[2]))
+            diagonal[2] = repr(0.8 * float(diagonal[2]))
+            return head + [" ".join(entry) for entry in entries]
+
+        def as_damping(make):
+            def spoil(folder):
+                stiffness = scipy.sparse.csr_matrix(
+                    scipy.io.mmread(os.path.join(folder, "stiffness.mtx")))
+                scipy.io.mmwrite(os.path.join(folder, "damping.mtx"), make(stiffness),
+                                 symmetry="general", precision=17)
+            return spoil
+
         cases = [
             (lambda folder: os.remove(os.path.join(folder, "mass.mtx")), "neither mass.mtx"),
             (lambda folder: os.remove(os.path.join(folder, "dofs.csv")), "dofs.csv: no such file"),
@@ -139,7 +158,17 @@ class Matrices(unittest.TestCase):
             (rewritten("stiffness.mtx", lambda lines: ["%%nothing"] + lines[1:]),
              "line 1: expected '%%MatrixMarket"),
             (rewritten("stiffness.mtx", lambda lines: lines[:4] + ["1 2 1e12"] + lines[5:]),
-             "not symmetric"),
+             "stiffness.mtx: row 1, column 2: "),
+            (rewritten("stiffness.mtx", negative), "stiffness.mtx: row 1, column 1: -"),
+            (rewritten("stiffness.mtx", indefinite), "stiffness.mtx: not positive semidefinite, 1 of"),
+            (rewritten("stiffness.mtx",
+                       lambda lines: [lines[0].replace("general", "symmetric")] + lines[1:]),
+             "a symmetric file holds one triangle only"),
+            (lambda folder: shutil.copy(os.path.join(folder, "../s1/damping.mtx"), folder),
+             "damping.mtx: "),
+            (as_damping(lambda k: -1e-5 * k), "damping.mtx: row 1, column 1: -"),
+            (as_damping(lambda k: 1e-5 * (k + scipy.sparse.triu(k, 1))),
+             "damping.mtx: row 1, column 2: "),
             (rewritten("stiffness.mtx", lambda lines: lines[:4] + ["1 2 nan"] + lines[5:]),
              "not finite"),
             (rewritten("mass.mtx", lambda lines: lines[:-1] + [lines[-1].split()[0] + " 1 0"]),
@@ -153,10 +182,17 @@ class Matrices(unittest.TestCase):
         for words, expected in (
                 (["-s1_matrices", "here", "-s1_mass_scaling", 2e-5], "-s1_matrices"),
                 (["-s1_matrices", "nowhere"], "nowhere/dofs.csv"),
+                (["-s1_matrices", "x", "-s1_slab_damping_beta", 2e-5],
+                 "option -s1_slab_damping_beta 2e-05: would be lost beside -s1_matrices"),
+                (["-s1_matrices", "x", "-s1_here_element", "grounded_spring",
+                  "-s1_here_stiffness", "0,0,0,0,0,0", "-s1_here_dashpot", "1e4,0,0,0,0,0"],
+                 "option -s1_here_dashpot 1e4,0,0,0,0,0: would be lost beside -s1_matrices"),
+                (["-s1_matrices", f"{self.export(1)}/s1", "-s1_model", "modal",
+                  "-s1_modal_vectors", 10], "damping.mtx would be lost with -s1_model modal"),
                 (["-s1_matrices", "x", "-s1_brace1_tension_only", "true"],
                  "tension_only")):
             with self.subTest(expected):
-                result = program.run(PAIR + words + ["-output", self.folder], 2)
+                result = program.run(ONE_DAMPING + words + ["-output", self.folder], 2)
                 self.assertEqual(result.returncode, 1)
                 self.assertEqual(len(program.error_lines(result)), 1, result.stderr)
                 self.assertIn(expected, program.error_lines(result)[0])

@@ -1,0 +1,113 @@
+#include "system/square_matrix.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "common/error.h"
+
+namespace pounding {
+namespace {
+
+/// Part of the largest entry, and of a bound, that is taken for round-off.
+constexpr double round_off = 1e-9;
+
+/// Sorts by column; entries of one column become their sum.
+void merge(std::vector<SquareMatrix::Entry>& entries) {
+  std::ranges::stable_sort(entries, {}, &SquareMatrix::Entry::first);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (kept > 0 && entries[kept - 1].first == entries[i].first) {
+      entries[kept - 1].second += entries[i].second;
+    } else {
+      entries[kept++] = entries[i];
+    }
+  }
+  entries.resize(kept);
+}
+
+}  // namespace
+
+SquareMatrix::SquareMatrix(std::string path, const std::vector<PetscInt>& owned_dof,
+                           const std::vector<PetscInt>& number, std::size_t owned_dofs)
+    : path_(std::move(path)),
+      owned_dof_(owned_dof),
+      number_(number),
+      rows_(owned_dofs),
+      mirrored_(owned_dofs),
+      diagonal_(number.size(), 0.0) {}
+
+void SquareMatrix::add(const MatrixEntry& entry) {
+  const auto row = static_cast<std::size_t>(entry.row);
+  const auto column = static_cast<std::size_t>(entry.column);
+  if (number_[row] < 0 || number_[column] < 0) {
+    return;
+  }
+  if (owned_dof_[row] >= 0) {
+    rows_[static_cast<std::size_t>(owned_dof_[row])].emplace_back(entry.column, entry.value);
+  }
+  if (owned_dof_[column] >= 0) {
+    mirrored_[static_cast<std::size_t>(owned_dof_[column])].emplace_back(entry.row, entry.value);
+  }
+  diagonal_[row] += row == column ? entry.value : 0;
+}
+
+void SquareMatrix::finish() {
+  for (auto* lists : {&rows_, &mirrored_}) {
+    for (std::vector<Entry>& list : *lists) {
+      merge(list);
+      for (const Entry& entry : list) {
+        largest_ = std::max(largest_, std::abs(entry.second));
+      }
+    }
+  }
+}
+
+void SquareMatrix::check() const {
+  for (std::size_t row = 0; row < diagonal_.size(); ++row) {
+    if (diagonal_[row] < 0) {
+      std::ostringstream text;
+      text << diagonal_[row] << " on the diagonal; a structure that resists has none below zero";
+      fail(static_cast<PetscInt>(row), static_cast<PetscInt>(row), text.str());
+    }
+  }
+  for (std::size_t row = 0; row < owned_dof_.size(); ++row) {
+    if (owned_dof_[row] >= 0) {
+      const auto dof = static_cast<std::size_t>(owned_dof_[row]);
+      check_row(static_cast<PetscInt>(row), rows_[dof], mirrored_[dof]);
+    }
+  }
+}
+
+void SquareMatrix::check_row(PetscInt row, const std::vector<Entry>& entries,
+                             const std::vector<Entry>& mirrored) const {
+  auto other = mirrored.begin();
+  for (auto here = entries.begin(); here != entries.end() || other != mirrored.end();) {
+    const bool from_here =
+        other == mirrored.end() || (here != entries.end() && here->first <= other->first);
+    const PetscInt column = from_here ? here->first : other->first;
+    const double value = from_here ? (here++)->second : 0;
+    const bool has_mirror = other != mirrored.end() && other->first == column;
+    const double opposite = has_mirror ? (other++)->second : 0;
+    std::ostringstream text;
+    if (std::abs(value - opposite) > round_off * largest_) {
+      text << value << ", but " << opposite << " at row " << column + 1 << ", column " << row + 1
+           << ": not symmetric";
+      fail(row, column, text.str());
+    }
+    const double bound = std::sqrt(diagonal_[static_cast<std::size_t>(row)] *
+                                   diagonal_[static_cast<std::size_t>(column)]);
+    if (std::abs(value) > bound + round_off * largest_) {
+      text << value << ", more than the diagonals there allow (" << bound
+           << "): some motion would give energy";
+      fail(row, column, text.str());
+    }
+  }
+}
+
+void SquareMatrix::fail(PetscInt row, PetscInt column, const std::string& what) const {
+  throw UserError(path_ + ": row " + std::to_string(row + 1) + ", column " +
+                  std::to_string(column + 1) + ": " + what);
+}
+
+}  // namespace pounding
