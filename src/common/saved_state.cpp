@@ -28,6 +28,11 @@ void SavedState::refuse(const std::string& name) const {
                   "' is missing or has another size; the file is damaged or not of this scene");
 }
 
+void SavedState::refuse_values(const std::string& name) const {
+  throw UserError(source_ + ": '" + name +
+                  "' holds values that no run of this scene has; the file was changed");
+}
+
 void SavedState::get(const std::string& name, std::span<double> values) const {
   const auto found = tables_.find(name);
   if (found == tables_.end() || found->second.values.size() != values.size()) {
@@ -43,7 +48,15 @@ double SavedState::number(const std::string& name) const {
 }
 
 std::int64_t SavedState::integer(const std::string& name) const {
-  return static_cast<std::int64_t>(number(name));
+  return whole(name, number(name));
+}
+
+std::int64_t SavedState::whole(const std::string& name, double value) const {
+  constexpr double largest = 9007199254740992;  // above it doubles leave whole numbers out
+  if (!(std::abs(value) <= largest) || value != std::floor(value)) {
+    refuse_values(name);
+  }
+  return static_cast<std::int64_t>(value);
 }
 
 const std::vector<double>& SavedState::table(const std::string& name, std::size_t columns) const {

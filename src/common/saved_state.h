@@ -40,10 +40,16 @@ class SavedState {
   /// What was put. Throw UserError if it is not there in that size.
   void get(const std::string& name, std::span<double> values) const;
   double number(const std::string& name) const;
+  /// Refuses what is not a whole number.
   std::int64_t integer(const std::string& name) const;
+  /// A value of `name` as a whole number.
+  std::int64_t whole(const std::string& name, double value) const;
   const std::vector<double>& table(const std::string& name, std::size_t columns) const;
   void get_sums(const std::string& name, std::span<double> values) const;
   void get_dofs(int structure, const std::string& name, std::span<double> values) const;
+
+  /// Throws UserError: what is there under this name cannot be a state of this scene.
+  [[noreturn]] void refuse_values(const std::string& name) const;
 
   /// No dof of this rank holds an infinity or a NaN.
   bool dofs_are_finite() const;

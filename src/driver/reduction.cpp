@@ -7,13 +7,14 @@
 #include <set>
 
 #include "common/error.h"
-#include "common/hash.h"
 #include "common/parallel.h"
 #include "contact/slide_watch.h"
+#include "driver/basis_key.h"
 #include "mesh/mesh.h"
+#include "modal/definiteness.h"
 #include "output/modal_basis_file.h"
 #include "system/build_system.h"
-#include "system/finite_element_system.h"
+#include "system/matrix_system.h"
 
 namespace pounding {
 namespace {
@@ -47,77 +48,18 @@ ModalRequest request_of(const Scene& scene, int s, const Interface& interface,
   return request;
 }
 
-std::string hash_of(std::span<const TracePoint> points) {
-  Hash hash;
-  for (const TracePoint& point : points) {
-    hash.add(static_cast<double>(point.node));
-    hash.add(static_cast<double>(point.component));
+/// A full matrix in the generalised coordinates is nothing that a step takes.
+void forbid_damping_matrix(const Structure& structure) {
+  if (structure.matrices.empty()) {
+    return;
   }
-  return hash.text();
-}
-
-std::string hash_of(const GlobalMesh& mesh) {
-  Hash hash;
-  hash.add_all(mesh.coordinates);
-  hash.add_all(mesh.components);
-  for (const ElementSet& set : mesh.regions) {
-    hash.add(set.group);
-    hash.add(static_cast<double>(set.type));
-    hash.add_all(set.connectivity);
+  const std::string path = matrix_file(structure.matrices, "damping");
+  if (!path.empty()) {
+    throw UserError("option -" + structure.name + "_matrices " + structure.matrices + ": " + path +
+                    " would be lost with -" + structure.name +
+                    "_model modal; take the file away and give -" + structure.name +
+                    "_modal_damping or _damping, or -" + structure.name + "_model full");
   }
-  return hash.text();
-}
-
-/// Materials, sections and whatever else makes element matrices.
-std::string hash_of(const std::vector<Region>& regions) {
-  Hash hash;
-  for (const Region& region : regions) {
-    const ElementProperties p = element_properties(region);
-    hash.add(region.group);
-    hash.add(static_cast<double>(region.element));
-    hash.add_all(std::array{p.young, p.poisson, p.density, p.area, p.inertia_y, p.inertia_z,
-                            p.torsion, p.thickness, p.rotary_inertia_factor, p.mass});
-    hash.add_all(p.z_axis);
-    hash.add_all(p.rotary_inertia);
-    hash.add_all(p.stiffness);
-  }
-  return hash.text();
-}
-
-/// Matrices from files: which they are, how large, how old.
-std::string hash_of_matrices(const std::string& folder) {
-  Hash hash;
-  hash.add(folder);
-  for (const char* name : {"stiffness.mtx", "stiffness.petsc", "mass.mtx", "mass.petsc"}) {
-    std::error_code absent;
-    const std::filesystem::path file = std::filesystem::path(folder) / name;
-    const auto size = std::filesystem::file_size(file, absent);
-    const auto time = std::filesystem::last_write_time(file, absent);
-    if (!absent) {
-      hash.add(static_cast<double>(size));
-      hash.add(static_cast<double>(time.time_since_epoch().count()));
-    }
-  }
-  return hash.text();
-}
-
-/// Rank 0.
-BasisKey key_of(const Structure& structure, const GlobalMesh& mesh, const ModalRequest& request) {
-  Hash clamp;
-  clamp.add_all(mesh.free_components);
-  Hash vectors;
-  vectors.add_all(
-      std::array{static_cast<double>(request.modes), request.cutoff, request.attachment ? 1. : 0.});
-  if (request.candidates > request.modes) {
-    vectors.add(static_cast<double>(request.candidates));
-  }
-  return {{"mesh", hash_of(mesh)},
-          {"elements", hash_of(structure.regions)},
-          {"matrices", hash_of_matrices(structure.matrices)},
-          {"clamp", clamp.text()},
-          {"number of vectors", vectors.text()},
-          {"contact points", hash_of(request.contact_points)},
-          {"probe points", hash_of(request.other_points)}};
 }
 
 /// Runs `work` on a file; what goes wrong is the user's.
@@ -172,6 +114,7 @@ void compute(const Structure& structure, Profile& profile, Reduction& reduction)
     system = build_system(unscaled, reduction.mesh);
   }
   const ScopedTimer timer(profile, Phase::modes);
+  require_passive_matrices(structure, *system);
   reduction.basis = compute_modal_basis(*system, reduction.mesh, reduction.request);
 }
 
@@ -219,8 +162,9 @@ std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& sc
     reduction.request = request_of(scene, reduction.structure, interface, probes);
     int stored = 0;
     on_rank0(comm, [&] {
+      forbid_damping_matrix(scene.structures[s]);
       if (!scene.structures[s].modal->basis_file.empty()) {
-        reduction.key = key_of(scene.structures[s], meshes[s], reduction.request);
+        reduction.key = basis_key(scene.structures[s], meshes[s], reduction.request);
         if (auto basis = stored_basis(scene.structures[s], reduction.key)) {
           reduction.basis = std::move(*basis);
           stored = 1;

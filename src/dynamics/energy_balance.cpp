@@ -137,7 +137,7 @@ void EnergyBalance::load(const SavedState& saved) {
   for_each_sum(*this, [&](double& value) { value = sums[next++]; });
   std::array<double, 3> numbers{};
   saved.get("energy", numbers);
-  steps_ = static_cast<std::int64_t>(numbers[0]);
+  steps_ = saved.whole("energy", numbers[0]);
   largest_term_ = numbers[1];
   largest_residual_ = numbers[2];
 }

@@ -42,9 +42,9 @@ void GapWatch::load(const SavedState& saved) {
   saved.get("gap_watch_root_energy", root_energy_);
   std::array<double, 3> steps{};
   saved.get("gap_watch_steps", steps);
-  energy_step_ = static_cast<std::int64_t>(steps[0]);
-  last_touch_ = static_cast<std::int64_t>(steps[1]);
-  next_look_ = static_cast<std::int64_t>(steps[2]);
+  energy_step_ = saved.whole("gap_watch_steps", steps[0]);
+  last_touch_ = saved.whole("gap_watch_steps", steps[1]);
+  next_look_ = saved.whole("gap_watch_steps", steps[2]);
 }
 
 void GapWatch::energies_known(std::int64_t step, std::span<const StructureEnergy> energies,

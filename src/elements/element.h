@@ -42,6 +42,10 @@ struct ElementLayout {
   int size() const { return nodes * components; }
 };
 
+/// Number of the formulations: whoever changes what an element's stiffness or mass comes out as
+/// adds one, so that no modal basis stored before is taken for a basis of what is computed now.
+inline constexpr int element_formulations = 1;
+
 inline constexpr int max_element_nodes = 8;
 inline constexpr int max_element_size = 24;
 

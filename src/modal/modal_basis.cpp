@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 #include <sstream>
@@ -122,6 +123,7 @@ class BasisMaker {
         const double* y = vectors.column(order[i]);
         space_.append({y, y + dofs_});
         squared_frequency_.push_back(values[order[i]]);
+        mode_numbers_.push_back(static_cast<int>(mode_numbers_.size()) + 1);
       }
     }
   }
@@ -143,10 +145,13 @@ class BasisMaker {
     order.resize(wanted);
     std::ranges::sort(order);
     DenseMatrix chosen(dofs_, 0);
+    std::vector<int> numbers;
     for (const std::size_t j : order) {
       chosen.append({space_.column(j), space_.column(j) + dofs_});
+      numbers.push_back(mode_numbers_[j]);
     }
     space_ = std::move(chosen);
+    mode_numbers_ = std::move(numbers);
   }
 
   /// phi^2 / omega^2 of each mode at a point, relative to the sum of all phi^2 there.
@@ -240,8 +245,30 @@ class BasisMaker {
     for (double& value : basis.squared_frequency) {
       value = std::max(value, 0.0);
     }
+    find_modes_in(rotation, basis);
     add_participation(rotation, basis);
     add_rows(rotation, basis);
+  }
+
+  /// Modes are vectors of A whatever stands beside them: they come out of the rotation as they went
+  /// in, but between vectors that are none.
+  void find_modes_in(const DenseMatrix& rotation, ModalBasis& basis) const {
+    const std::size_t modes = mode_numbers_.size();
+    std::vector<double> share(space_.columns, 0.0);  // of each new vector in the modes' space
+    std::vector<std::size_t> order(space_.columns);
+    for (std::size_t i = 0; i < space_.columns; ++i) {
+      order[i] = i;
+      for (std::size_t j = 0; j < modes; ++j) {
+        share[i] += std::pow(rotation.column(i)[j], 2);
+      }
+    }
+    std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return share[i]; });
+    order.resize(modes);
+    std::ranges::sort(order);
+    basis.mode_numbers.assign(space_.columns, 0);
+    for (std::size_t j = 0; j < modes; ++j) {
+      basis.mode_numbers[order[j]] = mode_numbers_[j];
+    }
   }
 
   void add_participation(const DenseMatrix& rotation, ModalBasis& basis) const {
@@ -286,6 +313,7 @@ class BasisMaker {
   std::size_t dofs_;
   DenseMatrix space_;
   std::vector<double> squared_frequency_;  ///< of the modes found [1/s2]
+  std::vector<int> mode_numbers_;          ///< of the modes in the space, from 1
 };
 
 }  // namespace
@@ -305,6 +333,7 @@ void broadcast_basis(MPI_Comm comm, int root, ModalBasis& basis) {
   MPI_Bcast(&basis.mass, 1, MPI_DOUBLE, root, comm);
   MPI_Bcast(basis.centre_of_mass.data(), 3, MPI_DOUBLE, root, comm);
   MPI_Bcast(basis.inertia.data(), 6, MPI_DOUBLE, root, comm);
+  broadcast_array(comm, basis.mode_numbers, root);
   broadcast_array(comm, basis.squared_frequency, root);
   broadcast_array(comm, basis.participation, root);
   broadcast_array(comm, basis.points, root);

@@ -12,11 +12,12 @@ namespace pounding {
 /// A basis Phi of motions of a structure, u = Phi q, with Phi^T M Phi = I and Phi^T K Phi =
 /// diag(omega^2), as far as a run needs it: k vectors, known at the places that are asked for.
 struct ModalBasis {
-  int modes = 0;               ///< modes in it
-  int attachment_vectors = 0;  ///< vectors beside them
-  GlobalIndex full_dofs = 0;   ///< of the model that was reduced
-  double total_mass = 0;       ///< clamped nodes included [kg]
-  double mass = 0;             ///< of the free dofs [kg]
+  int modes = 0;                  ///< modes in it
+  int attachment_vectors = 0;     ///< vectors beside them
+  std::vector<int> mode_numbers;  ///< which mode, from 1, each vector is; 0: none; shape (k)
+  GlobalIndex full_dofs = 0;      ///< of the model that was reduced
+  double total_mass = 0;          ///< clamped nodes included [kg]
+  double mass = 0;                ///< of the free dofs [kg]
   Vector3 centre_of_mass{0, 0, 0};
   std::array<double, 6> inertia{};        ///< along and about x, y, z [kg, kg m2]
   std::vector<double> squared_frequency;  ///< omega^2, increasing, shape (k) [1/s2]

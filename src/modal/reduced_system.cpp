@@ -15,6 +15,14 @@
 namespace pounding {
 namespace {
 
+/// Ratios go by the number of the mode; the last one is of all modes that follow, and of vectors
+/// that are no mode.
+double damping_ratio_of(const std::vector<double>& ratios, int mode_number) {
+  const std::size_t last = ratios.size() - 1;
+  return mode_number > 0 ? ratios[std::min(static_cast<std::size_t>(mode_number) - 1, last)]
+                         : ratios[last];
+}
+
 /// C of each coordinate of unit mass [1/s].
 std::vector<double> damping_rates(const Structure& structure, const ModalBasis& basis) {
   const std::vector<double>& ratios = structure.modal->damping_ratios;
@@ -23,7 +31,7 @@ std::vector<double> damping_rates(const Structure& structure, const ModalBasis& 
     const double square = basis.squared_frequency[i];
     rates.push_back(ratios.empty()
                         ? structure.damping.alpha + structure.damping.beta * square
-                        : 2 * ratios[std::min(i, ratios.size() - 1)] * std::sqrt(square));
+                        : 2 * damping_ratio_of(ratios, basis.mode_numbers[i]) * std::sqrt(square));
   }
   return rates;
 }
@@ -106,7 +114,10 @@ ModalResult modes_of_basis(const ModalBasis& basis, int count) {
   ModalResult result;
   result.mass = basis.mass;
   result.centre_of_mass = basis.centre_of_mass;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(std::min(count, basis.modes)); ++i) {
+  for (std::size_t i = 0; i < basis.size(); ++i) {
+    if (basis.mode_numbers[i] == 0 || static_cast<int>(result.modes.size()) == count) {
+      continue;
+    }
     std::array<double, 6> participation{};
     for (std::size_t k = 0; k < 6; ++k) {
       participation[k] = basis.participation[k * basis.size() + i];

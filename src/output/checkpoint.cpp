@@ -50,7 +50,7 @@ namespace format = checkpoint_format;
 class CheckpointWriter {
  public:
   CheckpointWriter(MPI_Comm comm, const std::string& path) : comm_(comm), path_(path) {
-    on_root([&] { file_.emplace(path_ + ".new"); });
+    on_root([&] { file_.emplace(path_ + ".new", Hdf5File::Kind::sealed); });
   }
 
   void write_identity(const RunIdentity& identity) {

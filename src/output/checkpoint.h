@@ -13,7 +13,7 @@
 /// `checkpoint.h5`: all that a run needs to go on as if it had never stopped. The file says nothing
 /// about ranks but for the parts of sums, so any number of them may read it.
 ///
-///     /                            attributes: format "pounding checkpoint", version 1, program,
+///     /                            attributes: format "pounding checkpoint", version 2, program,
 ///                                  time_step [s], ground_motion (hash of its samples)
 ///     /options                     strings "name: value", those that may not change
 ///     /structures/S                attributes: dofs (free ones), elements
@@ -37,8 +37,10 @@
 ///         x = file["structures/left/coordinates"][:]
 ///         file["structures/left/velocity"][x[:, 2] > 5, 0] += 0.1      # dataset[...] = keeps sums
 ///
-/// `stiffness_displacement` is K u_n: whoever changes a displacement has to change it alike, or the
-/// energy identity no longer closes and the run stops.
+/// The file is sealed (output/file_seal.h): after such a change, run/seal results/checkpoint.h5.
+/// `stiffness_displacement` is K u_n: whoever changes a displacement has to change it alike. Energy
+/// that a change brings in is in no ledger: beyond round-off the identity no longer closes and the
+/// run stops, unless the initial energy in sums/energy follows.
 namespace pounding {
 
 /// What a checkpoint has in common with the runs that may continue it, beside the meshes.

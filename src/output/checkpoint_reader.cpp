@@ -25,7 +25,7 @@ class CheckpointReader {
  public:
   CheckpointReader(MPI_Comm comm, const std::string& path) : comm_(comm), path_(path) {
     on_root([&] {
-      file_.emplace(path);
+      file_.emplace(path, Hdf5Reader::Kind::sealed);
       if (!is_checkpoint()) {
         refuse("an HDF5 file, but not a checkpoint");
       }
@@ -106,7 +106,7 @@ class CheckpointReader {
       std::vector<double> table;
       on_root([&] {
         const std::string place = folder + "/" + name;
-        table = file_->array(place);
+        table = finite_array(place);
         if (table.size() != static_cast<std::size_t>(rows) * std::max<std::size_t>(columns, 1)) {
           refuse("'" + place + "' does not have one row per " +
                  (system.generalised ? "generalised coordinate" : "node"));
@@ -140,7 +140,7 @@ class CheckpointReader {
     on_root([&] {
       for (const std::string& name : file_->names("tables")) {
         const std::string place = "tables/" + name;
-        tables[name] = {file_->shape(place).columns, file_->array(place)};
+        tables[name] = {file_->shape(place).columns, finite_array(place)};
       }
     });
     broadcast_tables(comm_, tables);
@@ -151,7 +151,7 @@ class CheckpointReader {
       std::vector<double> table;
       std::uint64_t columns = 0;
       on_root([&] {
-        table = file_->array("sums/" + name);
+        table = finite_array("sums/" + name);
         columns = file_->shape("sums/" + name).columns;
         if (columns == 0) {
           refuse("'sums/" + name + "' does not have one row per rank");
@@ -168,6 +168,19 @@ class CheckpointReader {
   }
   [[noreturn]] void refuse(const std::string& why) const {
     throw std::runtime_error(path_ + ": " + why);
+  }
+
+  /// A dataset without infinities and NaN.
+  std::vector<double> finite_array(const std::string& place) const {
+    std::vector<double> values = file_->array(place);
+    const auto bad = std::ranges::find_if(values, [](double v) { return !std::isfinite(v); });
+    if (bad != values.end()) {
+      const std::size_t columns = std::max<std::size_t>(1, file_->shape(place).columns);
+      refuse("'" + place + "' holds " + std::to_string(*bad) + " in row " +
+             std::to_string(static_cast<std::size_t>(bad - values.begin()) / columns + 1) +
+             "; the file was changed");
+    }
+    return values;
   }
 
   bool is_checkpoint() const {

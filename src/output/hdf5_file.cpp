@@ -6,14 +6,24 @@
 #include <stdexcept>
 #include <unistd.h>
 
+#include "common/error.h"
+#include "output/file_seal.h"
+#include "output/hdf5_library.h"
+
 namespace pounding {
 
-Hdf5File::Hdf5File(const std::string& path) : path_(path) {
+Hdf5File::Hdf5File(const std::string& path, Kind kind) : path_(path), kind_(kind) {
+  prepare_hdf5();
   const hid_t access = checked(H5Pcreate(H5P_FILE_ACCESS), "create");
+  const hid_t creation = checked(H5Pcreate(H5P_FILE_CREATE), "create");
   H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
-  file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  if (kind == Kind::sealed) {
+    H5Pset_userblock(creation, seal_size);
+  }
+  file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access);
+  H5Pclose(creation);
   H5Pclose(access);
-  checked(file_, "create");
+  checked(file_, "create it (is the disk full?)");
 }
 
 Hdf5File::~Hdf5File() {
@@ -48,15 +58,34 @@ void Hdf5File::move_to(const std::string& path) {
 
 void Hdf5File::close() {
   checked(close_handles(), "write (is the disk full?)");
-  const int file = open(path_.c_str(), O_RDONLY);
+  if (kind_ == Kind::sealed) {
+    seal_file(path_);
+  } else {
+    sync();
+  }
+}
+
+void Hdf5File::sync() const {
+  const int file = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
   const int status = fsync(file);
   ::close(file);
-  checked(status, "write to the disk");
+  checked(status, "write to the disk (is it full?)");
+}
+
+void Hdf5File::mark(const std::string& attribute, double value) {
+  file_ = checked(H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), "open again");
+  const hid_t id = H5Aopen_by_name(file_, "/", attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+  checked(id, "find its attribute " + attribute);
+  const herr_t status = H5Awrite(id, H5T_NATIVE_DOUBLE, &value);
+  H5Aclose(id);
+  checked(status, "write its attribute " + attribute);
+  checked(close_handles(), "write (is the disk full?)");
+  sync();
 }
 
 hid_t Hdf5File::checked(hid_t id, const std::string& what) const {
   if (id < 0) {
-    throw std::runtime_error(path_ + ": HDF5 could not " + what);
+    throw UserError(path_ + ": HDF5 could not " + what);
   }
   return id;
 }
@@ -99,7 +128,7 @@ void Hdf5File::append(const std::string& name, std::span<const double> values) {
   const hsize_t total[2] = {dataset.rows + count[0], columns};
   const hsize_t start[2] = {dataset.rows, 0};
   const int rank = dataset.columns == 0 ? 1 : 2;
-  H5Dset_extent(dataset.id, total);
+  checked(H5Dset_extent(dataset.id, total), "extend " + name);
   const hid_t space = checked(H5Dget_space(dataset.id), "extend " + name);
   H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, count, nullptr);
   const hid_t memory = checked(H5Screate_simple(rank, count, nullptr), "extend " + name);
@@ -161,6 +190,27 @@ void Hdf5File::write_strings(const std::string& name, const std::vector<std::str
   H5Sclose(space);
   H5Tclose(type);
   checked(status, "write " + name);
+}
+
+void Hdf5File::create_number(const std::string& name) {
+  const hsize_t size = 1;
+  const hid_t space = checked(H5Screate_simple(1, &size, nullptr), "describe " + name);
+  const hid_t properties = checked(H5Pcreate(H5P_DATASET_CREATE), "describe " + name);
+  H5Pset_alloc_time(properties, H5D_ALLOC_TIME_EARLY);
+  H5Pset_fill_time(properties, H5D_FILL_TIME_ALLOC);
+  Dataset dataset{name, -1, 0, 0};
+  dataset.id = H5Dcreate2(file_, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, properties,
+                          H5P_DEFAULT);
+  H5Pclose(properties);
+  H5Sclose(space);
+  checked(dataset.id, "create dataset " + name);
+  datasets_.push_back(dataset);
+  write_number(name, 0);
+}
+
+void Hdf5File::write_number(const std::string& name, double value) {
+  checked(H5Dwrite(find(name).id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value),
+          "write " + name + " (is the disk full?)");
 }
 
 void Hdf5File::write_attribute(const std::string& object, const std::string& name, double value) {

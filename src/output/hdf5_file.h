@@ -9,10 +9,12 @@
 namespace pounding {
 
 /// An HDF5 file written by one rank: two-dimensional datasets that grow by rows, and arrays written
-/// at once. Its metadata carry checksums. Errors throw std::runtime_error naming file and dataset.
+/// at once. Its metadata carry checksums. Errors throw UserError naming file and dataset.
 class Hdf5File {
  public:
-  explicit Hdf5File(const std::string& path);
+  /// `sealed`: closing seals it, see file_seal.h; otherwise it is plain HDF5.
+  enum class Kind { plain, sealed };
+  explicit Hdf5File(const std::string& path, Kind kind = Kind::plain);
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
   ~Hdf5File();
@@ -26,6 +28,10 @@ class Hdf5File {
   /// is 0; groups in its name come into being.
   void write_array(const std::string& name, std::size_t columns, std::span<const double> values);
   void write_strings(const std::string& name, const std::vector<std::string>& values);
+  /// A dataset of a single number, 0 at first, whose place in the file is taken at once: writing it anew
+  /// needs no space.
+  void create_number(const std::string& name);
+  void write_number(const std::string& name, double value);
   /// Attribute of a dataset, of a group, or of the file ("/").
   void write_attribute(const std::string& object, const std::string& name, double value);
   void write_attribute(const std::string& object, const std::string& name,
@@ -41,6 +47,8 @@ class Hdf5File {
   void move_to(const std::string& path);
   /// Everything stands on the disk, or this throws.
   void close();
+  /// Of a closed file: sets an attribute of the whole file that is there already.
+  void mark(const std::string& attribute, double value);
 
  private:
   struct Dataset {
@@ -52,8 +60,10 @@ class Hdf5File {
   Dataset& find(const std::string& name);
   hid_t checked(hid_t id, const std::string& what) const;
   herr_t close_handles();
+  void sync() const;
 
   std::string path_;
+  Kind kind_;
   hid_t file_ = -1;
   std::vector<Dataset> datasets_;
 };

@@ -4,24 +4,11 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "output/file_seal.h"
+#include "output/hdf5_library.h"
+
 namespace pounding {
 namespace {
-
-/// HDF5 prints no messages of its own during the life of this object.
-class Silence {
- public:
-  Silence() {
-    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
-  ~Silence() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-
- private:
-  H5E_auto2_t function_ = nullptr;
-  void* data_ = nullptr;
-};
 
 /// Closes a handle of any kind at the end of its scope.
 class Handle {
@@ -46,16 +33,19 @@ std::string without_padding(std::string text) {
 
 }  // namespace
 
-Hdf5Reader::Hdf5Reader(const std::string& path, bool left_open) : path_(path) {
-  const Silence silence;
+Hdf5Reader::Hdf5Reader(const std::string& path, Kind kind) : path_(path) {
+  prepare_hdf5();
   if (!std::filesystem::is_regular_file(path)) {
     fail("no such file");
+  }
+  if (kind == Kind::sealed) {
+    check_seal(path);
   }
   if (H5Fis_hdf5(path.c_str()) <= 0) {
     fail("not an HDF5 file, or its beginning is damaged");
   }
   file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file_ < 0 && left_open) {
+  if (file_ < 0 && kind == Kind::left_open) {
     file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT);
   }
   if (file_ < 0) {
@@ -72,7 +62,6 @@ void Hdf5Reader::fail(const std::string& what) const {
 }
 
 std::vector<std::string> Hdf5Reader::names(const std::string& group) const {
-  const Silence silence;
   const Handle object(H5Gopen2(file_, group.c_str(), H5P_DEFAULT));
   if (object.get() < 0) {
     return {};
@@ -106,7 +95,6 @@ hid_t Hdf5Reader::open_dataset(const std::string& dataset) const {
 }
 
 Hdf5Reader::Shape Hdf5Reader::shape(const std::string& dataset) const {
-  const Silence silence;
   const Handle data(open_dataset(dataset));
   const Handle space(H5Dget_space(data.get()));
   hsize_t size[2] = {0, 0};
@@ -121,7 +109,6 @@ Hdf5Reader::Shape Hdf5Reader::shape(const std::string& dataset) const {
 std::vector<double> Hdf5Reader::rows(const std::string& dataset, std::size_t first,
                                      std::size_t count) const {
   const Shape whole = shape(dataset);
-  const Silence silence;
   if (first + count > whole.rows) {
     fail("dataset '" + dataset + "' has " + std::to_string(whole.rows) + " rows instead of " +
          std::to_string(first + count) + " or more");
@@ -149,7 +136,6 @@ std::vector<double> Hdf5Reader::array(const std::string& dataset) const {
 
 std::vector<std::string> Hdf5Reader::strings(const std::string& dataset) const {
   const std::size_t count = shape(dataset).rows;
-  const Silence silence;
   const Handle data(open_dataset(dataset));
   const Handle type(H5Dget_type(data.get()));
   if (H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) != 0) {
@@ -178,7 +164,6 @@ hid_t Hdf5Reader::open_attribute(const std::string& object, const std::string& a
 }
 
 double Hdf5Reader::number(const std::string& object, const std::string& attribute) const {
-  const Silence silence;
   const Handle id(open_attribute(object, attribute));
   const Handle space(H5Aget_space(id.get()));
   double value = 0;
@@ -190,7 +175,6 @@ double Hdf5Reader::number(const std::string& object, const std::string& attribut
 }
 
 std::string Hdf5Reader::text(const std::string& object, const std::string& attribute) const {
-  const Silence silence;
   const Handle id(open_attribute(object, attribute));
   const Handle type(H5Aget_type(id.get()));
   const Handle space(H5Aget_space(id.get()));

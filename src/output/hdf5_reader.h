@@ -17,8 +17,10 @@ class Hdf5Reader {
     std::size_t columns = 0;
   };
 
-  /// `left_open`: its writer may have been killed after Hdf5File::stay_readable().
-  explicit Hdf5Reader(const std::string& path, bool left_open = false);
+  /// `sealed`: HDF5 sees it only if its seal is right, see file_seal.h; `left_open`: its writer may
+  /// have been killed after Hdf5File::stay_readable().
+  enum class Kind { plain, sealed, left_open };
+  explicit Hdf5Reader(const std::string& path, Kind kind = Kind::plain);
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
   ~Hdf5Reader();

@@ -1,6 +1,7 @@
 #include "output/impact_catalogue.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "common/error.h"
@@ -42,6 +43,17 @@ std::vector<Impact> from_table(const std::vector<double>& table) {
                        {v[11], v[12]}});
   }
   return impacts;
+}
+
+/// Whether every row names one of so many contacts.
+bool names_contacts(const std::vector<double>& table, std::size_t contacts) {
+  for (std::size_t i = 0; i < table.size(); i += impact_columns) {
+    if (!(table[i] >= 0 && table[i] < static_cast<double>(contacts)) ||
+        table[i] != std::floor(table[i])) {
+      return false;
+    }
+  }
+  return true;
 }
 
 /// Per constraint and axis: 1 below the middle of the face of its contact, 0.5 at it, 0 above.
@@ -175,7 +187,14 @@ void ImpactCatalogue::load(const SavedState& saved) {
   saved.get("impacts_open", open);
   saved.get("impacts_is_open", is_open);
   saved.get("impacts_touched_rows", touched);
-  impacts_ = from_table(saved.table("impacts", impact_columns));
+  const std::vector<double>& closed = saved.table("impacts", impact_columns);
+  if (!names_contacts(closed, open_.size())) {
+    saved.refuse_values("impacts");
+  }
+  if (!names_contacts(open, open_.size())) {
+    saved.refuse_values("impacts_open");
+  }
+  impacts_ = from_table(closed);
   open_ = from_table(open);
   const auto is_set = [](double value) { return static_cast<char>(value != 0); };
   std::ranges::transform(is_open, is_open_.begin(), is_set);

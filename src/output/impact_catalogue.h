@@ -78,7 +78,7 @@ class ImpactCatalogue {
   std::vector<Impact> impacts_;
 };
 
-/// `impacts.csv`: one line per episode. Throws std::runtime_error if the file cannot be written.
+/// `impacts.csv`: one line per episode. Throws UserError if the file cannot be written.
 void write_impacts(const std::string& path, const std::vector<std::string>& contacts,
                    std::span<const Impact> impacts);
 

@@ -1,5 +1,7 @@
 #include "output/modal_basis_file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "common/version.h"
@@ -10,7 +12,7 @@ namespace pounding {
 namespace {
 
 constexpr const char* format = "pounding modal basis";
-constexpr int version = 1;
+constexpr int version = 2;
 
 /// Attributes are those of a dataset, since a group that holds nothing else does not come to be.
 constexpr const char* key_holder = "squared_frequency";
@@ -33,16 +35,32 @@ ModalBasis read_arrays(const Hdf5Reader& file) {
   basis.total_mass = file.number("/", "total_mass");
   basis.mass = file.number("/", "mass");
   basis.squared_frequency = file.array("squared_frequency");
+  for (const double number : file.array("mode_numbers")) {
+    basis.mode_numbers.push_back(static_cast<int>(number));
+  }
   basis.participation = file.array("participation");
   const std::vector<double> centre = file.array("centre_of_mass");
   const std::vector<double> inertia = file.array("inertia");
   const std::vector<double> points = file.array("points");
   basis.rows = file.array("rows");
   const std::size_t size = basis.size();
-  if (size == 0 || basis.participation.size() != 6 * size || centre.size() != 3 ||
-      inertia.size() != 6 || basis.rows.size() != points.size() / 2 * size ||
+  const auto modes = std::ranges::count_if(basis.mode_numbers, [](int n) { return n > 0; });
+  if (size == 0 || basis.mode_numbers.size() != size || modes != basis.modes ||
+      basis.participation.size() != 6 * size || centre.size() != 3 || inertia.size() != 6 ||
+      basis.rows.size() != points.size() / 2 * size ||
       basis.modes + basis.attachment_vectors != static_cast<int>(size)) {
     throw std::runtime_error("sizes that do not belong together");
+  }
+  for (const auto* values : std::initializer_list<const std::vector<double>*>{
+           &basis.squared_frequency, &basis.participation, &centre, &inertia, &points,
+           &basis.rows}) {
+    if (!std::ranges::all_of(*values, [](double value) { return std::isfinite(value); })) {
+      throw std::runtime_error("a value is not finite");
+    }
+  }
+  if (!(basis.squared_frequency.front() >= 0) || !std::ranges::is_sorted(basis.squared_frequency) ||
+      !(basis.mass > 0) || !(basis.total_mass > 0)) {
+    throw std::runtime_error("frequencies or masses that cannot be");
   }
   std::copy(centre.begin(), centre.end(), basis.centre_of_mass.begin());
   std::copy(inertia.begin(), inertia.end(), basis.inertia.begin());
@@ -55,7 +73,7 @@ ModalBasis read_arrays(const Hdf5Reader& file) {
 }  // namespace
 
 void write_modal_basis(const std::string& path, const BasisKey& key, const ModalBasis& basis) {
-  Hdf5File file(path + ".new");
+  Hdf5File file(path + ".new", Hdf5File::Kind::sealed);
   file.write_attribute("/", "format", format);
   file.write_attribute("/", "version", version);
   file.write_attribute("/", "program", program_version());
@@ -68,6 +86,8 @@ void write_modal_basis(const std::string& path, const BasisKey& key, const Modal
   for (const auto& [name, hash] : key) {
     file.write_attribute(key_holder, name, hash);
   }
+  file.write_array("mode_numbers", 0,
+                   std::vector<double>(basis.mode_numbers.begin(), basis.mode_numbers.end()));
   file.write_array("participation", basis.size(), basis.participation);
   file.write_array("centre_of_mass", 0, basis.centre_of_mass);
   file.write_array("inertia", 0, basis.inertia);
@@ -83,13 +103,14 @@ void write_modal_basis(const std::string& path, const BasisKey& key, const Modal
 }
 
 StoredBasis read_modal_basis(const std::string& path, const BasisKey& key) {
-  const Hdf5Reader file(path);
+  const Hdf5Reader file(path, Hdf5Reader::Kind::sealed);
   try {
-    if (file.text("/", "format") != format || file.number("/", "version") != version) {
+    if (file.text("/", "format") != format) {
       throw std::runtime_error("another format");
     }
     StoredBasis stored;
-    stored.differs = difference(file, key);
+    stored.differs = file.number("/", "version") == version ? difference(file, key)
+                                                            : "in another version of its format";
     if (stored.differs.empty()) {
       stored.basis = read_arrays(file);
     }

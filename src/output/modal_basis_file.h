@@ -6,11 +6,12 @@
 
 #include "modal/modal_basis.h"
 
-/// A modal basis in an HDF5 file, to be used again:
+/// A modal basis in a sealed HDF5 file (output/file_seal.h), to be used again:
 ///
-///     /                    attributes: format "pounding modal basis", version 1, program, modes,
+///     /                    attributes: format "pounding modal basis", version 2, program, modes,
 ///                          attachment_vectors, full_dofs, total_mass [kg], mass [kg]
 ///     /squared_frequency   (k) omega^2 [1/s2]; attributes: hashes of what the basis depends on
+///     /mode_numbers        (k) which mode, from 1, each vector is; 0: none
 ///     /participation       (6, k) along and about x, y, z
 ///     /centre_of_mass      (3) [m]
 ///     /inertia             (6) [kg, kg m2]

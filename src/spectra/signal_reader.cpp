@@ -69,21 +69,34 @@ std::vector<double> less_ground(const Hdf5Reader& history, const std::string& pa
   return acceleration;
 }
 
+/// Rows that are whole, all of them in a file that does not say: what stands behind them was still
+/// being written when its run ended.
+std::size_t whole_records(const Hdf5Reader& history, const std::string& path) {
+  const std::size_t rows = history.shape("time").rows;
+  const std::vector<std::string> names = history.names("/");
+  if (std::ranges::find(names, "records") == names.end()) return rows;
+  const double whole = history.array("records").at(0);
+  if (!(whole >= 0 && whole <= static_cast<double>(rows)))
+    throw UserError(path + ": 'records' is not a number of its " + std::to_string(rows) + " rows");
+  return static_cast<std::size_t>(whole);
+}
+
 void read_history(const std::string& path, const SpectraOptions& options,
                   std::vector<NamedSignal>& signals) {
-  const Hdf5Reader history(path, true);
+  const Hdf5Reader history(path, Hdf5Reader::Kind::left_open);
   const auto channels = history.strings("channels");
-  const auto time = history.array("time");
+  const std::size_t records = whole_records(history, path);
+  const auto time = history.rows("time", 0, records);
   const double step = uniform_step(path, time);
   const double offset = history.number("acceleration", "time_offset");
   const auto shape = history.shape("acceleration");
-  if (shape.columns != channels.size() || shape.rows != time.size())
+  if (shape.columns != channels.size() || shape.rows < records)
     throw UserError(path + ": acceleration, time and channels do not fit together");
-  const auto all = history.array("acceleration");
+  const auto all = history.rows("acceleration", 0, records);
   for (const std::size_t channel : choose(path, channels, options.channels)) {
     std::vector<double> acceleration;
-    acceleration.reserve(shape.rows);
-    for (std::size_t row = 0; row < shape.rows; ++row)
+    acceleration.reserve(records);
+    for (std::size_t row = 0; row < records; ++row)
       acceleration.push_back(all[row * shape.columns + channel]);
     if (options.relative)
       acceleration = less_ground(history, path, std::move(acceleration), channels[channel]);

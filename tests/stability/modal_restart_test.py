@@ -65,6 +65,7 @@ class Restart(RestartCase):
             check = file["structures/s1/basis_check"][()]
             check[5] = -check[5]  # a vector that points the other way
             file["structures/s1/basis_check"][...] = check
+        self.assertEqual(program.command("seal", checkpoint(cut)).returncode, 0)
         result = program.run(PAIR + END + ["-restart", checkpoint(cut), "-output", self.folder()], 2)
         self.assertEqual(result.returncode, 1)
         line, = program.error_lines(result)
@@ -131,6 +132,31 @@ class Basis(unittest.TestCase):
                 self.assertIn("-s1_modal_basis " + self.files["s1"], line)
             with open(self.files["s1"], "rb") as file:
                 self.assertEqual(file.read(), before)
+
+    def test_changed_file_is_refused(self):
+        self.run_case()
+
+        def refuse(word):
+            for ranks in (1, 2):
+                result = program.run(self.case + ["-output", self.folder], ranks)
+                self.assertEqual(result.returncode, 1)
+                line, = program.error_lines(result)
+                self.assertIn("-s1_modal_basis " + self.files["s1"], line)
+                self.assertIn(word, line)
+
+        with h5py.File(self.files["s1"], "r+") as file:
+            file["squared_frequency"][1] = float("nan")
+        refuse("run/seal")
+        self.assertEqual(program.command("seal", self.files["s1"]).returncode, 0)
+        refuse("not finite")
+
+    def test_damping_goes_by_the_number_of_the_mode(self):
+        """Ratios beyond the modes kept are those of the modes chosen among the candidates."""
+        ratios = ",".join(["0.02"] * 20 + ["0.3"] * 40 + ["0.02"])
+        reduced = ["-s1_modal_candidates", 60, "-s1_modal_damping"]
+        _, one = self.run_case(*reduced, 0.02)
+        _, other = self.run_case(*reduced, ratios)
+        self.assertFalse(numpy.array_equal(one, other))
 
     def test_file_that_cannot_be_written(self):
         self.files["s1"] = os.path.join(self.folder, "nowhere", "s1.h5")

@@ -229,7 +229,7 @@ class Signals(RestartCase):
 
     def test_signal_to_one_rank_then_restart(self):
         whole = self.complete(self.CASE)
-        for number in (signal.SIGTERM, signal.SIGINT):
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
             folder, result = self.interrupted(lambda pid: os.kill(children(pid)[-1], number))
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assert_stopped(folder, result, number.name)
@@ -302,14 +302,16 @@ class Refusals(RestartCase):
     def tearDownClass(cls):
         shutil.rmtree(cls.origin)
 
-    def copy(self, change=None):
-        """A copy of the results, its checkpoint changed in Python."""
+    def copy(self, change=None, seal=True):
+        """A copy of the results, its checkpoint changed in Python and sealed anew."""
         folder = self.folder()
         for name in ("checkpoint.h5", "history.h5"):
             shutil.copy(os.path.join(self.origin, name), folder)
         if change:
             with h5py.File(checkpoint(folder), "r+") as file:
                 change(file)
+            if seal:
+                self.assertEqual(program.command("seal", checkpoint(folder)).returncode, 0)
         return folder
 
     def refuse(self, folder, words, more=(), case=None, name="checkpoint.h5", ranks=(2,)):
@@ -340,7 +342,7 @@ class Refusals(RestartCase):
     def test_no_hdf5(self):
         folder = self.copy()
         self.write(folder, "checkpoint.h5", b"this is no checkpoint\n" * 100)
-        self.refuse(folder, ["not an HDF5 file"], ranks=(1, 2, 3))
+        self.refuse(folder, ["not a checkpoint"], ranks=(1, 2, 3))
 
     def test_history_is_no_checkpoint(self):
         self.refuse(self.copy(), ["not a checkpoint"], name="history.h5")
@@ -350,16 +352,41 @@ class Refusals(RestartCase):
         data = content(folder, "checkpoint.h5")
         for size in (len(data) // 4, len(data) // 2, len(data) - 1):
             self.write(folder, "checkpoint.h5", data[:size])
-            self.refuse(folder, ["truncated"])
+            self.refuse(folder, ["is not what was sealed"])
 
-    def test_one_bit_of_a_velocity(self):
+    def test_flipped_bits(self):
+        """HDF5 does not see the file: it ends the program on some of these."""
         folder = self.copy()
-        with h5py.File(checkpoint(folder), "r") as file:
-            place = file["structures/bar/velocity"].id.get_chunk_info(0).byte_offset
-        data = bytearray(content(folder, "checkpoint.h5"))
-        data[place + 17] ^= 4
-        self.write(folder, "checkpoint.h5", bytes(data))
-        self.refuse(folder, ["structures/bar/velocity", "damaged"])
+        data = content(folder, "checkpoint.h5")
+        for place in (3, 40, 520, 600, len(data) // 3, len(data) // 2, len(data) - 1):
+            bad = bytearray(data)
+            bad[place] ^= 4
+            self.write(folder, "checkpoint.h5", bytes(bad))
+            self.refuse(folder, ["damaged"], ranks=(1,))
+
+    def test_changed_but_not_sealed(self):
+        def push(file):
+            file["structures/bar/velocity"][0, 2] += 1e-9  # no energy to speak of
+
+        self.refuse(self.copy(push, seal=False), ["run/seal"])
+        self.complete([*self.CASE, "-restart", checkpoint(self.copy(push))])
+
+    def test_values_that_cannot_be(self):
+        def put(name, *place, value):
+            def change(file):
+                file[name][place or ...] = value
+            return change
+
+        for value in (float("nan"), 1e300, -1e300, 1.5, -7):
+            self.refuse(self.copy(put("tables/step", value=value)), ["step'"])
+        self.refuse(self.copy(put("structures/bar/velocity", 3, 1, value=float("nan"))),
+                    ["structures/bar/velocity' holds nan in row 4"])
+        self.refuse(self.copy(put("tables/ledger", 0, 2, value=float("inf"))),
+                    ["tables/ledger' holds inf in row 1"])
+        for contact in (-1, 1, 0.5, 1e300):
+            self.refuse(self.copy(put("tables/impacts_open", 0, 0, value=contact)), ["impacts_open"])
+        self.refuse(self.copy(put("tables/recorder_records", value=-1)), ["recorder_records"])
+        self.refuse(self.copy(put("tables/gap_watch_steps", 0, value=1e300)), ["gap_watch_steps"])
 
     def test_other_version_of_the_format(self):
         self.refuse(self.copy(lambda file: file.attrs.modify("version", 99.0)), ["format 99", "0.1.0"])
@@ -418,6 +445,10 @@ class Refusals(RestartCase):
         with h5py.File(os.path.join(folder, "history.h5"), "r+") as file:
             file["velocity"][:] += 1
         self.refuse(folder, ["history.h5", "another run"])
+        folder = self.copy()
+        with h5py.File(os.path.join(folder, "history.h5"), "r+") as file:
+            file["records"][0] = 3
+        self.refuse(folder, ["history.h5: 3 of its records are whole"])
 
     def test_what_may_change(self):
         other = self.complete([*self.CASE, "-restart", checkpoint(self.copy()), "-title", "another",

@@ -9,6 +9,7 @@
 #include "common/error.h"
 #include "modal/dense_matrix.h"
 #include "modal/modal_analysis.h"
+#include "modal/reduced_system.h"
 #include "modal/shifted_solver.h"
 #include "reduced_box.h"
 
@@ -107,6 +108,30 @@ TEST(ModalBasis, ChoosesTheModesThatContactFeels) {
     EXPECT_NEAR(between(attached, 0, p, [](double square) { return 1 / square; }),
                 response[box.dof(attached.points[p])],
                 1e-9 * response[box.dof(attached.points[0])]);
+  }
+}
+
+TEST(ModalBasis, KnowsWhichOfItsVectorsAreModes) {
+  ReducedBox box(true);
+  box.request.other_points = {};
+  const ModalBasis all = box.basis(24, false);
+  const ModalBasis mixed = box.basis(8, true, 24);
+  ASSERT_EQ(mixed.mode_numbers.size(), mixed.size());
+  std::vector<std::size_t> places;  // of the modes
+  for (std::size_t i = 0; i < mixed.size(); ++i) {
+    if (mixed.mode_numbers[i] > 0) {
+      places.push_back(i);
+      const auto mode = static_cast<std::size_t>(mixed.mode_numbers[i] - 1);
+      EXPECT_NEAR(mixed.squared_frequency[i] / all.squared_frequency[mode], 1, 1e-9) << i;
+    }
+  }
+  ASSERT_EQ(places.size(), 8u);
+  EXPECT_GT(places.back(), 7u);  // vectors that are no modes stand between them
+  const ModalResult modes = modes_of_basis(mixed, 8);
+  ASSERT_EQ(modes.modes.size(), 8u);
+  for (std::size_t k = 0; k < 8; ++k) {
+    EXPECT_NEAR(modes.modes[k].frequency * 2 * std::numbers::pi,
+                std::sqrt(mixed.squared_frequency[places[k]]), 1e-9);
   }
 }
 

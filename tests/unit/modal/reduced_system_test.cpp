@@ -169,6 +169,30 @@ TEST_F(ReducedSystem, DampingRatiosAreADiagonalMatrix) {
   }
 }
 
+TEST_F(ReducedSystem, DampingRatiosGoByTheNumberOfTheMode) {
+  basis = box.basis(8, true, 24);
+  std::vector<double>& ratios = box.structure.modal->damping_ratios;
+  for (int mode = 1; mode <= 24; ++mode) {
+    ratios.push_back(0.001 * mode);
+  }
+  ratios.push_back(0.5);
+  const std::vector<double> squares = basis.squared_frequency;
+  const std::vector<int> numbers = basis.mode_numbers;
+  const LinearSystem system = build();
+  std::vector<double> one(squares.size(), 1.0);
+  std::vector<double> rate(squares.size());
+  const VecHandle argument = wrap_vector(system, one);
+  const VecHandle product = wrap_vector(system, rate);
+  system.extra_damping->apply(argument.get(), product.get());
+  bool apart = false;  // a coordinate is not the mode of its own place
+  for (std::size_t i = 0; i < rate.size(); ++i) {
+    const double ratio = numbers[i] > 0 ? 0.001 * numbers[i] : 0.5;
+    EXPECT_DOUBLE_EQ(rate[i], 2 * ratio * std::sqrt(squares[i])) << i;
+    apart = apart || (numbers[i] > 0 && numbers[i] != static_cast<int>(i) + 1);
+  }
+  EXPECT_TRUE(apart);
+}
+
 TEST_F(ReducedSystem, NamesTheCoordinateThatMovesMost) {
   const LinearSystem system = build();
   std::vector<double> motion(basis.size(), 0.1);

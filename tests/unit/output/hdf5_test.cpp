@@ -129,7 +129,7 @@ TEST_F(Hdf5, GrowingFileIsReadableWheneverItsWriterIsKilled) {
     }
     fs::copy(path("growing.h5"), path("left.h5"), fs::copy_options::overwrite_existing);
     EXPECT_THROW(Hdf5Reader(path("left.h5")), std::runtime_error);
-    const Hdf5Reader reader(path("left.h5"), true);
+    const Hdf5Reader reader(path("left.h5"), Hdf5Reader::Kind::left_open);
     EXPECT_GE(reader.shape("time").rows, static_cast<std::size_t>(i));
     EXPECT_EQ(reader.rows("motion", static_cast<std::size_t>(i), 1)[4], i);
   }
