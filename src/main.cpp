@@ -1,7 +1,9 @@
 #include <cstdio>
+#include <new>
 #include <optional>
 #include <span>
 
+#include "common/common_segments.h"
 #include "common/error.h"
 #include "common/parallel.h"
 #include "common/petsc_session.h"
@@ -35,6 +37,7 @@ void run_words(MPI_Comm comm, std::span<const std::string> words,
 /// Exit status of the job: 0, 1 after an error, 2 stopped by a signal; messages are one line from
 /// rank 0.
 int run_job(MPI_Comm comm, std::span<const std::string> words) {
+  const pounding::NamelessSegments segments;
   const bool root = pounding::rank_of(comm) == 0;
   std::optional<pounding::PetscSession> petsc;  // ends after the messages: a rank may fail alone
   try {
@@ -53,6 +56,10 @@ int run_job(MPI_Comm comm, std::span<const std::string> words) {
       std::fprintf(stderr, "pounding: %s\n", stop.what());
     }
     return 2;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "pounding: %s\n",
+                 pounding::out_of_memory(pounding::rank_of(comm)).c_str());
+    MPI_Abort(comm, 1);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "pounding: internal error on rank %d: %s\n", pounding::rank_of(comm),
                  error.what());

@@ -69,6 +69,11 @@ def _read_history(path: Path, result: Result) -> None:
     history = result.history
     if "time" not in history:
         raise ValueError("no dataset time")
+    if "records" in history:  # rows behind them were still being written when the run ended
+        rows, whole = len(history["time"]), int(history.pop("records")[0])
+        for name, values in history.items():
+            if name not in ("channels", "contacts") and len(values) == rows:
+                history[name] = values[:whole]
     for name, labels in (("displacement", "channels"), ("velocity", "channels"),
                          ("acceleration", "channels"), ("gap", "contacts"),
                          ("contact_force", "contacts"), ("ground_acceleration", DIRECTIONS)):

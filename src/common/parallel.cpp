@@ -1,5 +1,7 @@
 #include "common/parallel.h"
 
+#include <cstdio>
+#include <new>
 #include <stdexcept>
 #include <sys/resource.h>
 
@@ -11,11 +13,13 @@ namespace {
 enum class Failure : int { none = 0, user = 1, other = 2 };
 
 /// What `work` threw, or nothing.
-std::pair<Failure, std::string> failure_of(const std::function<void()>& work) {
+std::pair<Failure, std::string> failure_of(MPI_Comm comm, const std::function<void()>& work) {
   try {
     work();
   } catch (const UserError& error) {
     return {Failure::user, error.what()};
+  } catch (const std::bad_alloc&) {
+    return {Failure::user, out_of_memory(rank_of(comm))};
   } catch (const std::exception& error) {
     return {Failure::other, error.what()};
   }
@@ -43,6 +47,16 @@ double peak_memory() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);  // the kernel counts in KiB
 }
 
+std::string out_of_memory(int rank) {
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "out of memory on rank %d, which has used %.2f GiB at most; take a smaller scene, a "
+      "coarser mesh or a machine (or a limit) with more",
+      rank, peak_memory() / (1 << 30));
+  return text;
+}
+
 int size_of(MPI_Comm comm) {
   int size = 1;
   MPI_Comm_size(comm, &size);
@@ -58,7 +72,7 @@ void broadcast(MPI_Comm comm, std::string& text) {
 void on_rank0(MPI_Comm comm, const std::function<void()>& work) {
   std::pair<Failure, std::string> outcome{Failure::none, ""};
   if (rank_of(comm) == 0) {
-    outcome = failure_of(work);
+    outcome = failure_of(comm, work);
   }
   int kind = static_cast<int>(outcome.first);
   MPI_Bcast(&kind, 1, MPI_INT, 0, comm);
@@ -69,7 +83,7 @@ void on_rank0(MPI_Comm comm, const std::function<void()>& work) {
 }
 
 void on_every_rank(MPI_Comm comm, const std::function<void()>& work) {
-  const auto [failure, message] = failure_of(work);
+  const auto [failure, message] = failure_of(comm, work);
   const int mine = failure == Failure::none ? size_of(comm) : rank_of(comm);
   int first = 0;
   MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, comm);

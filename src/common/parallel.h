@@ -15,11 +15,14 @@ int size_of(MPI_Comm comm);
 /// Largest resident memory of this process so far [bytes].
 double peak_memory();
 
+/// What is said of a std::bad_alloc on a rank, one line.
+std::string out_of_memory(int rank);
+
 /// The string of rank 0 on every rank. Collective.
 void broadcast(MPI_Comm comm, std::string& text);
 
 /// Runs `work` on rank 0 only. If it throws, every rank throws the same error (UserError stays
-/// UserError, anything else becomes std::runtime_error). Collective.
+/// UserError, std::bad_alloc becomes one, anything else std::runtime_error). Collective.
 void on_rank0(MPI_Comm comm, const std::function<void()>& work);
 
 /// Runs `work` on every rank; if any rank throws, every rank throws the error of the lowest one

@@ -1,6 +1,7 @@
 #include "common/petsc.h"
 
 #include <algorithm>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -31,6 +32,9 @@ std::string take_petsc_message() {
 void check_petsc(PetscErrorCode error, const char* call, const char* file, int line) {
   if (error == 0) {
     return;
+  }
+  if (error == PETSC_ERR_MEM) {
+    throw std::bad_alloc();
   }
   const char* text = nullptr;
   PetscErrorMessage(error, &text, nullptr);

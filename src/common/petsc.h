@@ -10,7 +10,8 @@
 /// Checked calls and move-only handles for PETSc and SLEPc (C builds: errors are return codes).
 namespace pounding {
 
-/// Throws std::runtime_error naming the call when a PETSc or SLEPc function reports an error.
+/// Throws std::bad_alloc when a PETSc or SLEPc function is out of memory, and std::runtime_error
+/// naming the call when it reports another error.
 void check_petsc(PetscErrorCode error, const char* call, const char* file, int line);
 
 #define POUNDING_PETSC(call) ::pounding::check_petsc((call), #call, __FILE__, __LINE__)

@@ -1,6 +1,7 @@
 #include "common/petsc_session.h"
 
 #include <cstdlib>
+#include <signal.h>
 
 #include "common/petsc.h"
 #include "common/petsc_message.h"
@@ -23,7 +24,11 @@ PetscSession::PetscSession(const std::map<std::string, std::string>& options) {
   pointers_.push_back(nullptr);
   count_ = static_cast<int>(words_.size());
   char** words = pointers_.data();
+  struct sigaction hangup {};
+  sigaction(SIGHUP, nullptr, &hangup);
   POUNDING_PETSC(SlepcInitialize(&count_, &words, nullptr, nullptr));
+  sigaction(SIGHUP, &hangup, nullptr);
+  signal(SIGXFSZ, SIG_IGN);
   POUNDING_PETSC(PetscOptionsClearValue(nullptr, "-skip_petscrc"));
   PetscBool obeyed = PETSC_FALSE;  // asked for here, so that -options_left does not miss it
   POUNDING_PETSC(PetscOptionsHasName(nullptr, nullptr, "-viewer_binary_skip_info", &obeyed));

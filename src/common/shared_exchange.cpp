@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <fcntl.h>
 #include <numeric>
 #include <sched.h>
@@ -32,38 +31,34 @@ std::size_t board_size(std::size_t capacity) {
   return line + 2 * rounded_up(capacity * sizeof(double));
 }
 
-/// Shared memory of that name, zeros when created; null if the system gives none.
-void* map_memory(const std::string& name, std::size_t size, bool create) {
-  const int file = shm_open(name.c_str(), create ? O_CREAT | O_EXCL | O_RDWR : O_RDWR, 0600);
-  if (file < 0) {
-    return nullptr;
-  }
-  void* memory = MAP_FAILED;
-  if (!create || posix_fallocate(file, 0, static_cast<off_t>(size)) == 0) {
-    memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-  }
-  close(file);
+/// Memory behind an open file; null if the system gives none.
+void* map_memory(int file, std::size_t size) {
+  void* const memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
   return memory == MAP_FAILED ? nullptr : memory;
 }
 
-/// The same memory on all ranks, without a name once they have it; null on all if one gets none.
+/// The same memory on all ranks, zeros; null on all if one gets none. It has no name, so that
+/// nothing is left of it however the ranks end: the others find it among rank 0's open files.
 void* common_memory(MPI_Comm comm, std::size_t size) {
-  static int number = 0;
-  std::array<char, 64> name{};
-  void* memory = nullptr;
+  std::array<long, 2> place{static_cast<long>(getpid()), -1};  // process and file
+  int file = -1;
   if (rank_of(comm) == 0) {
-    std::snprintf(name.data(), name.size(), "/pounding-%ld-%d", static_cast<long>(getpid()),
-                  number++);
-    memory = map_memory(name.data(), size, true);
+    file = memfd_create("pounding", MFD_CLOEXEC);
+    if (file >= 0 && posix_fallocate(file, 0, static_cast<off_t>(size)) == 0) {
+      place[1] = file;
+    }
   }
-  MPI_Bcast(name.data(), static_cast<int>(name.size()), MPI_CHAR, 0, comm);
-  if (rank_of(comm) != 0) {
-    memory = map_memory(name.data(), size, false);
+  MPI_Bcast(place.data(), 2, MPI_LONG, 0, comm);
+  if (rank_of(comm) != 0 && place[1] >= 0) {
+    const std::string path =
+        "/proc/" + std::to_string(place[0]) + "/fd/" + std::to_string(place[1]);
+    file = open(path.c_str(), O_RDWR | O_CLOEXEC);
   }
+  void* memory = file >= 0 && place[1] >= 0 ? map_memory(file, size) : nullptr;
   int everybody = memory != nullptr ? 1 : 0;
   MPI_Allreduce(MPI_IN_PLACE, &everybody, 1, MPI_INT, MPI_MIN, comm);
-  if (rank_of(comm) == 0) {
-    shm_unlink(name.data());
+  if (file >= 0) {
+    close(file);
   }
   if (everybody == 0 && memory != nullptr) {
     munmap(memory, size);

@@ -6,8 +6,9 @@
 
 namespace pounding {
 
-/// When to write a checkpoint and when to stop, the same on every rank. The ranks agree by one
-/// small reduction about twenty times per second of wall time, not in every step.
+/// When to write a checkpoint, when to bring the records to the file and when to stop, the same on
+/// every rank. The ranks agree by one small reduction about twenty times per second of wall time,
+/// not in every step.
 class CheckpointSchedule {
  public:
   /// `interval`: wall time between checkpoints [s]; `steps`: steps between them; 0: none.
@@ -16,7 +17,8 @@ class CheckpointSchedule {
 
   struct Decision {
     bool write = false;
-    int signal = 0;  ///< that stops the run, which writes as well; 0: go on
+    bool flush = false;  ///< the records, every ten seconds of wall time
+    int signal = 0;      ///< that stops the run, which writes as well; 0: go on
   };
   /// After step `n`. Collective.
   Decision after_step(std::int64_t n);
@@ -28,6 +30,7 @@ class CheckpointSchedule {
   double interval_;
   std::int64_t steps_;
   double last_write_;            ///< wall time [s]
+  double last_flush_;            ///< wall time [s]
   double last_agreement_;        ///< wall time [s]
   std::int64_t agreement_step_;  ///< of the last agreement
   std::int64_t next_agreement_;

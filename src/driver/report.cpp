@@ -15,7 +15,9 @@ namespace {
 void print_damping(const Structure& structure) {
   if (structure.modal && !structure.modal->damping_ratios.empty()) {
     const std::vector<double>& ratios = structure.modal->damping_ratios;
-    std::printf("  damping ratio per mode, the last one of all that follow:");
+    std::printf(
+        "  damping ratio per mode, the last one of all that follow and of vectors that are no "
+        "mode:");
     for (const double ratio : ratios) {
       std::printf(" %.3f %%", 100 * ratio);
     }
@@ -310,6 +312,14 @@ void print_time_step(const Scene& scene, const Model& model, double seconds_per_
                 seconds_per_step * static_cast<double>(model.steps), 1e6 * seconds_per_step);
   }
   std::fflush(stdout);
+}
+
+void print_removed(const Scene& scene, std::span<const std::string> files) {
+  std::printf("removed from %s, left by an earlier run:", scene.output.c_str());
+  for (const std::string& file : files) {
+    std::printf(" %s", file.c_str());
+  }
+  std::printf("\n");
 }
 
 void print_restart(const Scene& scene, const Model& model, std::int64_t step) {

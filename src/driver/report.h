@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <string>
+
 #include "driver/floor_spectra.h"
 #include "driver/model.h"
 #include "driver/run_statistics.h"
@@ -13,6 +16,8 @@ void print_title(const Scene& scene, int ranks);
 void print_model(const Scene& scene, const Model& model);
 /// `seconds_per_step`: measured, 0 if it was not.
 void print_time_step(const Scene& scene, const Model& model, double seconds_per_step);
+/// `files`: what was removed from the folder of results.
+void print_removed(const Scene& scene, std::span<const std::string> files);
 /// `step`: that of the checkpoint from which the run continues.
 void print_restart(const Scene& scene, const Model& model, std::int64_t step);
 void print_results(const Scene& scene, const RunStatistics& statistics,

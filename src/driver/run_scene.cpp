@@ -23,6 +23,7 @@
 #include "driver/time_loop.h"
 #include "driver/warnings.h"
 #include "output/energy_ledger.h"
+#include "output/result_folder.h"
 
 namespace pounding {
 namespace {
@@ -35,14 +36,18 @@ void create_output(const Scene& scene) {
   }
 }
 
-/// The result folder exists; the resolved options are the first thing in it.
-void prepare_output(const Scene& scene, const std::string& resolved) {
-  create_output(scene);
+/// What an earlier run left goes; the resolved options are the first thing in the folder. Rank 0.
+void begin_results(const Scene& scene, const std::string& resolved, const ResultFolder& folder) {
+  const std::vector<std::string> removed = folder.clear(scene.restart);
+  if (!removed.empty()) {
+    print_removed(scene, removed);
+  }
   std::ofstream file(scene.output + "/resolved.yaml");
   file << resolved;
   file.close();
   if (!file) {
-    throw UserError("option -output " + scene.output + ": resolved.yaml cannot be written there");
+    throw UserError("option -output " + scene.output +
+                    ": resolved.yaml cannot be written there (is the disk full?)");
   }
 }
 
@@ -70,6 +75,9 @@ std::optional<SavedState> read_restart(MPI_Comm comm, const Scene& scene, const 
   }
   SavedState saved = read_checkpoint(comm, scene.restart, identity, model.meshes, model.systems);
   const std::int64_t step = saved.integer("step");
+  if (step < 0) {
+    saved.refuse_values("step");
+  }
   if (step > model.steps) {
     std::ostringstream text;
     text << "option -end_time " << scene.end_time << " s: the checkpoint " << scene.restart
@@ -91,6 +99,7 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
   const bool root = rank_of(comm) == 0;
   Profile profile;
   const bool writes = !scene.dry_run || scene.write_modes;
+  std::optional<ResultFolder> folder;  // of rank 0
   on_rank0(comm, [&] {
     if (writes) {
       try_folder("output", scene.output);
@@ -99,6 +108,7 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
       try_folder("export_matrices", scene.export_matrices);
     }
     if (!scene.dry_run) {
+      folder.emplace(scene.output);
       std::ranges::copy(replaced_results(scene, resolved), std::back_inserter(scene.warnings));
     }
   });
@@ -118,6 +128,9 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
   }
   const RunIdentity identity = identity_of(resolved, model);
   const std::optional<SavedState> restart = read_restart(comm, scene, model, identity);
+  if (!scene.dry_run) {
+    on_rank0(comm, [&] { begin_results(scene, resolved, *folder); });
+  }
   if (scene.write_modes) {
     on_rank0(comm, [&] { create_output(scene); });
     write_mode_shapes(comm, scene.output + "/modes.h5", model);
@@ -129,7 +142,6 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
     }
     return;
   }
-  on_rank0(comm, [&] { prepare_output(scene, resolved); });
   const double seconds = TimeLoop(comm, scene, model, profile).measure(50);
   if (root) {
     print_time_step(scene, model, seconds);

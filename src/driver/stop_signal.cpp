@@ -19,7 +19,10 @@ StopSignal::StopSignal() {
   action.sa_handler = remember;
   action.sa_flags = SA_RESTART;
   for (std::size_t i = 0; i < signals.size(); ++i) {
-    sigaction(signals[i], &action, &before_[i]);
+    sigaction(signals[i], nullptr, &before_[i]);
+    if (signals[i] != SIGHUP || before_[i].sa_handler != SIG_IGN) {
+      sigaction(signals[i], &action, nullptr);
+    }
   }
 }
 

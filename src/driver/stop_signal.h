@@ -6,8 +6,8 @@
 
 namespace pounding {
 
-/// While this object lives, SIGTERM, SIGINT and SIGUSR1 are kept for the run to look at instead of
-/// ending the program. One at a time.
+/// While this object lives, SIGTERM, SIGINT, SIGHUP and SIGUSR1 are kept for the run to look at
+/// instead of ending the program; SIGHUP only if the program does not ignore it. One at a time.
 class StopSignal {
  public:
   StopSignal();
@@ -19,7 +19,7 @@ class StopSignal {
   static int received();
 
  private:
-  static constexpr std::array signals{SIGTERM, SIGINT, SIGUSR1};
+  static constexpr std::array signals{SIGTERM, SIGINT, SIGHUP, SIGUSR1};
   std::array<struct sigaction, signals.size()> before_{};
 };
 

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
 #include "common/version.h"
 #include "driver/motion_report.h"
 #include "dynamics/stable_time_step.h"
+#include "output/result_folder.h"
 #include "scene/resolved_options.h"
 
 namespace pounding {
@@ -225,12 +224,7 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
   for (const auto& [name, value] : resolved_values(resolved)) {
     summary["options"][name] = value;
   }
-  std::ofstream file(path);
-  file << summary.dump(1) << '\n';
-  file.close();
-  if (!file) {
-    throw std::runtime_error(path + ": could not be written completely (is the disk full?)");
-  }
+  write_whole_file(path, summary.dump(1) + '\n');
 }
 
 }  // namespace pounding

@@ -145,11 +145,14 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
     const CheckpointSchedule::Decision decision = schedule.after_step(n);
     if (decision.write) {
       write_checkpoint(identity);
+    } else if (decision.flush) {
+      const ScopedTimer flush_timer(profile_, Phase::output);
+      recorder_->flush();
     }
     signal = decision.signal;
   }
   const ScopedTimer timer(profile_, Phase::output);
-  recorder_->finish();
+  recorder_->finish(step() >= model_.steps);
   catalogue_.finish(comm_, contact_ ? contact_->root() : 0);
   return step() < model_.steps ? signal : 0;
 }
@@ -239,12 +242,12 @@ void TimeLoop::write_checkpoint(const RunIdentity& identity) {
 
 void TimeLoop::load(const SavedState& saved) {
   stepper_->load(saved);
-  recorder_->load(saved);
   catalogue_.load(saved);
   if (slides_) {
     slides_->load(saved);
   }
   ledger_.load(saved);
+  recorder_->load(saved);  // last: it replaces the history, which nothing refused may touch
   first_step_ = step() + 1;
 }
 

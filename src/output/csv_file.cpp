@@ -1,6 +1,6 @@
 #include "output/csv_file.h"
 
-#include <stdexcept>
+#include "common/error.h"
 
 namespace pounding {
 
@@ -9,7 +9,7 @@ CsvFile::CsvFile(const std::string& path)
       path_(standard_output_ ? "standard output" : path),
       file_(standard_output_ ? stdout : std::fopen(path.c_str(), "w")) {
   if (file_ == nullptr) {
-    throw std::runtime_error(path + ": cannot be written");
+    throw UserError(path + ": cannot be written");
   }
 }
 
@@ -42,7 +42,7 @@ void CsvFile::close() {
   const bool lost = (standard_output_ ? std::fflush(file_) : std::fclose(file_)) != 0;
   file_ = nullptr;
   if (failed || lost) {
-    throw std::runtime_error(path_ + ": could not be written completely (is the disk full?)");
+    throw UserError(path_ + ": could not be written completely (is the disk full?)");
   }
 }
 

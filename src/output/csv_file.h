@@ -8,7 +8,7 @@
 namespace pounding {
 
 /// A CSV file with comment lines first ("# "), one header line, then rows of numbers with all their
-/// digits. Throws std::runtime_error if it cannot be opened or written.
+/// digits. Throws UserError if it cannot be opened or written.
 class CsvFile {
  public:
   /// `path` empty or "/dev/stdout": the standard output of the program, wherever it stands; opened

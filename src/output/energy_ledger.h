@@ -30,7 +30,7 @@ class EnergyLedger {
   EnergyLine last_;
 };
 
-/// `energy.csv`: one row per line. Throws std::runtime_error if the file cannot be written.
+/// `energy.csv`: one row per line. Throws UserError if the file cannot be written.
 void write_energy(const std::string& path, const std::vector<EnergyLine>& lines);
 
 }  // namespace pounding

@@ -130,6 +130,8 @@ void Recorder::create_file(const std::string& path) {
   for (const Quantity& quantity : quantities()) {
     file_->create_dataset(quantity.name, quantity.columns, quantity.unit);
   }
+  file_->create_number("records");
+  file_->write_attribute("/", "complete", 0);
   const double half = layout_.time_step / 2;
   if (!channels_.empty()) {
     file_->write_attribute("displacement", "frame", "relative to the ground");
@@ -203,9 +205,11 @@ void Recorder::flush() {
   }
   MPI_Gatherv(buffer_.data(), static_cast<int>(rows * width_), MPI_DOUBLE, gathered.data(),
               counts.data(), offsets.data(), MPI_DOUBLE, 0, layout_.comm);
-  if (rank_of(layout_.comm) == 0) {
-    write_rows(rows, gathered, offsets);
-  }
+  on_rank0(layout_.comm, [&] {
+    if (rows > 0) {
+      write_rows(rows, gathered, offsets);
+    }
+  });
 }
 
 void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
@@ -275,6 +279,13 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
     file_->append("gap", gap);
     file_->append("contact_force", force);
   }
+  count_rows();
+}
+
+void Recorder::count_rows() {
+  file_->flush();
+  file_->write_number("records", static_cast<double>(records_));
+  file_->flush();
 }
 
 std::size_t Recorder::first_record_from(double start) const {
@@ -296,11 +307,14 @@ void Recorder::note_peaks(std::size_t first_record, std::span<const double> disp
   }
 }
 
-void Recorder::finish() {
+void Recorder::finish(bool complete) {
   flush();
-  if (file_) {
+  on_rank0(layout_.comm, [&] {
     file_->close();
-  }
+    if (complete) {
+      file_->mark("complete", 1);
+    }
+  });
 }
 
 std::vector<double> Recorder::acceleration(std::size_t channel) const {

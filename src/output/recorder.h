@@ -28,8 +28,10 @@ struct ChannelPeaks {
 /// at t_n and mean force over the interval.
 ///
 /// Values wait in a buffer on the rank that owns them and travel to rank 0 a few thousand records
-/// at a time; a record itself neither allocates nor communicates. The file can be read by others at
-/// any moment, also after the program was killed.
+/// at a time, or when they are told to; a record itself neither allocates nor communicates. The
+/// file can be read by others at any moment, also after the program was killed: `records`, a single
+/// number, tells how many rows of every dataset are whole, and is written after them. The attribute
+/// `complete` is 1 when the run has reached its end, 0 before.
 class Recorder {
  public:
   struct Layout {
@@ -62,8 +64,11 @@ class Recorder {
   /// After it: makes the record; `gaps` per contact are read on the interface root. Collective only
   /// when the buffer is full.
   void record(const State& state, std::span<const double> gaps);
-  /// Sends what is left and closes the file. Collective.
-  void finish();
+  /// Brings all records made to the file and to the operating system. Throws UserError on every
+  /// rank alike (no space). Collective.
+  void flush();
+  /// The same, and closes the file; `complete`: the run has reached its end. Collective.
+  void finish(bool complete);
 
   /// Writes all records to the file and keeps what the next one needs. Collective.
   void save(SavedState& saved);
@@ -111,9 +116,10 @@ class Recorder {
   void copy_history(const Hdf5Reader& history);
   void note_peaks(std::size_t first_record, std::span<const double> displacement,
                   std::span<const double> acceleration);
-  void flush();
   void write_rows(std::size_t rows, const std::vector<double>& gathered,
                   const std::vector<int>& row_widths);
+  /// What was appended is on its way to the disk before its number says that it is there. Rank 0.
+  void count_rows();
 
   Layout layout_;
   std::vector<StructureNodes> structures_;

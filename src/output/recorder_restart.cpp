@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 
 #include "common/error.h"
@@ -21,7 +22,6 @@ void Recorder::save(SavedState& saved) {
     saved.put("recorder_impulse", impulse_);
   }
   if (rank_of(layout_.comm) == 0) {
-    file_->flush();
     saved.put("recorder_records", {static_cast<double>(records_)});
     saved.put("recorder_last_velocity", last_velocity_);
   }
@@ -33,11 +33,14 @@ void Recorder::load(const SavedState& saved) {
     saved.get("recorder_impulse", impulse_);
   }
   records_ = saved.integer("recorder_records");
+  if (records_ < 0) {
+    saved.refuse_values("recorder_records");
+  }
   on_rank0(layout_.comm, [&] {
     saved.get("recorder_last_velocity", last_velocity_);
     std::optional<Hdf5Reader> history;
     try {
-      history.emplace(layout_.continued, true);
+      history.emplace(layout_.continued, Hdf5Reader::Kind::left_open);
       check_history(*history);
     } catch (const std::runtime_error& error) {
       throw UserError(saved.source() + ": the history beside it cannot be continued, " +
@@ -62,6 +65,13 @@ void Recorder::check_history(const Hdf5Reader& history) const {
     const Hdf5Reader::Shape shape = history.shape(quantity.name);
     refuse_unless(shape.columns == quantity.columns && shape.rows >= records);
   }
+  const double whole = history.array("records").at(0);
+  if (!(whole >= static_cast<double>(records))) {
+    std::ostringstream text;
+    text << layout_.continued << ": " << whole << " of its records are whole, the checkpoint needs "
+         << records;
+    throw std::runtime_error(text.str());
+  }
   if (records > 0 && !channels_.empty()) {
     refuse_unless(history.rows("velocity", records - 1, 1) == last_velocity_);
   }
@@ -80,7 +90,7 @@ void Recorder::copy_history(const Hdf5Reader& history) {
       accelerations_.insert(accelerations_.end(), acceleration.begin(), acceleration.end());
     }
   }
-  file_->flush();
+  count_rows();
 }
 
 }  // namespace pounding

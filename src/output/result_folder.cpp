@@ -1,0 +1,130 @@
+#include "output/result_folder.h"
+
+#include <array>
+#include <cerrno>
+#include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "common/error.h"
+
+namespace pounding {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* lock_name = "running.lock";
+
+/// What a run writes, and, while it writes, under which names.
+constexpr std::array written{"resolved.yaml",  "summary.json",     "summary.json.new",
+                             "spectra.csv",    "impacts.csv",      "energy.csv",
+                             "history.h5.new", "checkpoint.h5.new"};
+/// What a run that continues in the same folder goes on from.
+constexpr std::array continued{"history.h5", "checkpoint.h5", "modes.h5"};
+
+std::string lock_path(const std::string& folder) {
+  return folder + "/" + lock_name;
+}
+
+/// Whether the open file is still the one of that name.
+bool has_name(int file, const std::string& path) {
+  struct stat open_one {};
+  struct stat named {};
+  return fstat(file, &open_one) == 0 && stat(path.c_str(), &named) == 0 &&
+         open_one.st_dev == named.st_dev && open_one.st_ino == named.st_ino;
+}
+
+std::string first_line(const std::string& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line;
+}
+
+}  // namespace
+
+ResultFolder::ResultFolder(const std::string& path) : path_(path) {
+  std::error_code failure;
+  created_ = fs::create_directories(path, failure);
+  if (failure || access(path.c_str(), W_OK | X_OK) != 0) {
+    throw UserError("option -output " + path + ": the folder cannot be created or written");
+  }
+  lock();
+}
+
+void ResultFolder::lock() {
+  const std::string path = lock_path(path_);
+  for (bool own = false; !own;) {
+    lock_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (lock_ < 0) {
+      throw UserError("option -output " + path_ + ": the folder cannot be created or written");
+    }
+    if (flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      close(lock_);
+      throw UserError("option -output " + path_ + ": another run writes there (" +
+                      first_line(path) + "); wait for its end, or give another folder");
+    }
+    own = has_name(lock_, path);  // else the run before took it away meanwhile
+    if (!own) {
+      close(lock_);
+    }
+  }
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  const std::string who =
+      "process " + std::to_string(getpid()) + " on " + std::string(host.data()) + "\n";
+  // A lock without its owner's name is a lock as well.
+  [[maybe_unused]] const bool named =
+      ftruncate(lock_, 0) == 0 && write(lock_, who.data(), who.size()) > 0;
+}
+
+ResultFolder::~ResultFolder() {
+  if (has_name(lock_, lock_path(path_))) {
+    unlink(lock_path(path_).c_str());
+  }
+  close(lock_);
+  if (created_) {
+    rmdir(path_.c_str());  // fails where there is anything in it
+  }
+}
+
+std::vector<std::string> ResultFolder::clear(const std::string& restart) const {
+  std::error_code ignored;
+  const bool goes_on = !restart.empty() && fs::equivalent(fs::absolute(restart).parent_path(),
+                                                          fs::absolute(path_), ignored);
+  std::vector<std::string> removed;
+  const auto remove = [&](const char* name) {
+    if (fs::is_regular_file(fs::symlink_status(path_ + "/" + name)) &&
+        fs::remove(path_ + "/" + name, ignored)) {
+      removed.emplace_back(name);
+    }
+  };
+  for (const char* name : written) {
+    remove(name);
+  }
+  for (const char* name : continued) {
+    if (!goes_on) {
+      remove(name);
+    }
+  }
+  return removed;
+}
+
+void write_whole_file(const std::string& path, const std::string& text) {
+  const std::string draft = path + ".new";
+  std::ofstream file(draft);
+  file << text;
+  file.close();
+  std::error_code failure;
+  if (file) {
+    fs::rename(draft, path, failure);
+  }
+  if (!file || failure) {
+    throw UserError(path + ": could not be written completely (is the disk full?)");
+  }
+}
+
+}  // namespace pounding

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pounding {
+
+/// The folder that a run writes to, and its alone for as long as this object lives: the file
+/// running.lock in it is locked (flock), which ends with the process however that dies. For one
+/// rank.
+class ResultFolder {
+ public:
+  /// Creates the folder if there is none. Throws UserError: it cannot be created or written, or
+  /// another run is writing there. A file system without locks is taken as it is.
+  explicit ResultFolder(const std::string& path);
+  ResultFolder(const ResultFolder&) = delete;
+  ResultFolder& operator=(const ResultFolder&) = delete;
+  /// Takes running.lock away, and the folder if it is new and still empty.
+  ~ResultFolder();
+
+  /// Removes what an earlier run left under the names that this program gives to results, and
+  /// nothing else; returns the names. If the run continues from the checkpoint `restart` in the
+  /// folder, that, its history and the shapes of modes stay.
+  std::vector<std::string> clear(const std::string& restart) const;
+
+ private:
+  void lock();
+
+  std::string path_;
+  bool created_ = false;
+  int lock_ = -1;  ///< file descriptor
+};
+
+/// Writes a whole file: under another name first, so that there is the old one, or none, until the
+/// new one is complete. Throws UserError (no space).
+void write_whole_file(const std::string& path, const std::string& text);
+
+}  // namespace pounding

@@ -1,0 +1,120 @@
+"""A folder of results holds one run's files: a lock while it is written, old ones gone at the start, and
+marks that tell a whole history from one that was cut."""
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import h5py
+
+import program
+
+BAR = ["-structures", "bar", "-bar_mesh", "tests/meshes/box.geo", "-bar_mesh_set", "lz=4,nz=4",
+       "-bar_body_element", "hex8_full", "-bar_body_material", "soft", "-material_soft_young", 900,
+       "-material_soft_poisson", 0.2, "-material_soft_density", 1, "-bar_gravity", "0,0,-10",
+       "-bar_clamp", "z_min", "-output_interval", 0.05, "-probes", "top", "-top_structure", "bar",
+       "-top_group", "z_max", "-modes", 1, "-spectra_frequencies", "1:20:5lin", "-end_time", 2]
+LONG = BAR + ["-end_time", 1e6, "-output_interval", 0.5]
+
+
+class ResultFolder(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="pounding-")
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def start(self, ranks, *words):
+        process = subprocess.Popen(program.words([*LONG, "-output", self.folder, *words], ranks),
+                                   cwd=program.SOURCE, env=program.ENVIRONMENT, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        deadline = time.time() + 120
+        while not os.path.exists(self.path("history.h5")):
+            self.assertIsNone(process.poll())
+            self.assertLess(time.time(), deadline)
+            time.sleep(0.02)
+        return process
+
+    def test_two_runs_do_not_share_it(self):
+        for ranks in (1, 2):
+            first = self.start(ranks)
+            for others in (1, 2):
+                result = program.run([*BAR, "-output", self.folder], others, timeout=120)
+                self.assertEqual(result.returncode, 1)
+                line, = program.error_lines(result)
+                self.assertIn(f"option -output {self.folder}: another run writes there (process ", line)
+            self.assertEqual(program.run([*BAR, "-output", self.folder, "-dry_run"], 1).returncode, 0)
+            with open(self.path("running.lock")) as file:
+                os.kill(int(file.read().split()[1]), signal.SIGTERM)
+            self.assertEqual(first.wait(120), 2)
+            os.remove(self.path("history.h5"))
+
+    def test_what_an_earlier_run_left_goes(self):
+        for ranks in (1, 2):
+            result = program.run([*BAR, "-output", self.folder], ranks)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            with open(self.path("notes.txt"), "w") as file:
+                file.write("mine")
+            again = program.run([*BAR, "-output", self.folder], ranks)
+            self.assertIn(f"removed from {self.folder}, left by an earlier run: resolved.yaml summary.json",
+                          again.stdout)
+            self.assertTrue(os.path.exists(self.path("summary.json")))
+            os.remove(self.path("history.h5"))
+            killed = self.start(ranks)
+            killed.kill()
+            killed.wait()
+            time.sleep(1)  # ranks notice the end of mpirun
+            self.assertFalse(os.path.exists(self.path("summary.json")))
+            self.assertTrue(os.path.exists(self.path("notes.txt")))
+            for name in os.listdir(self.folder):
+                os.remove(self.path(name))
+
+    def test_marks_of_the_history(self):
+        result = program.run([*BAR, "-output", self.folder], 2)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with h5py.File(self.path("history.h5"), "r") as file:
+            self.assertEqual(file.attrs["complete"], 1)
+            self.assertEqual(file["records"][0], len(file["time"]))
+            self.assertEqual(file["acceleration"].shape[0], len(file["time"]))
+        os.remove(self.path("history.h5"))
+        for ranks in (1, 2):
+            running = self.start(ranks)
+            with open(self.path("running.lock")) as file:
+                os.kill(int(file.read().split()[1]), signal.SIGTERM)
+            self.assertEqual(running.wait(120), 2)
+            with h5py.File(self.path("history.h5"), "r") as file:
+                self.assertEqual(file.attrs["complete"], 0)
+                self.assertEqual(file["records"][0], len(file["time"]))
+                self.assertGreater(len(file["time"]), 0)
+            os.remove(self.path("history.h5"))
+
+    def test_a_few_records_are_there_after_some_seconds(self):
+        """Far fewer than a buffer holds: they do not wait for the end."""
+        running = self.start(2, "-output_interval", 50)
+        deadline = time.time() + 60
+        rows = 0
+        while rows == 0 and time.time() < deadline:
+            time.sleep(0.5)
+            with h5py.File(self.path("history.h5"), "r", swmr=True, libver="latest") as file:
+                rows = int(file["records"][0])
+        running.kill()
+        self.assertGreater(rows, 0)
+        self.assertLess(rows, 4096)
+
+    def test_a_summary_is_whole_or_not_there(self):
+        os.mkdir(self.path("summary.json.new"))  # where it would be drafted
+        result = program.run([*BAR, "-output", self.folder], 2)
+        self.assertEqual(result.returncode, 1)
+        line, = program.error_lines(result)
+        self.assertIn("summary.json: could not be written completely", line)
+        self.assertFalse(os.path.exists(self.path("summary.json")))
+
+
+if __name__ == "__main__":
+    unittest.main()
