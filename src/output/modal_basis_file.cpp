@@ -105,12 +105,11 @@ void write_modal_basis(const std::string& path, const BasisKey& key, const Modal
 StoredBasis read_modal_basis(const std::string& path, const BasisKey& key) {
   const Hdf5Reader file(path, Hdf5Reader::Kind::sealed);
   try {
-    if (file.text("/", "format") != format) {
+    if (file.text("/", "format") != format || file.number("/", "version") != version) {
       throw std::runtime_error("another format");
     }
     StoredBasis stored;
-    stored.differs = file.number("/", "version") == version ? difference(file, key)
-                                                            : "in another version of its format";
+    stored.differs = difference(file, key);
     if (stored.differs.empty()) {
       stored.basis = read_arrays(file);
     }

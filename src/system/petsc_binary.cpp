@@ -30,7 +30,10 @@ class BinaryReader {
   }
 
   MatrixSize read(const std::function<void(const MatrixEntry&)>& receive) {
-    const std::vector<std::int32_t> header = numbers<std::int32_t, std::uint32_t>(4);
+    constexpr std::size_t head = 4;
+    const auto header = size_ < head * sizeof(std::int32_t)
+                            ? std::vector<std::int32_t>(head, 0)
+                            : numbers<std::int32_t, std::uint32_t>(head);
     const auto [rows, columns, entries] = std::array{header[1], header[2], header[3]};
     if (header[0] != matrix_class) {
       fail(

@@ -11,6 +11,7 @@
 #include "mesh/mesh.h"
 #include "mesh/partition.h"
 #include "output/checkpoint.h"
+#include "output/file_seal.h"
 #include "output/modal_basis_file.h"
 #include "support/box_mesh.h"
 #include "system/matrix_market.h"
@@ -62,6 +63,7 @@ std::string checkpoint_seed(const BoxModel& box, const std::string& folder) {
 
 /// What a run asks of the state that it continues from.
 void read_state(const BoxModel& box, const std::string& path) {
+  seal_file(path);
   check_checkpoint(MPI_COMM_SELF, path, identity().options);
   const SavedState saved =
       read_checkpoint(MPI_COMM_SELF, path, identity(), {&box.mesh, 1}, {&box.system, 1});
@@ -83,6 +85,7 @@ std::string basis_seed(const std::string& folder) {
   ModalBasis basis;
   basis.modes = 2;
   basis.attachment_vectors = 1;
+  basis.mode_numbers = {1, 2, 0};
   basis.full_dofs = 24;
   basis.total_mass = 10;
   basis.mass = 8;
@@ -98,6 +101,7 @@ std::string basis_seed(const std::string& folder) {
 /// What is said of a basis becomes a UserError in the program.
 void read_basis(const std::string& path, Random&) {
   try {
+    seal_file(path);
     read_modal_basis(path, key());
   } catch (const std::runtime_error& error) {
     throw UserError(error.what());

@@ -5,15 +5,18 @@ import shutil
 import h5py
 import numpy
 
+import program
 from corpus.case import Case
 
 
 def made_file(source, edit):
-    """A copy of a file of the sound run, edited through h5py."""
+    """A copy of a file of the sound run, edited through h5py and sealed anew."""
     def make(path, made):
         shutil.copy(os.path.join(made, source), path)
         with h5py.File(path, "r+") as file:
             edit(file)
+        if program.command("seal", path).returncode != 0:
+            raise ValueError(f"{path} was not sealed")
     return make
 
 
