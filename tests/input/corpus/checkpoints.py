@@ -111,6 +111,10 @@ CHECKPOINTS = [
     checkpoint("no velocity in it", removed("structures/right/velocity"), ["velocity"]),
     checkpoint("velocities of fewer nodes", shortened("structures/right/velocity"), ["velocity", "one row per node"]),
     checkpoint("nodes elsewhere", values("structures/right/coordinates", 7.0), ["right", "another mesh"]),
+    checkpoint("a step that is no number", values("tables/step", numpy.nan), ["step"]),
+    checkpoint("a step beyond all steps", values("tables/step", 1e300), ["step"]),
+    checkpoint("velocities that are no numbers", values("structures/right/velocity", numpy.nan), ["velocity"]),
+    checkpoint("an infinite displacement", values("structures/left/displacement", numpy.inf), ["displacement"]),
     checkpoint("another count of dofs", attribute("structures/right", "dofs", 23.0), ["right", "23"]),
 ]
 
@@ -137,6 +141,7 @@ BASES = [
     basis("a basis of another version", attribute("/", "version", 99.0), []),
     basis("a basis without rows", removed("rows"), ["rows"]),
     basis("a basis without frequencies", removed("squared_frequency"), ["squared_frequency"]),
+    basis("a basis of no numbers", values("squared_frequency", numpy.nan), []),
     basis("a basis with one row less", shortened("rows"), ["sizes"]),
     basis("a basis that counts its modes wrong", attribute("/", "modes", 3.0), ["sizes"]),
     basis("a basis without points", removed("points"), ["points"]),
