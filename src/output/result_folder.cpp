@@ -46,9 +46,20 @@ std::string first_line(const std::string& path) {
 
 }  // namespace
 
-ResultFolder::ResultFolder(const std::string& path) : path_(path) {
+std::vector<fs::path> missing_folders(fs::path folder) {
+  std::vector<fs::path> missing;
   std::error_code failure;
-  created_ = fs::create_directories(path, failure);
+  while (!folder.empty() && !fs::exists(fs::symlink_status(folder, failure))) {
+    missing.push_back(folder);
+    folder = folder.parent_path();
+  }
+  return missing;
+}
+
+ResultFolder::ResultFolder(const std::string& path)
+    : path_(path), made_(missing_folders(fs::path(path).lexically_normal())) {
+  std::error_code failure;
+  fs::create_directories(path, failure);
   if (failure || access(path.c_str(), W_OK | X_OK) != 0) {
     throw UserError("option -output " + path + ": the folder cannot be created or written");
   }
@@ -86,8 +97,8 @@ ResultFolder::~ResultFolder() {
     unlink(lock_path(path_).c_str());
   }
   close(lock_);
-  if (created_) {
-    rmdir(path_.c_str());  // fails where there is anything in it
+  for (const fs::path& folder : made_) {
+    rmdir(folder.c_str());  // fails where there is anything in it
   }
 }
 

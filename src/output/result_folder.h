@@ -1,9 +1,13 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace pounding {
+
+/// The folders of a path that are not there yet, the innermost first.
+std::vector<std::filesystem::path> missing_folders(std::filesystem::path folder);
 
 /// The folder that a run writes to, and its alone for as long as this object lives: the file
 /// running.lock in it is locked (flock), which ends with the process however that dies. For one
@@ -15,7 +19,7 @@ class ResultFolder {
   explicit ResultFolder(const std::string& path);
   ResultFolder(const ResultFolder&) = delete;
   ResultFolder& operator=(const ResultFolder&) = delete;
-  /// Takes running.lock away, and the folder if it is new and still empty.
+  /// Takes running.lock away, and what folders were made for it and are still empty.
   ~ResultFolder();
 
   /// Removes what an earlier run left under the names that this program gives to results, and
@@ -27,8 +31,8 @@ class ResultFolder {
   void lock();
 
   std::string path_;
-  bool created_ = false;
-  int lock_ = -1;  ///< file descriptor
+  std::vector<std::filesystem::path> made_;  ///< folders that were not there, innermost first
+  int lock_ = -1;                            ///< file descriptor
 };
 
 /// Writes a whole file: under another name first, so that there is the old one, or none, until the

@@ -32,6 +32,7 @@ class ResultFolder(unittest.TestCase):
         process = subprocess.Popen(program.words([*LONG, "-output", self.folder, *words], ranks),
                                    cwd=program.SOURCE, env=program.ENVIRONMENT, stdout=subprocess.DEVNULL,
                                    stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.stderr.close)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         deadline = time.time() + 120
@@ -96,7 +97,7 @@ class ResultFolder(unittest.TestCase):
 
     def test_a_few_records_are_there_after_some_seconds(self):
         """Far fewer than a buffer holds: they do not wait for the end."""
-        running = self.start(2, "-output_interval", 50)
+        running = self.start(2, "-output_interval", 1000)
         deadline = time.time() + 60
         rows = 0
         while rows == 0 and time.time() < deadline:

@@ -1,4 +1,4 @@
-#include "driver/results_folder.h"
+#include "driver/folder_checks.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "common/error.h"
+#include "output/result_folder.h"
 #include "scene/option_values.h"
 #include "scene/resolved_options.h"
 
@@ -17,17 +18,6 @@ namespace pounding {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The folders of a path that are not there yet, the innermost first.
-std::vector<fs::path> missing_folders(fs::path folder) {
-  std::vector<fs::path> missing;
-  std::error_code failure;
-  while (!folder.empty() && !fs::exists(fs::symlink_status(folder, failure))) {
-    missing.push_back(folder);
-    folder = folder.parent_path();
-  }
-  return missing;
-}
 
 [[noreturn]] void refuse(const std::string& option, const std::string& folder,
                          const std::string& why) {
