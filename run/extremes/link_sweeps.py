@@ -17,7 +17,7 @@ def hung_mass(ratio: float, beta: float, courant: float) -> list:
     spring = repr(BAR / ratio)
     period = 2 * math.pi * math.sqrt(MASS * ratio / BAR / (1 + ratio))
     return ["-structures", "frame", "-frame_mesh", "tests/meshes/braces.geo", "-frame_clamp", "anchors",
-            "-frame_initial_velocity", f"{SPEED},0,0", "-frame_damping_beta",
+            "-frame_ignore", "right", "-frame_initial_velocity", f"{SPEED},0,0", "-frame_damping_beta",
             repr(beta * period), *scenes.material("steel", 2e9, 0.3, 1e-9), "-courant", courant,
             "-end_time", repr(300 * period), "-output_interval", repr(period), "-energy_interval", 1,
             "-frame_mass_element", "point_mass", "-frame_mass_mass", MASS,
