@@ -151,8 +151,11 @@ class Results(unittest.TestCase):
             file.write("time,x,y\n" + "".join(f"{i * 0.01:.2f},{i % 7 - 3},{(i % 5 - 2) * 2}\n" for i in range(400)))
         table = computed(self, path, "--unit", "m/s2", "--columns", "2,3", *frequencies([4]))
         self.assertEqual(list(table["channel"]), ["column2", "column3"])
-        last = computed(self, path, "--unit", "m/s2", *frequencies([4]))
+        last = computed(self, path, "--unit", "m/s2", "--columns", "3", *frequencies([4]))
         self.assertEqual(last["pseudo_acceleration"][0], table["pseudo_acceleration"][1])
+        asked = spectra(path, "--unit", "m/s2", *frequencies([4]))
+        self.assertEqual(asked.returncode, 1)
+        self.assertIn("3 columns (time, x, y)", asked.stderr)
 
 
 class Refusals(unittest.TestCase):
