@@ -96,7 +96,10 @@ class Broken(unittest.TestCase):
                               "-end_time", 1e-9, *more], *words, ranks=2)
 
     def brick_with(self, nodes):
-        return Mesh(CUBE.nodes, {"body": ("hexahedron", [CUBE.groups["body"][1][0], nodes])})
+        """A sound cube, and beside it one on these of its nodes."""
+        beside = [node + len(CUBE.nodes) for node in nodes]
+        return Mesh([*CUBE.nodes, *(CUBE.nodes + (5, 0, 0))],
+                    {"body": ("hexahedron", [CUBE.groups["body"][1][0], beside])})
 
     def test_inverted_brick(self):
         row = CUBE.groups["body"][1][0]
@@ -119,7 +122,8 @@ class Broken(unittest.TestCase):
     def test_shell_without_area_or_turned_over_itself(self):
         square = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
         for corners, word in (([0, 1, 1, 0], "two of its nodes"), ([0, 2, 1, 3], "area")):
-            plate = Mesh(square, {"plate": ("quadrangle", [[0, 1, 2, 3], corners])})
+            beside = [(x + 5, y, z) for x, y, z in square]
+            plate = Mesh([*square, *beside], {"plate": ("quadrangle", [[0, 1, 2, 3], [c + 4 for c in corners]])})
             self.refuse(plate, "shell", "element 2 of group 'plate'", word, group="plate",
                         more=["-part_plate_thickness", 0.1])
         dented = Mesh([*square[:2], (0.2, 0.2, 0), square[3]], {"plate": ("quadrangle", [[0, 1, 2, 3]])})
