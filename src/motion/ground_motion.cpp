@@ -43,10 +43,10 @@ double scaling_factor(const std::string& name, const MotionComponent& component,
 }
 
 void require_possible_peak(const std::string& name, const std::string& what, double peak) {
-  if (!(peak <= largest_peak))
+  if (!(peak <= impossible_peak))
     throw UserError(name + ": " + what + " " + text_of(peak) + " m/s2 (" +
-                    text_of(peak / standard_gravity) + " g) is above " + text_of(largest_peak) +
-                    " m/s2 (20 g), more than any ground motion; correct unit, scale or pga");
+                    text_of(peak / standard_gravity) + " g) is above " + text_of(impossible_peak) +
+                    " m/s2 (10000 g), which nothing bears; correct unit, scale or pga");
 }
 
 MotionDescription describe_synthetic(const SyntheticMotion& motion) {

@@ -34,7 +34,7 @@ class GroundMotion {
   /// Reads the files; every rank may do so, or one that shares the result. Band-limited resampling
   /// goes to steps of 5e-4 s or less. Throws UserError (see read_accelerogram,
   /// generate_accelerogram; a pga for a record that is zero; a synthetic motion without pga; a peak
-  /// above 20 g, as in the file or as scaled).
+  /// above ten thousand g, as in the file or as scaled).
   GroundMotion(const std::array<std::optional<MotionComponent>, 3>& components,
                Resampling resampling);
 

@@ -432,9 +432,9 @@ class Refusals(RestartCase):
         folder = self.folder()
         record = os.path.join(folder, "record.txt")
         case = self.CASE + ["-motion_x_record", record, "-motion_x_unit", "m/s2"]
-        self.write(folder, "record.txt", b"0.0 0.0\n0.5 0.1\n1.0 0.0\n")
+        self.write(folder, "record.txt", b"0.0 0.0\n0.05 0.1\n0.1 0.0\n")
         self.complete([*case, "-checkpoint_steps", 10], folder=folder)
-        self.write(folder, "record.txt", b"0.0 0.0\n0.5 0.2\n1.0 0.0\n")
+        self.write(folder, "record.txt", b"0.0 0.0\n0.05 0.2\n0.1 0.0\n")
         self.refuse(folder, ["ground motion"], case=case)
 
     def test_history_beside_it(self):
