@@ -130,9 +130,10 @@ TEST_F(GroundMotionTest, RefusesPeaksThatNoGroundHas) {
     });
   };
   EXPECT_THAT(made("0\n1e12\n", 0, 1), HasSubstr("1e+12 m/s2"));
-  EXPECT_THAT(made("0\n300\n", 3, 1), HasSubstr("300 m/s2"));
+  EXPECT_THAT(made("0\n3e5\n", 3, 1), HasSubstr("300000 m/s2"));
   EXPECT_THAT(made(shape, 1e12, 1), HasSubstr("scaled peak 1e+12"));
-  EXPECT_THAT(made(shape, 0, 1000), HasSubstr("scaled peak 4000"));
+  EXPECT_THAT(made(shape, 0, 1e5), HasSubstr("scaled peak 400000"));
+  EXPECT_EQ(made("0\n9806\n", 0, 1), "");
   SyntheticMotion synthetic{write("target.csv", "Hz, ratio\n1, 1\n5, 2.5\n30, 1\n"), 4, 10, {1, 5}};
   EXPECT_THAT(refusal([&] {
                 GroundMotion(
