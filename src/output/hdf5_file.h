@@ -28,8 +28,8 @@ class Hdf5File {
   /// is 0; groups in its name come into being.
   void write_array(const std::string& name, std::size_t columns, std::span<const double> values);
   void write_strings(const std::string& name, const std::vector<std::string>& values);
-  /// A dataset of a single number, 0 at first, whose place in the file is taken at once: writing it anew
-  /// needs no space.
+  /// A dataset of a single number, 0 at first, whose place in the file is taken at once: writing it
+  /// anew needs no space.
   void create_number(const std::string& name);
   void write_number(const std::string& name, double value);
   /// Attribute of a dataset, of a group, or of the file ("/").

@@ -17,7 +17,8 @@ struct CommandLine {
 };
 
 /// Reads the words after the program's name: `-name value`, or `-name` alone for a flag; a value
-/// may be a negative number. Where help or the version is asked for, nothing else is read. Throws UserError for a word that is neither a name nor a value, for
+/// may be a negative number. Where help or the version is asked for, nothing else is read. Throws
+/// UserError for a word that is neither a name nor a value, for
 /// `-name=value`, and for -options_file without a file.
 CommandLine read_command_line(std::span<const std::string> words);
 
