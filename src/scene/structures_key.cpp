@@ -56,6 +56,19 @@ bool belongs(const std::string& name, const std::vector<std::string>& structures
   return !of_structure.empty() && !is_representation(of_structure);
 }
 
+/// Whether it is an option of a structure that says what holds in silence: options that are new to
+/// the program leave the key of a scene that does not use them.
+bool is_preset(const std::string& name, const std::string& value,
+               const std::vector<std::string>& structures) {
+  return std::ranges::any_of(option_table(), [&](const OptionRow& row) {
+    return row.block == OptionBlock::structure && row.preset.has_value &&
+           row.preset.text == value &&
+           std::ranges::any_of(structures, [&](const std::string& structure) {
+             return name == option_name(row.pattern, {structure});
+           });
+  });
+}
+
 /// Numbers by their value, everything else by its text.
 void add_value(const std::string& value, Hash& hash) {
   if (const auto numbers = parse_reals(value)) {
@@ -89,7 +102,7 @@ std::string structures_key(const Options& in_force) {
   std::ranges::sort(sorted);
   Hash hash;
   for (const auto& [name, value] : sorted) {
-    if (!belongs(name, structures, contacts)) {
+    if (!belongs(name, structures, contacts) || is_preset(name, value, structures)) {
       continue;
     }
     hash.add(name);

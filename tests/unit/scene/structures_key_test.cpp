@@ -46,6 +46,8 @@ TEST(StructuresKey, KnowsTheStructuresAndNothingElse) {
                                     {"floor1_passes", "2"}}) {
     EXPECT_NE(key_with(name, value), key) << name;
   }
+  EXPECT_EQ(key_with("tower_allow_loose", "false"), key);
+  EXPECT_NE(key_with("tower_allow_loose", "true"), key);
   OptionsDatabase reduced = pair();
   reduced["tower_model"] = "modal";
   reduced["tower_modal_vectors"] = "40";
