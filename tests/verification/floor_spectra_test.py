@@ -8,12 +8,11 @@ piecewise linear records by an independent code.
 """
 import math
 import os
-import tempfile
 import unittest
 
 import numpy
 
-from recorded import Recorded
+from recorded import Recorded, write_samples
 from references import earthquake, response_spectra
 
 SAMPLING = 5e-5
@@ -31,14 +30,6 @@ def ground(record, end, frequencies, dampings="0.05", time_step=SAMPLING):
             "-spectra_frequencies", ",".join(map(repr, frequencies)),
             "-spectra_damping", dampings, "-probes", "base", "-base_structure", "block",
             "-base_group", "z_min"]
-
-
-def write_record(values, step):
-    handle, path = tempfile.mkstemp(suffix=".txt")
-    with os.fdopen(handle, "w") as file:
-        for i, value in enumerate(values):
-            file.write(f"{i * step:.9f} {value:.17g}\n")
-    return path
 
 
 class FreeMass(unittest.TestCase):
@@ -92,7 +83,7 @@ class Ground(unittest.TestCase):
         td = 0.01
         frequencies = [product / td for product in self.HALF_SINE]
         values = [math.sin(math.pi * i / 200) for i in range(200)] + [0.0] * 3
-        record = write_record(values, td / 200)
+        record = write_samples(values, td / 200)
         run = Recorded(self, ground(record, 0.3, frequencies, dampings="0,0.02,0.05",
                                     time_step=1e-5))
         os.remove(record)
@@ -107,7 +98,7 @@ class Ground(unittest.TestCase):
                 100.0: 1.0427683, 400.0: 1.0013073}
 
     def test_harmonic(self):
-        record = write_record([math.sin(2 * math.pi * 10 * i * 1e-4) for i in range(20001)], 1e-4)
+        record = write_samples([math.sin(2 * math.pi * 10 * i * 1e-4) for i in range(20001)], 1e-4)
         run = Recorded(self, ground(record, 2.0, list(self.HARMONIC)))
         os.remove(record)
         _, found = run.spectrum("base", "x")
@@ -119,7 +110,7 @@ class Ground(unittest.TestCase):
                  5e-4: (58.220988, 577.48466, 1126.7064, 2038.2668)}
         for step, exact in table.items():
             impulse = 0.01  # m/s: peaks of ground motions are limited
-            record = write_record([0.0, impulse / step, 0.0, 0.0], step)
+            record = write_samples([0.0, impulse / step, 0.0, 0.0], step)
             run = Recorded(self, ground(record, 0.2, [10, 100, 200, 400], time_step=1e-5))
             os.remove(record)
             _, found = run.spectrum("base", "x")
@@ -127,7 +118,7 @@ class Ground(unittest.TestCase):
 
     def test_earthquake(self):
         motion = earthquake.acceleration()
-        record = write_record(motion, earthquake.STEP)
+        record = write_samples(motion, earthquake.STEP)
         frequencies = [0.5, 1, 2, 3.3, 5, 8, 13, 20, 33, 50, 80, 130, 200, 300, 400]
         run = Recorded(self, ground(record, (len(motion) - 1) * earthquake.STEP, frequencies, time_step=2.5e-4))
         os.remove(record)
