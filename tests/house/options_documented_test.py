@@ -1,0 +1,150 @@
+"""docs/scene.md lists every option of the option table, with its unit, default and range, and no other."""
+import os
+import re
+import subprocess
+import unittest
+
+import program
+
+PAGE = os.path.join(program.SOURCE, "docs", "scene.md")
+
+# Named bounds of the table, in the words of the page; "any" is not written.
+RANGES = {"any": "", "positive": "> 0", "not_negative": ">= 0", "at_least_1": ">= 1", "fraction": "(0, 1]",
+          "damping_ratio": "[0, 1)", "poisson_ratio": "(-1, 0.5)", "Range{1, 2, false, false}": "[1, 2]"}
+
+ROW = re.compile(r'OptionRow\{\s*Block::(\w+),\s*"([^"]+)",\s*Kind::(\w+),\s*"([^"]*)",\s*'
+                 r'(required|value\("[^"]*"\)|absent\("[^"]*"\)),\s*(Range\{[^}]*\}|\w+),\s*"([^"]*)",\s*"[^"]*"\}')
+PETSC_ROW = re.compile(r'\{"([a-z][a-z0-9_]*\*?)", Value::\w+\}')
+NAME = r"[A-Za-z]\w*"
+
+
+def source(name):
+    """The text of a file of src, in whatever folder it stands."""
+    found = [os.path.join(folder, name) for folder, _, files in os.walk(os.path.join(program.SOURCE, "src"))
+             if name in files]
+    if len(found) != 1:
+        raise LookupError(f"{len(found)} files {name} in src")
+    with open(found[0]) as file:
+        return file.read()
+
+
+def shown(preset):
+    """A preset as the page shows it."""
+    if preset == "required":
+        return "required"
+    text = preset[preset.index('"') + 1:-2]
+    if preset.startswith("absent"):
+        return text
+    return f"`{text}`" if text else "empty"
+
+
+def option_rows(text):
+    """Pattern -> (block, kind, unit, default, range, words) of every row."""
+    return {pattern: (block, kind, unit, shown(preset), RANGES[bounds], form)
+            for block, pattern, kind, unit, preset, bounds, form in ROW.findall(text)}
+
+
+def tables(text):
+    """Tables of the page whose first column is 'option', as lists of rows of cells."""
+    found, inside = [], False
+    for line in text.splitlines():
+        if not line.startswith("|"):
+            inside = False
+            continue
+        cells = [cell.strip().replace(r"\|", "|") for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
+        if cells[0] == "option":
+            found.append([cells])
+            inside = True
+        elif inside and set(cells[0]) != {"-"}:
+            found[-1].append(cells)
+    return found
+
+
+def documented(text):
+    """Name -> cells of its row, for the scene's own options (five columns) and PETSc's (three)."""
+    own, petsc, twice = {}, {}, []
+    for header, *rows in tables(text):
+        for cells in rows:
+            for name in re.findall(r"`([^`]+)`", cells[0]):
+                place = own if len(header) == 5 else petsc
+                if name in own or name in petsc:
+                    twice.append(name)
+                place[name] = cells
+    return own, petsc, twice
+
+
+def as_expression(pattern):
+    """What a pattern matches once its placeholders are names."""
+    parts = re.split(r"(<[^>]+>)", pattern.replace("*", "<number>"))
+    return "".join((r"[xyz]" if part == "<x|y|z>" else r"\d+" if part == "<number>" else NAME)
+                   if part.startswith("<") else re.escape(part) for part in parts)
+
+
+class OptionsDocumented(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.source = source("option_table.cpp")
+        cls.rows = option_rows(cls.source)
+        cls.petsc_source = source("petsc_options.cpp")
+        cls.petsc_rows = PETSC_ROW.findall(cls.petsc_source)
+        with open(PAGE) as file:
+            cls.page = file.read()
+        cls.own, cls.petsc, cls.twice = documented(cls.page)
+
+    def test_every_row_of_the_table_is_read(self):
+        self.assertEqual(len(self.rows), len(re.findall(r"OptionRow\s*\{", self.source)))
+        self.assertGreaterEqual(len(self.rows), 90)
+        enum = re.search(r"enum class OptionBlock \{([^}]*)\}", source("option_table.h"))[1]
+        self.assertEqual({row[0] for row in self.rows.values()}, set(re.findall(r"\w+", enum)))
+        self.assertEqual(len(self.petsc_rows), len(re.findall(r"Value::\w+\}", self.petsc_source)))
+        self.assertGreaterEqual(len(self.petsc_rows), 20)
+
+    def test_rows_are_those_of_the_help(self):
+        if not os.path.exists(program.PROGRAM):
+            self.skipTest("the program is not built")
+        text = subprocess.run([program.PROGRAM, "-help"], env=program.ENVIRONMENT, capture_output=True, text=True,
+                              timeout=60, check=True).stdout
+        scene, petsc = text.split("Options of PETSc and SLEPc that pass through:")
+        self.assertEqual(re.findall(r"^  -(\S+) +\[", scene, re.MULTILINE), list(self.rows))
+        self.assertEqual(re.findall(r"-(\S+)", petsc), self.petsc_rows)
+
+    def test_every_option_is_on_the_page(self):
+        self.assertEqual(sorted(set(self.rows) - set(self.own)), [])
+        self.assertEqual(sorted(set(self.petsc_rows) - set(self.petsc)), [])
+
+    def test_every_option_of_the_page_exists_and_stands_there_once(self):
+        self.assertEqual(sorted(set(self.own) - set(self.rows)), [])
+        self.assertEqual(sorted(set(self.petsc) - set(self.petsc_rows)), [])
+        self.assertEqual(self.twice, [])
+
+    def test_unit_default_and_range_are_those_of_the_table(self):
+        for name, (_, kind, unit, default, bounds, form) in self.rows.items():
+            _, unit_shown, default_shown, allowed, meaning = self.own[name]
+            self.assertEqual((unit_shown, default_shown), (unit, default), name)
+            if kind == "choice":
+                self.assertEqual(re.findall(r"`([^`]+)`", allowed), form.split("|"), name)
+            else:
+                self.assertTrue(allowed.endswith(bounds), f"{name}: {allowed} does not say {bounds}")
+                self.assertTrue(bounds or not re.search(r"[<>]=? \d", allowed), f"{name}: {allowed}")
+            self.assertTrue(meaning, name)
+
+    def test_options_named_in_the_text_exist(self):
+        known = [as_expression(name) for name in [*self.rows, *self.petsc_rows, "options_file", "include", "help",
+                                                  "h", "version"]]
+        named = re.findall(r"`-([a-z]\w*)[ `]", self.page)
+        self.assertGreater(len(named), 5)
+        for name in named:
+            self.assertTrue(any(re.fullmatch(expression, name) for expression in known), name)
+
+    def test_what_is_missing_or_invented_is_seen(self):
+        line = next(line for line in self.page.splitlines() if line.startswith("| `end_time`"))
+        own, _, _ = documented(self.page.replace(line + "\n", ""))
+        self.assertEqual(set(self.rows) - set(own), {"end_time"})
+        own, _, _ = documented(self.page.replace(line, line + "\n" + line.replace("end_time", "last_time")))
+        self.assertEqual(set(own) - set(self.rows), {"last_time"})
+        _, _, twice = documented(self.page.replace(line, line + "\n" + line))
+        self.assertEqual(twice, ["end_time"])
+
+
+if __name__ == "__main__":
+    unittest.main()
