@@ -1,0 +1,72 @@
+"""Files and commands that README, CONTRIBUTING and docs/theory.md name in backticks exist, and links lead somewhere."""
+import os
+import re
+import unittest
+
+import program
+
+CODE = re.compile(r"`([\w./-]+\.(?:h|cpp|py|md|yaml|yml|csv|txt|geo))(?::[\w:]+)?`")
+COMMAND = re.compile(r"(?:^|[\s`(])(run/\w+)", re.MULTILINE)
+LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)\s]*)?\)")
+# What a run leaves in its folder, and examples.
+OF_A_RUN = {"spectra.csv", "impacts.csv", "energy.csv", "resolved.yaml", "dofs.csv", "gaps.csv", "probes.csv", "case.yaml"}
+
+
+def files():
+    """Paths below the source folder, without what is built or computed."""
+    for folder, folders, names in os.walk(program.SOURCE):
+        folders[:] = [name for name in folders if name not in (".git", "results", "__pycache__")
+                      and not (folder == program.SOURCE and name.startswith("build"))]
+        for name in names:
+            yield os.path.relpath(os.path.join(folder, name), program.SOURCE)
+
+
+def pages():
+    found = [name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")
+             if os.path.exists(os.path.join(program.SOURCE, name))]
+    return found + sorted(os.path.join("docs", name) for name in os.listdir(os.path.join(program.SOURCE, "docs"))
+                          if name.endswith(".md"))
+
+
+def text_of(page):
+    with open(os.path.join(program.SOURCE, page)) as file:
+        return file.read()
+
+
+class NamedFiles(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.files = set(files())
+
+    def is_there(self, name):
+        return any(path == name or path.endswith("/" + name) for path in self.files)
+
+    def test_files_named_in_code_type_exist(self):
+        seen = 0
+        for page in ("README.md", "CONTRIBUTING.md", "docs/theory.md"):
+            for name in CODE.findall(text_of(page)) if page in self.files else []:
+                seen += 1
+                self.assertTrue(name in OF_A_RUN or self.is_there(name), f"{page} names {name}")
+        self.assertGreater(seen, 40)
+
+    def test_commands_exist(self):
+        seen = 0
+        for page in pages():
+            for name in COMMAND.findall(text_of(page)):
+                seen += 1
+                self.assertTrue(os.access(os.path.join(program.SOURCE, name), os.R_OK), f"{page} names {name}")
+        self.assertGreater(seen, 20)
+
+    def test_links_lead_to_files(self):
+        seen = 0
+        for page in pages():
+            for target in LINK.findall(text_of(page)):
+                if "://" not in target:
+                    seen += 1
+                    path = os.path.normpath(os.path.join(program.SOURCE, os.path.dirname(page), target))
+                    self.assertTrue(os.path.exists(path), f"{page} links to {target}")
+        self.assertGreater(seen, 10)
+
+
+if __name__ == "__main__":
+    unittest.main()
