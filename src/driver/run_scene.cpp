@@ -163,7 +163,8 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
   on_rank0(comm, [&] {
     write_floor_spectra(scene.output + "/spectra.csv", spectra, loop.recorder().interval(),
                         scene.spectra.start);
-    statistics.warnings = displacement_warnings(model, loop.recorder());
+    statistics.warnings =
+        displacement_warnings(loop.recorder().largest_displacement(), model.interface.model_size);
     append(contact_warnings(statistics.complementarity_residual), statistics.warnings);
     append(slide_warnings(scene, statistics), statistics.warnings);
     statistics.wall_time = MPI_Wtime() - start;

@@ -82,15 +82,14 @@ std::vector<std::string> mechanism_warnings(const Scene& scene, const Model& mod
   return warnings;
 }
 
-std::vector<std::string> displacement_warnings(const Model& model, const Recorder& recorder) {
+std::vector<std::string> displacement_warnings(double largest, double model_size) {
   constexpr double small = 0.05;  // of the model
-  const double largest = recorder.largest_displacement();
-  if (!(largest > small * model.interface.model_size)) {
+  if (!(largest > small * model_size)) {
     return {};
   }
   std::ostringstream text;
   text.precision(3);
-  text << "displacements reach " << largest << " m in a model of " << model.interface.model_size
+  text << "displacements reach " << largest << " m in a model of " << model_size
        << " m; the theory is one of small displacements";
   return {text.str()};
 }

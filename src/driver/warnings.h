@@ -5,7 +5,6 @@
 
 #include "driver/model.h"
 #include "driver/run_statistics.h"
-#include "output/recorder.h"
 
 /// Lines of doubt, each about one thing that a user should look at. The program prints them with
 /// "warning: " before them and lists them in summary.json.
@@ -27,8 +26,9 @@ std::vector<std::string> damping_warnings(const Structure& structure, const Moda
 /// Rank 0 only.
 std::vector<std::string> mechanism_warnings(const Scene& scene, const Model& model);
 
-/// What the recorded motion says against the theory of small displacements. Rank 0 only.
-std::vector<std::string> displacement_warnings(const Model& model, const Recorder& recorder);
+/// What the recorded motion says against the theory of small displacements. `largest`: displacement
+/// [m]; `model_size`: largest extent of the scene [m].
+std::vector<std::string> displacement_warnings(double largest, double model_size);
 
 /// Steps whose contact problem was not solved to the end. `residual`: the largest complementarity
 /// residual of the run [-].

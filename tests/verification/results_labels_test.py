@@ -196,6 +196,19 @@ class Labels(unittest.TestCase):
         numpy.testing.assert_allclose(column["left"], 0.5, atol=1e-6)
         numpy.testing.assert_allclose(column["bottom"], 0.5, atol=1e-6)
 
+    def test_gaps_that_differ_across_the_face(self):
+        """Smallest and largest, as given and as the meshes stand, where they are not one number."""
+        folder = tempfile.mkdtemp(prefix="pounding-")
+        self.addCleanup(shutil.rmtree, folder)
+        words = scene(self.record, TIME_STEP) + ["-gap_gap", "0.02,0.03", "-right_mesh_set", "x0=0.005",
+                                                 "-end_time", 0.01, "-output", folder]
+        result = program.run(words, 1)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        contact = program.summary(folder)["contacts"]["gap"]
+        numpy.testing.assert_allclose(contact["initial_gap"], [0.02, 0.03], atol=1e-15)
+        numpy.testing.assert_allclose(contact["geometric_gap"], [0.005, 0.005], atol=1e-12)
+        self.assertIn("initial gap 20 to 30 mm", result.stdout)
+
     def test_ledger_is_that_of_the_oscillators(self):
         """At the step of each line: v_{n+1/2}, and u_n, u_{n+1}, of the two faces."""
         step = numpy.rint(self.fine.column("energy.csv", "time") / TIME_STEP).astype(int)

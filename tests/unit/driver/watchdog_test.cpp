@@ -50,5 +50,13 @@ TEST(Warnings, NameContactProblemsThatWereNotSolvedToTheEnd) {
   EXPECT_NE(contact_warnings(2e-6)[0].find("residual 2e-06"), std::string::npos);
 }
 
+TEST(Warnings, DoubtDisplacementsAboveATwentiethOfTheModel) {
+  EXPECT_TRUE(displacement_warnings(0, 8).empty());
+  EXPECT_TRUE(displacement_warnings(0.399, 8).empty());
+  ASSERT_EQ(displacement_warnings(0.401, 8).size(), 1u);
+  EXPECT_NE(displacement_warnings(0.401, 8)[0].find("reach 0.401 m in a model of 8 m"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace pounding
