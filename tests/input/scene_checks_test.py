@@ -7,6 +7,8 @@ import subprocess
 import tempfile
 import unittest
 
+import h5py
+
 import program
 
 # Two masses in a row on springs, 0.1 s of free vibration: nothing to doubt.
@@ -86,6 +88,18 @@ class Time(Run):
         motion = ["-motion_y_unit", "m/s2", "-motion_y_record", self.record(0.0005, 201)]
         self.doubt([*CHAIN, *motion, "-time_step", "0.001"], "time step 0.001 s", "motion along y, 0.0005 s")
         self.doubt([*CHAIN, *PROBE, "1,0,0", "-time_step", "0.002"], "-output_interval, 0.001 s", "-time_step 0.001")
+
+
+class Displacements(Run):
+    def test_above_a_twentieth_of_the_model(self):
+        """The largest of the run, not that of its end: the masses are on their way back then."""
+        words = [*CHAIN, *PROBE, "1,0,0", "-end_time", "0.08"]
+        (line,) = self.doubts([*words, "-m_initial_velocity", "20,0,0"])
+        largest = program.summary(self.output)["probes"]["p"]["peak_displacement"][0]
+        self.assertIn(f"displacements reach {largest:.3g} m in a model of 2 m", line)
+        with h5py.File(os.path.join(self.output, "history.h5")) as file:
+            self.assertLess(abs(file["displacement"][-1]).max(), 0.5 * largest)
+        self.assertEqual(self.doubts([*words, "-m_initial_velocity", "5,0,0"]), [])
 
 
 class Probes(Run):

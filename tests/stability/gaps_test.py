@@ -123,6 +123,16 @@ class ContactsTwiceOver(unittest.TestCase):
             self.assertLess(run.summary["impacts"]["complementarity_residual"], 1e-12)
             self.assertLess(run.energy["relative_residual"], 1e-12)
 
+    def test_residual_is_the_largest_of_the_run(self):
+        # Of longer and longer pieces of one run: it cannot become smaller.
+        residuals = []
+        for steps in range(20, 120, 12):
+            words = scenes.blocks((2.0, 3.0), young=1e6, time_step=1e-4, end_time=steps * 1e-4)
+            words[words.index("-one_mesh_set") + 1] = "x0=-1,ny=2,nz=2"
+            residuals.append(History(self, words).summary["impacts"]["complementarity_residual"])
+        self.assertGreater(residuals[-1], 0)
+        self.assertEqual(residuals, sorted(residuals))
+
     def test_three_nodes_on_an_edge_of_two(self):
         # 3 x 3 nodes of the secondary face on 2 x 2 of the primary: nine rows, at most four motions.
         for passes in (1, 2):

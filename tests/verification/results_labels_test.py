@@ -323,6 +323,71 @@ class Labels(unittest.TestCase):
         self.assertEqual([float(word) for word in said.groups()[::2]], [TIME_STEP, written.summary["steps"]])
         self.assertAlmostEqual(float(said.group(2)), TIME_STEP / written.summary["stable_time_step"], delta=6e-4)
 
+    def test_what_is_printed_of_the_model_is_what_the_summary_says(self):
+        """Structures, modes, limits of the step, places of the probes, and the spectra of the end."""
+        folder = tempfile.mkdtemp(prefix="pounding-")
+        self.addCleanup(shutil.rmtree, folder)
+        words = scene(self.record, TIME_STEP) + ["-modes", 3, "-left_damping_beta", 1e-4, "-end_time", 0.3,
+                                                 "-probes", "near,right_face", "-near_structure", "left",
+                                                 "-near_at", "0.01,0,1.02", "-right_face_structure", "right",
+                                                 "-right_face_group", "x_min", "-output", folder]
+        words[words.index("-face1_structure"):words.index("-face2_group") + 2] = []
+        result = program.run(words, 1)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        printed, summary = result.stdout, program.summary(folder)
+
+        def numbers(pattern, text):
+            found = re.search(pattern.replace("#", r"([-+0-9.e]+)"), text)
+            self.assertIsNotNone(found, pattern)
+            return [float(word) for word in found.groups()]
+
+        for name in ("left", "right"):
+            of = summary["structures"][name]
+            text = printed[printed.index(f"structure {name}: "):]
+            self.assertEqual(numbers(r": # nodes, # dofs \(# before clamping\), mass # kg", text),
+                             [of["nodes"], of["dofs"], of["dofs_before_clamping"], round(of["mass"])])
+            numpy.testing.assert_allclose(
+                numbers(r"damping ratio at 1, 10, 100, 400 Hz: # % # % # % # %", text),
+                [100 * (of["damping"]["alpha"] / (4 * math.pi * f) + of["damping"]["beta"] * math.pi * f)
+                 for f in (1, 10, 100, 400)], atol=6e-4)
+            numpy.testing.assert_allclose(numbers(r"omega_max # rad/s \(bound from single elements #\)", text),
+                                          [of["omega_max"], of["element_frequency_bound"]], rtol=1e-4)
+            numpy.testing.assert_allclose(
+                numbers(r"stable time step # s \(bound from single elements #\), without damping # s", text),
+                [of["stable_time_step"], of["element_time_step_bound"], of["stable_time_step_undamped"]], rtol=1e-4)
+            self.assertLess(of["omega_max"], of["element_frequency_bound"] * 0.999)
+            self.assertGreater(of["stable_time_step"], of["element_time_step_bound"] * 1.001)
+            self.assertEqual(len(of["frequencies"]), 3)
+            for number, mode in enumerate(of["frequencies"], 1):
+                row = numbers(rf"\n +{number} +# +{mode['direction']} +# kg along [xyz], +# % about/along "
+                              f"{mode['direction']}\n", text)
+                numpy.testing.assert_allclose(row, [mode["frequency"], mode["effective_mass"], 100 * mode["fraction"]],
+                                              atol=0.51, rtol=1e-3)
+                self.assertEqual(mode["effective_mass"], max(mode["effective_modal_mass"][:3]))
+        places = {"near": ([0, 0, 1], math.hypot(0.01, 0.02)), "right_face": ([0, 0.5, 0.5], 0)}
+        for name, (place, distance) in places.items():
+            self.assertEqual(summary["probes"][name]["position"], place)
+            *at, off = numbers(rf"probe {name}: \d+ nodes? of \w+ at \(#, #, #\), at most # mm", printed)
+            numpy.testing.assert_allclose(at, place, atol=1e-6)
+            self.assertAlmostEqual(off, 1e3 * distance, delta=0.06)
+            table = program.read_csv(os.path.join(folder, "spectra.csv"))
+            row = numbers(rf"\n  {name}.x +# +# +# at # \(2 %\) +# at # \(5 %\)\n", printed)[2:]
+            for ratio, peak, frequency in ((0.02, *row[:2]), (0.05, *row[2:])):
+                spectrum = {float(a): float(f) for a, f, probe, direction, damping in
+                            zip(table["pseudo_acceleration"], table["frequency"], table["probe"], table["direction"],
+                                table["damping"])
+                            if probe == name and direction == "x" and float(damping) == ratio}
+                self.assertAlmostEqual(peak, max(spectrum), delta=6e-3)
+                self.assertEqual(frequency, spectrum[max(spectrum)])
+        seconds, each = numbers(r"expected wall time of the steps: # s \(# microseconds per step", printed)
+        self.assertAlmostEqual(seconds, 1e-6 * each * summary["steps"], delta=0.051 + 1e-7 * summary["steps"])
+        said = numbers(r"wall time # s, # microseconds per step", printed)
+        self.assertAlmostEqual(said[0], summary["wall_time"], delta=6e-3)
+        self.assertAlmostEqual(said[1], summary["microseconds_per_step"], delta=6e-4)
+        steps = 1e-6 * summary["microseconds_per_step"] * summary["steps"]  # a part of the whole, not a thousandth
+        self.assertLess(steps, summary["wall_time"])
+        self.assertGreater(steps, 0.5 * summary["phases"]["step"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -72,6 +72,8 @@ TEST(Interface, CornerGapsAreBilinearOnTheFace) {
     EXPECT_NEAR(constraint.initial_gap, expected, 1e-15);
     EXPECT_NEAR(constraint.geometric_gap, 0, 1e-15);
   }
+  EXPECT_EQ(interface.reports[0].smallest_gap, 0.01);
+  EXPECT_EQ(interface.reports[0].largest_gap, 0.05);
 }
 
 TEST(Interface, OverlappingBodiesHaveANegativeGap) {
@@ -185,6 +187,37 @@ TEST(Interface, RefusesFacesThatLookAway) {
   EXPECT_THROW(find_interface(scene, meshes), UserError);
   scene.contacts[0].primary.group = "nowhere";
   EXPECT_THROW(find_interface(scene, meshes), UserError);
+}
+
+/// Two cubes of 1 m face to face, 2 m in all, with a gap given.
+Interface cubes_with_gap(double gap, bool wall = false) {
+  const GlobalMesh left = testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
+  Scene scene = two_boxes({gap});
+  if (wall) {
+    scene.contacts[0].primary = {"wall", ""};
+  }
+  return find_interface(scene,
+                        std::vector{left, testing::box_mesh({1, 0, 0}, {1, 1, 1}, {1, 1, 1})});
+}
+
+TEST(Interface, DoubtsGapsThatMayBeInAnotherUnit) {
+  EXPECT_TRUE(cubes_with_gap(0.99).warnings.empty());
+  ASSERT_EQ(cubes_with_gap(1.01).warnings.size(), 1u);  // half of the model
+  EXPECT_NE(cubes_with_gap(1.01).warnings[0].find("gaps are in metres"), std::string::npos);
+  EXPECT_TRUE(cubes_with_gap(1.99, true).warnings.empty());
+  EXPECT_EQ(cubes_with_gap(2.01, true).warnings.size(), 1u);
+}
+
+TEST(Interface, CountsWhatOverlapsAndNotWhatTouches) {
+  EXPECT_EQ(cubes_with_gap(0).reports[0].overlapping, 0);
+  EXPECT_TRUE(cubes_with_gap(0).warnings.empty());
+  EXPECT_TRUE(cubes_with_gap(-1e-9).warnings.empty());
+  EXPECT_EQ(cubes_with_gap(-3e-9).warnings.size(), 1u);
+  EXPECT_EQ(cubes_with_gap(-0.0039).reports[0].overlapping, 4);  // 0.002 of the model
+  ASSERT_EQ(cubes_with_gap(-0.0039).warnings.size(), 1u);
+  EXPECT_NE(cubes_with_gap(-0.0039).warnings[0].find("up to 3.9 mm at the start, at 4 of 4"),
+            std::string::npos);
+  EXPECT_THROW(cubes_with_gap(-0.0041), UserError);
 }
 
 TEST(ContactFace, MeetsASkewedFacetWhereItsMapSays) {

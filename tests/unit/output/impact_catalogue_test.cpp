@@ -1,5 +1,8 @@
 #include "output/impact_catalogue.h"
 
+#include <fstream>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "../motion/motion_files.h"
@@ -134,6 +137,22 @@ TEST_F(ImpactFile, IsReadBackAsItWasWritten) {
   EXPECT_EQ(windows[1].contact, "floor2");
   EXPECT_EQ(windows[1].start, impact.start);
   EXPECT_EQ(windows[1].end, impact.end);
+}
+
+TEST_F(ImpactFile, EveryNumberStandsUnderItsName) {
+  Impact impact{0, 1, 3, 5, 7, 11, 13, 17, {19, 23}, 29, {31, 37}};
+  const std::string path = (folder_ / "impacts.csv").string();
+  write_impacts(path, {"floor"}, std::vector<Impact>{impact});
+  std::ifstream file(path);
+  std::string names;
+  while (std::getline(file, names) && names.starts_with('#')) {
+  }
+  std::string numbers;
+  std::getline(file, numbers);
+  EXPECT_EQ(names,
+            "contact,start,end,duration,impulse,peak_force,points,energy_lost,max_penetration,"
+            "lateral,vertical,contact_time,left,bottom");
+  EXPECT_EQ(numbers, "floor,1,3,2,5,7,11,13,17,19,23,29,31,37");
 }
 
 TEST_F(ImpactFile, RefusesWhatIsNoCatalogue) {
