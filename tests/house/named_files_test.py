@@ -1,4 +1,4 @@
-"""Files and commands that README, CONTRIBUTING and docs/theory.md name in backticks exist, and links lead somewhere."""
+"""Files, commands, functions and types that the pages name exist, and their links lead somewhere."""
 import os
 import re
 import unittest
@@ -7,6 +7,9 @@ import program
 
 CODE = re.compile(r"`([\w./-]+\.(?:h|cpp|py|md|yaml|yml|csv|txt|geo))(?::[\w:]+)?`")
 COMMAND = re.compile(r"(?:^|[\s`(])(run/\w+)", re.MULTILINE)
+IDENTIFIER = re.compile(r"`(\w+(?:::\w+)?)`")
+# Words in code type that are none of the code.
+OF_NO_CODE = {"snake_case", "PascalCase", "member_", "POUNDING_BUILD"}
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)\s]*)?\)")
 # What a run leaves in its folder, and examples.
 OF_A_RUN = {"spectra.csv", "impacts.csv", "energy.csv", "resolved.yaml", "dofs.csv", "gaps.csv", "probes.csv", "case.yaml"}
@@ -48,6 +51,20 @@ class NamedFiles(unittest.TestCase):
                 seen += 1
                 self.assertTrue(name in OF_A_RUN or self.is_there(name), f"{page} names {name}")
         self.assertGreater(seen, 40)
+
+    def test_functions_and_types_named_in_the_walk_throughs_exist(self):
+        code = ""
+        for name in self.files:
+            if name.startswith("src") and name.endswith((".h", ".cpp")):
+                code += text_of(name)
+        seen = 0
+        for name in set(IDENTIFIER.findall(text_of("CONTRIBUTING.md"))) - OF_NO_CODE:
+            if "_" not in name and name == name.lower():
+                continue  # a word, or a function too short to be told from one
+            seen += 1
+            for part in name.split("::"):
+                self.assertRegex(code, rf"\b{part}\b", f"CONTRIBUTING.md names {name}")
+        self.assertGreater(seen, 30)
 
     def test_commands_exist(self):
         seen = 0
