@@ -1,5 +1,6 @@
 #include "driver/watchdog.h"
 
+#include <memory>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -41,6 +42,45 @@ TEST(Watchdog, BearsRoundOffAndRegionsWithLessDampingThanTheirStructure) {
   EXPECT_EQ(complaint(taken(0, 0, -5e-4)), "");
   EXPECT_EQ(complaint(taken(3, -2, 0)), "");
   EXPECT_EQ(complaint(taken(3, 2, 1)), "");
+}
+
+/// Whether a residual of the energy identity [J] stops a run whose largest term is 1000 J.
+bool stops(double residual, double time_step, double displacement_mass = 0) {
+  Model model;
+  model.motion = std::make_unique<GroundMotion>(std::array<std::optional<MotionComponent>, 3>{},
+                                                Resampling::band_limited);
+  model.time_step = time_step;
+  model.systems.resize(1);
+  model.systems[0].total_mass = 50;
+  model.systems[0].gravity = {0, 6, -8};
+  model.largest = {{1e4, ""}};
+  StructureEnergy energy;
+  energy.displacement_mass = displacement_mass;
+  EnergyLine line;
+  line.residual = residual;
+  try {
+    watch_identity(model, line, std::vector{energy}, 1000);
+  } catch (const DivergenceError&) {
+    return true;
+  }
+  return false;
+}
+
+TEST(Watchdog, StopsAtAMillionthOfTheLargestEnergy) {
+  EXPECT_FALSE(stops(0, 0));
+  EXPECT_FALSE(stops(0.9e-3, 0));
+  EXPECT_FALSE(stops(-0.9e-3, 0));
+  EXPECT_TRUE(stops(1.1e-3, 0));
+  EXPECT_TRUE(stops(-1.1e-3, 0));
+}
+
+TEST(Watchdog, AllowsForTheSpeedOfOneStepAndForRoundOffFarFromRest) {
+  // 50 kg that gravity makes 1 m/s fast in 0.1 s: 25 J, of which a millionth.
+  EXPECT_FALSE(stops(1.02e-3, 0.1));
+  EXPECT_TRUE(stops(1.03e-3, 0.1));
+  // 1e-14 omega^2 u^T M u, 1e-3 J here.
+  EXPECT_FALSE(stops(1.9e-3, 0, 1000));
+  EXPECT_TRUE(stops(2.1e-3, 0, 1000));
 }
 
 TEST(Warnings, NameContactProblemsThatWereNotSolvedToTheEnd) {
