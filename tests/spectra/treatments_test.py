@@ -90,6 +90,12 @@ class Results(unittest.TestCase):
         self.assertAlmostEqual(held.max() / centre, 1.15, delta=0.005)
         self.assertTrue((wide["pseudo_acceleration"] >= plain["pseudo_acceleration"]).all())
 
+    def test_says_what_was_done(self):
+        text = spectra(self.history, "--channels", "other.x", *frequencies([2]), "--broaden", 15).stdout
+        self.assertIn("samples every 0.0001 s; within 1 % of the continuous signal up to 450 Hz", text)
+        self.assertIn("widened by 15 % to both sides", text)
+        self.assertEqual(computed(self, self.history, "--channels", "other.x", *frequencies([2]))["period"][0], 0.5)
+
     def test_regulatory_frequencies(self):
         table = computed(self, self.history, "--channels", "other.x", "--frequencies", "regulatory")
         self.assertEqual((len(table["frequency"]), table["frequency"][0], table["frequency"][-1]), (75, 0.2, 34))

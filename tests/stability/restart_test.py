@@ -1,5 +1,6 @@
 """A run that was stopped and continued leaves what the uninterrupted run leaves, to the last bit."""
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -217,7 +218,10 @@ class Signals(RestartCase):
     def assert_stopped(self, folder, result, name):
         lines = program.error_lines(result)
         self.assertEqual(len(lines), 1, result.stderr)
-        self.assertRegex(lines[0], f"stopped by {name} after step [0-9]+ of [0-9]+")
+        stopped = re.search(f"stopped by {name} after step ([0-9]+) of [0-9]+, t = ([0-9.e+]+) s", lines[0])
+        self.assertIsNotNone(stopped, lines[0])
+        time = history(folder)["time"][-1]  # of the last record, up to an interval before
+        self.assertTrue(time - 1e-3 <= float(stopped.group(2)) <= time + 0.101, (lines[0], time))
         self.assertIn(f"-restart {checkpoint(folder)}", lines[0])
         self.assertFalse(os.path.exists(os.path.join(folder, "summary.json")))
         step = checkpoint_step(folder)

@@ -91,6 +91,18 @@ class Matrices(unittest.TestCase):
         self.assertTrue(numpy.allclose((probes @ influence).toarray(),
                                        numpy.tile(numpy.eye(3), (2, 1))))
 
+    def test_gaps_are_those_of_the_rows(self):
+        """One for each row of L, as given: linear across the face between its two numbers."""
+        place = self.export(1)
+        contact = self.matrix(place, "s1/contact.mtx")
+        table = program.read_csv(os.path.join(place, "s1/gaps.csv"))
+        gaps = numpy.array([float(gap) for gap in table["initial_gap"]])
+        self.assertEqual(len(gaps), contact.shape[0])
+        upper = gaps[numpy.array(table["contact"]) == "floor2"]
+        self.assertAlmostEqual(upper.min(), 0.003, delta=1e-12)
+        self.assertAlmostEqual(upper.max(), 0.004, delta=1e-12)
+        self.assertGreater(gaps.min(), 0)
+
     def test_a_consistent_mass_is_lumped(self):
         place = os.path.join(self.folder, "consistent")
         shutil.copytree(self.export(1), place)

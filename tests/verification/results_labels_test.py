@@ -196,18 +196,29 @@ class Labels(unittest.TestCase):
         numpy.testing.assert_allclose(column["left"], 0.5, atol=1e-6)
         numpy.testing.assert_allclose(column["bottom"], 0.5, atol=1e-6)
 
-    def test_gaps_that_differ_across_the_face(self):
-        """Smallest and largest, as given and as the meshes stand, where they are not one number."""
+    def test_contact_whose_pairs_are_not_all_alike(self):
+        """A face of 3 x 3 nodes that reaches past one of 2 x 2, gaps that differ, a slide: summary, report, history.
+        Of six pairs two are node to node, three nodes face nothing."""
         folder = tempfile.mkdtemp(prefix="pounding-")
         self.addCleanup(shutil.rmtree, folder)
-        words = scene(self.record, TIME_STEP) + ["-gap_gap", "0.02,0.03", "-right_mesh_set", "x0=0.005",
-                                                 "-end_time", 0.01, "-output", folder]
+        words = scene(self.record, TIME_STEP) + [
+            "-gap_gap", "0.02,0.05", "-left_mesh_set", "x0=-1,ly=1.5,ny=2,nz=2", "-right_mesh_set", "x0=0.005",
+            "-left_initial_velocity", "0,0.5,0", "-end_time", 0.01, "-output", folder]
         result = program.run(words, 1)
         self.assertEqual(result.returncode, 0, result.stderr)
         contact = program.summary(folder)["contacts"]["gap"]
-        numpy.testing.assert_allclose(contact["initial_gap"], [0.02, 0.03], atol=1e-15)
+        numpy.testing.assert_allclose(contact["initial_gap"], [0.02, 0.035], atol=1e-12)
         numpy.testing.assert_allclose(contact["geometric_gap"], [0.005, 0.005], atol=1e-12)
-        self.assertIn("initial gap 20 to 30 mm", result.stdout)
+        numpy.testing.assert_allclose(contact["normal"], [1, 0, 0], atol=1e-12)
+        self.assertEqual((contact["pairs"], contact["matched"], contact["unmatched_nodes"]), (6, 2, 3))
+        self.assertIn("contact gap: 6 pairs (2 node to node), 3 secondary nodes face nothing, initial gap 20 to 35 mm, "
+                      "normal (1, ", result.stdout)
+        with h5py.File(os.path.join(folder, "history.h5")) as file:
+            self.assertAlmostEqual(file["gap"][0, 0], 0.02, delta=1e-12)
+        said = re.search(r"gap +slid along itself by at most ([0-9.]+) mm, on a facet of ([0-9.]+) mm", result.stdout)
+        self.assertGreater(contact["largest_slide"], 1e-3)
+        self.assertAlmostEqual(float(said.group(1)), 1e3 * contact["largest_slide"], delta=6e-3)
+        self.assertAlmostEqual(float(said.group(2)), 1e3 * contact["slide_facet_size"], delta=1)
 
     def test_ledger_is_that_of_the_oscillators(self):
         """At the step of each line: v_{n+1/2}, and u_n, u_{n+1}, of the two faces."""
@@ -224,6 +235,19 @@ class Labels(unittest.TestCase):
         for name, expected in (("kinetic", kinetic), ("strain", strain)):
             found = self.fine.column("energy.csv", name)[:count]
             self.assertLess(abs(found - expected).max(), 1e-9 * abs(expected).max(), name)
+
+    def test_residual_closes_the_columns_beside_it(self):
+        """Up to the energy at the start the residual is what the other columns leave; the summary has its largest."""
+        column = {name: self.fine.column("energy.csv", name) for name in self.fine.csv["energy.csv"]}
+        residual = column["residual"]
+        terms = [column[name] for name in ("kinetic", "strain", "damping_loss", "device_work", "contact_work",
+                                           "input_work")]
+        left = terms[0] + terms[1] + terms[2] + terms[3] - terms[4] - terms[5] - residual
+        largest = abs(numpy.array(terms)).max()
+        self.assertLess(abs(left - left[0]).max(), 1e-12 * largest)
+        self.assertLess(abs(residual).max(), 1e-10 * largest)
+        self.assertAlmostEqual(self.fine.summary["energy"]["relative_residual"] * largest / abs(residual).max(), 1,
+                               delta=1e-9)
 
     def test_summary_is_that_of_the_files(self):
         for results in (self.fine, self.coarse):
@@ -264,6 +288,9 @@ class Labels(unittest.TestCase):
         smallest = min(one["stable_time_step"] for one in self.fine.summary["structures"].values())
         self.assertEqual(self.fine.summary["stable_time_step"], smallest)
         self.assertEqual((self.fine.summary["ranks"], self.coarse.summary["ranks"]), (2, 1))
+        self.assertGreater(self.fine.summary["peak_memory"], 1.5 * self.coarse.summary["peak_memory"])
+        self.assertEqual(self.coarse.summary["partition"]["edge_cut"], 0)
+        self.assertGreaterEqual(self.coarse.summary["partition"]["imbalance"], 1)
 
     def test_spectra_say_what_they_are(self):
         for results in (self.fine, self.coarse):
@@ -323,6 +350,20 @@ class Labels(unittest.TestCase):
         self.assertEqual([float(word) for word in said.groups()[::2]], [TIME_STEP, written.summary["steps"]])
         self.assertAlmostEqual(float(said.group(2)), TIME_STEP / written.summary["stable_time_step"], delta=6e-4)
 
+    def test_continued_run_says_where_it_goes_on_and_what_its_own_steps_cost(self):
+        folder = tempfile.mkdtemp(prefix="pounding-")
+        self.addCleanup(shutil.rmtree, folder)
+        words = scene(self.record, 2 * TIME_STEP) + ["-output", folder]
+        checkpoint = os.path.join(folder, "checkpoint.h5")
+        self.assertEqual(program.run(words + ["-checkpoint_steps", 2900], 1).returncode, 0)
+        result = program.run(words + ["-restart", checkpoint], 1)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(f"continuing {checkpoint} after step 2900, t = {2900 * TIME_STEP:g} s\n", result.stdout)
+        summary = program.summary(folder)
+        self.assertEqual(summary["steps"], 3000)
+        # A hundred steps were made, and fifty beforehand to measure.
+        self.assertGreater(100e-6 * summary["microseconds_per_step"], 0.2 * summary["phases"]["step"])
+
     def test_what_is_printed_of_the_model_is_what_the_summary_says(self):
         """Structures, modes, limits of the step, places of the probes, and the spectra of the end."""
         folder = tempfile.mkdtemp(prefix="pounding-")
@@ -379,6 +420,8 @@ class Labels(unittest.TestCase):
                             if probe == name and direction == "x" and float(damping) == ratio}
                 self.assertAlmostEqual(peak, max(spectrum), delta=6e-3)
                 self.assertEqual(frequency, spectrum[max(spectrum)])
+        self.assertEqual(numbers(r"partition: imbalance #, cut edges #\n", printed),
+                         [summary["partition"]["imbalance"], summary["partition"]["edge_cut"]])
         seconds, each = numbers(r"expected wall time of the steps: # s \(# microseconds per step", printed)
         self.assertAlmostEqual(seconds, 1e-6 * each * summary["steps"], delta=0.051 + 1e-7 * summary["steps"])
         said = numbers(r"wall time # s, # microseconds per step", printed)
