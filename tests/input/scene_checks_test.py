@@ -119,6 +119,14 @@ class Probes(Run):
                      "-material_s_poisson", "0", "-material_s_density", "1000", "-m_clamp", "line:y+z",
                      "-end_time", "0.01", *PROBE, "50,2,0"], "-p_at", "2 m away")
 
+    def test_nodes_that_are_not_averaged_are_numbered_from_1(self):
+        self.assertEqual(self.doubts([*CHAIN, *PROBE, "1,0,0; 2,0,0", "-p_average", "false"]), [])
+        with h5py.File(os.path.join(self.output, "history.h5")) as file:
+            channels = [name.decode() for name in file["channels"]]
+        self.assertEqual(channels, ["p.1.x", "p.1.y", "p.1.z", "p.2.x", "p.2.y", "p.2.z"])
+        self.assertEqual({name: probe["position"] for name, probe in program.summary(self.output)["probes"].items()},
+                         {"p.1": [1, 0, 0], "p.2": [2, 0, 0]})
+
     def test_on_a_clamped_node(self):
         self.doubt([*CHAIN, *PROBE, "0,0,0"], "probe p: its node is clamped")
 

@@ -68,6 +68,15 @@ class Surfaces(unittest.TestCase):
         self.assertEqual(contact["half_thickness"], [THICKNESS / 2] * 2)
         self.assertAlmostEqual(contact["geometric_gap"][0], 0.05, delta=1e-12)
 
+    def test_report_tells_the_gap_of_the_meshes_beside_the_one_in_force(self):
+        with tempfile.TemporaryDirectory() as folder:
+            words = [*pair(folder, wall(0), wall(0.25), "body"), "-joint_gap", 0.03, "-dry_run"]
+            result = program.run(words, 1)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("initial gap 30 to 30 mm", result.stdout)
+        self.assertIn("of the meshes 50 to 50 mm between surfaces, half a thickness off: 100 and 100 mm",
+                      result.stdout)
+
     def test_floors_that_end_at_walls_meet(self):
         self.meets_after(0.05, (storey(0, -3), storey(0.25, 3)), "edge", ("floor", "wall"))
 

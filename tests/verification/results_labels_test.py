@@ -220,6 +220,12 @@ class Labels(unittest.TestCase):
         self.assertAlmostEqual(float(said.group(1)), 1e3 * contact["largest_slide"], delta=6e-3)
         self.assertAlmostEqual(float(said.group(2)), 1e3 * contact["slide_facet_size"], delta=1)
 
+    def test_force_of_a_record_is_the_mean_over_its_interval(self):
+        """Whatever the interval, its sum is the impulse of the run."""
+        for results in (self.fine, self.coarse):
+            impulse = results.data["contact_force"][:, 0].sum() * results.summary["output_interval"]
+            self.assertAlmostEqual(impulse / results.summary["impacts"]["total_impulse"], 1, delta=1e-9)
+
     def test_ledger_is_that_of_the_oscillators(self):
         """At the step of each line: v_{n+1/2}, and u_n, u_{n+1}, of the two faces."""
         step = numpy.rint(self.fine.column("energy.csv", "time") / TIME_STEP).astype(int)

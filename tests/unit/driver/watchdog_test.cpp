@@ -1,6 +1,7 @@
 #include "driver/watchdog.h"
 
 #include <memory>
+#include <numbers>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -88,6 +89,30 @@ TEST(Warnings, NameContactProblemsThatWereNotSolvedToTheEnd) {
   EXPECT_TRUE(contact_warnings(1e-7).empty());
   ASSERT_EQ(contact_warnings(2e-6).size(), 1u);
   EXPECT_NE(contact_warnings(2e-6)[0].find("residual 2e-06"), std::string::npos);
+}
+
+TEST(Warnings, DoubtDampingAboveHalfOfTheCriticalUpTo50Hz) {
+  constexpr double pi = std::numbers::pi;
+  const auto doubts = [](double alpha, double beta, const std::vector<double>& frequencies) {
+    Structure structure;
+    structure.name = "s";
+    structure.damping = {alpha, beta};
+    ModalResult modal;
+    for (const double frequency : frequencies) {
+      modal.modes.emplace_back().frequency = frequency;
+    }
+    return damping_warnings(structure, modal);
+  };
+  // alpha / (2 omega) + beta omega / 2
+  EXPECT_TRUE(doubts(0.49 * 4 * pi * 2, 0, {2, 10}).empty());
+  ASSERT_EQ(doubts(0.51 * 4 * pi * 2, 0, {2, 10}).size(), 1u);
+  EXPECT_NE(doubts(0.51 * 4 * pi * 2, 0, {2, 10})[0].find("damp 51 % of critical at 2 Hz"),
+            std::string::npos);
+  EXPECT_TRUE(doubts(0, 0.49 / (pi * 49), {2, 49}).empty());
+  EXPECT_EQ(doubts(0, 0.51 / (pi * 49), {2, 49}).size(), 1u);
+  EXPECT_TRUE(doubts(0, 0.51 / (pi * 51), {2, 51}).empty());  // beyond 50 Hz
+  EXPECT_EQ(doubts(0, 0.51 / (pi * 51), {51}).size(), 1u);    // but for the first mode
+  EXPECT_EQ(doubts(0, 0.51 / (pi * 50), {}).size(), 1u);
 }
 
 TEST(Warnings, DoubtDisplacementsAboveATwentiethOfTheModel) {
