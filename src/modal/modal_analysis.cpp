@@ -23,6 +23,18 @@ void weigh(const LinearSystem& system, std::vector<double>& x) {
   }
 }
 
+/// What no circular frequency exceeds [rad/s]. Elements with stiffness and no mass, springs, have
+/// no bound of their own: then that of the rows of M^-1/2 K M^-1/2.
+double frequency_bound(const LinearSystem& system) {
+  if (std::isfinite(system.element_frequency_bound)) {
+    return system.element_frequency_bound;
+  }
+  const MatHandle scaled = mass_scaled(system, system.stiffest_matrix());
+  PetscReal norm = 0;
+  POUNDING_PETSC(MatNorm(scaled.get(), NORM_INFINITY, &norm));
+  return std::sqrt(norm);
+}
+
 }  // namespace
 
 Mode describe_mode(double eigenvalue, const std::array<double, 6>& participation,
@@ -64,10 +76,10 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
   POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
   std::vector<double> storage(system.lumped_mass.size());
   const VecHandle vector = wrap_vector(system, storage);
+  const double bound = near_zero * frequency_bound(system);
   for (int i = 0; i < found; ++i) {
     double eigenvalue = 0;
     POUNDING_PETSC(EPSGetEigenpair(solver.get(), i, &eigenvalue, nullptr, vector.get(), nullptr));
-    const double bound = near_zero * system.element_frequency_bound;
     std::vector<double> shape;
     if (keep_shapes) {
       shape = storage;

@@ -25,8 +25,8 @@ struct ModalResult {
   Vector3 centre_of_mass{0, 0, 0};
 };
 
-/// A mode is near zero below this part of the largest frequency of a single element, which is some
-/// thirty times the round-off of its frequency.
+/// A mode is near zero below this part of the largest frequency of a single element (of the bound
+/// by rows where springs have none), which is some thirty times the round-off of its frequency.
 inline constexpr double near_zero = 1e-6;
 
 /// The largest circular frequency and where its mode lives.

@@ -107,6 +107,9 @@ class Results(unittest.TestCase):
             # whole samples; the sway adds 2 m/s2 at most
             self.assertTrue(start - 2 * STEP < table["start"][i] <= start)
             self.assertTrue(end <= table["end"][i] < end + 2 * STEP)
+            for edge in (table["start"][i], table["end"][i]):  # where the interval of a sample begins
+                number = (edge - SOLVER_STEP / 2) / STEP
+                self.assertAlmostEqual(number, round(number), delta=1e-6)
             self.assertAlmostEqual(table["impulse"][i], impulse, delta=2.1 * (end - start + 2 * STEP))
 
     def test_peaks_of_one_contact(self):

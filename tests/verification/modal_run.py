@@ -36,14 +36,18 @@ def case(mesh, words, **parameters):
     return words
 
 
-def structures(test, cases, modes=1, ranks=2):
-    """What summary.json says of each structure, in the order of the cases."""
+def structures(test, cases, modes=1, ranks=2, mechanisms=None):
+    """What summary.json says of each structure, in the order of the cases. `mechanisms`: whether each of them, or
+    none, has to be called one."""
     names = [f"b{number}" for number in range(len(cases))]
     arguments = ["-structures", ",".join(names), "-end_time", 1e-12, "-modes", modes]
     for name, words in zip(names, cases):
         arguments += [str(word).replace("@", name) for word in words]
-    found = program.must_run(test, arguments, ranks)[1]["structures"]
-    return [found[name] for name in names]
+    summary = program.must_run(test, arguments, ranks)[1]
+    said = [line for line in summary["warnings"] if "no stiffness" in line]
+    if mechanisms is not None:
+        test.assertEqual(len(said), len(names) if mechanisms else 0, said)
+    return [summary["structures"][name] for name in names]
 
 
 def frequencies(result):
