@@ -26,7 +26,8 @@ std::vector<std::string> damping_warnings(const Structure& structure, const Moda
   constexpr double highest = 50;  // Hz
   std::vector<double> frequencies;
   for (const Mode& mode : modal.modes) {
-    if (frequencies.empty() || mode.frequency <= highest) {
+    const bool vibrates = mode.location.empty();  // else its frequency is round-off
+    if (vibrates && (frequencies.empty() || mode.frequency <= highest)) {
       frequencies.push_back(mode.frequency);
     }
   }

@@ -115,6 +115,18 @@ TEST(Warnings, DoubtDampingAboveHalfOfTheCriticalUpTo50Hz) {
   EXPECT_EQ(doubts(0, 0.51 / (pi * 50), {}).size(), 1u);
 }
 
+TEST(Warnings, DoNotTakeRoundOffOfAFreeMotionForAFrequency) {
+  Structure structure;
+  structure.damping = {0.5, 0};
+  ModalResult modal;
+  modal.modes.resize(2);
+  modal.modes[0].frequency = 1e-5;
+  modal.modes[1].frequency = 3;
+  EXPECT_EQ(damping_warnings(structure, modal).size(), 1u);
+  modal.modes[0].location = "a node";  // of modes near zero only
+  EXPECT_TRUE(damping_warnings(structure, modal).empty());
+}
+
 TEST(Warnings, DoubtDisplacementsAboveATwentiethOfTheModel) {
   EXPECT_TRUE(displacement_warnings(0, 8).empty());
   EXPECT_TRUE(displacement_warnings(0.399, 8).empty());
