@@ -113,34 +113,6 @@ std::optional<FacetPoint> meet_edge(const GlobalMesh& mesh, const Facet& facet,
 
 }  // namespace
 
-Vector3 centroid(const GlobalMesh& mesh, std::span<const GlobalIndex> nodes) {
-  Vector3 sum{0, 0, 0};
-  for (const GlobalIndex node : nodes) {
-    const Vector3 x = mesh.position(node);
-    for (std::size_t d = 0; d < 3; ++d) {
-      sum[d] += x[d] / static_cast<double>(nodes.size());
-    }
-  }
-  return sum;
-}
-
-double dot(const Vector3& a, const Vector3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Vector3 minus(const Vector3& a, const Vector3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Vector3 normalised(const Vector3& a) {
-  const double length = std::sqrt(dot(a, a));
-  return length > 0 ? Vector3{a[0] / length, a[1] / length, a[2] / length} : a;
-}
-
 ContactFace build_contact_face(const GlobalMesh& mesh, std::span<const Region> regions,
                                const NodeGroup& group, const std::optional<Vector3>& towards) {
   ContactFace face;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "common/matrix3.h"
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"
 
@@ -52,13 +53,5 @@ struct FacetPoint {
 std::optional<FacetPoint> meet_facet(const GlobalMesh& mesh, const Facet& facet,
                                      const Vector3& origin, const Vector3& direction,
                                      double tolerance, double reach = 0);
-
-/// Mean of the positions of some nodes.
-Vector3 centroid(const GlobalMesh& mesh, std::span<const GlobalIndex> nodes);
-
-double dot(const Vector3& a, const Vector3& b);
-Vector3 cross(const Vector3& a, const Vector3& b);
-Vector3 normalised(const Vector3& a);
-Vector3 minus(const Vector3& a, const Vector3& b);
 
 }  // namespace pounding

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "contact/contact_face.h"
+#include "common/matrix3.h"
 #include "elements/element.h"
 
 namespace pounding {

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
 #include <mpi.h>
 
 #include "mesh/global_mesh.h"
-#include "mesh/partition.h"
-#include "scene/scene.h"
+#include "mesh/node_links.h"
 
 /// Contact geometry: which secondary node faces which place of the primary face, along what normal,
 /// at what initial gap.
@@ -65,16 +63,6 @@ struct Interface {
   double model_size = 0;              ///< largest extent of the scene [m]
   std::vector<std::string> warnings;  ///< what may not be meant; rank 0 only
 };
-
-/// Finds the pairs of every contact of the scene: for each node of the secondary group the facet of
-/// the primary group that the normal through the node meets; weights are the facet's shape
-/// functions there, one node alone where it meets a node (matched). `meshes` in the order of the
-/// scene's structures. A facet is met only if its outward normal looks against that of the node,
-/// and behind the node, where bodies overlap, only within the elements behind the node. The gap is
-/// that between surfaces: half of the thickness of shells is off on either side, but for edges in
-/// the plane of their shell. Serial, rank 0. Throws UserError as find_sides does, for no pair at
-/// all, and as check_contact does.
-Interface find_interface(const Scene& scene, std::span<const GlobalMesh> meshes);
 
 /// Facing nodes, for the partition.
 std::vector<NodeLink> facing_nodes(const Interface& interface);

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "common/parallel.h"
-#include "output/csv_file.h"
+#include "io/csv_file.h"
 
 namespace pounding {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 
-#include "modal/energy_norm.h"
+#include "stability/energy_norm.h"
 
 namespace pounding {
 namespace {

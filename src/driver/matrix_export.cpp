@@ -8,8 +8,8 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
-#include "output/csv_file.h"
-#include "system/matrix_market.h"
+#include "io/csv_file.h"
+#include "io/matrix_market.h"
 
 namespace pounding {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "common/parallel.h"
+#include "io/hdf5_file.h"
 #include "mesh/node_table.h"
-#include "output/hdf5_file.h"
 
 namespace pounding {
 

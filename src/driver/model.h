@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,10 +10,10 @@
 #include "contact/interface.h"
 #include "mesh/connectivity.h"
 #include "mesh/mesh.h"
+#include "mesh/probe_set.h"
 #include "modal/modal_analysis.h"
 #include "modal/modal_basis.h"
 #include "motion/ground_motion.h"
-#include "output/probe_set.h"
 #include "scene/scene.h"
 #include "system/linear_system.h"
 
@@ -43,11 +44,9 @@ struct Model {
   double time_step = 0;               ///< in force [s]
   std::int64_t steps = 0;             ///< until the end time
   std::vector<std::string> warnings;  ///< one line each, on rank 0: what may not be meant
-  double smallest_stable_time_step() const;
+  double smallest_stable_time_step() const {
+    return *std::min_element(stable_time_step.begin(), stable_time_step.end());
+  }
 };
-
-/// Reads, partitions, distributes and assembles; finds modes, omega_max and the time step. Throws
-/// UserError on every rank alike. Collective.
-Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile);
 
 }  // namespace pounding

@@ -6,7 +6,7 @@
 
 #include "contact/interface.h"
 #include "mesh/global_mesh.h"
-#include "output/probe_set.h"
+#include "mesh/probe_set.h"
 
 namespace pounding {
 

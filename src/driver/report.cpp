@@ -7,7 +7,7 @@
 
 #include "common/version.h"
 #include "driver/motion_report.h"
-#include "dynamics/stable_time_step.h"
+#include "stability/stable_time_step.h"
 
 namespace pounding {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "common/version.h"
 #include "driver/motion_report.h"
-#include "dynamics/stable_time_step.h"
 #include "output/result_folder.h"
 #include "scene/resolved_options.h"
+#include "stability/stable_time_step.h"
 
 namespace pounding {
 namespace {

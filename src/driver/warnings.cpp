@@ -4,7 +4,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "dynamics/stable_time_step.h"
+#include "stability/stable_time_step.h"
 
 namespace pounding {
 

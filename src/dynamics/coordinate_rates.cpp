@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "system/row_products.h"
+#include "common/row_products.h"
 
 namespace pounding {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "elements/element.h"
+#include "elements/element_properties.h"
 
 /// Two-node bar, pinned at both ends: three displacements per node, force along its axis only.
 namespace pounding {

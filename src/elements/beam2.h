@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "elements/element.h"
+#include "elements/element_properties.h"
 
 /// Two-node Euler-Bernoulli beam in space, three displacements and three rotations per node. Local
 /// x runs from node 1 to node 2; local z is `z_axis` made orthogonal to x; y = z cross x.

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <span>
 
-#include "elements/element.h"
-#include "elements/matrix3.h"
+#include "common/matrix3.h"
+#include "elements/element_properties.h"
 
 /// What the flat shells shell3 and shell4 share. In local axes (z normal to the plane) a node moves
 /// by (ux, uy, uz) and turns by (rx, ry, rz). A fibre follows u + z ry, v - z rx; rz, the drilling

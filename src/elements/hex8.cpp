@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <sstream>
 
+#include "common/matrix3.h"
 #include "elements/gauss_rule.h"
-#include "elements/matrix3.h"
 #include "elements/symmetric_matrix.h"
 
 namespace pounding {

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "elements/element.h"
+#include "elements/element_properties.h"
 
 /// Eight-node brick of isotropic linear elasticity, three displacements per node. Nodes in Gmsh's
 /// order: bottom 0-3 counter-clockwise seen from above, top 4-7.

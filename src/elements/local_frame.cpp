@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <sstream>
 
-#include "elements/element.h"
+#include "elements/element_properties.h"
 
 namespace pounding {
 

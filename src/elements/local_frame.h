@@ -2,8 +2,8 @@
 
 #include <span>
 
+#include "common/matrix3.h"
 #include "common/types.h"
-#include "elements/matrix3.h"
 
 /// Length and local axes of two-node elements, and the turn of their matrices to global axes.
 namespace pounding {

@@ -3,7 +3,7 @@
 #include <array>
 #include <span>
 
-#include "elements/element.h"
+#include "elements/element_properties.h"
 
 /// Elements without shape: masses on nodes, and springs or dashpots to the ground or between two
 /// nodes, uncoupled along and about the global axes.

@@ -6,7 +6,7 @@
 #include <metis.h>
 
 #include "mesh/global_mesh.h"
-#include "mesh/partition.h"
+#include "mesh/node_links.h"
 
 /// The elements of a scene as a graph for METIS. Serial.
 namespace pounding {

@@ -64,6 +64,9 @@ struct GlobalMesh {
   }
 };
 
+/// Mean of the positions of some nodes.
+Vector3 centroid(const GlobalMesh& mesh, std::span<const GlobalIndex> nodes);
+
 /// Number of dofs that a component mask stands for.
 constexpr int component_count(std::uint8_t mask) {
   return __builtin_popcount(mask);

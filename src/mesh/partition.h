@@ -4,23 +4,10 @@
 #include <vector>
 
 #include "mesh/global_mesh.h"
+#include "mesh/node_links.h"
 #include "scene/scene.h"
 
 namespace pounding {
-
-/// Two nodes, of any two structures, that should live on one rank: facing nodes of a contact.
-struct NodeLink {
-  int structure_a = 0;
-  GlobalIndex node_a = 0;
-  int structure_b = 0;
-  GlobalIndex node_b = 0;
-};
-
-/// Nodes of one structure that one rank must own.
-struct NodeCluster {
-  int structure = 0;
-  std::vector<GlobalIndex> nodes;
-};
 
 /// Which rank owns what, all structures together.
 struct Partition {

@@ -4,25 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "common/matrix3.h"
+
 namespace pounding {
 namespace {
-
-Vector3 minus(const Vector3& a, const Vector3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-double dot(const Vector3& a, const Vector3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Vector3 unit(const Vector3& a) {
-  const double length = std::sqrt(dot(a, a));
-  return length > 0 ? Vector3{a[0] / length, a[1] / length, a[2] / length} : a;
-}
 
 Vector3 centre(std::span<const Vector3> corners) {
   Vector3 sum{0, 0, 0};
@@ -43,15 +28,15 @@ bool is_on_line(const Vector3& point, const Vector3& a, const Vector3& b, double
 }
 
 bool is_on_shell(const Vector3& point, std::span<const Vector3> corners, double reach) {
-  const Vector3 normal =
-      unit(cross(minus(corners[2], corners[0]), minus(corners[corners.size() - 1], corners[1])));
+  const Vector3 normal = normalised(
+      cross(minus(corners[2], corners[0]), minus(corners[corners.size() - 1], corners[1])));
   const Vector3 middle = centre(corners);
   if (std::abs(dot(minus(point, middle), normal)) > reach) {
     return false;
   }
   for (std::size_t a = 0; a < corners.size(); ++a) {
     const Vector3& next = corners[(a + 1) % corners.size()];
-    Vector3 outward = unit(cross(minus(next, corners[a]), normal));
+    Vector3 outward = normalised(cross(minus(next, corners[a]), normal));
     const double side = dot(minus(middle, corners[a]), outward) > 0 ? -1 : 1;
     if (side * dot(minus(point, corners[a]), outward) > reach) {
       return false;
@@ -67,7 +52,7 @@ bool is_in_hexahedron(const Vector3& point, std::span<const Vector3> corners, do
   for (const auto& face : faces) {
     const std::array<Vector3, 4> at{corners[face[0]], corners[face[1]], corners[face[2]],
                                     corners[face[3]]};
-    const Vector3 normal = unit(cross(minus(at[2], at[0]), minus(at[3], at[1])));
+    const Vector3 normal = normalised(cross(minus(at[2], at[0]), minus(at[3], at[1])));
     const Vector3 face_middle = centre(at);
     const double side = dot(minus(middle, face_middle), normal) > 0 ? -1 : 1;
     if (side * dot(minus(point, face_middle), normal) > reach) {

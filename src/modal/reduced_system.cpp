@@ -9,8 +9,8 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "stiffness/diagonal_stiffness.h"
 #include "system/critical_time_step.h"
-#include "system/diagonal_stiffness.h"
 
 namespace pounding {
 namespace {

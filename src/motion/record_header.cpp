@@ -4,7 +4,7 @@
 #include <regex>
 
 #include "common/error.h"
-#include "motion/accelerogram.h"
+#include "motion/acceleration_limits.h"
 
 namespace pounding {
 

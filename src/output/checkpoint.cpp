@@ -6,9 +6,9 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "common/version.h"
+#include "io/hdf5_file.h"
 #include "mesh/node_table.h"
 #include "output/checkpoint_format.h"
-#include "output/hdf5_file.h"
 #include "output/saved_state_exchange.h"
 
 namespace pounding {

@@ -5,10 +5,10 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "io/hdf5_reader.h"
 #include "mesh/node_table.h"
 #include "output/checkpoint.h"
 #include "output/checkpoint_format.h"
-#include "output/hdf5_reader.h"
 #include "output/saved_state_exchange.h"
 
 namespace pounding {

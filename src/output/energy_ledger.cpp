@@ -3,7 +3,7 @@
 #include <array>
 #include <span>
 
-#include "output/csv_file.h"
+#include "io/csv_file.h"
 
 namespace pounding {
 namespace {

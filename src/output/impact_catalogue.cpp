@@ -6,8 +6,8 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "io/csv_file.h"
 #include "motion/record_text.h"
-#include "output/csv_file.h"
 
 namespace pounding {
 namespace {

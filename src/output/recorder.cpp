@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "common/parallel.h"
-#include "system/row_products.h"
+#include "common/row_products.h"
 
 namespace pounding {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "common/saved_state.h"
 #include "dynamics/state.h"
+#include "io/hdf5_file.h"
+#include "io/hdf5_reader.h"
 #include "mesh/mesh.h"
-#include "output/hdf5_file.h"
-#include "output/hdf5_reader.h"
-#include "output/probe_set.h"
+#include "mesh/probe_set.h"
 #include "system/trace.h"
 
 namespace pounding {

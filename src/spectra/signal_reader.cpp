@@ -7,8 +7,8 @@
 
 #include "common/error.h"
 #include "common/types.h"
+#include "io/hdf5_reader.h"
 #include "motion/accelerogram.h"
-#include "output/hdf5_reader.h"
 #include "scene/nearest_name.h"
 
 namespace pounding {

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
+#include "io/csv_file.h"
 #include "motion/spectrum_shape.h"
-#include "output/csv_file.h"
 #include "output/impact_catalogue.h"
 #include "spectra/signal_reader.h"
 

@@ -7,11 +7,11 @@
 #include <sstream>
 #include <utility>
 
+#include "common/dense_eigenvalues.h"
 #include "common/parallel.h"
 #include "mesh/location.h"
+#include "stiffness/element_loop.h"
 #include "system/critical_time_step.h"
-#include "system/dense_eigenvalues.h"
-#include "system/element_loop.h"
 #include "system/slivers.h"
 
 namespace pounding {

@@ -6,12 +6,14 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "mesh/location.h"
-#include "system/added_mass.h"
+#include "stiffness/element_loop.h"
+#include "stiffness/element_properties.h"
+#include "stiffness/element_shapes.h"
+#include "stiffness/element_stiffness.h"
+#include "stiffness/sparse_matrix.h"
 #include "system/element_bounds.h"
-#include "system/element_loop.h"
-#include "system/element_shapes.h"
-#include "system/element_stiffness.h"
-#include "system/sparse_matrix.h"
+#include "system/scaled_mass.h"
+#include "system/tension_bars.h"
 
 namespace pounding {
 namespace {
@@ -179,7 +181,7 @@ class Assembly {
   MatHandle extra_damping_;
   std::vector<PetscInt> numbers_;
   ElementBounds bounds_;
-  AddedMass added_mass_;
+  ScaledMass added_mass_;
   std::array<double, max_element_size * max_element_size> damping_{};
 };
 
@@ -217,28 +219,6 @@ std::string describe(const ElementKinds& kinds) {
 }
 
 }  // namespace
-
-ElementProperties element_properties(const Region& region) {
-  ElementProperties properties;
-  properties.young = region.material.young;
-  properties.poisson = region.material.poisson;
-  properties.density = region.material.density;
-  properties.area = region.area;
-  properties.thickness = region.thickness;
-  properties.rotary_inertia_factor = region.rotary_inertia_factor;
-  properties.mass = region.mass;
-  properties.rotary_inertia = region.rotary_inertia;
-  properties.stiffness = region.stiffness;
-  properties.dashpot = region.dashpot;
-  if (region.section) {
-    properties.area = region.section->area;
-    properties.inertia_y = region.section->inertia_y;
-    properties.inertia_z = region.section->inertia_z;
-    properties.torsion = region.section->torsion;
-    properties.z_axis = region.section->z_axis;
-  }
-  return properties;
-}
 
 LinearSystem build_finite_element_system(const Structure& structure, const Mesh& mesh,
                                          StiffnessMethod method, bool with_matrix) {

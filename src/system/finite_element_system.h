@@ -1,14 +1,10 @@
 #pragma once
 
-#include "elements/element.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
 #include "system/linear_system.h"
 
 namespace pounding {
-
-/// Properties of a region's elements as the element functions want them.
-ElementProperties element_properties(const Region& region);
 
 /// Builds a structure's finite-element model: lumped mass, stiffness, influence vectors, element
 /// bound of omega. Sums run over the elements in file order on every rank, so that mass and matrix

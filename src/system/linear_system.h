@@ -12,13 +12,14 @@
 #include "common/types.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
+#include "stiffness/stiffness.h"
 #include "system/coupled_mass.h"
 #include "system/mass_scaling.h"
 #include "system/slivers.h"
-#include "system/stiffness.h"
-#include "system/tension_bars.h"
 
 namespace pounding {
+
+class TensionBars;
 
 /// A displacement component of a node, by what does not depend on the partition.
 struct TracePoint {
@@ -59,7 +60,7 @@ struct LinearSystem {
   std::unique_ptr<Stiffness> stiffness;  ///< K of the linear elements
   std::string stiffness_method;          ///< how it is applied, for the report
   std::unique_ptr<Stiffness> taut;       ///< K with tension-only bars taut; null if there are none
-  std::unique_ptr<TensionBars> tension_bars;  ///< null if there are none
+  std::shared_ptr<TensionBars> tension_bars;  ///< null if there are none
   std::unique_ptr<Stiffness> extra_damping;   ///< D [N s/m, N m s]; null if there is none
   MassScaling mass_scaling;
   std::unique_ptr<CoupledMass>

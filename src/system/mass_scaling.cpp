@@ -8,10 +8,10 @@
 #include <numeric>
 #include <sstream>
 
+#include "common/dense_eigenvalues.h"
 #include "common/error.h"
 #include "elements/element.h"
-#include "system/dense_eigenvalues.h"
-#include "system/finite_element_system.h"
+#include "stiffness/element_properties.h"
 
 namespace pounding {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mesh/global_mesh.h"
-#include "mesh/partition.h"
+#include "mesh/node_links.h"
 #include "scene/scene.h"
 
 namespace pounding {

@@ -12,9 +12,9 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "io/matrix_market.h"
 #include "mesh/location.h"
 #include "system/critical_time_step.h"
-#include "system/matrix_market.h"
 #include "system/square_matrix.h"
 
 namespace pounding {

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "mesh/location.h"
-#include "system/trace.h"
 
 namespace pounding {
 namespace {
@@ -25,8 +24,6 @@ double TensionBar::elongation(std::span<const double> field) const {
   }
   return sum;
 }
-
-TensionBars::~TensionBars() = default;
 
 std::unique_ptr<TensionBars> TensionBars::build(const Structure& structure, const Mesh& mesh) {
   std::unique_ptr<TensionBars> bars(new TensionBars);

@@ -7,11 +7,10 @@
 
 #include "mesh/mesh.h"
 #include "scene/scene.h"
+#include "system/linear_system.h"
+#include "system/trace.h"
 
 namespace pounding {
-
-struct LinearSystem;
-class Trace;
 
 /// A bar that buckles, between two nodes of which this rank owns those that can move.
 struct TensionBar {
@@ -33,7 +32,6 @@ class TensionBars {
   /// Null if the structure has no tension-only bar. Throws std::logic_error if the nodes of one
   /// live on several ranks.
   static std::unique_ptr<TensionBars> build(const Structure& structure, const Mesh& mesh);
-  ~TensionBars();
 
   /// Once the system's mass is complete.
   void find_trace(const LinearSystem& system, const Mesh& mesh);

@@ -5,7 +5,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "system/row_products.h"
+#include "common/row_products.h"
 
 namespace pounding {
 namespace {

@@ -4,8 +4,8 @@
 #include "benchmark/timed_step.h"
 #include "driver/gap_bounds.h"
 #include "dynamics/cd_lagrange.h"
-#include "dynamics/stable_time_step.h"
 #include "scene/option_table.h"
+#include "stability/stable_time_step.h"
 
 namespace pounding::measuring {
 namespace {

@@ -8,7 +8,7 @@
 #include "benchmark/storey_pair.h"
 #include "common/memory.h"
 #include "common/parallel.h"
-#include "dynamics/stable_time_step.h"
+#include "stability/stable_time_step.h"
 #include "support/box_mesh.h"
 #include "system/finite_element_system.h"
 

@@ -8,10 +8,10 @@
 #include <slepcsys.h>
 
 #include "common/parallel.h"
+#include "stiffness/bricks/brick_kernel.h"
+#include "stiffness/element_stiffness.h"
 #include "support/box_mesh.h"
 #include "support/frame_mesh.h"
-#include "system/brick_kernel.h"
-#include "system/element_stiffness.h"
 #include "system/finite_element_system.h"
 
 namespace pounding {

@@ -8,13 +8,13 @@
 #include "common/error.h"
 #include "common/petsc.h"
 #include "fuzz/target.h"
+#include "io/file_seal.h"
+#include "io/matrix_market.h"
 #include "mesh/mesh.h"
 #include "mesh/partition.h"
+#include "modal/modal_basis_file.h"
 #include "output/checkpoint.h"
-#include "output/file_seal.h"
-#include "output/modal_basis_file.h"
 #include "support/box_mesh.h"
-#include "system/matrix_market.h"
 #include "system/matrix_system.h"
 
 namespace pounding::fuzz {

@@ -1,4 +1,4 @@
-#include "system/element_stiffness.h"
+#include "stiffness/element_stiffness.h"
 
 #include <cmath>
 

@@ -1,10 +1,10 @@
-#include "modal/energy_norm.h"
+#include "stability/energy_norm.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "modal/stability_limit.h"
+#include "stability/stability_limit.h"
 #include "support/built_system.h"
 #include "support/dense_damping.h"
 #include "support/scaled_structure.h"

@@ -1,4 +1,4 @@
-#include "system/halo.h"
+#include "mesh/halo.h"
 
 #include <gtest/gtest.h>
 #include <petscsys.h>

@@ -2,7 +2,7 @@
 
 #include "modal/modal_analysis.h"
 #include "modal/scaled_operator.h"
-#include "modal/stability_limit.h"
+#include "stability/stability_limit.h"
 #include "support/box_mesh.h"
 #include "support/built_stiffness.h"
 #include "support/dense_damping.h"

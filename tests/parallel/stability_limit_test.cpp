@@ -1,11 +1,11 @@
-#include "modal/stability_limit.h"
+#include "stability/stability_limit.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "dynamics/stable_time_step.h"
 #include "modal/modal_analysis.h"
+#include "stability/stable_time_step.h"
 #include "support/built_system.h"
 #include "support/dense_damping.h"
 

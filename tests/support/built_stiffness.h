@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "stiffness/element_stiffness.h"
 #include "support/built_system.h"
-#include "system/element_stiffness.h"
 
 namespace pounding::testing {
 

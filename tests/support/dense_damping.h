@@ -8,6 +8,7 @@
 #include "elements/element.h"
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"
+#include "stiffness/element_properties.h"
 #include "support/box_mesh.h"
 #include "system/finite_element_system.h"
 #include "unit/elements/dense_eigen.h"

@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "modal/stability_limit.h"
+#include "stability/stability_limit.h"
+#include "stiffness/element_properties.h"
 #include "support/built_system.h"
 #include "support/dense_damping.h"
 #include "system/mass_scaling.h"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
-#include "contact/interface.h"
+#include "contact/find_interface.h"
 #include "support/box_mesh.h"
 #include "support/shell_mesh.h"
 

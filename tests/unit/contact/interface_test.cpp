@@ -1,9 +1,8 @@
-#include "contact/interface.h"
-
 #include <gtest/gtest.h>
 
 #include "common/error.h"
 #include "contact/contact_face.h"
+#include "contact/find_interface.h"
 #include "support/box_mesh.h"
 
 namespace pounding {

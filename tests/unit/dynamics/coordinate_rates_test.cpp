@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/gap_watch.h"
-#include "system/diagonal_stiffness.h"
+#include "stiffness/diagonal_stiffness.h"
 
 namespace pounding {
 namespace {

@@ -7,8 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "common/matrix3.h"
 #include "dense_model.h"
-#include "elements/matrix3.h"
+#include "elements/element.h"
 
 namespace pounding {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "elements/element.h"
+
 namespace pounding {
 namespace {
 

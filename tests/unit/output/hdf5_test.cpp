@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "output/hdf5_file.h"
-#include "output/hdf5_reader.h"
+#include "io/hdf5_file.h"
+#include "io/hdf5_reader.h"
 
 /// What is written is read back, and what is damaged is refused.
 namespace pounding {

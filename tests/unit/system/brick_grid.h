@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "system/element_rows.h"
+#include "stiffness/rows/element_rows.h"
 
 namespace pounding::testing {
 

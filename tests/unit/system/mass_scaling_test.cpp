@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "common/dense_eigenvalues.h"
 #include "common/error.h"
 #include "elements/element.h"
 #include "system/critical_time_step.h"
-#include "system/dense_eigenvalues.h"
 #include "unit/elements/dense_eigen.h"
 
 namespace pounding {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
-#include "system/matrix_market.h"
+#include "io/matrix_market.h"
 #include "system/square_matrix.h"
 
 /// Matrices out of files: what cannot be is refused with the file and the place.

@@ -1,0 +1,233 @@
+#include "contact/find_interface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "common/error.h"
+#include "contact/contact_checks.h"
+#include "contact/contact_sides.h"
+#include "contact/facet_finder.h"
+#include "mesh/bounding_box.h"
+
+namespace pounding {
+namespace {
+
+/// A weight this close to 1 is the node itself; one this close to 0 is not there.
+constexpr double snap = 1e-6;
+
+/// Finds the pairs of one contact.
+class PairFinder {
+ public:
+  PairFinder(const Scene& scene, std::span<const GlobalMesh> meshes, int contact)
+      : contact_(scene.contacts[static_cast<std::size_t>(contact)]),
+        number_(contact),
+        sides_(find_sides(scene, meshes, contact_)) {
+    report_.contact = contact_.name;
+    report_.normal = sides_.secondary.face.mean_normal;
+    report_.inner_facets = sides_.secondary.face.inner_facets + sides_.primary.face.inner_facets;
+    find_tangent_axes();
+  }
+
+  void find(Interface& interface) {
+    const std::size_t first = interface.constraints.size();
+    if (contact_.primary.is_wall()) {
+      pair_with_wall(interface);
+    } else {
+      pair(sides_.secondary, sides_.primary, interface);
+      if (contact_.passes == 2) {
+        pair(sides_.primary, sides_.secondary, interface);
+      }
+    }
+    if (interface.constraints.size() == first) {
+      refuse_without_pairs();
+    }
+    set_gaps({&interface.constraints[first], interface.constraints.size() - first});
+    interface.reports.push_back(report_);
+  }
+
+ private:
+  [[noreturn]] void refuse_without_pairs() const {
+    const std::string option = side_option(contact_, "secondary");
+    if (report_.left_behind == 0) {
+      throw UserError(option + ": no node of group '" + contact_.secondary.group +
+                      "' faces group '" + contact_.primary.group +
+                      "'; check that the two faces overlap across their normal");
+    }
+    std::ostringstream text;
+    text << option << ": the primary " << contact_.primary.structure << ":"
+         << contact_.primary.group << " lies behind it, by up to " << report_.farthest_behind
+         << " m, more than the elements there are deep: the faces look away from each other, or "
+            "the bodies lie within each other; name the faces that look at each other, or move a "
+            "mesh";
+    throw UserError(text.str());
+  }
+
+  void find_tangent_axes() {
+    int normal_axis = 0;
+    const Vector3& normal = sides_.secondary.face.mean_normal;
+    for (int d = 1; d < 3; ++d) {
+      if (std::abs(normal[static_cast<std::size_t>(d)]) >
+          std::abs(normal[static_cast<std::size_t>(normal_axis)]) + 1e-9) {
+        normal_axis = d;
+      }
+    }
+    report_.tangent_axes = {normal_axis == 0 ? 1 : 0, normal_axis == 2 ? 1 : 2};
+  }
+
+  /// Keeps the nodes of one side out of the facets of the other.
+  void pair(const FaceSide& nodes, const FaceSide& facets, Interface& interface) {
+    const double reach = (nodes.thickness + facets.thickness) / 2;
+    const FacetFinder finder(*facets.mesh, facets.face, reach);
+    for (std::size_t i = 0; i < nodes.face.nodes.size(); ++i) {
+      const FacetFinder::Result result =
+          finder.find(nodes.mesh->position(nodes.face.nodes[i]), nodes.face.node_normals[i],
+                      nodes.face.node_half_thickness[i], nodes.face.node_depth[i]);
+      if (result.faced) {
+        add_pair(nodes, i, facets, *result.faced, reach, interface);
+        continue;
+      }
+      ++report_.unmatched_nodes;
+      if (result.behind < 0) {
+        ++report_.left_behind;
+        report_.farthest_behind = std::max(report_.farthest_behind, -result.behind);
+      }
+    }
+  }
+
+  void pair_with_wall(Interface& interface) {
+    for (std::size_t i = 0; i < sides_.secondary.face.nodes.size(); ++i) {
+      Constraint constraint;
+      constraint.matched = true;
+      finish(sides_.secondary, i, std::move(constraint), interface);
+    }
+  }
+
+  void add_pair(const FaceSide& nodes, std::size_t i, const FaceSide& facets,
+                const FacedFacet& faced, double reach, Interface& interface) {
+    const Facet& facet = facets.face.facets[faced.facet];
+    FacetPoint point = faced.point;
+    const Vector3& normal = nodes.face.node_normals[i];
+    Constraint constraint;
+    const auto count = static_cast<std::size_t>(facet.count);
+    for (std::size_t a = 0; a < count; ++a) {
+      if (point.weights[a] > 1 - snap) {
+        constraint.matched = true;
+        std::fill(point.weights.begin(), point.weights.end(), 0.0);
+        point.weights[a] = 1;
+      }
+    }
+    for (std::size_t a = 0; a < count; ++a) {
+      if (std::abs(point.weights[a]) > snap) {
+        add_terms(facets.structure, facet.nodes[a], point.weights[a], normal, constraint);
+      }
+    }
+    constraint.geometric_gap = faced.gap;
+    constraint.facet_size = facet_size(facets.face, faced.facet, reach);
+    note_half_thickness(nodes, nodes.face.node_half_thickness[i]);
+    note_half_thickness(facets, facets.face.facet_half_thickness[faced.facet]);
+    finish(nodes, i, std::move(constraint), interface);
+  }
+
+  /// Side of a square of the facet's area; of an edge its length, or what it reaches across if that
+  /// is less [m].
+  static double facet_size(const ContactFace& face, std::size_t facet, double reach) {
+    const Vector3& area = face.facet_areas[facet];
+    const double size = std::sqrt(dot(area, area));
+    return face.facets[facet].count == 2 ? std::min(size, reach) : std::sqrt(size / 2);
+  }
+
+  void note_half_thickness(const FaceSide& side, double half_thickness) {
+    double& largest = report_.half_thickness[&side == &sides_.secondary ? 0 : 1];
+    largest = std::max(largest, half_thickness);
+  }
+
+  /// Adds the node's own terms and the place, and keeps the constraint.
+  void finish(const FaceSide& nodes, std::size_t i, Constraint&& constraint, Interface& interface) {
+    const GlobalIndex node = nodes.face.nodes[i];
+    constraint.contact = number_;
+    add_terms(nodes.structure, node, -1, nodes.face.node_normals[i], constraint);
+    const Vector3 x = nodes.mesh->position(node);
+    for (std::size_t t = 0; t < 2; ++t) {
+      constraint.place[t] = x[static_cast<std::size_t>(report_.tangent_axes[t])];
+    }
+    ++report_.pairs;
+    report_.matched += constraint.matched ? 1 : 0;
+    interface.constraints.push_back(std::move(constraint));
+  }
+
+  static void add_terms(int structure, GlobalIndex node, double weight, const Vector3& normal,
+                        Constraint& constraint) {
+    for (int d = 0; d < 3; ++d) {
+      const double coefficient = weight * normal[static_cast<std::size_t>(d)];
+      if (coefficient != 0) {
+        constraint.terms.push_back({structure, node, d, coefficient});
+      }
+    }
+  }
+
+  /// The gap that the user gave, interpolated between the corners of the secondary face.
+  double given_gap(const std::array<double, 2>& s) const {
+    const std::vector<double>& g = contact_.gap.values;
+    if (g.size() == 1) {
+      return g[0];
+    }
+    if (g.size() == 2) {
+      return g[0] * (1 - s[0]) + g[1] * s[0];
+    }
+    return (g[0] * (1 - s[0]) + g[1] * s[0]) * (1 - s[1]) +
+           (g[3] * (1 - s[0]) + g[2] * s[0]) * s[1];
+  }
+
+  void set_gaps(std::span<Constraint> constraints) {
+    std::array<double, 2> low{1e300, 1e300};
+    std::array<double, 2> high{-1e300, -1e300};
+    for (const GlobalIndex node : sides_.secondary.face.nodes) {
+      const Vector3 x = sides_.secondary.mesh->position(node);
+      for (std::size_t t = 0; t < 2; ++t) {
+        const double value = x[static_cast<std::size_t>(report_.tangent_axes[t])];
+        low[t] = std::min(low[t], value);
+        high[t] = std::max(high[t], value);
+      }
+    }
+    report_.smallest_gap = std::numeric_limits<double>::max();
+    report_.largest_gap = -report_.smallest_gap;
+    report_.geometric_gap = {report_.smallest_gap, report_.largest_gap};
+    for (Constraint& constraint : constraints) {
+      std::array<double, 2> s{};
+      for (std::size_t t = 0; t < 2; ++t) {
+        s[t] = high[t] > low[t] ? (constraint.place[t] - low[t]) / (high[t] - low[t]) : 0;
+      }
+      constraint.initial_gap =
+          contact_.gap.values.empty() ? constraint.geometric_gap : given_gap(s);
+      report_.smallest_gap = std::min(report_.smallest_gap, constraint.initial_gap);
+      report_.largest_gap = std::max(report_.largest_gap, constraint.initial_gap);
+      report_.overlapping += constraint.initial_gap < 0 ? 1 : 0;
+      report_.geometric_gap = {std::min(report_.geometric_gap[0], constraint.geometric_gap),
+                               std::max(report_.geometric_gap[1], constraint.geometric_gap)};
+    }
+    if (contact_.primary.is_wall()) {
+      report_.geometric_gap.fill(std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+
+  const Contact& contact_;
+  int number_;
+  ContactSides sides_;
+  InterfaceReport report_;
+};
+
+}  // namespace
+
+Interface find_interface(const Scene& scene, std::span<const GlobalMesh> meshes) {
+  Interface interface;
+  interface.model_size = bounding_box(meshes).longest_side();
+  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
+    PairFinder(scene, meshes, static_cast<int>(c)).find(interface);
+  }
+  check_contacts(scene, interface);
+  return interface;
+}
+
+}  // namespace pounding

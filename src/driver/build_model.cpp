@@ -1,0 +1,197 @@
+#include "driver/build_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "common/error.h"
+#include "common/parallel.h"
+#include "contact/find_interface.h"
+#include "driver/mesh_checks.h"
+#include "driver/probe_warnings.h"
+#include "driver/run_warnings.h"
+#include "driver/warnings.h"
+#include "mesh/gmsh_reader.h"
+#include "modal/definiteness.h"
+#include "modal/reduced_system.h"
+#include "modal/reduction.h"
+#include "stability/stability_limit.h"
+#include "stability/stable_time_step.h"
+#include "system/build_system.h"
+#include "system/mass_scaling.h"
+
+namespace pounding {
+namespace {
+
+/// Refuses what cannot be meant in a mesh, keeps what is to be reported of it. Matrices from files
+/// hold and join as they like.
+void check_mesh(const Scene& scene, std::size_t s, const GlobalMesh& mesh, Model& model) {
+  const Structure& structure = scene.structures[s];
+  MeshFindings findings{examine_connectivity(structure, mesh),
+                        check_unused(scene, structure, mesh)};
+  if (structure.matrices.empty()) {
+    check_connectivity(scene, structure, findings.connectivity);
+  }
+  append(mesh_warnings(structure, mesh, findings.connectivity), model.warnings);
+  model.mesh_findings.push_back(std::move(findings));
+}
+
+/// Rank 0 reads the meshes and finds who faces whom; every rank gets its part. Bases of reduced
+/// structures come from the whole meshes.
+void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& model) {
+  std::vector<GlobalMesh> meshes(scene.structures.size());
+  {
+    const ScopedTimer timer(profile, Phase::mesh);
+    const MeshLimits limits{scene.mesh_time_limit, scene.allow_geo_commands};
+    on_rank0(comm, [&] {
+      for (std::size_t s = 0; s < meshes.size(); ++s) {
+        meshes[s] = read_mesh(scene.structures[s], limits);
+        check_mesh(scene, s, meshes[s], model);
+      }
+      model.interface = find_interface(scene, meshes);
+      model.probes = resolve_probes(scene, meshes);
+      append(probe_warnings(model.probes, meshes, model.interface), model.warnings);
+    });
+    broadcast_interface(comm, model.interface);
+    broadcast_probes(comm, model.probes);
+  }
+  std::optional<ScopedTimer> timer(std::in_place, profile, Phase::partition);
+  Partition partition;
+  const std::vector<int> whole = owners_of_reduced(comm, scene);
+  on_rank0(comm, [&] {
+    std::vector<NodeCluster> clusters;
+    for (std::size_t s = 0; s < meshes.size(); ++s) {
+      if (scene.structures[s].modal) {
+        continue;  // coordinates are scaled, not elements
+      }
+      const auto more = coupled_nodes(scene.structures[s], meshes[s], static_cast<int>(s));
+      clusters.insert(clusters.end(), more.begin(), more.end());
+    }
+    partition = partition_meshes(meshes, facing_nodes(model.interface), size_of(comm), whole,
+                                 clusters, scene.partition_by);
+  });
+  model.partition_imbalance = partition.imbalance;
+  model.partition_edge_cut = partition.edge_cut;
+  for (std::size_t s = 0; s < meshes.size(); ++s) {
+    model.meshes.push_back(
+        distribute_mesh(comm, scene.structures[s].name, meshes[s], partition, static_cast<int>(s)));
+    if (model.meshes[s].global_dofs == 0) {
+      throw UserError("structure " + scene.structures[s].name +
+                      ": every node is clamped, nothing can move; look at -" +
+                      scene.structures[s].name + "_clamp");
+    }
+  }
+  timer.reset();
+  model.bases = find_bases(comm, scene, meshes, model.interface, model.probes, profile);
+}
+
+/// A fraction of the stable one. A reduced structure may allow more than its records resolve: then
+/// their interval is the step.
+double automatic_time_step(const Scene& scene, double stable) {
+  const double fraction = round_down(scene.courant * stable);
+  const bool reduced = std::ranges::any_of(
+      scene.structures, [](const Structure& structure) { return structure.modal.has_value(); });
+  return reduced ? std::min(fraction, scene.output_interval) : fraction;
+}
+
+void choose_time_step(const Scene& scene, Model& model) {
+  const double stable = model.smallest_stable_time_step();
+  if (!std::isfinite(stable) && !(scene.time_step > 0)) {
+    throw UserError(
+        "nothing in the scene vibrates, so nothing limits the time step: give -time_step");
+  }
+  model.time_step = scene.time_step > 0 ? scene.time_step : automatic_time_step(scene, stable);
+  if (model.time_step > stable && !scene.allow_unstable) {
+    std::ostringstream text;
+    text << "option -time_step " << model.time_step << " s: above the stable time step " << stable
+         << " s; give a smaller one (or leave it out), or -allow_unstable for a study";
+    throw UserError(text.str());
+  }
+  constexpr double most_steps = 1e12;
+  if (scene.end_time / model.time_step > most_steps) {
+    std::ostringstream text;
+    text << "option -end_time " << scene.end_time << " s: " << scene.end_time / model.time_step
+         << " steps of " << model.time_step << " s, above " << most_steps << "; give a shorter time"
+         << (scene.time_step > 0 ? ", or a longer -time_step" : "");
+    throw UserError(text.str());
+  }
+  model.steps = static_cast<std::int64_t>(std::ceil(scene.end_time / model.time_step - 1e-9));
+}
+
+void find_energy_margins(const Scene& scene, Model& model) {
+  for (std::size_t s = 0; s < model.systems.size(); ++s) {
+    const LinearSystem& system = model.systems[s];
+    if (model.bases[s]) {
+      model.energy_margin.push_back(
+          energy_margin(scene.structures[s], *model.bases[s], model.time_step));
+      continue;
+    }
+    model.energy_margin.push_back(
+        system.extra_damping
+            ? smallest_energy_margin(system, model.meshes[s], model.time_step)
+            : energy_margin(system.damping, model.largest[s].omega_max, model.time_step));
+  }
+}
+
+void add_reduced(MPI_Comm comm, const Scene& scene, std::size_t s, Model& model) {
+  const Structure& structure = scene.structures[s];
+  ModalBasis& basis = *model.bases[s];
+  model.systems.push_back(
+      build_reduced_system(comm, owners_of_reduced(comm, scene)[s], structure, basis));
+  model.modal.push_back(modes_of_basis(basis, scene.modes));
+  model.largest.push_back(largest_frequency(structure, basis));
+  model.stable_time_step.push_back(stable_time_step(structure, basis));
+}
+
+void add_full(const Scene& scene, std::size_t s, Profile& profile, Model& model) {
+  const Mesh& mesh = model.meshes[s];
+  const bool exported = !scene.export_matrices.empty();
+  {
+    const ScopedTimer timer(profile, Phase::assembly);
+    model.systems.push_back(
+        build_system(scene.structures[s], mesh, scene.stiffness, scene.modes > 0 || exported));
+  }
+  const ScopedTimer timer(profile, Phase::modes);
+  require_passive_matrices(scene.structures[s], model.systems.back());
+  const LinearSystem& system = model.systems.back();
+  model.modal.push_back(lowest_modes(system, mesh, scene.modes, scene.write_modes));
+  if (!exported) {
+    system.stiffness->release_matrix();
+  }
+  model.largest.push_back(largest_frequency(system, mesh));
+  model.stable_time_step.push_back(
+      system.extra_damping ? stability_limit(system, mesh)
+                           : stable_time_step(system.damping, model.largest.back().omega_max));
+}
+
+}  // namespace
+
+Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile) {
+  Model model;
+  on_every_rank(
+      comm, [&] { model.motion = std::make_unique<GroundMotion>(scene.motion, scene.resampling); });
+  build_meshes(comm, scene, profile, model);
+  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+    if (model.bases[s]) {
+      add_reduced(comm, scene, s, model);
+    } else {
+      add_full(scene, s, profile, model);
+    }
+  }
+  append(model.motion->doubts(), model.warnings);
+  for (const LinearSystem& system : model.systems) {
+    append(sliver_warnings(system), model.warnings);
+  }
+  append(model.interface.warnings, model.warnings);
+  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+    append(damping_warnings(scene.structures[s], model.modal[s]), model.warnings);
+  }
+  append(mechanism_warnings(scene, model), model.warnings);
+  choose_time_step(scene, model);
+  append(run_warnings(scene, model), model.warnings);
+  const ScopedTimer timer(profile, Phase::modes);
+  find_energy_margins(scene, model);
+  return model;
+}
+
+}  // namespace pounding

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <stdexcept>
+
+#include "common/types.h"
+
+namespace pounding {
+
+/// An element that cannot be: inverted, zero length, an axis along the beam. The caller adds which
+/// one it is.
+class ElementError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Everything an element needs to know besides its coordinates; what it does not use stays 0. [SI]
+struct ElementProperties {
+  double young = 0;
+  double poisson = 0;
+  double density = 0;
+  double area = 0;
+  double inertia_y = 0;
+  double inertia_z = 0;
+  double torsion = 0;
+  Vector3 z_axis{0, 0, 1};
+  double thickness = 0;
+  double rotary_inertia_factor = 0;   ///< of shells, see flat_shell.h
+  double mass = 0;                    ///< of a point
+  Vector3 rotary_inertia{0, 0, 0};    ///< of a point, about x, y, z
+  std::array<double, 6> stiffness{};  ///< of a spring: along x, y, z, about x, y, z
+  std::array<double, 6> dashpot{};    ///< of its dashpot, likewise [N s/m, N m s]
+};
+
+/// Number of nodes, and of components (3 or 6) at each of them.
+struct ElementLayout {
+  int nodes = 0;
+  int components = 0;
+  int size() const { return nodes * components; }
+};
+
+inline constexpr int max_element_nodes = 8;
+inline constexpr int max_element_size = 24;
+
+}  // namespace pounding

@@ -1,0 +1,113 @@
+#include "mesh/halo.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "common/parallel.h"
+
+namespace pounding {
+namespace {
+
+constexpr int tag = 1;
+
+/// Start of each rank's share in an array of the given counts; one entry more than ranks.
+std::vector<int> starts_of(const std::vector<int>& counts) {
+  std::vector<int> starts(counts.size() + 1, 0);
+  std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
+  return starts;
+}
+
+}  // namespace
+
+Halo::Halo(MPI_Comm comm, GlobalIndex first_owned, LocalIndex owned_count,
+           std::span<const GlobalIndex> ghosts, bool common_memory) {
+  MPI_Comm_dup(comm, &comm_);
+  const auto ranks = static_cast<std::size_t>(size_of(comm_));
+  std::vector<GlobalIndex> ends(ranks);
+  const GlobalIndex end = first_owned + owned_count;
+  MPI_Allgather(&end, 1, MPI_INT64_T, ends.data(), 1, MPI_INT64_T, comm_);
+  std::vector<int> needed(ranks, 0);  // ghosts per owner
+  std::vector<std::size_t> owner(ghosts.size());
+  for (std::size_t i = 0; i < ghosts.size(); ++i) {
+    owner[i] = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), ghosts[i]) -
+                                        ends.begin());
+    ++needed[owner[i]];
+  }
+  const std::vector<int> receive_start = starts_of(needed);
+  std::vector<int> next(receive_start.begin(), receive_start.end() - 1);
+  std::vector<GlobalIndex> wanted(ghosts.size());
+  place_.resize(ghosts.size());
+  for (std::size_t i = 0; i < ghosts.size(); ++i) {
+    place_[i] = next[owner[i]]++;
+    wanted[static_cast<std::size_t>(place_[i])] = ghosts[i];
+  }
+
+  std::vector<int> given(ranks, 0);  // owned dofs per rank that needs them
+  MPI_Alltoall(needed.data(), 1, MPI_INT, given.data(), 1, MPI_INT, comm_);
+  const std::vector<int> send_start = starts_of(given);
+  std::vector<GlobalIndex> asked(static_cast<std::size_t>(send_start.back()));
+  MPI_Alltoallv(wanted.data(), needed.data(), receive_start.data(), MPI_INT64_T, asked.data(),
+                given.data(), send_start.data(), MPI_INT64_T, comm_);
+  for (const GlobalIndex dof : asked) {
+    sent_dofs_.push_back(static_cast<LocalIndex>(dof - first_owned));
+  }
+  received_.resize(ghosts.size());
+  std::vector<int> their_start(ranks, 0);
+  MPI_Alltoall(send_start.data(), 1, MPI_INT, their_start.data(), 1, MPI_INT, comm_);
+  for (std::size_t r = 0; r < ranks; ++r) {
+    if (needed[r] == 0 && given[r] == 0) continue;
+    neighbours_.push_back({static_cast<int>(r), needed[r], receive_start[r], given[r],
+                           send_start[r], their_start[r]});
+  }
+  int sharing = neighbours_.empty() ? 0 : 1;
+  MPI_Allreduce(MPI_IN_PLACE, &sharing, 1, MPI_INT, MPI_MAX, comm_);
+  if (sharing != 0 && common_memory) {
+    shared_ = std::make_unique<SharedExchange>(comm_, sent_dofs_.size());
+    if (!shared_->works()) shared_.reset();
+  }
+  if (!shared_) prepare_messages();
+}
+
+void Halo::prepare_messages() {
+  send_.resize(sent_dofs_.size());
+  for (const Neighbour& other : neighbours_) {
+    if (other.received > 0) {
+      MPI_Recv_init(received_.data() + other.received_begin, other.received, MPI_DOUBLE, other.rank,
+                    tag, comm_, &requests_.emplace_back());
+    }
+  }
+  for (const Neighbour& other : neighbours_) {
+    if (other.sent > 0) {
+      MPI_Send_init(send_.data() + other.sent_begin, other.sent, MPI_DOUBLE, other.rank, tag, comm_,
+                    &requests_.emplace_back());
+    }
+  }
+}
+
+Halo::~Halo() {
+  for (MPI_Request& request : requests_) {
+    MPI_Request_free(&request);
+  }
+  MPI_Comm_free(&comm_);
+}
+
+void Halo::start() {
+  if (shared_) {
+    shared_->publish();
+  } else if (!requests_.empty()) {
+    MPI_Startall(static_cast<int>(requests_.size()), requests_.data());
+  }
+}
+
+void Halo::end() {
+  if (shared_) {
+    for (const Neighbour& other : neighbours_) {
+      const double* const theirs = shared_->wait_for(other.rank) + other.their_begin;
+      std::copy(theirs, theirs + other.received, received_.begin() + other.received_begin);
+    }
+  } else if (!requests_.empty()) {
+    MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
+  }
+}
+
+}  // namespace pounding

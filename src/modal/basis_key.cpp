@@ -1,0 +1,101 @@
+#include "modal/basis_key.h"
+
+#include <array>
+#include <fstream>
+
+#include "common/error.h"
+#include "common/hash.h"
+#include "elements/element.h"
+#include "stiffness/element_properties.h"
+#include "system/matrix_system.h"
+
+namespace pounding {
+namespace {
+
+std::string hash_of(std::span<const TracePoint> points) {
+  Hash hash;
+  for (const TracePoint& point : points) {
+    hash.add(static_cast<double>(point.node));
+    hash.add(static_cast<double>(point.component));
+  }
+  return hash.text();
+}
+
+std::string hash_of(const GlobalMesh& mesh) {
+  Hash hash;
+  hash.add_all(mesh.coordinates);
+  hash.add_all(mesh.components);
+  for (const ElementSet& set : mesh.regions) {
+    hash.add(set.group);
+    hash.add(static_cast<double>(set.type));
+    hash.add_all(set.connectivity);
+  }
+  return hash.text();
+}
+
+/// Formulations, materials, sections and whatever else makes element matrices.
+std::string hash_of(const std::vector<Region>& regions) {
+  Hash hash;
+  hash.add(static_cast<double>(element_formulations));
+  for (const Region& region : regions) {
+    const ElementProperties p = element_properties(region);
+    hash.add(region.group);
+    hash.add(static_cast<double>(region.element));
+    hash.add_all(std::array{p.young, p.poisson, p.density, p.area, p.inertia_y, p.inertia_z,
+                            p.torsion, p.thickness, p.rotary_inertia_factor, p.mass});
+    hash.add_all(p.z_axis);
+    hash.add_all(p.rotary_inertia);
+    hash.add_all(p.stiffness);
+  }
+  return hash.text();
+}
+
+/// The content of a file; nothing of none.
+void add_file(const std::string& path, Hash& hash) {
+  hash.add(path.empty() ? 0. : 1.);
+  if (path.empty()) {
+    return;
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string block(1 << 20, '\0');
+  while (file) {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    hash.add(block.substr(0, static_cast<std::size_t>(file.gcount())));
+  }
+  if (!file.eof()) {
+    throw UserError(path + ": no such file, or it cannot be read");
+  }
+}
+
+std::string hash_of_matrices(const std::string& folder) {
+  Hash hash;
+  if (!folder.empty()) {
+    add_file(folder + "/dofs.csv", hash);
+    add_file(matrix_file(folder, "stiffness"), hash);
+    add_file(matrix_file(folder, "mass"), hash);
+  }
+  return hash.text();
+}
+
+}  // namespace
+
+BasisKey basis_key(const Structure& structure, const GlobalMesh& mesh,
+                   const ModalRequest& request) {
+  Hash clamp;
+  clamp.add_all(mesh.free_components);
+  Hash vectors;
+  vectors.add_all(
+      std::array{static_cast<double>(request.modes), request.cutoff, request.attachment ? 1. : 0.});
+  if (request.candidates > request.modes) {
+    vectors.add(static_cast<double>(request.candidates));
+  }
+  return {{"mesh", hash_of(mesh)},
+          {"elements", hash_of(structure.regions)},
+          {"matrices", hash_of_matrices(structure.matrices)},
+          {"clamp", clamp.text()},
+          {"number of vectors", vectors.text()},
+          {"contact points", hash_of(request.contact_points)},
+          {"probe points", hash_of(request.other_points)}};
+}
+
+}  // namespace pounding

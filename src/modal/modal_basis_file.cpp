@@ -1,0 +1,122 @@
+#include "modal/modal_basis_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "common/version.h"
+#include "io/hdf5_file.h"
+#include "io/hdf5_reader.h"
+
+namespace pounding {
+namespace {
+
+constexpr const char* format = "pounding modal basis";
+constexpr int version = 2;
+
+/// Attributes are those of a dataset, since a group that holds nothing else does not come to be.
+constexpr const char* key_holder = "squared_frequency";
+
+std::string difference(const Hdf5Reader& file, const BasisKey& key) {
+  std::string names;
+  for (const auto& [name, hash] : key) {
+    if (file.text(key_holder, name) != hash) {
+      names += (names.empty() ? "" : ", ") + name;
+    }
+  }
+  return names;
+}
+
+ModalBasis read_arrays(const Hdf5Reader& file) {
+  ModalBasis basis;
+  basis.modes = static_cast<int>(file.number("/", "modes"));
+  basis.attachment_vectors = static_cast<int>(file.number("/", "attachment_vectors"));
+  basis.full_dofs = static_cast<GlobalIndex>(file.number("/", "full_dofs"));
+  basis.total_mass = file.number("/", "total_mass");
+  basis.mass = file.number("/", "mass");
+  basis.squared_frequency = file.array("squared_frequency");
+  for (const double number : file.array("mode_numbers")) {
+    basis.mode_numbers.push_back(static_cast<int>(number));
+  }
+  basis.participation = file.array("participation");
+  const std::vector<double> centre = file.array("centre_of_mass");
+  const std::vector<double> inertia = file.array("inertia");
+  const std::vector<double> points = file.array("points");
+  basis.rows = file.array("rows");
+  const std::size_t size = basis.size();
+  const auto modes = std::ranges::count_if(basis.mode_numbers, [](int n) { return n > 0; });
+  if (size == 0 || basis.mode_numbers.size() != size || modes != basis.modes ||
+      basis.participation.size() != 6 * size || centre.size() != 3 || inertia.size() != 6 ||
+      basis.rows.size() != points.size() / 2 * size ||
+      basis.modes + basis.attachment_vectors != static_cast<int>(size)) {
+    throw std::runtime_error("sizes that do not belong together");
+  }
+  for (const auto* values : std::initializer_list<const std::vector<double>*>{
+           &basis.squared_frequency, &basis.participation, &centre, &inertia, &points,
+           &basis.rows}) {
+    if (!std::ranges::all_of(*values, [](double value) { return std::isfinite(value); })) {
+      throw std::runtime_error("a value is not finite");
+    }
+  }
+  if (!(basis.squared_frequency.front() >= 0) || !std::ranges::is_sorted(basis.squared_frequency) ||
+      !(basis.mass > 0) || !(basis.total_mass > 0)) {
+    throw std::runtime_error("frequencies or masses that cannot be");
+  }
+  std::copy(centre.begin(), centre.end(), basis.centre_of_mass.begin());
+  std::copy(inertia.begin(), inertia.end(), basis.inertia.begin());
+  for (std::size_t i = 0; i < points.size(); i += 2) {
+    basis.points.push_back({static_cast<GlobalIndex>(points[i]), static_cast<int>(points[i + 1])});
+  }
+  return basis;
+}
+
+}  // namespace
+
+void write_modal_basis(const std::string& path, const BasisKey& key, const ModalBasis& basis) {
+  Hdf5File file(path + ".new", Hdf5File::Kind::sealed);
+  file.write_attribute("/", "format", format);
+  file.write_attribute("/", "version", version);
+  file.write_attribute("/", "program", program_version());
+  file.write_attribute("/", "modes", basis.modes);
+  file.write_attribute("/", "attachment_vectors", basis.attachment_vectors);
+  file.write_attribute("/", "full_dofs", static_cast<double>(basis.full_dofs));
+  file.write_attribute("/", "total_mass", basis.total_mass);
+  file.write_attribute("/", "mass", basis.mass);
+  file.write_array("squared_frequency", 0, basis.squared_frequency);
+  for (const auto& [name, hash] : key) {
+    file.write_attribute(key_holder, name, hash);
+  }
+  file.write_array("mode_numbers", 0,
+                   std::vector<double>(basis.mode_numbers.begin(), basis.mode_numbers.end()));
+  file.write_array("participation", basis.size(), basis.participation);
+  file.write_array("centre_of_mass", 0, basis.centre_of_mass);
+  file.write_array("inertia", 0, basis.inertia);
+  std::vector<double> points;
+  for (const TracePoint& point : basis.points) {
+    points.insert(points.end(),
+                  {static_cast<double>(point.node), static_cast<double>(point.component)});
+  }
+  file.write_array("points", 2, points);
+  file.write_array("rows", basis.size(), basis.rows);
+  file.close();
+  file.move_to(path);
+}
+
+StoredBasis read_modal_basis(const std::string& path, const BasisKey& key) {
+  const Hdf5Reader file(path, Hdf5Reader::Kind::sealed);
+  try {
+    if (file.text("/", "format") != format || file.number("/", "version") != version) {
+      throw std::runtime_error("another format");
+    }
+    StoredBasis stored;
+    stored.differs = difference(file, key);
+    if (stored.differs.empty()) {
+      stored.basis = read_arrays(file);
+    }
+    return stored;
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path + ": no modal basis, or a damaged one (" + error.what() + ")");
+  }
+}
+
+}  // namespace pounding

@@ -1,0 +1,203 @@
+#include "modal/reduction.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "common/error.h"
+#include "common/parallel.h"
+#include "contact/slide_watch.h"
+#include "mesh/mesh.h"
+#include "modal/basis_key.h"
+#include "modal/definiteness.h"
+#include "modal/modal_basis_file.h"
+#include "system/build_system.h"
+#include "system/matrix_system.h"
+
+namespace pounding {
+namespace {
+
+/// Where a run asks for the motion of a structure: contacts, along and across their normals, and
+/// probes.
+ModalRequest request_of(const Scene& scene, int s, const Interface& interface,
+                        std::span<const ResolvedProbe> probes) {
+  const ModalModel& modal = *scene.structures[static_cast<std::size_t>(s)].modal;
+  ModalRequest request{modal.modes, modal.candidates, modal.cutoff, modal.attachment, {}, {}};
+  std::set<TracePoint> known;
+  const auto add = [&](std::span<const Constraint> rows, std::vector<TracePoint>& points) {
+    for (const Constraint& row : rows) {
+      for (const ConstraintTerm& term : row.terms) {
+        const TracePoint point{term.node, term.component};
+        if (term.structure == s && known.insert(point).second) {
+          points.push_back(point);
+        }
+      }
+    }
+  };
+  add(interface.constraints, request.contact_points);
+  add(tangential_rows(interface.constraints), request.other_points);
+  for (const ResolvedProbe& probe : probes) {
+    for (std::size_t k = 0; probe.structure == s && k < probe.nodes.size(); ++k) {
+      for (int d = 0; d < 3; ++d) {
+        request.other_points.push_back({probe.nodes[k], d});
+      }
+    }
+  }
+  return request;
+}
+
+/// A full matrix in the generalised coordinates is nothing that a step takes.
+void forbid_damping_matrix(const Structure& structure) {
+  if (structure.matrices.empty()) {
+    return;
+  }
+  const std::string path = matrix_file(structure.matrices, "damping");
+  if (!path.empty()) {
+    throw UserError("option -" + structure.name + "_matrices " + structure.matrices + ": " + path +
+                    " would be lost with -" + structure.name +
+                    "_model modal; take the file away and give -" + structure.name +
+                    "_modal_damping or _damping, or -" + structure.name + "_model full");
+  }
+}
+
+/// Runs `work` on a file; what goes wrong is the user's.
+void with_file(const Structure& structure, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const std::runtime_error& error) {
+    throw UserError("option -" + structure.name + "_modal_basis " + error.what() +
+                    "; give another file");
+  }
+}
+
+/// The basis in the structure's file, if there is one that belongs to it. Rank 0.
+std::optional<ModalBasis> stored_basis(const Structure& structure, const BasisKey& key) {
+  const std::string& path = structure.modal->basis_file;
+  StoredBasis stored;
+  with_file(structure, [&] {
+    if (std::filesystem::exists(path)) {
+      stored = read_modal_basis(path, key);
+    } else if (!std::ofstream(path + ".new")) {
+      throw std::runtime_error(path + ": cannot be written");
+    } else {
+      std::filesystem::remove(path + ".new");
+    }
+  });
+  if (stored.basis) {
+    std::printf("structure %s: modal basis from %s\n", structure.name.c_str(), path.c_str());
+  } else if (!stored.differs.empty()) {
+    std::printf("structure %s: the modal basis in %s is of another model (%s): computed anew\n",
+                structure.name.c_str(), path.c_str(), stored.differs.c_str());
+  }
+  return stored.basis;
+}
+
+/// One structure on its way to a basis.
+struct Reduction {
+  int structure = 0;
+  int worker = -1;  ///< rank that computes the basis; -1: it was in the file
+  ModalRequest request;
+  BasisKey key;  ///< rank 0
+  Mesh mesh;     ///< all of it on the worker
+  ModalBasis basis;
+};
+
+void compute(const Structure& structure, Profile& profile, Reduction& reduction) {
+  reduction.mesh.comm = MPI_COMM_SELF;
+  std::optional<LinearSystem> system;
+  {
+    const ScopedTimer timer(profile, Phase::assembly);
+    Structure unscaled = structure;
+    unscaled.mass_scaling = 0;  // the coordinates are scaled, not the elements
+    system = build_system(unscaled, reduction.mesh);
+  }
+  const ScopedTimer timer(profile, Phase::modes);
+  require_passive_matrices(structure, *system);
+  reduction.basis = compute_modal_basis(*system, reduction.mesh, reduction.request);
+}
+
+/// Sends the whole mesh to the worker.
+void bring_mesh(MPI_Comm comm, const Structure& structure, std::span<const GlobalMesh> meshes,
+                Reduction& reduction) {
+  const GlobalMesh& mesh = meshes[static_cast<std::size_t>(reduction.structure)];
+  Partition partition;
+  if (rank_of(comm) == 0) {
+    partition = partition_meshes({&mesh, 1}, {}, size_of(comm), {&reduction.worker, 1});
+  }
+  reduction.mesh = distribute_mesh(comm, structure.name, mesh, partition, 0);
+}
+
+}  // namespace
+
+std::vector<int> owners_of_reduced(MPI_Comm comm, const Scene& scene) {
+  const auto count = static_cast<int>(std::ranges::count_if(
+      scene.structures, [](const Structure& structure) { return structure.modal.has_value(); }));
+  const int block = (count + size_of(comm) - 1) / size_of(comm);
+  std::vector<int> owners;
+  int reduced = 0;
+  for (const Structure& structure : scene.structures) {
+    owners.push_back(structure.modal ? reduced++ / block : -1);
+  }
+  return owners;
+}
+
+std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& scene,
+                                                  std::span<const GlobalMesh> meshes,
+                                                  const Interface& interface,
+                                                  std::span<const ResolvedProbe> probes,
+                                                  Profile& profile) {
+  const auto structure_of = [&](const Reduction& r) -> const Structure& {
+    return scene.structures[static_cast<std::size_t>(r.structure)];
+  };
+  std::vector<Reduction> reductions;
+  int next_worker = 0;
+  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+    if (!scene.structures[s].modal) {
+      continue;
+    }
+    Reduction& reduction = reductions.emplace_back();
+    reduction.structure = static_cast<int>(s);
+    reduction.request = request_of(scene, reduction.structure, interface, probes);
+    int stored = 0;
+    on_rank0(comm, [&] {
+      forbid_damping_matrix(scene.structures[s]);
+      if (!scene.structures[s].modal->basis_file.empty()) {
+        reduction.key = basis_key(scene.structures[s], meshes[s], reduction.request);
+        if (auto basis = stored_basis(scene.structures[s], reduction.key)) {
+          reduction.basis = std::move(*basis);
+          stored = 1;
+        }
+      }
+    });
+    MPI_Bcast(&stored, 1, MPI_INT, 0, comm);
+    if (stored == 0) {
+      reduction.worker = next_worker++ % size_of(comm);
+      bring_mesh(comm, scene.structures[s], meshes, reduction);
+    }
+  }
+  on_every_rank(comm, [&] {
+    for (Reduction& reduction : reductions) {
+      if (reduction.worker == rank_of(comm)) {
+        compute(structure_of(reduction), profile, reduction);
+      }
+    }
+  });
+  std::vector<std::optional<ModalBasis>> bases(scene.structures.size());
+  for (Reduction& reduction : reductions) {
+    broadcast_basis(comm, std::max(reduction.worker, 0), reduction.basis);
+    const Structure& structure = structure_of(reduction);
+    if (reduction.worker >= 0 && !structure.modal->basis_file.empty()) {
+      on_rank0(comm, [&] {
+        with_file(structure, [&] {
+          write_modal_basis(structure.modal->basis_file, reduction.key, reduction.basis);
+        });
+      });
+    }
+    bases[static_cast<std::size_t>(reduction.structure)] = std::move(reduction.basis);
+  }
+  return bases;
+}
+
+}  // namespace pounding

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/profile.h"
+#include "contact/interface.h"
+#include "mesh/global_mesh.h"
+#include "mesh/probe_set.h"
+#include "modal/modal_basis.h"
+#include "scene/scene.h"
+
+namespace pounding {
+
+/// Per structure the rank that has all generalised coordinates of a reduced one, else -1. No rank
+/// takes more than it must; neighbours in the scene's list stay together.
+std::vector<int> owners_of_reduced(MPI_Comm comm, const Scene& scene);
+
+/// Per structure the basis of a reduced one, nothing for the others: out of its file if that still
+/// belongs to the structure, else computed, several structures at a time, and written there. A
+/// basis is computed by one rank alone, so that it has the same bits on any number of ranks.
+/// `meshes` are read on rank 0 only. Throws UserError on every rank alike. Collective.
+std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& scene,
+                                                  std::span<const GlobalMesh> meshes,
+                                                  const Interface& interface,
+                                                  std::span<const ResolvedProbe> probes,
+                                                  Profile& profile);
+
+}  // namespace pounding

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "stiffness/rows/dof_places.h"
+#include "stiffness/rows/product.h"
+
+namespace pounding {
+
+/// A node outside the core of its chain: its number in the chain, where x, y, z are (-1: nowhere).
+struct ChainEnd {
+  int node = 0;
+  std::array<LocalIndex, 3> place{};
+};
+
+/// Nodes of bricks in a row, and where their dofs are. Most of them form a core whose values move
+/// in vectors; nodes before and behind it may be clamped, ghosts, or numbered elsewhere.
+struct BrickChain {
+  int length = 0;
+  int first = 0;  ///< node of the core
+  int core = 0;   ///< nodes of the core; none if it is neither plain nor of ghosts
+  /// Every node of the core owns x, y, z in a row, and one more dof follows.
+  bool plain = false;
+  bool row = false;  ///< plain, and the nodes' dofs follow each other, no rotations between
+  /// Place of the first dof of a core of ghosts, whose x, y, z follow each other; -1: no such core.
+  LocalIndex first_ghost = -1;
+  /// All dofs of the core, rotations included, if they are owned and follow each other; else empty.
+  DofRange range;
+  int begin = 0;  ///< into the places: one per node of a plain core
+  int ends = 0;   ///< into the ends
+
+  bool in_core(int node) const { return first <= node && node < first + core; }
+};
+
+class BrickChains {
+ public:
+  /// Adds a chain; returns it.
+  const BrickChain& add(const DofPlaces& places, const std::vector<LocalIndex>& nodes);
+  const BrickChain& at(int number) const { return chains_[static_cast<std::size_t>(number)]; }
+  /// Of a component (0-2) of a chain's node; -1 where there is none.
+  LocalIndex place(const BrickChain& chain, int node, int component) const;
+  /// Of a plain core's nodes.
+  const LocalIndex* places(const BrickChain& chain) const { return places_.data() + chain.begin; }
+  /// Nodes outside the core, in their order.
+  std::span<const ChainEnd> ends(const BrickChain& chain) const {
+    return {ends_.data() + chain.ends, static_cast<std::size_t>(chain.length - chain.core)};
+  }
+
+ private:
+  std::vector<BrickChain> chains_;
+  std::vector<LocalIndex> places_;
+  std::vector<ChainEnd> ends_;
+};
+
+}  // namespace pounding

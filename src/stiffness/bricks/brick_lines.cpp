@@ -1,0 +1,378 @@
+#include "stiffness/bricks/brick_lines.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+
+namespace pounding {
+namespace {
+
+/// Dofs whose forces, masses and motion stay in the nearest cache while they are handed over, of
+/// each of as many ranges as grow in turns: near and far chains of a layer.
+constexpr LocalIndex most_united = 400;
+constexpr std::size_t growing_ranges = 2;
+
+ComponentArrays shifted(const ComponentArrays& arrays, int nodes) {
+  return {arrays.x + nodes, arrays.y + nodes, arrays.z + nodes};
+}
+
+int round_up(int count) {
+  return (count + lane_count - 1) / lane_count * lane_count;
+}
+
+}  // namespace
+
+BrickLines::BrickLines(const DofPlaces& places, const Matrix3& axes,
+                       const std::vector<BrickShape>& shapes, const BrickRows& rows)
+    : owned_dofs_(places.owned_dofs) {
+  const BrickPairs pairs = pair_chains(rows);
+  rotated_ = axes != Matrix3{Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}};
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto axis = static_cast<std::size_t>(pairs.axes[d]);
+    axes_[d] = axes[axis];
+    component_[rotated_ ? d : axis] = static_cast<int>(d);
+  }
+  for (const BrickShape& shape : shapes) {
+    Vector3 lengths{};
+    for (std::size_t d = 0; d < 3; ++d) {
+      lengths[d] = shape.lengths[static_cast<std::size_t>(pairs.axes[d])];
+    }
+    const auto split = split_brick(shape.type, shape.properties, lengths);
+    if (!split) throw std::logic_error("BrickLines: a shape that does not split");
+    stencils_.push_back(brick_stencil(*split));
+  }
+  std::vector<ChainForm> forms;
+  for (const auto& nodes : rows.chains) {
+    const BrickChain& chain = chains_.add(places, nodes);
+    forms.push_back({chain.length, chain.row});
+    line_stride_ = std::max(line_stride_, round_up(chain.length + lane_count));
+  }
+  schedule_ = schedule_lines(pairs, forms, line_stride_);
+  for (const ChainStore& store : schedule_.stores)
+    stores_.push_back({store, Outcome::add, 0, 0, 0});
+  for (const PairSplit& split : schedule_.splits) {
+    pair_loads_.push_back(split.load ? plan_load(split.place) : PairLoad{});
+  }
+  deferred_.assign(schedule_.joins.size(), 0);
+  buffer_.assign(static_cast<std::size_t>(schedule_.buffer_size), 0.0);
+}
+
+ComponentArrays BrickLines::displacements(int start) const {
+  double* const line = buffer_.data() + start;
+  return {line + component_[0] * line_stride_, line + component_[1] * line_stride_,
+          line + component_[2] * line_stride_};
+}
+
+ComponentArrays BrickLines::forces(int start) const {
+  return displacements(start + 3 * line_stride_);
+}
+
+void BrickLines::clear_forces(int start, int length) const {
+  for (int c = 3; c < 6; ++c) {
+    double* const force = buffer_.data() + start + c * line_stride_;
+    for (int p = 0; p < length; p += lane_count) store(force + p, Lanes{});
+  }
+}
+
+void BrickLines::load_chain(const ChainLoad& load, const StiffnessArgument& w,
+                            const double* ghosts) const {
+  const BrickChain& chain = chains_.at(load.chain);
+  const ComponentArrays to = displacements(load.start);
+  const ComponentArrays core = shifted(to, chain.first);
+  if (chain.first_ghost >= 0) {
+    load_row({ghosts, ghosts, 0, w.origin}, chain.first_ghost - owned_dofs_, chain.core, core);
+  } else if (chain.row) {
+    load_row(w, chain.range.begin, chain.core, core);
+  } else {
+    load_nodes(w, chains_.places(chain), chain.core, core);
+  }
+  for (const ChainEnd& end : chains_.ends(chain)) {
+    const Vector3 x = value(end.place, w, ghosts);
+    to.x[end.node] = x[0];
+    to.y[end.node] = x[1];
+    to.z[end.node] = x[2];
+  }
+  for (int p = chain.length; p < round_up(chain.length); ++p) to.x[p] = to.y[p] = to.z[p] = 0;
+  if (rotated_) {
+    rotate_vectors(axes_, false, chain.length, line_stride_, buffer_.data() + load.start);
+  }
+  if (load.clear) clear_forces(load.start, chain.length);
+}
+
+/// w of a node, less its origin.
+Vector3 BrickLines::value(const std::array<LocalIndex, 3>& place, const StiffnessArgument& w,
+                          const double* ghosts) const {
+  return {value_at(place[0], owned_dofs_, w, ghosts) - w.origin[0],
+          value_at(place[1], owned_dofs_, w, ghosts) - w.origin[1],
+          value_at(place[2], owned_dofs_, w, ghosts) - w.origin[2]};
+}
+
+/// What the two cores of a pair of rows have in common, and the nodes beside that.
+BrickLines::PairLoad BrickLines::plan_load(const PairPlace& place) const {
+  const BrickChain& near = chains_.at(place.chain[0]);
+  const BrickChain& far = chains_.at(place.chain[1]);
+  PairLoad load;
+  load.begin = std::max(near.first, far.first);
+  load.count = std::max(0, std::min(near.first + near.core, far.first + far.core) - load.begin);
+  load.first = {near.range.begin + 3 * (load.begin - near.first),
+                far.range.begin + 3 * (load.begin - far.first)};
+  for (int p = 0; p < place.length; ++p) {
+    if (load.begin <= p && p < load.begin + load.count) continue;
+    PairEnd& end = load.ends.emplace_back();
+    end.node = p;
+    for (int c = 0; c < 3; ++c) {
+      end.near[static_cast<std::size_t>(c)] = chains_.place(near, p, c);
+      end.far[static_cast<std::size_t>(c)] = chains_.place(far, p, c);
+    }
+  }
+  return load;
+}
+
+/// Sums and differences of two chains that have not been loaded.
+void BrickLines::load_pair(const PairPlace& place, const PairLoad& load, const StiffnessArgument& w,
+                           const double* ghosts) const {
+  const ComponentArrays sum = displacements(place.line[0]);
+  const ComponentArrays difference = displacements(place.line[1]);
+  load_row_pair(w, load.first, load.count, shifted(sum, load.begin),
+                shifted(difference, load.begin));
+  for (const PairEnd& end : load.ends) {
+    const Vector3 near = value(end.near, w, ghosts);
+    const Vector3 far = value(end.far, w, ghosts);
+    sum.x[end.node] = near[0] + far[0];
+    sum.y[end.node] = near[1] + far[1];
+    sum.z[end.node] = near[2] + far[2];
+    difference.x[end.node] = far[0] - near[0];
+    difference.y[end.node] = far[1] - near[1];
+    difference.z[end.node] = far[2] - near[2];
+  }
+}
+
+void BrickLines::split_chains(std::size_t number, const StiffnessArgument& w,
+                              const double* ghosts) const {
+  const PairSplit& split = schedule_.splits[number];
+  const PairPlace& place = split.place;
+  double* const buffer = buffer_.data();
+  if (split.load) {
+    load_pair(place, pair_loads_[number], w, ghosts);
+    for (std::size_t i = 0; rotated_ && i < 2; ++i) {
+      rotate_vectors(axes_, false, place.length, line_stride_, buffer + place.line[i]);
+    }
+  } else {
+    split_pair(buffer + place.node[0], buffer + place.node[1], place.length, line_stride_,
+               {buffer + place.line[0], buffer + place.line[1]});
+  }
+  if (split.clear) {
+    clear_forces(place.line[0], place.length);
+    clear_forces(place.line[1], place.length);
+  }
+}
+
+void BrickLines::apply_step(const LineStep& step) const {
+  std::array<PairLine, 3> lines;
+  for (std::size_t i = 0; i < 3; ++i) {
+    lines[i] = {buffer_.data() + step.start[i][0], buffer_.data() + step.start[i][1]};
+  }
+  add_line_forces(stencils_[static_cast<std::size_t>(step.shape)], step.sides, step.first_behind,
+                  lines[0], lines[1], lines[2], line_stride_, step.count);
+}
+
+void BrickLines::join_chains(std::size_t join) const {
+  const auto& [place, first] = schedule_.joins[join];
+  double* const buffer = buffer_.data();
+  if (deferred_[join] == 0) {
+    join_pair({buffer + place.line[0], buffer + place.line[1]}, place.length, line_stride_, first,
+              buffer + place.node[0], buffer + place.node[1]);
+    return;
+  }
+  for (std::size_t i = 0; rotated_ && i < 2; ++i) {
+    rotate_vectors(axes_, true, place.length, line_stride_,
+                   buffer + place.line[i] + 3 * line_stride_);
+  }
+}
+
+/// The pair that still holds the forces of a chain as sums and differences; null: none.
+const PairPlace* BrickLines::deferred_pair(const Store& store) const {
+  if (store.place.join < 0) return nullptr;
+  const auto join = static_cast<std::size_t>(store.place.join);
+  return deferred_[join] != 0 ? &schedule_.joins[join].place : nullptr;
+}
+
+/// To q.
+void BrickLines::add_core(const Store& store, double* q) const {
+  const BrickChain& chain = chains_.at(store.place.chain);
+  if (!chain.range.empty()) {
+    const LocalIndex size = chain.range.end - chain.range.begin;
+    if (!chain.row) std::fill(added_.begin(), added_.begin() + size, 0.0);
+    collect_forces(store, added_.data());
+    for (LocalIndex i = 0; i < size; ++i) {
+      q[chain.range.begin + i] += added_[static_cast<std::size_t>(i)];
+    }
+    return;
+  }
+  if (chain.first_ghost >= 0) return;
+  const ComponentArrays force = shifted(forces(store.place.start), chain.first);
+  const LocalIndex* const place = chains_.places(chain);
+  for (int p = 0; p < chain.core; ++p) {
+    q[place[p]] += force.x[p];
+    q[place[p] + 1] += force.y[p];
+    q[place[p] + 2] += force.z[p];
+  }
+}
+
+/// To q, of the nodes outside the core.
+void BrickLines::add_ends(const Store& store, double* q) const {
+  const BrickChain& chain = chains_.at(store.place.chain);
+  if (chain.core == chain.length) return;
+  const PairPlace* const pair = deferred_pair(store);
+  const ComponentArrays force = forces(pair != nullptr ? pair->line[0] : store.place.start);
+  const ComponentArrays difference = pair != nullptr ? forces(pair->line[1]) : force;
+  const double sign = pair != nullptr && pair->chain[0] == store.place.chain ? -1 : 1;
+  const auto add = [&](LocalIndex dof, int p, const double* sum, const double* odd) {
+    if (dof >= 0 && dof < owned_dofs_) q[dof] += pair != nullptr ? sum[p] + sign * odd[p] : sum[p];
+  };
+  for (const ChainEnd& end : chains_.ends(chain)) {
+    add(end.place[0], end.node, force.x, difference.x);
+    add(end.place[1], end.node, force.y, difference.y);
+    add(end.place[2], end.node, force.z, difference.z);
+  }
+}
+
+/// Forces of a core with a range, that of its first dof to range[0].
+void BrickLines::collect_forces(const Store& store, double* range) const {
+  const BrickChain& chain = chains_.at(store.place.chain);
+  if (const PairPlace* const pair = deferred_pair(store); pair != nullptr) {
+    const bool near = pair->chain[0] == store.place.chain;
+    (near ? store_near_row : store_far_row)(shifted(forces(pair->line[0]), chain.first),
+                                            shifted(forces(pair->line[1]), chain.first), chain.core,
+                                            range);
+    return;
+  }
+  const ComponentArrays core = shifted(forces(store.place.start), chain.first);
+  if (chain.row) {
+    store_row(core, chain.core, range);
+  } else {
+    store_nodes(core, chains_.places(chain), chain.core, chain.range.begin, range);
+  }
+}
+
+void BrickLines::store_chain(const Store& store, double* q, ForceReceiver& receiver) const {
+  const auto& [place, outcome, begin, end, growing] = store;
+  const BrickChain& chain = chains_.at(place.chain);
+  if (rotated_ && deferred_pair(store) == nullptr) {
+    rotate_vectors(axes_, true, chain.length, line_stride_,
+                   buffer_.data() + place.start + 3 * line_stride_);
+  }
+  add_ends(store, q);
+  if (outcome == Outcome::add) {
+    add_core(store, q);
+    return;
+  }
+  double* const whole = range_.data() + growing * static_cast<std::size_t>(range_stride_);
+  double* const range = whole + (chain.range.begin - begin);
+  const LocalIndex size = chain.range.end - chain.range.begin;
+  if (outcome == Outcome::complete) std::fill(range, range + size, 0.0);
+  collect_forces(store, range);
+  if (outcome == Outcome::complete) {
+    double* const already = q + chain.range.begin;
+    for (LocalIndex i = 0; i < size; ++i) range[i] += already[i];
+    std::fill(already, already + size, 0.0);
+  }
+  if (end > 0) receiver.receive(begin, end, whole);
+}
+
+void BrickLines::apply(const StiffnessArgument& w, const double* ghosts, double* q,
+                       ForceReceiver& receiver) const {
+  std::size_t loaded = 0;
+  std::size_t split = 0;
+  std::size_t joined = 0;
+  std::size_t stored = 0;
+  for (const LineStep& step : schedule_.steps) {
+    while (loaded < step.loads_end) load_chain(schedule_.loads[loaded++], w, ghosts);
+    while (split < step.splits_end) split_chains(split++, w, ghosts);
+    apply_step(step);
+    while (joined < step.joins_end) join_chains(joined++);
+    while (stored < step.stores_end) store_chain(stores_[stored++], q, receiver);
+  }
+}
+
+std::vector<LocalIndex> BrickLines::chain_dofs(std::size_t number) const {
+  const BrickChain& chain = chains_.at(stores_[number].place.chain);
+  std::vector<LocalIndex> dofs;
+  for (int p = 0; p < chain.length; ++p) {
+    for (int c = 0; c < 3; ++c) {
+      const LocalIndex dof = chains_.place(chain, p, c);
+      if (dof >= 0 && dof < owned_dofs_) dofs.push_back(dof);
+    }
+  }
+  return dofs;
+}
+
+DofRange BrickLines::chain_range(std::size_t place) const {
+  return chains_.at(stores_[place].place.chain).range;
+}
+
+void BrickLines::set_outcomes(const std::vector<Outcome>& outcomes) {
+  for (std::size_t s = 0; s < stores_.size(); ++s) stores_[s].outcome = outcomes[s];
+  find_deferred();
+  std::size_t begin = 0;
+  for (const LineStep& step : schedule_.steps) {
+    sort_stores(begin, step.stores_end);
+    begin = step.stores_end;
+  }
+  unite_ranges();
+}
+
+/// Rows of one pair need not be joined before they are stored, if both are handed over.
+void BrickLines::find_deferred() {
+  std::vector<int> rows(deferred_.size(), 0);
+  for (const Store& store : stores_) {
+    if (store.place.join < 0 || store.outcome == Outcome::add) continue;
+    if (chains_.at(store.place.chain).row) ++rows[static_cast<std::size_t>(store.place.join)];
+  }
+  for (std::size_t j = 0; j < rows.size(); ++j) deferred_[j] = rows[j] == 2 ? 1 : 0;
+}
+
+/// Those of one step, in the order of their dofs.
+void BrickLines::sort_stores(std::size_t begin, std::size_t end) {
+  const auto first_of = [this](const Store& store) {
+    return chains_.at(store.place.chain).range.begin;
+  };
+  std::stable_sort(stores_.begin() + static_cast<std::ptrdiff_t>(begin),
+                   stores_.begin() + static_cast<std::ptrdiff_t>(end),
+                   [&](const Store& a, const Store& b) { return first_of(a) < first_of(b); });
+}
+
+/// The last one of the stores whose ranges are united hands all of them over.
+void BrickLines::unite_ranges() {
+  std::array<Store*, growing_ranges> last{};
+  std::size_t oldest = 0;
+  LocalIndex longest = 0;
+  for (Store& store : stores_) {
+    const DofRange range = chains_.at(store.place.chain).range;
+    if (store.outcome == Outcome::add) {
+      const auto size = static_cast<std::size_t>(range.end - range.begin);
+      if (added_.size() < size) added_.resize(size, 0.0);
+      continue;
+    }
+    store.begin = range.begin;
+    store.end = range.end;
+    const auto grown = std::find_if(last.begin(), last.end(), [&](const Store* before) {
+      return before != nullptr && before->end == range.begin &&
+             range.end - before->begin <= most_united;
+    });
+    if (grown != last.end()) {
+      store.begin = (*grown)->begin;
+      (*grown)->end = 0;
+      store.growing = static_cast<std::size_t>(grown - last.begin());
+    } else {
+      store.growing = oldest;
+    }
+    last[store.growing] = &store;
+    if (store.growing == oldest) oldest = (oldest + 1) % growing_ranges;
+    longest = std::max(longest, store.end - store.begin);
+  }
+  range_stride_ = round_up(longest + lane_count);
+  range_.assign(growing_ranges * static_cast<std::size_t>(range_stride_), 0.0);
+}
+
+}  // namespace pounding

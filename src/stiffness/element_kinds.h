@@ -1,0 +1,16 @@
+#pragma once
+
+#include "common/types.h"
+
+namespace pounding {
+
+/// How many elements of a structure, over all ranks, are applied in which way.
+struct ElementKinds {
+  GlobalIndex bricks = 0;      ///< split by their mid-planes, in rows
+  GlobalIndex rectangles = 0;  ///< shells likewise
+  GlobalIndex congruent = 0;   ///< other hexahedra and quadrangles that share a dense matrix
+  GlobalIndex beams = 0;       ///< from their local stiffnesses
+  GlobalIndex other = 0;       ///< in a sparse matrix
+};
+
+}  // namespace pounding

@@ -1,0 +1,27 @@
+#include "stiffness/element_properties.h"
+
+namespace pounding {
+
+ElementProperties element_properties(const Region& region) {
+  ElementProperties properties;
+  properties.young = region.material.young;
+  properties.poisson = region.material.poisson;
+  properties.density = region.material.density;
+  properties.area = region.area;
+  properties.thickness = region.thickness;
+  properties.rotary_inertia_factor = region.rotary_inertia_factor;
+  properties.mass = region.mass;
+  properties.rotary_inertia = region.rotary_inertia;
+  properties.stiffness = region.stiffness;
+  properties.dashpot = region.dashpot;
+  if (region.section) {
+    properties.area = region.section->area;
+    properties.inertia_y = region.section->inertia_y;
+    properties.inertia_z = region.section->inertia_z;
+    properties.torsion = region.section->torsion;
+    properties.z_axis = region.section->z_axis;
+  }
+  return properties;
+}
+
+}  // namespace pounding

@@ -1,0 +1,296 @@
+#include "stiffness/element_sorter.h"
+
+#include <algorithm>
+
+#include "stiffness/element_properties.h"
+
+namespace pounding {
+namespace {
+
+/// The sets of a map with their keys, the largest first.
+template <typename Key, typename Set>
+std::vector<std::pair<Key, Set*>> largest_first(std::map<Key, Set>& sets) {
+  std::vector<std::pair<Key, Set*>> sorted;
+  for (auto& [key, set] : sets) sorted.push_back({key, &set});
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+    return a.second->elements.size() > b.second->elements.size();
+  });
+  return sorted;
+}
+
+}  // namespace
+
+ElementSorter::ElementSorter(const Structure& structure, const Mesh& mesh,
+                             const ElementShapes& shapes, const Halo& halo)
+    : structure_(structure), mesh_(mesh), element_shapes_(shapes) {
+  places_.owned_dofs = mesh.owned_dofs;
+  places_.of_dof.resize(static_cast<std::size_t>(mesh.dof_count));
+  for (LocalIndex dof = 0; dof < mesh.dof_count; ++dof) {
+    places_.of_dof[static_cast<std::size_t>(dof)] =
+        dof < mesh.owned_dofs
+            ? dof
+            : mesh.owned_dofs + halo.place(static_cast<std::size_t>(dof - mesh.owned_dofs));
+  }
+  for (LocalIndex node = 0; node < mesh.node_count(); ++node) {
+    std::array<LocalIndex, 6> place{};
+    for (int c = 0; c < 6; ++c) {
+      const LocalIndex dof = mesh.dof(node, c);
+      place[static_cast<std::size_t>(c)] =
+          dof < 0 ? -1 : places_.of_dof[static_cast<std::size_t>(dof)];
+    }
+    places_.of_node.push_back(place);
+    if (node < mesh.owned_nodes) {
+      const auto n = static_cast<std::size_t>(node);
+      places_.node_end.push_back(mesh.first_dof[n] + component_count(mesh.free_components[n]));
+    }
+  }
+}
+
+void ElementSorter::sort() {
+  for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
+    if (has_shape(mesh_.blocks[b].type)) {
+      sort_shapes(b);
+    } else if (mesh_.blocks[b].type != ElementType::tension_bar) {  // those are not linear
+      for (std::size_t e = 0; e < mesh_.blocks[b].count(); ++e) {
+        if (!add_beam({b, e})) others_.push_back({b, e});
+      }
+    }
+  }
+  demote_rare_shapes();
+}
+
+void ElementSorter::sort_shapes(std::size_t b) {
+  const ElementBlock& block = mesh_.blocks[b];
+  const ElementProperties properties =
+      element_properties(structure_.regions[static_cast<std::size_t>(mesh_.blocks[b].region)]);
+  for (std::size_t e = 0; e < block.count(); ++e) {
+    const bool in_row = is_hexahedron(block.type) ? add_brick({b, e}, properties)
+                                                  : add_rectangle({b, e}, properties);
+    if (!in_row) add_congruent({b, e}, properties);
+  }
+}
+
+bool ElementSorter::add_brick(const Element& element, const ElementProperties& properties) {
+  const auto [b, e] = element;
+  const ElementBlock& block = mesh_.blocks[b];
+  const Box* const brick = element_shapes_.box(b, e);
+  if (brick == nullptr) return false;
+  const int number = brick_shape({block.type, properties, brick->lengths}, b);
+  if (number < 0) return false;
+  BrickElement entry{number, {}};
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    entry.nodes[corner] =
+        block.connectivity[8 * e + static_cast<std::size_t>(brick->corner[corner])];
+  }
+  RowSet<4>& set = brick_sets_[touches_ghost(element) ? 1 : 0][brick->frame];
+  set.rows.push_back(entry);
+  set.elements.push_back(element);
+  return true;
+}
+
+bool ElementSorter::add_rectangle(const Element& element, const ElementProperties& properties) {
+  const auto [b, e] = element;
+  const Box* const box = element_shapes_.box(b, e);
+  if (box == nullptr) return false;
+  const auto first = static_cast<std::size_t>(box->normal + 1) % 3;
+  const auto second = static_cast<std::size_t>(box->normal + 2) % 3;
+  const int number = rectangle_shape({properties, {box->lengths[first], box->lengths[second]}}, b);
+  if (number < 0) return false;
+  RectangleElement entry{number, {}};
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const std::size_t bits = (corner & 1) << first | (corner >> 1) << second;
+    entry.nodes[corner] =
+        mesh_.blocks[b].connectivity[4 * e + static_cast<std::size_t>(box->corner[bits])];
+  }
+  RowSet<2>& set = rectangle_sets_[touches_ghost(element) ? 1 : 0][{box->frame, box->normal}];
+  set.rows.push_back(entry);
+  set.elements.push_back(element);
+  return true;
+}
+
+bool ElementSorter::add_beam(const Element& element) {
+  if (mesh_.blocks[element.first].type != ElementType::beam) return false;
+  const auto place = places(element);
+  for (std::size_t i = 1; i < 12; ++i) {
+    // Six dofs in a row, or none.
+    const LocalIndex first = place[i - i % 6];
+    if (place[i] != (first < 0 ? -1 : first + static_cast<LocalIndex>(i % 6))) return false;
+  }
+  beams_[touches_ghost(element) ? 1 : 0].push_back(element);
+  return true;
+}
+
+int ElementSorter::brick_shape(const BrickShape& shape, std::size_t block) {
+  const auto [found, fresh] = shape_numbers_.try_emplace({block, shape.lengths}, -1);
+  if (fresh && split_brick(shape.type, shape.properties, shape.lengths)) {
+    found->second = static_cast<int>(brick_shapes_.size());
+    brick_shapes_.push_back(shape);
+  }
+  return found->second;
+}
+
+int ElementSorter::rectangle_shape(const RectangleShape& shape, std::size_t block) {
+  const Vector3 key{shape.lengths[0], shape.lengths[1], 0};
+  const auto [found, fresh] = shape_numbers_.try_emplace({block, key}, -1);
+  if (fresh && split_rectangle(shape.properties, shape.lengths, 0)) {
+    found->second = static_cast<int>(rectangle_shapes_.size());
+    rectangle_shapes_.push_back(shape);
+  }
+  return found->second;
+}
+
+void ElementSorter::add_congruent(const Element& element, const ElementProperties& properties) {
+  const auto [b, e] = element;
+  const auto coordinates = element_shapes_.coordinates(b, e);
+  Congruent& group = congruent_[{b, coordinates}];
+  if (group.elements.empty()) {
+    element_matrices(mesh_.blocks[b].type, coordinates, properties, work_.stiffness, work_.mass);
+    group.stiffness.assign(work_.stiffness.begin(), work_.stiffness.end());
+  }
+  group.elements.push_back(element);
+  group.places[touches_ghost(element) ? 1 : 0].push_back(places(element));
+}
+
+/// A dense matrix for a few elements is not worth its batches.
+void ElementSorter::demote_rare_shapes() {
+  for (auto group = congruent_.begin(); group != congruent_.end();) {
+    const auto& elements = group->second.elements;
+    if (elements.size() < lane_count) {
+      others_.insert(others_.end(), elements.begin(), elements.end());
+      group = congruent_.erase(group);
+    } else {
+      ++group;
+    }
+  }
+}
+
+/// Elements that fit in no row leave the set for the others.
+template <std::size_t lines>
+ElementRows<lines> ElementSorter::form_rows(RowSet<lines>& set) {
+  ElementRows<lines> rows = best_rows(set.rows, mesh_.node_count());
+  std::vector<Element> kept;
+  auto left = rows.left_over.begin();
+  for (std::size_t e = 0; e < set.elements.size(); ++e) {
+    const bool out = left != rows.left_over.end() && *left == e;
+    (out ? others_ : kept).push_back(set.elements[e]);
+    if (out) ++left;
+  }
+  set.elements = std::move(kept);
+  return rows;
+}
+
+std::vector<std::unique_ptr<ElementLines>> ElementSorter::element_lines(bool outer) {
+  std::vector<std::unique_ptr<ElementLines>> lines;
+  for (const auto& [frame, set] : largest_first(brick_sets_[outer ? 1 : 0])) {
+    lines.push_back(std::make_unique<BrickLines>(places_, element_shapes_.axes(frame),
+                                                 brick_shapes_, form_rows(*set)));
+  }
+  for (const auto& [key, set] : largest_first(rectangle_sets_[outer ? 1 : 0])) {
+    const auto& [frame, normal] = key;
+    lines.push_back(std::make_unique<ShellLines>(places_, element_shapes_.axes(frame), normal,
+                                                 rectangle_shapes_, form_rows(*set)));
+  }
+  return lines;
+}
+
+std::vector<CongruentElements> ElementSorter::congruent_elements(bool outer) const {
+  std::vector<CongruentElements> result;
+  for (const auto& [key, group] : congruent_) {
+    const auto& elements = group.places[outer ? 1 : 0];
+    if (!elements.empty()) result.emplace_back(mesh_.owned_dofs, group.stiffness, elements);
+  }
+  return result;
+}
+
+BeamElements ElementSorter::beam_elements(bool outer, LocalIndex idle) const {
+  std::vector<BeamElements::Beam> beams;
+  for (const Element& element : beams_[outer ? 1 : 0]) {
+    const auto [b, e] = element;
+    const ElementBlock& block = mesh_.blocks[b];
+    const auto place = places(element);
+    beams.push_back(BeamElements::make(
+        {place[0] < 0 ? idle : place[0], place[6] < 0 ? idle : place[6]},
+        gather_coordinates(mesh_, block, e, work_),
+        element_properties(structure_.regions[static_cast<std::size_t>(block.region)])));
+  }
+  return {beams, idle};
+}
+
+std::vector<LocalIndex> ElementSorter::beam_dofs(bool outer) const {
+  std::vector<LocalIndex> dofs;
+  for (const Element& element : beams_[outer ? 1 : 0]) {
+    for (const LocalIndex place : places(element)) {
+      if (place >= 0 && place < mesh_.owned_dofs) dofs.push_back(place);
+    }
+  }
+  return dofs;
+}
+
+SparseRows ElementSorter::sparse_rows() const {
+  std::vector<Element> elements = others_;
+  std::sort(elements.begin(), elements.end());  // sums in file order on any number of ranks
+  SparseRows::Pattern pattern(mesh_.owned_dofs);
+  const auto size_of_element = [&](const Element& element) {
+    return static_cast<std::size_t>(element_layout(mesh_.blocks[element.first].type).size());
+  };
+  for (const Element& element : elements) {
+    pattern.add({places(element).data(), size_of_element(element)});
+  }
+  SparseRows rows(std::move(pattern));
+  for (const Element& element : elements) {
+    const auto [b, e] = element;
+    const std::size_t size = size_of_element(element);
+    const ElementBlock& block = mesh_.blocks[b];
+    const std::span<double> stiffness(work_.stiffness.data(), size * size);
+    if (has_shape(block.type)) {
+      const auto shape = element_shapes_.coordinates(b, e);
+      std::copy(shape.begin(), shape.end(), work_.coordinates.begin());
+    } else {
+      gather_coordinates(mesh_, block, e, work_);
+    }
+    const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
+    element_matrices(block.type, {work_.coordinates.data(), 3 * nodes},
+                     element_properties(structure_.regions[static_cast<std::size_t>(block.region)]),
+                     stiffness, {work_.mass.data(), size});
+    rows.add({places(element).data(), size}, stiffness);
+  }
+  return rows;
+}
+
+ElementKinds ElementSorter::kinds() const {
+  const auto counted = [&](const std::vector<Element>& elements) {
+    return std::count_if(elements.begin(), elements.end(), [&](const Element& element) {
+      return mesh_.blocks[element.first].counted[element.second] != 0;
+    });
+  };
+  ElementKinds kinds;
+  for (const auto& sets : brick_sets_) {
+    for (const auto& [frame, set] : sets) kinds.bricks += counted(set.elements);
+  }
+  for (const auto& sets : rectangle_sets_) {
+    for (const auto& [key, set] : sets) kinds.rectangles += counted(set.elements);
+  }
+  for (const auto& [key, group] : congruent_) kinds.congruent += counted(group.elements);
+  for (const auto& beams : beams_) kinds.beams += counted(beams);
+  kinds.other = counted(others_);
+  return kinds;
+}
+
+bool ElementSorter::touches_ghost(const Element& element) const {
+  const ElementBlock& block = mesh_.blocks[element.first];
+  const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
+  const LocalIndex* const corner = &block.connectivity[element.second * nodes];
+  return std::any_of(corner, corner + nodes,
+                     [&](LocalIndex node) { return node >= mesh_.owned_nodes; });
+}
+
+CongruentElements::Places ElementSorter::places(const Element& element) const {
+  const ElementBlock& block = mesh_.blocks[element.first];
+  auto dofs = element_dofs(mesh_, block, element.second, element_layout(block.type));
+  for (LocalIndex& dof : dofs) {
+    if (dof >= 0) dof = places_.of_dof[static_cast<std::size_t>(dof)];
+  }
+  return dofs;
+}
+
+}  // namespace pounding

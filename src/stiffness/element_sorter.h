@@ -1,0 +1,86 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "mesh/halo.h"
+#include "mesh/mesh.h"
+#include "scene/scene.h"
+#include "stiffness/beam_elements.h"
+#include "stiffness/bricks/brick_lines.h"
+#include "stiffness/congruent_elements.h"
+#include "stiffness/element_kinds.h"
+#include "stiffness/element_loop.h"
+#include "stiffness/element_shapes.h"
+#include "stiffness/shells/shell_lines.h"
+#include "stiffness/sparse_rows.h"
+
+namespace pounding {
+
+/// Sorts the elements of a rank by how their product is done best. Local.
+class ElementSorter {
+ public:
+  /// References must outlive this object.
+  ElementSorter(const Structure& structure, const Mesh& mesh, const ElementShapes& shapes,
+                const Halo& halo);
+
+  void sort();
+
+  /// What came out; `outer`: elements that touch a ghost. Call in this order; rows are formed here,
+  /// and elements that fit in none join the others.
+  std::vector<std::unique_ptr<ElementLines>> element_lines(bool outer);
+  std::vector<CongruentElements> congruent_elements(bool outer) const;
+  /// Beams between nodes that are free or clamped in all six components; `idle` as there.
+  BeamElements beam_elements(bool outer, LocalIndex idle) const;
+  /// Owned dofs of those beams, some more than once.
+  std::vector<LocalIndex> beam_dofs(bool outer) const;
+  SparseRows sparse_rows() const;
+  ElementKinds kinds() const;
+
+ private:
+  /// An element of the mesh: block, place in the block.
+  using Element = std::pair<std::size_t, std::size_t>;
+  /// Elements that may stand in rows together, with `lines` edges along a row.
+  template <std::size_t lines>
+  struct RowSet {
+    std::vector<RowElement<lines>> rows;
+    std::vector<Element> elements;
+  };
+  struct Congruent {
+    std::vector<double> stiffness;
+    std::array<std::vector<CongruentElements::Places>, 2> places;  ///< inner, outer
+    std::vector<Element> elements;
+  };
+
+  void sort_shapes(std::size_t block);
+  bool add_brick(const Element& element, const ElementProperties& properties);
+  bool add_rectangle(const Element& element, const ElementProperties& properties);
+  bool add_beam(const Element& element);
+  int brick_shape(const BrickShape& shape, std::size_t block);
+  int rectangle_shape(const RectangleShape& shape, std::size_t block);
+  void add_congruent(const Element& element, const ElementProperties& properties);
+  void demote_rare_shapes();
+  template <std::size_t lines>
+  ElementRows<lines> form_rows(RowSet<lines>& set);
+  bool touches_ghost(const Element& element) const;
+  CongruentElements::Places places(const Element& element) const;
+
+  const Structure& structure_;
+  const Mesh& mesh_;
+  const ElementShapes& element_shapes_;
+  DofPlaces places_;
+  mutable ElementWork work_;
+  std::vector<BrickShape> brick_shapes_;
+  std::vector<RectangleShape> rectangle_shapes_;
+  std::map<std::pair<std::size_t, Vector3>, int> shape_numbers_;  ///< -1: does not split
+  /// Inner, outer; by frame, and by frame and normal.
+  std::array<std::map<int, RowSet<4>>, 2> brick_sets_;
+  std::array<std::map<std::pair<int, int>, RowSet<2>>, 2> rectangle_sets_;
+  std::map<std::pair<std::size_t, std::vector<double>>, Congruent> congruent_;
+  std::array<std::vector<Element>, 2> beams_;  ///< inner, outer
+  std::vector<Element> others_;
+};
+
+}  // namespace pounding

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "common/matrix3.h"
+#include "stiffness/rows/product.h"
+
+/// Moves values between the dofs of nodes and the arrays that the bricks work on. Arrays are
+/// written up to lane_count - 1 values beyond their length.
+namespace pounding {
+
+/// Three arrays, one per component.
+struct ComponentArrays {
+  double* x = nullptr;
+  double* y = nullptr;
+  double* z = nullptr;
+};
+
+/// w, less its origin, of `count` nodes with dofs x, y, z in a row from places[p]. Reads one dof
+/// beyond each node.
+void load_nodes(const StiffnessArgument& w, const LocalIndex* places, int count,
+                const ComponentArrays& to);
+/// The same if the nodes' dofs follow each other from `first`: a row. Reads nothing else.
+void load_row(const StiffnessArgument& w, LocalIndex first, int count, const ComponentArrays& to);
+/// Two such rows: their sum, and the second one minus the first.
+void load_row_pair(const StiffnessArgument& w, std::array<LocalIndex, 2> first, int count,
+                   const ComponentArrays& sum, const ComponentArrays& difference);
+
+/// The way back: dof `first` stands at q[0].
+void store_nodes(const ComponentArrays& from, const LocalIndex* places, int count, LocalIndex first,
+                 double* q);
+void store_row(const ComponentArrays& from, int count, double* q);
+/// Of a pair: the near row, sum minus difference, or the far row, sum plus difference.
+void store_near_row(const ComponentArrays& sum, const ComponentArrays& difference, int count,
+                    double* q);
+void store_far_row(const ComponentArrays& sum, const ComponentArrays& difference, int count,
+                   double* q);
+
+/// Vectors v <- R v, or v <- R' v, in three arrays of a line from `line`.
+void rotate_vectors(const Matrix3& rotation, bool back, int count, std::ptrdiff_t stride,
+                    double* line);
+
+}  // namespace pounding

@@ -1,0 +1,137 @@
+#include "stiffness/shells/shell_kernel.h"
+
+#include "stiffness/shells/parity_kernel.h"
+
+namespace pounding {
+namespace {
+
+/// One component of the four nodes of each rectangle: rows of H with axis 1 as 0: no, 1: yes;
+/// `even` along the run without, `odd` with axis 0.
+struct Transformed {
+  Lanes even[2];
+  Lanes odd[2];
+};
+
+/// Walsh-Hadamard transform of rectangles i .. i + 3 between the nodes of two lines.
+POUNDING_INLINE void transform(const double* line0, const double* line1, Transformed& out) {
+  Lanes near0, far0, near1, far1;
+  load(line0, near0);
+  load(line0 + 1, far0);
+  load(line1, near1);
+  load(line1 + 1, far1);
+  const Lanes sum0 = near0 + far0;
+  const Lanes sum1 = near1 + far1;
+  const Lanes difference0 = far0 - near0;
+  const Lanes difference1 = far1 - near1;
+  out.even[0] = sum0 + sum1;
+  out.even[1] = sum1 - sum0;
+  out.odd[0] = difference0 + difference1;
+  out.odd[1] = difference1 - difference0;
+}
+
+/// The components 0, 1, 5 of a rectangle, and the blocks of B they need.
+struct Membrane {
+  static constexpr int component[3] = {0, 1, 5};
+  static constexpr bool translation[3] = {true, true, false};
+  POUNDING_INLINE void multiply(const ShellSplit& b, Transformed (&v)[3]) {
+    multiply2(b.stretch, v[0].odd[0], v[1].even[1]);
+    multiply2(b.bending[0], v[1].odd[1], v[2].even[1]);
+    multiply2(b.bending[1], v[0].odd[1], v[2].odd[0]);
+    multiply3(b.shear, v[0].even[1], v[1].odd[0], v[2].even[0]);
+    v[2].odd[1] *= b.drilling;
+  }
+};
+
+/// The components 2, 3, 4.
+struct Plate {
+  static constexpr int component[3] = {2, 3, 4};
+  static constexpr bool translation[3] = {true, false, false};
+  POUNDING_INLINE void multiply(const ShellSplit& b, Transformed (&v)[3]) {
+    multiply2(b.curvature, v[1].even[1], v[2].odd[0]);
+    multiply2(b.slope[0], v[0].odd[0], v[2].even[0]);
+    multiply2(b.slope[1], v[0].even[1], v[1].even[0]);
+    multiply3(b.twist, v[0].odd[1], v[1].odd[0], v[2].even[1]);
+    v[1].odd[1] *= b.hourglass[0];
+    v[2].odd[1] *= b.hourglass[1];
+  }
+};
+
+/// Forces of one component at nodes i .. i + 3: of the rectangles i .. i + 3 behind them, and of
+/// those before, whose last one comes from the previous call through `carry`.
+POUNDING_INLINE void transform_back(bool is_translation, const Transformed& v, Lanes (&carry)[2],
+                                    double* line0, double* line1) {
+  Lanes node[2];
+  for (int t = 0; t < 2; ++t) {
+    const bool vanishes = is_translation && t == 0;
+    const Lanes far = vanishes ? v.odd[t] : v.even[t] + v.odd[t];
+    const Lanes near = vanishes ? -v.odd[t] : v.even[t] - v.odd[t];
+    node[t] = near + carry_over(far, carry[t]);
+  }
+  Lanes total0, total1;
+  load(line0, total0);
+  load(line1, total1);
+  total0 += node[0] - node[1];
+  total1 += node[0] + node[1];
+  store(line0, total0);
+  store(line1, total1);
+}
+
+template <typename Half>
+POUNDING_INLINE void gather(const std::array<ShellLine, 2>& lines, int line_stride, int first,
+                            Transformed (&v)[3]) {
+  for (int c = 0; c < 3; ++c) {
+    const int shift = Half::component[c] * line_stride + first;
+    transform(lines[0].displacement + shift, lines[1].displacement + shift, v[c]);
+  }
+}
+
+template <typename Half>
+POUNDING_INLINE void scatter(const Transformed (&v)[3], Lanes (&carry)[3][2],
+                             const std::array<ShellLine, 2>& lines, int line_stride, int first) {
+  for (int c = 0; c < 3; ++c) {
+    const int shift = Half::component[c] * line_stride + first;
+    transform_back(Half::translation[c], v[c], carry[c], lines[0].force + shift,
+                   lines[1].force + shift);
+  }
+}
+
+/// Sets what rectangles beyond the end of the run would add to zero.
+POUNDING_INLINE void mask(const LaneMask& keep, Transformed (&v)[3]) {
+  for (int c = 0; c < 3; ++c) {
+    for (int t = 0; t < 2; ++t) {
+      mask_lanes(keep, v[c].even[t]);
+      mask_lanes(keep, v[c].odd[t]);
+    }
+  }
+}
+
+template <typename Half>
+void add_half(const ShellSplit& split, const std::array<ShellLine, 2>& lines, int line_stride,
+              int count) {
+  Lanes carry[3][2] = {};
+  int first = 0;
+  for (; first + lane_count <= count; first += lane_count) {
+    Transformed v[3];
+    gather<Half>(lines, line_stride, first, v);
+    Half::multiply(split, v);
+    scatter<Half>(v, carry, lines, line_stride, first);
+  }
+  Transformed v[3] = {};
+  const int left = count - first;
+  if (left > 0) {
+    gather<Half>(lines, line_stride, first, v);
+    Half::multiply(split, v);
+    mask(lanes_below(left), v);
+  }
+  scatter<Half>(v, carry, lines, line_stride, first);
+}
+
+}  // namespace
+
+void add_shell_run(const ShellSplit& split, const std::array<ShellLine, 2>& lines, int line_stride,
+                   int count) {
+  add_half<Membrane>(split, lines, line_stride, count);
+  add_half<Plate>(split, lines, line_stride, count);
+}
+
+}  // namespace pounding

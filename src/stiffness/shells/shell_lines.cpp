@@ -1,0 +1,209 @@
+#include "stiffness/shells/shell_lines.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+
+#include "common/lanes.h"
+#include "stiffness/rows/chain_line.h"
+#include "stiffness/shells/shell_kernel.h"
+
+namespace pounding {
+namespace {
+
+constexpr int components = 6;
+constexpr int arrays_per_line = 2 * components;
+
+/// Room for `length` values and as many as the kernel reads beyond them.
+int padded(int length) {
+  return (length + 2 * lane_count) / lane_count * lane_count;
+}
+
+}  // namespace
+
+ShellLines::ShellLines(const DofPlaces& places, const Matrix3& axes, int normal,
+                       const std::vector<RectangleShape>& shapes, const RectangleRows& rows)
+    : owned_dofs_(places.owned_dofs) {
+  const int run = rows.run_axis;
+  const std::array<int, 3> order{(normal + 1 + run) % 3, (normal + 2 - run) % 3, normal};
+  rotated_ = axes != Matrix3{Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}};
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto axis = static_cast<std::size_t>(order[d]);
+    axes_[d] = axes[axis];
+    component_[rotated_ ? d : axis] = static_cast<int>(d);
+  }
+  for (const RectangleShape& shape : shapes) {
+    const auto split = split_rectangle(shape.properties, shape.lengths, run);
+    if (!split) throw std::logic_error("ShellLines: a shape that does not split");
+    splits_.push_back(*split);
+  }
+  for (const auto& nodes : rows.chains) add_chain(places, nodes);
+  schedule(rows);
+}
+
+void ShellLines::add_chain(const DofPlaces& places, const std::vector<LocalIndex>& nodes) {
+  Chain chain{static_cast<int>(places_.size()), static_cast<int>(nodes.size()), true, {}};
+  bool contiguous = true;
+  for (const LocalIndex node : nodes) {
+    const auto& place = places.of_node[static_cast<std::size_t>(node)];
+    const LocalIndex first = place[0];
+    for (int c = 0; c < components; ++c) {
+      chain.plain = chain.plain && first >= 0 && place[static_cast<std::size_t>(c)] == first + c;
+    }
+    chain.plain = chain.plain && first + components <= owned_dofs_;
+    contiguous = contiguous && chain.plain && (node == nodes[0] || first == chain.range.end);
+    if (node == nodes[0]) chain.range.begin = first;
+    chain.range.end = first + components;
+  }
+  if (!contiguous) chain.range = {};
+  for (const LocalIndex node : nodes) {
+    const auto& place = places.of_node[static_cast<std::size_t>(node)];
+    places_.insert(places_.end(), place.begin(), place.begin() + (chain.plain ? 1 : components));
+  }
+  line_stride_ = std::max(line_stride_, padded(chain.length));
+  chains_.push_back(chain);
+}
+
+/// Gives each chain a line of the buffer from its first run to its last one.
+void ShellLines::schedule(const RectangleRows& rows) {
+  const int line_size = arrays_per_line * line_stride_;
+  std::vector<int> uses(rows.chains.size(), 0);
+  for (const RectangleRun& run : rows.runs) {
+    for (const int chain : run.chain) ++uses[static_cast<std::size_t>(chain)];
+  }
+  std::vector<int> start(rows.chains.size(), -1);
+  std::vector<int> free_lines;
+  int line_count = 0;
+  for (const RectangleRun& row : rows.runs) {
+    Run run{row.shape, row.count, {}, 0, 0};
+    for (std::size_t l = 0; l < 2; ++l) {
+      int& line = start[static_cast<std::size_t>(row.chain[l])];
+      if (line < 0) {
+        if (free_lines.empty()) free_lines.push_back(line_count++ * line_size);
+        line = free_lines.back();
+        free_lines.pop_back();
+        loads_.push_back({row.chain[l], line});
+      }
+      run.start[l] = line + row.offset[l];
+    }
+    for (const int chain : row.chain) {
+      if (--uses[static_cast<std::size_t>(chain)] > 0) continue;
+      stores_.push_back({chain, start[static_cast<std::size_t>(chain)]});
+      free_lines.push_back(stores_.back().start);
+    }
+    run.loads_end = loads_.size();
+    run.stores_end = stores_.size();
+    runs_.push_back(run);
+  }
+  buffer_.assign(static_cast<std::size_t>(line_count * line_size), 0.0);
+}
+
+LocalIndex ShellLines::place(const Chain& chain, int node, int component) const {
+  const LocalIndex* const places = places_.data() + chain.begin;
+  return chain.plain ? places[node] + component : places[components * node + component];
+}
+
+/// The arrays of x, y, z and of the rotations about them, of a line's displacements or forces.
+SixArrays ShellLines::arrays(double* values) const {
+  SixArrays result{};
+  for (std::size_t c = 0; c < result.size(); ++c) {
+    result[c] = values + (component_[c % 3] + (c < 3 ? 0 : 3)) * line_stride_;
+  }
+  return result;
+}
+
+/// Turns displacements and rotations, or forces and moments, from global axes or back.
+void ShellLines::rotate(bool back, int length, double* values) const {
+  if (!rotated_) return;
+  rotate_vectors(axes_, back, length, line_stride_, values);
+  rotate_vectors(axes_, back, length, line_stride_, values + 3 * line_stride_);
+}
+
+void ShellLines::load_chain(const Transfer& transfer, const StiffnessArgument& w,
+                            const double* ghosts) const {
+  const Chain& chain = chain_of(transfer.chain);
+  double* const line = buffer_.data() + transfer.start;
+  const SixArrays to = arrays(line);
+  if (chain.plain) {
+    load_shell_nodes(w, places_.data() + chain.begin, chain.length, to);
+  } else {
+    for (int p = 0; p < chain.length; ++p) {
+      for (int c = 0; c < components; ++c) {
+        to[static_cast<std::size_t>(c)][p] = value_at(place(chain, p, c), owned_dofs_, w, ghosts);
+      }
+    }
+  }
+  rotate(false, chain.length, line);
+  for (int c = components; c < arrays_per_line; ++c) {
+    double* const force = line + c * line_stride_;
+    for (int p = 0; p < chain.length; p += lane_count) store(force + p, Lanes{});
+  }
+}
+
+void ShellLines::store_chain(const Transfer& transfer, double* q, ForceReceiver& receiver) const {
+  const Chain& chain = chain_of(transfer.chain);
+  double* const line = buffer_.data() + transfer.start + components * line_stride_;
+  rotate(true, chain.length, line);
+  const SixArrays from = arrays(line);
+  if (transfer.outcome == Outcome::add) {
+    for (int p = 0; p < chain.length; ++p) {
+      for (int c = 0; c < components; ++c) {
+        const LocalIndex dof = place(chain, p, c);
+        if (dof >= 0 && dof < owned_dofs_) q[dof] += from[static_cast<std::size_t>(c)][p];
+      }
+    }
+    return;
+  }
+  const auto [begin, end] = chain.range;
+  store_shell_nodes(from, places_.data() + chain.begin, chain.length, begin, range_.data());
+  if (transfer.outcome == Outcome::complete) {
+    for (LocalIndex dof = begin; dof < end; ++dof) {
+      range_[static_cast<std::size_t>(dof - begin)] += q[dof];
+      q[dof] = 0;
+    }
+  }
+  receiver.receive(begin, end, range_.data());
+}
+
+void ShellLines::apply(const StiffnessArgument& w, const double* ghosts, double* q,
+                       ForceReceiver& receiver) const {
+  std::size_t loaded = 0;
+  std::size_t stored = 0;
+  for (const Run& run : runs_) {
+    while (loaded < run.loads_end) load_chain(loads_[loaded++], w, ghosts);
+    std::array<ShellLine, 2> lines;
+    for (std::size_t l = 0; l < 2; ++l) {
+      double* const start = buffer_.data() + run.start[l];
+      lines[l] = {start, start + components * line_stride_};
+    }
+    add_shell_run(splits_[static_cast<std::size_t>(run.shape)], lines, line_stride_, run.count);
+    while (stored < run.stores_end) store_chain(stores_[stored++], q, receiver);
+  }
+}
+
+std::vector<LocalIndex> ShellLines::chain_dofs(std::size_t place_in_order) const {
+  const Chain& chain = chain_of(stores_[place_in_order].chain);
+  std::vector<LocalIndex> dofs;
+  for (int p = 0; p < chain.length; ++p) {
+    for (int c = 0; c < components; ++c) {
+      const LocalIndex dof = place(chain, p, c);
+      if (dof >= 0 && dof < owned_dofs_) dofs.push_back(dof);
+    }
+  }
+  return dofs;
+}
+
+DofRange ShellLines::chain_range(std::size_t place_in_order) const {
+  return chain_of(stores_[place_in_order].chain).range;
+}
+
+void ShellLines::set_outcomes(const std::vector<Outcome>& outcomes) {
+  for (std::size_t s = 0; s < stores_.size(); ++s) {
+    stores_[s].outcome = outcomes[s];
+    const DofRange range = chain_of(stores_[s].chain).range;
+    const auto size = static_cast<std::size_t>(range.end - range.begin);
+    if (range_.size() < size) range_.resize(size);
+  }
+}
+
+}  // namespace pounding

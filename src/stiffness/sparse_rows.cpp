@@ -1,0 +1,83 @@
+#include "stiffness/sparse_rows.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace pounding {
+
+void SparseRows::Pattern::add(std::span<const LocalIndex> places) {
+  for (const LocalIndex row : places) {
+    if (row < 0 || row >= owned_) continue;
+    auto& columns = columns_[static_cast<std::size_t>(row)];
+    for (const LocalIndex column : places) {
+      if (column >= 0) columns.push_back(column);
+    }
+    // Neighbours repeat each other: keep the list short while it grows.
+    if (columns.size() > 512) {
+      std::sort(columns.begin(), columns.end());
+      columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+    }
+  }
+}
+
+SparseRows::SparseRows(Pattern&& pattern) : owned_dofs_(pattern.owned_) {
+  for (LocalIndex row = 0; row < owned_dofs_; ++row) {
+    auto& columns = pattern.columns_[static_cast<std::size_t>(row)];
+    std::sort(columns.begin(), columns.end());
+    const auto end = std::unique(columns.begin(), columns.end());
+    const auto ghosts = std::lower_bound(columns.begin(), end, owned_dofs_);
+    const auto append = [row](Part& part, auto first, auto last, LocalIndex shift) {
+      if (first == last) return;
+      part.rows.push_back(row);
+      for (; first != last; ++first) part.columns.push_back(*first - shift);
+      part.start.push_back(part.columns.size());
+    };
+    append(owned_part_, columns.begin(), ghosts, 0);
+    append(ghost_part_, ghosts, end, owned_dofs_);
+    columns = {};
+  }
+  owned_part_.values.assign(owned_part_.columns.size(), 0.0);
+  ghost_part_.values.assign(ghost_part_.columns.size(), 0.0);
+}
+
+void SparseRows::add(std::span<const LocalIndex> places, std::span<const double> matrix) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i] < 0 || places[i] >= owned_dofs_) continue;
+    for (std::size_t j = 0; j < places.size(); ++j) {
+      const double value = matrix[i * places.size() + j];
+      if (places[j] >= owned_dofs_) {
+        add_entry(ghost_part_, places[i], places[j] - owned_dofs_, value);
+      } else if (places[j] >= 0) {
+        add_entry(owned_part_, places[i], places[j], value);
+      }
+    }
+  }
+}
+
+void SparseRows::add_entry(Part& part, LocalIndex row, LocalIndex column, double value) {
+  const auto r = static_cast<std::size_t>(
+      std::lower_bound(part.rows.begin(), part.rows.end(), row) - part.rows.begin());
+  const auto begin = part.columns.begin() + static_cast<std::ptrdiff_t>(part.start[r]);
+  const auto end = part.columns.begin() + static_cast<std::ptrdiff_t>(part.start[r + 1]);
+  part.values[static_cast<std::size_t>(std::lower_bound(begin, end, column) -
+                                       part.columns.begin())] += value;
+}
+
+void SparseRows::add_product(const Part& part, const double* w, double* q) {
+  for (std::size_t r = 0; r < part.rows.size(); ++r) {
+    const LocalIndex* const column = part.columns.data();
+    const double* const value = part.values.data();
+    const std::size_t end = part.start[r + 1];
+    double even = 0;
+    double odd = 0;
+    std::size_t k = part.start[r];
+    for (; k + 1 < end; k += 2) {
+      even += value[k] * w[column[k]];
+      odd += value[k + 1] * w[column[k + 1]];
+    }
+    if (k < end) even += value[k] * w[column[k]];
+    q[part.rows[r]] += even + odd;
+  }
+}
+
+}  // namespace pounding

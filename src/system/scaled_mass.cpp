@@ -1,0 +1,117 @@
+#include "system/scaled_mass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "mesh/location.h"
+#include "stiffness/element_loop.h"
+
+namespace pounding {
+
+double ScaledMass::add(const ElementBlock& block, std::size_t element, const Region& region,
+                       const Matrices& matrices) {
+  if (structure_.mass_scaling == 0 || !may_be_scaled(block.type)) {
+    return 0;
+  }
+  const std::span<double> added(added_.data(), matrices.stiffness.size());
+  std::fill(added.begin(), added.end(), 0.0);
+  const double factor =
+      add_element_mass(structure_.mass_scaling, structure_.damping_of(region), matrices.stiffness,
+                       matrices.mass, matrices.dashpots, added);
+  if (factor > 0) {
+    report_.elements += block.counted[element];
+    report_.largest_factor = std::max(report_.largest_factor, factor);
+    add_blocks(block, element);
+    add_rows(block, element, matrices.stiffness);
+  }
+  return factor;
+}
+
+void ScaledMass::add_blocks(const ElementBlock& block, std::size_t element) {
+  const ElementLayout layout = element_layout(block.type);
+  const auto components = static_cast<std::size_t>(layout.components);
+  const auto size = static_cast<std::size_t>(layout.size());
+  const auto dofs = element_dofs(mesh_, block, element, layout);
+  const auto node_at = [&](std::size_t a) {
+    return block.connectivity[element * static_cast<std::size_t>(layout.nodes) + a / components];
+  };
+  const auto place_at = [&](std::size_t i) {
+    return static_cast<std::size_t>(dofs[i] -
+                                    mesh_.first_dof[static_cast<std::size_t>(node_at(i))]);
+  };
+  bool here = false;
+  bool elsewhere = false;
+  for (std::size_t i = 0; i < size; ++i) {
+    here = here || (dofs[i] >= 0 && dofs[i] < mesh_.owned_dofs);
+    elsewhere = elsewhere || dofs[i] >= mesh_.owned_dofs;
+  }
+  if (here && elsewhere) {
+    throw std::logic_error(describe_element(mesh_, block, element) +
+                           " has scaled mass and lives on several ranks");
+  }
+  for (std::size_t i = 0; i < size && here; ++i) {
+    for (std::size_t j = 0; j < size; ++j) {
+      if (dofs[i] >= 0 && dofs[j] >= 0 && node_at(i) >= node_at(j)) {
+        blocks_[{node_at(i), node_at(j)}][6 * place_at(i) + place_at(j)] += added_[i * size + j];
+      }
+    }
+  }
+}
+
+void ScaledMass::add_rows(const ElementBlock& block, std::size_t element,
+                          std::span<const double> stiffness) {
+  const ElementLayout layout = element_layout(block.type);
+  const auto size = static_cast<std::size_t>(layout.size());
+  const auto dofs = element_dofs(mesh_, block, element, layout);
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t j = 0; j < size; ++j) {
+      if (dofs[i] >= 0 && dofs[i] < mesh_.owned_dofs) {
+        row_sums_[dofs[i]] += std::abs(stiffness[i * size + j]);
+      }
+    }
+  }
+}
+
+void ScaledMass::finish(LinearSystem& system) {
+  NodeBlocks added;
+  std::map<LocalIndex, int> number;
+  for (const auto& [pair, block] : blocks_) {
+    for (const LocalIndex node : pair) {
+      number[node] = 0;
+    }
+  }
+  for (auto& [node, place] : number) {
+    const auto n = static_cast<std::size_t>(node);
+    place = static_cast<int>(added.nodes.size());
+    added.nodes.push_back({mesh_.first_dof[n], component_count(mesh_.free_components[n])});
+    report_.dofs += added.nodes.back().count;
+  }
+  for (const auto& [pair, block] : blocks_) {
+    added.blocks[{number.at(pair[0]), number.at(pair[1])}] = block;
+  }
+  for (const auto& [dof, sum] : row_sums_) {
+    report_.row_frequency = std::max(
+        report_.row_frequency, std::sqrt(sum / system.lumped_mass[static_cast<std::size_t>(dof)]));
+  }
+  if (!added.nodes.empty()) {
+    system.coupled_mass = std::make_unique<CoupledMass>(system.lumped_mass, std::move(added));
+  }
+}
+
+void ScaledMass::share(LinearSystem& system) const {
+  MassScaling& report = system.mass_scaling;
+  report = report_;
+  report.time_step = structure_.mass_scaling;
+  std::array<GlobalIndex, 2> counts{report.elements, report.dofs};
+  std::array<double, 2> largest{report.largest_factor, report.row_frequency};
+  MPI_Allreduce(MPI_IN_PLACE, counts.data(), 2, MPI_INT64_T, MPI_SUM, mesh_.comm);
+  MPI_Allreduce(MPI_IN_PLACE, largest.data(), 2, MPI_DOUBLE, MPI_MAX, mesh_.comm);
+  report.elements = counts[0];
+  report.dofs = counts[1];
+  report.largest_factor = largest[0];
+  report.row_frequency = largest[1];
+}
+
+}  // namespace pounding

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "elements/element.h"
+#include "mesh/mesh.h"
+#include "scene/scene.h"
+#include "system/linear_system.h"
+#include "system/node_blocks.h"
+
+namespace pounding {
+
+/// Collects the mass S that the stiff elements of a structure are given (see mass_scaling.h),
+/// element by element in the order of the mesh, and leaves M + S factorised.
+class ScaledMass {
+ public:
+  ScaledMass(const Structure& structure, const Mesh& mesh) : structure_(structure), mesh_(mesh) {}
+
+  struct Matrices {
+    std::span<const double> stiffness;  ///< shape (n, n)
+    std::span<const double> mass;       ///< lumped, shape (n)
+    std::span<const double> dashpots;   ///< shape (n, n)
+  };
+  /// Returns the factor c of the element [s2], 0 if it is not scaled. Throws std::logic_error if
+  /// its nodes live on several ranks; see `coupled_nodes`.
+  double add(const ElementBlock& block, std::size_t element, const Region& region,
+             const Matrices& matrices);
+  /// Fills in what `system` knows of this rank; its lumped mass is complete.
+  void finish(LinearSystem& system);
+  /// The numbers of LinearSystem::mass_scaling over all ranks. Collective.
+  void share(LinearSystem& system) const;
+
+ private:
+  void add_blocks(const ElementBlock& block, std::size_t element);
+  void add_rows(const ElementBlock& block, std::size_t element, std::span<const double> stiffness);
+
+  const Structure& structure_;
+  const Mesh& mesh_;
+  MassScaling report_;
+  std::map<std::array<LocalIndex, 2>, NodeBlock> blocks_;  ///< by local nodes, row >= column
+  std::map<LocalIndex, double> row_sums_;                  ///< of |K_e| per dof
+  std::array<double, max_element_size * max_element_size> added_{};
+};
+
+}  // namespace pounding
