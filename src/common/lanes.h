@@ -40,6 +40,9 @@ static inline __attribute__((always_inline)) double add_up(const Lanes& values) 
 static inline __attribute__((always_inline)) double add_up(const HalfLanes& values) {
   return values[0] + values[1];
 }
+static inline __attribute__((always_inline)) double add_up(double value) {
+  return value;
+}
 
 /// c += a b, rounded once where the machine can: by the source, not by the compiler's choice.
 static inline __attribute__((always_inline)) void add_product(const Lanes& a, const Lanes& b,

@@ -193,7 +193,7 @@ void TimeLoop::watch_slides(std::int64_t step) {
     return;
   }
   const ScopedTimer timer(profile_, Phase::output);
-  const std::vector<BodyState>& bodies = stepper_->state().bodies;
+  const std::vector<StructureState>& bodies = stepper_->state().structures;
   for (std::size_t s = 0; s < bodies.size(); ++s) {
     slides_->set_displacement(s, bodies[s].displacement.data());
   }

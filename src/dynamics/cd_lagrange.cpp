@@ -21,69 +21,124 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
       energy_(comm, systems, time_step),
       counts_work_(contact != nullptr && contact->root() == rank_of(comm)),
       sums_(systems.size()) {
-  body_steps_.reserve(systems_.size());
-  for (std::size_t b = 0; b < systems_.size(); ++b) {
-    BodyState& body = state_.bodies[b];
-    body_steps_.emplace_back(systems_[b], body, time_step);
-    device_velocities_.emplace_back();
-    device_forces_.emplace_back();
-    if (systems_[b].has_devices()) {
-      device_velocities_[b] = wrap_vector(systems_[b], body.velocity);
-      device_forces_[b] = wrap_vector(systems_[b], body.device_force);
-    }
-    const bool bars = systems_[b].tension_bars != nullptr;
+  structure_steps_.reserve(systems_.size());
+  for (std::size_t s = 0; s < systems_.size(); ++s) {
+    StructureState& state = state_.structures[s];
+    structure_steps_.emplace_back(systems_[s], state, time_step);
+    vectors_.emplace_back(systems_[s], state);
+    extra_forces_.push_back(systems_[s].has_extra_damping()
+                                ? wrap_vector(systems_[s], state.extra_force)
+                                : VecHandle());
     bar_steps_.push_back(
-        bars ? std::make_unique<TensionBarStep>(systems_[b], body, body_steps_[b], time_step)
-             : nullptr);
-    StoredForces store(body.stiffness_displacement.data());  // K u_0
-    systems_[b].stiffness->apply({body.displacement.data(), body.displacement.data(), 0}, store);
+        systems_[s].tension_bars
+            ? std::make_unique<TensionBarStep>(systems_[s], state, structure_steps_[s], time_step)
+            : nullptr);
+    StoredForces store(state.stiffness_displacement.data());  // K u_0
+    systems_[s].stiffness->apply({state.displacement.data(), state.displacement.data(), 0}, store);
   }
-  for (std::size_t b = 0; contact_ != nullptr && b < systems_.size(); ++b) {
-    const std::size_t dofs = contact_->trace(b).dofs().size();
+  for (std::size_t s = 0; contact_ != nullptr && s < systems_.size(); ++s) {
+    const std::size_t dofs = contact_->trace(s).dofs().size();
     before_.emplace_back(dofs);
     interface_velocity_.emplace_back(dofs, 0.0);
   }
 }
 
 void CdLagrange::step(bool look_at_gap, bool with_energies) {
-  const bool first = state_.step == 0;
+  force_duration_ = state_.step == 0 ? time_step_ / 2 : time_step_;
+  motion_.evaluate(static_cast<double>(state_.step) * time_step_, acceleration_);
+
+  detect_contact(look_at_gap);   // A = { i : g_i(u_n) <= g_tol }
+  free_velocity(with_energies);  // v_free = v- + dt (g - iota a_g - alpha v-) - dt M^-1 (K w + x)
+  if (touching_) {
+    solve_impulse();     // 0 <= lambda _|_ H lambda + L v_free >= 0   on A
+    correct_velocity();  // v+ = v_free + M^-1 L^T lambda,   u_{n+1} = u_n + dt v+
+  }
+  close_energy();  // E+ - E- = -dt vbar^T C vbar + dt vbar^T (f - x) + 1/2 lambda^T L v-
+  ++state_.step;
+}
+
+void CdLagrange::detect_contact(bool look_at_gap) {
   interface_known_ =
       contact_ != nullptr && contact_->member() && (look_at_gap || watch_.due(state_.step));
-  force_duration_ = first ? time_step_ / 2 : time_step_;
-  motion_.evaluate(static_cast<double>(state_.step) * time_step_, acceleration_);
-  touching_ = interface_known_ && look_at_interface();  // g_i(u_n), A
-  {
-    const ScopedTimer timer(profile_, Phase::step);
-    for (std::size_t b = 0; b < systems_.size(); ++b) {
-      systems_[b].stiffness->start(argument(b));
-    }
-    for (std::size_t b = 0; b < systems_.size(); ++b) {
-      sums_[b].extra_damping_before = apply_devices(b);
-      if (bar_steps_[b]) {
-        bar_steps_[b]->begin();
-      }
-      body_steps_[b].begin(force_duration_, acceleration_, first,
-                           with_energies || energy_.needs_energies());
-      systems_[b].stiffness->finish(argument(b), body_steps_[b]);  // q, v_free, u_{n+1}
-      body_steps_[b].complete();
-      if (bar_steps_[b]) {
-        bar_steps_[b]->pull(first);
-      }
+  touching_ = false;
+  if (!interface_known_) {
+    return;
+  }
+  const ScopedEvent event(events_.detect_contact);
+  const ScopedTimer timer(profile_, Phase::contact);
+  ++looks_;
+  for (std::size_t s = 0; s < systems_.size(); ++s) {
+    contact_->set_displacement(s, state_.structures[s].displacement.data());
+  }
+  contact_->gather_displacements();
+  touching_ = contact_->detect_contact();
+  for (std::size_t s = 0; touching_ && s < systems_.size(); ++s) {
+    contact_->set_velocity_before(s, state_.structures[s].velocity.data());
+    structure_steps_[s].remember(contact_->trace(s).dofs(), before_[s]);
+  }
+  if (!touching_) {
+    contact_->clear_impulse();
+    if (watch_.measures()) {
+      contact_->add_over_members(watch_.measure(state_.structures));
     }
   }
-  if (touching_) {
-    solve_contact();  // lambda, v_{n+1/2}
+  watch_.looked(state_.step, contact_->smallest_gap() - contact_->gap_tolerance(), touching_);
+}
+
+void CdLagrange::free_velocity(bool with_energies) {
+  const ScopedEvent event(events_.free_velocity);
+  const ScopedTimer timer(profile_, Phase::step);
+  const bool first = state_.step == 0;
+  for (std::size_t s = 0; s < systems_.size(); ++s) {
+    systems_[s].stiffness->start(argument(s));
   }
-  for (std::size_t b = 0; b < systems_.size(); ++b) {
-    const double extra_damping = sums_[b].extra_damping_before;
-    sums_[b] = body_steps_[b].sums();
-    sums_[b].extra_damping_before = extra_damping;
-    if (bar_steps_[b]) {
-      bar_steps_[b]->finish(sums_[b]);
+  for (std::size_t s = 0; s < systems_.size(); ++s) {
+    sums_[s].extra_damping_before = apply_extra_damping(s);
+    if (bar_steps_[s]) {
+      bar_steps_[s]->begin();
+    }
+    structure_steps_[s].begin(force_duration_, acceleration_, first,
+                              with_energies || energy_.needs_energies());
+    systems_[s].stiffness->finish(argument(s), structure_steps_[s]);
+    structure_steps_[s].complete();
+    if (bar_steps_[s]) {
+      bar_steps_[s]->pull(first);
+    }
+  }
+}
+
+void CdLagrange::solve_impulse() {
+  const ScopedEvent event(events_.solve_impulse);
+  const ScopedTimer timer(profile_, Phase::contact);
+  for (std::size_t s = 0; s < systems_.size(); ++s) {
+    contact_->set_free_velocity(s, state_.structures[s].velocity.data());
+  }
+  contact_->gather_velocities();
+  contact_->solve_impulse();
+}
+
+void CdLagrange::correct_velocity() {
+  const ScopedEvent event(events_.correct_velocity);
+  const ScopedTimer timer(profile_, Phase::contact);
+  for (std::size_t s = 0; s < systems_.size(); ++s) {
+    double* const velocity = interface_velocity_[s].data();
+    contact_->trace(s).restrict_to_dofs(state_.structures[s].velocity.data(), velocity);
+    contact_->add_velocity_change(s, velocity);
+    structure_steps_[s].correct(contact_->trace(s).dofs(), before_[s], interface_velocity_[s]);
+  }
+}
+
+void CdLagrange::close_energy() {
+  const ScopedEvent event(events_.close_energy);
+  for (std::size_t s = 0; s < systems_.size(); ++s) {
+    const double extra_damping = sums_[s].extra_damping_before;
+    sums_[s] = structure_steps_[s].sums();
+    sums_[s].extra_damping_before = extra_damping;
+    if (bar_steps_[s]) {
+      bar_steps_[s]->finish(sums_[s]);
     }
   }
   energy_.add_step(sums_, acceleration_, touching_ && counts_work_ ? contact_->total_work() : 0);
-  ++state_.step;
 }
 
 void CdLagrange::save(SavedState& saved) const {
@@ -104,58 +159,19 @@ void CdLagrange::load(const SavedState& saved) {
   }
 }
 
-StiffnessArgument CdLagrange::argument(std::size_t b) const {
-  const BodyState& body = state_.bodies[b];
-  return {body.displacement.data(), body.velocity.data(), systems_[b].damping.beta};
+StiffnessArgument CdLagrange::argument(std::size_t s) const {
+  const StructureState& state = state_.structures[s];
+  return {state.displacement.data(), state.velocity.data(), systems_[s].damping.beta};
 }
 
-double CdLagrange::apply_devices(std::size_t b) {
-  const LinearSystem& system = systems_[b];
-  BodyState& body = state_.bodies[b];
-  double extra_damping = 0;  // v-^T D v-
-  if (system.extra_damping) {
-    system.extra_damping->apply(device_velocities_[b].get(), device_forces_[b].get());
-    extra_damping = std::inner_product(body.velocity.begin(), body.velocity.end(),
-                                       body.device_force.begin(), 0.0);
+double CdLagrange::apply_extra_damping(std::size_t s) {
+  if (!systems_[s].has_extra_damping()) {
+    return 0;
   }
-  return extra_damping;
-}
-
-bool CdLagrange::look_at_interface() {
-  const ScopedTimer timer(profile_, Phase::contact);
-  ++looks_;
-  for (std::size_t b = 0; b < systems_.size(); ++b) {
-    contact_->set_displacement(b, state_.bodies[b].displacement.data());
-  }
-  contact_->gather_displacements();
-  const bool touching = contact_->detect_contact();
-  for (std::size_t b = 0; touching && b < systems_.size(); ++b) {
-    contact_->set_velocity_before(b, state_.bodies[b].velocity.data());
-    body_steps_[b].remember(contact_->trace(b).dofs(), before_[b]);
-  }
-  if (!touching) {
-    contact_->clear_impulse();
-    if (watch_.measures()) {
-      contact_->add_over_members(watch_.measure(state_.bodies));
-    }
-  }
-  watch_.looked(state_.step, contact_->smallest_gap() - contact_->gap_tolerance(), touching);
-  return touching;
-}
-
-void CdLagrange::solve_contact() {
-  const ScopedTimer timer(profile_, Phase::contact);
-  for (std::size_t b = 0; b < systems_.size(); ++b) {
-    contact_->set_free_velocity(b, state_.bodies[b].velocity.data());
-  }
-  contact_->gather_velocities();
-  contact_->solve_impulse();
-  for (std::size_t b = 0; b < systems_.size(); ++b) {
-    double* const velocity = interface_velocity_[b].data();
-    contact_->trace(b).restrict_to_dofs(state_.bodies[b].velocity.data(), velocity);
-    contact_->add_velocity_change(b, velocity);
-    body_steps_[b].correct(contact_->trace(b).dofs(), before_[b], interface_velocity_[b]);
-  }
+  systems_[s].extra_damping->apply(vectors_[s].velocity(), extra_forces_[s].get());
+  const StructureState& state = state_.structures[s];
+  return std::inner_product(state.velocity.begin(), state.velocity.end(), state.extra_force.begin(),
+                            0.0);
 }
 
 }  // namespace pounding

@@ -4,12 +4,13 @@
 #include <span>
 #include <vector>
 
+#include "common/log_event.h"
 #include "common/profile.h"
 #include "contact/contact_problem.h"
-#include "dynamics/body_step.h"
 #include "dynamics/energy_balance.h"
 #include "dynamics/gap_watch.h"
 #include "dynamics/state.h"
+#include "dynamics/structure_step.h"
 #include "dynamics/tension_bar_step.h"
 #include "motion/ground_motion.h"
 #include "system/linear_system.h"
@@ -27,9 +28,11 @@ namespace pounding {
 ///     v_{n+1/2} = v_free + M^-1 L^T lambda
 ///     u_{n+1}   = u_n + dt v_{n+1/2}
 ///
-/// with x the force of dashpots and of tension-only bars (TensionBarStep), if there are any. The
-/// stiffness hands its forces over range by range, and BodyStep updates velocity and displacement
-/// there while they are in the nearest cache; contact then corrects the few dofs of the interface.
+/// with x the force of extra damping and of tension-only bars (TensionBarStep), if there are any.
+/// `step` has a line for each of these; they are events of -log_view under the same names. The
+/// stiffness hands its forces over range by range, and StructureStep updates velocity and
+/// displacement there while they are in the nearest cache; contact then corrects the few dofs of
+/// the interface.
 ///
 /// The first step is half a step of velocity from v_0 at t_0, which makes the scheme second order
 /// without damping. Times are n dt, never accumulated. Stable for dt below `stable_time_step`;
@@ -51,10 +54,13 @@ class CdLagrange {
 
   /// What the next step starts from.
   const State& state() const { return state_; }
+  /// The same of a structure as PETSc vectors.
+  const StateVectors& vectors(std::size_t structure) const { return vectors_[structure]; }
   double time_step() const { return time_step_; }
   /// Time t_n of the last step.
   double time() const { return static_cast<double>(state_.step - 1) * time_step_; }
   EnergyBalance& energy() { return energy_; }
+  const EnergyBalance& energy() const { return energy_; }
   GapWatch& gap_watch() { return watch_; }
   /// This rank holds the gaps and impulses of the current step.
   bool interface_known() const { return interface_known_; }
@@ -67,13 +73,28 @@ class CdLagrange {
   double force_duration() const { return force_duration_; }
 
  private:
-  StiffnessArgument argument(std::size_t body) const;
-  /// Forces of the extra damping D, dashpots included; returns v-^T D v-.
-  double apply_devices(std::size_t body);
-  /// Gathers u_n, finds A; true if it is not empty, and then what contact will change is kept.
-  bool look_at_interface();
-  /// lambda, v_{n+1/2}, u_{n+1} from the free ones.
-  void solve_contact();
+  /// A of u_n, where the interface is looked at; keeps what contact will change.
+  void detect_contact(bool look_at_gap);
+  /// v_free and the u_{n+1} that it leads to; sums for the ledger.
+  void free_velocity(bool with_energies);
+  /// lambda on A.
+  void solve_impulse();
+  /// v_{n+1/2}, u_{n+1} at the dofs that contact moves.
+  void correct_velocity();
+  /// The ledger of the step.
+  void close_energy();
+
+  StiffnessArgument argument(std::size_t structure) const;
+  /// Forces of the extra damping D; returns v-^T D v- [W].
+  double apply_extra_damping(std::size_t structure);
+
+  struct Events {
+    LogEvent detect_contact{"detect_contact"};
+    LogEvent free_velocity{"free_velocity"};
+    LogEvent solve_impulse{"solve_impulse"};
+    LogEvent correct_velocity{"correct_velocity"};
+    LogEvent close_energy{"close_energy"};
+  };
 
   std::span<const LinearSystem> systems_;
   const GroundMotion& motion_;
@@ -82,17 +103,18 @@ class CdLagrange {
   double time_step_;
   Profile& profile_;
   State state_;
-  std::vector<BodyStep> body_steps_;
+  std::vector<StructureStep> structure_steps_;
   std::vector<std::unique_ptr<TensionBarStep>> bar_steps_;  ///< null where there are no such bars
   EnergyBalance energy_;
   bool counts_work_;  ///< this rank adds the contact work to the ledger
   std::vector<StepSums> sums_;
   /// Per structure, the dofs that move its interface: what they held before the step, and their
   /// velocity in it.
-  std::vector<BodyStep::Before> before_;
+  std::vector<StructureStep::Before> before_;
   std::vector<std::vector<double>> interface_velocity_;
-  std::vector<VecHandle> device_velocities_;  ///< v of each structure as a PETSc vector
-  std::vector<VecHandle> device_forces_;
+  std::vector<StateVectors> vectors_;
+  std::vector<VecHandle> extra_forces_;  ///< as PETSc vectors; null without extra damping
+  Events events_;
   std::array<double, 3> acceleration_{};
   double force_duration_ = 0;
   bool interface_known_ = false;

@@ -39,7 +39,7 @@ CoordinateRates::CoordinateRates(const LinearSystem& system, std::vector<double>
   growth_ = largest(growth);
 }
 
-double CoordinateRates::rate(const BodyState& state) {
+double CoordinateRates::rate(const StructureState& state) {
   for (std::size_t i = 0; i < speeds_.size(); ++i) {
     const double v = state.velocity[i];
     const double mean = state.displacement[i] - time_step_ / 2 * v;

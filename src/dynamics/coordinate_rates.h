@@ -26,7 +26,7 @@ class CoordinateRates {
                   double time_step);
 
   /// Bound of all gap rates at the last step made, before any contact [m/s].
-  double rate(const BodyState& state);
+  double rate(const StructureState& state);
   /// By how much it can rise per step [m/s].
   double growth() const { return growth_; }
 

@@ -5,33 +5,27 @@
 
 #include "dynamics/state.h"
 #include "dynamics/step_sums.h"
+#include "dynamics/update.h"
 #include "system/linear_system.h"
 
 namespace pounding {
 
-/// The step of those dofs of a rank whose mass is not diagonal:
+/// The step of those dofs of a rank whose mass is not diagonal (see update.h for the others):
 ///
-///     v+ = v- - dt (M + S)^-1 ( q + x + alpha M v- + M iota (a_g - g) ),      q = K (u_n + beta
-///     v-)
+///     v+ = v- - h (M + S)^-1 ( q + x + alpha M v- + M iota (a_g - g) )
 ///
 /// Their forces are kept as they come; when all are there, the velocities are solved for and the
 /// state is brought one step on. Allocates nothing.
 class CoupledStep {
  public:
   /// The system has a coupled mass. References must outlive this object.
-  CoupledStep(const LinearSystem& system, BodyState& state, double time_step);
-
-  /// What a step is made with.
-  struct Terms {
-    double duration = 0;                  ///< of the velocity's step [s]
-    double inverse = 0;                   ///< 1 / (beta + dt), 0 in the first step
-    std::array<double, 3> ground_step{};  ///< duration (a_g - g) [m/s]
-  };
+  CoupledStep(const LinearSystem& system, StructureState& state);
 
   /// q of coupled dofs that follow each other, `place` the number of the first among them all.
   void keep(std::size_t place, std::size_t count, const double* force);
-  /// After every force of the step; sums are added to.
-  void advance(const Terms& terms, bool with_energies, StepSums& sums);
+  /// After every force of the step. `ground_step`: h (a_g - g) [m/s]. Adds to both sums.
+  void advance(const StepTerms<double>& terms, const std::array<double, 3>& ground_step,
+               bool with_energies, DofSums<double>& dof_sums, StepSums& sums);
 
  private:
   struct Node {
@@ -39,18 +33,20 @@ class CoupledStep {
     std::size_t count = 0;
     std::size_t force = 0;  ///< place in force_
     std::size_t field = 0;  ///< place in field_
-    bool regular = false;   ///< x y z and three rotations, no devices: goes by vectors
+    bool regular = false;   ///< x y z and three rotations, no extra damping: goes by vectors
   };
 
-  void add_energies(StepSums& sums) const;
-  void form_impulses(const Terms& terms);
-  void form_regular(const Node& node, const Terms& terms);
-  void advance_regular(const Terms& terms, StepSums& sums);
-  void advance_dofs(const Node& node, const Terms& terms, StepSums& sums);
+  void form_impulses(const StepTerms<double>& terms, const std::array<double, 3>& ground_step);
+  void form_regular(const Node& node, const StepTerms<double>& terms,
+                    const std::array<double, 3>& ground_step);
+  template <bool with_energies>
+  void settle_nodes(const StepTerms<double>& terms, DofSums<double>& dof_sums, StepSums& sums);
+  template <bool with_energies>
+  void settle_dofs(const Node& node, const StepTerms<double>& terms, DofSums<double>& dof_sums,
+                   StepSums& sums);
 
   const LinearSystem& system_;
-  BodyState& state_;
-  double time_step_;
+  StructureState& state_;
   std::vector<Node> nodes_;
   std::vector<double> force_;  ///< q, in the order of the dofs
   std::vector<double> field_;  ///< impulses, then changes of velocity; see CoupledMass

@@ -58,10 +58,10 @@ void GapWatch::energies_known(std::int64_t step, std::span<const StructureEnergy
   }
 }
 
-std::span<double> GapWatch::measure(std::span<const BodyState> bodies) {
-  for (std::size_t s = 0; s < bodies.size(); ++s) {
+std::span<double> GapWatch::measure(std::span<const StructureState> structures) {
+  for (std::size_t s = 0; s < structures.size(); ++s) {
     if (coordinates_[s]) {
-      measured_[2 * s] = coordinates_[s]->rate(bodies[s]);
+      measured_[2 * s] = coordinates_[s]->rate(structures[s]);
       measured_[2 * s + 1] = coordinates_[s]->growth();
     }
   }

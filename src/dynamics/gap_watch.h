@@ -34,7 +34,7 @@ class GapWatch {
 
   /// Whether a structure is bounded coordinate by coordinate.
   static bool goes_by_coordinates(const LinearSystem& system) {
-    return system.generalised && !system.has_devices();
+    return system.generalised && !system.has_extra_damping();
   }
 
   /// `peaks`: largest ground acceleration in each direction [m/s2]. Collective.
@@ -49,7 +49,7 @@ class GapWatch {
   /// Some structure is bounded by what `measure` reads; the same on all ranks.
   bool measures() const { return measures_; }
   /// This rank's part of the bounds: add up over ranks before they go into `looked`.
-  std::span<double> measure(std::span<const BodyState> bodies);
+  std::span<double> measure(std::span<const StructureState> structures);
   /// The smallest gap above the contact tolerance after a look at step `step` [m]; `touching` if
   /// an impulse acts in that step.
   void looked(std::int64_t step, double clearance, bool touching);

@@ -4,58 +4,48 @@
 #include <span>
 #include <vector>
 
-#include "common/memory.h"
+#include "common/petsc.h"
 #include "common/saved_state.h"
 #include "system/linear_system.h"
 
 namespace pounding {
 
 /// What evolves, for one structure; owned dofs of this rank. Before the step to t_n:
-struct BodyState {
+struct StructureState {
   std::vector<double> displacement;            ///< u_n [m, rad]
   std::vector<double> velocity;                ///< v_{n-1/2} [m/s, rad/s]
   std::vector<double> stiffness_displacement;  ///< K u_{n-1} [N, N m]
-  std::vector<double> device_force;            ///< of dashpots in the step; empty without them
+  std::vector<double> extra_force;             ///< of the extra damping in the step; empty without
+};
+
+/// Displacement and velocity of a structure as PETSc vectors over its ranks, with the layout of its
+/// mesh, on the very arrays of its state: PETSc's norms, viewers and a user's own code see them.
+/// The step writes the arrays past PETSc, so a vector is asked for anew in each step.
+class StateVectors {
+ public:
+  StateVectors() = default;
+  /// The arrays of `state` must keep their place as long as this object lives. Collective.
+  StateVectors(const LinearSystem& system, StructureState& state);
+  Vec displacement() const { return renewed(displacement_.get()); }  ///< u_n; borrowed
+  Vec velocity() const { return renewed(velocity_.get()); }          ///< v_{n-1/2}; borrowed
+
+ private:
+  /// Tells PETSc that the values are new, so that it keeps no norm of the old ones.
+  static Vec renewed(Vec vector);
+
+  VecHandle displacement_;
+  VecHandle velocity_;
 };
 
 struct State {
-  std::vector<BodyState> bodies;
+  std::vector<StructureState> structures;
   std::int64_t step = 0;  ///< n of the next step
 
-  explicit State(std::span<const LinearSystem> systems) {
-    for (const LinearSystem& system : systems) {
-      const std::size_t dofs = system.lumped_mass.size();
-      const std::vector<double> device(system.has_devices() ? dofs : 0, 0.0);
-      bodies.push_back({zeros_on_large_pages(dofs), zeros_on_large_pages(dofs),
-                        zeros_on_large_pages(dofs), device});
-      for (std::size_t d = 0; d < 3; ++d) {
-        const std::vector<double> iota = system.influence(static_cast<int>(d));
-        for (std::size_t i = 0; i < iota.size(); ++i) {
-          bodies.back().displacement[i] += iota[i] * system.initial_displacement[d];
-          bodies.back().velocity[i] += iota[i] * system.initial_velocity[d];
-        }
-      }
-    }
-  }
+  /// At rest but for the initial displacement and velocity of every structure.
+  explicit State(std::span<const LinearSystem> systems);
 
-  void save(SavedState& saved) const {
-    saved.put("step", {static_cast<double>(step - 1)});  // the last one made
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      saved.put_dofs(static_cast<int>(b), "displacement", bodies[b].displacement);
-      saved.put_dofs(static_cast<int>(b), "velocity", bodies[b].velocity);
-      saved.put_dofs(static_cast<int>(b), "stiffness_displacement",
-                     bodies[b].stiffness_displacement);
-    }
-  }
-  void load(const SavedState& saved) {
-    step = saved.integer("step") + 1;
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      saved.get_dofs(static_cast<int>(b), "displacement", bodies[b].displacement);
-      saved.get_dofs(static_cast<int>(b), "velocity", bodies[b].velocity);
-      saved.get_dofs(static_cast<int>(b), "stiffness_displacement",
-                     bodies[b].stiffness_displacement);
-    }
-  }
+  void save(SavedState& saved) const;
+  void load(const SavedState& saved);
 };
 
 }  // namespace pounding

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "dynamics/update.h"
+
 namespace pounding {
 
 /// Sums over the owned dofs of a structure that one step leaves for the energy balance, with
@@ -11,7 +13,7 @@ struct StepSums {
   double stiffness_across = 0;       ///< v+^T K v-
   double mass_sum = 0;               ///< s^T M s [J]
   std::array<double, 3> momentum{};  ///< iota_d^T M s [kg m/s]
-  double device = 0;                 ///< x^T s, x the force of devices [W]
+  double device = 0;                 ///< x^T s, x the force of the extra damping [W]
   double bar_energy_before = 0;      ///< of tension-only bars, between u_{n-1} and u_n [J]
   double bar_loss = 0;               ///< what the step made them take and not keep [J]
   double kinetic_before = 0;         ///< v-^T M v- [J], if energies are asked for
@@ -20,5 +22,16 @@ struct StepSums {
   double displacement_mass = 0;      ///< u_n^T M u_n [kg m2] likewise
   double extra_damping_before = 0;   ///< v-^T D v- [W], D the damping beside alpha M + beta K
 };
+
+/// Adds the lanes of dofs to the sums of their structure.
+template <typename Value>
+void add_to(const DofSums<Value>& from, StepSums& sums) {
+  sums.stiffness_before += add_up(from.stiffness_before);
+  sums.stiffness_across += add_up(from.stiffness_across);
+  sums.mass_sum += add_up(from.mass_sum);
+  sums.kinetic_before += add_up(from.kinetic_before);
+  sums.strain_before += add_up(from.strain_before);
+  sums.displacement_mass += add_up(from.displacement_mass);
+}
 
 }  // namespace pounding

@@ -11,8 +11,8 @@ constexpr double converged = 1e-15;  ///< change of a tension over the largest
 
 }  // namespace
 
-TensionBarStep::TensionBarStep(const LinearSystem& system, const BodyState& state, BodyStep& step,
-                               double time_step)
+TensionBarStep::TensionBarStep(const LinearSystem& system, const StructureState& state,
+                               StructureStep& step, double time_step)
     : state_(state),
       step_(step),
       time_step_(time_step),

@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/body_step.h"
 #include "dynamics/state.h"
 #include "dynamics/step_sums.h"
+#include "dynamics/structure_step.h"
 #include "dynamics/tension_law.h"
 #include "system/tension_bars.h"
 #include "system/trace.h"
@@ -21,7 +21,7 @@ namespace pounding {
 class TensionBarStep {
  public:
   /// `system` has tension-only bars. References must outlive this object.
-  TensionBarStep(const LinearSystem& system, const BodyState& state, BodyStep& step,
+  TensionBarStep(const LinearSystem& system, const StructureState& state, StructureStep& step,
                  double time_step);
 
   /// Before the structure's step to t_n: e_n, e_{n-1}, and what the dofs hold.
@@ -41,12 +41,12 @@ class TensionBarStep {
   double sweep();
   void measure(const std::vector<double>& owned, std::vector<double>& elongations);
 
-  const BodyState& state_;
-  BodyStep& step_;
+  const StructureState& state_;
+  StructureStep& step_;
   double time_step_;
   const std::vector<TensionBar>& bars_;
   Trace trace_;
-  BodyStep::Before held_;
+  StructureStep::Before held_;
   std::vector<TensionLaw> laws_;                ///< per bar
   std::vector<std::vector<Coupling>> coupled_;  ///< per bar: itself first
   std::vector<double> before_;                  ///< e_{n-1} [m]

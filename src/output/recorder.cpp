@@ -150,11 +150,11 @@ void Recorder::add_step(const std::array<double, 3>& ground_velocity_step) {
   }
 }
 
-void Recorder::put(const State& state, std::vector<double> BodyState::*quantity,
+void Recorder::put(const State& state, std::vector<double> StructureState::*quantity,
                    std::size_t offset) {
   double* const record = buffer_.data() + buffered_ * width_;
   for (StructureNodes& nodes : structures_) {
-    const std::vector<double>& owned = state.bodies[nodes.structure].*quantity;
+    const std::vector<double>& owned = state.structures[nodes.structure].*quantity;
     if (nodes.mean_rows.empty()) {
       nodes.trace.apply(owned.data(), nodes.values.data(), 1);
     } else {
@@ -168,11 +168,11 @@ void Recorder::put(const State& state, std::vector<double> BodyState::*quantity,
 }
 
 void Recorder::take_displacements(const State& state) {
-  put(state, &BodyState::displacement, 0);
+  put(state, &StructureState::displacement, 0);
 }
 
 void Recorder::record(const State& state, std::span<const double> gaps) {
-  put(state, &BodyState::velocity, 3);
+  put(state, &StructureState::velocity, 3);
   double* out = buffer_.data() + buffered_ * width_ + values_per_node * nodes_;
   if (rank_of(layout_.comm) == layout_.interface_root) {
     for (std::size_t c = 0; c < layout_.contacts.size(); ++c) {

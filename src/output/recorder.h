@@ -108,7 +108,7 @@ class Recorder {
   StructureNodes find_nodes(const LinearSystem& system, const Mesh& mesh, std::size_t structure,
                             std::vector<GlobalIndex>& found) const;
   /// Writes a quantity of the state into the record at hand, `offset` values into each node.
-  void put(const State& state, std::vector<double> BodyState::*quantity, std::size_t offset);
+  void put(const State& state, std::vector<double> StructureState::*quantity, std::size_t offset);
   void name_channels();
   std::vector<Quantity> quantities() const;
   void create_file(const std::string& path);

@@ -8,9 +8,11 @@ namespace pounding {
 namespace {
 
 /// Number of entries per owned row in the own and the other columns.
-void count_entries(const Mesh& mesh, std::vector<PetscInt>& own, std::vector<PetscInt>& other) {
+void count_entries(const Mesh& mesh, const std::function<bool(const ElementBlock&)>& chosen,
+                   std::vector<PetscInt>& own, std::vector<PetscInt>& other) {
   std::vector<std::vector<LocalIndex>> neighbours(static_cast<std::size_t>(mesh.owned_nodes));
   for (const ElementBlock& block : mesh.blocks) {
+    if (chosen && !chosen(block)) continue;
     const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
     for (std::size_t e = 0; e < block.count(); ++e) {
       const LocalIndex* corner = &block.connectivity[e * nodes];
@@ -43,10 +45,10 @@ void count_entries(const Mesh& mesh, std::vector<PetscInt>& own, std::vector<Pet
 
 }  // namespace
 
-MatHandle create_matrix(const Mesh& mesh) {
+MatHandle create_matrix(const Mesh& mesh, const std::function<bool(const ElementBlock&)>& chosen) {
   std::vector<PetscInt> own;
   std::vector<PetscInt> other;
-  count_entries(mesh, own, other);
+  count_entries(mesh, chosen, own, other);
   MatHandle matrix;
   const LocalIndex n = mesh.owned_dofs;
   POUNDING_PETSC(MatCreateAIJ(mesh.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 0, own.data(), 0,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "common/petsc.h"
@@ -8,9 +9,10 @@
 /// What an assembly into a PETSc matrix starts from.
 namespace pounding {
 
-/// An empty symmetric AIJ matrix with room for what the elements of a structure couple; rows and
-/// columns over its owned dofs. Collective.
-MatHandle create_matrix(const Mesh& mesh);
+/// An empty symmetric AIJ matrix with room for what the elements of some blocks of a structure
+/// couple (all if `chosen` is empty); rows and columns over its owned dofs. Collective.
+MatHandle create_matrix(const Mesh& mesh,
+                        const std::function<bool(const ElementBlock&)>& chosen = {});
 
 /// Global numbers of all local dofs, owned then ghost.
 std::vector<PetscInt> global_numbers(const Mesh& mesh);

@@ -57,7 +57,8 @@ class Assembly {
         taut_ = create_matrix(mesh);
       }
       if (has_extra_damping(block) && extra_damping_.get() == nullptr) {
-        extra_damping_ = create_matrix(mesh);
+        extra_damping_ = create_matrix(
+            mesh, [this](const ElementBlock& other) { return has_extra_damping(other); });
       }
     }
   }

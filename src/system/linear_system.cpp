@@ -1,5 +1,7 @@
 #include "system/linear_system.h"
 
+#include <algorithm>
+
 namespace pounding {
 
 std::vector<double> LinearSystem::influence(int d) const {
@@ -39,6 +41,25 @@ void finish_system(const Mesh& mesh, LinearSystem& system) {
       }
     }
   }
+}
+
+std::vector<char> damped_dofs(const LinearSystem& system) {
+  std::vector<char> damped(system.lumped_mass.size(), system.has_extra_damping() ? 1 : 0);
+  const Mat matrix = system.has_extra_damping() ? system.extra_damping->matrix() : nullptr;
+  if (matrix == nullptr) {
+    return damped;
+  }
+  PetscInt row = 0;
+  POUNDING_PETSC(MatGetOwnershipRange(matrix, &row, nullptr));
+  for (char& acts : damped) {
+    PetscInt count = 0;
+    const PetscScalar* values = nullptr;
+    POUNDING_PETSC(MatGetRow(matrix, row, &count, nullptr, &values));
+    acts = std::any_of(values, values + count, [](double value) { return value != 0; }) ? 1 : 0;
+    POUNDING_PETSC(MatRestoreRow(matrix, row, &count, nullptr, &values));
+    ++row;
+  }
+  return damped;
 }
 
 VecHandle wrap_vector(const LinearSystem& system, std::vector<double>& storage) {

@@ -82,8 +82,8 @@ struct LinearSystem {
   /// K for eigenvalues: every bar taut.
   const Stiffness& stiffest() const { return taut ? *taut : *stiffness; }
   Mat stiffest_matrix() const { return stiffest().matrix(); }
-  /// Forces that act on all dofs beside K u, alpha M v and beta K v.
-  bool has_devices() const { return extra_damping != nullptr; }
+  /// Forces beside K u, alpha M v and beta K v.
+  bool has_extra_damping() const { return extra_damping != nullptr; }
   /// iota of a direction [-].
   std::vector<double> influence(int d) const;
   LocalIndex owned_dofs() const { return static_cast<LocalIndex>(lumped_mass.size()); }
@@ -94,6 +94,9 @@ LinearSystem describe_system(const Structure& structure, const Mesh& mesh);
 
 /// Once the lumped mass is complete: its inverse, and the directions of the dofs.
 void finish_system(const Mesh& mesh, LinearSystem& system);
+
+/// Per owned dof, whether the extra damping may act on it.
+std::vector<char> damped_dofs(const LinearSystem& system);
 
 /// Distributed vector over the owned dofs that uses `storage` as its memory (size: owned_dofs).
 VecHandle wrap_vector(const LinearSystem& system, std::vector<double>& storage);

@@ -44,7 +44,7 @@ class ProgramStep final : public TimedStep {
 
   double displacement_square() const override {
     double sum = 0;
-    for (const BodyState& body : stepper_.state().bodies) {
+    for (const StructureState& body : stepper_.state().structures) {
       for (std::size_t i = 0; i < body.displacement.size(); ++i) {
         // The state is one step ahead of the velocities' time.
         const double u = body.displacement[i] - stepper_.time_step() * body.velocity[i];

@@ -28,8 +28,8 @@ TEST(State, StartsWithOneDisplacementAndVelocityOfAllTranslations) {
   stem.section = Section{"tube", 1e-2, 1e-6, 1e-6, 1e-6, {1, 0, 0}};
   const testing::BuiltSystem built = testing::build_system(mast.mesh, mast.structure);
   const State state({&built.system, 1});
-  ASSERT_EQ(state.bodies.size(), 1U);
-  const BodyState& body = state.bodies[0];
+  ASSERT_EQ(state.structures.size(), 1U);
+  const StructureState& body = state.structures[0];
   for (LocalIndex node = 0; node < built.mesh.owned_nodes; ++node) {
     for (int c = 0; c < 6; ++c) {
       const LocalIndex dof = built.mesh.dof(node, c);

@@ -58,7 +58,7 @@ class Motion {
     }
     return largest;
   }
-  BodyState state;
+  StructureState state;
 
  private:
   const LinearSystem& system_;
@@ -91,7 +91,7 @@ TEST(CoordinateRates, NoGapMovesFaster) {
 TEST(CoordinateRates, AtRestNothingMoves) {
   const LinearSystem system = four_coordinates();
   CoordinateRates rates(system, rows, 0, time_step);
-  BodyState rest;
+  StructureState rest;
   rest.displacement.assign(4, 0.0);
   rest.velocity.assign(4, 0.0);
   EXPECT_EQ(rates.rate(rest), 0);

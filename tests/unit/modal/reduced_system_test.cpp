@@ -50,7 +50,7 @@ TEST_F(ReducedSystem, IsInTheCoordinatesOfTheBasis) {
   EXPECT_EQ(system.gravity, box.structure.gravity);
   EXPECT_EQ(system.damping.alpha, 0.3);
   EXPECT_EQ(system.damping.beta, 2e-6);
-  EXPECT_FALSE(system.has_devices());
+  EXPECT_FALSE(system.has_extra_damping());
   for (int d = 0; d < 3; ++d) {
     const auto begin = basis.participation.begin() + static_cast<std::ptrdiff_t>(size) * d;
     EXPECT_EQ(system.influence(d),

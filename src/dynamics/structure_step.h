@@ -9,25 +9,19 @@
 #include "dynamics/coupled_step.h"
 #include "dynamics/state.h"
 #include "dynamics/step_sums.h"
+#include "dynamics/update.h"
 #include "system/linear_system.h"
 
 namespace pounding {
 
 /// Takes the forces q = K (u_n + beta v-) of a structure range by range and brings the state there
-/// one step on:
-///
-///     v+      = (1 - dt alpha) v- - dt M^-1 (q + x) - dt (a_g - g) iota
-///     u_{n+1} = u_n + dt v+
-///     K v-    = (q - K u_{n-1}) / (beta + dt)
-///     K u_n   = K u_{n-1} + dt K v-
-///
-/// with half the dt in v+ at the start. All of it while the range is in the nearest cache; the sums
-/// for the energy balance are taken on the way. Dofs whose mass is coupled wait for `complete`. v+
-/// is free of contact until `correct` is called.
-class BodyStep final : public ForceReceiver {
+/// one step on (update.h) while the range is in the nearest cache; the sums for the energy balance
+/// are taken on the way. Dofs whose mass is coupled wait for `complete`. v+ is free of contact
+/// until `correct` is called.
+class StructureStep final : public ForceReceiver {
  public:
   /// References must outlive this object.
-  BodyStep(const LinearSystem& system, BodyState& state, double time_step);
+  StructureStep(const LinearSystem& system, StructureState& state, double time_step);
 
   /// `duration`: of the velocity's step [s]; `first`: K u_{n-1} holds K u_n already and stays.
   void begin(double duration, const std::array<double, 3>& ground_acceleration, bool first,
@@ -51,10 +45,10 @@ class BodyStep final : public ForceReceiver {
   StepSums sums() const;
 
  private:
-  static constexpr std::size_t pattern_lanes = 3;  // vectors in which directions repeat: 12 dofs
+  static constexpr std::size_t pattern_vectors = 3;  // in which directions repeat: 12 dofs
 
   /// Dofs whose directions repeat: x y z of one mass, or x y z and three rotations; generalised
-  /// coordinates; dofs of coupled mass; or in no order.
+  /// coordinates; dofs of coupled mass; or in no order, as where extra damping acts.
   enum class Order { translations, nodes_of_six, generalised, coupled, none };
   struct Segment {
     LocalIndex begin = 0;
@@ -63,51 +57,40 @@ class BodyStep final : public ForceReceiver {
     std::size_t first_node = 0;     ///< of translations, into node_mass_
     std::size_t first_coupled = 0;  ///< of coupled dofs, their number among all of them
   };
-  /// Per lane.
-  struct Sums {
-    Lanes stiffness_before{};
-    Lanes stiffness_across{};
-    Lanes mass_sum{};
-    Lanes kinetic_before{};
-    Lanes strain_before{};
-    Lanes displacement_mass{};
-    Lanes momentum[2][pattern_lanes]{};  ///< of nodes without and with rotations
-  };
 
-  void find_segments();
-  Order order_at(std::size_t dof) const;
+  void find_segments(const std::vector<char>& damped);
+  Order order_at(std::size_t dof, const std::vector<char>& damped) const;
   std::size_t length_at(std::size_t dof, Order order) const;
   template <bool with_energies>
   void advance(const Segment& segment, LocalIndex begin, LocalIndex end, const double* force);
-  /// Whole vectors of dofs whose directions repeat every three vectors.
-  template <bool with_energies, typename Masses>
-  void advance_patterns(std::size_t first, std::size_t end, const double* force, Masses masses,
-                        const Lanes* ground, Lanes* momentum);
-  /// Whole vectors of generalised coordinates.
+  /// Dofs by vectors: policies tell their masses, and what the ground does to them.
+  template <bool with_energies, typename Masses, typename Ground>
+  void advance_vectors(std::size_t first, std::size_t end, const double* force, Masses masses,
+                       Ground& ground);
+  /// Dofs one by one.
   template <bool with_energies>
-  void advance_generalised(std::size_t first, std::size_t end, const double* force);
-  template <bool with_energies>
-  void advance_dof(LocalIndex dof, double force);
-  /// dt (a_g - g) iota of a dof.
+  void advance_dofs(std::size_t first, std::size_t end, const double* force);
+  /// h (a_g - g) iota of a dof.
   double ground_step_at(std::size_t dof) const;
   /// Adds to iota_d^T M s what M s is at a dof.
   void add_momentum(std::size_t dof, double momentum);
 
   const LinearSystem& system_;
-  BodyState& state_;
-  double time_step_;
+  StructureState& state_;
   std::vector<Segment> segments_;
   std::vector<double> node_mass_;  ///< per node of translations: a third of the memory
   std::vector<double> node_inverse_mass_;
   std::unique_ptr<CoupledStep> coupled_;  ///< null if no mass is coupled here
-  double duration_ = 0;
-  double decay_ = 1;
-  double inverse_ = 0;  ///< 1 / (beta + dt), 0 in the first step
+  StepTerms<double> terms_{};
   bool with_energies_ = false;
   std::array<double, 3> ground_step_{};
-  Lanes ground_[2][pattern_lanes]{};  ///< of nodes without and with rotations
-  Sums sums_;
-  StepSums single_;  ///< of dofs taken one by one
+  /// Of nodes without and with rotations: h (a_g - g) iota, and the sums of M s.
+  Lanes ground_[2][pattern_vectors]{};
+  Lanes momentum_[2][pattern_vectors]{};
+  Lanes influenced_momentum_[3]{};  ///< iota_d^T M s of generalised coordinates
+  DofSums<Lanes> vector_sums_;
+  DofSums<double> dof_sums_;
+  StepSums sums_;  ///< what single dofs add beside dof_sums_
 };
 
 }  // namespace pounding

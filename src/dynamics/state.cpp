@@ -1,0 +1,62 @@
+#include "dynamics/state.h"
+
+#include "common/memory.h"
+
+namespace pounding {
+
+StateVectors::StateVectors(const LinearSystem& system, StructureState& state)
+    : displacement_(wrap_vector(system, state.displacement)),
+      velocity_(wrap_vector(system, state.velocity)) {
+  const auto name = [&](const VecHandle& vector, const char* what) {
+    POUNDING_PETSC(PetscObjectSetName(reinterpret_cast<PetscObject>(vector.get()),
+                                      (system.name + " " + what).c_str()));
+  };
+  name(displacement_, "displacement");
+  name(velocity_, "velocity");
+}
+
+Vec StateVectors::renewed(Vec vector) {
+  double* values = nullptr;
+  POUNDING_PETSC(VecGetArrayWrite(vector, &values));
+  POUNDING_PETSC(VecRestoreArrayWrite(vector, &values));
+  return vector;
+}
+
+State::State(std::span<const LinearSystem> systems) {
+  for (const LinearSystem& system : systems) {
+    const std::size_t dofs = system.lumped_mass.size();
+    const std::vector<double> extra_force(system.has_extra_damping() ? dofs : 0, 0.0);
+    structures.push_back({zeros_on_large_pages(dofs), zeros_on_large_pages(dofs),
+                          zeros_on_large_pages(dofs), extra_force});
+    StructureState& structure = structures.back();
+    for (std::size_t d = 0; d < 3; ++d) {
+      const std::vector<double> iota = system.influence(static_cast<int>(d));
+      for (std::size_t i = 0; i < iota.size(); ++i) {
+        structure.displacement[i] += iota[i] * system.initial_displacement[d];
+        structure.velocity[i] += iota[i] * system.initial_velocity[d];
+      }
+    }
+  }
+}
+
+void State::save(SavedState& saved) const {
+  saved.put("step", {static_cast<double>(step - 1)});  // the last one made
+  for (std::size_t s = 0; s < structures.size(); ++s) {
+    const auto number = static_cast<int>(s);
+    saved.put_dofs(number, "displacement", structures[s].displacement);
+    saved.put_dofs(number, "velocity", structures[s].velocity);
+    saved.put_dofs(number, "stiffness_displacement", structures[s].stiffness_displacement);
+  }
+}
+
+void State::load(const SavedState& saved) {
+  step = saved.integer("step") + 1;
+  for (std::size_t s = 0; s < structures.size(); ++s) {
+    const auto number = static_cast<int>(s);
+    saved.get_dofs(number, "displacement", structures[s].displacement);
+    saved.get_dofs(number, "velocity", structures[s].velocity);
+    saved.get_dofs(number, "stiffness_displacement", structures[s].stiffness_displacement);
+  }
+}
+
+}  // namespace pounding

@@ -1,0 +1,317 @@
+#include "dynamics/structure_step.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "stiffness/diagonal_stiffness.h"
+
+namespace pounding {
+namespace {
+
+constexpr double time_step = 1e-3;
+constexpr double round_off = 4e-15;
+const std::array<double, 3> ground{0.7, -1.9, 0.4};
+
+/// What a dof is in a system put together for a test.
+enum class Kind { translations, six, lone, damped };
+
+/// Nodes of the given kinds in a row, with masses that differ from node to node.
+LinearSystem nodes_in_a_row(const std::vector<Kind>& kinds) {
+  LinearSystem system;
+  system.damping = {0.3, 4e-5};
+  system.gravity = {0, 0.1, -9.81};
+  std::vector<double> rates;
+  for (const Kind kind : kinds) {
+    const double mass = 2 + 0.37 * static_cast<double>(system.lumped_mass.size());
+    const int count = kind == Kind::six ? 6 : kind == Kind::lone ? 1 : 3;
+    for (int c = 0; c < count; ++c) {
+      system.lumped_mass.push_back(c < 3 ? mass : 0.1 * mass * c);
+      const int direction = kind == Kind::lone ? 1 : c;
+      system.direction.push_back(static_cast<std::int8_t>(direction < 3 ? direction : -1));
+      rates.push_back(kind == Kind::damped ? 50.0 + c : 0.0);
+    }
+  }
+  for (const double mass : system.lumped_mass) system.inverse_mass.push_back(1 / mass);
+  const auto n = static_cast<PetscInt>(rates.size());
+  if (std::ranges::find(kinds, Kind::damped) != kinds.end()) {
+    MatHandle matrix;
+    POUNDING_PETSC(MatCreateSeqAIJ(PETSC_COMM_SELF, n, n, 1, nullptr, matrix.out()));
+    for (PetscInt i = 0; i < n; ++i) {
+      POUNDING_PETSC(
+          MatSetValue(matrix.get(), i, i, rates[static_cast<std::size_t>(i)], INSERT_VALUES));
+    }
+    POUNDING_PETSC(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
+    POUNDING_PETSC(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
+    system.extra_damping = std::make_unique<AssembledStiffness>(std::move(matrix));
+  }
+  return system;
+}
+
+LinearSystem coordinates(std::size_t count) {
+  LinearSystem system;
+  system.damping = {0.3, 4e-5};
+  system.gravity = {0, 0.1, -9.81};
+  system.generalised = std::make_unique<GeneralisedCoordinates>();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto x = static_cast<double>(i);
+    system.lumped_mass.push_back(1 + 0.01 * x);
+    system.inverse_mass.push_back(1 / system.lumped_mass.back());
+    system.generalised->influence[0].push_back(std::cos(x));
+    system.generalised->influence[1].push_back(std::sin(2 * x));
+    system.generalised->influence[2].push_back(1 / (1 + x));
+  }
+  return system;
+}
+
+std::vector<double> random_values(std::size_t count, unsigned seed, double size) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(-size, size);
+  std::vector<double> values(count);
+  for (double& value : values) value = uniform(generator);
+  return values;
+}
+
+/// A step of a system whose stiffness is not asked for: q is random, and so is what came before.
+struct Case {
+  LinearSystem system;
+  StructureState state;
+  std::vector<double> force;
+  bool first = false;
+
+  explicit Case(LinearSystem given, bool is_first = false)
+      : system(std::move(given)), first(is_first) {
+    const std::size_t n = system.lumped_mass.size();
+    state = {random_values(n, 1, 1e-2), random_values(n, 2, 0.5), random_values(n, 3, 1e4), {}};
+    if (system.extra_damping) state.extra_force = random_values(n, 4, 30);
+    for (std::size_t i = 0; i < state.extra_force.size(); ++i) {
+      if (damped_dofs(system)[i] == 0) state.extra_force[i] = 0;
+    }
+    force = random_values(n, 5, 1e4);
+    if (first) force = state.stiffness_displacement;
+  }
+  double duration() const { return first ? time_step / 2 : time_step; }
+};
+
+/// The scheme of cd_lagrange.h in ten lines, dof by dof, and its sums.
+StepSums take_reference_step(const Case& given, StructureState& state) {
+  const LinearSystem& system = given.system;
+  StepSums sums;
+  for (std::size_t i = 0; i < state.velocity.size(); ++i) {
+    const double u = state.displacement[i], v = state.velocity[i], m = system.lumped_mass[i];
+    const double x = state.extra_force.empty() ? 0 : state.extra_force[i];
+    double ground_rate = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+      ground_rate += system.influence(static_cast<int>(d))[i] * (ground[d] - system.gravity[d]);
+    }
+    const double rate = (given.force[i] + x) / m + system.damping.alpha * v + ground_rate;
+    const double after = v - given.duration() * rate;
+    const double stiffness_velocity = given.first
+                                          ? 0
+                                          : (given.force[i] - state.stiffness_displacement[i]) /
+                                                (system.damping.beta + time_step);
+    sums.kinetic_before += m * v * v;
+    sums.strain_before += u * state.stiffness_displacement[i];
+    sums.displacement_mass += m * u * u;
+    sums.stiffness_before += v * stiffness_velocity;
+    sums.stiffness_across += after * stiffness_velocity;
+    sums.mass_sum += m * (after + v) * (after + v);
+    sums.device += x * (after + v);
+    for (std::size_t d = 0; d < 3; ++d) {
+      sums.momentum[d] += system.influence(static_cast<int>(d))[i] * m * (after + v);
+    }
+    state.velocity[i] = after;
+    state.displacement[i] = u + time_step * after;
+    state.stiffness_displacement[i] += time_step * stiffness_velocity;
+  }
+  return sums;
+}
+
+/// `pieces`: dofs per range in which the forces are handed over; 0: all at once.
+StepSums take_step(Case& given, std::size_t pieces, bool with_energies = true) {
+  StructureStep step(given.system, given.state, time_step);
+  step.begin(given.duration(), ground, given.first, with_energies);
+  const std::size_t n = given.force.size();
+  const std::size_t length = pieces == 0 ? n : pieces;
+  for (std::size_t i = 0; i < n; i += length) {
+    step.receive(static_cast<LocalIndex>(i), static_cast<LocalIndex>(std::min(n, i + length)),
+                 &given.force[i]);
+  }
+  step.complete();
+  return step.sums();
+}
+
+void expect_close(double value, double expected, double scale) {
+  EXPECT_NEAR(value, expected, round_off * std::max(scale, std::abs(expected)));
+}
+
+void expect_reference_step(LinearSystem system, bool first, std::size_t pieces = 0) {
+  Case given(std::move(system), first);
+  StructureState expected = given.state;
+  const StepSums reference = take_reference_step(given, expected);
+  const StepSums sums = take_step(given, pieces);
+  for (std::size_t i = 0; i < expected.velocity.size(); ++i) {
+    expect_close(given.state.velocity[i], expected.velocity[i], 20);
+    expect_close(given.state.displacement[i], expected.displacement[i], 0.1);
+    expect_close(given.state.stiffness_displacement[i], expected.stiffness_displacement[i], 1e4);
+  }
+  const auto n = static_cast<double>(expected.velocity.size());
+  expect_close(sums.kinetic_before, reference.kinetic_before, 100 * n);
+  expect_close(sums.strain_before, reference.strain_before, 100 * n);
+  expect_close(sums.displacement_mass, reference.displacement_mass, n);
+  expect_close(sums.stiffness_before, reference.stiffness_before, 1e7 * n);
+  expect_close(sums.stiffness_across, reference.stiffness_across, 1e8 * n);
+  expect_close(sums.mass_sum, reference.mass_sum, 1e3 * n);
+  expect_close(sums.device, reference.device, 1e3 * n);
+  for (std::size_t d = 0; d < 3; ++d) {
+    expect_close(sums.momentum[d], reference.momentum[d], 1e3 * n);
+  }
+}
+
+TEST(StructureStep, MovesNodesOfEveryKindAsTheSchemeDoes) {
+  for (int count = 1; count <= 13;
+       ++count) {  // vectors of 4 in patterns of 12 dofs, and what is left
+    for (const bool first : {false, true}) {
+      expect_reference_step(nodes_in_a_row(std::vector<Kind>(count, Kind::translations)), first);
+      expect_reference_step(nodes_in_a_row(std::vector<Kind>(count, Kind::six)), first);
+      expect_reference_step(nodes_in_a_row(std::vector<Kind>(count, Kind::lone)), first);
+      expect_reference_step(nodes_in_a_row(std::vector<Kind>(count, Kind::damped)), first);
+      expect_reference_step(coordinates(static_cast<std::size_t>(count)), first);
+    }
+  }
+}
+
+TEST(StructureStep, MovesAMixtureOfNodesAsTheSchemeDoes) {
+  const std::vector<Kind> kinds{Kind::translations, Kind::translations, Kind::damped,
+                                Kind::six,          Kind::six,          Kind::lone,
+                                Kind::translations, Kind::six,          Kind::damped,
+                                Kind::damped,       Kind::six,          Kind::translations};
+  expect_reference_step(nodes_in_a_row(kinds), false);
+  expect_reference_step(nodes_in_a_row(kinds), true);
+}
+
+TEST(StructureStep, DoesNotDependOnTheRangesInWhichForcesCome) {
+  for (const Kind kind : {Kind::translations, Kind::six}) {
+    const std::size_t node = kind == Kind::six ? 6 : 3;
+    Case whole(nodes_in_a_row(std::vector<Kind>(40, kind)));
+    take_step(whole, 0);
+    for (const std::size_t nodes : {1, 3, 4, 7}) {
+      Case parts(nodes_in_a_row(std::vector<Kind>(40, kind)));
+      take_step(parts, nodes * node);
+      EXPECT_EQ(parts.state.velocity, whole.state.velocity);
+      EXPECT_EQ(parts.state.displacement, whole.state.displacement);
+      EXPECT_EQ(parts.state.stiffness_displacement, whole.state.stiffness_displacement);
+    }
+  }
+}
+
+TEST(StructureStep, MovesTheSameWithoutEnergies) {
+  Case with(nodes_in_a_row(std::vector<Kind>(9, Kind::six)));
+  Case without(nodes_in_a_row(std::vector<Kind>(9, Kind::six)));
+  const StepSums all = take_step(with, 0, true);
+  const StepSums fewer = take_step(without, 0, false);
+  EXPECT_EQ(with.state.velocity, without.state.velocity);
+  EXPECT_EQ(all.mass_sum, fewer.mass_sum);
+  EXPECT_GT(all.kinetic_before, 0);
+  EXPECT_EQ(fewer.kinetic_before, 0);
+}
+
+TEST(StructureStep, RoundsADofAloneLikeOneInAVector) {
+  Case vectors(nodes_in_a_row(std::vector<Kind>(5, Kind::translations)));
+  Case alone(nodes_in_a_row(std::vector<Kind>(5, Kind::damped)));
+  std::fill(alone.state.extra_force.begin(), alone.state.extra_force.end(), 0.0);
+  take_step(vectors, 0);
+  take_step(alone, 0);
+  EXPECT_EQ(vectors.state.velocity, alone.state.velocity);
+  EXPECT_EQ(vectors.state.displacement, alone.state.displacement);
+}
+
+TEST(StructureStep, SolvesForDofsOfCoupledMass) {
+  LinearSystem system = nodes_in_a_row(std::vector<Kind>(3, Kind::six));
+  NodeBlocks added;
+  added.nodes = {{0, 6}, {6, 6}};
+  NodeBlock diagonal{}, beside{};
+  for (std::size_t c = 0; c < 6; ++c) {
+    diagonal[7 * c] = 5;
+    beside[7 * c] = -5;
+  }
+  added.blocks = {{{0, 0}, diagonal}, {{1, 0}, beside}, {{1, 1}, diagonal}};
+  system.coupled_mass = std::make_unique<CoupledMass>(system.lumped_mass, added);
+  Case given(std::move(system));
+  const StructureState before = given.state;
+  StructureState uncoupled = given.state;
+  take_reference_step(given, uncoupled);
+  const StepSums sums = take_step(given, 0);
+  double added_kinetic = 0;
+  for (std::size_t i = 0; i < 18; ++i) {
+    // (M + S) (v+ - v-) = M (v_free - v-), where v_free is that of M alone.
+    const auto change = [&](const StructureState& state, std::size_t dof) {
+      return state.velocity[dof] - before.velocity[dof];
+    };
+    const double mass = given.system.lumped_mass[i];
+    double impulse = mass * change(given.state, i);
+    if (i < 12) {
+      const std::size_t other = i < 6 ? i + 6 : i - 6;
+      impulse += 5 * (change(given.state, i) - change(given.state, other));
+      added_kinetic += 5 * before.velocity[i] * (before.velocity[i] - before.velocity[other]);
+    }
+    EXPECT_NEAR(impulse, mass * change(uncoupled, i), 1e-12);
+    EXPECT_NEAR(given.state.displacement[i],
+                before.displacement[i] + time_step * given.state.velocity[i], 1e-16);
+  }
+  EXPECT_NEAR(sums.added_kinetic_before, added_kinetic, 1e-13);
+}
+
+TEST(StructureStep, CorrectsSumsAndStateForAnotherVelocity) {
+  Case given(nodes_in_a_row({Kind::translations, Kind::damped, Kind::six}));
+  const std::vector<LocalIndex> dofs{1, 4, 7};
+  StructureState expected = given.state;
+  StructureStep step(given.system, given.state, time_step);
+  StructureStep::Before before(dofs.size());
+  step.remember(dofs, before);
+  step.begin(time_step, ground, false, true);
+  step.receive(0, 12, given.force.data());
+  step.complete();
+  std::vector<double> velocity;
+  for (const LocalIndex dof : dofs) {
+    velocity.push_back(given.state.velocity[static_cast<std::size_t>(dof)] + 0.25);
+  }
+  step.correct(dofs, before, velocity);
+  // The reference: the forces that lead to these velocities act beside q.
+  Case pushed = Case(nodes_in_a_row({Kind::translations, Kind::damped, Kind::six}));
+  StructureState plain = expected;
+  StepSums reference = take_reference_step(pushed, plain);
+  for (std::size_t k = 0; k < dofs.size(); ++k) {
+    const auto i = static_cast<std::size_t>(dofs[k]);
+    const double m = given.system.lumped_mass[i];
+    const double free = plain.velocity[i], v = expected.velocity[i];
+    const double after = free + 0.25;
+    const double rate = (given.force[i] - expected.stiffness_displacement[i]) /
+                        (given.system.damping.beta + time_step);
+    reference.mass_sum += m * ((after + v) * (after + v) - (free + v) * (free + v));
+    reference.stiffness_across += 0.25 * rate;
+    reference.device += given.state.extra_force[i] * 0.25;
+    reference.momentum[static_cast<std::size_t>(given.system.direction[i])] += m * 0.25;
+    EXPECT_NEAR(given.state.velocity[i], after, 1e-13);
+    EXPECT_NEAR(given.state.displacement[i], expected.displacement[i] + time_step * after, 1e-15);
+  }
+  const StepSums sums = step.sums();
+  EXPECT_NEAR(sums.mass_sum, reference.mass_sum, 1e-10 * std::abs(reference.mass_sum));
+  EXPECT_NEAR(sums.stiffness_across, reference.stiffness_across,
+              1e-10 * std::abs(reference.stiffness_across));
+  EXPECT_NEAR(sums.device, reference.device, 1e-10 * std::abs(reference.device));
+  for (std::size_t d = 0; d < 3; ++d) {
+    EXPECT_NEAR(sums.momentum[d], reference.momentum[d], 1e-9);
+  }
+}
+
+TEST(DampedDofs, AreThoseWithARowOfTheExtraDamping) {
+  const LinearSystem system = nodes_in_a_row({Kind::translations, Kind::damped, Kind::six});
+  const std::vector<char> damped = damped_dofs(system);
+  EXPECT_EQ(damped, (std::vector<char>{0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(damped_dofs(nodes_in_a_row({Kind::lone})), std::vector<char>{0});
+}
+
+}  // namespace
+}  // namespace pounding
