@@ -15,8 +15,8 @@
 #include "modal/definiteness.h"
 #include "modal/reduced_system.h"
 #include "modal/reduction.h"
-#include "stability/stability_limit.h"
 #include "stability/stable_time_step.h"
+#include "stability/structure_limits.h"
 #include "system/build_system.h"
 #include "system/mass_scaling.h"
 
@@ -33,7 +33,7 @@ void check_mesh(const Scene& scene, std::size_t s, const GlobalMesh& mesh, Model
     check_connectivity(scene, structure, findings.connectivity);
   }
   append(mesh_warnings(structure, mesh, findings.connectivity), model.warnings);
-  model.mesh_findings.push_back(std::move(findings));
+  model.buildings[s].findings = std::move(findings);
 }
 
 /// Rank 0 reads the meshes and finds who faces whom; every rank gets its part. Bases of reduced
@@ -82,7 +82,10 @@ void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& mo
     }
   }
   timer.reset();
-  model.bases = find_bases(comm, scene, meshes, model.interface, model.probes, profile);
+  auto bases = find_bases(comm, scene, meshes, model.interface, model.probes, profile);
+  for (std::size_t s = 0; s < meshes.size(); ++s) {
+    model.buildings[s].basis = std::move(bases[s]);
+  }
 }
 
 /// A fraction of the stable one. A reduced structure may allow more than its records resolve: then
@@ -118,79 +121,76 @@ void choose_time_step(const Scene& scene, Model& model) {
   model.steps = static_cast<std::int64_t>(std::ceil(scene.end_time / model.time_step - 1e-9));
 }
 
-void find_energy_margins(const Scene& scene, Model& model) {
-  for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    const LinearSystem& system = model.systems[s];
-    if (model.bases[s]) {
-      model.energy_margin.push_back(
-          energy_margin(scene.structures[s], *model.bases[s], model.time_step));
-      continue;
-    }
-    model.energy_margin.push_back(
-        system.extra_damping
-            ? smallest_energy_margin(system, model.meshes[s], model.time_step)
-            : energy_margin(system.damping, model.largest[s].omega_max, model.time_step));
+void find_energy_margins(Model& model) {
+  for (Building& building : model.buildings) {
+    building.energy_margin =
+        energy_margin_of(*building.structure, *building.system, *building.mesh,
+                         building.basis_or_null(), building.limits, model.time_step);
   }
 }
 
-void add_reduced(MPI_Comm comm, const Scene& scene, std::size_t s, Model& model) {
+/// System and modes of a structure whose mesh is distributed and whose basis is known.
+void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& profile,
+                     Model& model) {
   const Structure& structure = scene.structures[s];
-  ModalBasis& basis = *model.bases[s];
-  model.systems.push_back(
-      build_reduced_system(comm, owners_of_reduced(comm, scene)[s], structure, basis));
-  model.modal.push_back(modes_of_basis(basis, scene.modes));
-  model.largest.push_back(largest_frequency(structure, basis));
-  model.stable_time_step.push_back(stable_time_step(structure, basis));
-}
-
-void add_full(const Scene& scene, std::size_t s, Profile& profile, Model& model) {
   const Mesh& mesh = model.meshes[s];
+  Building& building = model.buildings[s];
+  LinearSystem& system = model.systems[s];
+  building.structure = &structure;
+  building.mesh = &mesh;
+  building.system = &system;
+  if (building.basis) {
+    system =
+        build_reduced_system(comm, owners_of_reduced(comm, scene)[s], structure, *building.basis);
+    building.modal = modes_of_basis(*building.basis, scene.modes);
+    building.limits = limits_of(structure, system, mesh, building.basis_or_null());
+    return;
+  }
   const bool exported = !scene.export_matrices.empty();
   {
     const ScopedTimer timer(profile, Phase::assembly);
-    model.systems.push_back(
-        build_system(scene.structures[s], mesh, scene.stiffness, scene.modes > 0 || exported));
+    system = build_system(structure, mesh, scene.stiffness, scene.modes > 0 || exported);
   }
   const ScopedTimer timer(profile, Phase::modes);
-  require_passive_matrices(scene.structures[s], model.systems.back());
-  const LinearSystem& system = model.systems.back();
-  model.modal.push_back(lowest_modes(system, mesh, scene.modes, scene.write_modes));
+  require_passive_matrices(structure, system);
+  building.modal = lowest_modes(system, mesh, scene.modes, scene.write_modes);
   if (!exported) {
     system.stiffness->release_matrix();
   }
-  model.largest.push_back(largest_frequency(system, mesh));
-  model.stable_time_step.push_back(
-      system.extra_damping ? stability_limit(system, mesh)
-                           : stable_time_step(system.damping, model.largest.back().omega_max));
+  building.limits = limits_of(structure, system, mesh, nullptr);
+}
+
+void add_warnings(MPI_Comm comm, const Scene& scene, Model& model) {
+  append(model.motion->doubts(), model.warnings);
+  for (const LinearSystem& system : model.systems) {
+    append(sliver_warnings(system), model.warnings);
+  }
+  append(model.interface.warnings, model.warnings);
+  for (const Building& building : model.buildings) {
+    append(damping_warnings(*building.structure, building.modal), model.warnings);
+  }
+  if (rank_of(comm) == 0) {
+    append(mechanism_warnings(scene, model), model.warnings);
+  }
 }
 
 }  // namespace
 
 Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile) {
   Model model;
+  model.buildings.resize(scene.structures.size());
+  model.systems.resize(scene.structures.size());
   on_every_rank(
       comm, [&] { model.motion = std::make_unique<GroundMotion>(scene.motion, scene.resampling); });
   build_meshes(comm, scene, profile, model);
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
-    if (model.bases[s]) {
-      add_reduced(comm, scene, s, model);
-    } else {
-      add_full(scene, s, profile, model);
-    }
+    build_structure(comm, scene, s, profile, model);
   }
-  append(model.motion->doubts(), model.warnings);
-  for (const LinearSystem& system : model.systems) {
-    append(sliver_warnings(system), model.warnings);
-  }
-  append(model.interface.warnings, model.warnings);
-  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
-    append(damping_warnings(scene.structures[s], model.modal[s]), model.warnings);
-  }
-  append(mechanism_warnings(scene, model), model.warnings);
+  add_warnings(comm, scene, model);
   choose_time_step(scene, model);
   append(run_warnings(scene, model), model.warnings);
   const ScopedTimer timer(profile, Phase::modes);
-  find_energy_margins(scene, model);
+  find_energy_margins(model);
   return model;
 }
 

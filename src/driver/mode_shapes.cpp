@@ -21,7 +21,7 @@ void write_mode_shapes(MPI_Comm comm, const std::string& path, const Model& mode
     write("coordinates", 3, gather_coordinates(mesh));
     const std::size_t columns = component_columns(mesh);
     std::vector<double> frequencies;
-    for (const Mode& mode : model.modal[s].modes) {
+    for (const Mode& mode : model.buildings[s].modal.modes) {
       frequencies.push_back(mode.frequency);
       char name[32];
       std::snprintf(name, sizeof name, "shapes/%04zu", frequencies.size());

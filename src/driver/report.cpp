@@ -61,8 +61,8 @@ void print_reduction(const ModalModel& modal, const ModalBasis& basis, const Mas
   }
 }
 
-void print_time_step_limit(const Model& model, std::size_t s) {
-  const LinearSystem& system = model.systems[s];
+void print_time_step_limit(const Building& building) {
+  const LinearSystem& system = *building.system;
   const MassScaling& scaling = system.mass_scaling;
   if (scaling.time_step > 0) {
     std::printf(
@@ -70,26 +70,27 @@ void print_time_step_limit(const Model& model, std::size_t s) {
         "their stiffness\n",
         scaling.time_step, static_cast<long long>(scaling.elements),
         static_cast<long long>(scaling.dofs), scaling.largest_factor);
-    if (model.stable_time_step[s] < scaling.time_step) {
+    if (building.limits.stable_time_step < scaling.time_step) {
       std::printf("    not reached: %s allows less, its mass is not scaled\n",
                   system.limiting_element.c_str());
     }
   }
   std::printf("  omega_max %.4e rad/s (bound from single elements %.4e)\n",
-              model.largest[s].omega_max, system.element_frequency_bound);
-  std::printf("    at %s\n", model.largest[s].location.c_str());
+              building.limits.largest.omega_max, system.element_frequency_bound);
+  std::printf("    at %s\n", building.limits.largest.location.c_str());
   if (!system.stiffest_element.empty()) {
     std::printf("    stiffest: %s\n", system.stiffest_element.c_str());
   }
   std::printf(
       "  stable time step %.4e s (bound from single elements %.4e), without damping %.4e s\n",
-      model.stable_time_step[s], system.element_time_step_bound, 2 / model.largest[s].omega_max);
+      building.limits.stable_time_step, system.element_time_step_bound,
+      2 / building.limits.largest.omega_max);
   if (!system.limiting_element.empty()) {
     std::printf("    limiting: %s\n", system.limiting_element.c_str());
   }
   if (!system.extra_damping) {
     std::printf("    damping ratio %.2f at omega_max\n",
-                damping_ratio(system.damping, model.largest[s].omega_max));
+                damping_ratio(system.damping, building.limits.largest.omega_max));
   }
 }
 
@@ -128,9 +129,9 @@ void print_findings(const MeshFindings& findings) {
   }
 }
 
-void print_structure(const Scene& scene, const Model& model, std::size_t s) {
-  const Mesh& mesh = model.meshes[s];
-  const LinearSystem& system = model.systems[s];
+void print_structure(const Building& building) {
+  const Mesh& mesh = *building.mesh;
+  const LinearSystem& system = *building.system;
   std::printf("\nstructure %s: %lld nodes, %lld dofs (%lld before clamping), mass %.0f kg\n",
               system.name.c_str(), static_cast<long long>(mesh.global_nodes),
               static_cast<long long>(mesh.global_dofs),
@@ -139,15 +140,15 @@ void print_structure(const Scene& scene, const Model& model, std::size_t s) {
     std::printf("  %-14s %7lld %s\n", block.group.c_str(),
                 static_cast<long long>(block.global_count), element_name(block.type));
   }
-  print_findings(model.mesh_findings[s]);
+  print_findings(building.findings);
   std::printf("  stiffness: %s\n", system.stiffness_method.c_str());
-  if (model.bases[s]) {
-    print_reduction(*scene.structures[s].modal, *model.bases[s], system.mass_scaling);
+  if (building.basis) {
+    print_reduction(*building.structure->modal, *building.basis, system.mass_scaling);
   }
-  print_damping(scene.structures[s]);
+  print_damping(*building.structure);
   std::printf("  mode  frequency  direction  effective mass, share of it\n");
   int number = 0;
-  for (const Mode& mode : model.modal[s].modes) {
+  for (const Mode& mode : building.modal.modes) {
     const auto axis = static_cast<std::size_t>(
         std::max_element(mode.effective_modal_mass.begin(), mode.effective_modal_mass.begin() + 3) -
         mode.effective_modal_mass.begin());
@@ -155,11 +156,11 @@ void print_structure(const Scene& scene, const Model& model, std::size_t s) {
                 mode.frequency, mode.direction.c_str(), mode.effective_modal_mass[axis],
                 direction_names[axis], 100 * mode.direction_fraction, mode.direction.c_str());
   }
-  if (model.bases[s]) {
+  if (building.basis) {
     std::printf("  stable time step %.4e s, exact from the frequencies; it is that of %s\n",
-                model.stable_time_step[s], model.largest[s].location.c_str());
+                building.limits.stable_time_step, building.limits.largest.location.c_str());
   } else {
-    print_time_step_limit(model, s);
+    print_time_step_limit(building);
   }
 }
 
@@ -291,8 +292,8 @@ void print_title(const Scene& scene, int ranks) {
 
 void print_model(const Scene& scene, const Model& model) {
   print_motion(*model.motion);
-  for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    print_structure(scene, model, s);
+  for (const Building& building : model.buildings) {
+    print_structure(building);
   }
   for (const InterfaceReport& report : model.interface.reports) {
     print_contact(report);

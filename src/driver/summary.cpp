@@ -52,9 +52,9 @@ Json describe_findings(const MeshFindings& findings) {
   return description;
 }
 
-Json describe_structure(const Scene& scene, const Model& model, std::size_t s) {
+Json describe_structure(const Building& building) {
   Json structure;
-  const Mesh& mesh = model.meshes[s];
+  const Mesh& mesh = *building.mesh;
   structure["nodes"] = mesh.global_nodes;
   structure["dofs"] = mesh.global_dofs;
   structure["dofs_before_clamping"] = mesh.global_dofs_unclamped;
@@ -64,41 +64,41 @@ Json describe_structure(const Scene& scene, const Model& model, std::size_t s) {
     elements += block.global_count;
   }
   structure["elements"] = elements;
-  structure["connectivity"] = describe_findings(model.mesh_findings[s]);
-  structure["mass"] = model.systems[s].total_mass;
-  structure["stiffness"] = model.systems[s].stiffness_method;
-  structure["damping"] = describe_damping(scene.structures[s].damping);
-  for (const Region& region : scene.structures[s].regions) {
+  structure["connectivity"] = describe_findings(building.findings);
+  structure["mass"] = building.system->total_mass;
+  structure["stiffness"] = building.system->stiffness_method;
+  structure["damping"] = describe_damping(building.structure->damping);
+  for (const Region& region : building.structure->regions) {
     if (region.damping) {
       structure["region_damping"][region.group] = describe_damping(*region.damping);
     }
   }
-  if (model.bases[s]) {
-    const ModalBasis& basis = *model.bases[s];
+  if (building.basis) {
+    const ModalBasis& basis = *building.basis;
     structure["modal"] = {
         {"coordinates", basis.size()},
         {"modes", basis.modes},
         {"attachment_vectors", basis.attachment_vectors},
         {"largest_frequency", std::sqrt(basis.squared_frequency.back()) / (2 * std::numbers::pi)}};
-    if (!scene.structures[s].modal->damping_ratios.empty()) {
-      structure["modal"]["damping_ratios"] = scene.structures[s].modal->damping_ratios;
+    if (!building.structure->modal->damping_ratios.empty()) {
+      structure["modal"]["damping_ratios"] = building.structure->modal->damping_ratios;
     }
   }
-  const MassScaling& scaling = model.systems[s].mass_scaling;
+  const MassScaling& scaling = building.system->mass_scaling;
   if (scaling.time_step > 0) {
     structure["mass_scaling"] = {{"time_step", scaling.time_step},
                                  {"elements", scaling.elements},
                                  {"coupled_dofs", scaling.dofs},
                                  {"largest_factor", scaling.largest_factor}};
   }
-  for (const Sliver& sliver : model.systems[s].slivers) {
+  for (const Sliver& sliver : building.system->slivers) {
     structure["slivers"].push_back({{"element", sliver.element},
                                     {"time_step", sliver.time_step},
                                     {"median_of_group", sliver.median},
                                     {"number_in_group", sliver.count}});
   }
   structure["frequencies"] = Json::array();
-  for (const Mode& mode : model.modal[s].modes) {
+  for (const Mode& mode : building.modal.modes) {
     double effective_mass = 0;
     for (std::size_t d = 0; d < 3; ++d) {
       effective_mass = std::max(effective_mass, mode.effective_modal_mass[d]);
@@ -109,14 +109,14 @@ Json describe_structure(const Scene& scene, const Model& model, std::size_t s) {
                                         {"effective_mass", effective_mass},
                                         {"effective_modal_mass", mode.effective_modal_mass}});
   }
-  structure["omega_max"] = model.largest[s].omega_max;
-  structure["omega_max_location"] = model.largest[s].location;
-  structure["element_frequency_bound"] = model.systems[s].element_frequency_bound;
-  structure["stiffest_element"] = model.systems[s].stiffest_element;
-  structure["stable_time_step"] = model.stable_time_step[s];
-  structure["element_time_step_bound"] = model.systems[s].element_time_step_bound;
-  structure["limiting_element"] = model.systems[s].limiting_element;
-  structure["stable_time_step_undamped"] = 2 / model.largest[s].omega_max;
+  structure["omega_max"] = building.limits.largest.omega_max;
+  structure["omega_max_location"] = building.limits.largest.location;
+  structure["element_frequency_bound"] = building.system->element_frequency_bound;
+  structure["stiffest_element"] = building.system->stiffest_element;
+  structure["stable_time_step"] = building.limits.stable_time_step;
+  structure["element_time_step_bound"] = building.system->element_time_step_bound;
+  structure["limiting_element"] = building.system->limiting_element;
+  structure["stable_time_step_undamped"] = 2 / building.limits.largest.omega_max;
   return structure;
 }
 
@@ -176,8 +176,8 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
   summary["title"] = scene.title;
   summary["version"] = program_version();
   summary["commit"] = program_commit();
-  for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    summary["structures"][model.systems[s].name] = describe_structure(scene, model, s);
+  for (const Building& building : model.buildings) {
+    summary["structures"][building.name()] = describe_structure(building);
   }
   summary["structures_key"] = scene.structures_key;
   summary["motion"] = describe_motion(*model.motion);

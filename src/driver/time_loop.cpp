@@ -48,8 +48,12 @@ std::unique_ptr<ContactProblem> make_contact(MPI_Comm comm, const Scene& scene,
 GapWatch make_watch(MPI_Comm comm, const Model& model, const ContactProblem* contact,
                     Profile& profile) {
   const ScopedTimer timer(profile, Phase::assembly);
+  std::vector<double> margins;
+  for (const Building& building : model.buildings) {
+    margins.push_back(building.energy_margin);
+  }
   return {model.systems,
-          gap_bounds(comm, model.systems, model.energy_margin, model.time_step, contact),
+          gap_bounds(comm, model.systems, margins, model.time_step, contact),
           model.motion->peaks(), model.time_step};
 }
 

@@ -64,11 +64,11 @@ std::vector<std::string> damping_warnings(const Structure& structure, const Moda
 
 std::vector<std::string> mechanism_warnings(const Scene& scene, const Model& model) {
   std::vector<std::string> warnings;
-  for (std::size_t s = 0; s < model.mesh_findings.size(); ++s) {
-    const std::vector<Mode>& modes = model.modal[s].modes;
+  for (std::size_t s = 0; s < model.buildings.size(); ++s) {
+    const std::vector<Mode>& modes = model.buildings[s].modal.modes;
     const auto count =
         std::ranges::count_if(modes, [](const Mode& mode) { return !mode.location.empty(); });
-    const Connectivity& connectivity = model.mesh_findings[s].connectivity;
+    const Connectivity& connectivity = model.buildings[s].findings.connectivity;
     if (count == 0 || !connectivity.wholly_held() || scene.structures[s].allow_loose) {
       continue;
     }

@@ -44,23 +44,22 @@ void watch_divergence(const Model& model, const State& state, const EnergyLine& 
     if (wrong.empty()) {
       continue;
     }
-    std::vector<double> motion = state.bodies[s].velocity;
+    std::vector<double> motion = state.structures[s].velocity;
     for (std::size_t i = 0; i < motion.size(); ++i) {
       motion[i] *= std::sqrt(model.systems[s].lumped_mass[i]);
     }
     std::ostringstream text;
     text << "the run diverged: structure " << model.systems[s].name << ": " << wrong
          << " at t = " << line.time << " s (step " << state.step - 1 << "); it moves most at "
-         << (model.bases[s] ? locate_largest(model.systems[s], *model.bases[s], motion)
-                            : locate_largest(model.meshes[s], motion))
-         << "; time step " << model.time_step << " s, stable " << model.stable_time_step[s] << " s";
+         << model.buildings[s].locate_largest(motion) << "; time step " << model.time_step
+         << " s, stable " << model.buildings[s].limits.stable_time_step << " s";
     throw DivergenceError(text.str());
   }
 }
 
 double energy_round_off(const Model& model, std::size_t structure, const StructureEnergy& energy) {
   // K keeps its stiff entries whatever the mass is that they meet.
-  const double omega = std::max(model.largest[structure].omega_max,
+  const double omega = std::max(model.buildings[structure].limits.largest.omega_max,
                                 model.systems[structure].mass_scaling.row_frequency);
   return product_round_off * omega * omega * energy.displacement_mass;
 }

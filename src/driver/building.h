@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesh/connectivity.h"
+#include "mesh/mesh.h"
+#include "modal/modal_analysis.h"
+#include "modal/modal_basis.h"
+#include "scene/scene.h"
+#include "stability/structure_limits.h"
+#include "system/linear_system.h"
+
+namespace pounding {
+
+/// What the checks of a structure's mesh found.
+struct MeshFindings {
+  Connectivity connectivity;
+  std::vector<UnusedElements> unused;  ///< places that no option of the scene names
+};
+
+/// One structure of the scene as it was built: its mesh and its system, and all that was found out
+/// about them. Constant during a run.
+struct Building {
+  const Structure* structure = nullptr;  ///< what the user asked for; borrowed from the scene
+  const Mesh* mesh = nullptr;            ///< this rank's part; borrowed from the model
+  const LinearSystem* system = nullptr;  ///< likewise
+  MeshFindings findings;                 ///< on rank 0 only
+  std::optional<ModalBasis> basis;       ///< if the structure is reduced; no rows
+  ModalResult modal;
+  StructureLimits limits;
+  double energy_margin = 0;  ///< of the time step in force [-]
+
+  const std::string& name() const { return system->name; }
+  const ModalBasis* basis_or_null() const { return basis ? &*basis : nullptr; }
+  /// Where the largest of a value per owned dof is: a place, or a generalised coordinate. The same
+  /// on all ranks. Collective.
+  std::string locate_largest(std::span<const double> values) const;
+};
+
+}  // namespace pounding
