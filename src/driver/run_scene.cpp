@@ -135,18 +135,14 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
     on_rank0(comm, [&] { create_output(scene); });
     write_mode_shapes(comm, scene.output + "/modes.h5", model);
   }
-  if (scene.dry_run) {
-    const double seconds = TimeLoop(comm, scene, model, profile).measure(200);
-    if (root) {
-      print_time_step(scene, model, seconds);
-    }
-    return;
-  }
-  const double seconds = TimeLoop(comm, scene, model, profile).measure(50);
+  TimeLoop loop(comm, scene, model, profile);
+  const double seconds = loop.measure(scene.dry_run ? 200 : 50);
   if (root) {
     print_time_step(scene, model, seconds);
   }
-  TimeLoop loop(comm, scene, model, profile);
+  if (scene.dry_run) {
+    return;
+  }
   const double step_start = MPI_Wtime();
   const int signal = loop.run(identity, restart ? &*restart : nullptr);
   RunStatistics statistics;

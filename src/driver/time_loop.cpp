@@ -36,25 +36,21 @@ std::vector<std::array<double, 2>> places_of(const Interface& interface) {
   return places;
 }
 
-std::unique_ptr<ContactProblem> make_contact(MPI_Comm comm, const Scene& scene,
-                                             const Model& model) {
-  if (model.interface.constraints.empty()) {
-    return nullptr;
-  }
-  return std::make_unique<ContactProblem>(comm, model.interface, model.systems, model.meshes,
-                                          scene.gap_tolerance * model.interface.model_size);
-}
-
-GapWatch make_watch(MPI_Comm comm, const Model& model, const ContactProblem* contact,
-                    Profile& profile) {
-  const ScopedTimer timer(profile, Phase::assembly);
-  std::vector<double> margins;
+Solver::Parts solver_parts(MPI_Comm comm, const Scene& scene, const Model& model,
+                           Profile& profile) {
+  Solver::Parts parts{comm,
+                      model.systems,
+                      model.meshes,
+                      &model.interface,
+                      model.motion.get(),
+                      scene.gap_tolerance * model.interface.model_size,
+                      model.time_step,
+                      {},
+                      &profile};
   for (const Building& building : model.buildings) {
-    margins.push_back(building.energy_margin);
+    parts.energy_margins.push_back(building.energy_margin);
   }
-  return {model.systems,
-          gap_bounds(comm, model.systems, margins, model.time_step, contact),
-          model.motion->peaks(), model.time_step};
+  return parts;
 }
 
 }  // namespace
@@ -64,8 +60,8 @@ TimeLoop::TimeLoop(MPI_Comm comm, const Scene& scene, const Model& model, Profil
       scene_(scene),
       model_(model),
       profile_(profile),
-      contact_(make_contact(comm, scene, model)),
-      slides_(contact_
+      solver_(solver_parts(comm, scene, model, profile)),
+      slides_(solver_.contact() != nullptr
                   ? std::make_unique<SlideWatch>(comm, model.interface, model.systems, model.meshes,
                                                  static_cast<int>(scene.contacts.size()))
                   : nullptr),
@@ -75,20 +71,18 @@ TimeLoop::TimeLoop(MPI_Comm comm, const Scene& scene, const Model& model, Profil
       slide_stride_(static_cast<std::int64_t>(std::max(1.0, slide_interval / model.time_step))),
       energies_(model.systems.size()),
       energy_round_off_(model.systems.size()),
-      ledger_(model.steps / scene.energy_interval + 2) {
-  stepper_ = std::make_unique<CdLagrange>(comm, model.systems, *model.motion, contact_.get(),
-                                          make_watch(comm, model, contact_.get(), profile),
-                                          model.time_step, profile);
-}
+      ledger_(model.steps / scene.energy_interval + 2) {}
 
 double TimeLoop::measure(int steps) {
   MPI_Barrier(comm_);
   const double start = MPI_Wtime();
   for (int i = 0; i < steps; ++i) {
-    stepper_->step(true, false);
+    solver_.stepper().step(true, false);
   }
   MPI_Barrier(comm_);
-  return (MPI_Wtime() - start) / steps;
+  const double seconds = (MPI_Wtime() - start) / steps;
+  solver_.restart();
+  return seconds;
 }
 
 void TimeLoop::create_recorder(bool continued) {
@@ -103,7 +97,7 @@ void TimeLoop::create_recorder(bool continued) {
   for (const Contact& contact : scene_.contacts) {
     layout.contacts.push_back(contact.name);
   }
-  layout.interface_root = contact_ ? contact_->root() : -1;
+  layout.interface_root = solver_.contact() != nullptr ? solver_.contact()->root() : -1;
   const auto whole = [&](double count) {  // never more than the run has, nor than an int holds
     constexpr double most = std::numeric_limits<int>::max();
     return std::clamp(count, 1.0, std::min(static_cast<double>(model_.steps) + 1, most));
@@ -135,10 +129,10 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
     const bool ledger = n > 0 && (n % scene_.energy_interval == 0 || n == model_.steps);
     const bool records = recorder_->due(n);
     if (records) {
-      recorder_->take_displacements(stepper_->state());
+      recorder_->take_displacements(solver_.stepper().state());
     }
     watch_slides(n);
-    stepper_->step(records && n % gap_stride_ == 0, ledger);
+    solver_.stepper().step(records && n % gap_stride_ == 0, ledger);
     observe(n);
     if (ledger) {
       close_ledger_line();
@@ -157,23 +151,26 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
   }
   const ScopedTimer timer(profile_, Phase::output);
   recorder_->finish(step() >= model_.steps);
-  catalogue_.finish(comm_, contact_ ? contact_->root() : 0);
+  catalogue_.finish(comm_, solver_.contact() != nullptr ? solver_.contact()->root() : 0);
   return step() < model_.steps ? signal : 0;
 }
 
 void TimeLoop::observe(std::int64_t step) {
   const ScopedTimer timer(profile_, Phase::output);
-  std::array<double, 3> ground_step = stepper_->ground_acceleration();
+  std::array<double, 3> ground_step = solver_.stepper().ground_acceleration();
   for (double& value : ground_step) {
-    value *= stepper_->force_duration();
+    value *= solver_.stepper().force_duration();
   }
   recorder_->add_step(ground_step);
-  const bool reports = stepper_->interface_known() && contact_->root() == rank_of(comm_);
-  if (reports && stepper_->touching()) {
-    catalogue_.add_step(stepper_->time(), stepper_->force_duration(), contact_->gaps(),
-                        contact_->impulses(), contact_->works());
-    for (std::size_t row = 0; row < contact_->impulses().size(); ++row) {
-      recorder_->add_impulse(model_.interface.constraints[row].contact, contact_->impulses()[row]);
+  const bool reports =
+      solver_.stepper().interface_known() && solver_.contact()->root() == rank_of(comm_);
+  if (reports && solver_.stepper().touching()) {
+    catalogue_.add_step(solver_.stepper().time(), solver_.stepper().force_duration(),
+                        solver_.contact()->gaps(), solver_.contact()->impulses(),
+                        solver_.contact()->works());
+    for (std::size_t row = 0; row < solver_.contact()->impulses().size(); ++row) {
+      recorder_->add_impulse(model_.interface.constraints[row].contact,
+                             solver_.contact()->impulses()[row]);
     }
   }
   if (!recorder_->due(step)) {
@@ -183,13 +180,13 @@ void TimeLoop::observe(std::int64_t step) {
   const double none = std::numeric_limits<double>::max();
   std::fill(smallest_gaps_.begin(), smallest_gaps_.end(), reports ? none : unknown);
   if (reports) {
-    for (std::size_t row = 0; row < contact_->gaps().size(); ++row) {
+    for (std::size_t row = 0; row < solver_.contact()->gaps().size(); ++row) {
       double& gap =
           smallest_gaps_[static_cast<std::size_t>(model_.interface.constraints[row].contact)];
-      gap = std::min(gap, contact_->gaps()[row]);
+      gap = std::min(gap, solver_.contact()->gaps()[row]);
     }
   }
-  recorder_->record(stepper_->state(), smallest_gaps_);
+  recorder_->record(solver_.stepper().state(), smallest_gaps_);
 }
 
 void TimeLoop::watch_slides(std::int64_t step) {
@@ -197,33 +194,34 @@ void TimeLoop::watch_slides(std::int64_t step) {
     return;
   }
   const ScopedTimer timer(profile_, Phase::output);
-  const std::vector<StructureState>& bodies = stepper_->state().structures;
-  for (std::size_t s = 0; s < bodies.size(); ++s) {
-    slides_->set_displacement(s, bodies[s].displacement.data());
+  const std::vector<StructureState>& structures = solver_.stepper().state().structures;
+  for (std::size_t s = 0; s < structures.size(); ++s) {
+    slides_->set_displacement(s, structures[s].displacement.data());
   }
   slides_->look(static_cast<double>(step) * model_.time_step);
 }
 
 void TimeLoop::close_ledger_line() {
   const ScopedTimer timer(profile_, Phase::energy);
-  EnergyBalance& energy = stepper_->energy();
+  EnergyBalance& energy = solver_.stepper().energy();
   const EnergyLine line = energy.line(energies_);
   energy.note(line);
-  watch_divergence(model_, stepper_->state(), line, energies_);
+  watch_divergence(model_, solver_.stepper().state(), line, energies_);
   watch_identity(model_, line, energies_, energy.largest_term());
   watch_passivity(line, energy.largest_term());
-  watch_contact(comm_, contact_.get(), line.time);
+  watch_contact(comm_, solver_.contact(), line.time);
   for (std::size_t s = 0; s < energies_.size(); ++s) {
     energy_round_off_[s] = energy_round_off(model_, s, energies_[s]);
   }
-  stepper_->gap_watch().energies_known(energy.closed_steps() - 1, energies_, energy_round_off_);
+  solver_.stepper().gap_watch().energies_known(energy.closed_steps() - 1, energies_,
+                                               energy_round_off_);
   ledger_.add(line);
 }
 
 void TimeLoop::write_checkpoint(const RunIdentity& identity) {
   const ScopedTimer timer(profile_, Phase::output);
   SavedState saved;
-  stepper_->save(saved);
+  solver_.stepper().save(saved);
   int finite = saved.dofs_are_finite() ? 1 : 0;
   MPI_Allreduce(MPI_IN_PLACE, &finite, 1, MPI_INT, MPI_MIN, comm_);
   if (finite == 0) {
@@ -231,7 +229,7 @@ void TimeLoop::write_checkpoint(const RunIdentity& identity) {
                           "; the checkpoint before is kept");
   }
   recorder_->save(saved);
-  if (rank_of(comm_) == (contact_ ? contact_->root() : 0)) {
+  if (rank_of(comm_) == (solver_.contact() != nullptr ? solver_.contact()->root() : 0)) {
     catalogue_.save(saved);
   }
   if (slides_ && slides_->root() == rank_of(comm_)) {
@@ -245,7 +243,7 @@ void TimeLoop::write_checkpoint(const RunIdentity& identity) {
 }
 
 void TimeLoop::load(const SavedState& saved) {
-  stepper_->load(saved);
+  solver_.stepper().load(saved);
   catalogue_.load(saved);
   if (slides_) {
     slides_->load(saved);
@@ -258,15 +256,15 @@ void TimeLoop::load(const SavedState& saved) {
 void TimeLoop::show_progress(double start) {
   const double no_gap = std::numeric_limits<double>::max();
   std::array<double, 2> now{no_gap, 0};  // smallest gap, minus the number of impacts
-  if (contact_ && contact_->root() == rank_of(comm_)) {
-    now = {contact_->smallest_gap(), -static_cast<double>(catalogue_.episodes())};
+  if (solver_.contact() != nullptr && solver_.contact()->root() == rank_of(comm_)) {
+    now = {solver_.contact()->smallest_gap(), -static_cast<double>(catalogue_.episodes())};
   }
   MPI_Allreduce(MPI_IN_PLACE, now.data(), 2, MPI_DOUBLE, MPI_MIN, comm_);
   if (rank_of(comm_) != 0 || !watched_) {
     return;
   }
   const double elapsed = MPI_Wtime() - start;
-  const double time = stepper_->time();
+  const double time = solver_.stepper().time();
   const double done = time - static_cast<double>(first_step_) * model_.time_step;
   const double cost = elapsed / std::max(done, model_.time_step);
   std::printf("\r  %5.1f %%  t = %.3f s  %.3f s/s  remaining %.0f s", 100 * time / scene_.end_time,
@@ -274,21 +272,21 @@ void TimeLoop::show_progress(double start) {
   if (now[0] < no_gap) {
     std::printf("  gap %.2f mm  impacts %.0f", 1000 * now[0], std::abs(now[1]));
   }
-  std::printf("  energy residual %.1e   ", stepper_->energy().relative_residual());
+  std::printf("  energy residual %.1e   ", solver_.stepper().energy().relative_residual());
   std::fflush(stdout);
 }
 
 void TimeLoop::fill(RunStatistics& statistics) const {
   statistics.steps = step() + 1 - first_step_;
   statistics.energy = ledger_.last();
-  statistics.energy_residual = stepper_->energy().relative_residual();
-  if (contact_) {
-    statistics.contact_rows = contact_->rows();
-    statistics.coupled_rows = contact_->coupled_rows();
-    statistics.interface_ranks = contact_->members();
-    statistics.interface_looks = stepper_->looks();
+  statistics.energy_residual = solver_.stepper().energy().relative_residual();
+  if (solver_.contact() != nullptr) {
+    statistics.contact_rows = solver_.contact()->rows();
+    statistics.coupled_rows = solver_.contact()->coupled_rows();
+    statistics.interface_ranks = solver_.contact()->members();
+    statistics.interface_looks = solver_.stepper().looks();
     MPI_Allreduce(MPI_IN_PLACE, &statistics.interface_looks, 1, MPI_INT64_T, MPI_MAX, comm_);
-    statistics.complementarity_residual = contact_->largest_residual();
+    statistics.complementarity_residual = solver_.contact()->largest_residual();
     statistics.slides = slides_->slides();
     broadcast_array(comm_, statistics.slides, slides_->root());
   }

@@ -6,7 +6,7 @@
 #include "contact/slide_watch.h"
 #include "driver/model.h"
 #include "driver/run_statistics.h"
-#include "dynamics/cd_lagrange.h"
+#include "driver/solver.h"
 #include "output/checkpoint.h"
 #include "output/energy_ledger.h"
 #include "output/impact_catalogue.h"
@@ -20,7 +20,8 @@ class TimeLoop {
   /// `model` and `profile` must outlive this object. Collective.
   TimeLoop(MPI_Comm comm, const Scene& scene, const Model& model, Profile& profile);
 
-  /// Mean wall time of a step [s], measured on `steps` of them, nothing recorded. Collective.
+  /// Mean wall time of a step [s], measured on `steps` of them, nothing recorded; the loop stands
+  /// at t_0 after it as before. Collective.
   double measure(int steps);
   /// From t_0, or from after the step of `restart` unless it is null, to the end time; histories
   /// and checkpoints, which carry `identity`, into the scene's output folder. Returns 0, or the
@@ -29,7 +30,7 @@ class TimeLoop {
 
   const ImpactCatalogue& impacts() const { return catalogue_; }
   /// The last step made.
-  std::int64_t step() const { return stepper_->state().step - 1; }
+  std::int64_t step() const { return solver_.stepper().state().step - 1; }
   const EnergyLedger& ledger() const { return ledger_; }
   Recorder& recorder() { return *recorder_; }
   void fill(RunStatistics& statistics) const;
@@ -48,9 +49,8 @@ class TimeLoop {
   const Scene& scene_;
   const Model& model_;
   Profile& profile_;
-  std::unique_ptr<ContactProblem> contact_;
+  Solver solver_;
   std::unique_ptr<SlideWatch> slides_;  ///< null without contacts
-  std::unique_ptr<CdLagrange> stepper_;
   ImpactCatalogue catalogue_;
   std::unique_ptr<Recorder> recorder_;
   std::vector<double> smallest_gaps_;  ///< per contact

@@ -2,8 +2,7 @@
 #include <stdexcept>
 
 #include "benchmark/timed_step.h"
-#include "driver/gap_bounds.h"
-#include "dynamics/cd_lagrange.h"
+#include "driver/solver.h"
 #include "scene/option_table.h"
 #include "stability/stable_time_step.h"
 
@@ -12,22 +11,27 @@ namespace {
 
 constexpr double gap_tolerance = 1e-12;  // of the model's size
 
-GapWatch make_watch(const SteppedModel& model, const ContactProblem* contact) {
-  std::vector<double> margins;
+Solver::Parts solver_parts(const SteppedModel& model, Profile& profile) {
+  Solver::Parts parts{model.comm,
+                      model.systems,
+                      model.meshes,
+                      &model.interface,
+                      model.motion.get(),
+                      gap_tolerance * model.interface.model_size,
+                      model.time_step,
+                      {},
+                      &profile};
   for (const LinearSystem& system : model.systems) {
-    margins.push_back(
+    parts.energy_margins.push_back(
         energy_margin(system.damping, system.element_frequency_bound, model.time_step));
   }
-  return {model.systems, gap_bounds(model.comm, model.systems, margins, model.time_step, contact),
-          model.motion->peaks(), model.time_step};
+  return parts;
 }
 
 class ProgramStep final : public TimedStep {
  public:
   explicit ProgramStep(const SteppedModel& model)
-      : contact_(make_contact(model)),
-        stepper_(model.comm, model.systems, *model.motion, contact_.get(),
-                 make_watch(model, contact_.get()), model.time_step, profile_),
+      : solver_(solver_parts(model, profile_)),
         ledger_interval_(std::stol(std::string(option_row("energy_interval").preset.text))),
         energies_(model.systems.size()),
         no_round_off_(model.systems.size(), 0.0) {}
@@ -35,7 +39,7 @@ class ProgramStep final : public TimedStep {
   void run(long steps) override {
     for (long i = 0; i < steps; ++i, ++step_) {
       const bool ledger = step_ > 0 && step_ % ledger_interval_ == 0;
-      stepper_.step(true, ledger);
+      solver_.stepper().step(true, ledger);
       if (ledger) {
         close_ledger_line();
       }
@@ -44,10 +48,10 @@ class ProgramStep final : public TimedStep {
 
   double displacement_square() const override {
     double sum = 0;
-    for (const StructureState& body : stepper_.state().structures) {
+    for (const StructureState& body : solver_.stepper().state().structures) {
       for (std::size_t i = 0; i < body.displacement.size(); ++i) {
         // The state is one step ahead of the velocities' time.
-        const double u = body.displacement[i] - stepper_.time_step() * body.velocity[i];
+        const double u = body.displacement[i] - solver_.stepper().time_step() * body.velocity[i];
         sum += u * u;
       }
     }
@@ -57,27 +61,18 @@ class ProgramStep final : public TimedStep {
   double contact_seconds() const override { return profile_.seconds(Phase::contact); }
 
  private:
-  static std::unique_ptr<ContactProblem> make_contact(const SteppedModel& model) {
-    if (model.interface.constraints.empty()) {
-      return nullptr;
-    }
-    return std::make_unique<ContactProblem>(model.comm, model.interface, model.systems,
-                                            model.meshes,
-                                            gap_tolerance * model.interface.model_size);
-  }
-
   void close_ledger_line() {
-    EnergyBalance& energy = stepper_.energy();
+    EnergyBalance& energy = solver_.stepper().energy();
     energy.note(energy.line(energies_));
-    stepper_.gap_watch().energies_known(energy.closed_steps() - 1, energies_, no_round_off_);
+    solver_.stepper().gap_watch().energies_known(energy.closed_steps() - 1, energies_,
+                                                 no_round_off_);
     if (!(energy.relative_residual() < 1e-6)) {
       throw std::runtime_error("the energy identity does not close");
     }
   }
 
   Profile profile_;
-  std::unique_ptr<ContactProblem> contact_;
-  CdLagrange stepper_;
+  Solver solver_;
   long ledger_interval_;
   std::vector<StructureEnergy> energies_;
   std::vector<double> no_round_off_;

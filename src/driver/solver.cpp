@@ -1,0 +1,42 @@
+#include "driver/solver.h"
+
+#include <utility>
+
+#include "driver/gap_bounds.h"
+
+namespace pounding {
+namespace {
+
+std::unique_ptr<ContactProblem> make_contact(const Solver::Parts& parts) {
+  if (parts.interface->constraints.empty()) {
+    return nullptr;
+  }
+  return std::make_unique<ContactProblem>(parts.comm, *parts.interface, parts.systems, parts.meshes,
+                                          parts.gap_tolerance);
+}
+
+}  // namespace
+
+Solver::Solver(Parts parts) : parts_(std::move(parts)), contact_(make_contact(parts_)) {
+  {
+    const ScopedTimer timer(*parts_.profile, Phase::assembly);
+    bounds_ = gap_bounds(parts_.comm, parts_.systems, parts_.energy_margins, parts_.time_step,
+                         contact_.get());
+  }
+  make_stepper();
+}
+
+void Solver::restart() {
+  stepper_.reset();  // it refers to the contact problem
+  contact_ = make_contact(parts_);
+  make_stepper();
+}
+
+void Solver::make_stepper() {
+  stepper_ = std::make_unique<CdLagrange>(
+      parts_.comm, parts_.systems, *parts_.motion, contact_.get(),
+      GapWatch(parts_.systems, bounds_, parts_.motion->peaks(), parts_.time_step), parts_.time_step,
+      *parts_.profile);
+}
+
+}  // namespace pounding

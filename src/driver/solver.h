@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "common/profile.h"
+#include "contact/contact_problem.h"
+#include "contact/interface.h"
+#include "dynamics/cd_lagrange.h"
+#include "dynamics/gap_watch.h"
+#include "mesh/mesh.h"
+#include "motion/ground_motion.h"
+#include "system/linear_system.h"
+
+namespace pounding {
+
+/// The contact problem and the scheme of a model, put together in one place for the program and its
+/// benchmarks.
+class Solver {
+ public:
+  /// What they are made from; all that is referred to must outlive the solver.
+  struct Parts {
+    MPI_Comm comm = MPI_COMM_NULL;
+    std::span<const LinearSystem> systems;
+    std::span<const Mesh> meshes;
+    const Interface* interface = nullptr;
+    const GroundMotion* motion = nullptr;
+    double gap_tolerance = 0;            ///< [m]
+    double time_step = 0;                ///< [s]
+    std::vector<double> energy_margins;  ///< per structure, at the time step [-]
+    Profile* profile = nullptr;
+  };
+
+  /// At t_0. Collective.
+  explicit Solver(Parts parts);
+  /// Back to t_0: what was stepped is forgotten, the bounds of the gap rates are kept. Contact and
+  /// stepper are new objects. Collective.
+  void restart();
+
+  ContactProblem* contact() { return contact_.get(); }  ///< null without contacts
+  const ContactProblem* contact() const { return contact_.get(); }
+  CdLagrange& stepper() { return *stepper_; }
+  const CdLagrange& stepper() const { return *stepper_; }
+
+ private:
+  void make_stepper();
+
+  Parts parts_;
+  std::vector<GapWatch::Bound> bounds_;
+  std::unique_ptr<ContactProblem> contact_;
+  std::unique_ptr<CdLagrange> stepper_;
+};
+
+}  // namespace pounding
