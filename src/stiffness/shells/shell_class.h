@@ -15,10 +15,12 @@ namespace pounding {
 /// value "c|s" stands for component c in row s of H, "c|-" for the sum over the nodes. With
 /// B = H K H' / 16, K = H' B H and B holds only
 ///
-///   membrane  stretch    2 x 2   0|0 1|1                 plate  curvature  2 x 2   3|1 4|0
-///             bending    2 x 2   1|01 5|1    0|01 5|0           slope      2 x 2   2|0 4|-   2|1
-///             3|- shear      3 x 3   0|1 1|0 5|-                    twist      3 x 3   2|01 3|0
-///             4|1 drilling   1       5|01                           hourglass  1       3|01   4|01
+///     membrane  stretch   2 x 2  0|0  1|1          plate  curvature  2 x 2  3|1  4|0
+///               bending   2 x 2  1|01 5|1                 slope      2 x 2  2|0  4|-
+///                                0|01 5|0                                   2|1  3|-
+///               shear     3 x 3  0|1  1|0 5|-             twist      3 x 3  2|01 3|0 4|1
+///               drilling  1      5|01                     hourglass  1      3|01
+///                                                                           4|01
 ///
 /// The translations 0|-, 1|- and 2|- drop out.
 struct ShellSplit {
