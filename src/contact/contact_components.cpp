@@ -1,32 +1,19 @@
 #include "contact/contact_components.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 
+#include "common/disjoint_sets.h"
+
 namespace pounding {
-namespace {
-
-/// Smallest row of the group of `row`; the path to it is halved on the way.
-int first_row_of_group(std::vector<int>& parent, int row) {
-  const auto at = [&parent](int i) -> int& { return parent[static_cast<std::size_t>(i)]; };
-  while (at(row) != row) {
-    at(row) = at(at(row));
-    row = at(row);
-  }
-  return row;
-}
-
-}  // namespace
 
 std::vector<std::vector<int>> coupled_components(std::span<const std::vector<int>> row_dofs,
                                                  int number_of_dofs) {
   const std::size_t rows = row_dofs.size();
-  std::vector<int> parent(rows);
+  DisjointSets sets(rows);
   std::vector<int> first_row_on_dof(static_cast<std::size_t>(number_of_dofs), -1);
   for (std::size_t r = 0; r < rows; ++r) {
     const int row = static_cast<int>(r);
-    parent[r] = row;
     for (const int dof : row_dofs[r]) {
       if (dof < 0 || dof >= number_of_dofs) {
         throw std::invalid_argument("coupled_components: dof " + std::to_string(dof) + " of row " +
@@ -38,16 +25,14 @@ std::vector<std::vector<int>> coupled_components(std::span<const std::vector<int
         seen = row;
         continue;
       }
-      const int a = first_row_of_group(parent, row);
-      const int b = first_row_of_group(parent, seen);
-      parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+      sets.join(r, static_cast<std::size_t>(seen));
     }
   }
 
   std::vector<std::vector<int>> groups;
   std::vector<std::size_t> group_of(rows);  // of the first row of each group
   for (std::size_t r = 0; r < rows; ++r) {
-    const auto first = static_cast<std::size_t>(first_row_of_group(parent, static_cast<int>(r)));
+    const std::size_t first = sets.root(r);
     if (first == r) {
       group_of[r] = groups.size();
       groups.emplace_back();

@@ -1,10 +1,10 @@
 #include "mesh/connectivity.h"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 #include <span>
 
+#include "common/disjoint_sets.h"
 #include "elements/element.h"
 #include "mesh/bounding_box.h"
 #include "mesh/near_nodes.h"
@@ -37,9 +37,7 @@ struct Meeting {
 class Examination {
  public:
   Examination(const Structure& structure, const GlobalMesh& mesh)
-      : structure_(structure), mesh_(mesh), meeting_(size_of_mesh()), parent_(size_of_mesh()) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
+      : structure_(structure), mesh_(mesh), meeting_(size_of_mesh()), pieces_(size_of_mesh()) {}
 
   Connectivity run() {
     for (const ElementSet& set : mesh_.regions) {
@@ -62,18 +60,11 @@ class Examination {
     return {&set.connectivity[element * width], width};
   }
 
-  std::size_t piece_of(GlobalIndex node) {
-    auto i = static_cast<std::size_t>(node);
-    while (parent_[i] != i) {
-      parent_[i] = parent_[parent_[i]];
-      i = parent_[i];
-    }
-    return i;
-  }
+  std::size_t piece_of(GlobalIndex node) { return pieces_.root(static_cast<std::size_t>(node)); }
 
   void join(const ElementSet& set, std::span<const GlobalIndex> nodes) {
     for (const GlobalIndex node : nodes) {
-      parent_[piece_of(node)] = piece_of(nodes.front());
+      pieces_.join(static_cast<std::size_t>(node), static_cast<std::size_t>(nodes.front()));
       Meeting& meeting = meeting_[static_cast<std::size_t>(node)];
       meeting.lines += is_line(set.type) ? 1 : 0;
       meeting.beams += set.type == ElementType::beam ? 1 : 0;
@@ -252,7 +243,7 @@ class Examination {
   const Structure& structure_;
   const GlobalMesh& mesh_;
   std::vector<Meeting> meeting_;
-  std::vector<std::size_t> parent_;  ///< union-find over the nodes
+  DisjointSets pieces_;  ///< of the nodes
   Connectivity found_;
 };
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <sstream>
 
 #include "common/dense_eigenvalues.h"
+#include "common/disjoint_sets.h"
 #include "common/error.h"
 #include "elements/element.h"
 #include "stiffness/element_properties.h"
@@ -35,34 +35,12 @@ void check_alpha(const Structure& structure, const Region& region) {
   }
 }
 
-/// Who is connected with whom, as trees.
-class Groups {
- public:
-  explicit Groups(GlobalIndex count) : parent_(static_cast<std::size_t>(count)) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  void join(GlobalIndex a, GlobalIndex b) {
-    const std::size_t first = root(static_cast<std::size_t>(a));
-    const std::size_t second = root(static_cast<std::size_t>(b));
-    parent_[std::max(first, second)] = std::min(first, second);
-  }
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i) {
-      i = parent_[i] = parent_[parent_[i]];
-    }
-    return i;
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
 /// Nodes of the whole mesh that one rank must own together.
 class Couplings {
  public:
   explicit Couplings(const GlobalMesh& mesh)
       : mesh_(mesh),
-        groups_(mesh.node_count()),
+        groups_(static_cast<std::size_t>(mesh.node_count())),
         coupled_(static_cast<std::size_t>(mesh.node_count()), 0),
         scaled_(coupled_) {}
 
@@ -77,7 +55,7 @@ class Couplings {
       coupled_[n] = 1;
       scaled_[n] = scaled || scaled_[n] != 0;
       if (first >= 0) {
-        groups_.join(first, node);
+        groups_.join(static_cast<std::size_t>(first), n);
       }
       first = node;
     }
@@ -101,7 +79,7 @@ class Couplings {
 
  private:
   const GlobalMesh& mesh_;
-  Groups groups_;
+  DisjointSets groups_;
   std::vector<char> coupled_;
   std::vector<char> scaled_;
 };
