@@ -57,7 +57,7 @@ std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSys
   for (std::size_t s = 0; contact != nullptr && s < bounds.size(); ++s) {
     const LinearSystem& system = systems[s];
     // Tension-only bars hold energy that no bound knows of.
-    if (system.tension_bars || !(energy_margins[s] > 0)) {
+    if (system.links || !(energy_margins[s] > 0)) {
       bounds[s].rate_norm = std::numeric_limits<double>::infinity();
       continue;
     }

@@ -210,7 +210,7 @@ class Export {
 
 void export_matrices(MPI_Comm comm, const Scene& scene, const Model& model) {
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    if (model.systems[s].tension_bars) {
+    if (model.systems[s].links) {
       throw UserError("option -export_matrices: structure " + model.systems[s].name +
                       " has tension-only bars, which no matrix holds");
     }

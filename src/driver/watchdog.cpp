@@ -73,10 +73,10 @@ void watch_passivity(const EnergyLine& line, double largest_term) {
     throw DivergenceError(text.str());
   };
   const double allowed = given_energy * largest_term;
-  if (line.bar_loss < -allowed) {
-    refuse("the tension-only bars", line.bar_loss);
+  if (line.link_loss < -allowed) {
+    refuse("the tension-only bars", line.link_loss);
   }
-  const double dashpots = line.device_work - line.bar_loss;
+  const double dashpots = line.device_work - line.link_loss;
   if (line.damping_loss + dashpots < -allowed) {
     refuse("damping", line.damping_loss + dashpots);
   }

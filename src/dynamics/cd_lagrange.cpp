@@ -29,9 +29,9 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
     extra_forces_.push_back(systems_[s].has_extra_damping()
                                 ? wrap_vector(systems_[s], state.extra_force)
                                 : VecHandle());
-    bar_steps_.push_back(
-        systems_[s].tension_bars
-            ? std::make_unique<TensionBarStep>(systems_[s], state, structure_steps_[s], time_step)
+    link_steps_.push_back(
+        systems_[s].links
+            ? std::make_unique<LinkStep>(systems_[s], state, structure_steps_[s], time_step)
             : nullptr);
     StoredForces store(state.stiffness_displacement.data());  // K u_0
     systems_[s].stiffness->apply({state.displacement.data(), state.displacement.data(), 0}, store);
@@ -94,15 +94,15 @@ void CdLagrange::free_velocity(bool with_energies) {
   }
   for (std::size_t s = 0; s < systems_.size(); ++s) {
     sums_[s].extra_damping_before = apply_extra_damping(s);
-    if (bar_steps_[s]) {
-      bar_steps_[s]->begin();
+    if (link_steps_[s]) {
+      link_steps_[s]->begin();
     }
     structure_steps_[s].begin(force_duration_, acceleration_, first,
                               with_energies || energy_.needs_energies());
     systems_[s].stiffness->finish(argument(s), structure_steps_[s]);
     structure_steps_[s].complete();
-    if (bar_steps_[s]) {
-      bar_steps_[s]->pull(first);
+    if (link_steps_[s]) {
+      link_steps_[s]->pull(first);
     }
   }
 }
@@ -134,8 +134,8 @@ void CdLagrange::close_energy() {
     const double extra_damping = sums_[s].extra_damping_before;
     sums_[s] = structure_steps_[s].sums();
     sums_[s].extra_damping_before = extra_damping;
-    if (bar_steps_[s]) {
-      bar_steps_[s]->finish(sums_[s]);
+    if (link_steps_[s]) {
+      link_steps_[s]->finish(sums_[s]);
     }
   }
   energy_.add_step(sums_, acceleration_, touching_ && counts_work_ ? contact_->total_work() : 0);
@@ -144,6 +144,9 @@ void CdLagrange::close_energy() {
 void CdLagrange::save(SavedState& saved) const {
   state_.save(saved);
   energy_.save(saved);
+  for (std::size_t s = 0; s < link_steps_.size(); ++s) {
+    if (link_steps_[s]) link_steps_[s]->save(static_cast<int>(s), saved);
+  }
   if (counts_work_) {
     watch_.save(saved);
     contact_->save(saved);
@@ -153,6 +156,9 @@ void CdLagrange::save(SavedState& saved) const {
 void CdLagrange::load(const SavedState& saved) {
   state_.load(saved);
   energy_.load(saved);
+  for (std::size_t s = 0; s < link_steps_.size(); ++s) {
+    if (link_steps_[s]) link_steps_[s]->load(static_cast<int>(s), saved);
+  }
   if (contact_ != nullptr) {
     watch_.load(saved);
     contact_->load(saved);

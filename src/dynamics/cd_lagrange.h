@@ -9,9 +9,9 @@
 #include "contact/contact_problem.h"
 #include "dynamics/energy_balance.h"
 #include "dynamics/gap_watch.h"
+#include "dynamics/link_step.h"
 #include "dynamics/state.h"
 #include "dynamics/structure_step.h"
-#include "dynamics/tension_bar_step.h"
 #include "motion/ground_motion.h"
 #include "system/linear_system.h"
 
@@ -28,7 +28,7 @@ namespace pounding {
 ///     v_{n+1/2} = v_free + M^-1 L^T lambda
 ///     u_{n+1}   = u_n + dt v_{n+1/2}
 ///
-/// with x the force of extra damping and of tension-only bars (TensionBarStep), if there are any.
+/// with x the force of extra damping and of tension-only bars (LinkStep), if there are any.
 /// `step` has a line for each of these; they are events of -log_view under the same names. The
 /// stiffness hands its forces over range by range, and StructureStep updates velocity and
 /// displacement there while they are in the nearest cache; contact then corrects the few dofs of
@@ -104,7 +104,7 @@ class CdLagrange {
   Profile& profile_;
   State state_;
   std::vector<StructureStep> structure_steps_;
-  std::vector<std::unique_ptr<TensionBarStep>> bar_steps_;  ///< null where there are no such bars
+  std::vector<std::unique_ptr<LinkStep>> link_steps_;  ///< null where there are no such bars
   EnergyBalance energy_;
   bool counts_work_;  ///< this rank adds the contact work to the ledger
   std::vector<StepSums> sums_;

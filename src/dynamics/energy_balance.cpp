@@ -41,7 +41,7 @@ void EnergyBalance::add_step(std::span<const StepSums> sums,
     input_.add(open_.input);
     contact_.add(open_.contact);
     device_.add(open_.device);
-    bars_.add(open_.bars);
+    links_.add(open_.links);
   }
   open_ = works(sums, ground_acceleration, contact_work);
   ++steps_;
@@ -63,7 +63,7 @@ EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
           time_step_ / 2 * (systems_[b].gravity[d] - ground_acceleration[d]) * sums[b].momentum[d];
     }
     result.device += time_step_ / 2 * sums[b].device;
-    result.bars += sums[b].bar_loss;
+    result.links += sums[b].link_loss;
   }
   return result;
 }
@@ -74,7 +74,7 @@ StructureEnergy EnergyBalance::energy(const LinearSystem& system, const StepSums
       (1 - dt / 2 * mass_damping(system)) * sums.kinetic_before + sums.added_kinetic_before;
   const double damped =
       inertia - dt / 2 * (system.damping.beta * sums.stiffness_before + sums.extra_damping_before);
-  return {damped / 2, sums.strain_before / 2 + sums.bar_energy_before,
+  return {damped / 2, sums.strain_before / 2 + sums.link_energy_before,
           (damped - dt * dt / 4 * sums.stiffness_before) / 2, sums.displacement_mass};
 }
 
@@ -88,7 +88,7 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
                              contact_.total(),
                              input_.total(),
                              device_.total() + lagged_damping_ - initial_lagged_damping_,
-                             bars_.total()};
+                             links_.total()};
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), 6, MPI_DOUBLE, MPI_SUM, comm_);
   EnergyLine line;
   line.time = static_cast<double>(closed_steps() - 1) * time_step_;
@@ -99,8 +99,8 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   line.damping_loss = sums[1];
   line.contact_work = sums[2];
   line.input_work = sums[3];
-  line.bar_loss = sums[5];
-  line.device_work = sums[4] + line.bar_loss;
+  line.link_loss = sums[5];
+  line.device_work = sums[4] + line.link_loss;
   line.residual = line.energy() - sums[0] + line.damping_loss + line.device_work -
                   line.contact_work - line.input_work;
   return line;
@@ -109,14 +109,14 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
 template <typename Balance, typename Function>
 void EnergyBalance::for_each_sum(Balance& balance, Function&& function) {
   for (auto* sum :
-       {&balance.damping_, &balance.input_, &balance.contact_, &balance.device_, &balance.bars_}) {
+       {&balance.damping_, &balance.input_, &balance.contact_, &balance.device_, &balance.links_}) {
     function(sum->value);
     function(sum->correction);
   }
   function(balance.initial_);
   function(balance.initial_lagged_damping_);
   for (auto* work : {&balance.open_.damping, &balance.open_.input, &balance.open_.contact,
-                     &balance.open_.device, &balance.open_.bars}) {
+                     &balance.open_.device, &balance.open_.links}) {
     function(*work);
   }
 }

@@ -24,9 +24,9 @@ struct EnergyLine {
   /// Taken up by dashpots, by what regions with damping of their own have beside the structure's,
   /// and by tension-only bars.
   double device_work = 0;
-  double residual = 0;  ///< energy - initial energy + damping loss + device work - contact work
-                        ///< - input work
-  double bar_loss = 0;  ///< of tension-only bars alone: what they took and did not keep
+  double residual = 0;   ///< energy - initial energy + damping loss + device work - contact work
+                         ///< - input work
+  double link_loss = 0;  ///< of tension-only bars alone: what they took and did not keep
 
   double energy() const { return kinetic + strain; }
 };
@@ -104,7 +104,7 @@ class EnergyBalance {
     double input = 0;
     double contact = 0;
     double device = 0;
-    double bars = 0;
+    double links = 0;
   };
   /// Calls `function` with each number of this rank that adds up over ranks.
   template <typename Balance, typename Function>
@@ -129,7 +129,7 @@ class EnergyBalance {
   Sum input_;
   Sum contact_;
   Sum device_;
-  Sum bars_;
+  Sum links_;
   std::int64_t steps_ = 0;
   double largest_term_ = 0;
   double largest_residual_ = 0;

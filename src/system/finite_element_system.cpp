@@ -12,8 +12,8 @@
 #include "stiffness/element_stiffness.h"
 #include "stiffness/sparse_matrix.h"
 #include "system/element_bounds.h"
+#include "system/links.h"
 #include "system/scaled_mass.h"
-#include "system/tension_bars.h"
 
 namespace pounding {
 namespace {
@@ -224,10 +224,10 @@ std::string describe(const ElementKinds& kinds) {
 LinearSystem build_finite_element_system(const Structure& structure, const Mesh& mesh,
                                          StiffnessMethod method, bool with_matrix) {
   LinearSystem system = describe_system(structure, mesh);
-  system.tension_bars = TensionBars::build(structure, mesh);
+  system.links = Links::build(structure, mesh);
   const bool by_element = multiplies_elements(mesh, method);
   // Modes want every bar taut: the linear elements alone are of no use to them then.
-  const bool for_modes = with_matrix && system.tension_bars == nullptr;
+  const bool for_modes = with_matrix && system.links == nullptr;
   Assembly(structure, mesh, !by_element || for_modes, system).run();
   system.stiffness_method = "assembled";
   if (by_element) {
@@ -240,8 +240,8 @@ LinearSystem build_finite_element_system(const Structure& structure, const Mesh&
     }
   }
   finish_system(mesh, system);
-  if (system.tension_bars) {
-    system.tension_bars->find_trace(system, mesh);
+  if (system.links) {
+    system.links->find_trace(system, mesh);
   }
   return system;
 }

@@ -19,7 +19,7 @@
 
 namespace pounding {
 
-class TensionBars;
+class Links;
 
 /// A displacement component of a node, by what does not depend on the partition.
 struct TracePoint {
@@ -60,8 +60,8 @@ struct LinearSystem {
   std::unique_ptr<Stiffness> stiffness;  ///< K of the linear elements
   std::string stiffness_method;          ///< how it is applied, for the report
   std::unique_ptr<Stiffness> taut;       ///< K with tension-only bars taut; null if there are none
-  std::shared_ptr<TensionBars> tension_bars;  ///< null if there are none
-  std::unique_ptr<Stiffness> extra_damping;   ///< D [N s/m, N m s]; null if there is none
+  std::shared_ptr<Links> links;          ///< null if there are none
+  std::unique_ptr<Stiffness> extra_damping;  ///< D [N s/m, N m s]; null if there is none
   MassScaling mass_scaling;
   std::unique_ptr<CoupledMass>
       coupled_mass;                       ///< M + S of the dofs in S; null if this rank has none

@@ -20,11 +20,12 @@ MAY_INCLUDE = {
     "stiffness/shells": {"common", "elements", "stiffness/rows"},
     "stiffness": {"common", "scene", "elements", "mesh", "stiffness/rows", "stiffness/bricks",
                   "stiffness/shells"},
-    "system": {"common", "io", "scene", "elements", "mesh", "stiffness"},
+    "links": {"common"},
+    "system": {"common", "io", "scene", "elements", "mesh", "links", "stiffness"},
     "modal": {"common", "io", "scene", "elements", "mesh", "stiffness", "system", "contact"},
     "stability": {"common", "scene", "mesh", "system", "modal"},
     "contact": {"common", "scene", "elements", "mesh", "system"},
-    "dynamics": {"common", "scene", "system", "contact", "motion"},
+    "dynamics": {"common", "scene", "links", "system", "contact", "motion"},
     "output": {"common", "io", "scene", "mesh", "system", "motion", "dynamics"},
     "driver": {"common", "io", "scene", "elements", "mesh", "system", "modal", "stability", "motion",
                "contact", "dynamics", "output"},
@@ -34,7 +35,7 @@ MAY_INCLUDE = {
     "mesh_main.cpp": {"mesh"},
 }
 
-PURE = {"elements": ("mpi.h", "petsc", "slepc"), "motion": ("mpi.h", "petsc", "slepc"),
+PURE = {"elements": ("mpi.h", "petsc", "slepc"), "links": ("mpi.h", "petsc", "slepc"), "motion": ("mpi.h", "petsc", "slepc"),
         "stiffness/rows": ("mpi.h", "petsc", "slepc"), "stiffness/bricks": ("mpi.h", "petsc", "slepc"),
         "stiffness/shells": ("mpi.h", "petsc", "slepc")}
 

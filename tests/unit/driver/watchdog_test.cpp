@@ -17,7 +17,7 @@ EnergyLine taken(double damping, double devices, double bars) {
   line.time = 2.5;
   line.damping_loss = damping;
   line.device_work = devices + bars;
-  line.bar_loss = bars;
+  line.link_loss = bars;
   return line;
 }
 

@@ -1,4 +1,4 @@
-#include "system/tension_bars.h"
+#include "system/links.h"
 
 #include <gtest/gtest.h>
 
@@ -42,21 +42,21 @@ Structure ties() {
   return structure;
 }
 
-TEST(TensionBars, ThatShareNodesLiveOnOneRank) {
+TEST(Links, ThatShareNodesLiveOnOneRank) {
   constexpr int cells = 9;
   const auto built = testing::build_system(chain(cells), ties());
-  ASSERT_TRUE(built.system.tension_bars);
-  EXPECT_EQ(built.system.tension_bars->count(), cells);
-  const auto here = static_cast<int>(built.system.tension_bars->bars().size());
+  ASSERT_TRUE(built.system.links);
+  EXPECT_EQ(built.system.links->count(), cells);
+  const auto here = static_cast<int>(built.system.links->links().size());
   EXPECT_TRUE(here == 0 || here == cells);
   int all = here;
   MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_SUM, PETSC_COMM_WORLD);
   EXPECT_EQ(all, cells);
 }
 
-TEST(TensionBars, MeasureElongationsAlongTheirAxes) {
+TEST(Links, MeasureElongationsAlongTheirAxes) {
   const auto built = testing::build_system(chain(4), ties());
-  const TensionBars& bars = *built.system.tension_bars;
+  const Links& bars = *built.system.links;
   const Mesh& mesh = built.mesh;
   std::vector<double> w(static_cast<std::size_t>(mesh.owned_dofs), 0.0);
   for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
@@ -66,13 +66,13 @@ TEST(TensionBars, MeasureElongationsAlongTheirAxes) {
   }
   std::vector<double> field(bars.trace().known().size());
   bars.trace().apply(w.data(), field.data(), 1);
-  for (std::size_t b = 0; b < bars.bars().size(); ++b) {
-    EXPECT_NEAR(bars.bars()[b].elongation(field), 0.01 * (2 * static_cast<double>(b) + 1), 1e-14);
-    EXPECT_DOUBLE_EQ(bars.bars()[b].stiffness, 100);
+  for (std::size_t b = 0; b < bars.links().size(); ++b) {
+    EXPECT_NEAR(bars.links()[b].elongation(field), 0.01 * (2 * static_cast<double>(b) + 1), 1e-14);
+    EXPECT_DOUBLE_EQ(bars.links()[b].stiffness, 100);
   }
 }
 
-TEST(TensionBars, AreNotMadeForAStructureWithoutThem) {
+TEST(Links, AreNotMadeForAStructureWithoutThem) {
   GlobalMesh global = chain(3);
   global.regions[0].type = ElementType::bar;
   Structure structure;
@@ -82,7 +82,7 @@ TEST(TensionBars, AreNotMadeForAStructureWithoutThem) {
     partition = partition_meshes({&global, 1}, {}, size_of(PETSC_COMM_WORLD));
   }
   const Mesh mesh = distribute_mesh(PETSC_COMM_WORLD, "chain", global, partition, 0);
-  EXPECT_FALSE(TensionBars::build(structure, mesh));
+  EXPECT_FALSE(Links::build(structure, mesh));
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
-#include "system/tension_bars.h"
+#include "system/links.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "links/tension_law.h"
 #include "mesh/location.h"
 
 namespace pounding {
@@ -15,7 +16,7 @@ int place_of(const std::vector<LocalIndex>& dofs, LocalIndex dof) {
 
 }  // namespace
 
-double TensionBar::elongation(std::span<const double> field) const {
+double Link::elongation(std::span<const double> field) const {
   double sum = 0;
   for (std::size_t i = 0; i < place.size(); ++i) {
     if (place[i] >= 0) {
@@ -25,64 +26,69 @@ double TensionBar::elongation(std::span<const double> field) const {
   return sum;
 }
 
-std::unique_ptr<TensionBars> TensionBars::build(const Structure& structure, const Mesh& mesh) {
-  std::unique_ptr<TensionBars> bars(new TensionBars);
+std::unique_ptr<LinkLaw> Link::make_law(double time_step) const {
+  return std::make_unique<TensionLaw>(stiffness, damping / (2 * time_step));
+}
+
+std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh) {
+  std::unique_ptr<Links> found(new Links);
   for (const ElementBlock& block : mesh.blocks) {
     if (block.type == ElementType::tension_bar) {
-      bars->count_ += block.global_count;
+      found->count_ += block.global_count;
       for (std::size_t e = 0; e < block.count(); ++e) {
-        bars->add(structure, mesh, block, e);
+        found->add(structure, mesh, block, e);
       }
     }
   }
-  if (bars->count_ == 0) {
+  if (found->count_ == 0) {
     return nullptr;
   }
-  std::vector<LocalIndex>& dofs = bars->dofs_;
+  std::vector<LocalIndex>& dofs = found->dofs_;
   std::sort(dofs.begin(), dofs.end());
   dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
-  for (TensionBar& bar : bars->bars_) {
-    for (int& place : bar.place) {
+  for (Link& link : found->links_) {
+    for (int& place : link.place) {
       place = place < 0 ? -1 : place_of(dofs, place);
     }
   }
-  return bars;
+  return found;
 }
 
 /// Leaves dofs where places will stand.
-void TensionBars::add(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
-                      std::size_t element) {
+void Links::add(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
+                std::size_t element) {
   const Region& region = structure.regions[static_cast<std::size_t>(block.region)];
   const LocalIndex* nodes = &block.connectivity[2 * element];
   const Vector3 a = mesh.position(nodes[0]);
   const Vector3 b = mesh.position(nodes[1]);
   const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
-  TensionBar bar;
-  bar.stiffness = region.material.young * region.area / length;
-  bar.damping = structure.damping_of(region).beta * bar.stiffness;
+  Link link;
+  link.number = block.tags[element];
+  link.stiffness = region.material.young * region.area / length;
+  link.damping = structure.damping_of(region).beta * link.stiffness;
   bool here = false;
   bool elsewhere = false;
   for (std::size_t d = 0; d < 3; ++d) {
-    bar.axis[d] = (b[d] - a[d]) / length;
+    link.axis[d] = (b[d] - a[d]) / length;
     for (std::size_t end = 0; end < 2; ++end) {
       const LocalIndex dof = mesh.dof(nodes[end], static_cast<int>(d));
-      bar.place[3 * end + d] = dof;
+      link.place[3 * end + d] = dof;
       here = here || (dof >= 0 && dof < mesh.owned_dofs);
       elsewhere = elsewhere || dof >= mesh.owned_dofs;
     }
   }
   if (here && elsewhere) {
     throw std::logic_error(describe_element(mesh, block, element) +
-                           " is tension-only and lives on several ranks");
+                           " is a link and lives on several ranks");
   }
   if (here) {
-    std::copy_if(bar.place.begin(), bar.place.end(), std::back_inserter(dofs_),
+    std::copy_if(link.place.begin(), link.place.end(), std::back_inserter(dofs_),
                  [](int dof) { return dof >= 0; });
-    bars_.push_back(bar);
+    links_.push_back(link);
   }
 }
 
-void TensionBars::find_trace(const LinearSystem& system, const Mesh& mesh) {
+void Links::find_trace(const LinearSystem& system, const Mesh& mesh) {
   std::vector<TracePoint> places;
   for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
     for (int c = 0; c < 3; ++c) {

@@ -1,4 +1,4 @@
-#include "dynamics/tension_law.h"
+#include "links/tension_law.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,11 +14,11 @@ double positive_root(double a, double b, double c) {
 
 }  // namespace
 
-double TensionLaw::energy(double now, double after) const {
-  return stiffness * std::max(0.0, now) * std::max(0.0, after) / 2;
+double TensionLaw::energy(double now, double after, std::span<const double>) const {
+  return stiffness_ * std::max(0.0, now) * std::max(0.0, after) / 2;
 }
 
-double TensionLaw::tension(double before, double now, double after) const {
+double TensionLaw::force(double before, double now, double after, std::span<const double>) const {
   if (now <= 0) {
     return 0;
   }
@@ -26,32 +26,33 @@ double TensionLaw::tension(double before, double now, double after) const {
   if ((before > 0) != (after > 0) && before != after) {
     share = (std::max(0.0, after) - std::max(0.0, before)) / (after - before);
   }
-  return std::max(0.0, stiffness * now * share + damping_rate * (after - before));
+  return std::max(0.0, stiffness_ * now * share + damping_rate_ * (after - before));
 }
 
-double TensionLaw::solve(double before, double now, double free_after, double compliance) const {
+double TensionLaw::solve(double before, double now, double free_after, double compliance,
+                         std::span<const double>) const {
   if (now <= 0 || compliance <= 0) {
-    return tension(before, now, free_after);
+    return force(before, now, free_after);
   }
-  const double pull = stiffness * now;
+  const double pull = stiffness_ * now;
   const double r = compliance;
-  const double a = 1 + r * damping_rate;
+  const double a = 1 + r * damping_rate_;
   if (before > 0) {
-    const double taut = (pull + damping_rate * (free_after - before)) / a;
+    const double taut = (pull + damping_rate_ * (free_after - before)) / a;
     if (free_after - r * taut >= 0) {
       return std::max(0.0, taut);
     }
     // it goes slack: z = before - after
     const double z = positive_root(a, before - free_after, r * pull * before);
-    return std::max(0.0, pull * before / z - damping_rate * z);
+    return std::max(0.0, pull * before / z - damping_rate_ * z);
   }
-  const double slack = damping_rate * (free_after - before) / a;
+  const double slack = damping_rate_ * (free_after - before) / a;
   if (free_after - r * slack < 0) {
     return std::max(0.0, slack);
   }
   // it was slack before and is taut after: z = after - before
   const double z = positive_root(a, free_after - before - r * pull, -r * pull * before);
-  return z > 0 ? pull * (before + z) / z + damping_rate * z
+  return z > 0 ? pull * (before + z) / z + damping_rate_ * z
                : std::min(pull, (free_after - before) / r);
 }
 

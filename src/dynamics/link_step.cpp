@@ -1,0 +1,175 @@
+#include "dynamics/link_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pounding {
+namespace {
+
+constexpr int most_sweeps = 1000;
+constexpr double converged = 1e-15;  ///< change of a tension over the largest
+
+}  // namespace
+
+LinkStep::LinkStep(const LinearSystem& system, const StructureState& state, StructureStep& step,
+                   double time_step)
+    : state_(state),
+      step_(step),
+      time_step_(time_step),
+      links_(system.links->links()),
+      trace_(system.links->trace()),
+      held_(trace_.dofs().size()),
+      before_(links_.size(), 0.0),
+      now_(links_.size(), 0.0),
+      after_(links_.size(), 0.0),
+      free_after_(links_.size(), 0.0),
+      force_(links_.size(), 0.0),
+      field_(trace_.known().size(), 0.0),
+      velocity_(trace_.dofs().size(), 0.0) {
+  for (const Link& link : links_) {
+    laws_.push_back(link.make_law(time_step));
+    memory_.emplace_back(laws_.back()->memory_size(), 0.0);
+  }
+  find_couplings();
+}
+
+void LinkStep::find_couplings() {
+  std::vector<double> unit(field_.size(), 0.0);
+  const std::vector<double> at_rest(velocity_.size(), 0.0);
+  std::vector<double> all(state_.velocity.size(), 0.0);
+  for (const Link& link : links_) {
+    std::fill(unit.begin(), unit.end(), 0.0);
+    for (std::size_t i = 0; i < link.place.size(); ++i) {
+      if (link.place[i] >= 0) {
+        unit[static_cast<std::size_t>(link.place[i])] += i < 3 ? -link.axis[i] : link.axis[i - 3];
+      }
+    }
+    velocity_ = at_rest;
+    trace_.add_impulse(unit.data(), velocity_.data());
+    for (std::size_t k = 0; k < velocity_.size(); ++k) {
+      all[static_cast<std::size_t>(trace_.dofs()[k])] = velocity_[k];
+    }
+    measure(all, free_after_);
+    std::vector<Coupling>& coupled = coupled_.emplace_back();
+    const std::size_t self = coupled_.size() - 1;
+    coupled.push_back({self, time_step_ * time_step_ * std::max(0.0, free_after_[self])});
+    for (std::size_t other = 0; other < links_.size(); ++other) {
+      if (other != self && free_after_[other] != 0) {
+        coupled.push_back({other, time_step_ * time_step_ * free_after_[other]});
+      }
+    }
+  }
+}
+
+void LinkStep::measure(const std::vector<double>& owned, std::vector<double>& elongations) {
+  trace_.apply(owned.data(), field_.data(), 1);
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    elongations[b] = links_[b].elongation(field_);
+  }
+}
+
+void LinkStep::begin() {
+  step_.remember(trace_.dofs(), held_);
+  measure(state_.displacement, now_);
+  measure(state_.velocity, before_);
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    before_[b] = now_[b] - time_step_ * before_[b];
+  }
+}
+
+double LinkStep::sweep() {
+  double change = 0;
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    double free_after = free_after_[b];
+    for (std::size_t k = 1; k < coupled_[b].size(); ++k) {
+      free_after -= coupled_[b][k].compliance * force_[coupled_[b][k].link];
+    }
+    const double force =
+        laws_[b]->solve(before_[b], now_[b], free_after, coupled_[b][0].compliance, memory_[b]);
+    change = std::max(change, std::abs(force - force_[b]));
+    force_[b] = force;
+  }
+  return change;
+}
+
+void LinkStep::pull(bool first) {
+  std::fill(force_.begin(), force_.end(), 0.0);
+  bool idle = true;
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    idle = idle && laws_[b]->is_idle(now_[b], memory_[b]);
+  }
+  if (idle) {
+    return;
+  }
+  if (first) {
+    for (std::size_t b = 0; b < links_.size(); ++b) {
+      force_[b] = laws_[b]->force(before_[b], now_[b], 2 * now_[b] - before_[b], memory_[b]);
+    }
+  } else {
+    measure(state_.displacement, free_after_);
+    for (int i = 0; i < most_sweeps; ++i) {
+      const double change = sweep();
+      if (change <= converged * largest_force()) {
+        break;
+      }
+    }
+  }
+  const double duration = first ? time_step_ / 2 : time_step_;
+  std::fill(field_.begin(), field_.end(), 0.0);
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    for (std::size_t i = 0; i < links_[b].place.size(); ++i) {
+      if (links_[b].place[i] >= 0) {
+        field_[static_cast<std::size_t>(links_[b].place[i])] +=
+            (i < 3 ? links_[b].axis[i] : -links_[b].axis[i - 3]) * duration * force_[b];
+      }
+    }
+  }
+  trace_.restrict_to_dofs(state_.velocity.data(), velocity_.data());
+  trace_.add_impulse(field_.data(), velocity_.data());
+  step_.correct(trace_.dofs(), held_, velocity_);
+}
+
+double LinkStep::largest_force() const {
+  double largest = 0;
+  for (const double force : force_) {
+    largest = std::max(largest, std::abs(force));
+  }
+  return largest;
+}
+
+void LinkStep::finish(StepSums& sums) {
+  measure(state_.displacement, after_);
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    const double held = laws_[b]->energy(before_[b], now_[b], memory_[b]);
+    sums.link_energy_before += held;
+    laws_[b]->remember(before_[b], now_[b], after_[b], memory_[b]);
+    sums.link_loss += force_[b] * (after_[b] - before_[b]) / 2 -
+                      (laws_[b]->energy(now_[b], after_[b], memory_[b]) - held);
+  }
+}
+
+namespace {
+
+std::string memory_name(int structure, const Link& link) {
+  return "link " + std::to_string(structure) + " " + std::to_string(link.number);
+}
+
+}  // namespace
+
+void LinkStep::save(int structure, SavedState& saved) const {
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    if (!memory_[b].empty()) {
+      saved.put(memory_name(structure, links_[b]), memory_[b]);
+    }
+  }
+}
+
+void LinkStep::load(int structure, const SavedState& saved) {
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    if (!memory_[b].empty()) {
+      saved.get(memory_name(structure, links_[b]), memory_[b]);
+    }
+  }
+}
+
+}  // namespace pounding

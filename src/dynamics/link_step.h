@@ -1,0 +1,69 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/saved_state.h"
+#include "dynamics/state.h"
+#include "dynamics/step_sums.h"
+#include "dynamics/structure_step.h"
+#include "links/link_law.h"
+#include "system/links.h"
+#include "system/trace.h"
+
+namespace pounding {
+
+/// Links' part of a step of their structure, on the rank that owns their nodes: once the step
+/// without them is made, their forces are solved for (LinkLaw; links that move each other by
+/// Gauss-Seidel sweeps, which converge since no force falls as its elongation grows) and v+ and
+/// u_{n+1} corrected at the dofs that they move. Contact comes after them; where it acts on the
+/// nodes of a link that switches in the same step, the link's work differs from what its energy
+/// takes by what contact changed, and the ledger shows it as loss. Local.
+class LinkStep {
+ public:
+  /// `system` has links. References must outlive this object.
+  LinkStep(const LinearSystem& system, const StructureState& state, StructureStep& step,
+           double time_step);
+
+  /// Before the structure's step to t_n: e_n, e_{n-1}, and what the dofs hold.
+  void begin();
+  /// After it: forces, v+, u_{n+1}. `first`: half a step from v_0, with the force of u_0.
+  void pull(bool first);
+  /// After contact: adds the links' energy before the step and their loss in it; they remember it.
+  void finish(StepSums& sums);
+
+  /// What the links remember, link by link. `structure`: its number.
+  void save(int structure, SavedState& saved) const;
+  void load(int structure, const SavedState& saved);
+
+ private:
+  struct Coupling {
+    std::size_t link = 0;
+    double compliance = 0;  ///< dt^2 b_i^T M^-1 b_j [m/N]
+  };
+  void find_couplings();
+  /// Largest change of a force [N].
+  double sweep();
+  double largest_force() const;
+  void measure(const std::vector<double>& owned, std::vector<double>& elongations);
+
+  const StructureState& state_;
+  StructureStep& step_;
+  double time_step_;
+  const std::vector<Link>& links_;
+  Trace trace_;
+  StructureStep::Before held_;
+  std::vector<std::unique_ptr<LinkLaw>> laws_;  ///< per link
+  std::vector<std::vector<double>> memory_;     ///< per link; see LinkLaw
+  std::vector<std::vector<Coupling>> coupled_;  ///< per link: itself first
+  std::vector<double> before_;                  ///< e_{n-1} [m]
+  std::vector<double> now_;                     ///< e_n
+  std::vector<double> after_;                   ///< e_{n+1}
+  std::vector<double> free_after_;              ///< e_{n+1} without any link
+  std::vector<double> force_;                   ///< N_n [N]
+  std::vector<double> field_;                   ///< per place of the trace
+  std::vector<double> velocity_;                ///< per dof of the trace
+};
+
+}  // namespace pounding

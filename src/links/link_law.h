@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace pounding {
+
+/// Law by which a link pulls its two ends together along its axis in a step of central differences,
+/// from elongations e [m] one step apart: `before` e_{n-1}, `now` e_n, `after` e_{n+1}. The force
+/// N_n [N] acts in the step from t_n; its work is N_n (e_{n+1} - e_{n-1}) / 2, of which the link
+/// keeps the change of its energy W and loses the rest. A law that never loses less than nothing,
+/// for any elongations, cannot make a step unstable.
+///
+/// N_n must not fall as e_{n+1} grows: then a step has one solution. What a law remembers, a
+/// plastic elongation say, stands in `memory`, which the step keeps for each link and the
+/// checkpoint stores. Pure functions: no MPI, no PETSc.
+class LinkLaw {
+ public:
+  virtual ~LinkLaw() = default;
+
+  /// N_n [N] of known elongations [m].
+  virtual double force(double before, double now, double after,
+                       std::span<const double> memory = {}) const = 0;
+  /// N_n [N] where e_{n+1} = free_after - compliance N_n; `free_after` [m] without the link,
+  /// `compliance` = dt^2 b^T M^-1 b [m/N], not negative.
+  virtual double solve(double before, double now, double free_after, double compliance,
+                       std::span<const double> memory = {}) const = 0;
+  /// W_{n+1/2} [J], what the link holds between two elongations one step apart.
+  virtual double energy(double now, double after, std::span<const double> memory = {}) const = 0;
+  /// Largest dN/de [N/m], that of the element in the matrix that sets the stable step.
+  virtual double tangent() const = 0;
+  /// Whether it pulls at no elongation that it can reach in this step: it need not be looked at.
+  virtual bool is_idle(double now, std::span<const double> memory = {}) const = 0;
+
+  /// Number of values that the law remembers; they start at 0.
+  virtual std::size_t memory_size() const { return 0; }
+  /// Brings the memory to the end of a step, after contact.
+  virtual void remember(double /*before*/, double /*now*/, double /*after*/,
+                        std::span<double> /*memory*/) const {}
+};
+
+}  // namespace pounding
