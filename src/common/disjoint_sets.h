@@ -7,8 +7,8 @@
 
 namespace pounding {
 
-/// Disjoint sets of the numbers 0 to count - 1, as trees that are flattened on the way (union-find).
-/// A set is named by its smallest member.
+/// Disjoint sets of the numbers 0 to count - 1, as trees that are flattened on the way
+/// (union-find). A set is named by its smallest member.
 class DisjointSets {
  public:
   /// Every number is a set of its own.

@@ -63,8 +63,8 @@ static inline __attribute__((always_inline)) void add_product(const HalfLanes& a
 #endif
 }
 
-/// Of single values, rounded like those of a vector: what is left over of a range must not move
-/// otherwise than the range itself.
+/// Multiplies and adds single values, rounded like those of a vector: the rest of a range must not
+/// move otherwise than the range itself.
 static inline __attribute__((always_inline)) void add_product(double a, double b, double& c) {
 #ifdef __FMA__
   c = __builtin_fma(a, b, c);

@@ -15,7 +15,7 @@ int size_of(MPI_Comm comm);
 /// Largest resident memory of this process so far [bytes].
 double peak_memory();
 
-/// What is said of a std::bad_alloc on a rank, one line.
+/// Message about a std::bad_alloc on a rank, one line.
 std::string out_of_memory(int rank);
 
 /// The string of rank 0 on every rank. Collective.

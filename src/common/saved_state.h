@@ -10,8 +10,8 @@
 
 namespace pounding {
 
-/// What a run must remember to be continued: numbers by name, in memory. Whoever has a state puts
-/// it in here and gets it back; `output/checkpoint.h` brings it to a file and back.
+/// Saved state, from which a run can be continued: numbers by name, in memory. Whoever has a state
+/// puts it in here and gets it back; `output/checkpoint.h` brings it to a file and back.
 ///
 /// Three kinds, by how they lie on the ranks:
 ///   tables  known to one rank, or alike to several: the lowest rank that puts one is believed;
@@ -37,7 +37,7 @@ class SavedState {
   void put_sums(const std::string& name, std::span<const double> values);
   void put_dofs(int structure, const std::string& name, std::span<const double> values);
 
-  /// What was put. Throw UserError if it is not there in that size.
+  /// Give back what was put. Throw UserError if it is not there in that size.
   void get(const std::string& name, std::span<double> values) const;
   double number(const std::string& name) const;
   /// Refuses what is not a whole number.

@@ -37,7 +37,7 @@ void* map_memory(int file, std::size_t size) {
   return memory == MAP_FAILED ? nullptr : memory;
 }
 
-/// The same memory on all ranks, zeros; null on all if one gets none. It has no name, so that
+/// Maps the same memory on all ranks, zeros; null on all if one gets none. It has no name, so that
 /// nothing is left of it however the ranks end: the others find it among rank 0's open files.
 void* common_memory(MPI_Comm comm, std::size_t size) {
   std::array<long, 2> place{static_cast<long>(getpid()), -1};  // process and file
@@ -67,7 +67,7 @@ void* common_memory(MPI_Comm comm, std::size_t size) {
   return memory;
 }
 
-/// The same on all ranks.
+/// Decides alike on all ranks.
 bool on_one_node(MPI_Comm comm) {
   MPI_Comm node = MPI_COMM_NULL;
   MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, rank_of(comm), MPI_INFO_NULL, &node);

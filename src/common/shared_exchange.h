@@ -31,14 +31,14 @@ class SharedExchange {
 
   /// Begins a turn: `values`, at most as many as the capacity, are copied.
   void publish(std::span<const double> values);
-  /// The same in two steps: where the values of the next turn go, and that they are there.
+  /// Publishes in two steps: where the values of the next turn go, and that they are there.
   double* draft() const { return boards_[rank_].values[(turn_ + 1) % 2]; }
   void publish();
-  /// What a rank published in this turn; waits until it has.
+  /// Values that a rank published in this turn; waits until it has.
   const double* wait_for(int rank) const;
 
  private:
-  /// What one rank shares.
+  /// Part of the common memory that one rank writes.
   struct Board {
     std::atomic<std::uint64_t>* turn = nullptr;  ///< last one published
     double* values[2] = {nullptr, nullptr};      ///< of even and odd turns

@@ -5,11 +5,11 @@
 
 namespace pounding {
 
-/// What cannot be meant in the contacts of a scene, and what may not be: an overlap, gaps of
-/// another unit, a structure that meets itself, a pair of faces listed twice, nodes that have the
-/// other face behind them, facets inside a structure. docs/input-checks.md has the thresholds.
-/// Reads the interface's reports and adds to its warnings. Rank 0. Throws UserError (an overlap
-/// that is too deep).
+/// Checks of the contacts of a scene for what cannot be meant, and what may not be: an overlap,
+/// gaps of another unit, a structure that meets itself, a pair of faces listed twice, nodes that
+/// have the other face behind them, facets inside a structure. docs/input-checks.md has the
+/// thresholds. Reads the interface's reports and adds to its warnings. Rank 0. Throws UserError (an
+/// overlap that is too deep).
 void check_contacts(const Scene& scene, Interface& interface);
 
 }  // namespace pounding

@@ -57,7 +57,7 @@ class ContactProblem {
   /// v += M^-1 T^T L^T lambda over the dofs of the structure's trace.
   void add_velocity_change(std::size_t structure, double* velocity);
 
-  /// Of the last gather, per row. Members only.
+  /// Gaps of the last gather, per row. Members only.
   const std::vector<double>& gaps() const { return gap_; }          ///< [m]
   const std::vector<double>& impulses() const { return impulse_; }  ///< [N s]
   const std::vector<double>& works() const { return work_; }        ///< 1/2 lambda L v- [J]

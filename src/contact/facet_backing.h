@@ -28,9 +28,9 @@ struct FacetBacking {
   std::vector<Backing> elements;  ///< shells whose whole is the facet only where no solid holds it
   std::vector<ShellThere> shells;
 
-  /// Of `elements`, those that may lie behind a contact face: nothing else that holds the facet
-  /// lies ahead of them, as the walls above and below a floor lie ahead of each other; of several
-  /// along one direction the first. All of them if there is something ahead of each.
+  /// Chooses of `elements` those that may lie behind a contact face: nothing else that holds the
+  /// facet lies ahead of them, as the walls above and below a floor lie ahead of each other; of
+  /// several along one direction the first. All of them if there is something ahead of each.
   std::vector<std::size_t> outer() const;
   /// There is something ahead of every element: the facet lies inside its structure.
   bool is_inner() const;

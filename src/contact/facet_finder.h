@@ -21,7 +21,7 @@ class FacetFinder {
   /// `mesh` and `face` must outlive this object. `reach`: see meet_facet [m].
   FacetFinder(const GlobalMesh& mesh, const ContactFace& face, double reach);
 
-  /// What a node may face along its outward normal.
+  /// Facet that a node may face along its outward normal.
   struct Result {
     std::optional<FacedFacet> faced;
     /// Where nothing is faced: the nearest facet that looks at the node from too far behind it, as

@@ -36,7 +36,7 @@ struct Constraint {
   bool matched = false;           ///< faces one primary node exactly
 };
 
-/// What was found for one contact.
+/// Report of the pairs found for one contact.
 struct InterfaceReport {
   std::string contact;
   int pairs = 0;

@@ -15,7 +15,7 @@
 
 namespace pounding {
 
-/// What the checks of a structure's mesh found.
+/// Findings of the checks of a structure's mesh.
 struct MeshFindings {
   Connectivity connectivity;
   std::vector<UnusedElements> unused;  ///< places that no option of the scene names

@@ -47,7 +47,8 @@ CheckpointSchedule::Decision CheckpointSchedule::agree(std::int64_t n) {
   // Signal, write a checkpoint, steps to the next agreement, flush.
   std::array<std::int64_t, 4> votes{StopSignal::received(), 0, 0, 0};
   if (rank_of(comm_) == 0) {
-    // At most twice the steps of last time: a few fast steps do not speak for those to come.
+    // Limits the wait to twice the steps of last time: a few fast steps do not speak for those to
+    // come.
     const auto done = static_cast<double>(n - agreement_step_);
     const double wanted = done * agreement_interval / std::max(now - last_agreement_, 1e-9);
     votes[1] = interval_ > 0 && now - last_write_ >= interval_ ? 1 : 0;

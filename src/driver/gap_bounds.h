@@ -9,7 +9,7 @@
 
 namespace pounding {
 
-/// What bounds the gap rates of structures at a time step [s] with their energy margins (see
+/// Bounds of the gap rates of structures at a time step [s] with their energy margins (see
 /// EnergyNorm), the same on all ranks; `contact` may be null. Collective over `comm`.
 std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSystem> systems,
                                         std::span<const double> energy_margins, double time_step,

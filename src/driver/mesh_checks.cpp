@@ -10,7 +10,7 @@
 namespace pounding {
 namespace {
 
-/// In -<structure>_ignore: elements in no physical group.
+/// Name in -<structure>_ignore for elements in no physical group.
 constexpr const char* ungrouped = "ungrouped";
 
 /// Longer structures are meshes in millimetres, or in feet.

@@ -7,8 +7,8 @@
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"
 
-/// What cannot be meant in a structure's mesh, in view of the whole scene. Serial; the thresholds
-/// are in docs/input-checks.md.
+/// Checks of a structure's mesh for what cannot be meant, in view of the whole scene. Serial; the
+/// thresholds are in docs/input-checks.md.
 namespace pounding {
 
 /// The groups of places that no option of the scene names. Throws UserError where elements are left

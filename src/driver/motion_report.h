@@ -4,13 +4,13 @@
 
 #include "motion/ground_motion.h"
 
-/// What was understood of the ground motion, for the user to see.
+/// Describes the ground motion as it was understood, for the user to see.
 namespace pounding {
 
 /// Two lines per direction on standard output: the file and how it was read, then how it is scaled.
 void print_motion(const GroundMotion& motion);
 
-/// The same for summary.json: an object per direction, null without a motion.
+/// Describes the motion for summary.json: an object per direction, null without a motion.
 nlohmann::ordered_json describe_motion(const GroundMotion& motion);
 
 }  // namespace pounding

@@ -9,7 +9,7 @@
 #include "output/impact_catalogue.h"
 #include "scene/scene.h"
 
-/// What a run prints; to be called on rank 0 only.
+/// Report that a run prints; to be called on rank 0 only.
 namespace pounding {
 
 void print_title(const Scene& scene, int ranks);

@@ -11,7 +11,7 @@ namespace pounding {
 /// The options that a continued run has in common with the run before; `resolved`: those in force.
 std::map<std::string, std::string> lasting_options(const std::string& resolved);
 
-/// What a checkpoint is compared with. Alike on every rank.
+/// Identity of a run, with which a checkpoint is compared. Alike on every rank.
 RunIdentity identity_of(const std::string& resolved, const Model& model);
 
 }  // namespace pounding

@@ -36,7 +36,8 @@ void create_output(const Scene& scene) {
   }
 }
 
-/// What an earlier run left goes; the resolved options are the first thing in the folder. Rank 0.
+/// Removes what an earlier run left; the resolved options are the first thing in the folder. Rank
+/// 0.
 void begin_results(const Scene& scene, const std::string& resolved, const ResultFolder& folder) {
   const std::vector<std::string> removed = folder.clear(scene.restart);
   if (!removed.empty()) {

@@ -12,7 +12,7 @@
 
 namespace pounding {
 
-/// What a run found, beside the model; complete on rank 0.
+/// Findings of a run, beside the model; complete on rank 0.
 struct RunStatistics {
   double wall_time = 0;                 ///< of everything [s]
   double step_time = 0;                 ///< of the time loop [s]

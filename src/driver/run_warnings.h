@@ -7,7 +7,7 @@
 
 namespace pounding {
 
-/// What the end time and the time step say beside the motion and the records: nothing that could
+/// Doubts about end time and time step beside the motion and the records: nothing that could
 /// move, a record that ends before the run does, a step longer than a sample. One line each.
 std::vector<std::string> run_warnings(const Scene& scene, const Model& model);
 

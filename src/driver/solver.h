@@ -19,7 +19,7 @@ namespace pounding {
 /// benchmarks.
 class Solver {
  public:
-  /// What they are made from; all that is referred to must outlive the solver.
+  /// Parts of a solver; all that is referred to must outlive it.
   struct Parts {
     MPI_Comm comm = MPI_COMM_NULL;
     std::span<const LinearSystem> systems;
@@ -32,7 +32,7 @@ class Solver {
     Profile* profile = nullptr;
   };
 
-  /// At t_0. Collective.
+  /// Puts contact and scheme together, at t_0. Collective.
   explicit Solver(Parts parts);
   /// Back to t_0: what was stepped is forgotten, the bounds of the gap rates are kept. Contact and
   /// stepper are new objects. Collective.

@@ -23,9 +23,10 @@ class TimeLoop {
   /// Mean wall time of a step [s], measured on `steps` of them, nothing recorded; the loop stands
   /// at t_0 after it as before. Collective.
   double measure(int steps);
-  /// From t_0, or from after the step of `restart` unless it is null, to the end time; histories
-  /// and checkpoints, which carry `identity`, into the scene's output folder. Returns 0, or the
-  /// signal that stopped the run after a checkpoint. Throws DivergenceError, UserError. Collective.
+  /// Runs from t_0, or from after the step of `restart` unless it is null, to the end time;
+  /// histories and checkpoints, which carry `identity`, into the scene's output folder. Returns 0,
+  /// or the signal that stopped the run after a checkpoint. Throws DivergenceError, UserError.
+  /// Collective.
   int run(const RunIdentity& identity, const SavedState* restart);
 
   const ImpactCatalogue& impacts() const { return catalogue_; }

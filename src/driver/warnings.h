@@ -26,7 +26,7 @@ std::vector<std::string> damping_warnings(const Structure& structure, const Moda
 /// Rank 0 only.
 std::vector<std::string> mechanism_warnings(const Scene& scene, const Model& model);
 
-/// What the recorded motion says against the theory of small displacements. `largest`: displacement
+/// Doubts that the recorded motion raises about small displacements. `largest`: displacement
 /// [m]; `model_size`: largest extent of the scene [m].
 std::vector<std::string> displacement_warnings(double largest, double model_size);
 

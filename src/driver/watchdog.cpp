@@ -23,7 +23,7 @@ constexpr double product_round_off = 1e-14;
 /// Part of the kinetic energy by which round-off can make the positive part negative.
 constexpr double round_off = 1e-10;
 
-/// What is wrong with the energies of a structure; empty if nothing is.
+/// Complaint about the energies of a structure; empty if nothing is wrong.
 std::string complaint(const StructureEnergy& energy) {
   std::ostringstream text;
   if (!std::isfinite(energy.energy()) || !std::isfinite(energy.positive_part)) {

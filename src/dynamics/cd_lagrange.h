@@ -52,9 +52,9 @@ class CdLagrange {
   void save(SavedState& saved) const;
   void load(const SavedState& saved);
 
-  /// What the next step starts from.
+  /// State that the next step starts from.
   const State& state() const { return state_; }
-  /// The same of a structure as PETSc vectors.
+  /// State of a structure as PETSc vectors.
   const StateVectors& vectors(std::size_t structure) const { return vectors_[structure]; }
   double time_step() const { return time_step_; }
   /// Time t_n of the last step.

@@ -27,7 +27,7 @@ class CoordinateRates {
 
   /// Bound of all gap rates at the last step made, before any contact [m/s].
   double rate(const StructureState& state);
-  /// By how much it can rise per step [m/s].
+  /// Largest rise of that bound per step [m/s].
   double growth() const { return growth_; }
 
  private:

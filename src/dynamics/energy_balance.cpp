@@ -47,7 +47,7 @@ void EnergyBalance::add_step(std::span<const StepSums> sums,
   ++steps_;
 }
 
-/// Of the step just made; the last quarter of its damping is known one step later.
+/// Works of the step just made; the last quarter of its damping is known one step later.
 EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
                                           const std::array<double, 3>& ground_acceleration,
                                           double contact_work) const {

@@ -22,11 +22,11 @@ namespace pounding {
 /// coordinate, far more closely. Bounds, not estimates: a contact is never missed.
 class GapWatch {
  public:
-  /// What bounds the velocities of one structure.
+  /// Bound of the velocities of one structure.
   struct Bound {
-    /// At least the largest sqrt(L A^-1 L^T) [kg^-1/2]; infinite where nothing bounds it.
+    /// Upper bound of the largest sqrt(L A^-1 L^T) [kg^-1/2]; infinite where nothing bounds it.
     double rate_norm = 0;
-    /// At least |M iota| of each direction in the norm of A^-1 [kg^1/2].
+    /// Upper bound of |M iota| of each direction in the norm of A^-1 [kg^1/2].
     std::array<double, 3> force_norm{};
     /// L T in place of these two where the structure goes by coordinates, see CoordinateRates.
     std::vector<double> coordinate_rows;

@@ -33,7 +33,7 @@ class LinkStep {
   /// After contact: adds the links' energy before the step and their loss in it; they remember it.
   void finish(StepSums& sums);
 
-  /// What the links remember, link by link. `structure`: its number.
+  /// Saves what the links remember, link by link. `structure`: its number.
   void save(int structure, SavedState& saved) const;
   void load(int structure, const SavedState& saved);
 

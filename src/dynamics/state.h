@@ -10,7 +10,7 @@
 
 namespace pounding {
 
-/// What evolves, for one structure; owned dofs of this rank. Before the step to t_n:
+/// State of one structure, all that evolves; owned dofs of this rank. Before the step to t_n:
 struct StructureState {
   std::vector<double> displacement;            ///< u_n [m, rad]
   std::vector<double> velocity;                ///< v_{n-1/2} [m/s, rad/s]
@@ -41,7 +41,7 @@ struct State {
   std::vector<StructureState> structures;
   std::int64_t step = 0;  ///< n of the next step
 
-  /// At rest but for the initial displacement and velocity of every structure.
+  /// Starts at rest but for the initial displacement and velocity of every structure.
   explicit State(std::span<const LinearSystem> systems);
 
   void save(SavedState& saved) const;

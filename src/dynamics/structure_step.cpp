@@ -69,7 +69,7 @@ class NodeMasses {
   Lanes inverses_{};
 };
 
-/// The same from one value per dof.
+/// Masses of the three vectors of a pattern, from one value per dof.
 class DofMasses {
  public:
   DofMasses(const double* mass, const double* inverse_mass)
@@ -116,7 +116,7 @@ class PatternGround {
   Lanes* momentum_;
 };
 
-/// The same of generalised coordinates, each with an influence of its own.
+/// The ground's part of generalised coordinates, each with an influence of its own.
 class InfluenceGround {
  public:
   InfluenceGround(const GeneralisedCoordinates& coordinates,

@@ -29,7 +29,7 @@ class StructureStep final : public ForceReceiver {
   void receive(LocalIndex begin, LocalIndex end, const double* force) override;
   /// After every range of the step.
   void complete();
-  /// What some dofs held before the step.
+  /// State of some dofs before the step.
   struct Before {
     explicit Before(std::size_t dofs)
         : displacement(dofs), velocity(dofs), stiffness_displacement(dofs) {}
@@ -84,7 +84,7 @@ class StructureStep final : public ForceReceiver {
   StepTerms<double> terms_{};
   bool with_energies_ = false;
   std::array<double, 3> ground_step_{};
-  /// Of nodes without and with rotations: h (a_g - g) iota, and the sums of M s.
+  /// Patterns of nodes without and with rotations: h (a_g - g) iota, and the sums of M s.
   Lanes ground_[2][pattern_vectors]{};
   Lanes momentum_[2][pattern_vectors]{};
   Lanes influenced_momentum_[3]{};  ///< iota_d^T M s of generalised coordinates

@@ -25,14 +25,14 @@ struct StepTerms {
   Value inverse;    ///< 1 / (beta + dt) [1/s]; 0 in the first step, whose K u_{n-1} is K u_n
 };
 
-/// The same numbers in every lane of `Value`.
+/// Copies the terms into every lane of `Value`.
 template <typename Value>
 StepTerms<Value> in_lanes(const StepTerms<double>& terms) {
   const Value zero{};
   return {zero + terms.time_step, zero + terms.duration, zero + terms.decay, zero + terms.inverse};
 }
 
-/// What dofs hold between two steps; see StructureState.
+/// State of dofs between two steps; see StructureState.
 template <typename Value>
 struct DofState {
   Value displacement;
@@ -40,7 +40,7 @@ struct DofState {
   Value stiffness_displacement;
 };
 
-/// What a step leaves for the energy balance, lane by lane; see StepSums.
+/// Sums that a step leaves for the energy balance, lane by lane; see StepSums.
 template <typename Value>
 struct DofSums {
   Value stiffness_before{};

@@ -4,9 +4,9 @@
 
 #include "elements/element_properties.h"
 
-/// What the assembly asks of every element: pure functions of coordinates and properties, no MPI,
-/// no PETSc. Matrices are row-major in the element's own dofs, node by node: (ux, uy, uz) per node,
-/// followed by (rx, ry, rz) where the element has rotations, all in global axes.
+/// Element matrices as the assembly asks for them: pure functions of coordinates and properties, no
+/// MPI, no PETSc. Matrices are row-major in the element's own dofs, node by node: (ux, uy, uz) per
+/// node, followed by (rx, ry, rz) where the element has rotations, all in global axes.
 namespace pounding {
 
 /// Number of the formulations: whoever changes what an element's stiffness or mass comes out as
@@ -26,7 +26,7 @@ void element_matrices(ElementType type, std::span<const double> coordinates,
 void element_dashpots(ElementType type, const ElementProperties& properties,
                       std::span<double> damping);
 
-/// The same for the lumped mass alone. Throws ElementError.
+/// Lumped mass alone, as `element_matrices` gives it. Throws ElementError.
 void element_lumped_mass(ElementType type, std::span<const double> coordinates,
                          const ElementProperties& properties, std::span<double> lumped_mass);
 

@@ -7,16 +7,16 @@
 #include "common/matrix3.h"
 #include "elements/element_properties.h"
 
-/// What the flat shells shell3 and shell4 share. In local axes (z normal to the plane) a node moves
-/// by (ux, uy, uz) and turns by (rx, ry, rz). A fibre follows u + z ry, v - z rx; rz, the drilling
-/// rotation, is tied to the rotation of the plane by the functional of Hughes and Brezzi (Comput.
-/// Methods Appl. Mech. Eng. 72, 1989) with gamma = G t:
+/// Flat shells: the common part of shell3 and shell4. In local axes (z normal to the plane) a node
+/// moves by (ux, uy, uz) and turns by (rx, ry, rz). A fibre follows u + z ry, v - z rx; rz, the
+/// drilling rotation, is tied to the rotation of the plane by the functional of Hughes and Brezzi
+/// (Comput. Methods Appl. Mech. Eng. 72, 1989) with gamma = G t:
 ///   W = t W_p(u, v) + t^3/12 W_p(ry, -rx) + kappa G t |grad w + (ry, -rx)|^2 / 2
 ///       + G t (rz - (dv/dx - du/dy)/2)^2 / 2                    per unit area, W_p in plane
 ///       stress.
 namespace pounding {
 
-/// What a shell needs to know besides its coordinates. [SI]
+/// Properties of a shell beside its coordinates. [SI]
 struct ShellProperties {
   double young = 0;
   double poisson = 0;

@@ -37,7 +37,7 @@ class Hdf5File {
   void write_attribute(const std::string& object, const std::string& name,
                        const std::string& value);
 
-  /// From now on rows are appended only, in an order in which the file is readable at any moment,
+  /// Begins to append rows, in an order in which the file is readable at any moment,
   /// by other programs at the same time and after this one is killed (single writer, multiple
   /// readers).
   void stay_readable();
@@ -47,7 +47,7 @@ class Hdf5File {
   void move_to(const std::string& path);
   /// Everything stands on the disk, or this throws.
   void close();
-  /// Of a closed file: sets an attribute of the whole file that is there already.
+  /// Sets an attribute of a whole closed file that is there already.
   void mark(const std::string& attribute, double value);
 
  private:

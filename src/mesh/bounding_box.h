@@ -9,7 +9,7 @@ namespace pounding {
 /// Between two points [m].
 double distance(const Vector3& x, const Vector3& y);
 
-/// Of a set of nodes, its sides along the axes.
+/// Bounding box of a set of nodes, its sides along the axes.
 struct BoundingBox {
   Vector3 low{1e300, 1e300, 1e300};      ///< [m]
   Vector3 high{-1e300, -1e300, -1e300};  ///< [m]
@@ -18,7 +18,7 @@ struct BoundingBox {
   double longest_side() const;
 };
 
-/// Of every node of some meshes, which have at least one. Serial.
+/// Bounding box of every node of some meshes, which have at least one. Serial.
 BoundingBox bounding_box(std::span<const GlobalMesh> meshes);
 
 }  // namespace pounding

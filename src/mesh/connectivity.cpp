@@ -26,7 +26,7 @@ bool is_grounded(ElementType type) {
   return type == ElementType::grounded_spring || type == ElementType::grounded_spring6;
 }
 
-/// What meets at a node.
+/// Elements that meet at a node, counted by kind.
 struct Meeting {
   int lines = 0;
   int beams = 0;

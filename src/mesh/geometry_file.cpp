@@ -27,12 +27,12 @@ constexpr std::size_t longest_text = 1000;
 /// Files within files.
 constexpr int deepest = 32;
 
-/// What runs a command, or writes a file, by itself.
+/// Words of the .geo language that run a command or write a file by themselves.
 constexpr auto commands = std::to_array<std::string_view>(
     {"SystemCall", "System", "NonBlockingSystemCall", "OnelabRun", "SendToServer", "CreateDir",
      "Print", "Save", "Plugin", "Parse"});
 
-/// What reads another file as this one is read.
+/// Words of the .geo language that read another file as this one is read.
 constexpr auto inclusions =
     std::to_array<std::string_view>({"Include", "Merge", "MergeWithBoundingBox"});
 

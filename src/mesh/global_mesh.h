@@ -40,7 +40,7 @@ struct UnusedElements {
   std::string group;
   std::string kind;       ///< "Line 2"
   GlobalIndex count = 0;  ///< of the group
-  /// Of them, those that are not faces or edges of elements in use: left out of the structure.
+  /// Elements of `count` that are not faces or edges of elements in use: left out of the structure.
   GlobalIndex left_out = 0;
   Vector3 place{0, 0, 0};  ///< of the first that is left out, or else of the first [m]
 };
@@ -54,7 +54,7 @@ struct GlobalMesh {
   /// One bit per free component of a node: 0-2 translations, 3-5 rotations. Rotations exist where
   /// an element asks for them; what is clamped is not free.
   std::vector<std::uint8_t> free_components;
-  /// The same before clamping.
+  /// Components of each node before clamping, likewise.
   std::vector<std::uint8_t> components;
 
   GlobalIndex node_count() const { return static_cast<GlobalIndex>(node_tags.size()); }

@@ -6,7 +6,7 @@
 
 namespace pounding {
 
-/// What the program pounding-mesh is asked for.
+/// Request to the program pounding-mesh.
 struct MeshRequest {
   std::string option;           ///< "-left_mesh left.geo": at the head of messages
   std::string file;             ///< absolute path

@@ -5,7 +5,7 @@
 
 namespace pounding {
 
-/// What Gmsh may do for one mesh.
+/// Limits of what Gmsh may do for one mesh.
 struct MeshLimits {
   double time = 600;            ///< [s]
   bool allow_commands = false;  ///< of .geo files

@@ -12,7 +12,7 @@
 namespace pounding {
 namespace {
 
-/// What travels to one rank.
+/// Arrays of a mesh that travel to one rank.
 struct Parcel {
   std::vector<GlobalIndex>
       sizes;  ///< owned nodes, global nodes, dofs, unclamped dofs, first dof, regions

@@ -58,7 +58,7 @@ struct Mesh {
     const auto below = static_cast<std::uint8_t>(mask & ((1u << component) - 1u));
     return first_dof[static_cast<std::size_t>(node)] + component_count(below);
   }
-  /// The same in global numbers.
+  /// Global number of the same dof.
   GlobalIndex dof_global(LocalIndex node, int component) const {
     const LocalIndex local = dof(node, component);
     if (local < 0) return -1;

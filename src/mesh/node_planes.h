@@ -7,16 +7,16 @@
 
 namespace pounding {
 
-/// In what order the nodes of a structure follow each other on a rank: in layers across the longest
-/// extent, and in each layer in rows along the second longest. Neighbours in space are neighbours
-/// in memory, rows of elements have their nodes side by side, and few rows are cut where a long
-/// structure is. Serial.
+/// Order in which the nodes of a structure follow each other on a rank: in layers across the
+/// longest extent, and in each layer in rows along the second longest. Neighbours in space are
+/// neighbours in memory, rows of elements have their nodes side by side, and few rows are cut where
+/// a long structure is. Serial.
 class NodePlanes {
  public:
   explicit NodePlanes(const GlobalMesh& mesh);
 
-  /// Of a point: its layer, its row in the layer, its place in the row, as numbers of planes that
-  /// are so close together that nodes of one plane have one number in spite of round-off.
+  /// Place of a point: its layer, its row in the layer, its place in the row, as numbers of planes
+  /// that are so close together that nodes of one plane have one number in spite of round-off.
   std::array<std::int64_t, 3> place(const Vector3& x) const;
 
  private:

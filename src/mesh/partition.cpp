@@ -54,7 +54,7 @@ std::vector<idx_t> cut_graph(ElementList& list, Graph& graph, int parts, long& e
 /// So many pieces make a part of an even cut.
 constexpr idx_t pieces_per_part = 64;
 
-/// Of a row of elements, one part only: rows are cheapest whole.
+/// Keeps a row of elements in one part: rows are cheapest whole.
 idx_t most_piece_cost(const ElementList& list, int parts) {
   const auto total = std::accumulate(list.cost.begin(), list.cost.end(), std::int64_t{0});
   return static_cast<idx_t>(total / (std::int64_t{pieces_per_part} * parts));
@@ -98,7 +98,7 @@ std::vector<idx_t> keep_structures(const ElementList& list, std::size_t structur
   return owner;
 }
 
-/// What it costs a step, in the unit of element costs, that ranks share a structure and wait for
+/// Cost to a step, in the unit of element costs, of ranks that share a structure and wait for
 /// each other's values: on the two-storey pair and 2 ranks, what the even cut loses.
 constexpr double sharing_cost = 4000;
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// What a mesh file says, before a scene gives its groups a meaning. It crosses from the program
+/// Content of a mesh file, before a scene gives its groups a meaning. It crosses from the program
 /// that runs Gmsh to the one that computes as a string of bytes.
 namespace pounding {
 

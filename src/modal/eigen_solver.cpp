@@ -46,7 +46,7 @@ void solve(EPS solver) {
   throw UserError(what + (option.empty() ? "" : "; leave option " + option + " out"));
 }
 
-/// Of the box around all nodes [m]. Collective.
+/// Size of the box around all nodes [m]. Collective.
 double longest_side(const LinearSystem& system, const Mesh& mesh) {
   std::array<double, 6> ends;  // largest coordinates, and largest of their opposites
   ends.fill(-1e300);

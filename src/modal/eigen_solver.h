@@ -25,10 +25,10 @@ EpsHandle create_eigen_solver(const LinearSystem& system, const Mesh& mesh, Mat 
 /// The shift of `solve_lowest` [1/s2].
 inline constexpr double lowest_shift = -1;
 
-/// At least the `count` lowest eigenpairs of a mass-scaled stiffness, or of a stiffness and a mass
-/// matrix where that is not diagonal, shift-and-invert with a
-/// Cholesky factorisation (MUMPS), the shift just below zero so that free structures pass; PETSc's
-/// options with the prefix lowest_ hold. Throws std::runtime_error if fewer converge. Collective.
+/// Finds at least the `count` lowest eigenpairs of a mass-scaled stiffness, or of a stiffness and a
+/// mass matrix where that is not diagonal, shift-and-invert with a Cholesky factorisation (MUMPS),
+/// the shift just below zero so that free structures pass; PETSc's options with the prefix lowest_
+/// hold. Throws std::runtime_error if fewer converge. Collective.
 EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix, int count,
                        Mat mass = nullptr);
 

@@ -29,7 +29,7 @@ struct ModalBasis {
   std::size_t size() const { return squared_frequency.size(); }
 };
 
-/// What a basis is asked to hold.
+/// Request for a basis: what it shall hold.
 struct ModalRequest {
   int modes = 0;           ///< number of modes; 0: all below the cut-off
   int candidates = 0;      ///< number of lowest modes to choose them from; 0: no others

@@ -25,7 +25,7 @@ using BasisKey = std::map<std::string, std::string>;
 /// Serial. Throws std::runtime_error, whose message begins with the path.
 void write_modal_basis(const std::string& path, const BasisKey& key, const ModalBasis& basis);
 
-/// What such a file holds; if it belongs to another key, no basis but what differs.
+/// Content of such a file; if it belongs to another key, no basis but what differs.
 struct StoredBasis {
   std::optional<ModalBasis> basis;
   std::string differs;  ///< "mesh, contact points"

@@ -37,8 +37,8 @@ std::vector<double> coordinate_masses(const Structure& structure, const ModalBas
 /// The largest frequency, mass scaled, and which coordinate has it.
 LargestFrequency largest_frequency(const Structure& structure, const ModalBasis& basis);
 
-/// As `stable_time_step` and `energy_margin` of dynamics/stable_time_step.h, the smallest over all
-/// coordinates.
+/// Limits as in stability/stable_time_step.h, `stable_time_step` and `energy_margin`, smallest over
+/// all coordinates.
 double stable_time_step(const Structure& structure, const ModalBasis& basis);
 double energy_margin(const Structure& structure, const ModalBasis& basis, double time_step);
 

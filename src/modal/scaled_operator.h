@@ -33,7 +33,7 @@ class ScaledOperator {
 
  private:
   enum class Half { plain, transposed };
-  /// What G^-1 or G^-T does where the mass is coupled.
+  /// Applies G^-1 or G^-T where the mass is coupled.
   void solve_coupled(Vec x, Half half) const;
   /// G^-1 or G^-T times a vector over the owned dofs.
   void solve(std::vector<double>& x, Half half) const;

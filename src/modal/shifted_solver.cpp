@@ -17,7 +17,7 @@ ShiftedSolver::ShiftedSolver(const LinearSystem& system, Mat matrix, double shif
   factorise_with_mumps(factorisation);
   POUNDING_PETSC(KSPSetOperators(solver_.get(), shifted_.get(), shifted_.get()));
   POUNDING_PETSC(KSPSetFromOptions(solver_.get()));
-  // On several ranks MUMPS counts pivots only if it factorises the last block on one of them.
+  // MUMPS counts pivots on several ranks only if it factorises the last block on one of them.
   int ranks = 1;
   MPI_Comm_size(system.comm, &ranks);
   if (ranks > 1) {

@@ -11,7 +11,7 @@
 
 namespace pounding {
 
-/// What was understood of the motion in one direction, before it is resampled.
+/// Motion in one direction as it was understood, before it is resampled.
 struct MotionDescription {
   std::string direction;   ///< "x"
   std::string source;      ///< file of the record or of the target spectrum
@@ -71,7 +71,7 @@ class GroundMotion {
   double peak_acceleration() const;
   double end_time() const;  ///< last sample of the longest component [s]; 0 without any
 
-  /// Of the directions that have a motion.
+  /// Descriptions of the directions that have a motion.
   const std::vector<MotionDescription>& descriptions() const { return descriptions_; }
   /// One line each: what may not be meant, by the files and by the peaks that come of them.
   const std::vector<std::string>& doubts() const { return doubts_; }

@@ -59,7 +59,7 @@ struct StepSeries {
   }
 };
 
-// The same in closed form, for theta >= series_limit:
+// Closed form of the coefficients, for theta >= series_limit:
 // u(s) = alpha + beta s + exp(-xi theta s) (c cos + d sin)(q theta s), q = sqrt(1 - xi^2).
 struct StepClosedForm {
   double theta = 0, xi = 0, q = 0, alpha = 0, beta = 0, c = 0, d = 0;
@@ -162,7 +162,7 @@ inline double free_vibration_peak(const Oscillator& o, double displacement, doub
   return std::max(std::abs(displacement), std::abs(extremum));
 }
 
-// The same motions differentiated with respect to s, and added with factors: velocity and
+// Motions differentiated with respect to s, and added with factors: velocity and
 // acceleration have no more inflections in a step than the displacement has.
 inline StepSeries derivative_of(const StepSeries& u) {
   StepSeries v;

@@ -14,7 +14,7 @@ struct RecordUnit {
   double factor = 1;
 };
 
-/// What the lines before the values of a record say.
+/// Content of the lines before the values of a record.
 class RecordHeader {
  public:
   explicit RecordHeader(std::string file) : file_(std::move(file)) {}

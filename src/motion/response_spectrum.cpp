@@ -169,7 +169,7 @@ void check_arguments(std::span<const double> acceleration, double time_step,
   for (const double a : acceleration) check(std::isfinite(a), "accelerations must be finite", a);
 }
 
-// What is looked for in u', u'' or u'' + a at an end of a step: value, first and second derivative
+// Values of u', u'' or u'' + a at an end of a step: value, first and second derivative
 // with respect to s.
 struct EndOfStep {
   double value, slope, curvature;

@@ -14,7 +14,7 @@ struct SampledSignal {
   double first_time = 0;             ///< [s]
 };
 
-/// From when to when bodies touch [s].
+/// Interval in which bodies touch [s].
 struct TimeWindow {
   double start = 0;
   double end = 0;
@@ -33,7 +33,7 @@ struct SignalPeak {
 std::vector<SignalPeak> find_peaks(const SampledSignal& signal, std::span<const TimeWindow> windows,
                                    double margin);
 
-/// What is kept of a signal with impacts (Ambiel et al., Eng. Struct. 251, 2022, section 4.2).
+/// Treatments of a signal with impacts (Ambiel et al., Eng. Struct. 251, 2022, section 4.2).
 enum class Treatment {
   complete,       ///< everything
   all_peaks,      ///< the peaks, zero between them

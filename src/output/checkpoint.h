@@ -43,7 +43,7 @@
 /// run stops, unless the initial energy in sums/energy follows.
 namespace pounding {
 
-/// What a checkpoint has in common with the runs that may continue it, beside the meshes.
+/// Identity that a checkpoint shares with the runs that may continue it, beside the meshes.
 struct RunIdentity {
   std::map<std::string, std::string> options;  ///< that may not change, by name
   double time_step = 0;                        ///< [s]
@@ -61,8 +61,8 @@ void write_checkpoint(MPI_Comm comm, const std::string& path, const RunIdentity&
 void check_checkpoint(MPI_Comm comm, const std::string& path,
                       const std::map<std::string, std::string>& options);
 
-/// What `write_checkpoint` was given. Throws UserError on every rank alike: no checkpoint, damaged,
-/// of another version, of another scene. Collective.
+/// Reads what `write_checkpoint` was given. Throws UserError on every rank alike: no checkpoint,
+/// damaged, of another version, of another scene. Collective.
 SavedState read_checkpoint(MPI_Comm comm, const std::string& path, const RunIdentity& identity,
                            std::span<const Mesh> meshes, std::span<const LinearSystem> systems);
 

@@ -9,7 +9,8 @@
 #include "mesh/mesh.h"
 #include "system/linear_system.h"
 
-/// What writer and reader of a checkpoint share; the format is described in output/checkpoint.h.
+/// Names that writer and reader of a checkpoint share; the format is described in
+/// output/checkpoint.h.
 namespace pounding::checkpoint_format {
 
 inline constexpr const char* name = "pounding checkpoint";
@@ -28,8 +29,8 @@ inline GlobalIndex element_count(const Mesh& mesh) {
   return count;
 }
 
-/// What tells one basis of generalised coordinates from another, per coordinate [kg^-1/2]: a sum of
-/// its rows and participation factors with weights of their own. Owned dofs.
+/// Mark that tells one basis of generalised coordinates from another, per coordinate [kg^-1/2]: a
+/// sum of its rows and participation factors with weights of their own. Owned dofs.
 std::vector<double> basis_check(const LinearSystem& system);
 
 /// Largest part of the largest value by which such numbers of one basis may differ.

@@ -67,7 +67,7 @@ class Recorder {
   /// Brings all records made to the file and to the operating system. Throws UserError on every
   /// rank alike (no space). Collective.
   void flush();
-  /// The same, and closes the file; `complete`: the run has reached its end. Collective.
+  /// Flushes and closes the file; `complete`: the run has reached its end. Collective.
   void finish(bool complete);
 
   /// Writes all records to the file and keeps what the next one needs. Collective.
@@ -80,7 +80,7 @@ class Recorder {
   const std::vector<std::string>& channels() const { return channels_; }
   std::vector<double> acceleration(std::size_t channel) const;
   const std::vector<ChannelPeaks>& peaks() const { return peaks_; }
-  /// Of all channels and all records [m].
+  /// Largest displacement of all channels and all records [m].
   double largest_displacement() const { return largest_displacement_; }
   /// The first record that counts: the middle of its interval is not before `start` [s].
   std::size_t first_record_from(double start) const;
@@ -118,7 +118,7 @@ class Recorder {
                   std::span<const double> acceleration);
   void write_rows(std::size_t rows, const std::vector<double>& gathered,
                   const std::vector<int>& row_widths);
-  /// What was appended is on its way to the disk before its number says that it is there. Rank 0.
+  /// Sends appended rows to the disk before their number says that they are there. Rank 0.
   void count_rows();
 
   Layout layout_;

@@ -18,11 +18,11 @@ namespace fs = std::filesystem;
 
 constexpr const char* lock_name = "running.lock";
 
-/// What a run writes, and, while it writes, under which names.
+/// Files that a run writes, and, while it writes, under which names.
 constexpr std::array written{"resolved.yaml",  "summary.json",     "summary.json.new",
                              "spectra.csv",    "impacts.csv",      "energy.csv",
                              "history.h5.new", "checkpoint.h5.new"};
-/// What a run that continues in the same folder goes on from.
+/// Files that a run in the same folder goes on from.
 constexpr std::array continued{"history.h5", "checkpoint.h5", "modes.h5"};
 
 std::string lock_path(const std::string& folder) {

@@ -8,7 +8,7 @@
 
 namespace pounding {
 
-/// What stands behind the program's name.
+/// Words behind the program's name.
 struct CommandLine {
   bool help = false;               ///< -help, --help or -h
   bool version = false;            ///< -version or --version
@@ -22,7 +22,7 @@ struct CommandLine {
 /// `-name=value`, and for -options_file without a file.
 CommandLine read_command_line(std::span<const std::string> words);
 
-/// What -version prints: program, version and commit.
+/// Text that -version prints: program, version and commit.
 std::string version_text();
 
 /// One line for each variable of the environment in which PETSc would look for options and which is

@@ -12,7 +12,7 @@ namespace pounding {
 /// UserError.
 Rayleigh read_structure_damping(OptionReader& options, const std::string& structure);
 
-/// The same of a region, `names` being its structure and group; what is not given of alpha and beta
+/// Damping of a region, `names` being its structure and group; what is not given of alpha and beta
 /// is that of `inherited`. Nothing where the region has no damping options at all. Refused for
 /// tension-only bars, whose force has one beta, that of their structure. Throws UserError.
 std::optional<Rayleigh> read_region_damping(OptionReader& options, const OptionReader::Names& names,

@@ -8,7 +8,7 @@
 namespace pounding {
 namespace {
 
-/// What is plausible of a quantity, and what its user may have meant.
+/// Plausible range of a quantity, and what its user may have meant.
 struct Plausible {
   const char* what;
   double low;

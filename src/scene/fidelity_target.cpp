@@ -40,7 +40,7 @@ Setting parse_setting(const std::string& line, const std::string& where) {
   return setting;
 }
 
-/// What a study measured, and on which structures.
+/// Results of a fidelity study, and the structures that it was made on.
 struct Table {
   std::string structures_key;  ///< empty if the file does not say it
   std::string structures;      ///< in words

@@ -7,7 +7,7 @@
 
 #include "scene/option_table.h"
 
-/// What the user's names are, found from the options that carry them.
+/// Names that the user gave, found from the options that carry them.
 namespace pounding {
 
 /// Physical groups of a structure that have any option of a region, in alphabetical order.

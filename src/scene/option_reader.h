@@ -25,7 +25,7 @@ class OptionReader {
   double real(std::string_view pattern, const Names& names = {});
   int integer(std::string_view pattern, const Names& names = {});
   bool boolean(std::string_view pattern, const Names& names = {});
-  /// Without empty or repeated items; `none` is the empty list.
+  /// List without empty or repeated items; `none` is the empty list.
   std::vector<std::string> list(std::string_view pattern, const Names& names = {});
   /// Numbers, each in the range; `count` of them unless 0.
   std::vector<double> reals(std::string_view pattern, const Names& names = {},

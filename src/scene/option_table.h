@@ -15,7 +15,7 @@ namespace pounding {
 /// Options as PETSc flattens them: name without the leading '-' -> value ("" for a bare flag).
 using OptionsDatabase = std::map<std::string, std::string>;
 
-/// What an option belongs to; each block but `run`, `motion` and `spectra` repeats per user's name.
+/// Block that an option belongs to; each but `run`, `motion` and `spectra` repeats per user's name.
 enum class OptionBlock {
   run,
   structure,
@@ -41,7 +41,7 @@ struct Range {
   std::string text() const;  ///< "> 0", "(0, 1]", "any"
 };
 
-/// What holds when the user is silent: a value, or nothing (and then `text` says when it is owed).
+/// Preset, which holds when the user is silent: a value, or nothing (`text` says when it is owed).
 struct Preset {
   bool has_value = false;
   bool required = false;
@@ -71,7 +71,7 @@ std::string option_name(std::string_view pattern, const std::vector<std::string>
 /// The text that stands for the only placeholder of `pattern` in `name`, if it matches.
 std::optional<std::string> match_option(std::string_view pattern, std::string_view name);
 
-/// What a value must be, with range and unit: "a number in (0, 1] [-]".
+/// Describes what a value must be, with range and unit: "a number in (0, 1] [-]".
 std::string expected_text(const OptionRow& row);
 
 /// Options of PETSc and SLEPc that may stand beside those of the scene; '*' ends a prefix.

@@ -39,7 +39,7 @@ bool indented_by_tab(std::string_view text, std::size_t line) {
   return text.substr(0, text.find_first_not_of(" \t")).find('\t') != std::string_view::npos;
 }
 
-/// What the parser of YAML did not understand, and where.
+/// Complaint of the parser of YAML, and its place.
 [[noreturn]] void refuse_text(const std::string& text, const std::string& file,
                               const yaml_parser_t& parser) {
   std::string why = "not YAML: " + std::string(parser.problem != nullptr ? parser.problem : "?");

@@ -5,7 +5,7 @@
 
 namespace pounding {
 
-/// What is wrong with the value of an option of PETSc or SLEPc, if anything is: "expected ...".
+/// Complaint about the value of an option of PETSc or SLEPc, if it is wrong: "expected ...".
 /// Those that print take no file: they could write anywhere.
 std::optional<std::string> petsc_value_fault(const std::string& name, const std::string& value);
 

@@ -8,8 +8,8 @@
 
 namespace pounding {
 
-/// What `options` has read, defaults included, then the options meant for PETSc and SLEPc, as flat
-/// YAML: one `name: "value"` per line. Read back, it gives the same scene.
+/// Resolved options: all that `options` has read, defaults included, then those of PETSc and SLEPc,
+/// as flat YAML: one `name: "value"` per line. Read back, it gives the same scene.
 std::string resolved_yaml(const OptionReader& options);
 
 /// Name and value of each line of such a text.

@@ -141,7 +141,7 @@ struct MotionComponent {
 /// mesh is (element by element where most elements are bricks or otherwise congruent).
 enum class StiffnessMethod { automatic, assembled, element };
 
-/// What is shared out among the ranks: the elements of all structures, structures as a whole, or
+/// Things shared out among the ranks: the elements of all structures, structures as a whole, or
 /// whichever costs a step less.
 enum class PartitionBy { automatic, elements, structures };
 

@@ -169,7 +169,7 @@ void read_point_mass(OptionReader& options, const Names& names, Region& region) 
   }
 }
 
-/// What elements with a shape need.
+/// Reads the properties that elements with a shape need.
 void read_solid(OptionReader& options, const Names& names, Region& region) {
   region.material = read_material(options, names);
   if (region.element == ElementType::beam) {

@@ -39,7 +39,7 @@ NameSet referenced(const OptionsDatabase& database, const ListedNames& listed,
   return names;
 }
 
-/// What may replace the placeholders of a block: one list of names per concrete option.
+/// Names that may replace the placeholders of a block: one list per concrete option.
 std::vector<std::vector<std::string>> owners(const OptionsDatabase& database,
                                              const ListedNames& listed, OptionBlock block) {
   std::vector<std::vector<std::string>> result;

@@ -7,7 +7,7 @@
 
 namespace pounding {
 
-/// What `structures`, `contacts` and `probes` list.
+/// Names that `structures`, `contacts` and `probes` list.
 struct ListedNames {
   std::vector<std::string> structures;
   std::vector<std::string> contacts;

@@ -9,7 +9,7 @@
 
 namespace pounding {
 
-/// What pounding-spectra is asked to do; see spectra_help().
+/// Options of pounding-spectra; see spectra_help().
 struct SpectraOptions {
   std::vector<std::string> files;
   std::vector<std::string> channels;  ///< of a history: probe or probe.direction; empty: all

@@ -7,7 +7,7 @@
 namespace pounding {
 namespace {
 
-/// Of |f|^2, what the remainder may add to it.
+/// Part that the remainder may add to |f|^2.
 constexpr double slack = 0.05;
 constexpr int most_iterations = 200;
 constexpr double above_round_off = 1 + 1e-9;

@@ -27,7 +27,7 @@ class EnergyNorm {
 
   /// Nothing is left of the work: bounds are no closer than |f|_M^-1 / sqrt(eta).
   bool exhausted() const { return iterations_left_ < 1; }
-  /// At least |f|, f over the owned dofs [N s or kg m/s: then kg^1/2 m/s; rows of a contact
+  /// Upper bound of |f|, f over the owned dofs [N s or kg m/s: then kg^1/2 m/s; rows of a contact
   /// operator: kg^-1/2]. Infinite if the energy margin is not above 0. Collective.
   double bound(std::vector<double> f);
 

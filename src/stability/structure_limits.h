@@ -6,7 +6,7 @@
 #include "scene/scene.h"
 #include "system/linear_system.h"
 
-/// What limits the time step of a structure, of whatever kind it is. This is the only place that
+/// Limits of the time step of a structure, of whatever kind it is. This is the only place that
 /// chooses between the frequencies of a basis, the closed form of plain Rayleigh damping (Eq. 12 of
 /// Ambiel et al. 2022) and an eigenvalue iteration for any other damping.
 namespace pounding {

@@ -19,7 +19,7 @@ void CommonValues::add(double value) {
 }
 
 void CommonValues::add_range(double low, double high) {
-  // From the first range that ends no farther than the tolerance below.
+  // Starts from the first range that ends no farther than the tolerance below.
   auto range = ranges_.upper_bound(low);
   while (range != ranges_.begin() && std::prev(range)->second >= low - tolerance_) --range;
   while (range != ranges_.end() && range->first <= high + tolerance_) {

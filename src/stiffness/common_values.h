@@ -15,7 +15,7 @@ class CommonValues {
   void add(double value);
   /// Puts the values of all ranks together. Collective.
   void agree(MPI_Comm comm);
-  /// What a value that was added stands for after `agree`: the middle of those that belong
+  /// Value that one that was added stands for after `agree`: the middle of those that belong
   /// together. Where there are too many different ones to compare, a multiple of the tolerance.
   double operator()(double value) const;
 

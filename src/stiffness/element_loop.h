@@ -7,7 +7,7 @@
 #include "elements/element.h"
 #include "mesh/mesh.h"
 
-/// What every sweep over the elements of a mesh asks first: where an element is, which dofs it has.
+/// Place and dofs of an element, which every sweep over a mesh asks first.
 namespace pounding {
 
 /// One element's matrices in arrays reused from element to element.

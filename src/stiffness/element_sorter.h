@@ -28,8 +28,8 @@ class ElementSorter {
 
   void sort();
 
-  /// What came out; `outer`: elements that touch a ghost. Call in this order; rows are formed here,
-  /// and elements that fit in none join the others.
+  /// Results of `sort`; `outer`: elements that touch a ghost. Call in this order; rows are formed
+  /// here, and elements that fit in none join the others.
   std::vector<std::unique_ptr<ElementLines>> element_lines(bool outer);
   std::vector<CongruentElements> congruent_elements(bool outer) const;
   /// Beams between nodes that are free or clamped in all six components; `idle` as there.

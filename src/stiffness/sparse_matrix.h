@@ -6,7 +6,7 @@
 #include "common/petsc.h"
 #include "mesh/mesh.h"
 
-/// What an assembly into a PETSc matrix starts from.
+/// Empty PETSc matrices, from which an assembly starts.
 namespace pounding {
 
 /// An empty symmetric AIJ matrix with room for what the elements of some blocks of a structure

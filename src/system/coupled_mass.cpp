@@ -134,7 +134,7 @@ void CoupledMass::factorise(std::span<const double> lumped_mass) {
   for (std::size_t k = 0; k < count; ++k) {
     place_[static_cast<std::size_t>(elimination.order[k])] = k;
   }
-  // What is left of M + S, columns and rows by their places, lower triangle.
+  // Remainder of M + S, columns and rows by their places, lower triangle.
   std::vector<std::map<std::size_t, NodeBlock>> columns(count);
   for (std::size_t n = 0; n < count; ++n) {
     NodeBlock& diagonal = columns[place_[n]][place_[n]];

@@ -27,7 +27,7 @@ class CoupledMass {
   /// not positive definite.
   CoupledMass(std::span<const double> lumped_mass, NodeBlocks added);
 
-  /// In the order of their dofs, and where in a field each of them is.
+  /// Nodes in the order of their dofs, and where in a field each of them is.
   const std::vector<NodeDofs>& nodes() const { return added_.nodes; }
   std::size_t place(std::size_t node) const { return place_[node] * width; }
   std::size_t field_size() const { return width * added_.nodes.size(); }

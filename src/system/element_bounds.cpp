@@ -144,7 +144,8 @@ double ElementBounds::time_step_alone(const ElementBlock& block, double frequenc
   return critical_time_step(damping.alpha + damping.beta * square, square);
 }
 
-/// Of an element with the devices at its owned dofs; the other ranks that hold it see to the rest.
+/// Time step of an element with the springs at its owned dofs; other ranks that hold it see to the
+/// rest.
 double ElementBounds::time_step(const ElementBlock& block, std::size_t element, double frequency,
                                 double mass_scaling, std::span<const double> lumped_mass) const {
   double smallest = time_step_alone(block, frequency, mass_scaling);

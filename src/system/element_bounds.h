@@ -11,7 +11,7 @@
 
 namespace pounding {
 
-/// What single elements say of the whole: the largest omega of an element bounds omega_max from
+/// Bounds of the whole from single elements: the largest omega of an element bounds omega_max from
 /// above, and the smallest stable time step of an element bounds that of the structure from below:
 ///
 ///     x^T (4 M - 2 dt C - dt^2 K) x  =  sum over elements e of x^T (4 M_e - 2 dt C_e - dt^2 K_e) x
@@ -38,7 +38,7 @@ class ElementBounds {
  private:
   /// Elements of one shape have one frequency: look at one of them.
   double frequency(std::span<const double> stiffness, std::span<const double> mass);
-  /// What an element allows without the devices at its nodes [s]; infinite without mass.
+  /// Time step of an element without the springs at its nodes [s]; infinite without mass.
   double time_step_alone(const ElementBlock& block, double frequency, double mass_scaling) const;
   double time_step(const ElementBlock& block, std::size_t element, double frequency,
                    double mass_scaling, std::span<const double> lumped_mass) const;

@@ -142,7 +142,7 @@ class Assembly {
     return element_properties(structure_.regions[static_cast<std::size_t>(block.region)]);
   }
 
-  /// What the damping of a block's region has beside the structure's. Tension-only bars are damped
+  /// Damping of a block's region beside the structure's. Tension-only bars are damped
   /// while they are taut, by themselves.
   Rayleigh extra_rayleigh(const ElementBlock& block) const {
     const Rayleigh own =

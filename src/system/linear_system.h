@@ -89,7 +89,7 @@ struct LinearSystem {
   LocalIndex owned_dofs() const { return static_cast<LocalIndex>(lumped_mass.size()); }
 };
 
-/// What a structure's options and its mesh say of its system, nothing assembled yet.
+/// Describes a system from the structure's options and mesh, nothing assembled yet.
 LinearSystem describe_system(const Structure& structure, const Mesh& mesh);
 
 /// Once the lumped mass is complete: its inverse, and the directions of the dofs.

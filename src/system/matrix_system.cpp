@@ -24,7 +24,7 @@ constexpr std::array<const char*, 6> component_names{"ux", "uy", "uz", "rx", "ry
 /// Positions of a row and of a node that differ by less than this part of the mesh are the same.
 constexpr double same_place = 1e-6;
 
-/// What a row of the matrices stands for.
+/// Meaning of a row of the matrices.
 struct Row {
   Vector3 position{0, 0, 0};
   int component = 0;

@@ -36,7 +36,7 @@ class Trace {
   void apply(const double* owned, double* out, std::size_t stride) const;
   /// x += M^-1 T^T f, f per known place, x over dofs().
   void add_impulse(const double* f, double* x);
-  /// Of a body in generalised coordinates, row k of T over all of them.
+  /// Row k of T of a structure in generalised coordinates, over all of them.
   std::span<const double> row(std::size_t k) const {
     return {rows_.data() + k * dofs_.size(), dofs_.size()};
   }

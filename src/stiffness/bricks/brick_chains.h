@@ -39,9 +39,9 @@ class BrickChains {
   /// Adds a chain; returns it.
   const BrickChain& add(const DofPlaces& places, const std::vector<LocalIndex>& nodes);
   const BrickChain& at(int number) const { return chains_[static_cast<std::size_t>(number)]; }
-  /// Of a component (0-2) of a chain's node; -1 where there is none.
+  /// Dof of a component (0-2) of a chain's node; -1 where there is none.
   LocalIndex place(const BrickChain& chain, int node, int component) const;
-  /// Of a plain core's nodes.
+  /// First dof of a plain core's nodes.
   const LocalIndex* places(const BrickChain& chain) const { return places_.data() + chain.begin; }
   /// Nodes outside the core, in their order.
   std::span<const ChainEnd> ends(const BrickChain& chain) const {

@@ -7,7 +7,7 @@
 
 namespace pounding {
 
-/// On which sides of a line the bricks lie, along axis 1.
+/// Sides of a line on which the bricks lie, along axis 1.
 enum class Sides { before, behind, both };
 
 /// Adds the forces that the displacements of `line` cause through `count` congruent bricks in a row

@@ -107,7 +107,7 @@ Vector3 BrickLines::value(const std::array<LocalIndex, 3>& place, const Stiffnes
           value_at(place[2], owned_dofs_, w, ghosts) - w.origin[2]};
 }
 
-/// What the two cores of a pair of rows have in common, and the nodes beside that.
+/// Common part of the two cores of a pair of rows, and the nodes beside that.
 BrickLines::PairLoad BrickLines::plan_load(const PairPlace& place) const {
   const BrickChain& near = chains_.at(place.chain[0]);
   const BrickChain& far = chains_.at(place.chain[1]);
@@ -197,7 +197,7 @@ const PairPlace* BrickLines::deferred_pair(const Store& store) const {
   return deferred_[join] != 0 ? &schedule_.joins[join].place : nullptr;
 }
 
-/// To q.
+/// Adds the forces of a chain to q.
 void BrickLines::add_core(const Store& store, double* q) const {
   const BrickChain& chain = chains_.at(store.place.chain);
   if (!chain.range.empty()) {
@@ -219,7 +219,7 @@ void BrickLines::add_core(const Store& store, double* q) const {
   }
 }
 
-/// To q, of the nodes outside the core.
+/// Adds the forces of the nodes outside the core to q.
 void BrickLines::add_ends(const Store& store, double* q) const {
   const BrickChain& chain = chains_.at(store.place.chain);
   if (chain.core == chain.length) return;

@@ -15,7 +15,7 @@
 
 namespace pounding {
 
-/// What congruent bricks share.
+/// Common data of congruent bricks.
 struct BrickShape {
   ElementType type = ElementType::hex8;
   ElementProperties properties;

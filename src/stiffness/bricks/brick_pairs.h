@@ -21,8 +21,8 @@ struct ChainPair {
   bool alone = false;
 };
 
-/// What the displacements of one pair cause, on itself and on its neighbours, through `count`
-/// bricks of one shape in a row on one side of it or on both.
+/// Forces that the displacements of one pair cause, on itself and on its neighbours, through
+/// `count` bricks of one shape in a row on one side of it or on both.
 struct PairStep {
   int shape = 0;
   Sides sides = Sides::both;

@@ -19,8 +19,8 @@ Term operator*(double factor, Term a) {
   return {factor * a.even, factor * a.odd};
 }
 
-/// Of the two bricks left and right of node i: even terms give v_{i-1} + 2 v_i + v_{i+1}, odd ones
-/// -v_{i-1} + 2 v_i - v_{i+1}.
+/// Sum over the two bricks left and right of node i: even terms give v_{i-1} + 2 v_i + v_{i+1}, odd
+/// ones -v_{i-1} + 2 v_i - v_{i+1}.
 AlongRun along_run(Term term) {
   AlongRun result;
   result.side = all_lanes(term.even - term.odd);

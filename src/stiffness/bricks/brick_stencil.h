@@ -68,7 +68,8 @@ struct BrickStencil {
   HalfStencil bending;
 };
 
-/// Of bricks with the given split, whose axis 2 is the thickness; each coefficient in every lane.
+/// Stencil of bricks with the given split, whose axis 2 is the thickness; coefficients in every
+/// lane.
 BrickStencil brick_stencil(const BrickSplit& split);
 
 }  // namespace pounding

@@ -42,7 +42,7 @@ struct PairJoin {
 struct ChainStore {
   int chain = 0;
   int start = 0;
-  /// Of the join by which the chain gets its line back, if it was lent; else -1.
+  /// Number of the join by which the chain gets its line back, if it was lent; else -1.
   int join = -1;
 };
 
@@ -69,7 +69,7 @@ struct LineSchedule {
   int buffer_size = 0;
 };
 
-/// What the schedule needs to know of a chain.
+/// Chain as the schedule sees it.
 struct ChainForm {
   int length = 0;
   bool row = false;  ///< its dofs follow each other in memory

@@ -21,7 +21,7 @@ struct ComponentArrays {
 /// beyond each node.
 void load_nodes(const StiffnessArgument& w, const LocalIndex* places, int count,
                 const ComponentArrays& to);
-/// The same if the nodes' dofs follow each other from `first`: a row. Reads nothing else.
+/// Loads nodes whose dofs follow each other from `first`: a row. Reads nothing else.
 void load_row(const StiffnessArgument& w, LocalIndex first, int count, const ComponentArrays& to);
 /// Two such rows: their sum, and the second one minus the first.
 void load_row_pair(const StiffnessArgument& w, std::array<LocalIndex, 2> first, int count,
@@ -31,7 +31,8 @@ void load_row_pair(const StiffnessArgument& w, std::array<LocalIndex, 2> first, 
 void store_nodes(const ComponentArrays& from, const LocalIndex* places, int count, LocalIndex first,
                  double* q);
 void store_row(const ComponentArrays& from, int count, double* q);
-/// Of a pair: the near row, sum minus difference, or the far row, sum plus difference.
+/// Stores one row of a pair: the near one, sum minus difference, or the far one, sum plus
+/// difference.
 void store_near_row(const ComponentArrays& sum, const ComponentArrays& difference, int count,
                     double* q);
 void store_far_row(const ComponentArrays& sum, const ComponentArrays& difference, int count,

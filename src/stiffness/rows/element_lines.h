@@ -14,7 +14,7 @@ class ElementLines {
  public:
   virtual ~ElementLines() = default;
 
-  /// What becomes of the forces of a chain.
+  /// Outcome of the forces of a chain.
   enum class Outcome : char {
     add,        ///< to q
     complete,   ///< with what q holds already they are final: handed over, q is zero again

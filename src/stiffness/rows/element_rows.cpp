@@ -77,7 +77,7 @@ class RowFinder {
     rows_.chains.push_back(std::move(nodes));
   }
 
-  /// In the order of memory, for which ends do not count: they may be numbered elsewhere.
+  /// Orders chains as in memory, for which ends do not count: they may be numbered elsewhere.
   void number_chains() {
     std::sort(rows_.chains.begin(), rows_.chains.end(),
               [](const auto& a, const auto& b) { return a[a.size() / 2] < b[b.size() / 2]; });

@@ -35,7 +35,7 @@ class BlockPicker {
   /// 00 01 02 11 12 22 of the block of three values.
   std::array<double, 6> take3(std::size_t i, std::size_t j, std::size_t k);
 
-  /// What is left is round-off: at most 1e-13 of the largest entry.
+  /// Whether the rest is round-off: at most 1e-13 of the largest entry.
   bool took_all() const;
 
  private:

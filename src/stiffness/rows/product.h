@@ -8,7 +8,7 @@
 
 namespace pounding {
 
-/// What a stiffness is applied to, w = u + beta v over the owned dofs; formed where it is read.
+/// Argument of a stiffness, w = u + beta v over the owned dofs; formed where it is read.
 struct StiffnessArgument {
   const double* displacement = nullptr;  ///< u [m, rad]
   const double* velocity = nullptr;      ///< v [m/s, rad/s]

@@ -4,7 +4,7 @@
 
 #include "common/lanes.h"
 
-/// What the kernels of bricks, rectangles and segments share: blocks of B, lane by lane.
+/// Blocks of B, lane by lane: the common part of the kernels of rectangles and segments.
 namespace pounding {
 
 #define POUNDING_INLINE static inline __attribute__((always_inline))

@@ -55,7 +55,7 @@ inline void load_four(const StiffnessArgument& w, const LocalIndex* places, int 
   store(to[5] + p, v.d);
 }
 
-/// The same way back; `q`: where dof 0 would stand.
+/// Stores the forces of nodes; `q`: where dof 0 would stand.
 inline void store_components(const double* x, const double* y, const double* z, const double* t,
                              const LocalIndex* places, double* q) {
   FourLanes v;

@@ -13,7 +13,7 @@
 
 namespace pounding {
 
-/// What congruent rectangles share.
+/// Common data of congruent rectangles.
 struct RectangleShape {
   ElementProperties properties;
   /// Edges along the two axes that follow the normal in cyclic order [m].
