@@ -13,10 +13,10 @@ import program
 
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 sys.dont_write_bytecode = True
-from measuring.comparison import check_agreement  # noqa: E402
-from measuring.scaling_model import CostCurve, Messages, Model  # noqa: E402
-from measuring.series import Series  # noqa: E402
-from measuring.workers import MeasuringError, block_cells, slab_cells, storey_dofs  # noqa: E402
+from parts.benchmark.comparison import check_agreement  # noqa: E402
+from parts.benchmark.scaling_model import CostCurve, Messages, Model  # noqa: E402
+from parts.benchmark.series import Series  # noqa: E402
+from parts.benchmark.workers import MeasuringError, block_cells, slab_cells, storey_dofs  # noqa: E402
 
 PROGRAM_WAYS = ["element", "assembled"]
 WAYS = PROGRAM_WAYS + ["aij", "baij", "sbaij", "scipy", "octave"]

@@ -14,7 +14,7 @@ import program
 
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 sys.dont_write_bytecode = True
-from casework import cases, results  # noqa: E402
+from parts.campaign import cases, results  # noqa: E402
 
 FIGURES = ("fig4_gaps", "fig5_drift_acceleration", "fig6_spectra", "fig7_treatments", "fig8_treated_spectra",
            "fig9_first_floor", "impact_places")

@@ -12,8 +12,8 @@ import program
 
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 sys.dont_write_bytecode = True
-from casework import cases, findings, harvest, impact_table, paper, records  # noqa: E402
-from casework.results import Campaign, CaseResult  # noqa: E402
+from parts.campaign import cases, findings, harvest, impact_table, paper, records  # noqa: E402
+from parts.campaign.results import Campaign, CaseResult  # noqa: E402
 
 FREQUENCY = np.geomspace(0.5, 400, 200)
 

@@ -13,7 +13,7 @@ import program
 
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 sys.dont_write_bytecode = True
-from casework import slab_mode  # noqa: E402
+from parts.campaign import slab_mode  # noqa: E402
 
 
 def modes(test, arguments, ranks):

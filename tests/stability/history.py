@@ -10,7 +10,7 @@ import numpy
 import program
 
 sys.path.append(os.path.join(program.SOURCE, "run"))
-from extremes import scenes  # noqa: E402, F401  (for the tests of this folder)
+from parts.stability import scenes  # noqa: E402, F401  (for the tests of this folder)
 
 
 class History:

@@ -13,7 +13,7 @@ import program
 
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 sys.dont_write_bytecode = True
-from tradeoffs import metrics  # noqa: E402
+from parts.tradeoff import metrics  # noqa: E402
 
 FREQUENCY = np.geomspace(1, 400, 261)
 REFERENCE = 1 + FREQUENCY / 80 + 10 / (1 + (np.log(FREQUENCY / 3.7) / 0.1)**2)

@@ -12,7 +12,7 @@ from pathlib import Path
 from . import harvest
 from .cases import Case
 
-SOURCE = Path(__file__).resolve().parents[2]
+SOURCE = Path(__file__).resolve().parents[3]
 REQUEST, LOG, SUMMARY = "request.json", "log.txt", "summary.json"
 # Steps of Model B cost more than those of Model A; the first finished runs correct this guess.
 FIRST_GUESS = {"A": 1.0, "B": 1.5}

@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from plotting.style import log_scale, plt
+from parts.plot.style import log_scale, plt
 
 from .comparison import BYTES_PER_DOF, LABELS
 from .machine import Machine

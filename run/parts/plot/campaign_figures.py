@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from casework import paper
-from casework.cases import VARIANTS
-from casework.findings import SLAB_MODE
-from casework.results import TREATMENTS, Campaign
+from parts.campaign import paper
+from parts.campaign.cases import VARIANTS
+from parts.campaign.findings import SLAB_MODE
+from parts.campaign.results import TREATMENTS, Campaign
 from .style import WIDTH, legend_above, log_scale, plt, save, stacked
 
 COLOURS = {"A": "#08519C", "B": "#E69F00", "A-symmetric": "#B2182B", "A-apart": "#777777"}

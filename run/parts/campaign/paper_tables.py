@@ -6,7 +6,7 @@ from pathlib import Path
 
 from . import paper
 
-SOURCE = Path(__file__).resolve().parents[2]
+SOURCE = Path(__file__).resolve().parents[3]
 FILES = {"A": "pair", "B": "pair-b"}
 
 

@@ -4,9 +4,9 @@ import json
 from html import escape
 from pathlib import Path
 
-from casework import findings, impact_table, paper, paper_tables
-from casework.cases import VARIANTS
-from casework.results import Campaign
+from parts.campaign import findings, impact_table, paper, paper_tables
+from parts.campaign.cases import VARIANTS
+from parts.campaign.results import Campaign
 from .report import CSS, html_figure, html_table
 
 

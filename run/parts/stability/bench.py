@@ -9,7 +9,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-SOURCE = Path(__file__).resolve().parents[2]
+SOURCE = Path(__file__).resolve().parents[3]
 sys.path.append(str(SOURCE / "tests"))
 import program  # noqa: E402
 

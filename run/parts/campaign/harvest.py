@@ -11,7 +11,7 @@ import numpy as np
 
 from .cases import Case
 
-SOURCE = Path(__file__).resolve().parents[2]
+SOURCE = Path(__file__).resolve().parents[3]
 TREATED, PEAKS, SERIES, HISTORY = "treated.csv", "peaks.csv", "series.npz", "history.h5"
 CHANNEL = "s2_floor2.x"  # whose signal is treated
 FREQUENCIES = "0.5:400:200log"

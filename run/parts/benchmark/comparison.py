@@ -98,9 +98,9 @@ class Comparison(ExitStack):
 
     def _start_others(self) -> None:
         """SciPy and Octave on the matrix that the program left."""
-        commands = {"scipy": ["/usr/bin/python3", SOURCE / "run/measuring/scipy_step.py", self.scratch],
+        commands = {"scipy": ["/usr/bin/python3", SOURCE / "run/parts/benchmark/scipy_step.py", self.scratch],
                     "octave": ["octave-cli", "--norc", "--quiet",
-                               SOURCE / "run/measuring/octave_step.m", self.scratch]}
+                               SOURCE / "run/parts/benchmark/octave_step.m", self.scratch]}
         for way, command in commands.items():
             if ("assembled", 1) not in self.steppers:
                 self._skip(way, 1, "there is no matrix of one rank")

@@ -8,7 +8,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-SOURCE = Path(__file__).resolve().parents[2]
+SOURCE = Path(__file__).resolve().parents[3]
 PROGRAMS = "pounding step_benchmark machine_limits partition_study"
 MOTION_STEP = 2e-3  # [s]
 ELEMENT_MEMORY = 1500  # of a Stepper without a matrix while it is built [B per dof]

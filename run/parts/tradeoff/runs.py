@@ -9,7 +9,7 @@ from pathlib import Path
 from .metrics import GRID
 from .settings import Setting
 
-SOURCE = Path(__file__).resolve().parents[2]
+SOURCE = Path(__file__).resolve().parents[3]
 
 
 class Case:

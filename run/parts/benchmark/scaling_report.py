@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from plotting.style import log_scale, plt
+from parts.plot.style import log_scale, plt
 
 from .machine import Machine
 from .scaling_model import Messages
