@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <numeric>
 
+#include "common/component_names.h"
 #include "common/error.h"
 #include "common/parallel.h"
 #include "io/csv_file.h"
@@ -89,7 +90,6 @@ class Export {
   PetscInt size() const { return static_cast<PetscInt>(dofs_.size()); }
 
   void write_dofs(const std::string& folder) const {
-    constexpr std::array<const char*, 6> components{"ux", "uy", "uz", "rx", "ry", "rz"};
     CsvFile file(folder + "dofs.csv");
     file.comment("rows of the matrices of " + model_.systems[structure_].name + "; m");
     file.header("x,y,z,component");
@@ -97,7 +97,8 @@ class Export {
     for (const Dof& dof : dofs_) {
       char place[96];
       std::snprintf(place, sizeof place, "%.17g,%.17g,%.17g,%s", dof.position[0], dof.position[1],
-                    dof.position[2], components[static_cast<std::size_t>(dof.component)]);
+                    dof.position[2],
+                    component_names[static_cast<std::size_t>(dof.component)].data());
       file.row(place, {});
       masses.push_back({static_cast<PetscInt>(masses.size()), 0, dof.mass});
     }

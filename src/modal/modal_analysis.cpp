@@ -5,6 +5,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "common/component_names.h"
 #include "common/error.h"
 #include "mesh/location.h"
 #include "modal/eigen_solver.h"
@@ -13,8 +14,6 @@
 
 namespace pounding {
 namespace {
-
-constexpr std::array<const char*, 6> motion_names{"x", "y", "z", "rx", "ry", "rz"};
 
 /// M^1/2 x.
 void weigh(const LinearSystem& system, std::vector<double>& x) {

@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include "common/component_names.h"
 #include "scene/option_values.h"
 
 namespace pounding {
-namespace {
-
-constexpr std::array<std::string_view, 6> component_names{"x", "y", "z", "rx", "ry", "rz"};
-
-}  // namespace
-
 std::vector<Clamp> read_clamps(OptionReader& options, const std::string& structure) {
   constexpr std::string_view pattern = "<structure>_clamp";
   std::vector<Clamp> clamps;
@@ -27,12 +22,12 @@ std::vector<Clamp> read_clamps(OptionReader& options, const std::string& structu
     if (sides.size() == 2) {
       clamp.components = 0;
       for (const std::string& name : split(sides[1], '+')) {
-        const auto found = std::ranges::find(component_names, name);
-        if (found == component_names.end()) {
+        const auto found = std::ranges::find(motion_names, name);
+        if (found == motion_names.end()) {
           options.refuse(pattern, {structure},
                          "'" + item + "': '" + name + "' is no component of x, y, z, rx, ry, rz");
         }
-        clamp.components |= static_cast<std::uint8_t>(1u << (found - component_names.begin()));
+        clamp.components |= static_cast<std::uint8_t>(1u << (found - motion_names.begin()));
       }
     }
     clamps.push_back(clamp);

@@ -10,6 +10,7 @@
 #include <optional>
 #include <sstream>
 
+#include "common/component_names.h"
 #include "common/error.h"
 #include "common/parallel.h"
 #include "io/matrix_market.h"
@@ -20,7 +21,6 @@
 namespace pounding {
 namespace {
 
-constexpr std::array<const char*, 6> component_names{"ux", "uy", "uz", "rx", "ry", "rz"};
 /// Positions of a row and of a node that differ by less than this part of the mesh are the same.
 constexpr double same_place = 1e-6;
 
