@@ -20,7 +20,7 @@ namespace pounding {
 class TensionLaw final : public LinkLaw {
  public:
   /// `stiffness` k [N/m]; `damping_rate` c / (2 dt) [N/m].
-  constexpr TensionLaw(double stiffness, double damping_rate)
+  TensionLaw(double stiffness, double damping_rate)
       : stiffness_(stiffness), damping_rate_(damping_rate) {}
 
   double force(double before, double now, double after,
