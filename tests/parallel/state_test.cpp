@@ -1,19 +1,29 @@
 #include "dynamics/state.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
+#include "common/petsc.h"
+#include "dynamics/cd_lagrange.h"
+#include "stability/stable_time_step.h"
 #include "support/built_system.h"
 #include "support/dense_damping.h"
 
 namespace pounding {
 namespace {
 
+struct Mast {
+  Structure structure;
+  testing::BuiltSystem built;
+};
+
 /// A beam along z, clamped at its foot: six components per node.
-TEST(State, StartsWithOneDisplacementAndVelocityOfAllTranslations) {
+Mast build_mast(const Vector3& displacement, const Vector3& velocity) {
   testing::DampedStructure mast;
   mast.structure.name = "mast";
-  mast.structure.initial_displacement = {0.1, -0.2, 0.3};
-  mast.structure.initial_velocity = {4, 5, 6};
+  mast.structure.initial_displacement = displacement;
+  mast.structure.initial_velocity = velocity;
   std::vector<GlobalIndex> line;
   for (GlobalIndex node = 0; node < 6; ++node) {
     mast.mesh.node_tags.push_back(node + 1);
@@ -26,7 +36,12 @@ TEST(State, StartsWithOneDisplacementAndVelocityOfAllTranslations) {
   Region& stem = testing::add_region(mast, "stem", ElementType::beam, line);
   stem.material = {"steel", 2e11, 0.3, 7800};
   stem.section = Section{"tube", 1e-2, 1e-6, 1e-6, 1e-6, {1, 0, 0}};
-  const testing::BuiltSystem built = testing::build_system(mast.mesh, mast.structure);
+  return {mast.structure, testing::build_system(mast.mesh, mast.structure)};
+}
+
+TEST(State, StartsWithOneDisplacementAndVelocityOfAllTranslations) {
+  const Mast mast = build_mast({0.1, -0.2, 0.3}, {4, 5, 6});
+  const testing::BuiltSystem& built = mast.built;
   const State state({&built.system, 1});
   ASSERT_EQ(state.structures.size(), 1U);
   const StructureState& body = state.structures[0];
@@ -40,6 +55,38 @@ TEST(State, StartsWithOneDisplacementAndVelocityOfAllTranslations) {
       EXPECT_EQ(body.velocity[static_cast<std::size_t>(dof)],
                 c < 3 ? mast.structure.initial_velocity[i] : 0);
     }
+  }
+}
+
+TEST(StateVectors, GivePetscWhatTheStepLeftInTheArrays) {
+  const Mast mast = build_mast({0, 0, 0}, {0.2, -0.1, 0});
+  const LinearSystem& system = mast.built.system;
+  const GroundMotion still({}, Resampling::linear);
+  Profile profile;
+  const double time_step = 0.5 * stable_time_step(Rayleigh{}, system.element_frequency_bound);
+  std::vector<GapWatch::Bound> bounds(1);
+  CdLagrange stepper(PETSC_COMM_WORLD, {&system, 1}, still, nullptr,
+                     GapWatch({&system, 1}, bounds, {0, 0, 0}, time_step), time_step, profile);
+  double last = 0;
+  for (int n = 0; n < 5; ++n) {
+    stepper.step(false, false);
+    const StructureState& state = stepper.state().structures[0];
+    double square = 0;
+    for (const double u : state.displacement) square += u * u;
+    MPI_Allreduce(MPI_IN_PLACE, &square, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+    // PETSc keeps norms: the next one must be that of the new values.
+    double norm = 0;
+    POUNDING_PETSC(VecNorm(stepper.vectors(0).displacement(), NORM_2, &norm));
+    EXPECT_NEAR(norm, std::sqrt(square), 1e-14 * norm);
+    EXPECT_GT(norm, last);
+    last = norm;
+    PetscInt size = 0, local = 0;
+    POUNDING_PETSC(VecGetSize(stepper.vectors(0).velocity(), &size));
+    POUNDING_PETSC(VecGetLocalSize(stepper.vectors(0).velocity(), &local));
+    EXPECT_EQ(size, mast.built.mesh.global_dofs);
+    EXPECT_EQ(local, mast.built.mesh.owned_dofs);
+    const VecReader velocity(stepper.vectors(0).velocity());
+    EXPECT_EQ(velocity.data(), state.velocity.data());  // no copy
   }
 }
 
