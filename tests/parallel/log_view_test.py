@@ -17,7 +17,7 @@ class LogView(unittest.TestCase):
             folder = self.enterContext(tempfile.TemporaryDirectory())
             result = program.run(CASE + ["-output", folder], ranks)
             self.assertEqual(result.returncode, 0, result.stderr[-2000:])
-            steps = program.summary(folder)["steps"]
+            steps = program.summary(folder)["steps"] + 1  # t_0 is one too
             calls = {name: re.search(rf"^{name[:16]}\S* +(\d+) ", result.stdout, re.MULTILINE) for name in LINES}
             for name, found in calls.items():
                 self.assertIsNotNone(found, f"{name} on {ranks} ranks\n" + result.stdout[-6000:])

@@ -54,7 +54,8 @@ bool stops(double residual, double time_step, double displacement_mass = 0) {
   model.systems.resize(1);
   model.systems[0].total_mass = 50;
   model.systems[0].gravity = {0, 6, -8};
-  model.largest = {{1e4, ""}};
+  model.buildings.resize(1);
+  model.buildings[0].limits.largest = {1e4, ""};
   StructureEnergy energy;
   energy.displacement_mass = displacement_mass;
   EnergyLine line;
