@@ -17,16 +17,16 @@ namespace pounding {
 struct EnergyLine {
   double time = 0;     ///< t_n; the energies stand half a step later
   double kinetic = 0;  ///< 1/2 v^T (M + S - dt/2 C) v
-  double strain = 0;   ///< 1/2 u_{n+1}^T K u_n, and the energy of tension-only bars
+  double strain = 0;   ///< 1/2 u_{n+1}^T K u_n, and the energy of links
   double damping_loss = 0;
   double contact_work = 0;
   double input_work = 0;  ///< of ground motion and gravity
   /// Taken up by dashpots, by what regions with damping of their own have beside the structure's,
-  /// and by tension-only bars.
+  /// and by links.
   double device_work = 0;
   double residual = 0;   ///< energy - initial energy + damping loss + device work - contact work
                          ///< - input work
-  double link_loss = 0;  ///< of tension-only bars alone: what they took and did not keep
+  double link_loss = 0;  ///< of links alone: what they took and did not keep
 
   double energy() const { return kinetic + strain; }
 };
@@ -49,8 +49,8 @@ struct StructureEnergy {
 ///     E_{n+1/2} - E_{n-1/2} = -dt vbar^T C vbar + dt vbar^T (f_n - x_n) + 1/2 lambda^T L v_{n-1/2}
 ///     E_{n+1/2}             = 1/2 v^T (M + S - dt/2 C) v + 1/2 u_{n+1}^T K u_n
 ///
-/// with S the mass that scaled elements are given, x the force of tension-only bars, whose energy
-/// W_{n+1/2} stands beside the strain energy (see TensionLaw), and C all damping, alpha M + beta K
+/// with S the mass that scaled elements are given, x the force of links, whose energy W_{n+1/2}
+/// stands beside the strain energy (see LinkLaw), and C all damping, alpha M + beta K
 /// + D. The forces of D lag like the others: they come as D v_{n-1/2}, and
 ///
 ///     vbar^T D vbar = vbar^T D v- + (v+^T D v+ - v-^T D v-) / 4

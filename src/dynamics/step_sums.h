@@ -14,7 +14,7 @@ struct StepSums {
   double mass_sum = 0;               ///< s^T M s [J]
   std::array<double, 3> momentum{};  ///< iota_d^T M s [kg m/s]
   double device = 0;                 ///< x^T s, x the force of the extra damping [W]
-  double link_energy_before = 0;     ///< of tension-only bars, between u_{n-1} and u_n [J]
+  double link_energy_before = 0;     ///< of links, between u_{n-1} and u_n [J]
   double link_loss = 0;              ///< what the step made them take and not keep [J]
   double kinetic_before = 0;         ///< v-^T M v- [J], if energies are asked for
   double added_kinetic_before = 0;   ///< v-^T S v- [J] likewise

@@ -59,12 +59,12 @@ struct LinearSystem {
   std::unique_ptr<GeneralisedCoordinates> generalised;
   std::unique_ptr<Stiffness> stiffness;  ///< K of the linear elements
   std::string stiffness_method;          ///< how it is applied, for the report
-  std::unique_ptr<Stiffness> taut;       ///< K with tension-only bars taut; null if there are none
+  std::unique_ptr<Stiffness> taut;       ///< K with every link at its stiffest; null without links
   std::shared_ptr<Links> links;          ///< null if there are none
   std::unique_ptr<Stiffness> extra_damping;  ///< D [N s/m, N m s]; null if there is none
   MassScaling mass_scaling;
-  std::unique_ptr<CoupledMass>
-      coupled_mass;                       ///< M + S of the dofs in S; null if this rank has none
+  /// M + S of the dofs in S; null if this rank has none.
+  std::unique_ptr<CoupledMass> coupled_mass;
   Vector3 initial_displacement{0, 0, 0};  ///< of every translation at t = 0 [m]
   Vector3 initial_velocity{0, 0, 0};      ///< of every translation at t = 0 [m/s]
   Vector3 gravity{0, 0, 0};               ///< constant body acceleration [m/s2]
@@ -79,7 +79,7 @@ struct LinearSystem {
   std::string limiting_element;
   std::vector<Sliver> slivers;  ///< the worst of every group that has any
 
-  /// K for eigenvalues: every bar taut.
+  /// K for eigenvalues: every link at its stiffest.
   const Stiffness& stiffest() const { return taut ? *taut : *stiffness; }
   Mat stiffest_matrix() const { return stiffest().matrix(); }
   /// Forces beside K u, alpha M v and beta K v.
