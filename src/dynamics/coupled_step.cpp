@@ -33,16 +33,17 @@ void CoupledStep::keep(std::size_t place, std::size_t count, const double* force
 }
 
 void CoupledStep::advance(const StepTerms<double>& terms, const std::array<double, 3>& ground_step,
-                          bool with_energies, DofSums<double>& dof_sums, StepSums& sums) {
+                          bool with_energies, DofSums<double>& dof_sums,
+                          DofEnergies<double>& dof_energies, StepSums& sums) {
   if (with_energies) {
     sums.added_kinetic_before += system_.coupled_mass->added_product(state_.velocity.data());
   }
   form_impulses(terms, ground_step);
   system_.coupled_mass->solve(field_.data());
   if (with_energies) {
-    settle_nodes<true>(terms, dof_sums, sums);
+    settle_nodes<true>(terms, dof_sums, dof_energies, sums);
   } else {
-    settle_nodes<false>(terms, dof_sums, sums);
+    settle_nodes<false>(terms, dof_sums, dof_energies, sums);
   }
 }
 
@@ -89,13 +90,15 @@ void CoupledStep::form_impulses(const StepTerms<double>& terms,
 
 template <bool with_energies>
 void CoupledStep::settle_nodes(const StepTerms<double>& terms, DofSums<double>& dof_sums,
-                               StepSums& sums) {
+                               DofEnergies<double>& dof_energies, StepSums& sums) {
   DofSums<Lanes> low_sums;
   DofSums<HalfLanes> high_sums;
+  DofEnergies<Lanes> low_energies;
+  DofEnergies<HalfLanes> high_energies;
   Lanes momentum{};
-  const auto settle_part = [&]<typename Vector>(const Node& node, std::size_t first,
-                                                const StepTerms<Vector>& all,
-                                                DofSums<Vector>& part_sums) {
+  const auto settle_part = [&]<typename Vector>(
+                               const Node& node, std::size_t first, const StepTerms<Vector>& all,
+                               DofSums<Vector>& part_sums, DofEnergies<Vector>& part_energies) {
     const std::size_t i = node.begin + first;
     Vector q, mass, change;
     DofState<Vector> dof;
@@ -106,7 +109,7 @@ void CoupledStep::settle_nodes(const StepTerms<double>& terms, DofSums<double>& 
     load(&state_.velocity[i], dof.velocity);
     load(&state_.stiffness_displacement[i], dof.stiffness_displacement);
     if constexpr (with_energies) {
-      add_energies(mass, dof, part_sums);
+      add_energies(mass, dof, part_energies);
     }
     const Vector both = settle(all, q, Vector(dof.velocity + change), mass, dof, part_sums);
     store(&state_.displacement[i], dof.displacement);
@@ -118,14 +121,16 @@ void CoupledStep::settle_nodes(const StepTerms<double>& terms, DofSums<double>& 
   const auto high = in_lanes<HalfLanes>(terms);
   for (const Node& node : nodes_) {
     if (node.regular) {
-      momentum += settle_part(node, 0, low, low_sums);
-      settle_part(node, lane_count, high, high_sums);
+      momentum += settle_part(node, 0, low, low_sums, low_energies);
+      settle_part(node, lane_count, high, high_sums, high_energies);
     } else {
-      settle_dofs<with_energies>(node, terms, dof_sums, sums);
+      settle_dofs<with_energies>(node, terms, dof_sums, dof_energies, sums);
     }
   }
   add_to(low_sums, sums);
   add_to(high_sums, sums);
+  add_to(low_energies, sums);
+  add_to(high_energies, sums);
   for (std::size_t d = 0; d < 3; ++d) {
     sums.momentum[d] += momentum[d];
   }
@@ -133,7 +138,8 @@ void CoupledStep::settle_nodes(const StepTerms<double>& terms, DofSums<double>& 
 
 template <bool with_energies>
 void CoupledStep::settle_dofs(const Node& node, const StepTerms<double>& terms,
-                              DofSums<double>& dof_sums, StepSums& sums) {
+                              DofSums<double>& dof_sums, DofEnergies<double>& dof_energies,
+                              StepSums& sums) {
   for (std::size_t c = 0; c < node.count; ++c) {
     const std::size_t i = node.begin + c;
     DofState<double> dof{state_.displacement[i], state_.velocity[i],
@@ -142,7 +148,7 @@ void CoupledStep::settle_dofs(const Node& node, const StepTerms<double>& terms,
     const double before = dof.velocity;
     const double after = before + field_[node.field + c];
     if constexpr (with_energies) {
-      add_energies(mass, dof, dof_sums);
+      add_energies(mass, dof, dof_energies);
     }
     const double momentum = settle(terms, force_[node.force + c], after, mass, dof, dof_sums);
     state_.displacement[i] = dof.displacement;

@@ -23,9 +23,10 @@ class CoupledStep {
 
   /// q of coupled dofs that follow each other, `place` the number of the first among them all.
   void keep(std::size_t place, std::size_t count, const double* force);
-  /// After every force of the step. `ground_step`: h (a_g - g) [m/s]. Adds to both sums.
+  /// After every force of the step. `ground_step`: h (a_g - g) [m/s]. Adds to the sums.
   void advance(const StepTerms<double>& terms, const std::array<double, 3>& ground_step,
-               bool with_energies, DofSums<double>& dof_sums, StepSums& sums);
+               bool with_energies, DofSums<double>& dof_sums, DofEnergies<double>& dof_energies,
+               StepSums& sums);
 
  private:
   struct Node {
@@ -40,10 +41,11 @@ class CoupledStep {
   void form_regular(const Node& node, const StepTerms<double>& terms,
                     const std::array<double, 3>& ground_step);
   template <bool with_energies>
-  void settle_nodes(const StepTerms<double>& terms, DofSums<double>& dof_sums, StepSums& sums);
+  void settle_nodes(const StepTerms<double>& terms, DofSums<double>& dof_sums,
+                    DofEnergies<double>& dof_energies, StepSums& sums);
   template <bool with_energies>
   void settle_dofs(const Node& node, const StepTerms<double>& terms, DofSums<double>& dof_sums,
-                   StepSums& sums);
+                   DofEnergies<double>& dof_energies, StepSums& sums);
 
   const LinearSystem& system_;
   StructureState& state_;

@@ -29,6 +29,11 @@ void add_to(const DofSums<Value>& from, StepSums& sums) {
   sums.stiffness_before += add_up(from.stiffness_before);
   sums.stiffness_across += add_up(from.stiffness_across);
   sums.mass_sum += add_up(from.mass_sum);
+}
+
+/// Adds the energies of dofs likewise.
+template <typename Value>
+void add_to(const DofEnergies<Value>& from, StepSums& sums) {
   sums.kinetic_before += add_up(from.kinetic_before);
   sums.strain_before += add_up(from.strain_before);
   sums.displacement_mass += add_up(from.displacement_mass);

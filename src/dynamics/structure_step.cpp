@@ -266,6 +266,8 @@ void StructureStep::begin(double duration, const std::array<double, 3>& ground_a
   }
   vector_sums_ = {};
   dof_sums_ = {};
+  vector_energies_ = {};
+  dof_energies_ = {};
   sums_ = {};
 }
 
@@ -301,7 +303,7 @@ void StructureStep::advance_vectors(std::size_t first, std::size_t end, const do
     load_first(stiffness + i, count, dof.stiffness_displacement);
     masses.template at<k>(count, mass, inverse_mass);
     if constexpr (with_energies) {
-      add_energies(mass, dof, sums);
+      add_energies(mass, dof, vector_energies_);
     }
     const Lanes free =
         free_velocity(terms, dof.velocity, q, inverse_mass, ground.template step<k>(i, count));
@@ -341,7 +343,7 @@ void StructureStep::advance_dofs(std::size_t first, std::size_t end, const doubl
     const double mass = system_.lumped_mass[i];
     const double before = dof.velocity;
     if constexpr (with_energies) {
-      add_energies(mass, dof, dof_sums_);
+      add_energies(mass, dof, dof_energies_);
     }
     double after =
         free_velocity(terms_, before, *force, system_.inverse_mass[i], ground_step_at(i));
@@ -391,7 +393,7 @@ void StructureStep::advance(const Segment& segment, LocalIndex begin, LocalIndex
 
 void StructureStep::complete() {
   if (coupled_) {
-    coupled_->advance(terms_, ground_step_, with_energies_, dof_sums_, sums_);
+    coupled_->advance(terms_, ground_step_, with_energies_, dof_sums_, dof_energies_, sums_);
   }
 }
 
@@ -431,6 +433,8 @@ StepSums StructureStep::sums() const {
   StepSums total = sums_;
   add_to(dof_sums_, total);
   add_to(vector_sums_, total);
+  add_to(dof_energies_, total);
+  add_to(vector_energies_, total);
   for (std::size_t l = 0; l < pattern; ++l) {
     total.momentum[l % 3] += momentum_[0][l / lanes][l % lanes];
     if (l % 6 < 3) {

@@ -90,6 +90,8 @@ class StructureStep final : public ForceReceiver {
   Lanes influenced_momentum_[3]{};  ///< iota_d^T M s of generalised coordinates
   DofSums<Lanes> vector_sums_;
   DofSums<double> dof_sums_;
+  DofEnergies<Lanes> vector_energies_;
+  DofEnergies<double> dof_energies_;
   StepSums sums_;  ///< what single dofs add beside dof_sums_
 };
 

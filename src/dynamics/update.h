@@ -46,6 +46,11 @@ struct DofSums {
   Value stiffness_before{};
   Value stiffness_across{};
   Value mass_sum{};
+};
+
+/// Energies before the step likewise, where they are asked for.
+template <typename Value>
+struct DofEnergies {
   Value kinetic_before{};
   Value strain_before{};
   Value displacement_mass{};
@@ -65,10 +70,10 @@ template <typename Value>
 /// Adds the energies before the step: v-^T M v-, u_n^T K u_{n-1}, u_n^T M u_n.
 template <typename Value>
 [[gnu::always_inline]] inline void add_energies(Value mass, const DofState<Value>& dof,
-                                                DofSums<Value>& sums) {
-  sums.kinetic_before += mass * dof.velocity * dof.velocity;
-  sums.strain_before += dof.displacement * dof.stiffness_displacement;
-  sums.displacement_mass += mass * dof.displacement * dof.displacement;
+                                                DofEnergies<Value>& energies) {
+  energies.kinetic_before += mass * dof.velocity * dof.velocity;
+  energies.strain_before += dof.displacement * dof.stiffness_displacement;
+  energies.displacement_mass += mass * dof.displacement * dof.displacement;
 }
 
 /// Brings the dof to the end of the step with v+ = `after`, adds to the sums, and returns
