@@ -1,13 +1,10 @@
 #include "elements/hex8.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <sstream>
 
-#include "common/matrix3.h"
 #include "elements/gauss_rule.h"
+#include "elements/isotropic_solid.h"
 #include "elements/symmetric_matrix.h"
 
 namespace pounding {
@@ -18,7 +15,6 @@ constexpr std::size_t node_count = 8;
 constexpr std::size_t mode_count = 3;
 constexpr int hex8_size = 3 * static_cast<int>(node_count);
 constexpr std::size_t shape_count = node_count + mode_count;
-constexpr double smallest_relative_thickness = 1e-12;
 
 using NodeCoordinates = std::array<Vector3, node_count>;
 using Gradients = std::array<Vector3, shape_count>;
@@ -44,45 +40,16 @@ std::array<Vector3, node_count> shape_derivatives(const Vector3& point) {
   return derivatives;
 }
 
-/// J(i, j) = d x_j / d xi_i.
 Matrix3 jacobian(const NodeCoordinates& nodes, const Vector3& point) {
-  Matrix3 result{};
-  const auto derivatives = shape_derivatives(point);
-  for (std::size_t a = 0; a < node_count; ++a)
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) result[i][j] += derivatives[a][i] * nodes[a][j];
-  return result;
+  return jacobian_of(nodes, shape_derivatives(point));
 }
 
-/// Thickness below which a brick is flat: it drowns in the digits of the coordinates.
-double flat_thickness(std::span<const double> coordinates) {
-  double extent = 0;
-  for (const double x : coordinates) extent = std::max(extent, std::abs(x));
-  return smallest_relative_thickness * extent;
-}
-
-void require_volume(const NodeCoordinates& nodes, const Vector3& point, double flat) {
-  const Matrix3 j = jacobian(nodes, point);
-  const double volume = determinant(j);
-  const Vector3 edges{norm(j[0]), norm(j[1]), norm(j[2])};
-  const double face = std::max({edges[0] * edges[1], edges[1] * edges[2], edges[2] * edges[0]});
-  // Negated so that it also catches what is not a number.
-  if (!(volume > flat * face)) {
-    std::ostringstream message;
-    message << "non-positive Jacobian " << volume;
-    throw ElementError(message.str());
-  }
-}
-
-/// Coordinates relative to the first node, so that an element far from the origin keeps its digits;
-/// refuses a brick without positive volume at a Gauss point. The corners are not asked: the solid
+/// Refuses a brick without positive volume at a Gauss point. The corners are not asked: the solid
 /// patch of MacNeal and Harder has one that is folded.
 NodeCoordinates checked_nodes(std::span<const double> coordinates) {
-  NodeCoordinates nodes{};
-  for (std::size_t a = 0; a < node_count; ++a)
-    for (std::size_t i = 0; i < 3; ++i) nodes[a][i] = coordinates[3 * a + i] - coordinates[i];
+  const NodeCoordinates nodes = relative_nodes<node_count>(coordinates);
   const double flat = flat_thickness(coordinates);
-  for (const Vector3& point : hex_gauss_points()) require_volume(nodes, point, flat);
+  for (const Vector3& point : hex_gauss_points()) require_volume(jacobian(nodes, point), flat);
   return nodes;
 }
 
@@ -109,33 +76,12 @@ Gradients gradients_at(const Vector3& point, const Matrix3& jacobian_here,
   return gradients;
 }
 
-/// Adds weight (lambda g_a g_b' + mu g_b g_a' + mu (g_a . g_b) I) to the blocks (a, b), b <= a, of
-/// a row-major matrix of 3 * count dofs: the isotropic B' D B without its zeros.
-void add_elastic_blocks(const Gradients& gradients, std::size_t count, double lame, double shear,
-                        double weight, std::span<double> matrix) {
-  const std::size_t size = 3 * count;
-  for (std::size_t a = 0; a < count; ++a) {
-    for (std::size_t b = 0; b <= a; ++b) {
-      const Vector3& ga = gradients[a];
-      const Vector3& gb = gradients[b];
-      const double diagonal = shear * dot(ga, gb);
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-          matrix[(3 * a + i) * size + 3 * b + j] +=
-              weight * (lame * ga[i] * gb[j] + shear * ga[j] * gb[i] + (i == j ? diagonal : 0.0));
-    }
-  }
-}
-
 }  // namespace
 
 void hex8_stiffness(std::span<const double> coordinates, const ElementProperties& properties,
                     Hex8Formulation formulation, std::span<double> stiffness) {
   const NodeCoordinates nodes = checked_nodes(coordinates);
-  const double young = properties.young;
-  const double poisson = properties.poisson;
-  const double lame = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
-  const double shear = young / (2 * (1 + poisson));
+  const LameConstants lame = lame_constants(properties);
   const bool incompatible = formulation == Hex8Formulation::incompatible;
   const std::size_t count = incompatible ? shape_count : node_count;
 
@@ -144,8 +90,8 @@ void hex8_stiffness(std::span<const double> coordinates, const ElementProperties
   std::array<double, 9 * shape_count * shape_count> matrix{};
   for (const Vector3& point : hex_gauss_points()) {
     const Matrix3 here = jacobian(nodes, point);
-    add_elastic_blocks(gradients_at(point, here, centre), count, lame, shear, determinant(here),
-                       matrix);
+    const Gradients gradients = gradients_at(point, here, centre);
+    add_elastic_blocks({gradients.data(), count}, lame, determinant(here), matrix);
   }
   condense_last(matrix, 3 * static_cast<int>(count), hex8_size, stiffness);
 }
