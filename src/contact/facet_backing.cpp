@@ -42,14 +42,10 @@ Vector3 outward_area(const GlobalMesh& mesh, const Facet& facet, const Vector3& 
   return dot(area, out) < 0 ? Vector3{-area[0], -area[1], -area[2]} : area;
 }
 
-bool carries_faces(ElementType type) {
-  return is_hexahedron(type) || is_shell(type);
-}
-
 Backing make_backing(const GlobalMesh& mesh, const Facet& facet,
-                     std::span<const GlobalIndex> element, double thickness) {
+                     std::span<const GlobalIndex> element, bool shell, double thickness) {
   Backing backing;
-  backing.two_sided = static_cast<std::size_t>(facet.count) == element.size();
+  backing.two_sided = shell && static_cast<std::size_t>(facet.count) == element.size();
   backing.area = backing.two_sided ? area_vector(mesh, facet.corners())
                                    : outward_area(mesh, facet, centroid(mesh, element));
   backing.depth = thickness;
@@ -146,7 +142,8 @@ std::vector<FacetBacking> elements_behind(const GlobalMesh& mesh, std::span<cons
         if (count != facets[f].count || (count == 2 && !is_shell(set.type))) {
           continue;
         }
-        behind[f].elements.push_back(make_backing(mesh, facets[f], nodes, thickness));
+        behind[f].elements.push_back(
+            make_backing(mesh, facets[f], nodes, is_shell(set.type), thickness));
         if (is_shell(set.type)) {
           behind[f].shells.push_back({normalised(area_vector(mesh, nodes)), thickness});
         }

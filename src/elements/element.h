@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "elements/element_properties.h"
+#include "elements/element_traits.h"
 
 /// Element matrices as the assembly asks for them: pure functions of coordinates and properties, no
 /// MPI, no PETSc. Matrices are row-major in the element's own dofs, node by node: (ux, uy, uz) per

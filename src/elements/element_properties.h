@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <span>
 #include <stdexcept>
 
 #include "common/types.h"
@@ -36,7 +38,16 @@ struct ElementProperties {
 struct ElementLayout {
   int nodes = 0;
   int components = 0;
-  int size() const { return nodes * components; }
+  constexpr int size() const { return nodes * components; }
+};
+
+/// A face of a solid by the places of its nodes in the element, in order around it.
+struct ElementFace {
+  std::array<std::size_t, 4> nodes{};
+  int count = 0;  ///< 3 or 4
+  std::span<const std::size_t> corners() const {
+    return {nodes.data(), static_cast<std::size_t>(count)};
+  }
 };
 
 inline constexpr int max_element_nodes = 8;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "elements/element_properties.h"
@@ -7,6 +8,13 @@
 /// Eight-node brick of isotropic linear elasticity, three displacements per node. Nodes in Gmsh's
 /// order: bottom 0-3 counter-clockwise seen from above, top 4-7.
 namespace pounding {
+
+inline constexpr std::array<ElementFace, 6> hex8_faces{{{{0, 1, 2, 3}, 4},
+                                                        {{4, 5, 6, 7}, 4},
+                                                        {{0, 1, 5, 4}, 4},
+                                                        {{1, 2, 6, 5}, 4},
+                                                        {{2, 3, 7, 6}, 4},
+                                                        {{3, 0, 4, 7}, 4}}};
 
 /// `full`: trilinear displacement alone, which locks in bending. `incompatible`: with the quadratic
 /// modes 1 - xi^2, 1 - eta^2, 1 - zeta^2 added to each displacement component and condensed, in the

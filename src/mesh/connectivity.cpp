@@ -16,16 +16,6 @@ namespace {
 
 constexpr std::uint8_t rotations = 0x38;
 
-bool is_line(ElementType type) {
-  return type == ElementType::beam || type == ElementType::bar ||
-         type == ElementType::tension_bar || type == ElementType::spring ||
-         type == ElementType::spring6;
-}
-
-bool is_grounded(ElementType type) {
-  return type == ElementType::grounded_spring || type == ElementType::grounded_spring6;
-}
-
 /// Elements that meet at a node, counted by kind.
 struct Meeting {
   int lines = 0;
@@ -66,10 +56,10 @@ class Examination {
     for (const GlobalIndex node : nodes) {
       pieces_.join(static_cast<std::size_t>(node), static_cast<std::size_t>(nodes.front()));
       Meeting& meeting = meeting_[static_cast<std::size_t>(node)];
-      meeting.lines += is_line(set.type) ? 1 : 0;
-      meeting.beams += set.type == ElementType::beam ? 1 : 0;
+      meeting.lines += joins_two_nodes(set.type) ? 1 : 0;
+      meeting.beams += is_beam(set.type) ? 1 : 0;
       meeting.shells += is_shell(set.type) ? 1 : 0;
-      meeting.solids += is_hexahedron(set.type) ? 1 : 0;
+      meeting.solids += is_solid(set.type) ? 1 : 0;
     }
   }
 
@@ -143,7 +133,8 @@ class Examination {
     });
     std::set<std::pair<GlobalIndex, GlobalIndex>> joined;
     for (const ElementSet& set : mesh_.regions) {
-      for (std::size_t e = 0; !pairs.empty() && is_line(set.type) && e < set.tags.size(); ++e) {
+      for (std::size_t e = 0; !pairs.empty() && joins_two_nodes(set.type) && e < set.tags.size();
+           ++e) {
         const auto nodes = nodes_of(set, e);
         joined.insert(std::minmax(nodes[0], nodes[1]));
       }
@@ -175,7 +166,7 @@ class Examination {
     const std::vector<GlobalIndex> ends = free_ends();
     std::set<GlobalIndex> inside;
     for (const ElementSet& set : mesh_.regions) {
-      const bool solid = is_hexahedron(set.type) || is_shell(set.type) || is_line(set.type);
+      const bool solid = carries_faces(set.type) || joins_two_nodes(set.type);
       for (std::size_t e = 0; solid && !ends.empty() && e < set.tags.size(); ++e) {
         find_ends_in(set, nodes_of(set, e), ends, inside);
       }
@@ -204,7 +195,7 @@ class Examination {
     const auto first = std::ranges::lower_bound(ends, box.low[0] - reach, {}, x_of);
     for (auto end = first; end != ends.end() && x_of(*end) <= box.high[0] + reach; ++end) {
       if (std::ranges::find(nodes, *end) == nodes.end() &&
-          is_in_element(mesh_.position(*end), {corners.data(), nodes.size()}, reach) &&
+          is_in_element(set.type, {corners.data(), nodes.size()}, mesh_.position(*end), reach) &&
           !shares_line(*end, nodes)) {
         inside.insert(*end);
       }
@@ -215,7 +206,7 @@ class Examination {
   /// one of its faces.
   bool shares_line(GlobalIndex end, std::span<const GlobalIndex> nodes) const {
     for (const ElementSet& set : mesh_.regions) {
-      for (std::size_t e = 0; is_line(set.type) && e < set.tags.size(); ++e) {
+      for (std::size_t e = 0; joins_two_nodes(set.type) && e < set.tags.size(); ++e) {
         const auto line = nodes_of(set, e);
         if (line[0] == end || line[1] == end) {
           const GlobalIndex other = line[0] == end ? line[1] : line[0];

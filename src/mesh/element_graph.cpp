@@ -4,33 +4,9 @@
 #include <map>
 
 #include "elements/element.h"
+#include "elements/measured_costs.h"
 
 namespace pounding {
-namespace {
-
-/// Relative cost of one element in a step, its share of the nodes included, as measured on slabs
-/// and frames: about nanoseconds.
-idx_t element_cost(ElementType type) {
-  switch (type) {
-    case ElementType::hex8:
-    case ElementType::hex8_full:
-      return 18;
-    case ElementType::shell4:
-      return 20;
-    case ElementType::shell3:  // in a sparse matrix
-      return 100;
-    case ElementType::beam:
-      return 14;
-    default:
-      return 2;
-  }
-}
-
-/// Cutting a contact costs messages whenever the interface is looked at: more than a cut between
-/// two elements.
-constexpr idx_t link_weight = 64;
-
-}  // namespace
 
 int whole_part(std::span<const int> whole, std::size_t structure) {
   return whole.empty() ? -1 : whole[structure];
@@ -54,9 +30,9 @@ ElementList list_elements(std::span<const GlobalMesh> meshes, std::span<const in
         }
         list.first.push_back(static_cast<idx_t>(list.nodes.size()));
         list.entry.push_back(list.count());
-        list.cost.push_back(element_cost(set.type));
+        list.cost.push_back(traits_of(set.type).cost);
         list.structure.push_back(static_cast<int>(s));
-        list.needed.push_back(width == 8 ? 4 : 1);
+        list.needed.push_back(shared_by_neighbours(set.type));
       }
     }
     list.node_count += mesh.node_count();
@@ -98,8 +74,8 @@ Graph dual_graph(const ElementList& list, const NodeElements& at, std::span<cons
     const idx_t a = at.elements[at.first[global(link.structure_a, link.node_a)]];
     const idx_t b = at.elements[at.first[global(link.structure_b, link.node_b)]];
     if (a != b) {
-      extra[static_cast<std::size_t>(a)][b] += link_weight;
-      extra[static_cast<std::size_t>(b)][a] += link_weight;
+      extra[static_cast<std::size_t>(a)][b] += measured_costs::contact_cut;
+      extra[static_cast<std::size_t>(b)][a] += measured_costs::contact_cut;
     }
   }
   Graph graph;

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <tuple>
 
+#include "elements/element.h"
+#include "elements/measured_costs.h"
 #include "mesh/node_planes.h"
 
 namespace pounding {
@@ -12,9 +14,6 @@ namespace {
 
 /// A longer run of elements is no faster.
 constexpr idx_t longest_piece = 64;
-
-/// Cost of a node of a cluster: its part in a solution instead of a division.
-constexpr idx_t cluster_node_cost = 36;
 
 using Place = std::array<std::int64_t, 3>;
 
@@ -35,6 +34,22 @@ struct RowPlace {
   }
 };
 
+/// `places` of the nodes of the structure, whose first node has the number `offset` in the list.
+RowPlace row_place(const ElementList& list, std::size_t e, const std::vector<Place>& places,
+                   GlobalIndex offset) {
+  const auto nodes = list.nodes_of(e);
+  Place low = places[static_cast<std::size_t>(nodes.front() - offset)];
+  Place high = low;
+  for (const GlobalIndex node : nodes) {
+    const Place& place = places[static_cast<std::size_t>(node - offset)];
+    for (std::size_t d = 0; d < 3; ++d) {
+      low[d] = std::min(low[d], place[d]);
+      high[d] = std::max(high[d], place[d]);
+    }
+  }
+  return {{low[0], high[0], low[1], high[1]}, list.cost[e], low[2], high[2], e};
+}
+
 /// Elements in rows of one structure, row after row.
 std::vector<RowPlace> sorted_rows(const GlobalMesh& mesh, const ElementList& list, std::size_t s) {
   const NodePlanes planes(mesh);
@@ -43,21 +58,13 @@ std::vector<RowPlace> sorted_rows(const GlobalMesh& mesh, const ElementList& lis
     places.push_back(planes.place(mesh.position(node)));
   }
   std::vector<RowPlace> rows;
-  for (std::size_t e = list.element_offset[s]; e < list.element_offset[s + 1]; ++e) {
-    const auto nodes = list.nodes_of(e);
-    if (nodes.size() < 4) {
-      continue;
-    }
-    Place low = places[static_cast<std::size_t>(nodes.front() - list.node_offset[s])];
-    Place high = low;
-    for (const GlobalIndex node : nodes) {
-      const Place& place = places[static_cast<std::size_t>(node - list.node_offset[s])];
-      for (std::size_t d = 0; d < 3; ++d) {
-        low[d] = std::min(low[d], place[d]);
-        high[d] = std::max(high[d], place[d]);
+  std::size_t e = list.element_offset[s];
+  for (const ElementSet& set : mesh.regions) {
+    for (std::size_t i = 0; i < set.tags.size(); ++i, ++e) {
+      if (has_shape(set.type)) {
+        rows.push_back(row_place(list, e, places, list.node_offset[s]));
       }
     }
-    rows.push_back({{low[0], high[0], low[1], high[1]}, list.cost[e], low[2], high[2], e});
   }
   std::sort(rows.begin(), rows.end());
   return rows;
@@ -165,7 +172,8 @@ ElementList merge_groups(const ElementList& all, const ElementGroups& groups) {
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     const std::size_t first = members[g].front();
     const bool is_cluster = static_cast<int>(g) >= groups.first_cluster;
-    const idx_t solution = is_cluster ? cluster_node_cost * static_cast<idx_t>(nodes.size()) : 0;
+    const idx_t solution =
+        is_cluster ? measured_costs::cluster_node * static_cast<idx_t>(nodes.size()) : 0;
     add(nodes, cost + solution, all.structure[first], is_cluster ? 1 : all.needed[first]);
   }
   return list;

@@ -14,11 +14,6 @@ namespace {
 
 constexpr double smallest_edge = 1e-12;  // of the diagonal of the mesh
 
-bool has_extent(ElementType type) {
-  return is_hexahedron(type) || is_shell(type) || type == ElementType::beam ||
-         type == ElementType::bar || type == ElementType::tension_bar;
-}
-
 /// The smallest distance between two nodes of an element [m].
 double smallest_distance(const GlobalMesh& mesh, const GlobalIndex* corner, std::size_t nodes) {
   double smallest = INFINITY;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/types.h"
+#include "elements/element_traits.h"
 
 /// A whole mesh as it stands on rank 0 between reading and distribution. Nodes are numbered from 0
 /// in the order of their tags ("file order"); only nodes that an element of the scene uses exist.

@@ -108,31 +108,14 @@ std::string names_of(const Groups& groups) {
 }
 
 /// The kind of element that a Gmsh type becomes in a region, or nothing if the region takes none of
-/// it. Gmsh: 1 line, 2 triangle, 3 quadrangle, 5 hexahedron, 15 point.
+/// it.
 std::optional<ElementType> kind_in_region(ElementType wanted, int gmsh_type) {
-  switch (wanted) {
-    case ElementType::hex8:
-    case ElementType::hex8_full:
-      return gmsh_type == 5 ? std::optional(wanted) : std::nullopt;
-    case ElementType::shell4:
-    case ElementType::shell3:
-      if (gmsh_type == 2) {
-        return ElementType::shell3;
-      }
-      return gmsh_type == 3 ? std::optional(ElementType::shell4) : std::nullopt;
-    case ElementType::beam:
-    case ElementType::bar:
-    case ElementType::tension_bar:
-    case ElementType::spring:
-    case ElementType::spring6:
-      return gmsh_type == 1 ? std::optional(wanted) : std::nullopt;
-    case ElementType::point_mass:
-    case ElementType::point_mass6:
-    case ElementType::grounded_spring:
-    case ElementType::grounded_spring6:
-      return gmsh_type == 15 ? std::optional(wanted) : std::nullopt;
+  const ElementTraits& element = traits_of(wanted);
+  if (gmsh_type == element.gmsh_type) {
+    return wanted;
   }
-  return std::nullopt;
+  const bool fills = element.companion && gmsh_type == traits_of(*element.companion).gmsh_type;
+  return fills ? element.companion : std::nullopt;
 }
 
 /// Reads region by region; node tags are translated to the file order at the end.
@@ -206,7 +189,8 @@ class MeshBuilder {
       }
       ElementSet& set = set_of(region, *kind);
       for (const std::int64_t tag : part.tags) {
-        if (!seen_.insert({tag, is_addition(*kind)}).second) {
+        // Springs may share lines and points with another region (a mass on a spring).
+        if (!seen_.insert({tag, is_spring(*kind)}).second) {
           throw UserError("option " + option + ": element " + std::to_string(tag) + " of group '" +
                           region.group +
                           "' stands twice in it, or already belongs to another region of " +
@@ -216,12 +200,6 @@ class MeshBuilder {
       }
       set.connectivity.insert(set.connectivity.end(), part.nodes.begin(), part.nodes.end());
     }
-  }
-
-  /// Springs may share lines and points with another region (a mass on a spring).
-  static bool is_addition(ElementType type) {
-    return type == ElementType::grounded_spring || type == ElementType::grounded_spring6 ||
-           type == ElementType::spring || type == ElementType::spring6;
   }
 
   /// The set of this kind in the region that is being read.

@@ -9,6 +9,7 @@
 
 #include <metis.h>
 
+#include "elements/measured_costs.h"
 #include "mesh/element_graph.h"
 #include "mesh/element_groups.h"
 
@@ -98,10 +99,6 @@ std::vector<idx_t> keep_structures(const ElementList& list, std::size_t structur
   return owner;
 }
 
-/// Cost to a step, in the unit of element costs, of ranks that share a structure and wait for
-/// each other's values: on the two-storey pair and 2 ranks, what the even cut loses.
-constexpr double sharing_cost = 4000;
-
 bool structures_are_cheaper(const ElementList& list, const std::vector<idx_t>& cut,
                             const std::vector<idx_t>& kept, int parts) {
   std::map<int, std::set<idx_t>> owners;
@@ -111,7 +108,7 @@ bool structures_are_cheaper(const ElementList& list, const std::vector<idx_t>& c
   const auto shared = std::ranges::count_if(
       owners, [](const auto& structure) { return structure.second.size() > 1; });
   return largest_cost(list, kept, parts) <=
-         largest_cost(list, cut, parts) + sharing_cost * static_cast<double>(shared);
+         largest_cost(list, cut, parts) + measured_costs::sharing * static_cast<double>(shared);
 }
 
 /// One owner for the nodes of a cluster: that of most of them, the lowest on a tie.

@@ -45,14 +45,15 @@ bool is_on_shell(const Vector3& point, std::span<const Vector3> corners, double 
   return true;
 }
 
-bool is_in_hexahedron(const Vector3& point, std::span<const Vector3> corners, double reach) {
-  constexpr std::array<std::array<std::size_t, 4>, 6> faces{
-      {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+bool is_in_solid(const Vector3& point, std::span<const Vector3> corners,
+                 std::span<const ElementFace> faces, double reach) {
   const Vector3 middle = centre(corners);
-  for (const auto& face : faces) {
-    const std::array<Vector3, 4> at{corners[face[0]], corners[face[1]], corners[face[2]],
-                                    corners[face[3]]};
-    const Vector3 normal = normalised(cross(minus(at[2], at[0]), minus(at[3], at[1])));
+  for (const ElementFace& face : faces) {
+    std::array<Vector3, 4> nodes;
+    std::ranges::transform(face.corners(), nodes.begin(),
+                           [&](std::size_t a) { return corners[a]; });
+    const std::span<const Vector3> at(nodes.data(), face.corners().size());
+    const Vector3 normal = normalised(cross(minus(at[2], at[0]), minus(at[at.size() - 1], at[1])));
     const Vector3 face_middle = centre(at);
     const double side = dot(minus(middle, face_middle), normal) > 0 ? -1 : 1;
     if (side * dot(minus(point, face_middle), normal) > reach) {
@@ -64,15 +65,15 @@ bool is_in_hexahedron(const Vector3& point, std::span<const Vector3> corners, do
 
 }  // namespace
 
-bool is_in_element(const Vector3& point, std::span<const Vector3> corners, double reach) {
-  switch (corners.size()) {
-    case 2:
-      return is_on_line(point, corners[0], corners[1], reach);
-    case 8:
-      return is_in_hexahedron(point, corners, reach);
-    default:
-      return corners.size() > 2 && is_on_shell(point, corners, reach);
+bool is_in_element(ElementType type, std::span<const Vector3> corners, const Vector3& point,
+                   double reach) {
+  if (is_solid(type)) {
+    return is_in_solid(point, corners, traits_of(type).faces, reach);
   }
+  if (is_shell(type)) {
+    return is_on_shell(point, corners, reach);
+  }
+  return joins_two_nodes(type) && is_on_line(point, corners[0], corners[1], reach);
 }
 
 }  // namespace pounding

@@ -2,12 +2,13 @@
 
 #include <span>
 
-#include "common/types.h"
+#include "elements/element_traits.h"
 
 namespace pounding {
 
-/// Whether a point lies within `reach` [m] of an element with flat faces: a line (2 corners), a
-/// shell (3 or 4) or a hexahedron (8, in Gmsh's order).
-bool is_in_element(const Vector3& point, std::span<const Vector3> corners, double reach);
+/// Whether a point lies within `reach` [m] of an element with flat faces, given by its type and the
+/// positions of its nodes; in no element of a single node.
+bool is_in_element(ElementType type, std::span<const Vector3> corners, const Vector3& point,
+                   double reach);
 
 }  // namespace pounding

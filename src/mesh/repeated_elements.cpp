@@ -61,7 +61,7 @@ void check(const std::string& structure, std::span<const ElementSet* const> sets
 void check_repeated_elements(const std::string& structure, const GlobalMesh& mesh) {
   std::vector<const ElementSet*> extended;
   for (const ElementSet& set : mesh.regions) {
-    if (is_hexahedron(set.type) || is_shell(set.type)) {
+    if (carries_faces(set.type)) {
       extended.push_back(&set);
     } else {
       check(structure, std::array{&set});

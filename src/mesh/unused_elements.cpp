@@ -33,10 +33,6 @@ Key key_of(std::span<const std::int64_t> nodes) {
   return key;
 }
 
-/// Faces of a hexahedron by its nodes.
-constexpr std::array<std::array<std::size_t, 4>, 6> hexahedron_faces{
-    {{0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
-
 class Search {
  public:
   Search(const RawMesh& raw, const GlobalMesh& mesh) : raw_(raw), mesh_(mesh) {
@@ -122,10 +118,10 @@ class Search {
     for (const ElementSet& set : mesh_.regions) {
       const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
       for (std::size_t e = 0; e < set.tags.size(); ++e) {
-        if (is_hexahedron(set.type)) {
-          for (const auto& face : hexahedron_faces) {
-            mark(set, e, face);
-          }
+        for (const ElementFace& face : traits_of(set.type).faces) {
+          mark(set, e, face.corners());
+        }
+        if (is_solid(set.type)) {
           continue;
         }
         mark(set, e, {all.data(), width});

@@ -64,7 +64,7 @@ std::optional<Rayleigh> read_region_damping(OptionReader& options, const Names& 
   bool given = false;
   for (const std::string_view pattern : {region_damping.alpha, region_damping.beta,
                                          region_damping.ratio, region_damping.frequencies}) {
-    if (region.element == ElementType::tension_bar) {
+    if (!is_linear(region.element)) {
       options.forbid(pattern, names,
                      "bars with tension_only take the damping of their structure; leave it out");
     }

@@ -66,24 +66,23 @@ class Doubts {
   std::set<std::string> seen_;
 };
 
-bool has_material(ElementType element) {
-  return is_hexahedron(element) || is_shell(element) || element == ElementType::beam ||
-         element == ElementType::bar || element == ElementType::tension_bar;
-}
-
 void look_at_region(const std::string& structure, const Region& region, Doubts& doubts) {
-  if (!has_material(region.element)) {
+  if (!has_extent(region.element)) {
     return;
   }
   const std::string owner = structure + ", group " + region.group;
+  if (const std::string_view caution = traits_of(region.element).caution; !caution.empty()) {
+    doubts.add(owner + ": " + std::string(caution));
+  }
   doubts.look_at(region.material);
   if (region.section) {
     doubts.look_at(*region.section);
   }
-  if (is_shell(region.element)) {
+  const ElementTraits& element = traits_of(region.element);
+  if (takes(element, "thickness")) {
     doubts.look_at(owner, thickness, region.thickness);
   }
-  if (region.element == ElementType::bar || region.element == ElementType::tension_bar) {
+  if (takes(element, "area")) {
     doubts.look_at(owner, bar_area, region.area);
   }
 }
@@ -92,9 +91,7 @@ void look_at_region(const std::string& structure, const Region& region, Doubts& 
 bool is_held(const Structure& structure, std::size_t direction) {
   const auto clamps = [&](const Clamp& clamp) { return (clamp.components >> direction & 1) != 0; };
   const auto carries = [&](const Region& region) {
-    const bool grounded = region.element == ElementType::grounded_spring ||
-                          region.element == ElementType::grounded_spring6;
-    return grounded && region.stiffness[direction] > 0;
+    return is_grounded(region.element) && region.stiffness[direction] > 0;
   };
   return std::ranges::any_of(structure.clamps, clamps) ||
          std::ranges::any_of(structure.regions, carries);

@@ -23,7 +23,7 @@ void refuse_devices(const OptionReader& options, const Structure& structure) {
     const std::string remedy = "not in a structure with -" + option_name(model, {structure.name}) +
                                " modal; leave it out, or give -" +
                                option_name(model, {structure.name}) + " full";
-    if (region.element == ElementType::tension_bar) {
+    if (!is_linear(region.element)) {
       options.forbid("<structure>_<group>_tension_only", names, remedy);
     }
     if (std::ranges::any_of(region.dashpot, [](double value) { return value > 0; })) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <stdexcept>
 
+#include "elements/element_traits.h"
+
 namespace pounding {
 namespace {
 
@@ -80,7 +82,7 @@ constexpr std::array table{
     OptionRow{Block::structure, "<structure>_damping_ratio", Kind::real, "-", absent("optional"), damping_ratio, "", "instead of alpha and beta: damping ratio at two frequencies"},
     OptionRow{Block::structure, "<structure>_damping_frequencies", Kind::reals, "Hz", absent("required with the ratio"), positive, "two numbers f1,f2", "the two frequencies of the damping ratio"},
 
-    OptionRow{Block::region, "<structure>_<group>_element", Kind::choice, "word", required, any, "hex8|hex8_full|shell|beam|bar|point_mass|grounded_spring|spring", "element of the group (hex8: with incompatible modes)"},
+    OptionRow{Block::region, "<structure>_<group>_element", Kind::choice, "word", required, any, element_words, "element of the group (hex8: with incompatible modes)"},
     OptionRow{Block::region, "<structure>_<group>_material", Kind::text, "name", absent("required but for points and springs"), any, "the name of a material", "its material"},
     OptionRow{Block::region, "<structure>_<group>_section", Kind::text, "name", absent("required for beam"), any, "the name of a section", "its cross-section (beam only)"},
     OptionRow{Block::region, "<structure>_<group>_area", Kind::real, "m2", absent("required for bar"), positive, "", "its cross-section area (bar only)"},

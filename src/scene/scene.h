@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/types.h"
+#include "elements/element_traits.h"
 
 /// Plain structs of what the user asked, in SI units, validated; made by scene/scene_reader and
 /// constant afterwards. Identical on every rank.

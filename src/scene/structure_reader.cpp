@@ -20,36 +20,13 @@ namespace {
 
 using Names = OptionReader::Names;
 
-/// The element of a word; what depends on other options is settled by the region's reader.
-ElementType element_type(const std::string& word) {
-  static const std::map<std::string, ElementType> types{
-      {"hex8", ElementType::hex8},
-      {"hex8_full", ElementType::hex8_full},
-      {"shell", ElementType::shell4},
-      {"beam", ElementType::beam},
-      {"bar", ElementType::bar},
-      {"point_mass", ElementType::point_mass},
-      {"grounded_spring", ElementType::grounded_spring},
-      {"spring", ElementType::spring}};
-  return types.at(word);
-}
-
 /// Options that belong to some elements only: refused beside the others.
 void forbid_others(const OptionReader& options, const std::string& element, const Names& names) {
-  static const std::map<std::string, std::set<std::string>> belongs{
-      {"section", {"beam"}},
-      {"area", {"bar"}},
-      {"tension_only", {"bar"}},
-      {"thickness", {"shell"}},
-      {"rotary_inertia_factor", {"shell"}},
-      {"mass", {"point_mass"}},
-      {"rotary_inertia", {"point_mass"}},
-      {"stiffness", {"grounded_spring", "spring"}},
-      {"dashpot", {"grounded_spring", "spring"}},
-      {"material", {"hex8", "hex8_full", "shell", "beam", "bar"}}};
-  for (const auto& [option, elements] : belongs) {
-    if (!elements.contains(element)) {
-      options.forbid("<structure>_<group>_" + option, names,
+  for (const std::string property :
+       {"area", "dashpot", "mass", "material", "rotary_inertia", "rotary_inertia_factor", "section",
+        "stiffness", "tension_only", "thickness"}) {
+    if (!takes(traits_of(element_of_word(element)), property)) {
+      options.forbid("<structure>_<group>_" + property, names,
                      "not for the element " + element + " of this group; leave it out");
     }
   }
@@ -171,15 +148,18 @@ void read_point_mass(OptionReader& options, const Names& names, Region& region) 
 
 /// Reads the properties that elements with a shape need.
 void read_solid(OptionReader& options, const Names& names, Region& region) {
+  const ElementTraits& element = traits_of(region.element);
   region.material = read_material(options, names);
-  if (region.element == ElementType::beam) {
+  if (takes(element, "section")) {
     region.section = read_section(options, names);
-  } else if (region.element == ElementType::bar) {
+  }
+  if (takes(element, "area")) {
     region.area = options.real("<structure>_<group>_area", names);
     if (options.boolean("<structure>_<group>_tension_only", names)) {
       region.element = ElementType::tension_bar;
     }
-  } else if (region.element == ElementType::shell4) {
+  }
+  if (takes(element, "thickness")) {
     region.thickness = options.real("<structure>_<group>_thickness", names);
     region.rotary_inertia_factor = options.real("<structure>_<group>_rotary_inertia_factor", names);
   }
@@ -189,18 +169,14 @@ Region read_region(OptionReader& options, const Names& names, const Rayleigh& in
   Region region;
   region.group = names[1];
   const std::string element = options.choice("<structure>_<group>_element", names);
-  region.element = element_type(element);
+  region.element = element_of_word(element);
   forbid_others(options, element, names);
-  switch (region.element) {
-    case ElementType::point_mass:
-      read_point_mass(options, names, region);
-      break;
-    case ElementType::grounded_spring:
-    case ElementType::spring:
-      read_spring(options, names, region);
-      break;
-    default:
-      read_solid(options, names, region);
+  if (has_extent(region.element)) {
+    read_solid(options, names, region);
+  } else if (is_spring(region.element)) {
+    read_spring(options, names, region);
+  } else {
+    read_point_mass(options, names, region);
   }
   region.damping = read_region_damping(options, names, region, inherited);
   return region;
@@ -244,7 +220,7 @@ void forbid_mass_scaling(const OptionReader& options, const Structure& structure
 /// Matrices do not know which of their rows buckle.
 void forbid_tension_bars(const OptionReader& options, const Structure& structure) {
   for (const Region& region : structure.regions) {
-    if (!structure.matrices.empty() && region.element == ElementType::tension_bar) {
+    if (!structure.matrices.empty() && !is_linear(region.element)) {
       options.refuse("<structure>_<group>_tension_only", {structure.name, region.group},
                      "not with -" + structure.name + "_matrices");
     }

@@ -8,11 +8,6 @@
 
 namespace pounding {
 
-/// Elements whose shape is looked at: of 24 dofs.
-constexpr bool has_shape(ElementType type) {
-  return is_hexahedron(type) || type == ElementType::shell4;
-}
-
 /// Shapes of the hexahedra and quadrangles of a mesh, to 1e-10 of the shortest edge: elements that
 /// differ by less get one shape, the same on every rank and for any number of ranks, so that the
 /// ranks that share an element have the same stiffness for it.

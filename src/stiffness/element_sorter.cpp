@@ -50,7 +50,7 @@ void ElementSorter::sort() {
   for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
     if (has_shape(mesh_.blocks[b].type)) {
       sort_shapes(b);
-    } else if (mesh_.blocks[b].type != ElementType::tension_bar) {  // those are not linear
+    } else if (is_linear(mesh_.blocks[b].type)) {
       for (std::size_t e = 0; e < mesh_.blocks[b].count(); ++e) {
         if (!add_beam({b, e})) others_.push_back({b, e});
       }
@@ -64,8 +64,8 @@ void ElementSorter::sort_shapes(std::size_t b) {
   const ElementProperties properties =
       element_properties(structure_.regions[static_cast<std::size_t>(mesh_.blocks[b].region)]);
   for (std::size_t e = 0; e < block.count(); ++e) {
-    const bool in_row = is_hexahedron(block.type) ? add_brick({b, e}, properties)
-                                                  : add_rectangle({b, e}, properties);
+    const bool in_row =
+        is_solid(block.type) ? add_brick({b, e}, properties) : add_rectangle({b, e}, properties);
     if (!in_row) add_congruent({b, e}, properties);
   }
 }
@@ -109,7 +109,7 @@ bool ElementSorter::add_rectangle(const Element& element, const ElementPropertie
 }
 
 bool ElementSorter::add_beam(const Element& element) {
-  if (mesh_.blocks[element.first].type != ElementType::beam) return false;
+  if (!is_beam(mesh_.blocks[element.first].type)) return false;
   const auto place = places(element);
   for (std::size_t i = 1; i < 12; ++i) {
     // Six dofs in a row, or none.

@@ -5,6 +5,7 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "elements/measured_costs.h"
 #include "mesh/location.h"
 #include "stiffness/element_loop.h"
 #include "stiffness/element_properties.h"
@@ -53,7 +54,7 @@ class Assembly {
         added_mass_(structure, mesh) {
     if (with_matrix) matrix_ = create_matrix(mesh);
     for (const ElementBlock& block : mesh.blocks) {
-      if (block.type == ElementType::tension_bar && taut_.get() == nullptr) {
+      if (!is_linear(block.type) && taut_.get() == nullptr) {
         taut_ = create_matrix(mesh);
       }
       if (has_extra_damping(block) && extra_damping_.get() == nullptr) {
@@ -105,7 +106,7 @@ class Assembly {
       POUNDING_PETSC(
           MatSetValues(matrix.get(), n, rows.data(), n, columns.data(), values, ADD_VALUES));
     };
-    if (matrix_.get() != nullptr && block.type != ElementType::tension_bar) {
+    if (matrix_.get() != nullptr && is_linear(block.type)) {
       insert(matrix_, work.stiffness.data());
     }
     if (taut_.get() != nullptr) {
@@ -147,7 +148,7 @@ class Assembly {
   Rayleigh extra_rayleigh(const ElementBlock& block) const {
     const Rayleigh own =
         structure_.damping_of(structure_.regions[static_cast<std::size_t>(block.region)]);
-    const bool linear = block.type != ElementType::tension_bar;
+    const bool linear = is_linear(block.type);
     return {own.alpha - structure_.damping.alpha, linear ? own.beta - structure_.damping.beta : 0};
   }
 
@@ -195,14 +196,14 @@ bool multiplies_elements(const Mesh& mesh, StiffnessMethod method) {
     shaped += has_shape(block.type) ? block.global_count : 0;
   }
   return method == StiffnessMethod::element ||
-         (method == StiffnessMethod::automatic && 4 * shaped >= elements);
+         (method == StiffnessMethod::automatic &&
+          measured_costs::elements_per_shaped * shaped >= elements);
 }
 
-/// Elements without a kernel of their own cost somewhat more in the rows of the product than in an
-/// assembled matrix, the others a tenth of that or less.
+/// Whether the product by elements costs less than an assembled matrix.
 bool pays(const ElementKinds& kinds) {
   const GlobalIndex fast = kinds.bricks + kinds.rectangles + kinds.congruent + kinds.beams;
-  return kinds.other <= 4 * fast;
+  return kinds.other <= measured_costs::slow_per_fast * fast;
 }
 
 /// The assembled stiffness alone.

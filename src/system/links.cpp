@@ -33,7 +33,7 @@ std::unique_ptr<LinkLaw> Link::make_law(double time_step) const {
 std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh) {
   std::unique_ptr<Links> found(new Links);
   for (const ElementBlock& block : mesh.blocks) {
-    if (block.type == ElementType::tension_bar) {
+    if (!is_linear(block.type)) {
       found->count_ += block.global_count;
       for (std::size_t e = 0; e < block.count(); ++e) {
         found->add(structure, mesh, block, e);

@@ -128,20 +128,6 @@ double mass_scaling_factor(double time_step, const Rayleigh& damping, double fre
   return std::max(0.0, needed - (1 - time_step * damping.alpha / 2) / (frequency * frequency));
 }
 
-bool may_be_scaled(ElementType type) {
-  switch (type) {
-    case ElementType::beam:
-    case ElementType::bar:
-    case ElementType::grounded_spring:
-    case ElementType::grounded_spring6:
-    case ElementType::spring:
-    case ElementType::spring6:
-      return true;
-    default:
-      return false;
-  }
-}
-
 double add_element_mass(double time_step, const Rayleigh& damping,
                         std::span<const double> stiffness, std::span<const double> lumped_mass,
                         std::span<const double> dashpots, std::span<double> added) {
@@ -166,9 +152,9 @@ std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalM
     check_alpha(structure, region);
   }
   for (const ElementSet& set : mesh.regions) {
-    const bool tension = set.type == ElementType::tension_bar;
+    const bool tension = !is_linear(set.type);
     const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
-    const bool looked_at = tension || (scaling && may_be_scaled(set.type));
+    const bool looked_at = tension || (scaling && traits_of(set.type).scalable);
     for (std::size_t e = 0; looked_at && e < set.tags.size(); ++e) {
       const std::span<const GlobalIndex> nodes(&set.connectivity[e * width], width);
       if (tension || decision.scales(set, nodes)) {

@@ -35,9 +35,6 @@ struct MassScaling {
 /// c_e [s2]; `frequency` [rad/s] is infinite for an element without mass.
 double mass_scaling_factor(double time_step, const Rayleigh& damping, double frequency);
 
-/// Elements of one or two nodes: beams, bars, springs.
-bool may_be_scaled(ElementType type);
-
 /// Adds S_e, shape (n, n) [kg, kg m2], of an element with the given matrices, and returns c_e; the
 /// dashpots D_e of a spring add dt / 2 D_e as well. Does nothing and returns 0 where the element
 /// allows the wanted step by itself.

@@ -12,7 +12,7 @@ namespace pounding {
 
 double ScaledMass::add(const ElementBlock& block, std::size_t element, const Region& region,
                        const Matrices& matrices) {
-  if (structure_.mass_scaling == 0 || !may_be_scaled(block.type)) {
+  if (structure_.mass_scaling == 0 || !traits_of(block.type).scalable) {
     return 0;
   }
   const std::span<double> added(added_.data(), matrices.stiffness.size());

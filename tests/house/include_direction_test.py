@@ -11,7 +11,7 @@ SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "s
 MAY_INCLUDE = {
     "common": set(),
     "io": {"common"},
-    "scene": {"common"},
+    "scene": {"common", "elements"},
     "elements": {"common"},
     "mesh": {"common", "scene", "elements"},
     "motion": {"common", "scene"},

@@ -13,7 +13,7 @@ RANGES = {"any": "", "positive": "> 0", "not_negative": ">= 0", "at_least_1": ">
           "damping_ratio": "[0, 1)", "poisson_ratio": "(-1, 0.5)", "Range{1, 2, false, false}": "[1, 2]"}
 
 ROW = re.compile(r'OptionRow\{\s*Block::(\w+),\s*"([^"]+)",\s*Kind::(\w+),\s*"([^"]*)",\s*'
-                 r'(required|value\("[^"]*"\)|absent\("[^"]*"\)),\s*(Range\{[^}]*\}|\w+),\s*"([^"]*)",\s*"[^"]*"\}')
+                 r'(required|value\("[^"]*"\)|absent\("[^"]*"\)),\s*(Range\{[^}]*\}|\w+),\s*("[^"]*"|\w+),\s*"[^"]*"\}')
 PETSC_ROW = re.compile(r'\{"([a-z][a-z0-9_]*\*?)", Value::\w+\}')
 NAME = r"[A-Za-z]\w*"
 
@@ -28,6 +28,13 @@ def source(name):
         return file.read()
 
 
+def words_of(form):
+    """Words between quotes, or those of the constant of element_traits.h."""
+    if form.startswith('"'):
+        return form[1:-1]
+    return re.search(form + r'\s*=\s*"([^"]*)";', source("element_traits.h"))[1]
+
+
 def shown(preset):
     """A preset as the page shows it."""
     if preset == "required":
@@ -40,7 +47,7 @@ def shown(preset):
 
 def option_rows(text):
     """Pattern -> (block, kind, unit, default, range, words) of every row."""
-    return {pattern: (block, kind, unit, shown(preset), RANGES[bounds], form)
+    return {pattern: (block, kind, unit, shown(preset), RANGES[bounds], words_of(form))
             for block, pattern, kind, unit, preset, bounds, form in ROW.findall(text)}
 
 

@@ -33,7 +33,7 @@ inline std::vector<double> dense_mass(const DampedStructure& damped, const Dense
   for (const ElementSet& set : damped.mesh.regions) {
     const Region& region = damped.structure.regions[static_cast<std::size_t>(set.region)];
     const std::size_t size = 3 * static_cast<std::size_t>(element_layout(set.type).nodes);
-    for (std::size_t e = 0; may_be_scaled(set.type) && e < set.tags.size(); ++e) {
+    for (std::size_t e = 0; traits_of(set.type).scalable && e < set.tags.size(); ++e) {
       std::vector<double> k(size * size), m(size), d(size * size), added(size * size);
       const auto [x, dofs] = dense_element(damped.mesh, set, e, dense);
       element_matrices(set.type, x, element_properties(region), k, m);

@@ -156,21 +156,21 @@ TEST(NearNodes, AreThoseOfAllPairs) {
 
 TEST(PointInElement, LinesShellsAndHexahedra) {
   const std::vector<Vector3> line{{0, 0, 0}, {2, 0, 0}};
-  EXPECT_TRUE(is_in_element({1, 0.009, 0}, line, 0.01));
-  EXPECT_FALSE(is_in_element({1, 0.011, 0}, line, 0.01));
-  EXPECT_FALSE(is_in_element({2.02, 0, 0}, line, 0.01));
+  EXPECT_TRUE(is_in_element(ElementType::beam, line, {1, 0.009, 0}, 0.01));
+  EXPECT_FALSE(is_in_element(ElementType::beam, line, {1, 0.011, 0}, 0.01));
+  EXPECT_FALSE(is_in_element(ElementType::beam, line, {2.02, 0, 0}, 0.01));
   const std::vector<Vector3> shell{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  EXPECT_TRUE(is_in_element({0.2, 0.7, 0.05}, shell, 0.1));
-  EXPECT_FALSE(is_in_element({0.2, 0.7, 0.15}, shell, 0.1));
-  EXPECT_FALSE(is_in_element({1.2, 0.7, 0}, shell, 0.1));
+  EXPECT_TRUE(is_in_element(ElementType::shell4, shell, {0.2, 0.7, 0.05}, 0.1));
+  EXPECT_FALSE(is_in_element(ElementType::shell4, shell, {0.2, 0.7, 0.15}, 0.1));
+  EXPECT_FALSE(is_in_element(ElementType::shell4, shell, {1.2, 0.7, 0}, 0.1));
   const std::vector<Vector3> triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  EXPECT_TRUE(is_in_element({0.2, 0.2, 0}, triangle, 0.01));
-  EXPECT_FALSE(is_in_element({0.7, 0.7, 0}, triangle, 0.01));
+  EXPECT_TRUE(is_in_element(ElementType::shell3, triangle, {0.2, 0.2, 0}, 0.01));
+  EXPECT_FALSE(is_in_element(ElementType::shell3, triangle, {0.7, 0.7, 0}, 0.01));
   const std::vector<Vector3> brick{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                                    {0, 0, 2}, {1, 0, 2}, {1, 1, 2}, {0, 1, 2}};
-  EXPECT_TRUE(is_in_element({0.5, 0.5, 1.9}, brick, 0.01));
-  EXPECT_FALSE(is_in_element({0.5, 0.5, 2.1}, brick, 0.01));
-  EXPECT_FALSE(is_in_element({-0.1, 0.5, 1}, brick, 0.01));
+  EXPECT_TRUE(is_in_element(ElementType::hex8, brick, {0.5, 0.5, 1.9}, 0.01));
+  EXPECT_FALSE(is_in_element(ElementType::hex8, brick, {0.5, 0.5, 2.1}, 0.01));
+  EXPECT_FALSE(is_in_element(ElementType::hex8, brick, {-0.1, 0.5, 1}, 0.01));
 }
 
 }  // namespace

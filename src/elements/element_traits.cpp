@@ -1,0 +1,163 @@
+#include "elements/element_traits.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+
+#include "elements/bar2.h"
+#include "elements/beam2.h"
+#include "elements/hex8.h"
+#include "elements/measured_costs.h"
+#include "elements/point.h"
+#include "elements/shell3.h"
+#include "elements/shell4.h"
+
+namespace pounding {
+
+namespace {
+
+using Coordinates = std::span<const double>;
+using Matrix = std::span<double>;
+using Family = ElementFamily;
+using Kernel = ElementKernel;
+using Properties = ElementProperties;
+using Type = ElementType;
+
+template <Hex8Formulation formulation>
+void brick_stiffness(Coordinates coordinates, const Properties& properties, Matrix stiffness) {
+  hex8_stiffness(coordinates, properties, formulation, stiffness);
+}
+
+using ShellFunction = void (*)(Coordinates, const ShellProperties&, Matrix);
+
+template <ShellFunction function>
+void of_shell(Coordinates coordinates, const Properties& p, Matrix result) {
+  function(coordinates, {p.young, p.poisson, p.density, p.thickness, p.rotary_inertia_factor},
+           result);
+}
+
+template <int nodes, int components>
+void spring_stiffness(Coordinates, const Properties& properties, Matrix stiffness) {
+  spring_matrix({nodes, components}, properties.stiffness, stiffness);
+}
+
+void point_mass(Coordinates, const Properties& properties, Matrix lumped_mass) {
+  point_lumped_mass(properties, lumped_mass);
+}
+
+void nothing(Coordinates, const Properties&, Matrix result) {
+  std::ranges::fill(result, 0.0);
+}
+
+constexpr std::string_view of_solid = "material";
+constexpr std::string_view of_bar = "material area tension_only";
+constexpr std::string_view of_plate = "material thickness rotary_inertia_factor";
+constexpr std::string_view of_point = "mass rotary_inertia";
+constexpr std::string_view of_spring = "stiffness dashpot";
+
+// clang-format off
+constexpr std::array table{
+    // type, name, word of the option, family, nodes and components, type in Gmsh, companion, faces,
+    //   options, stiffness, lumped mass, kernel, cost, linear, scalable, caution
+    ElementTraits{Type::hex8, "hex8", "hex8", Family::solid, {8, 3}, 5, {}, hex8_faces,
+        of_solid, brick_stiffness<Hex8Formulation::incompatible>, hex8_lumped_mass, Kernel::brick, measured_costs::brick, true, false},
+    ElementTraits{Type::hex8_full, "hex8_full", "hex8_full", Family::solid, {8, 3}, 5, {}, hex8_faces,
+        of_solid, brick_stiffness<Hex8Formulation::full>, hex8_lumped_mass, Kernel::brick, measured_costs::brick, true, false},
+    ElementTraits{Type::beam, "beam", "beam", Family::line, {2, 6}, 1, {}, {},
+        "material section", beam2_stiffness, beam2_lumped_mass, Kernel::beam, measured_costs::beam, true, true},
+    ElementTraits{Type::bar, "bar", "bar", Family::line, {2, 3}, 1, {}, {},
+        of_bar, bar2_stiffness, bar2_lumped_mass, Kernel::sparse, measured_costs::small, true, true},
+    ElementTraits{Type::tension_bar, "bar (tension only)", "bar", Family::line, {2, 3}, 1, {}, {},
+        of_bar, bar2_stiffness, bar2_lumped_mass, Kernel::sparse, measured_costs::small, false, false},
+    ElementTraits{Type::shell4, "shell4", "shell", Family::shell, {4, 6}, 3, Type::shell3, {},
+        of_plate, of_shell<shell4_stiffness>, of_shell<shell4_lumped_mass>, Kernel::rectangle, measured_costs::rectangle, true, false},
+    ElementTraits{Type::shell3, "shell3", "shell", Family::shell, {3, 6}, 2, {}, {},
+        of_plate, of_shell<shell3_stiffness>, of_shell<shell3_lumped_mass>, Kernel::sparse, measured_costs::sparse_shell3, true, false},
+    ElementTraits{Type::point_mass, "point_mass", "point_mass", Family::point_mass, {1, 3}, 15, {}, {},
+        of_point, nothing, point_mass, Kernel::sparse, measured_costs::small, true, false},
+    ElementTraits{Type::point_mass6, "point_mass", "point_mass", Family::point_mass, {1, 6}, 15, {}, {},
+        of_point, nothing, point_mass, Kernel::sparse, measured_costs::small, true, false},
+    ElementTraits{Type::grounded_spring, "grounded_spring", "grounded_spring", Family::grounded_spring, {1, 3}, 15, {}, {},
+        of_spring, spring_stiffness<1, 3>, nothing, Kernel::sparse, measured_costs::small, true, true},
+    ElementTraits{Type::grounded_spring6, "grounded_spring", "grounded_spring", Family::grounded_spring, {1, 6}, 15, {}, {},
+        of_spring, spring_stiffness<1, 6>, nothing, Kernel::sparse, measured_costs::small, true, true},
+    ElementTraits{Type::spring, "spring", "spring", Family::spring, {2, 3}, 1, {}, {},
+        of_spring, spring_stiffness<2, 3>, nothing, Kernel::sparse, measured_costs::small, true, true},
+    ElementTraits{Type::spring6, "spring", "spring", Family::spring, {2, 6}, 1, {}, {},
+        of_spring, spring_stiffness<2, 6>, nothing, Kernel::sparse, measured_costs::small, true, true}};
+// clang-format on
+
+/// Whether `list`, split at `separator`, has an entry `word`.
+constexpr bool contains_word(std::string_view list, char separator, std::string_view word) {
+  while (true) {
+    const std::size_t end = list.find(separator);
+    if (list.substr(0, end) == word) {
+      return true;
+    }
+    if (end == std::string_view::npos) {
+      return false;
+    }
+    list.remove_prefix(end + 1);
+  }
+}
+
+constexpr bool table_is_sound() {
+  std::size_t place = 0;
+  return std::ranges::all_of(table, [&](const ElementTraits& row) {
+    return row.type == static_cast<ElementType>(place++) && row.layout.nodes <= max_element_nodes &&
+           row.layout.size() <= max_element_size &&
+           row.faces.empty() == (row.family != ElementFamily::solid) &&
+           contains_word(element_words, '|', row.option);
+  });
+}
+
+/// Whether every word of the option is one of the table's.
+constexpr bool words_have_rows() {
+  std::string_view left = element_words;
+  while (true) {
+    const std::size_t end = left.find('|');
+    if (std::ranges::find(table, left.substr(0, end), &ElementTraits::option) == table.end()) {
+      return false;
+    }
+    if (end == std::string_view::npos) {
+      return true;
+    }
+    left.remove_prefix(end + 1);
+  }
+}
+
+static_assert(table_is_sound(), "rows in the order of the types, their words in element_words");
+static_assert(words_have_rows(), "a word of element_words has no row");
+
+}  // namespace
+
+std::span<const ElementTraits> element_table() {
+  return table;
+}
+
+const ElementTraits& traits_of(ElementType type) {
+  return table.at(static_cast<std::size_t>(type));
+}
+
+ElementType element_of_word(std::string_view word) {
+  const auto row = std::ranges::find(table, word, &ElementTraits::option);
+  if (row == table.end()) {
+    throw std::logic_error("no element has the word " + std::string(word));
+  }
+  return row->type;
+}
+
+bool takes(const ElementTraits& element, std::string_view property) {
+  return contains_word(element.properties, ' ', property);
+}
+
+int shared_by_neighbours(ElementType type) {
+  int fewest = max_element_nodes;
+  for (const ElementFace& face : traits_of(type).faces) {
+    fewest = std::min(fewest, face.count);
+  }
+  return is_solid(type) ? fewest : 1;
+}
+
+}  // namespace pounding

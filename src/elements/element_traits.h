@@ -1,0 +1,138 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "elements/element_properties.h"
+
+/// Everything that the program asks of a kind of element, in one table. A new element is its
+/// functions, a value of ElementType, its word and a row of the table in element_traits.cpp.
+namespace pounding {
+
+/// The elements a mesh can hold; `hex8` is the one with incompatible modes, `shell3` the triangle
+/// of shell meshes. A `tension_bar` resists stretching only. Springs act along and about the global
+/// axes; those named 6 also on rotations. In the order of the table.
+enum class ElementType {
+  hex8,
+  hex8_full,
+  beam,
+  bar,
+  tension_bar,
+  shell4,
+  shell3,
+  point_mass,
+  point_mass6,
+  grounded_spring,
+  grounded_spring6,
+  spring,
+  spring6
+};
+
+/// Words of the option, separated by '|'.
+inline constexpr std::string_view element_words =
+    "hex8|hex8_full|shell|beam|bar|point_mass|grounded_spring|spring";
+
+/// Kind of body that an element is: the first three have a shape and a material.
+enum class ElementFamily { solid, shell, line, point_mass, grounded_spring, spring };
+
+/// Way in which the product by elements applies an element: in rows of bricks or rectangles if it
+/// has that shape, from the local stiffness of a beam, or in a sparse matrix.
+enum class ElementKernel { brick, rectangle, beam, sparse };
+
+using StiffnessFunction = void (*)(std::span<const double> coordinates,
+                                   const ElementProperties& properties,
+                                   std::span<double> stiffness);
+using LumpedMassFunction = void (*)(std::span<const double> coordinates,
+                                    const ElementProperties& properties,
+                                    std::span<double> lumped_mass);
+
+/// Row of the table: everything that depends on the kind of element alone.
+struct ElementTraits {
+  ElementType type;
+  const char* name;         ///< in the report
+  std::string_view option;  ///< its word; the first row with it is what the word stands for
+  ElementFamily family;
+  ElementLayout layout;
+  int gmsh_type;  ///< of its cells: 1 line, 2 triangle, 3 quadrangle, 4 tetrahedron, ...
+  /// Element that cells of another shape become in a region of this one.
+  std::optional<ElementType> companion;
+  std::span<const ElementFace> faces;  ///< of a solid
+  std::string_view properties;         ///< last words of the options of its region, by blanks
+  StiffnessFunction stiffness;
+  LumpedMassFunction lumped_mass;
+  ElementKernel kernel;
+  int cost;                       ///< see measured_costs.h
+  bool linear;                    ///< its force is K u
+  bool scalable;                  ///< mass scaling may add to its mass
+  std::string_view caution = "";  ///< said whenever a scene uses it
+};
+
+/// The table, in the order of ElementType.
+std::span<const ElementTraits> element_table();
+
+const ElementTraits& traits_of(ElementType type);
+
+/// The element of a word of the option. Throws std::logic_error for a word without one.
+ElementType element_of_word(std::string_view word);
+
+/// Whether a region of the element has the option that ends so ("thickness").
+bool takes(const ElementTraits& element, std::string_view property);
+
+/// Nodes that two elements share at least if they meet in a face: those of the smallest face of a
+/// solid, one for everything else.
+int shared_by_neighbours(ElementType type);
+
+inline const char* element_name(ElementType type) {
+  return traits_of(type).name;
+}
+
+inline bool is_solid(ElementType type) {
+  return traits_of(type).family == ElementFamily::solid;
+}
+
+inline bool is_shell(ElementType type) {
+  return traits_of(type).family == ElementFamily::shell;
+}
+
+/// Solids and shells, which can touch.
+inline bool carries_faces(ElementType type) {
+  return is_solid(type) || is_shell(type);
+}
+
+/// Solids, shells, beams and bars, which have a shape and a material.
+inline bool has_extent(ElementType type) {
+  return carries_faces(type) || traits_of(type).family == ElementFamily::line;
+}
+
+inline bool is_beam(ElementType type) {
+  return traits_of(type).kernel == ElementKernel::beam;
+}
+
+/// Hexahedra and quadrangles, which may stand in rows if they are boxes or rectangles, or else
+/// share a dense matrix with their likes: of 24 dofs.
+inline bool has_shape(ElementType type) {
+  const ElementKernel kernel = traits_of(type).kernel;
+  return kernel == ElementKernel::brick || kernel == ElementKernel::rectangle;
+}
+
+inline bool is_linear(ElementType type) {
+  return traits_of(type).linear;
+}
+
+/// Springs and dashpots to the ground.
+inline bool is_grounded(ElementType type) {
+  return traits_of(type).family == ElementFamily::grounded_spring;
+}
+
+/// Springs and dashpots, to the ground or between two nodes.
+inline bool is_spring(ElementType type) {
+  return is_grounded(type) || traits_of(type).family == ElementFamily::spring;
+}
+
+/// Elements of two nodes: beams, bars, springs.
+inline bool joins_two_nodes(ElementType type) {
+  return traits_of(type).layout.nodes == 2;
+}
+
+}  // namespace pounding

@@ -1,0 +1,38 @@
+#pragma once
+
+/// Costs that were measured on one machine and decide about speed only, never about results. About
+/// nanoseconds of a step on a core; their ratios matter, to within a factor of two. Of an element:
+/// `mpirun -n 1 build/pounding -options_file SCENE -dry_run` prints the microseconds of a step;
+/// that of a slab or a frame of one kind, over its number of elements, is the cost of one with its
+/// share of the nodes. Of products: `build/tests/stiffness_benchmark` compares the product by
+/// elements with the assembled matrix. Of cuts: `run/scaling` compares ranks.
+namespace pounding::measured_costs {
+
+/// One element in a step, its share of the nodes included.
+inline constexpr int brick = 18;           ///< hexahedron in rows
+inline constexpr int rectangle = 20;       ///< quadrangle of a shell in rows
+inline constexpr int sparse_shell3 = 100;  ///< triangle of a shell in a sparse matrix
+inline constexpr int beam = 14;            ///< from its local stiffness
+inline constexpr int small = 2;            ///< bars, springs, points
+
+/// A node of a cluster: its part in a solution instead of a division.
+inline constexpr int cluster_node = 36;
+
+/// Ranks that share a structure and wait for each other's values, per structure: on the two-storey
+/// pair and 2 ranks, what the even cut loses.
+inline constexpr double sharing = 4000;
+
+/// Cutting a contact costs messages whenever the interface is looked at: more than a cut between
+/// two elements, which weighs their shared nodes.
+inline constexpr int contact_cut = 64;
+
+/// Elements without a kernel of their own cost somewhat more in the rows of the product than in an
+/// assembled matrix, the others a tenth of that or less: so many of the former to one of the latter
+/// and the product by elements still pays.
+inline constexpr int slow_per_fast = 4;
+
+/// One element in so many has to be of a kind that can stand in rows for the product by elements
+/// to be tried at all.
+inline constexpr int elements_per_shaped = 4;
+
+}  // namespace pounding::measured_costs
