@@ -12,6 +12,7 @@
 #include "elements/point.h"
 #include "elements/shell3.h"
 #include "elements/shell4.h"
+#include "elements/wedge6.h"
 
 namespace pounding {
 
@@ -60,9 +61,9 @@ constexpr std::string_view of_spring = "stiffness dashpot";
 constexpr std::array table{
     // type, name, word of the option, family, nodes and components, type in Gmsh, companion, faces,
     //   options, stiffness, lumped mass, kernel, cost, linear, scalable, caution
-    ElementTraits{Type::hex8, "hex8", "hex8", Family::solid, {8, 3}, 5, {}, hex8_faces,
+    ElementTraits{Type::hex8, "hex8", "hex8", Family::solid, {8, 3}, 5, Type::wedge6, hex8_faces,
         of_solid, brick_stiffness<Hex8Formulation::incompatible>, hex8_lumped_mass, Kernel::brick, measured_costs::brick, true, false},
-    ElementTraits{Type::hex8_full, "hex8_full", "hex8_full", Family::solid, {8, 3}, 5, {}, hex8_faces,
+    ElementTraits{Type::hex8_full, "hex8_full", "hex8_full", Family::solid, {8, 3}, 5, Type::wedge6, hex8_faces,
         of_solid, brick_stiffness<Hex8Formulation::full>, hex8_lumped_mass, Kernel::brick, measured_costs::brick, true, false},
     ElementTraits{Type::beam, "beam", "beam", Family::line, {2, 6}, 1, {}, {},
         "material section", beam2_stiffness, beam2_lumped_mass, Kernel::beam, measured_costs::beam, true, true},
@@ -85,7 +86,9 @@ constexpr std::array table{
     ElementTraits{Type::spring, "spring", "spring", Family::spring, {2, 3}, 1, {}, {},
         of_spring, spring_stiffness<2, 3>, nothing, Kernel::sparse, measured_costs::small, true, true},
     ElementTraits{Type::spring6, "spring", "spring", Family::spring, {2, 6}, 1, {}, {},
-        of_spring, spring_stiffness<2, 6>, nothing, Kernel::sparse, measured_costs::small, true, true}};
+        of_spring, spring_stiffness<2, 6>, nothing, Kernel::sparse, measured_costs::small, true, true},
+    ElementTraits{Type::wedge6, "wedge6", "wedge6", Family::solid, {6, 3}, 6, {}, wedge6_faces,
+        of_solid, wedge6_stiffness, wedge6_lumped_mass, Kernel::sparse, measured_costs::sparse_wedge6, true, false}};
 // clang-format on
 
 /// Whether `list`, split at `separator`, has an entry `word`.

@@ -15,8 +15,8 @@ namespace {
 using testing_support::dense_element;
 using testing_support::DenseElement;
 
-constexpr ElementType all_types[] = {ElementType::hex8, ElementType::hex8_full, ElementType::beam,
-                                     ElementType::bar};
+constexpr ElementType all_types[] = {ElementType::hex8, ElementType::hex8_full, ElementType::wedge6,
+                                     ElementType::beam, ElementType::bar};
 
 bool is_brick(ElementType type) {
   return type == ElementType::hex8 || type == ElementType::hex8_full;
@@ -35,11 +35,14 @@ ElementProperties steel() {
   return p;
 }
 
-/// A distorted brick, and an oblique segment, whose coordinates are multiples of 1/64 m.
+/// Distorted solids, and an oblique segment, whose coordinates are multiples of 1/64 m.
 std::vector<double> coordinates_of(ElementType type) {
   if (is_brick(type))
     return {0,      0.0625, 0, 1,      0,      -0.125, 1.25, 0.875, 0, 0.125, 1,    0,
             -0.125, 0,      1, 1.0625, 0.1875, 0.75,   1,    1.25,  1, 0,     0.75, 1.125};
+  if (type == ElementType::wedge6)
+    return {0,      0.125, 0, 1,      0,    -0.125, 0.25,  0.875, 0.125,
+            -0.125, 0,     1, 1.0625, 0.25, 0.75,   0.125, 1.125, 1.25};
   return {0.25, -0.5, 0.125, 1.5, 0.75, 2.0};
 }
 
