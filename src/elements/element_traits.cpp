@@ -12,6 +12,7 @@
 #include "elements/point.h"
 #include "elements/shell3.h"
 #include "elements/shell4.h"
+#include "elements/tet4.h"
 #include "elements/wedge6.h"
 
 namespace pounding {
@@ -88,7 +89,10 @@ constexpr std::array table{
     ElementTraits{Type::spring6, "spring", "spring", Family::spring, {2, 6}, 1, {}, {},
         of_spring, spring_stiffness<2, 6>, nothing, Kernel::sparse, measured_costs::small, true, true},
     ElementTraits{Type::wedge6, "wedge6", "wedge6", Family::solid, {6, 3}, 6, {}, wedge6_faces,
-        of_solid, wedge6_stiffness, wedge6_lumped_mass, Kernel::sparse, measured_costs::sparse_wedge6, true, false}};
+        of_solid, wedge6_stiffness, wedge6_lumped_mass, Kernel::sparse, measured_costs::sparse_wedge6, true, false},
+    ElementTraits{Type::tet4, "tet4", "tet4", Family::solid, {4, 3}, 4, {}, tet4_faces,
+        of_solid, tet4_stiffness, tet4_lumped_mass, Kernel::sparse, measured_costs::sparse_tet4, true, false,
+        "linear tetrahedra are too stiff in bending and lock near poisson 0.5; prefer wedge6 or hex8"}};
 // clang-format on
 
 /// Whether `list`, split at `separator`, has an entry `word`.

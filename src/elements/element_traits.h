@@ -27,12 +27,13 @@ enum class ElementType {
   grounded_spring6,
   spring,
   spring6,
-  wedge6
+  wedge6,
+  tet4
 };
 
 /// Words of the option, separated by '|'.
 inline constexpr std::string_view element_words =
-    "hex8|hex8_full|wedge6|shell|beam|bar|point_mass|grounded_spring|spring";
+    "hex8|hex8_full|wedge6|tet4|shell|beam|bar|point_mass|grounded_spring|spring";
 
 /// Kind of body that an element is: the first three have a shape and a material.
 enum class ElementFamily { solid, shell, line, point_mass, grounded_spring, spring };

@@ -13,6 +13,7 @@ inline constexpr int brick = 18;           ///< hexahedron in rows
 inline constexpr int rectangle = 20;       ///< quadrangle of a shell in rows
 inline constexpr int sparse_shell3 = 100;  ///< triangle of a shell in a sparse matrix
 inline constexpr int sparse_wedge6 = 45;   ///< wedge in a sparse matrix
+inline constexpr int sparse_tet4 = 12;     ///< tetrahedron in a sparse matrix
 inline constexpr int beam = 14;            ///< from its local stiffness
 inline constexpr int small = 2;            ///< bars, springs, points
 

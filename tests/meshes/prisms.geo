@@ -1,6 +1,7 @@
 // A brick of wedges, triangles in x and y extruded along z: corner at the origin, edges lx, ly, lz
-// [m], nx (even), ny, nz cells. mixed = 1: hexahedra in the half of small x. Groups: body, x_min, x_max, z_min, z_max.
-DefineConstant[ lx = 1, ly = 1, lz = 1, nx = 2, ny = 1, nz = 1, mixed = 0 ];
+// [m], nx (even), ny, nz cells. mixed = 1: hexahedra in the half of small x. tetrahedra = 1: three in
+// the place of each wedge. Groups: body, x_min, x_max, z_min, z_max.
+DefineConstant[ lx = 1, ly = 1, lz = 1, nx = 2, ny = 1, nz = 1, mixed = 0, tetrahedra = 0 ];
 Point(1) = {0, 0, 0};
 Point(2) = {lx / 2, 0, 0};
 Point(3) = {lx, 0, 0};
@@ -24,8 +25,13 @@ Transfinite Surface {1, 2};
 If (mixed)
   Recombine Surface {1};
 EndIf
-left[] = Extrude {0, 0, lz} { Surface{1}; Layers{nz}; Recombine; };
-right[] = Extrude {0, 0, lz} { Surface{2}; Layers{nz}; Recombine; };
+If (tetrahedra)
+  left[] = Extrude {0, 0, lz} { Surface{1}; Layers{nz}; };
+  right[] = Extrude {0, 0, lz} { Surface{2}; Layers{nz}; };
+Else
+  left[] = Extrude {0, 0, lz} { Surface{1}; Layers{nz}; Recombine; };
+  right[] = Extrude {0, 0, lz} { Surface{2}; Layers{nz}; Recombine; };
+EndIf
 Physical Volume("body") = {left[1], right[1]};
 Physical Surface("z_min") = {1, 2};
 Physical Surface("z_max") = {left[0], right[0]};

@@ -1,10 +1,10 @@
-"""Wedges: first frequency of a cantilever, and a bar that hits a rigid wall.
+"""Wedges and tetrahedra: first frequency of a cantilever, and a bar that hits a rigid wall.
 
 Cantilever 6 x 0.5 x 1 m without Poisson effect, clamped at z = 0, its first bending f = 7.932 Hz by
 Euler and Bernoulli, 0.5 % less by hexahedra, which know shear. Bar of bar_on_wall_test.py: 10 m long,
 impedance 30 N s/m, at -10 m/s. A bar of wedges extruded along its axis is the chain of masses that
 hexahedra are, so it has their discrete solution (50 elements, half the stable step of the chain). Along
-the triangles it comes near it.
+the triangles, and cut into tetrahedra, it comes near it.
 """
 import unittest
 
@@ -17,7 +17,8 @@ BEAM = 7.932
 CANTILEVERS = {
     ("hex8", "box", ()): (0.995, 0.995),
     ("wedge6", "prisms", ()): (1.055, 1.011),
-    ("hex8", "prisms", ("mixed",)): (1.025, 1.003)}
+    ("hex8", "prisms", ("mixed",)): (1.025, 1.003),
+    ("tet4", "prisms", ("tetrahedra",)): (1.466, 1.145)}
 # first contact [s], duration [s], impulse [N s], peak force [N], energy lost [J]
 CHAIN = {"start": 0.5033333333333334, "duration": 0.6733333333333333, "impulse": 197.98761966225067,
          "peak_force": 325.78125, "energy_lost": 5.0}
@@ -81,6 +82,9 @@ class Impact(unittest.TestCase):
 
     def test_wedges_beside_hexahedra(self):
         self.compare(1e-3, "hex8", "x", mixed=1)
+
+    def test_tetrahedra(self):
+        self.compare(1e-3, "tet4", "z", ("start", "duration", "impulse"), tetrahedra=1)
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ using testing_support::dense_element;
 using testing_support::DenseElement;
 
 constexpr ElementType all_types[] = {ElementType::hex8, ElementType::hex8_full, ElementType::wedge6,
-                                     ElementType::beam, ElementType::bar};
+                                     ElementType::tet4, ElementType::beam,      ElementType::bar};
 
 bool is_brick(ElementType type) {
   return type == ElementType::hex8 || type == ElementType::hex8_full;
@@ -43,6 +43,8 @@ std::vector<double> coordinates_of(ElementType type) {
   if (type == ElementType::wedge6)
     return {0,      0.125, 0, 1,      0,    -0.125, 0.25,  0.875, 0.125,
             -0.125, 0,     1, 1.0625, 0.25, 0.75,   0.125, 1.125, 1.25};
+  if (type == ElementType::tet4)
+    return {0, 0.125, 0, 1, 0, -0.125, 0.25, 0.875, 0.125, 0.25, 0.25, 1};
   return {0.25, -0.5, 0.125, 1.5, 0.75, 2.0};
 }
 

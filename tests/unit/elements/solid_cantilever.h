@@ -20,11 +20,14 @@ inline ElementProperties cantilever_material() {
 }
 
 /// Nodes of one cell of a grid, bottom then top, cut into elements of a type: hexahedra whole,
-/// two wedges.
+/// two wedges, six tetrahedra.
 inline std::vector<std::vector<std::size_t>> cut_cell(ElementType type,
                                                       const std::array<std::size_t, 8>& n) {
   if (type == ElementType::wedge6)
     return {{n[0], n[1], n[2], n[4], n[5], n[6]}, {n[0], n[2], n[3], n[4], n[6], n[7]}};
+  if (type == ElementType::tet4)
+    return {{n[0], n[1], n[2], n[6]}, {n[0], n[2], n[3], n[6]}, {n[0], n[3], n[7], n[6]},
+            {n[0], n[7], n[4], n[6]}, {n[0], n[4], n[5], n[6]}, {n[0], n[5], n[1], n[6]}};
   return {{n.begin(), n.end()}};
 }
 
