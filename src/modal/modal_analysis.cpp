@@ -22,7 +22,7 @@ void weigh(const LinearSystem& system, std::vector<double>& x) {
   }
 }
 
-/// What no circular frequency exceeds [rad/s]. Elements with stiffness and no mass, springs, have
+/// Bound of every circular frequency [rad/s]. Elements with stiffness and no mass, springs, have
 /// no bound of their own: then that of the rows of M^-1/2 K M^-1/2.
 double frequency_bound(const LinearSystem& system) {
   if (std::isfinite(system.element_frequency_bound)) {
