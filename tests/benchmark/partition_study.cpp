@@ -18,6 +18,7 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmark/storey_pair.h"
+#include "mesh/partition.h"
 
 namespace pounding::measuring {
 namespace {
