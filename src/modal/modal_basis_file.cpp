@@ -27,16 +27,28 @@ std::string difference(const Hdf5Reader& file, const BasisKey& key) {
   return names;
 }
 
+constexpr double most_coordinates = 1e9;  // an int holds them
+constexpr double largest_number = 9e15;   // whole numbers above are not told apart
+
+/// The value, if it is a whole number from 0 to `largest`; else throws std::runtime_error.
+double whole(double value, double largest) {
+  if (!(value >= 0 && value <= largest && value == std::floor(value))) {
+    throw std::runtime_error("a number that must be whole");
+  }
+  return value;
+}
+
 ModalBasis read_arrays(const Hdf5Reader& file) {
   ModalBasis basis;
-  basis.modes = static_cast<int>(file.number("/", "modes"));
-  basis.attachment_vectors = static_cast<int>(file.number("/", "attachment_vectors"));
-  basis.full_dofs = static_cast<GlobalIndex>(file.number("/", "full_dofs"));
+  basis.modes = static_cast<int>(whole(file.number("/", "modes"), most_coordinates));
+  basis.attachment_vectors =
+      static_cast<int>(whole(file.number("/", "attachment_vectors"), most_coordinates));
+  basis.full_dofs = static_cast<GlobalIndex>(whole(file.number("/", "full_dofs"), largest_number));
   basis.total_mass = file.number("/", "total_mass");
   basis.mass = file.number("/", "mass");
   basis.squared_frequency = file.array("squared_frequency");
   for (const double number : file.array("mode_numbers")) {
-    basis.mode_numbers.push_back(static_cast<int>(number));
+    basis.mode_numbers.push_back(static_cast<int>(whole(number, most_coordinates)));
   }
   basis.participation = file.array("participation");
   const std::vector<double> centre = file.array("centre_of_mass");
@@ -47,7 +59,7 @@ ModalBasis read_arrays(const Hdf5Reader& file) {
   const auto modes = std::ranges::count_if(basis.mode_numbers, [](int n) { return n > 0; });
   if (size == 0 || basis.mode_numbers.size() != size || modes != basis.modes ||
       basis.participation.size() != 6 * size || centre.size() != 3 || inertia.size() != 6 ||
-      basis.rows.size() != points.size() / 2 * size ||
+      points.size() % 2 != 0 || basis.rows.size() != points.size() / 2 * size ||
       basis.modes + basis.attachment_vectors != static_cast<int>(size)) {
     throw std::runtime_error("sizes that do not belong together");
   }
@@ -65,7 +77,8 @@ ModalBasis read_arrays(const Hdf5Reader& file) {
   std::copy(centre.begin(), centre.end(), basis.centre_of_mass.begin());
   std::copy(inertia.begin(), inertia.end(), basis.inertia.begin());
   for (std::size_t i = 0; i < points.size(); i += 2) {
-    basis.points.push_back({static_cast<GlobalIndex>(points[i]), static_cast<int>(points[i + 1])});
+    basis.points.push_back({static_cast<GlobalIndex>(whole(points[i], largest_number)),
+                            static_cast<int>(whole(points[i + 1], 2))});
   }
   return basis;
 }
