@@ -16,10 +16,10 @@ namespace {
 /// Files are found at the first message between two ranks. Both ways, so that nobody is early.
 void greet_everybody(int ranks, int rank) {
   for (int round = 0; round < 2; ++round) {
-    std::vector<int> got(static_cast<std::size_t>(ranks));
+    std::vector<int> got(ranks);
     std::vector<MPI_Request> requests(2 * got.size());
     for (int other = 0; other < ranks; ++other) {
-      const auto i = static_cast<std::size_t>(other);
+      const std::size_t i = other;
       MPI_Irecv(&got[i], 1, MPI_INT, other, round, MPI_COMM_WORLD, &requests[2 * i]);
       MPI_Isend(&rank, 1, MPI_INT, other, round, MPI_COMM_WORLD, &requests[2 * i + 1]);
     }

@@ -46,7 +46,7 @@ template <typename Value>
 void receive_array(MPI_Comm comm, int from, std::vector<Value>& values) {
   long count = 0;
   MPI_Recv(&count, 1, MPI_LONG, from, 0, comm, MPI_STATUS_IGNORE);
-  values.resize(static_cast<std::size_t>(count));
+  values.resize(count);
   char* bytes = reinterpret_cast<char*>(values.data());
   const long total = count * static_cast<long>(sizeof(Value));
   for (long got = 0; got < total; got += 1L << 30) {
@@ -60,7 +60,7 @@ template <typename Value>
 void broadcast_array(MPI_Comm comm, std::vector<Value>& values, int root = 0) {
   long count = static_cast<long>(values.size());
   MPI_Bcast(&count, 1, MPI_LONG, root, comm);
-  values.resize(static_cast<std::size_t>(count));
+  values.resize(count);
   MPI_Bcast(values.data(), static_cast<int>(count * static_cast<long>(sizeof(Value))), MPI_CHAR,
             root, comm);
 }

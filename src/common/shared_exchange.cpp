@@ -89,7 +89,7 @@ SharedExchange::SharedExchange(MPI_Comm comm, std::size_t capacity)
   if (!on_one_node(comm)) {
     return;
   }
-  const auto ranks = static_cast<std::size_t>(size_of(comm));
+  const std::size_t ranks = size_of(comm);
   const unsigned long size = board_size(capacity);
   std::vector<unsigned long> begin(ranks + 1, 0);
   MPI_Allgather(&size, 1, MPI_UNSIGNED_LONG, begin.data() + 1, 1, MPI_UNSIGNED_LONG, comm);
@@ -124,7 +124,7 @@ void SharedExchange::publish() {
 }
 
 const double* SharedExchange::wait_for(int rank) const {
-  const Board& board = boards_[static_cast<std::size_t>(rank)];
+  const Board& board = boards_[rank];
   int looks = 0;
   for (; board.turn->load(std::memory_order_acquire) < turn_; ++looks) {
     if (looks < patience_) {

@@ -11,7 +11,7 @@ std::vector<std::vector<int>> coupled_components(std::span<const std::vector<int
                                                  int number_of_dofs) {
   const std::size_t rows = row_dofs.size();
   DisjointSets sets(rows);
-  std::vector<int> first_row_on_dof(static_cast<std::size_t>(number_of_dofs), -1);
+  std::vector<int> first_row_on_dof(number_of_dofs, -1);
   for (std::size_t r = 0; r < rows; ++r) {
     const int row = static_cast<int>(r);
     for (const int dof : row_dofs[r]) {
@@ -20,7 +20,7 @@ std::vector<std::vector<int>> coupled_components(std::span<const std::vector<int
                                     std::to_string(row) + " is not below " +
                                     std::to_string(number_of_dofs));
       }
-      int& seen = first_row_on_dof[static_cast<std::size_t>(dof)];
+      int& seen = first_row_on_dof[dof];
       if (seen < 0) {
         seen = row;
         continue;

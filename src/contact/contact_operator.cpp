@@ -7,7 +7,7 @@
 namespace pounding {
 
 LocalIndex owned_dof(const InterfaceDof& dof, std::span<const Mesh> meshes) {
-  const Mesh& mesh = meshes[static_cast<std::size_t>(dof.structure)];
+  const Mesh& mesh = meshes[dof.structure];
   const LocalIndex node = mesh.owned_node(dof.node);
   return node < 0 ? -1 : mesh.dof(node, dof.component);
 }
@@ -38,8 +38,7 @@ ContactOperator::ContactOperator(MPI_Comm comm, const std::vector<Constraint>& c
   }
   for (const Constraint& constraint : constraints) {
     for (const ConstraintTerm& term : constraint.terms) {
-      const int column =
-          kept[static_cast<std::size_t>(number.at({term.structure, term.node, term.component}))];
+      const int column = kept[number.at({term.structure, term.node, term.component})];
       if (column >= 0) {
         row_dof_.push_back(column);
         row_coefficient_.push_back(term.coefficient);
@@ -54,7 +53,7 @@ double ContactOperator::apply(int row, std::span<const double> x) const {
   const auto values = row_coefficients(row);
   double sum = 0;
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    sum += values[k] * x[static_cast<std::size_t>(columns[k])];
+    sum += values[k] * x[columns[k]];
   }
   return sum;
 }
@@ -63,7 +62,7 @@ void ContactOperator::add_transposed(int row, double value, std::span<double> y)
   const auto columns = row_dofs(row);
   const auto values = row_coefficients(row);
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    y[static_cast<std::size_t>(columns[k])] += values[k] * value;
+    y[columns[k]] += values[k] * value;
   }
 }
 

@@ -39,7 +39,7 @@ class ContactOperator {
  private:
   template <typename Value>
   std::span<const Value> slice(const std::vector<Value>& values, int row) const {
-    const auto r = static_cast<std::size_t>(row);
+    const std::size_t r = row;
     return {values.data() + row_begin_[r], row_begin_[r + 1] - row_begin_[r]};
   }
 

@@ -24,8 +24,8 @@ ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
       gather_(comm, known_dofs(structure_dofs_, traces_)),
       compliance_(comm, operator_.dof_list(), traces_),
       gap_tolerance_(gap_tolerance) {
-  const auto dofs = static_cast<std::size_t>(operator_.dofs());
-  const auto rows = static_cast<std::size_t>(operator_.rows());
+  const std::size_t dofs = operator_.dofs();
+  const std::size_t rows = operator_.rows();
   for (const Constraint& constraint : interface.constraints) {
     initial_gap_.push_back(constraint.initial_gap);
   }
@@ -34,8 +34,8 @@ ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
   for (std::size_t s = 0; s < traces_.size(); ++s) {
     const std::vector<int>& places = traces_[s].known();
     for (std::size_t k = 0; k < places.size(); ++k) {
-      const int dof = structure_dofs_[s][static_cast<std::size_t>(places[k])];
-      known_place_[static_cast<std::size_t>(dof)] = static_cast<int>(k);
+      const int dof = structure_dofs_[s][places[k]];
+      known_place_[dof] = static_cast<int>(k);
     }
     first_known_.push_back(known);
     known += places.size();
@@ -64,10 +64,10 @@ void ContactProblem::build_delassus() {
 
 std::vector<double> ContactProblem::row_force(int row, std::size_t structure,
                                               LocalIndex owned_dofs) const {
-  std::vector<double> force(static_cast<std::size_t>(owned_dofs), 0.0);
+  std::vector<double> force(owned_dofs, 0.0);
   const auto dofs = operator_.row_dofs(row);
   for (std::size_t a = 0; a < dofs.size(); ++a) {
-    const auto dof = static_cast<std::size_t>(dofs[a]);
+    const std::size_t dof = dofs[a];
     if (structure_of(dof) == structure && known_place_[dof] >= 0) {
       traces_[structure].add_force(static_cast<std::size_t>(known_place_[dof]),
                                    operator_.row_coefficients(row)[a], force);
@@ -81,7 +81,7 @@ double ContactProblem::row_compliance(int row, std::size_t structure) const {
   const auto values = operator_.row_coefficients(row);
   double sum = 0;
   for (std::size_t a = 0; a < dofs.size(); ++a) {
-    const auto dof = static_cast<std::size_t>(dofs[a]);
+    const std::size_t dof = dofs[a];
     for (std::size_t b = 0; structure_of(dof) == structure && b < dofs.size(); ++b) {
       sum += values[a] * values[b] * compliance_.entry(dof, static_cast<std::size_t>(dofs[b]));
     }
@@ -146,7 +146,7 @@ void ContactProblem::gather_displacements() {
   gather_.gather(1, {mine_.data(), mine_.size() / InterfaceGather::max_fields}, displacement_);
   smallest_gap_ = std::numeric_limits<double>::max();
   for (int row = 0; row < operator_.rows(); ++row) {
-    const auto r = static_cast<std::size_t>(row);
+    const std::size_t r = row;
     gap_[r] = initial_gap_[r] + operator_.apply(row, displacement_);
     smallest_gap_ = std::min(smallest_gap_, gap_[r]);
   }
@@ -179,13 +179,13 @@ void ContactProblem::solve_component(const Component& component) {
   const std::span<const double> free_velocity(velocities_.data() + dofs, dofs);
   active_places_.clear();
   for (std::size_t i = 0; i < component.rows.size(); ++i) {
-    if (active_[static_cast<std::size_t>(component.rows[i])] != 0) {
+    if (active_[component.rows[i]] != 0) {
       active_places_.push_back(i);
     }
   }
   if (active_places_.size() == 1) {
     const int row = component.rows[active_places_[0]];
-    const auto r = static_cast<std::size_t>(row);
+    const std::size_t r = row;
     impulse_[r] = std::max(0.0, -operator_.apply(row, free_velocity)) / diagonal_[r];
     operator_.add_transposed(row, impulse_[r], dof_impulse_);
   } else if (!active_places_.empty()) {
@@ -201,7 +201,7 @@ void ContactProblem::solve_coupled(const Component& component) {
   const auto row = [&](std::size_t i) { return component.rows[active_places_[i]]; };
   for (std::size_t i = 0; i < n; ++i) {
     rate_[i] = operator_.apply(row(i), free_velocity);
-    solution_[i] = previous_[static_cast<std::size_t>(row(i))];
+    solution_[i] = previous_[row(i)];
     for (std::size_t j = 0; j < n; ++j) {
       matrix_[i * n + j] = component.delassus[active_places_[i] * all + active_places_[j]];
     }
@@ -216,7 +216,7 @@ void ContactProblem::solve_coupled(const Component& component) {
     correct_component(component);
   }
   for (std::size_t i = 0; i < n; ++i) {
-    impulse_[static_cast<std::size_t>(row(i))] = solution_[i];
+    impulse_[row(i)] = solution_[i];
   }
 }
 
@@ -229,7 +229,7 @@ void ContactProblem::correct_component(const Component& component) {
     const auto values = operator_.row_coefficients(row);
     rate_[i] = 0;
     for (std::size_t k = 0; k < columns.size(); ++k) {
-      const auto dof = static_cast<std::size_t>(columns[k]);
+      const std::size_t dof = columns[k];
       rate_[i] +=
           values[k] * (velocities_[dofs + dof] + compliance_.velocity_change(dof, dof_impulse_));
     }
@@ -255,9 +255,9 @@ void ContactProblem::solve_impulse() {
   }
   const std::span<const double> velocity_before(velocities_.data(), displacement_.size());
   for (int row = 0; row < operator_.rows(); ++row) {
-    const double impulse = impulse_[static_cast<std::size_t>(row)];
+    const double impulse = impulse_[row];
     if (impulse > 0) {
-      work_[static_cast<std::size_t>(row)] = 0.5 * impulse * operator_.apply(row, velocity_before);
+      work_[row] = 0.5 * impulse * operator_.apply(row, velocity_before);
     }
   }
 }
@@ -267,8 +267,8 @@ void ContactProblem::add_velocity_change(std::size_t structure, double* velocity
   for (const std::vector<double>* impulse : {&dof_impulse_, &dof_increment_}) {
     const std::vector<int>& known = trace.known();
     for (std::size_t k = 0; k < known.size(); ++k) {
-      const int dof = structure_dofs_[structure][static_cast<std::size_t>(known[k])];
-      place_impulse_[k] = (*impulse)[static_cast<std::size_t>(dof)];
+      const int dof = structure_dofs_[structure][known[k]];
+      place_impulse_[k] = (*impulse)[dof];
     }
     trace.add_impulse(place_impulse_.data(), velocity);
   }

@@ -73,9 +73,8 @@ class SideFinder {
                       "' has no faces of solids or shells and no edges of shells");
     }
     const bool decided = side.face.undecided.empty();
-    if (std::ranges::all_of(decided ? side.face.nodes : group(s).nodes, [&](GlobalIndex node) {
-          return mesh.free_components[static_cast<std::size_t>(node)] == 0;
-        })) {
+    if (std::ranges::all_of(decided ? side.face.nodes : group(s).nodes,
+                            [&](GlobalIndex node) { return mesh.free_components[node] == 0; })) {
       throw UserError(side_option(contact_, name) + ": every node of group '" + s.group +
                       "' is clamped; a contact needs a face that can move");
     }
@@ -101,7 +100,7 @@ class SideFinder {
   /// Builds a face anew, its facets turned towards a direction where that is open.
   void decide(FaceSide& side, const ContactSide& s, const Vector3& towards) const {
     if (!side.face.undecided.empty()) {
-      const auto& regions = scene_.structures[static_cast<std::size_t>(side.structure)].regions;
+      const auto& regions = scene_.structures[side.structure].regions;
       side.face = build_contact_face(*side.mesh, regions, group(s), towards);
     }
   }
@@ -151,7 +150,7 @@ class SideFinder {
       const GlobalMesh& of = mesh(side);
       std::vector<GlobalIndex> nodes = group(side).nodes;
       if (whole) {
-        nodes.resize(static_cast<std::size_t>(of.node_count()));
+        nodes.resize(of.node_count());
         std::iota(nodes.begin(), nodes.end(), 0);
       }
       double farthest = std::numeric_limits<double>::lowest();

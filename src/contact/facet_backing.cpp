@@ -124,8 +124,8 @@ std::vector<FacetBacking> elements_behind(const GlobalMesh& mesh, std::span<cons
     if (!carries_faces(set.type)) {
       continue;
     }
-    const double thickness = regions[static_cast<std::size_t>(set.region)].thickness;
-    const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
+    const double thickness = regions[set.region].thickness;
+    const std::size_t width = element_layout(set.type).nodes;
     for (std::size_t e = 0; e < set.tags.size(); ++e) {
       const std::span<const GlobalIndex> nodes(&set.connectivity[e * width], width);
       std::map<std::size_t, int> shared;

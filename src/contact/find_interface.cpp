@@ -21,7 +21,7 @@ constexpr double snap = 1e-6;
 class PairFinder {
  public:
   PairFinder(const Scene& scene, std::span<const GlobalMesh> meshes, int contact)
-      : contact_(scene.contacts[static_cast<std::size_t>(contact)]),
+      : contact_(scene.contacts[contact]),
         number_(contact),
         sides_(find_sides(scene, meshes, contact_)) {
     report_.contact = contact_.name;
@@ -68,8 +68,7 @@ class PairFinder {
     int normal_axis = 0;
     const Vector3& normal = sides_.secondary.face.mean_normal;
     for (int d = 1; d < 3; ++d) {
-      if (std::abs(normal[static_cast<std::size_t>(d)]) >
-          std::abs(normal[static_cast<std::size_t>(normal_axis)]) + 1e-9) {
+      if (std::abs(normal[d]) > std::abs(normal[normal_axis]) + 1e-9) {
         normal_axis = d;
       }
     }
@@ -110,7 +109,7 @@ class PairFinder {
     FacetPoint point = faced.point;
     const Vector3& normal = nodes.face.node_normals[i];
     Constraint constraint;
-    const auto count = static_cast<std::size_t>(facet.count);
+    const std::size_t count = facet.count;
     for (std::size_t a = 0; a < count; ++a) {
       if (point.weights[a] > 1 - snap) {
         constraint.matched = true;
@@ -150,7 +149,7 @@ class PairFinder {
     add_terms(nodes.structure, node, -1, nodes.face.node_normals[i], constraint);
     const Vector3 x = nodes.mesh->position(node);
     for (std::size_t t = 0; t < 2; ++t) {
-      constraint.place[t] = x[static_cast<std::size_t>(report_.tangent_axes[t])];
+      constraint.place[t] = x[report_.tangent_axes[t]];
     }
     ++report_.pairs;
     report_.matched += constraint.matched ? 1 : 0;
@@ -160,7 +159,7 @@ class PairFinder {
   static void add_terms(int structure, GlobalIndex node, double weight, const Vector3& normal,
                         Constraint& constraint) {
     for (int d = 0; d < 3; ++d) {
-      const double coefficient = weight * normal[static_cast<std::size_t>(d)];
+      const double coefficient = weight * normal[d];
       if (coefficient != 0) {
         constraint.terms.push_back({structure, node, d, coefficient});
       }
@@ -186,7 +185,7 @@ class PairFinder {
     for (const GlobalIndex node : sides_.secondary.face.nodes) {
       const Vector3 x = sides_.secondary.mesh->position(node);
       for (std::size_t t = 0; t < 2; ++t) {
-        const double value = x[static_cast<std::size_t>(report_.tangent_axes[t])];
+        const double value = x[report_.tangent_axes[t]];
         low[t] = std::min(low[t], value);
         high[t] = std::max(high[t], value);
       }

@@ -9,12 +9,12 @@ InterfaceCompliance::InterfaceCompliance(MPI_Comm comm, const std::vector<Interf
       row_begin_(dofs.size(), 0),
       members_(traces.size()) {
   for (std::size_t i = 0; i < dofs.size(); ++i) {
-    std::vector<int>& members = members_[static_cast<std::size_t>(dofs[i].structure)];
+    std::vector<int>& members = members_[dofs[i].structure];
     place_.push_back(members.size());
     members.push_back(static_cast<int>(i));
   }
   for (std::size_t i = 0; i < dofs.size(); ++i) {
-    const auto s = static_cast<std::size_t>(dofs[i].structure);
+    const std::size_t s = dofs[i].structure;
     group_of_.push_back(static_cast<int>(i));
     if (traces[s].is_coupled()) {
       block_of_[i] = dofs[i].structure;
@@ -26,7 +26,7 @@ InterfaceCompliance::InterfaceCompliance(MPI_Comm comm, const std::vector<Interf
   for (std::size_t s = 0; s < traces.size(); ++s) {
     const std::vector<int>& known = traces[s].known();
     for (std::size_t a = 0; a < known.size(); ++a) {
-      const auto row = static_cast<std::size_t>(members_[s][static_cast<std::size_t>(known[a])]);
+      const std::size_t row = members_[s][known[a]];
       diagonal_[row] = traces[s].compliance(a, a);
       for (std::size_t b = 0; traces[s].is_coupled() && b < known.size(); ++b) {
         blocks_[row_begin_[row] + static_cast<std::size_t>(known[b])] = traces[s].compliance(a, b);
@@ -43,10 +43,10 @@ double InterfaceCompliance::velocity_change(std::size_t a, std::span<const doubl
   if (block_of_[a] < 0) {
     return diagonal_[a] * f[a];
   }
-  const std::vector<int>& members = members_[static_cast<std::size_t>(block_of_[a])];
+  const std::vector<int>& members = members_[block_of_[a]];
   double sum = 0;
   for (std::size_t b = 0; b < members.size(); ++b) {
-    sum += blocks_[row_begin_[a] + b] * f[static_cast<std::size_t>(members[b])];
+    sum += blocks_[row_begin_[a] + b] * f[members[b]];
   }
   return sum;
 }

@@ -21,7 +21,7 @@ InterfaceGather::InterfaceGather(MPI_Comm comm, std::span<const int> mine, bool 
   if (!member()) {
     return;
   }
-  const auto members = static_cast<std::size_t>(members_);
+  const std::size_t members = members_;
   counts_.resize(members);
   lengths_.resize(members);
   offsets_.resize(members);
@@ -32,7 +32,7 @@ InterfaceGather::InterfaceGather(MPI_Comm comm, std::span<const int> mine, bool 
     offsets_[m] = total;
     total += counts_[m];
   }
-  order_.resize(static_cast<std::size_t>(total));
+  order_.resize(total);
   MPI_Allgatherv(mine.data(), count, MPI_INT, order_.data(), counts_.data(), offsets_.data(),
                  MPI_INT, comm_);
   if (common_memory && members_ > 1) {
@@ -71,8 +71,7 @@ void InterfaceGather::gather(int fields, std::span<const double> mine, std::span
     shared_->publish(mine);
     std::size_t first = 0;
     for (int m = 0; m < members_; ++m) {
-      const std::size_t end =
-          first + static_cast<std::size_t>(counts_[static_cast<std::size_t>(m)]);
+      const std::size_t end = first + static_cast<std::size_t>(counts_[m]);
       spread(fields, first, end, shared_->wait_for(m), all);
       first = end;
     }

@@ -6,8 +6,8 @@ std::vector<std::vector<int>> dofs_by_structure(const ContactOperator& contact,
                                                 std::size_t structures) {
   std::vector<std::vector<int>> dofs(structures);
   for (int i = 0; i < contact.dofs(); ++i) {
-    const InterfaceDof& dof = contact.dof_list()[static_cast<std::size_t>(i)];
-    dofs[static_cast<std::size_t>(dof.structure)].push_back(i);
+    const InterfaceDof& dof = contact.dof_list()[i];
+    dofs[dof.structure].push_back(i);
   }
   return dofs;
 }
@@ -17,7 +17,7 @@ std::vector<Trace> make_traces(const ContactOperator& contact,
                                bool impulses) {
   std::vector<std::vector<TracePoint>> places(systems.size());
   for (const InterfaceDof& dof : contact.dof_list()) {
-    places[static_cast<std::size_t>(dof.structure)].push_back({dof.node, dof.component});
+    places[dof.structure].push_back({dof.node, dof.component});
   }
   std::vector<Trace> traces;
   for (std::size_t s = 0; s < systems.size(); ++s) {
@@ -31,7 +31,7 @@ std::vector<int> known_dofs(std::span<const std::vector<int>> structure_dofs,
   std::vector<int> known;
   for (std::size_t s = 0; s < traces.size(); ++s) {
     for (const int place : traces[s].known()) {
-      known.push_back(structure_dofs[s][static_cast<std::size_t>(place)]);
+      known.push_back(structure_dofs[s][place]);
     }
   }
   return known;

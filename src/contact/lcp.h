@@ -52,7 +52,7 @@ class PrincipalFactor {
   /// Keep the first `size` rows.
   void truncate(int size) { size_ = size; }
   int size() const { return size_; }
-  int row(int k) const { return rows_[static_cast<std::size_t>(k)]; }
+  int row(int k) const { return rows_[k]; }
   /// x := (H on the rows)^-1 x, shape (size()).
   void solve(std::span<double> x) const;
 

@@ -15,7 +15,7 @@ Vector3 normal_of(const Constraint& constraint) {
   const ConstraintTerm& last = constraint.terms.back();
   for (const ConstraintTerm& term : constraint.terms) {
     if (term.structure == last.structure && term.node == last.node) {
-      normal[static_cast<std::size_t>(term.component)] = -term.coefficient;
+      normal[term.component] = -term.coefficient;
     }
   }
   return normal;
@@ -23,8 +23,8 @@ Vector3 normal_of(const Constraint& constraint) {
 
 /// Two unit vectors across a unit vector and each other; axes for an axis.
 std::array<Vector3, 2> tangents_of(const Vector3& normal) {
-  const auto smallest = static_cast<std::size_t>(
-      std::ranges::min_element(normal, {}, [](double x) { return std::abs(x); }) - normal.begin());
+  const std::size_t smallest =
+      std::ranges::min_element(normal, {}, [](double x) { return std::abs(x); }) - normal.begin();
   Vector3 axis{0, 0, 0};
   axis[smallest] = 1;
   const Vector3 first = normalised(cross(normal, axis));
@@ -39,7 +39,7 @@ std::vector<ConstraintTerm> weights_of(const Constraint& constraint, const Vecto
         nodes.back().node != term.node) {
       nodes.push_back({term.structure, term.node, 0, 0});
     }
-    nodes.back().coefficient += term.coefficient * normal[static_cast<std::size_t>(term.component)];
+    nodes.back().coefficient += term.coefficient * normal[term.component];
   }
   return nodes;
 }
@@ -56,7 +56,7 @@ std::vector<Constraint> tangential_rows(std::span<const Constraint> constraints)
       row.contact = constraint.contact;
       for (const ConstraintTerm& node : nodes) {
         for (int d = 0; d < 3; ++d) {
-          const double coefficient = node.coefficient * tangent[static_cast<std::size_t>(d)];
+          const double coefficient = node.coefficient * tangent[d];
           if (coefficient != 0) {
             row.terms.push_back({node.structure, node.node, d, coefficient});
           }
@@ -98,7 +98,7 @@ void SlideWatch::look(double time) {
     const double distance =
         std::hypot(operator_.apply(row, displacement_), operator_.apply(row + 1, displacement_));
     const double size = facet_size_[i];
-    Slide& slide = slides_[static_cast<std::size_t>(contact_[i])];
+    Slide& slide = slides_[contact_[i]];
     if (size > 0 && distance > Slide::limit * size && slide.since < 0) {
       slide.since = time;
     }

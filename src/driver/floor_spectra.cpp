@@ -21,7 +21,7 @@ std::vector<std::vector<double>> share_accelerations(MPI_Comm comm, std::size_t 
         acceleration.begin() + static_cast<std::ptrdiff_t>(std::min(first, acceleration.size())));
     return acceleration;
   };
-  const auto ranks = static_cast<std::size_t>(size_of(comm));
+  const std::size_t ranks = size_of(comm);
   std::vector<std::vector<double>> mine;
   for (std::size_t channel = 0; channel < channels; ++channel) {
     const auto worker = static_cast<int>(channel % ranks);
@@ -63,7 +63,7 @@ std::vector<ProbeSpectrum> compute_floor_spectra(MPI_Comm comm, const Scene& sce
     }
     return {};
   }
-  const auto ranks = static_cast<std::size_t>(size_of(comm));
+  const std::size_t ranks = size_of(comm);
   std::vector<ProbeSpectrum> spectra;
   for (std::size_t channel = 0; channel < channels; ++channel) {
     for (std::size_t r = 0; r < ratios.size(); ++r) {

@@ -50,9 +50,8 @@ class Export {
       for (int c = 0; c < 6; ++c) {
         const LocalIndex dof = mesh.dof(node, c);
         if (dof >= 0) {
-          mine.push_back({mesh.file_node[static_cast<std::size_t>(node)], c,
-                          mesh.dof_global(node, c), mesh.position(node),
-                          model.systems[structure].lumped_mass[static_cast<std::size_t>(dof)]});
+          mine.push_back({mesh.file_node[node], c, mesh.dof_global(node, c), mesh.position(node),
+                          model.systems[structure].lumped_mass[dof]});
         }
       }
     }
@@ -60,7 +59,7 @@ class Export {
     std::ranges::sort(dofs_, {}, [](const Dof& dof) { return std::pair(dof.node, dof.component); });
     place_.resize(dofs_.size());
     for (std::size_t i = 0; i < dofs_.size(); ++i) {
-      place_[static_cast<std::size_t>(dofs_[i].number)] = static_cast<PetscInt>(i);
+      place_[dofs_[i].number] = static_cast<PetscInt>(i);
     }
   }
 
@@ -97,8 +96,7 @@ class Export {
     for (const Dof& dof : dofs_) {
       char place[96];
       std::snprintf(place, sizeof place, "%.17g,%.17g,%.17g,%s", dof.position[0], dof.position[1],
-                    dof.position[2],
-                    component_names[static_cast<std::size_t>(dof.component)].data());
+                    dof.position[2], component_names[dof.component].data());
       file.row(place, {});
       masses.push_back({static_cast<PetscInt>(masses.size()), 0, dof.mass});
     }
@@ -140,8 +138,7 @@ class Export {
           entries.push_back({row, column, term.coefficient});
         }
       }
-      gaps.row(scene_.contacts[static_cast<std::size_t>(constraint.contact)].name,
-               {constraint.initial_gap});
+      gaps.row(scene_.contacts[constraint.contact].name, {constraint.initial_gap});
       ++row;
     }
     gaps.close();
@@ -158,7 +155,7 @@ class Export {
         continue;
       }
       for (int d = 0; d < 3; ++d, ++row) {
-        names.row(probe.name + "." + direction_names[static_cast<std::size_t>(d)], {});
+        names.row(probe.name + "." + direction_names[d], {});
         for (const GlobalIndex node : probe.nodes) {
           const PetscInt column = row_of(node, d);
           if (column >= 0) {
@@ -190,8 +187,8 @@ class Export {
     std::vector<MatrixEntry> all = gathered(comm_, std::move(mine));
     on_rank0(comm_, [&] {
       for (MatrixEntry& entry : all) {
-        entry.row = place_[static_cast<std::size_t>(entry.row)];
-        entry.column = place_[static_cast<std::size_t>(entry.column)];
+        entry.row = place_[entry.row];
+        entry.column = place_[entry.column];
       }
       std::ranges::sort(
           all, {}, [](const MatrixEntry& entry) { return std::pair(entry.row, entry.column); });

@@ -49,19 +49,17 @@ std::vector<std::string> probe_warnings(std::span<const ResolvedProbe> probes,
            << " m; give the place of a node, or refine the mesh";
       warnings.push_back(text.str());
     }
-    const GlobalMesh& mesh = meshes[static_cast<std::size_t>(probe.structure)];
-    const auto clamped =
-        static_cast<std::size_t>(std::ranges::count_if(probe.nodes, [&](GlobalIndex node) {
-          return (mesh.free_components[static_cast<std::size_t>(node)] & translations) == 0;
-        }));
+    const GlobalMesh& mesh = meshes[probe.structure];
+    const std::size_t clamped = std::ranges::count_if(probe.nodes, [&](GlobalIndex node) {
+      return (mesh.free_components[node] & translations) == 0;
+    });
     if (clamped > 0) {
       warnings.push_back(subject(probe, clamped) +
                          " clamped: the ground's own motion is recorded there");
     }
-    const auto in_contact =
-        static_cast<std::size_t>(std::ranges::count_if(probe.nodes, [&](GlobalIndex node) {
-          return touching.contains({probe.structure, node});
-        }));
+    const std::size_t in_contact = std::ranges::count_if(probe.nodes, [&](GlobalIndex node) {
+      return touching.contains({probe.structure, node});
+    });
     if (share * in_contact >= probe.nodes.size()) {
       warnings.push_back(subject(probe, in_contact) +
                          " part of a contact: the accelerations hold the impulses that act on it; "

@@ -149,9 +149,9 @@ void print_structure(const Building& building) {
   std::printf("  mode  frequency  direction  effective mass, share of it\n");
   int number = 0;
   for (const Mode& mode : building.modal.modes) {
-    const auto axis = static_cast<std::size_t>(
+    const std::size_t axis =
         std::max_element(mode.effective_modal_mass.begin(), mode.effective_modal_mass.begin() + 3) -
-        mode.effective_modal_mass.begin());
+        mode.effective_modal_mass.begin();
     std::printf("  %4d  %9.3f  %-9s  %8.0f kg along %s, %4.1f %% about/along %s\n", ++number,
                 mode.frequency, mode.direction.c_str(), mode.effective_modal_mass[axis],
                 direction_names[axis], 100 * mode.direction_fraction, mode.direction.c_str());
@@ -198,9 +198,8 @@ void print_impacts(const Scene& scene, const RunStatistics& statistics,
   for (std::size_t i = 0; i < std::min(shown, impacts.impacts().size()); ++i) {
     const Impact& impact = impacts.impacts()[i];
     std::printf("  %-12s %10.5f %12.3f %12.2f %9.1f %7d %7.2f\n",
-                scene.contacts[static_cast<std::size_t>(impact.contact)].name.c_str(), impact.start,
-                1000 * impact.duration(), impact.impulse, impact.peak_force / 1000, impact.points,
-                impact.energy_lost);
+                scene.contacts[impact.contact].name.c_str(), impact.start, 1000 * impact.duration(),
+                impact.impulse, impact.peak_force / 1000, impact.points, impact.energy_lost);
   }
   if (impacts.impacts().size() > shown) {
     std::printf("  ... and %zu more in impacts.csv\n", impacts.impacts().size() - shown);
@@ -258,8 +257,8 @@ void print_probe_places(const Scene& scene, const std::vector<ResolvedProbe>& pr
     std::printf(
         "probe %s: %zu node%s of %s at (%.6g, %.6g, %.6g), at most %.3g mm from what was asked\n",
         probe.name.c_str(), probe.nodes.size(), probe.nodes.size() == 1 ? "" : "s",
-        scene.structures[static_cast<std::size_t>(probe.structure)].name.c_str(), probe.position[0],
-        probe.position[1], probe.position[2], 1000 * probe.snap_distance);
+        scene.structures[probe.structure].name.c_str(), probe.position[0], probe.position[1],
+        probe.position[2], 1000 * probe.snap_distance);
   }
   if (probes.size() > shown) {
     std::printf("  ... and %zu more probes\n", probes.size() - shown);
@@ -357,7 +356,7 @@ void print_results(const Scene& scene, const RunStatistics& statistics,
                   static_cast<double>(std::max<std::int64_t>(1, statistics.steps)));
   for (int phase = 0; phase < static_cast<int>(Phase::count); ++phase) {
     std::printf("  %-22s %9.3f\n", phase_name(static_cast<Phase>(phase)),
-                statistics.phase_seconds[static_cast<std::size_t>(phase)]);
+                statistics.phase_seconds[phase]);
   }
   std::printf("results in %s\n", scene.output.c_str());
 }

@@ -25,13 +25,13 @@ bool stands_still(const Scene& scene) {
 void add_short_record(const Scene& scene, const Model& model, int direction,
                       std::vector<std::string>& warnings) {
   const Accelerogram& component = model.motion->component(direction);
-  const auto& asked = scene.motion[static_cast<std::size_t>(direction)];
+  const auto& asked = scene.motion[direction];
   const double last = component.time_step * static_cast<double>(component.acceleration.size() - 1);
   if (std::holds_alternative<RecordedMotion>(asked->source) &&
       scene.end_time > (last + component.time_step) * round_off) {
     std::ostringstream text;
     text << "option -end_time " << scene.end_time << " s: the record along "
-         << direction_names[static_cast<std::size_t>(direction)] << " ends at " << last
+         << direction_names[direction] << " ends at " << last
          << " s, the ground stands still afterwards";
     warnings.push_back(text.str());
   }
@@ -59,8 +59,7 @@ std::vector<std::string> run_warnings(const Scene& scene, const Model& model) {
   for (int direction = 0; direction < 3; ++direction) {
     if (model.motion->active(direction)) {
       add_short_record(scene, model, direction, warnings);
-      add_long_step("a sample of the motion along " +
-                        std::string(direction_names[static_cast<std::size_t>(direction)]),
+      add_long_step("a sample of the motion along " + std::string(direction_names[direction]),
                     model.motion->component(direction).time_step, model.time_step, warnings);
     }
   }

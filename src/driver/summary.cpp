@@ -142,7 +142,7 @@ Json describe_energy(const RunStatistics& statistics) {
 Json describe_probe(const Scene& scene, const Recorder& recorder, std::size_t p) {
   const ResolvedProbe& probe = recorder.probes()[p];
   Json description;
-  description["structure"] = scene.structures[static_cast<std::size_t>(probe.structure)].name;
+  description["structure"] = scene.structures[probe.structure].name;
   description["position"] = probe.position;
   description["nodes"] = probe.nodes.size();
   description["peak_acceleration"] = Json::array();
@@ -192,8 +192,7 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
       1e6 * statistics.step_time / static_cast<double>(std::max<std::int64_t>(1, statistics.steps));
   summary["peak_memory"] = statistics.peak_memory;
   for (int phase = 0; phase < static_cast<int>(Phase::count); ++phase) {
-    summary["phases"][phase_name(static_cast<Phase>(phase))] =
-        statistics.phase_seconds[static_cast<std::size_t>(phase)];
+    summary["phases"][phase_name(static_cast<Phase>(phase))] = statistics.phase_seconds[phase];
   }
   summary["partition"] = {{"imbalance", model.partition_imbalance},
                           {"edge_cut", model.partition_edge_cut},

@@ -181,8 +181,7 @@ void TimeLoop::observe(std::int64_t step) {
   std::fill(smallest_gaps_.begin(), smallest_gaps_.end(), reports ? none : unknown);
   if (reports) {
     for (std::size_t row = 0; row < solver_.contact()->gaps().size(); ++row) {
-      double& gap =
-          smallest_gaps_[static_cast<std::size_t>(model_.interface.constraints[row].contact)];
+      double& gap = smallest_gaps_[model_.interface.constraints[row].contact];
       gap = std::min(gap, solver_.contact()->gaps()[row]);
     }
   }

@@ -76,7 +76,7 @@ void CoupledStep::form_impulses(const StepTerms<double>& terms,
       double impulse = 0;  // what is no dof stays at rest
       if (c < node.count) {
         const int direction = system_.direction[i];
-        const double ground = direction < 0 ? 0 : ground_step[static_cast<std::size_t>(direction)];
+        const double ground = direction < 0 ? 0 : ground_step[direction];
         impulse = -(system_.lumped_mass[i] * (decay * state_.velocity[i] + ground)) -
                   terms.duration * force_[node.force + c];
         if (!state_.extra_force.empty()) {
@@ -155,7 +155,7 @@ void CoupledStep::settle_dofs(const Node& node, const StepTerms<double>& terms,
     state_.velocity[i] = dof.velocity;
     state_.stiffness_displacement[i] = dof.stiffness_displacement;
     if (system_.direction[i] >= 0) {
-      sums.momentum[static_cast<std::size_t>(system_.direction[i])] += momentum;
+      sums.momentum[system_.direction[i]] += momentum;
     }
     if (!state_.extra_force.empty()) {
       sums.device += state_.extra_force[i] * (after + before);

@@ -41,13 +41,13 @@ void LinkStep::find_couplings() {
     std::fill(unit.begin(), unit.end(), 0.0);
     for (std::size_t i = 0; i < link.place.size(); ++i) {
       if (link.place[i] >= 0) {
-        unit[static_cast<std::size_t>(link.place[i])] += i < 3 ? -link.axis[i] : link.axis[i - 3];
+        unit[link.place[i]] += i < 3 ? -link.axis[i] : link.axis[i - 3];
       }
     }
     velocity_ = at_rest;
     trace_.add_impulse(unit.data(), velocity_.data());
     for (std::size_t k = 0; k < velocity_.size(); ++k) {
-      all[static_cast<std::size_t>(trace_.dofs()[k])] = velocity_[k];
+      all[trace_.dofs()[k]] = velocity_[k];
     }
     measure(all, free_after_);
     std::vector<Coupling>& coupled = coupled_.emplace_back();
@@ -119,7 +119,7 @@ void LinkStep::pull(bool first) {
   for (std::size_t b = 0; b < links_.size(); ++b) {
     for (std::size_t i = 0; i < links_[b].place.size(); ++i) {
       if (links_[b].place[i] >= 0) {
-        field_[static_cast<std::size_t>(links_[b].place[i])] +=
+        field_[links_[b].place[i]] +=
             (i < 3 ? links_[b].axis[i] : -links_[b].axis[i - 3]) * duration * force_[b];
       }
     }

@@ -170,7 +170,7 @@ double StructureStep::ground_step_at(std::size_t dof) const {
     return step;
   }
   const int direction = system_.direction[dof];
-  return direction < 0 ? 0 : ground_step_[static_cast<std::size_t>(direction)];
+  return direction < 0 ? 0 : ground_step_[direction];
 }
 
 void StructureStep::add_momentum(std::size_t dof, double momentum) {
@@ -179,7 +179,7 @@ void StructureStep::add_momentum(std::size_t dof, double momentum) {
       sums_.momentum[d] += system_.generalised->influence[d][dof] * momentum;
     }
   } else if (system_.direction[dof] >= 0) {
-    sums_.momentum[static_cast<std::size_t>(system_.direction[dof])] += momentum;
+    sums_.momentum[system_.direction[dof]] += momentum;
   }
 }
 
@@ -218,8 +218,7 @@ std::size_t StructureStep::length_at(std::size_t dof, Order order) const {
       return 6;
     case Order::coupled: {
       const int node = system_.coupled_mass->node_of(static_cast<LocalIndex>(dof));
-      return static_cast<std::size_t>(
-          system_.coupled_mass->nodes()[static_cast<std::size_t>(node)].count);
+      return static_cast<std::size_t>(system_.coupled_mass->nodes()[node].count);
     }
     default:
       return 1;
@@ -361,8 +360,8 @@ void StructureStep::advance_dofs(std::size_t first, std::size_t end, const doubl
 template <bool with_energies>
 void StructureStep::advance(const Segment& segment, LocalIndex begin, LocalIndex end,
                             const double* force) {
-  const auto first = static_cast<std::size_t>(begin);
-  const auto stop = static_cast<std::size_t>(end);
+  const std::size_t first = begin;
+  const std::size_t stop = end;
   const auto offset = first - static_cast<std::size_t>(segment.begin);
   const DofMasses dof_masses(&system_.lumped_mass[first], &system_.inverse_mass[first]);
   switch (segment.order) {
@@ -399,7 +398,7 @@ void StructureStep::complete() {
 
 void StructureStep::remember(std::span<const LocalIndex> dofs, Before& before) const {
   for (std::size_t k = 0; k < dofs.size(); ++k) {
-    const auto i = static_cast<std::size_t>(dofs[k]);
+    const std::size_t i = dofs[k];
     before.displacement[k] = state_.displacement[i];
     before.velocity[k] = state_.velocity[i];
     before.stiffness_displacement[k] = state_.stiffness_displacement[i];
@@ -409,7 +408,7 @@ void StructureStep::remember(std::span<const LocalIndex> dofs, Before& before) c
 void StructureStep::correct(std::span<const LocalIndex> dofs, const Before& before,
                             std::span<const double> velocity) {
   for (std::size_t k = 0; k < dofs.size(); ++k) {
-    const auto i = static_cast<std::size_t>(dofs[k]);
+    const std::size_t i = dofs[k];
     const double free = state_.velocity[i];
     const double change = velocity[k] - free;
     const double mass = system_.lumped_mass[i];

@@ -54,7 +54,7 @@ Matrix3 local_frame(const Vector3& x_axis, const Vector3& z_axis) {
 }
 
 void rotate_to_global(const Matrix3& frame, std::span<double> matrix, int size) {
-  const auto n = static_cast<std::size_t>(size);
+  const std::size_t n = size;
   for (std::size_t row = 0; row < n; row += 3) {
     for (std::size_t column = 0; column < n; column += 3) {
       Matrix3 right{};  // block times frame

@@ -13,8 +13,8 @@ void point_lumped_mass(const ElementProperties& properties, std::span<double> lu
 void spring_matrix(const ElementLayout& layout, const std::array<double, 6>& values,
                    std::span<double> matrix) {
   std::fill(matrix.begin(), matrix.end(), 0.0);
-  const auto components = static_cast<std::size_t>(layout.components);
-  const auto size = static_cast<std::size_t>(layout.size());
+  const std::size_t components = layout.components;
+  const std::size_t size = layout.size();
   for (std::size_t c = 0; c < components; ++c) {
     for (std::size_t i = c; i < size; i += components) {
       for (std::size_t j = c; j < size; j += components) {

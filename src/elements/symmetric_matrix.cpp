@@ -8,14 +8,14 @@
 namespace pounding {
 
 void mirror_lower_triangle(std::span<double> matrix, int size) {
-  const auto n = static_cast<std::size_t>(size);
+  const std::size_t n = size;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < i; ++j) matrix[j * n + i] = matrix[i * n + j];
 }
 
 void condense_last(std::span<double> matrix, int size, int kept, std::span<double> condensed) {
-  const auto n = static_cast<std::size_t>(size);
-  const auto m = static_cast<std::size_t>(kept);
+  const std::size_t n = size;
+  const std::size_t m = kept;
   // Gaussian elimination from the last dof backwards; symmetric, so it needs no pivoting.
   for (std::size_t p = n; p-- > m;) {
     const double pivot = matrix[p * n + p];

@@ -52,7 +52,7 @@ class BinaryReader {
     const auto values = numbers<double, std::uint64_t>(static_cast<std::size_t>(entries));
     std::size_t k = 0;
     for (PetscInt row = 0; row < rows; ++row) {
-      for (std::int32_t i = 0; i < lengths[static_cast<std::size_t>(row)]; ++i, ++k) {
+      for (std::int32_t i = 0; i < lengths[row]; ++i, ++k) {
         const MatrixEntry entry{row, places[k], values[k]};
         if (entry.column < 0 || entry.column >= columns) {
           fail(at(entry) + ": outside of the matrix of " + std::to_string(columns) + " columns");

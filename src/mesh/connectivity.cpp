@@ -46,7 +46,7 @@ class Examination {
   std::size_t size_of_mesh() const { return mesh_.node_tags.size(); }
 
   static std::span<const GlobalIndex> nodes_of(const ElementSet& set, std::size_t element) {
-    const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
+    const std::size_t width = element_layout(set.type).nodes;
     return {&set.connectivity[element * width], width};
   }
 
@@ -55,7 +55,7 @@ class Examination {
   void join(const ElementSet& set, std::span<const GlobalIndex> nodes) {
     for (const GlobalIndex node : nodes) {
       pieces_.join(static_cast<std::size_t>(node), static_cast<std::size_t>(nodes.front()));
-      Meeting& meeting = meeting_[static_cast<std::size_t>(node)];
+      Meeting& meeting = meeting_[node];
       meeting.lines += joins_two_nodes(set.type) ? 1 : 0;
       meeting.beams += is_beam(set.type) ? 1 : 0;
       meeting.shells += is_shell(set.type) ? 1 : 0;
@@ -64,7 +64,7 @@ class Examination {
   }
 
   std::uint8_t clamped(GlobalIndex node) const {
-    const auto i = static_cast<std::size_t>(node);
+    const std::size_t i = node;
     return mesh_.components[i] & static_cast<std::uint8_t>(~mesh_.free_components[i]);
   }
 
@@ -83,16 +83,15 @@ class Examination {
         possible.emplace_back(mesh_.position(node), size);
         prevented.emplace_back(mesh_.position(node), size);
       }
-      const auto piece = static_cast<std::size_t>(number[root]);
+      const std::size_t piece = number[root];
       ++found_.pieces[piece].nodes;
-      add_components(node, mesh_.components[static_cast<std::size_t>(node)], possible[piece]);
+      add_components(node, mesh_.components[node], possible[piece]);
       add_components(node, clamped(node), prevented[piece]);
     }
     for (const ElementSet& set : mesh_.regions) {
       for (std::size_t i = 0; is_grounded(set.type) && i < set.connectivity.size(); ++i) {
         const GlobalIndex node = set.connectivity[i];
-        add_components(node, stiff_components(set),
-                       prevented[static_cast<std::size_t>(number[piece_of(node)])]);
+        add_components(node, stiff_components(set), prevented[number[piece_of(node)]]);
       }
     }
     for (std::size_t p = 0; p < found_.pieces.size(); ++p) {
@@ -113,7 +112,7 @@ class Examination {
 
   /// Components that a grounded spring or its dashpot resists.
   std::uint8_t stiff_components(const ElementSet& set) const {
-    const Region& region = structure_.regions[static_cast<std::size_t>(set.region)];
+    const Region& region = structure_.regions[set.region];
     unsigned mask = 0;
     for (std::size_t c = 0; c < 6; ++c) {
       mask |= region.stiffness[c] > 0 || region.dashpot[c] > 0 ? 1U << c : 0U;
@@ -128,8 +127,7 @@ class Examination {
     }
     auto pairs = near_nodes(mesh_, near);
     std::erase_if(pairs, [this](const auto& pair) {
-      return mesh_.free_components[static_cast<std::size_t>(pair.first)] == 0 &&
-             mesh_.free_components[static_cast<std::size_t>(pair.second)] == 0;
+      return mesh_.free_components[pair.first] == 0 && mesh_.free_components[pair.second] == 0;
     });
     std::set<std::pair<GlobalIndex, GlobalIndex>> joined;
     for (const ElementSet& set : mesh_.regions) {
@@ -152,7 +150,7 @@ class Examination {
   std::vector<GlobalIndex> free_ends() const {
     std::vector<GlobalIndex> ends;
     for (GlobalIndex node = 0; node < mesh_.node_count(); ++node) {
-      const Meeting& meeting = meeting_[static_cast<std::size_t>(node)];
+      const Meeting& meeting = meeting_[node];
       if (meeting.lines == 1 && meeting.shells == 0 && meeting.solids == 0 &&
           !clamped_anyhow(node)) {
         ends.push_back(node);
@@ -188,8 +186,7 @@ class Examination {
         box.high[d] = std::max(box.high[d], corners[a][d]);
       }
     }
-    const double thickness =
-        is_shell(set.type) ? structure_.regions[static_cast<std::size_t>(set.region)].thickness : 0;
+    const double thickness = is_shell(set.type) ? structure_.regions[set.region].thickness : 0;
     const double reach = tolerance * box.diagonal() + thickness / 2;
     const auto x_of = [this](GlobalIndex node) { return mesh_.position(node)[0]; };
     const auto first = std::ranges::lower_bound(ends, box.low[0] - reach, {}, x_of);
@@ -219,9 +216,8 @@ class Examination {
 
   void find_hinges() {
     for (GlobalIndex node = 0; node < mesh_.node_count(); ++node) {
-      const Meeting& meeting = meeting_[static_cast<std::size_t>(node)];
-      const bool turns =
-          (mesh_.free_components[static_cast<std::size_t>(node)] & rotations) == rotations;
+      const Meeting& meeting = meeting_[node];
+      const bool turns = (mesh_.free_components[node] & rotations) == rotations;
       if (meeting.solids > 0 && meeting.beams + meeting.shells > 0 && turns) {
         found_.hinges.add(mesh_.position(node));
         if (meeting.beams == 1 && meeting.shells == 0) {

@@ -23,7 +23,7 @@ ElementList list_elements(std::span<const GlobalMesh> meshes, std::span<const in
       if (whole_part(whole, s) >= 0) {
         break;
       }
-      const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
+      const std::size_t width = element_layout(set.type).nodes;
       for (std::size_t e = 0; e < set.tags.size(); ++e) {
         for (std::size_t a = 0; a < width; ++a) {
           list.nodes.push_back(list.node_count + set.connectivity[e * width + a]);
@@ -45,7 +45,7 @@ NodeElements elements_at_nodes(const ElementList& list) {
   NodeElements at;
   at.first.assign(static_cast<std::size_t>(list.node_count) + 1, 0);
   for (const GlobalIndex node : list.nodes) {
-    ++at.first[static_cast<std::size_t>(node) + 1];
+    ++at.first[node + 1];
   }
   for (std::size_t n = 1; n < at.first.size(); ++n) {
     at.first[n] += at.first[n - 1];
@@ -54,7 +54,7 @@ NodeElements elements_at_nodes(const ElementList& list) {
   std::vector<std::size_t> next(at.first.begin(), at.first.end() - 1);
   for (idx_t e = 0; e < list.count(); ++e) {
     for (const GlobalIndex node : list.nodes_of(static_cast<std::size_t>(e))) {
-      at.elements[next[static_cast<std::size_t>(node)]++] = e;
+      at.elements[next[node]++] = e;
     }
   }
   return at;
@@ -69,33 +69,33 @@ Graph dual_graph(const ElementList& list, const NodeElements& at, std::span<cons
       continue;
     }
     const auto global = [&](int structure, GlobalIndex node) {
-      return static_cast<std::size_t>(list.node_offset[static_cast<std::size_t>(structure)] + node);
+      return static_cast<std::size_t>(list.node_offset[structure] + node);
     };
     const idx_t a = at.elements[at.first[global(link.structure_a, link.node_a)]];
     const idx_t b = at.elements[at.first[global(link.structure_b, link.node_b)]];
     if (a != b) {
-      extra[static_cast<std::size_t>(a)][b] += measured_costs::contact_cut;
-      extra[static_cast<std::size_t>(b)][a] += measured_costs::contact_cut;
+      extra[a][b] += measured_costs::contact_cut;
+      extra[b][a] += measured_costs::contact_cut;
     }
   }
   Graph graph;
-  std::vector<idx_t> shared(static_cast<std::size_t>(list.count()), 0);
+  std::vector<idx_t> shared(list.count(), 0);
   std::vector<idx_t> touched;
   for (idx_t e = 0; e < list.count(); ++e) {
-    const auto row = static_cast<std::size_t>(e);
+    const std::size_t row = e;
     touched.clear();
     for (const GlobalIndex shared_node : list.nodes_of(row)) {
-      const auto node = static_cast<std::size_t>(shared_node);
+      const std::size_t node = shared_node;
       for (std::size_t j = at.first[node]; j < at.first[node + 1]; ++j) {
         const idx_t other = at.elements[j];
-        if (other != e && shared[static_cast<std::size_t>(other)]++ == 0) {
+        if (other != e && shared[other]++ == 0) {
           touched.push_back(other);
         }
       }
     }
     std::sort(touched.begin(), touched.end());
     for (const idx_t other : touched) {
-      const auto column = static_cast<std::size_t>(other);
+      const std::size_t column = other;
       if (shared[column] >= std::min(list.needed[row], list.needed[column])) {
         graph.neighbours.push_back(other);
         graph.weights.push_back(shared[column]);

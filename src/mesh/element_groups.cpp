@@ -38,10 +38,10 @@ struct RowPlace {
 RowPlace row_place(const ElementList& list, std::size_t e, const std::vector<Place>& places,
                    GlobalIndex offset) {
   const auto nodes = list.nodes_of(e);
-  Place low = places[static_cast<std::size_t>(nodes.front() - offset)];
+  Place low = places[nodes.front() - offset];
   Place high = low;
   for (const GlobalIndex node : nodes) {
-    const Place& place = places[static_cast<std::size_t>(node - offset)];
+    const Place& place = places[node - offset];
     for (std::size_t d = 0; d < 3; ++d) {
       low[d] = std::min(low[d], place[d]);
       high[d] = std::max(high[d], place[d]);
@@ -72,11 +72,11 @@ std::vector<RowPlace> sorted_rows(const GlobalMesh& mesh, const ElementList& lis
 
 /// The cluster of each node, -1: none.
 std::vector<int> cluster_of_nodes(const ElementList& list, std::span<const NodeCluster> clusters) {
-  std::vector<int> cluster(static_cast<std::size_t>(list.node_count), -1);
+  std::vector<int> cluster(list.node_count, -1);
   for (std::size_t c = 0; c < clusters.size(); ++c) {
-    const GlobalIndex offset = list.node_offset[static_cast<std::size_t>(clusters[c].structure)];
+    const GlobalIndex offset = list.node_offset[clusters[c].structure];
     for (const GlobalIndex node : clusters[c].nodes) {
-      cluster[static_cast<std::size_t>(offset + node)] = static_cast<int>(c);
+      cluster[offset + node] = static_cast<int>(c);
     }
   }
   return cluster;
@@ -84,7 +84,7 @@ std::vector<int> cluster_of_nodes(const ElementList& list, std::span<const NodeC
 
 /// The cluster that holds every node of a small element, -1: none.
 int cluster_of_element(std::span<const GlobalIndex> nodes, const std::vector<int>& cluster) {
-  const auto of = [&](GlobalIndex node) { return cluster[static_cast<std::size_t>(node)]; };
+  const auto of = [&](GlobalIndex node) { return cluster[node]; };
   const bool inside = nodes.size() <= 2 && of(nodes.front()) == of(nodes.back());
   return inside ? of(nodes.front()) : -1;
 }
@@ -106,8 +106,7 @@ ElementGroups group_rows(std::span<const GlobalMesh> meshes, const ElementList& 
         ++end;
       }
       const std::size_t length = end - begin;
-      const auto most = static_cast<std::size_t>(
-          std::clamp(most_cost / rows[begin].cost, idx_t{1}, longest_piece));
+      const std::size_t most = std::clamp(most_cost / rows[begin].cost, idx_t{1}, longest_piece);
       const std::size_t pieces = (length + most - 1) / most;
       for (std::size_t i = 0; i < length && pieces < length; ++i) {
         groups.of[rows[begin + i].element] = groups.count + static_cast<int>(i * pieces / length);
@@ -148,10 +147,10 @@ ElementList merge_groups(const ElementList& all, const ElementGroups& groups) {
     list.structure.push_back(structure);
     list.needed.push_back(needed);
   };
-  std::vector<std::vector<std::size_t>> members(static_cast<std::size_t>(groups.count));
+  std::vector<std::vector<std::size_t>> members(groups.count);
   for (std::size_t e = 0; e < all.cost.size(); ++e) {
     if (groups.of[e] >= 0) {
-      members[static_cast<std::size_t>(groups.of[e])].push_back(e);
+      members[groups.of[e]].push_back(e);
       continue;
     }
     list.entry[e] = list.count();

@@ -30,7 +30,7 @@ double smallest_distance(const GlobalMesh& mesh, const GlobalIndex* corner, std:
 double element_size_at(const GlobalMesh& mesh, GlobalIndex node) {
   double largest = 0;
   for (const ElementSet& set : mesh.regions) {
-    const auto nodes = static_cast<std::size_t>(element_layout(set.type).nodes);
+    const std::size_t nodes = element_layout(set.type).nodes;
     for (std::size_t e = 0; e < set.tags.size(); ++e) {
       const std::span<const GlobalIndex> corners(&set.connectivity[e * nodes], nodes);
       if (std::ranges::find(corners, node) == corners.end()) {
@@ -49,7 +49,7 @@ double element_size_at(const GlobalMesh& mesh, GlobalIndex node) {
 void check_element_sizes(const std::string& structure, const GlobalMesh& mesh) {
   const double least = smallest_edge * bounding_box({&mesh, 1}).diagonal();
   for (const ElementSet& set : mesh.regions) {
-    const auto nodes = static_cast<std::size_t>(element_layout(set.type).nodes);
+    const std::size_t nodes = element_layout(set.type).nodes;
     for (std::size_t e = 0; has_extent(set.type) && e < set.tags.size(); ++e) {
       const double found = smallest_distance(mesh, &set.connectivity[e * nodes], nodes);
       if (!(found > least)) {

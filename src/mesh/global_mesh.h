@@ -60,7 +60,7 @@ struct GlobalMesh {
 
   GlobalIndex node_count() const { return static_cast<GlobalIndex>(node_tags.size()); }
   Vector3 position(GlobalIndex node) const {
-    const double* x = &coordinates[static_cast<std::size_t>(3 * node)];
+    const double* x = &coordinates[3 * node];
     return {x[0], x[1], x[2]};
   }
 };

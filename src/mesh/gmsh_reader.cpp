@@ -238,8 +238,7 @@ class MeshBuilder {
     for (std::size_t i = 0; i < raw_.node_tags.size(); ++i) {
       const auto found = index_.find(raw_.node_tags[i]);
       if (found != index_.end()) {
-        std::copy_n(&raw_.coordinates[3 * i], 3,
-                    &mesh_.coordinates[static_cast<std::size_t>(3 * found->second)]);
+        std::copy_n(&raw_.coordinates[3 * i], 3, &mesh_.coordinates[3 * found->second]);
       }
     }
   }
@@ -287,7 +286,7 @@ class MeshBuilder {
     for (const ElementSet& set : mesh_.regions) {
       const std::uint8_t mask = element_layout(set.type).components == 6 ? 0x3f : 0x07;
       for (const GlobalIndex node : set.connectivity) {
-        mesh_.components[static_cast<std::size_t>(node)] |= mask;
+        mesh_.components[node] |= mask;
       }
     }
     mesh_.free_components = mesh_.components;
@@ -303,8 +302,7 @@ class MeshBuilder {
                         name + "'");
       }
       for (const GlobalIndex node : found->second.nodes) {
-        mesh_.free_components[static_cast<std::size_t>(node)] &=
-            static_cast<std::uint8_t>(~clamp.components);
+        mesh_.free_components[node] &= static_cast<std::uint8_t>(~clamp.components);
       }
     }
   }

@@ -22,7 +22,7 @@ std::vector<int> starts_of(const std::vector<int>& counts) {
 Halo::Halo(MPI_Comm comm, GlobalIndex first_owned, LocalIndex owned_count,
            std::span<const GlobalIndex> ghosts, bool common_memory) {
   MPI_Comm_dup(comm, &comm_);
-  const auto ranks = static_cast<std::size_t>(size_of(comm_));
+  const std::size_t ranks = size_of(comm_);
   std::vector<GlobalIndex> ends(ranks);
   const GlobalIndex end = first_owned + owned_count;
   MPI_Allgather(&end, 1, MPI_INT64_T, ends.data(), 1, MPI_INT64_T, comm_);
@@ -39,13 +39,13 @@ Halo::Halo(MPI_Comm comm, GlobalIndex first_owned, LocalIndex owned_count,
   place_.resize(ghosts.size());
   for (std::size_t i = 0; i < ghosts.size(); ++i) {
     place_[i] = next[owner[i]]++;
-    wanted[static_cast<std::size_t>(place_[i])] = ghosts[i];
+    wanted[place_[i]] = ghosts[i];
   }
 
   std::vector<int> given(ranks, 0);  // owned dofs per rank that needs them
   MPI_Alltoall(needed.data(), 1, MPI_INT, given.data(), 1, MPI_INT, comm_);
   const std::vector<int> send_start = starts_of(given);
-  std::vector<GlobalIndex> asked(static_cast<std::size_t>(send_start.back()));
+  std::vector<GlobalIndex> asked(send_start.back());
   MPI_Alltoallv(wanted.data(), needed.data(), receive_start.data(), MPI_INT64_T, asked.data(),
                 given.data(), send_start.data(), MPI_INT64_T, comm_);
   for (const GlobalIndex dof : asked) {

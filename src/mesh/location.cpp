@@ -21,7 +21,7 @@ std::string describe_position(const Vector3& x) {
 /// The first element of the file that holds a node; empty if none does.
 std::string element_at(const Mesh& mesh, LocalIndex node) {
   for (const ElementBlock& block : mesh.blocks) {
-    const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
+    const std::size_t nodes = element_layout(block.type).nodes;
     for (std::size_t corner = 0; corner < block.connectivity.size(); ++corner) {
       if (block.connectivity[corner] == node) {
         return ", element " + std::to_string(block.tags[corner / nodes]) + " of group '" +
@@ -35,7 +35,7 @@ std::string element_at(const Mesh& mesh, LocalIndex node) {
 }  // namespace
 
 std::string describe_element(const Mesh& mesh, const ElementBlock& block, std::size_t element) {
-  const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
+  const std::size_t nodes = element_layout(block.type).nodes;
   Vector3 centre{0, 0, 0};
   for (std::size_t a = 0; a < nodes; ++a) {
     const Vector3 x = mesh.position(block.connectivity[element * nodes + a]);
@@ -60,7 +60,7 @@ std::string locate_largest(const Mesh& mesh, std::span<const double> values) {
       if (dof < 0) {
         continue;
       }
-      const double value = values[static_cast<std::size_t>(dof)];
+      const double value = values[dof];
       const double size =
           std::isfinite(value) ? std::abs(value) : std::numeric_limits<double>::infinity();
       if (size > largest.value) {
@@ -73,8 +73,7 @@ std::string locate_largest(const Mesh& mesh, std::span<const double> values) {
   std::string mine;
   if (place >= 0) {
     mine = "node at " + describe_position(mesh.position(place)) + ", component " +
-           (component < 3 ? "u" : "r") + direction_names[static_cast<std::size_t>(component % 3)] +
-           element_at(mesh, place);
+           (component < 3 ? "u" : "r") + direction_names[component % 3] + element_at(mesh, place);
   }
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, mesh.comm);
   std::vector<char> bytes(mine.begin(), mine.end());

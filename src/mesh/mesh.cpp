@@ -45,17 +45,15 @@ struct Parcel {
 class Cutter {
  public:
   Cutter(const GlobalMesh& mesh, const Partition& partition, int structure)
-      : mesh_(mesh),
-        parts_(partition.parts),
-        node_owner_(partition.node_owner[static_cast<std::size_t>(structure)]) {
+      : mesh_(mesh), parts_(partition.parts), node_owner_(partition.node_owner[structure]) {
     sort_nodes();
     number_dofs();
   }
 
   Parcel parcel(int part) const {
     Parcel out;
-    const auto begin = node_begin_[static_cast<std::size_t>(part)];
-    const auto end = node_begin_[static_cast<std::size_t>(part) + 1];
+    const auto begin = node_begin_[part];
+    const auto end = node_begin_[part + 1];
     std::vector<GlobalIndex> nodes(order_.begin() + begin, order_.begin() + end);
     const std::vector<Element> elements = elements_of(part);
     append_ghosts(part, elements, nodes);
@@ -66,19 +64,16 @@ class Cutter {
     add_elements(part, elements, local, out);
     const GlobalIndex owned = end - begin;
     for (const GlobalIndex node : nodes) {
-      const auto n = static_cast<std::size_t>(node);
+      const std::size_t n = node;
       out.file_node.push_back(node);
       out.free_components.push_back(mesh_.free_components[n]);
       out.global_dof.push_back(first_dof_[n]);
       const Vector3 x = mesh_.position(node);
       out.coordinates.insert(out.coordinates.end(), x.begin(), x.end());
     }
-    out.sizes = {owned,
-                 mesh_.node_count(),
-                 dofs_,
-                 unclamped_dofs_,
-                 part_dof_[static_cast<std::size_t>(part)],
-                 static_cast<GlobalIndex>(mesh_.regions.size())};
+    out.sizes = {owned,           mesh_.node_count(),
+                 dofs_,           unclamped_dofs_,
+                 part_dof_[part], static_cast<GlobalIndex>(mesh_.regions.size())};
     return out;
   }
 
@@ -94,18 +89,17 @@ class Cutter {
     const NodePlanes planes(mesh_);
     std::vector<std::tuple<int, bool, std::array<std::int64_t, 3>>> places;
     for (GlobalIndex node = 0; node < mesh_.node_count(); ++node) {
-      const auto n = static_cast<std::size_t>(node);
+      const std::size_t n = node;
       places.emplace_back(node_owner_[n], mesh_.components[n] >> 3 != 0,
                           planes.place(mesh_.position(node)));
     }
     order_.resize(places.size());
     std::iota(order_.begin(), order_.end(), GlobalIndex{0});
-    std::stable_sort(order_.begin(), order_.end(), [&](GlobalIndex a, GlobalIndex b) {
-      return places[static_cast<std::size_t>(a)] < places[static_cast<std::size_t>(b)];
-    });
+    std::stable_sort(order_.begin(), order_.end(),
+                     [&](GlobalIndex a, GlobalIndex b) { return places[a] < places[b]; });
     place_.resize(order_.size());
     for (std::size_t i = 0; i < order_.size(); ++i) {
-      place_[static_cast<std::size_t>(order_[i])] = static_cast<GlobalIndex>(i);
+      place_[order_[i]] = static_cast<GlobalIndex>(i);
     }
   }
 
@@ -114,8 +108,8 @@ class Cutter {
     part_dof_.assign(static_cast<std::size_t>(parts_) + 1, 0);
     first_dof_.resize(order_.size());
     for (const GlobalIndex node : order_) {
-      const auto n = static_cast<std::size_t>(node);
-      const auto part = static_cast<std::size_t>(node_owner_[n]);
+      const std::size_t n = node;
+      const std::size_t part = node_owner_[n];
       first_dof_[n] = dofs_;
       dofs_ += component_count(mesh_.free_components[n]);
       unclamped_dofs_ += component_count(mesh_.components[n]);
@@ -130,7 +124,7 @@ class Cutter {
 
   std::span<const GlobalIndex> corners_of(const Element& element) const {
     const ElementSet& set = mesh_.regions[element.set];
-    const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
+    const std::size_t width = element_layout(set.type).nodes;
     return {&set.connectivity[element.number * width], width};
   }
 
@@ -140,9 +134,8 @@ class Cutter {
     for (std::size_t s = 0; s < mesh_.regions.size(); ++s) {
       for (std::size_t e = 0; e < mesh_.regions[s].tags.size(); ++e) {
         const auto corners = corners_of({s, e});
-        if (std::any_of(corners.begin(), corners.end(), [&](GlobalIndex node) {
-              return node_owner_[static_cast<std::size_t>(node)] == part;
-            })) {
+        if (std::any_of(corners.begin(), corners.end(),
+                        [&](GlobalIndex node) { return node_owner_[node] == part; })) {
           elements.push_back({s, e});
         }
       }
@@ -156,13 +149,13 @@ class Cutter {
     std::vector<GlobalIndex> ghosts;  // as places in order_
     for (const Element& element : elements) {
       for (const GlobalIndex node : corners_of(element)) {
-        const auto n = static_cast<std::size_t>(node);
+        const std::size_t n = node;
         if (node_owner_[n] != part) ghosts.push_back(place_[n]);
       }
     }
     std::sort(ghosts.begin(), ghosts.end());
     ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
-    for (const GlobalIndex place : ghosts) nodes.push_back(order_[static_cast<std::size_t>(place)]);
+    for (const GlobalIndex place : ghosts) nodes.push_back(order_[place]);
   }
 
   void add_elements(int part, const std::vector<Element>& elements,
@@ -173,7 +166,7 @@ class Cutter {
       ++here[element.set];
       out.tags.push_back(mesh_.regions[element.set].tags[element.number]);
       // Counted where its first node is owned: that rank surely holds the element.
-      out.counted.push_back(node_owner_[static_cast<std::size_t>(corners[0])] == part ? 1 : 0);
+      out.counted.push_back(node_owner_[corners[0]] == part ? 1 : 0);
       for (const GlobalIndex node : corners) out.connectivity.push_back(local.at(node));
     }
     for (std::size_t s = 0; s < mesh_.regions.size(); ++s) {
@@ -212,19 +205,17 @@ Mesh unpack(MPI_Comm comm, const std::string& name, Parcel&& parcel) {
   mesh.ghost_dof.assign(parcel.global_dof.begin() + mesh.owned_nodes, parcel.global_dof.end());
   mesh.first_dof.resize(mesh.file_node.size());
   for (LocalIndex node = 0; node < mesh.node_count(); ++node) {
-    const auto n = static_cast<std::size_t>(node);
+    const std::size_t n = node;
     mesh.first_dof[n] = mesh.dof_count;
     mesh.dof_count += component_count(mesh.free_components[n]);
     if (node < mesh.owned_nodes) {
       mesh.owned_dofs = mesh.dof_count;
     }
   }
-  mesh.by_file_node.resize(static_cast<std::size_t>(mesh.owned_nodes));
+  mesh.by_file_node.resize(mesh.owned_nodes);
   std::iota(mesh.by_file_node.begin(), mesh.by_file_node.end(), LocalIndex{0});
-  std::sort(mesh.by_file_node.begin(), mesh.by_file_node.end(), [&](LocalIndex a, LocalIndex b) {
-    return mesh.file_node[static_cast<std::size_t>(a)] <
-           mesh.file_node[static_cast<std::size_t>(b)];
-  });
+  std::sort(mesh.by_file_node.begin(), mesh.by_file_node.end(),
+            [&](LocalIndex a, LocalIndex b) { return mesh.file_node[a] < mesh.file_node[b]; });
   std::size_t element = 0;
   std::size_t corner = 0;
   const char* text = parcel.names.data();
@@ -235,7 +226,7 @@ Mesh unpack(MPI_Comm comm, const std::string& name, Parcel&& parcel) {
     block.type = static_cast<ElementType>(parcel.region[r]);
     block.region = static_cast<int>(parcel.region[r + 1]);
     block.global_count = parcel.region[r + 2];
-    const auto count = static_cast<std::size_t>(parcel.region[r + 3]);
+    const std::size_t count = parcel.region[r + 3];
     const std::size_t corners = count * static_cast<std::size_t>(element_layout(block.type).nodes);
     const auto from = [](const auto& values, std::size_t begin, std::size_t length) {
       return std::vector(values.begin() + static_cast<std::ptrdiff_t>(begin),

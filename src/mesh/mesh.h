@@ -51,30 +51,27 @@ struct Mesh {
   LocalIndex node_count() const { return static_cast<LocalIndex>(file_node.size()); }
   /// Local dof of a component (0-5) at a local node, -1 if it is clamped or does not exist.
   LocalIndex dof(LocalIndex node, int component) const {
-    const std::uint8_t mask = free_components[static_cast<std::size_t>(node)];
+    const std::uint8_t mask = free_components[node];
     if ((mask >> component & 1) == 0) {
       return -1;
     }
     const auto below = static_cast<std::uint8_t>(mask & ((1u << component) - 1u));
-    return first_dof[static_cast<std::size_t>(node)] + component_count(below);
+    return first_dof[node] + component_count(below);
   }
   /// Global number of the same dof.
   GlobalIndex dof_global(LocalIndex node, int component) const {
     const LocalIndex local = dof(node, component);
     if (local < 0) return -1;
     if (node < owned_nodes) return first_owned_dof + local;
-    return ghost_dof[static_cast<std::size_t>(node - owned_nodes)] +
-           (local - first_dof[static_cast<std::size_t>(node)]);
+    return ghost_dof[node - owned_nodes] + (local - first_dof[node]);
   }
   Vector3 position(LocalIndex node) const {
-    const double* x = &coordinates[static_cast<std::size_t>(3 * node)];
+    const double* x = &coordinates[3 * node];
     return {x[0], x[1], x[2]};
   }
   /// Owned node with this number in the file order, or -1.
   LocalIndex owned_node(GlobalIndex file_number) const {
-    const auto number = [this](LocalIndex node) {
-      return file_node[static_cast<std::size_t>(node)];
-    };
+    const auto number = [this](LocalIndex node) { return file_node[node]; };
     const auto found = std::lower_bound(
         by_file_node.begin(), by_file_node.end(), file_number,
         [&](LocalIndex node, GlobalIndex wanted) { return number(node) < wanted; });

@@ -93,7 +93,7 @@ std::vector<double> gather_by_node(const Mesh& mesh, std::span<const double> val
 std::vector<double> scatter_by_node(const Mesh& mesh, const std::vector<double>& table,
                                     std::size_t columns) {
   const std::vector<double> rows = scatter_rows(mesh, table, columns);
-  std::vector<double> values(static_cast<std::size_t>(mesh.owned_dofs));
+  std::vector<double> values(mesh.owned_dofs);
   for_each_owned_dof(mesh, columns,
                      [&](std::size_t dof, std::size_t place) { values[dof] = rows[place]; });
   return values;

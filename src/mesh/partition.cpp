@@ -63,9 +63,9 @@ idx_t most_piece_cost(const ElementList& list, int parts) {
 
 /// Cost of the elements of the most loaded part.
 double largest_cost(const ElementList& list, const std::vector<idx_t>& owner, int parts) {
-  std::vector<double> cost(static_cast<std::size_t>(parts), 0);
+  std::vector<double> cost(parts, 0);
   for (std::size_t e = 0; e < owner.size(); ++e) {
-    cost[static_cast<std::size_t>(owner[e])] += list.cost[e];
+    cost[owner[e]] += list.cost[e];
   }
   return *std::max_element(cost.begin(), cost.end());
 }
@@ -79,13 +79,13 @@ double imbalance_of(const ElementList& list, const std::vector<idx_t>& owner, in
 std::vector<idx_t> keep_structures(const ElementList& list, std::size_t structures, int parts) {
   std::vector<double> cost(structures, 0.0);
   for (std::size_t e = 0; e < list.cost.size(); ++e) {
-    cost[static_cast<std::size_t>(list.structure[e])] += list.cost[e];
+    cost[list.structure[e]] += list.cost[e];
   }
   std::vector<std::size_t> order(structures);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return cost[a] > cost[b]; });
-  std::vector<double> load(static_cast<std::size_t>(parts), 0.0);
+  std::vector<double> load(parts, 0.0);
   std::vector<idx_t> part(structures, 0);
   for (const std::size_t s : order) {
     const auto lightest = std::min_element(load.begin(), load.end());
@@ -94,7 +94,7 @@ std::vector<idx_t> keep_structures(const ElementList& list, std::size_t structur
   }
   std::vector<idx_t> owner;
   for (const int s : list.structure) {
-    owner.push_back(part[static_cast<std::size_t>(s)]);
+    owner.push_back(part[s]);
   }
   return owner;
 }
@@ -115,13 +115,13 @@ bool structures_are_cheaper(const ElementList& list, const std::vector<idx_t>& c
 void unite(const NodeCluster& cluster, std::vector<int>& node_owner) {
   std::map<int, int> counts;
   for (const GlobalIndex node : cluster.nodes) {
-    ++counts[node_owner[static_cast<std::size_t>(node)]];
+    ++counts[node_owner[node]];
   }
   const auto owner =
       std::max_element(counts.begin(), counts.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
   for (const GlobalIndex node : cluster.nodes) {
-    node_owner[static_cast<std::size_t>(node)] = owner->first;
+    node_owner[node] = owner->first;
   }
 }
 
@@ -129,11 +129,9 @@ int most_frequent_owner(std::span<const idx_t> elements, const std::vector<idx_t
   int best = -1;
   int best_count = 0;
   for (const idx_t candidate : elements) {
-    const idx_t part = owner[static_cast<std::size_t>(candidate)];
-    const int count =
-        static_cast<int>(std::count_if(elements.begin(), elements.end(), [&](idx_t e) {
-          return owner[static_cast<std::size_t>(e)] == part;
-        }));
+    const idx_t part = owner[candidate];
+    const int count = static_cast<int>(
+        std::count_if(elements.begin(), elements.end(), [&](idx_t e) { return owner[e] == part; }));
     if (count > best_count || (count == best_count && part < best)) {
       best = part;
       best_count = count;
@@ -177,9 +175,9 @@ Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const N
     }
     std::vector<int>& owners = partition.element_owner.emplace_back();
     for (std::size_t e = list.element_offset[s]; e < list.element_offset[s + 1]; ++e) {
-      owners.push_back(owner[static_cast<std::size_t>(list.entry[e])]);
+      owners.push_back(owner[list.entry[e]]);
     }
-    std::vector<int> nodes(static_cast<std::size_t>(meshes[s].node_count()));
+    std::vector<int> nodes(meshes[s].node_count());
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       const std::size_t g = static_cast<std::size_t>(list.node_offset[s]) + n;
       nodes[n] =
@@ -188,7 +186,7 @@ Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const N
     partition.node_owner.push_back(std::move(nodes));
   }
   for (const NodeCluster& cluster : clusters) {
-    unite(cluster, partition.node_owner[static_cast<std::size_t>(cluster.structure)]);
+    unite(cluster, partition.node_owner[cluster.structure]);
   }
   return partition;
 }

@@ -115,7 +115,7 @@ std::vector<ResolvedProbe> resolve_probes(const Scene& scene, std::span<const Gl
 void broadcast_probes(MPI_Comm comm, std::vector<ResolvedProbe>& probes) {
   int count = static_cast<int>(probes.size());
   MPI_Bcast(&count, 1, MPI_INT, 0, comm);
-  probes.resize(static_cast<std::size_t>(count));
+  probes.resize(count);
   for (ResolvedProbe& probe : probes) {
     broadcast(comm, probe.name);
     MPI_Bcast(&probe.structure, 1, MPI_INT, 0, comm);

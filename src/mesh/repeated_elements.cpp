@@ -17,7 +17,7 @@ struct Entry {
 };
 
 std::vector<GlobalIndex> sorted_nodes(const ElementSet& set, std::size_t element) {
-  const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
+  const std::size_t width = element_layout(set.type).nodes;
   const auto first = set.connectivity.begin() + static_cast<std::ptrdiff_t>(element * width);
   std::vector<GlobalIndex> nodes(first, first + static_cast<std::ptrdiff_t>(width));
   std::ranges::sort(nodes);

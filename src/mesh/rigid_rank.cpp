@@ -12,9 +12,9 @@ void RigidRank::add(const Vector3& node, int component) {
   }
   // The component's motion under unit translations and rotations: u = t + theta x r.
   std::array<double, 6> row{};
-  row[static_cast<std::size_t>(component)] = 1;
+  row[component] = 1;
   if (component < 3) {
-    const auto c = static_cast<std::size_t>(component);
+    const std::size_t c = component;
     const std::size_t next = (c + 1) % 3;
     const std::size_t last = (c + 2) % 3;
     row[3 + next] = (node[last] - origin_[last]) / size_;

@@ -84,7 +84,7 @@ class Search {
 
   void add(const RawEntity& entity, const std::string& group) {
     for (const RawElements& elements : entity.elements) {
-      const auto width = static_cast<std::size_t>(types_.at(elements.type)->nodes);
+      const std::size_t width = types_.at(elements.type)->nodes;
       for (std::size_t e = 0; e < elements.tags.size(); ++e) {
         const std::span<const std::int64_t> nodes(&elements.nodes[e * width], width);
         const bool used = in_use_.contains(elements.tags[e]);
@@ -98,11 +98,10 @@ class Search {
 
   /// Candidates with the nodes of an element's face, edge, or of the element itself.
   void mark(const ElementSet& set, std::size_t element, std::span<const std::size_t> corners) {
-    const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
+    const std::size_t width = element_layout(set.type).nodes;
     std::array<std::int64_t, 4> nodes{};
     for (std::size_t a = 0; a < corners.size(); ++a) {
-      nodes[a] =
-          mesh_.node_tags[static_cast<std::size_t>(set.connectivity[element * width + corners[a]])];
+      nodes[a] = mesh_.node_tags[set.connectivity[element * width + corners[a]]];
     }
     const auto [first, last] = by_key_.equal_range(key_of({nodes.data(), corners.size()}));
     for (auto it = first; it != last; ++it) {
@@ -116,7 +115,7 @@ class Search {
     }
     constexpr std::array<std::size_t, 4> all{0, 1, 2, 3};
     for (const ElementSet& set : mesh_.regions) {
-      const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
+      const std::size_t width = element_layout(set.type).nodes;
       for (std::size_t e = 0; e < set.tags.size(); ++e) {
         for (const ElementFace& face : traits_of(set.type).faces) {
           mark(set, e, face.corners());

@@ -77,23 +77,22 @@ MatHandle mass_scaled(const LinearSystem& system, Mat matrix) {
 
 MatHandle mass_matrix(const LinearSystem& system) {
   const LocalIndex n = system.owned_dofs();
-  std::vector<PetscInt> entries(static_cast<std::size_t>(n), 1);
+  std::vector<PetscInt> entries(n, 1);
   const auto for_each_block = [&](const auto& visit) {
     if (!system.coupled_mass) {
       return;
     }
     const std::vector<NodeDofs>& nodes = system.coupled_mass->nodes();
     for (const auto& [pair, block] : system.coupled_mass->added().blocks) {
-      visit(nodes[static_cast<std::size_t>(pair[0])], nodes[static_cast<std::size_t>(pair[1])],
-            block);
+      visit(nodes[pair[0]], nodes[pair[1]], block);
     }
   };
   for_each_block([&](const NodeDofs& row, const NodeDofs& column, const NodeBlock&) {
     for (int i = 0; i < row.count; ++i) {
-      entries[static_cast<std::size_t>(row.begin + i)] += column.count;
+      entries[row.begin + i] += column.count;
     }
     for (int j = 0; j < column.count && row.begin != column.begin; ++j) {
-      entries[static_cast<std::size_t>(column.begin + j)] += row.count;
+      entries[column.begin + j] += row.count;
     }
   });
   MatHandle matrix;
@@ -105,12 +104,12 @@ MatHandle mass_matrix(const LinearSystem& system) {
     POUNDING_PETSC(MatSetValue(matrix.get(), first + i, first + j, value, ADD_VALUES));
   };
   for (LocalIndex i = 0; i < n; ++i) {
-    add(i, i, system.lumped_mass[static_cast<std::size_t>(i)]);
+    add(i, i, system.lumped_mass[i]);
   }
   for_each_block([&](const NodeDofs& row, const NodeDofs& column, const NodeBlock& block) {
     for (int i = 0; i < row.count; ++i) {
       for (int j = 0; j < column.count; ++j) {
-        const double value = block[static_cast<std::size_t>(6 * i + j)];
+        const double value = block[6 * i + j];
         add(row.begin + i, column.begin + j, value);
         if (row.begin != column.begin) {
           add(column.begin + j, row.begin + i, value);
@@ -140,8 +139,7 @@ EpsHandle create_eigen_solver(const LinearSystem& system, const Mesh& mesh, Mat 
     for (int c = 0; c < 6; ++c) {
       const LocalIndex dof = mesh.dof(node, c);
       if (dof >= 0) {
-        const auto number =
-            static_cast<double>(6 * mesh.file_node[static_cast<std::size_t>(node)] + c);
+        const auto number = static_cast<double>(6 * mesh.file_node[node] + c);
         start[dof] = std::sin(12.9898 * number + 1);
       }
     }

@@ -99,7 +99,7 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
   }
   std::stable_sort(result.modes.begin(), result.modes.end(),
                    [](const Mode& a, const Mode& b) { return a.frequency < b.frequency; });
-  result.modes.resize(static_cast<std::size_t>(wanted));
+  result.modes.resize(wanted);
   return result;
 }
 

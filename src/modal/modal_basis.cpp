@@ -196,7 +196,7 @@ class BasisMaker {
         continue;
       }
       std::vector<double> z(dofs_, 0.0);
-      z[static_cast<std::size_t>(dof)] = 1;  // of any length
+      z[dof] = 1;  // of any length
       project(z);
       if (norm(z) <= inside_span) {
         continue;
@@ -294,7 +294,7 @@ class BasisMaker {
         if (dof < 0 || std::ranges::find(basis.points, point) != basis.points.end()) {
           continue;
         }
-        const auto i = static_cast<std::size_t>(dof);
+        const std::size_t i = dof;
         basis.points.push_back(point);
         std::vector<double> row(space_.columns);
         for (std::size_t j = 0; j < row.size(); ++j) {

@@ -23,7 +23,7 @@ namespace {
 /// probes.
 ModalRequest request_of(const Scene& scene, int s, const Interface& interface,
                         std::span<const ResolvedProbe> probes) {
-  const ModalModel& modal = *scene.structures[static_cast<std::size_t>(s)].modal;
+  const ModalModel& modal = *scene.structures[s].modal;
   ModalRequest request{modal.modes, modal.candidates, modal.cutoff, modal.attachment, {}, {}};
   std::set<TracePoint> known;
   const auto add = [&](std::span<const Constraint> rows, std::vector<TracePoint>& points) {
@@ -121,7 +121,7 @@ void compute(const Structure& structure, Profile& profile, Reduction& reduction)
 /// Sends the whole mesh to the worker.
 void bring_mesh(MPI_Comm comm, const Structure& structure, std::span<const GlobalMesh> meshes,
                 Reduction& reduction) {
-  const GlobalMesh& mesh = meshes[static_cast<std::size_t>(reduction.structure)];
+  const GlobalMesh& mesh = meshes[reduction.structure];
   Partition partition;
   if (rank_of(comm) == 0) {
     partition = partition_meshes({&mesh, 1}, {}, size_of(comm), {&reduction.worker, 1});
@@ -149,7 +149,7 @@ std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& sc
                                                   std::span<const ResolvedProbe> probes,
                                                   Profile& profile) {
   const auto structure_of = [&](const Reduction& r) -> const Structure& {
-    return scene.structures[static_cast<std::size_t>(r.structure)];
+    return scene.structures[r.structure];
   };
   std::vector<Reduction> reductions;
   int next_worker = 0;
@@ -195,7 +195,7 @@ std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& sc
         });
       });
     }
-    bases[static_cast<std::size_t>(reduction.structure)] = std::move(reduction.basis);
+    bases[reduction.structure] = std::move(reduction.basis);
   }
   return bases;
 }

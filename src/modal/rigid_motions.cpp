@@ -39,7 +39,7 @@ RigidMotions::RigidMotions(const LinearSystem& system, const Mesh& mesh) : syste
   }
   for_each_translation(mesh, [&](std::size_t dof, int c, const Vector3& x) {
     // u = e_axis x (x - centre)
-    const auto component = static_cast<std::size_t>(c);
+    const std::size_t component = c;
     const std::size_t next = (component + 1) % 3;
     const std::size_t last = (component + 2) % 3;
     motions_[3 + next][dof] = x[last] - centre_[last];

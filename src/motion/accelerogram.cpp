@@ -28,7 +28,7 @@ void check_count(const std::string& file, const RecordHeader& header, std::vecto
     throw UserError(file + ": the header announces " + std::to_string(announced) + " values but " +
                     std::to_string(found) +
                     " are found; the header or the file is not the right one");
-  values.resize(static_cast<std::size_t>(std::min(announced, found)));
+  values.resize(std::min(announced, found));
 }
 
 double choose_time_step(const RecordedMotion& motion, const RecordHeader& header, double column) {

@@ -46,7 +46,7 @@ std::vector<std::complex<double>> fourier(std::span<const double> signal) {
   const auto plan = fftw_plan_dft_r2c_1d(n, work.signal.get(), work.spectrum.get(), FFTW_ESTIMATE);
   std::copy(signal.begin(), signal.end(), work.signal.get());
   execute(plan);
-  std::vector<std::complex<double>> result(static_cast<std::size_t>(n / 2 + 1));
+  std::vector<std::complex<double>> result(n / 2 + 1);
   for (std::size_t k = 0; k < result.size(); ++k)
     result[k] = {work.spectrum.get()[k][0], work.spectrum.get()[k][1]};
   return result;

@@ -40,7 +40,7 @@ class GroundMotion {
 
   /// a_g [m/s2] in direction 0, 1 or 2 at time t [s].
   double acceleration(int direction, double t) const noexcept {
-    const auto& samples = components_[static_cast<std::size_t>(direction)];
+    const auto& samples = components_[direction];
     const double x = t / samples.time_step;
     const std::size_t size = samples.acceleration.size();
     if (!(x >= 0) || size == 0 || x > static_cast<double>(size - 1)) return 0;
@@ -53,17 +53,13 @@ class GroundMotion {
   /// The three components [m/s2] at time t [s].
   void evaluate(double t, Vector3& ground_acceleration) const noexcept {
     for (int direction = 0; direction < 3; ++direction)
-      ground_acceleration[static_cast<std::size_t>(direction)] = acceleration(direction, t);
+      ground_acceleration[direction] = acceleration(direction, t);
   }
 
-  bool active(int direction) const {
-    return !components_[static_cast<std::size_t>(direction)].acceleration.empty();
-  }
+  bool active(int direction) const { return !components_[direction].acceleration.empty(); }
 
   /// Samples applied in a direction; empty when it has no component.
-  const Accelerogram& component(int direction) const {
-    return components_[static_cast<std::size_t>(direction)];
-  }
+  const Accelerogram& component(int direction) const { return components_[direction]; }
 
   /// Largest |acceleration| of each component [m/s2].
   Vector3 peaks() const;

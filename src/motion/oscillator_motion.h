@@ -41,7 +41,7 @@ struct StepSeries {
     c[0] = displacement;
     c[1] = velocity;
     for (int k = 0; k + 2 <= order; ++k) {
-      const auto i = static_cast<std::size_t>(k);
+      const std::size_t i = k;
       const double load = k == 0 ? a0 : (k == 1 ? a1 - a0 : 0);
       c[i + 2] = -(2 * o.xi * o.theta * (k + 1) * c[i + 1] + o.theta * o.theta * c[i] + load) /
                  ((k + 1.0) * (k + 2.0));
@@ -53,7 +53,7 @@ struct StepSeries {
     double sum = 0;
     for (int k = order; k >= d; --k) {
       const double factor = d == 0 ? 1 : (d == 1 ? k : k * (k - 1.0));
-      sum = sum * s + factor * c[static_cast<std::size_t>(k)];
+      sum = sum * s + factor * c[k];
     }
     return sum;
   }
@@ -167,8 +167,7 @@ inline double free_vibration_peak(const Oscillator& o, double displacement, doub
 inline StepSeries derivative_of(const StepSeries& u) {
   StepSeries v;
   v.order = u.order - 1;
-  for (int k = 0; k <= v.order; ++k)
-    v.c[static_cast<std::size_t>(k)] = (k + 1) * u.c[static_cast<std::size_t>(k + 1)];
+  for (int k = 0; k <= v.order; ++k) v.c[k] = (k + 1) * u.c[k + 1];
   return v;
 }
 

@@ -125,7 +125,7 @@ RecordValues read_table(const RecordedMotion& motion, const RecordContent& conte
     throw UserError(motion.file + ": column " + std::to_string(column) +
                     " is the time; give column: the number of another one, up to " +
                     std::to_string(width));
-  const auto index = static_cast<std::size_t>(column - 1);
+  const std::size_t index = column - 1;
   if (!content.names.empty()) {
     RecordHeader name(motion.file);
     name.read({rows[0].line - 1, content.names[index]});

@@ -23,7 +23,7 @@ Accelerogram resample_band_limited(const Accelerogram& accelerogram, double larg
 
   const std::size_t extension = std::min(size - 1, longest_extension);
   const int n = good_fourier_size(static_cast<int>(size + 2 * extension));
-  std::vector<double> extended(static_cast<std::size_t>(n), 0.0);
+  std::vector<double> extended(n, 0.0);
   std::copy(a.begin(), a.end(), extended.begin() + static_cast<std::ptrdiff_t>(extension));
   for (std::size_t i = 1; i <= extension; ++i) {
     const double x = static_cast<double>(i) / static_cast<double>(extension);
@@ -36,7 +36,7 @@ Accelerogram resample_band_limited(const Accelerogram& accelerogram, double larg
   spectrum.back() *= 0.5;  // the Nyquist term is shared by its positive and negative frequency
   for (auto& coefficient : spectrum) coefficient *= factor;
   const auto fine = inverse_fourier(spectrum, n * factor);
-  const auto stride = static_cast<std::size_t>(factor);
+  const std::size_t stride = factor;
   Accelerogram result;
   result.time_step = accelerogram.time_step / factor;
   const auto begin = fine.begin() + static_cast<std::ptrdiff_t>(extension * stride);

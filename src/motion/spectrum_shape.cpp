@@ -20,7 +20,7 @@ double value_at(std::span<const double> frequencies, std::span<const double> val
   if (f <= frequencies.front()) return values.front();
   if (f >= frequencies.back()) return values.back();
   const auto above = std::ranges::upper_bound(frequencies, f);
-  const auto i = static_cast<std::size_t>(above - frequencies.begin());
+  const std::size_t i = above - frequencies.begin();
   return between(frequencies[i - 1], values[i - 1], frequencies[i], values[i], f);
 }
 

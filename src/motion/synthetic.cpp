@@ -80,7 +80,7 @@ std::vector<double> random_motion(const TargetSpectrum& target, const SyntheticM
   const int n = good_fourier_size(static_cast<int>(size));
   const double low = target.frequency.front(), spacing = 1 / (n * time_step);
   std::mt19937_64 generator(static_cast<std::uint64_t>(motion.seed));
-  std::vector<std::complex<double>> spectrum(static_cast<std::size_t>(n / 2 + 1));
+  std::vector<std::complex<double>> spectrum(n / 2 + 1);
   for (std::size_t k = 1; k + 1 < spectrum.size(); ++k) {
     const double f = static_cast<double>(k) * spacing;
     const double phase = 2 * pi * static_cast<double>(generator() >> 11) * 0x1p-53;
@@ -105,7 +105,7 @@ std::vector<double> correct_spectrum(std::vector<double> acceleration,
                                      const std::vector<double>& misfit) {
   const std::size_t size = acceleration.size();
   const int n = good_fourier_size(2 * static_cast<int>(size));
-  acceleration.resize(static_cast<std::size_t>(n));
+  acceleration.resize(n);
   auto spectrum = fourier(acceleration);
   const auto last = static_cast<double>(controls.size() - 1);
   const double ratio = std::log(controls.back() / controls.front());
@@ -185,8 +185,7 @@ void check(const TargetSpectrum& target, const SyntheticMotion& motion, double p
 double TargetSpectrum::at(double f) const {
   if (f <= frequency.front()) return ratio.front();
   if (f >= frequency.back()) return ratio.back();
-  const auto i = static_cast<std::size_t>(std::upper_bound(frequency.begin(), frequency.end(), f) -
-                                          frequency.begin());
+  const std::size_t i = std::upper_bound(frequency.begin(), frequency.end(), f) - frequency.begin();
   const double s = std::log(f / frequency[i - 1]) / std::log(frequency[i] / frequency[i - 1]);
   return ratio[i - 1] * std::pow(ratio[i] / ratio[i - 1], s);
 }

@@ -27,7 +27,7 @@ void on_rank0_for_user(MPI_Comm comm, const std::string& prefix,
 
 std::vector<double> basis_check(const LinearSystem& system) {
   const GeneralisedCoordinates& coordinates = *system.generalised;
-  std::vector<double> sums(static_cast<std::size_t>(system.owned_dofs()), 0.0);
+  std::vector<double> sums(system.owned_dofs(), 0.0);
   const std::size_t places = coordinates.rows.empty() ? 0 : coordinates.row_of.size();
   for (std::size_t i = 0; i < sums.size(); ++i) {
     for (std::size_t d = 0; d < 3; ++d) {

@@ -28,7 +28,7 @@ EnergyLine line_of_numbers(std::span<const double> v) {
 
 EnergyLedger::EnergyLedger(std::int64_t expected_lines)
     : stride_((expected_lines + capacity - 1) / capacity) {
-  lines_.reserve(static_cast<std::size_t>(expected_lines / stride_ + 2));
+  lines_.reserve(expected_lines / stride_ + 2);
 }
 
 void EnergyLedger::add(const EnergyLine& line) {

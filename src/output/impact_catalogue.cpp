@@ -66,12 +66,12 @@ std::vector<std::array<double, 2>> low_halves(std::size_t contacts,
     std::vector<double> smallest(contacts, infinity);
     std::vector<double> largest(contacts, -infinity);
     for (std::size_t row = 0; row < places.size(); ++row) {
-      const auto contact = static_cast<std::size_t>(contact_of_row[row]);
+      const std::size_t contact = contact_of_row[row];
       smallest[contact] = std::min(smallest[contact], places[row][axis]);
       largest[contact] = std::max(largest[contact], places[row][axis]);
     }
     for (std::size_t row = 0; row < places.size(); ++row) {
-      const auto contact = static_cast<std::size_t>(contact_of_row[row]);
+      const std::size_t contact = contact_of_row[row];
       const double middle = (smallest[contact] + largest[contact]) / 2;
       const double tolerance = 1e-9 * (largest[contact] - smallest[contact]);
       const double from_middle = places[row][axis] - middle;
@@ -108,7 +108,7 @@ void ImpactCatalogue::add_step(double time, double duration, std::span<const dou
                                std::span<const double> impulses, std::span<const double> works) {
   std::fill(step_impulse_.begin(), step_impulse_.end(), 0.0);
   for (std::size_t row = 0; row < impulses.size(); ++row) {
-    step_impulse_[static_cast<std::size_t>(contact_of_row_[row])] += impulses[row];
+    step_impulse_[contact_of_row_[row]] += impulses[row];
   }
   for (std::size_t c = 0; c < open_.size(); ++c) {
     if (!(step_impulse_[c] > 0)) {
@@ -129,7 +129,7 @@ void ImpactCatalogue::add_step(double time, double duration, std::span<const dou
     open_[c].peak_force = std::max(open_[c].peak_force, step_impulse_[c] / duration);
   }
   for (std::size_t row = 0; row < impulses.size(); ++row) {
-    Impact& impact = open_[static_cast<std::size_t>(contact_of_row_[row])];
+    Impact& impact = open_[contact_of_row_[row]];
     if (impulses[row] > 0) {
       impact.points += touched_[row] != 0 ? 0 : 1;
       touched_[row] = 1;
@@ -232,7 +232,7 @@ void write_impacts(const std::string& path, const std::vector<std::string>& cont
       "contact,start,end,duration,impulse,peak_force,points,energy_lost,max_penetration,lateral,"
       "vertical,contact_time,left,bottom");
   for (const Impact& impact : impacts) {
-    file.row(contacts[static_cast<std::size_t>(impact.contact)],
+    file.row(contacts[impact.contact],
              {impact.start, impact.end, impact.duration(), impact.impulse, impact.peak_force,
               static_cast<double>(impact.points), impact.energy_lost, impact.max_penetration,
               impact.place[0], impact.place[1], impact.contact_time, impact.low_share[0],

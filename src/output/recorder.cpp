@@ -21,7 +21,7 @@ Recorder::Recorder(Layout layout, std::span<const LinearSystem> systems,
                    std::span<const Mesh> meshes)
     : layout_(std::move(layout)) {
   for (const ResolvedProbe& probe : layout_.probes) {
-    const bool mean = systems[static_cast<std::size_t>(probe.structure)].generalised != nullptr;
+    const bool mean = systems[probe.structure].generalised != nullptr;
     recorded_nodes_.push_back(mean ? 1 : probe.nodes.size());
   }
   std::vector<GlobalIndex> mine;  // probe, and place of the node in it
@@ -102,7 +102,7 @@ void Recorder::name_channels() {
     for (const char* direction : direction_names) {
       channels_.push_back(probe.name + "." + direction);
     }
-    const Vector3& v = layout_.initial_velocity[static_cast<std::size_t>(probe.structure)];
+    const Vector3& v = layout_.initial_velocity[probe.structure];
     last_velocity_.insert(last_velocity_.end(), v.begin(), v.end());
   }
   peaks_.assign(channels_.size(), {});
@@ -201,7 +201,7 @@ void Recorder::flush() {
       offsets.push_back(total);
       total += counts.back();
     }
-    gathered.resize(static_cast<std::size_t>(total));
+    gathered.resize(total);
   }
   MPI_Gatherv(buffer_.data(), static_cast<int>(rows * width_), MPI_DOUBLE, gathered.data(),
               counts.data(), offsets.data(), MPI_DOUBLE, 0, layout_.comm);
@@ -230,7 +230,7 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
   for (std::size_t row = 0; row < rows; ++row) {
     std::size_t node = 0;
     for (std::size_t rank = 0; rank < widths_.size(); ++rank) {
-      const auto width = static_cast<std::size_t>(widths_[rank]);
+      const std::size_t width = widths_[rank];
       const double* from = gathered.data() + offsets[rank] + row * width;
       const bool root = static_cast<int>(rank) == layout_.interface_root;
       const std::size_t nodes = (width - (root ? 2 * contacts : 0)) / values_per_node;

@@ -56,9 +56,7 @@ class Recorder {
   /// Adds one step's velocity change of the ground, and on the interface root the impulse of each
   /// contact.
   void add_step(const std::array<double, 3>& ground_velocity_step);
-  void add_impulse(int contact, double impulse) {
-    impulse_[static_cast<std::size_t>(contact)] += impulse;
-  }
+  void add_impulse(int contact, double impulse) { impulse_[contact] += impulse; }
   /// Before the step to be recorded: takes the displacements.
   void take_displacements(const State& state);
   /// After it: makes the record; `gaps` per contact are read on the interface root. Collective only

@@ -53,7 +53,7 @@ void Recorder::load(const SavedState& saved) {
 }
 
 void Recorder::check_history(const Hdf5Reader& history) const {
-  const auto records = static_cast<std::size_t>(records_);
+  const std::size_t records = records_;
   const auto refuse_unless = [&](bool same) {
     if (!same) {
       throw std::runtime_error(layout_.continued + ": written by another run than the checkpoint");
@@ -78,7 +78,7 @@ void Recorder::check_history(const Hdf5Reader& history) const {
 }
 
 void Recorder::copy_history(const Hdf5Reader& history) {
-  const auto records = static_cast<std::size_t>(records_);
+  const std::size_t records = records_;
   for (std::size_t first = 0; first < records; first += copied_records) {
     const std::size_t count = std::min(copied_records, records - first);
     for (const Quantity& quantity : quantities()) {

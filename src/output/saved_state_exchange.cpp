@@ -107,7 +107,7 @@ struct Shares {
 
 Shares shares_of(MPI_Comm comm, int count) {
   Shares shares;
-  shares.counts.resize(static_cast<std::size_t>(size_of(comm)));
+  shares.counts.resize(size_of(comm));
   MPI_Gather(&count, 1, MPI_INT, shares.counts.data(), 1, MPI_INT, 0, comm);
   for (const int of_rank : shares.counts) {
     shares.offsets.push_back(shares.total);
@@ -121,7 +121,7 @@ Shares shares_of(MPI_Comm comm, int count) {
 std::vector<double> gather_owned(MPI_Comm comm, std::span<const double> values) {
   const int count = static_cast<int>(values.size());
   const Shares shares = shares_of(comm, count);
-  std::vector<double> all(static_cast<std::size_t>(shares.total));
+  std::vector<double> all(shares.total);
   MPI_Gatherv(values.data(), count, MPI_DOUBLE, all.data(), shares.counts.data(),
               shares.offsets.data(), MPI_DOUBLE, 0, comm);
   return all;

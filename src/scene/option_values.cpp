@@ -39,7 +39,7 @@ std::optional<std::vector<double>> parse_range(const std::vector<std::string>& p
       (logarithmic && *start <= 0)) {
     return std::nullopt;
   }
-  std::vector<double> values(static_cast<std::size_t>(*count));
+  std::vector<double> values(*count);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double part = static_cast<double>(i) / (*count - 1);
     values[i] =

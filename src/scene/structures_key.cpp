@@ -84,7 +84,7 @@ void add_file(const std::string& path, Hash& hash) {
   std::string beginning(std::size_t{1} << 20, '\0');
   std::ifstream file(path, std::ios::binary);
   file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  beginning.resize(static_cast<std::size_t>(file.gcount()));
+  beginning.resize(file.gcount());
   if (failure || beginning.empty()) {
     hash.add(path);
     return;

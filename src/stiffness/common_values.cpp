@@ -42,11 +42,11 @@ void CommonValues::agree(MPI_Comm comm) {
   std::vector<double> mine;
   for (const auto& [low, high] : ranges_) mine.insert(mine.end(), {low, high});
   const auto count = static_cast<int>(mine.size());
-  std::vector<int> counts(static_cast<std::size_t>(size_of(comm)));
+  std::vector<int> counts(size_of(comm));
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
   std::vector<int> starts(counts.size(), 0);
   for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
-  std::vector<double> all(static_cast<std::size_t>(starts.back() + counts.back()));
+  std::vector<double> all(starts.back() + counts.back());
   MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(),
                  MPI_DOUBLE, comm);
   for (std::size_t i = 0; i < all.size(); i += 2) add_range(all[i], all[i + 1]);

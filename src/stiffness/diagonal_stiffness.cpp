@@ -10,8 +10,7 @@ DiagonalStiffness::DiagonalStiffness(MPI_Comm comm, std::vector<double> diagonal
   PetscInt first = 0;
   POUNDING_PETSC(MatGetOwnershipRange(matrix_.get(), &first, nullptr));
   for (PetscInt i = 0; i < size; ++i) {
-    POUNDING_PETSC(MatSetValue(matrix_.get(), first + i, first + i,
-                               diagonal_[static_cast<std::size_t>(i)], INSERT_VALUES));
+    POUNDING_PETSC(MatSetValue(matrix_.get(), first + i, first + i, diagonal_[i], INSERT_VALUES));
   }
   POUNDING_PETSC(MatAssemblyBegin(matrix_.get(), MAT_FINAL_ASSEMBLY));
   POUNDING_PETSC(MatAssemblyEnd(matrix_.get(), MAT_FINAL_ASSEMBLY));

@@ -32,7 +32,7 @@ class ElementFrames {
   void add(const Matrix3& axes) { axes_.push_back(axes); }
   /// Each new shape is tried in all of them: there cannot be many.
   bool full() const { return axes_.size() >= 32; }
-  const Matrix3& axes(int frame) const { return axes_[static_cast<std::size_t>(frame)]; }
+  const Matrix3& axes(int frame) const { return axes_[frame]; }
 
  private:
   std::vector<Matrix3> axes_{{Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}}};

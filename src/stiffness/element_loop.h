@@ -20,7 +20,7 @@ struct ElementWork {
 /// Coordinates of an element's nodes, shape (nodes, 3) [m], held by `work`.
 inline std::span<const double> gather_coordinates(const Mesh& mesh, const ElementBlock& block,
                                                   std::size_t element, ElementWork& work) {
-  const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
+  const std::size_t nodes = element_layout(block.type).nodes;
   for (std::size_t a = 0; a < nodes; ++a) {
     const Vector3 x = mesh.position(block.connectivity[element * nodes + a]);
     std::copy(x.begin(), x.end(), &work.coordinates[3 * a]);
@@ -38,7 +38,7 @@ inline std::array<LocalIndex, max_element_size> element_dofs(const Mesh& mesh,
     const LocalIndex node = block.connectivity[element * static_cast<std::size_t>(layout.nodes) +
                                                static_cast<std::size_t>(a)];
     for (int c = 0; c < layout.components; ++c) {
-      dofs[static_cast<std::size_t>(a * layout.components + c)] = mesh.dof(node, c);
+      dofs[a * layout.components + c] = mesh.dof(node, c);
     }
   }
   return dofs;

@@ -134,7 +134,7 @@ std::vector<double> ElementShapes::coordinates(std::size_t block, std::size_t el
   const Matrix3& r = frames_.axes(box->frame);
   for (std::size_t bits = 0; bits < 8; ++bits) {
     if (box->corner[bits] < 0) continue;
-    const auto node = static_cast<std::size_t>(box->corner[bits]);
+    const std::size_t node = box->corner[bits];
     for (std::size_t i = 0; i < 3; ++i) {
       x[3 * node + i] = 0;
       for (std::size_t d = 0; d < 3; ++d) {

@@ -24,9 +24,9 @@ ElementSorter::ElementSorter(const Structure& structure, const Mesh& mesh,
                              const ElementShapes& shapes, const Halo& halo)
     : structure_(structure), mesh_(mesh), element_shapes_(shapes) {
   places_.owned_dofs = mesh.owned_dofs;
-  places_.of_dof.resize(static_cast<std::size_t>(mesh.dof_count));
+  places_.of_dof.resize(mesh.dof_count);
   for (LocalIndex dof = 0; dof < mesh.dof_count; ++dof) {
-    places_.of_dof[static_cast<std::size_t>(dof)] =
+    places_.of_dof[dof] =
         dof < mesh.owned_dofs
             ? dof
             : mesh.owned_dofs + halo.place(static_cast<std::size_t>(dof - mesh.owned_dofs));
@@ -35,12 +35,11 @@ ElementSorter::ElementSorter(const Structure& structure, const Mesh& mesh,
     std::array<LocalIndex, 6> place{};
     for (int c = 0; c < 6; ++c) {
       const LocalIndex dof = mesh.dof(node, c);
-      place[static_cast<std::size_t>(c)] =
-          dof < 0 ? -1 : places_.of_dof[static_cast<std::size_t>(dof)];
+      place[c] = dof < 0 ? -1 : places_.of_dof[dof];
     }
     places_.of_node.push_back(place);
     if (node < mesh.owned_nodes) {
-      const auto n = static_cast<std::size_t>(node);
+      const std::size_t n = node;
       places_.node_end.push_back(mesh.first_dof[n] + component_count(mesh.free_components[n]));
     }
   }
@@ -62,7 +61,7 @@ void ElementSorter::sort() {
 void ElementSorter::sort_shapes(std::size_t b) {
   const ElementBlock& block = mesh_.blocks[b];
   const ElementProperties properties =
-      element_properties(structure_.regions[static_cast<std::size_t>(mesh_.blocks[b].region)]);
+      element_properties(structure_.regions[mesh_.blocks[b].region]);
   for (std::size_t e = 0; e < block.count(); ++e) {
     const bool in_row =
         is_solid(block.type) ? add_brick({b, e}, properties) : add_rectangle({b, e}, properties);
@@ -208,10 +207,10 @@ BeamElements ElementSorter::beam_elements(bool outer, LocalIndex idle) const {
     const auto [b, e] = element;
     const ElementBlock& block = mesh_.blocks[b];
     const auto place = places(element);
-    beams.push_back(BeamElements::make(
-        {place[0] < 0 ? idle : place[0], place[6] < 0 ? idle : place[6]},
-        gather_coordinates(mesh_, block, e, work_),
-        element_properties(structure_.regions[static_cast<std::size_t>(block.region)])));
+    beams.push_back(
+        BeamElements::make({place[0] < 0 ? idle : place[0], place[6] < 0 ? idle : place[6]},
+                           gather_coordinates(mesh_, block, e, work_),
+                           element_properties(structure_.regions[block.region])));
   }
   return {beams, idle};
 }
@@ -248,10 +247,10 @@ SparseRows ElementSorter::sparse_rows() const {
     } else {
       gather_coordinates(mesh_, block, e, work_);
     }
-    const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
+    const std::size_t nodes = element_layout(block.type).nodes;
     element_matrices(block.type, {work_.coordinates.data(), 3 * nodes},
-                     element_properties(structure_.regions[static_cast<std::size_t>(block.region)]),
-                     stiffness, {work_.mass.data(), size});
+                     element_properties(structure_.regions[block.region]), stiffness,
+                     {work_.mass.data(), size});
     rows.add({places(element).data(), size}, stiffness);
   }
   return rows;
@@ -278,7 +277,7 @@ ElementKinds ElementSorter::kinds() const {
 
 bool ElementSorter::touches_ghost(const Element& element) const {
   const ElementBlock& block = mesh_.blocks[element.first];
-  const auto nodes = static_cast<std::size_t>(element_layout(block.type).nodes);
+  const std::size_t nodes = element_layout(block.type).nodes;
   const LocalIndex* const corner = &block.connectivity[element.second * nodes];
   return std::any_of(corner, corner + nodes,
                      [&](LocalIndex node) { return node >= mesh_.owned_nodes; });
@@ -288,7 +287,7 @@ CongruentElements::Places ElementSorter::places(const Element& element) const {
   const ElementBlock& block = mesh_.blocks[element.first];
   auto dofs = element_dofs(mesh_, block, element.second, element_layout(block.type));
   for (LocalIndex& dof : dofs) {
-    if (dof >= 0) dof = places_.of_dof[static_cast<std::size_t>(dof)];
+    if (dof >= 0) dof = places_.of_dof[dof];
   }
   return dofs;
 }

@@ -20,12 +20,12 @@ class TouchCounter {
   }
 
   void expect(const std::vector<LocalIndex>& dofs) {
-    for (const LocalIndex dof : dofs) ++left_[static_cast<std::size_t>(dof)];
+    for (const LocalIndex dof : dofs) ++left_[dof];
   }
   void happen(const std::vector<LocalIndex>& dofs) {
     for (const LocalIndex dof : dofs) {
-      --left_[static_cast<std::size_t>(dof)];
-      began_[static_cast<std::size_t>(dof)] = 1;
+      --left_[dof];
+      began_[dof] = 1;
     }
   }
   bool untouched(DofRange range) const { return all_are(began_, range, 0); }
@@ -72,16 +72,15 @@ void append(std::vector<DofRange>& ranges, LocalIndex dof) {
 ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
                                    std::unique_ptr<Stiffness> assembled)
     : owned_dofs_(mesh.owned_dofs), assembled_(std::move(assembled)) {
-  std::vector<GlobalIndex> ghosts(static_cast<std::size_t>(mesh.dof_count - mesh.owned_dofs));
+  std::vector<GlobalIndex> ghosts(mesh.dof_count - mesh.owned_dofs);
   for (LocalIndex node = mesh.owned_nodes; node < mesh.node_count(); ++node) {
     for (int c = 0; c < 6; ++c) {
       const LocalIndex dof = mesh.dof(node, c);
-      if (dof >= 0)
-        ghosts[static_cast<std::size_t>(dof - mesh.owned_dofs)] = mesh.dof_global(node, c);
+      if (dof >= 0) ghosts[dof - mesh.owned_dofs] = mesh.dof_global(node, c);
     }
   }
   for (LocalIndex node = 0; node < mesh.owned_nodes && origin_dof_ < 0; ++node) {
-    const bool moves = (mesh.free_components[static_cast<std::size_t>(node)] & 0x7) == 0x7;
+    const bool moves = (mesh.free_components[node] & 0x7) == 0x7;
     origin_dof_ = moves ? mesh.dof(node, 0) : -1;
   }
   halo_ = std::make_unique<Halo>(mesh.comm, mesh.first_owned_dof, mesh.owned_dofs, ghosts);
@@ -102,7 +101,7 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
       }
     }
     sparse_ = std::make_unique<SparseRows>(sorter.sparse_rows());
-    const auto places = static_cast<std::size_t>(mesh.dof_count + dofs_per_node);
+    const std::size_t places = mesh.dof_count + dofs_per_node;
     argument_ = ZeroedArray(places);
     force_ = ZeroedArray(places);
     kinds_ = sorter.kinds();
@@ -128,13 +127,13 @@ void ElementStiffness::plan() {
       for (std::size_t c = 0; c < lines->chain_count(); ++c) counter.expect(lines->chain_dofs(c));
     }
   }
-  std::vector<char> handed_over(static_cast<std::size_t>(owned_dofs_), 0);
+  std::vector<char> handed_over(owned_dofs_, 0);
   counter.happen(early);
   decide_outcomes(inner_.lines, counter, handed_over);
   counter.happen(late);
   decide_outcomes(outer_.lines, counter, handed_over);
   for (LocalIndex dof = 0; dof < owned_dofs_; ++dof) {
-    if (handed_over[static_cast<std::size_t>(dof)] == 0) append(late_ranges_, dof);
+    if (handed_over[dof] == 0) append(late_ranges_, dof);
   }
   early.insert(early.end(), outer_.dofs.begin(), outer_.dofs.end());
   std::sort(early.begin(), early.end());

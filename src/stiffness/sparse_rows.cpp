@@ -8,7 +8,7 @@ namespace pounding {
 void SparseRows::Pattern::add(std::span<const LocalIndex> places) {
   for (const LocalIndex row : places) {
     if (row < 0 || row >= owned_) continue;
-    auto& columns = columns_[static_cast<std::size_t>(row)];
+    auto& columns = columns_[row];
     for (const LocalIndex column : places) {
       if (column >= 0) columns.push_back(column);
     }
@@ -22,7 +22,7 @@ void SparseRows::Pattern::add(std::span<const LocalIndex> places) {
 
 SparseRows::SparseRows(Pattern&& pattern) : owned_dofs_(pattern.owned_) {
   for (LocalIndex row = 0; row < owned_dofs_; ++row) {
-    auto& columns = pattern.columns_[static_cast<std::size_t>(row)];
+    auto& columns = pattern.columns_[row];
     std::sort(columns.begin(), columns.end());
     const auto end = std::unique(columns.begin(), columns.end());
     const auto ghosts = std::lower_bound(columns.begin(), end, owned_dofs_);
@@ -55,12 +55,11 @@ void SparseRows::add(std::span<const LocalIndex> places, std::span<const double>
 }
 
 void SparseRows::add_entry(Part& part, LocalIndex row, LocalIndex column, double value) {
-  const auto r = static_cast<std::size_t>(
-      std::lower_bound(part.rows.begin(), part.rows.end(), row) - part.rows.begin());
+  const std::size_t r =
+      std::lower_bound(part.rows.begin(), part.rows.end(), row) - part.rows.begin();
   const auto begin = part.columns.begin() + static_cast<std::ptrdiff_t>(part.start[r]);
   const auto end = part.columns.begin() + static_cast<std::ptrdiff_t>(part.start[r + 1]);
-  part.values[static_cast<std::size_t>(std::lower_bound(begin, end, column) -
-                                       part.columns.begin())] += value;
+  part.values[std::lower_bound(begin, end, column) - part.columns.begin()] += value;
 }
 
 void SparseRows::add_product(const Part& part, const double* w, double* q) {

@@ -14,9 +14,7 @@ class SparseRows {
   /// Entries that elements will have; `places` as in DofPlaces.
   class Pattern {
    public:
-    explicit Pattern(LocalIndex owned_dofs) : owned_(owned_dofs) {
-      columns_.resize(static_cast<std::size_t>(owned_dofs));
-    }
+    explicit Pattern(LocalIndex owned_dofs) : owned_(owned_dofs) { columns_.resize(owned_dofs); }
     void add(std::span<const LocalIndex> places);
 
    private:

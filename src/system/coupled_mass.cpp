@@ -125,14 +125,14 @@ void CoupledMass::factorise(std::span<const double> lumped_mass) {
   std::vector<std::set<int>> neighbours(count);
   for (const auto& [pair, block] : added_.blocks) {
     if (pair[0] != pair[1]) {
-      neighbours[static_cast<std::size_t>(pair[0])].insert(pair[1]);
-      neighbours[static_cast<std::size_t>(pair[1])].insert(pair[0]);
+      neighbours[pair[0]].insert(pair[1]);
+      neighbours[pair[1]].insert(pair[0]);
     }
   }
   const Elimination elimination = eliminate(std::move(neighbours));
   place_.resize(count);
   for (std::size_t k = 0; k < count; ++k) {
-    place_[static_cast<std::size_t>(elimination.order[k])] = k;
+    place_[elimination.order[k]] = k;
   }
   // Remainder of M + S, columns and rows by their places, lower triangle.
   std::vector<std::map<std::size_t, NodeBlock>> columns(count);
@@ -146,8 +146,8 @@ void CoupledMass::factorise(std::span<const double> lumped_mass) {
     }
   }
   for (const auto& [pair, block] : added_.blocks) {
-    const std::size_t row = place_[static_cast<std::size_t>(pair[0])];
-    const std::size_t column = place_[static_cast<std::size_t>(pair[1])];
+    const std::size_t row = place_[pair[0]];
+    const std::size_t column = place_[pair[1]];
     NodeBlock& entry = columns[std::min(row, column)][std::max(row, column)];
     const NodeBlock values = row >= column ? block : transposed(block);
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -258,8 +258,8 @@ void CoupledMass::put(const double* x, double* owned) const {
 double CoupledMass::added_product(const double* v) const {
   double total = 0;
   for (const auto& [pair, block] : added_.blocks) {
-    const NodeDofs& row = nodes()[static_cast<std::size_t>(pair[0])];
-    const NodeDofs& column = nodes()[static_cast<std::size_t>(pair[1])];
+    const NodeDofs& row = nodes()[pair[0]];
+    const NodeDofs& column = nodes()[pair[1]];
     double product = 0;
     for (int i = 0; i < row.count; ++i) {
       for (int j = 0; j < column.count; ++j) {

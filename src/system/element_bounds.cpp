@@ -82,7 +82,7 @@ void ElementBounds::add(const ElementBlock& block, std::span<const double> stiff
   if (mass_scaling > 0) {
     return;  // not without mass any more
   }
-  device_damping_.resize(static_cast<std::size_t>(mesh_.owned_dofs));
+  device_damping_.resize(mesh_.owned_dofs);
   device_stiffness_.resize(device_damping_.size());
   const double beta = damping_of(block).beta;
   for (std::size_t i = 0; i < dofs.size(); ++i) {
@@ -92,9 +92,8 @@ void ElementBounds::add(const ElementBlock& block, std::span<const double> stiff
     for (std::size_t j = 0; j < dofs.size(); ++j) {
       if (dofs[j] >= 0) {
         const double k = stiffness[i * dofs.size() + j];
-        device_stiffness_[static_cast<std::size_t>(dofs[i])] += std::abs(k);
-        device_damping_[static_cast<std::size_t>(dofs[i])] +=
-            std::abs(beta * k + dashpots[i * dofs.size() + j]);
+        device_stiffness_[dofs[i]] += std::abs(k);
+        device_damping_[dofs[i]] += std::abs(beta * k + dashpots[i * dofs.size() + j]);
       }
     }
   }
@@ -159,7 +158,7 @@ double ElementBounds::time_step(const ElementBlock& block, std::size_t element, 
   const auto dofs = element_dofs(mesh_, block, element, layout);
   for (std::size_t i = 0; i < static_cast<std::size_t>(layout.size()); ++i) {
     if (dofs[i] >= 0 && dofs[i] < mesh_.owned_dofs) {
-      const auto dof = static_cast<std::size_t>(dofs[i]);
+      const std::size_t dof = dofs[i];
       smallest = std::min(smallest,
                           critical_time_step(rate + device_damping_[dof] / lumped_mass[dof],
                                              square + device_stiffness_[dof] / lumped_mass[dof]));
@@ -169,7 +168,7 @@ double ElementBounds::time_step(const ElementBlock& block, std::size_t element, 
 }
 
 Rayleigh ElementBounds::damping_of(const ElementBlock& block) const {
-  return structure_.damping_of(structure_.regions[static_cast<std::size_t>(block.region)]);
+  return structure_.damping_of(structure_.regions[block.region]);
 }
 
 }  // namespace pounding

@@ -15,25 +15,25 @@ Elimination eliminate(std::vector<std::set<int>> neighbours) {
   while (!left.empty()) {
     std::size_t smallest = std::numeric_limits<std::size_t>::max();
     for (const int v : left) {
-      smallest = std::min(smallest, neighbours[static_cast<std::size_t>(v)].size());
-      waits[static_cast<std::size_t>(v)] = 0;
+      smallest = std::min(smallest, neighbours[v].size());
+      waits[v] = 0;
     }
     std::vector<int> rest;
     for (const int v : left) {
-      auto& around = neighbours[static_cast<std::size_t>(v)];
-      if (waits[static_cast<std::size_t>(v)] != 0 || around.size() > smallest) {
+      auto& around = neighbours[v];
+      if (waits[v] != 0 || around.size() > smallest) {
         rest.push_back(v);
         continue;
       }
       for (const int a : around) {
-        waits[static_cast<std::size_t>(a)] = 1;
-        auto& others = neighbours[static_cast<std::size_t>(a)];
+        waits[a] = 1;
+        auto& others = neighbours[a];
         others.erase(v);
         others.insert(around.begin(), around.end());
         others.erase(a);
       }
       result.order.push_back(v);
-      result.columns[static_cast<std::size_t>(v)].assign(around.begin(), around.end());
+      result.columns[v].assign(around.begin(), around.end());
     }
     left = std::move(rest);
   }

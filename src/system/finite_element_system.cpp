@@ -25,10 +25,9 @@ void for_each_element(const Structure& structure, const Mesh& mesh, Visit&& visi
   ElementWork work;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const ElementBlock& block = mesh.blocks[b];
-    const ElementProperties properties =
-        element_properties(structure.regions[static_cast<std::size_t>(block.region)]);
+    const ElementProperties properties = element_properties(structure.regions[block.region]);
     const ElementLayout layout = element_layout(block.type);
-    const auto size = static_cast<std::size_t>(layout.size());
+    const std::size_t size = layout.size();
     for (std::size_t e = 0; e < block.count(); ++e) {
       try {
         element_matrices(block.type, gather_coordinates(mesh, block, e, work), properties,
@@ -65,7 +64,7 @@ class Assembly {
   }
 
   void run() {
-    system_.lumped_mass.assign(static_cast<std::size_t>(mesh_.owned_dofs), 0.0);
+    system_.lumped_mass.assign(mesh_.owned_dofs, 0.0);
     numbers_ = global_numbers(mesh_);
     on_every_rank(mesh_.comm, [&] {
       for_each_element(structure_, mesh_,
@@ -85,17 +84,17 @@ class Assembly {
  private:
   void add(const ElementBlock& block, std::size_t element, const ElementLayout& layout,
            const ElementWork& work) {
-    const auto size = static_cast<std::size_t>(layout.size());
+    const std::size_t size = layout.size();
     const auto dofs = element_dofs(mesh_, block, element, layout);
     std::array<PetscInt, max_element_size> rows{};
     std::array<PetscInt, max_element_size> columns{};
     for (std::size_t i = 0; i < size; ++i) {
       const LocalIndex dof = dofs[i];
       const bool owned = dof >= 0 && dof < mesh_.owned_dofs;
-      columns[i] = dof >= 0 ? numbers_[static_cast<std::size_t>(dof)] : -1;
+      columns[i] = dof >= 0 ? numbers_[dof] : -1;
       rows[i] = owned ? columns[i] : -1;
       if (owned) {
-        system_.lumped_mass[static_cast<std::size_t>(dof)] += work.mass[i];
+        system_.lumped_mass[dof] += work.mass[i];
       }
       if (block.counted[element] != 0 && static_cast<int>(i) % layout.components == 0) {
         system_.total_mass += work.mass[i];
@@ -116,7 +115,7 @@ class Assembly {
     const std::span<const double> mass(work.mass.data(), size);
     const std::span<double> damping(damping_.data(), size * size);
     element_dashpots(block.type, properties_of(block), damping);
-    const Region& region = structure_.regions[static_cast<std::size_t>(block.region)];
+    const Region& region = structure_.regions[block.region];
     const double scaling = added_mass_.add(block, element, region, {stiffness, mass, damping});
     bounds_.add(block, stiffness, mass, damping, {dofs.data(), size}, scaling);
     if (has_extra_damping(block)) {
@@ -140,14 +139,13 @@ class Assembly {
   }
 
   ElementProperties properties_of(const ElementBlock& block) const {
-    return element_properties(structure_.regions[static_cast<std::size_t>(block.region)]);
+    return element_properties(structure_.regions[block.region]);
   }
 
   /// Damping of a block's region beside the structure's. Tension-only bars are damped
   /// while they are taut, by themselves.
   Rayleigh extra_rayleigh(const ElementBlock& block) const {
-    const Rayleigh own =
-        structure_.damping_of(structure_.regions[static_cast<std::size_t>(block.region)]);
+    const Rayleigh own = structure_.damping_of(structure_.regions[block.region]);
     const bool linear = is_linear(block.type);
     return {own.alpha - structure_.damping.alpha, linear ? own.beta - structure_.damping.beta : 0};
   }
@@ -163,7 +161,7 @@ class Assembly {
     for (LocalIndex node = 0; node < mesh_.owned_nodes; ++node) {
       for (int c = 0; c < 6; ++c) {
         const LocalIndex dof = mesh_.dof(node, c);
-        if (dof >= 0 && !(system_.lumped_mass[static_cast<std::size_t>(dof)] > 0)) {
+        if (dof >= 0 && !(system_.lumped_mass[dof] > 0)) {
           const Vector3 x = mesh_.position(node);
           std::ostringstream text;
           text << "structure " << structure_.name << ": the node at (" << x[0] << ", " << x[1]

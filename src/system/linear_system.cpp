@@ -6,7 +6,7 @@ namespace pounding {
 
 std::vector<double> LinearSystem::influence(int d) const {
   if (generalised) {
-    return generalised->influence[static_cast<std::size_t>(d)];
+    return generalised->influence[d];
   }
   std::vector<double> iota(direction.size());
   for (std::size_t i = 0; i < iota.size(); ++i) {
@@ -37,7 +37,7 @@ void finish_system(const Mesh& mesh, LinearSystem& system) {
     for (int d = 0; d < 3; ++d) {
       const LocalIndex dof = mesh.dof(node, d);
       if (dof >= 0) {
-        system.direction[static_cast<std::size_t>(dof)] = static_cast<std::int8_t>(d);
+        system.direction[dof] = static_cast<std::int8_t>(d);
       }
     }
   }

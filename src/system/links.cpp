@@ -20,7 +20,7 @@ double Link::elongation(std::span<const double> field) const {
   double sum = 0;
   for (std::size_t i = 0; i < place.size(); ++i) {
     if (place[i] >= 0) {
-      sum += (i < 3 ? -axis[i] : axis[i - 3]) * field[static_cast<std::size_t>(place[i])];
+      sum += (i < 3 ? -axis[i] : axis[i - 3]) * field[place[i]];
     }
   }
   return sum;
@@ -57,7 +57,7 @@ std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh
 /// Leaves dofs where places will stand.
 void Links::add(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
                 std::size_t element) {
-  const Region& region = structure.regions[static_cast<std::size_t>(block.region)];
+  const Region& region = structure.regions[block.region];
   const LocalIndex* nodes = &block.connectivity[2 * element];
   const Vector3 a = mesh.position(nodes[0]);
   const Vector3 b = mesh.position(nodes[1]);
@@ -94,7 +94,7 @@ void Links::find_trace(const LinearSystem& system, const Mesh& mesh) {
     for (int c = 0; c < 3; ++c) {
       const LocalIndex dof = mesh.dof(node, c);
       if (dof >= 0 && std::binary_search(dofs_.begin(), dofs_.end(), dof)) {
-        places.push_back({mesh.file_node[static_cast<std::size_t>(node)], c});
+        places.push_back({mesh.file_node[node], c});
       }
     }
   }

@@ -48,7 +48,7 @@ class Couplings {
   void join(std::span<const GlobalIndex> nodes, bool scaled) {
     GlobalIndex first = -1;
     for (const GlobalIndex node : nodes) {
-      const auto n = static_cast<std::size_t>(node);
+      const std::size_t n = node;
       if (mesh_.free_components[n] == 0) {
         continue;
       }
@@ -91,13 +91,13 @@ class Decision {
       : structure_(structure), mesh_(mesh) {}
 
   bool scales(const ElementSet& set, std::span<const GlobalIndex> nodes) {
-    const Region& region = structure_.regions[static_cast<std::size_t>(set.region)];
+    const Region& region = structure_.regions[set.region];
     const ElementProperties properties = element_properties(region);
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       const Vector3 x = mesh_.position(nodes[a]);
       std::copy(x.begin(), x.end(), &coordinates_[3 * a]);
     }
-    const auto size = static_cast<std::size_t>(element_layout(set.type).size());
+    const std::size_t size = element_layout(set.type).size();
     const std::span<double> stiffness(stiffness_.data(), size * size);
     const std::span<double> mass(mass_.data(), size);
     try {
@@ -153,7 +153,7 @@ std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalM
   }
   for (const ElementSet& set : mesh.regions) {
     const bool tension = !is_linear(set.type);
-    const auto width = static_cast<std::size_t>(element_layout(set.type).nodes);
+    const std::size_t width = element_layout(set.type).nodes;
     const bool looked_at = tension || (scaling && traits_of(set.type).scalable);
     for (std::size_t e = 0; looked_at && e < set.tags.size(); ++e) {
       const std::span<const GlobalIndex> nodes(&set.connectivity[e * width], width);

@@ -64,7 +64,7 @@ std::vector<Row> read_rows(const std::string& path) {
 class NodeFinder {
  public:
   explicit NodeFinder(const Mesh& mesh) : mesh_(mesh) {
-    order_.resize(static_cast<std::size_t>(mesh.node_count()));
+    order_.resize(mesh.node_count());
     std::iota(order_.begin(), order_.end(), LocalIndex{0});
     std::ranges::sort(order_, {}, [&](LocalIndex node) { return mesh.position(node)[0]; });
     std::array<double, 2> ends{1e300, 1e300};  // smallest x, minus the largest, and so on
@@ -130,7 +130,7 @@ class MatrixSystem {
   void find_dofs() {
     const NodeFinder finder(mesh_);
     std::vector<int> known(rows_.size(), 0);
-    std::vector<PetscInt> times(static_cast<std::size_t>(mesh_.owned_dofs), 0);
+    std::vector<PetscInt> times(mesh_.owned_dofs, 0);
     number_.assign(rows_.size(), -1);
     for (std::size_t row = 0; row < rows_.size(); ++row) {
       const LocalIndex node = finder.at(rows_[row].position);
@@ -138,7 +138,7 @@ class MatrixSystem {
       if (node >= 0 && node < mesh_.owned_nodes) {
         const LocalIndex dof = mesh_.dof(node, rows_[row].component);
         number_[row] = static_cast<PetscInt>(mesh_.dof_global(node, rows_[row].component));
-        times[static_cast<std::size_t>(std::max(dof, 0))] += dof >= 0 ? 1 : 0;
+        times[std::max(dof, 0)] += dof >= 0 ? 1 : 0;
       }
     }
     const int count = static_cast<int>(rows_.size());
@@ -167,13 +167,12 @@ class MatrixSystem {
     for (LocalIndex node = 0; node < mesh_.owned_nodes; ++node) {
       for (int c = 0; c < 6; ++c) {
         const LocalIndex dof = mesh_.dof(node, c);
-        if (dof >= 0 && times[static_cast<std::size_t>(dof)] != 1) {
+        if (dof >= 0 && times[dof] != 1) {
           const Vector3 x = mesh_.position(node);
           std::ostringstream text;
-          text << folder_ << "/dofs.csv: "
-               << (times[static_cast<std::size_t>(dof)] == 0 ? "no row" : "more than one row")
-               << " for " << component_names[static_cast<std::size_t>(c)] << " of the node at ("
-               << x[0] << ", " << x[1] << ", " << x[2] << ") of " << mesh_.structure;
+          text << folder_ << "/dofs.csv: " << (times[dof] == 0 ? "no row" : "more than one row")
+               << " for " << component_names[c] << " of the node at (" << x[0] << ", " << x[1]
+               << ", " << x[2] << ") of " << mesh_.structure;
           throw UserError(text.str());
         }
       }
@@ -196,7 +195,7 @@ class MatrixSystem {
   }
 
   void read_mass(LinearSystem& system) const {
-    system.lumped_mass.assign(static_cast<std::size_t>(mesh_.owned_dofs), 0.0);
+    system.lumped_mass.assign(mesh_.owned_dofs, 0.0);
     std::vector<double> row_sum(rows_.size(), 0.0);
     std::vector<double> diagonal(rows_.size(), 0.0);
     std::vector<double> column(rows_.size(), 0.0);
@@ -205,8 +204,8 @@ class MatrixSystem {
       if (!inside(entry, false)) {
         return;
       }
-      const auto i = static_cast<std::size_t>(entry.row);
-      const auto j = static_cast<std::size_t>(entry.column);
+      const std::size_t i = entry.row;
+      const std::size_t j = entry.column;
       row_sum[i] += rows_[i].component == rows_[j].component ? entry.value : 0;
       diagonal[i] += i == j ? entry.value : 0;
       column[i] += j == 0 ? entry.value : 0;
@@ -217,7 +216,7 @@ class MatrixSystem {
       const double mass = size.columns == 1 && size.rows > 1 ? column[row] : lumped;
       system.total_mass += rows_[row].component == 0 ? mass : 0;
       if (owned_dof_[row] >= 0) {
-        system.lumped_mass[static_cast<std::size_t>(owned_dof_[row])] = mass;
+        system.lumped_mass[owned_dof_[row]] = mass;
       }
       if (number_[row] >= 0 && !(mass > 0)) {
         throw UserError(path + ": row " + std::to_string(row + 1) +
@@ -246,9 +245,7 @@ class MatrixSystem {
 
   MatHandle assemble(const std::vector<std::vector<SquareMatrix::Entry>>& rows) const {
     const auto first = static_cast<PetscInt>(mesh_.first_owned_dof);
-    const auto number = [&](const SquareMatrix::Entry& entry) {
-      return number_[static_cast<std::size_t>(entry.first)];
-    };
+    const auto number = [&](const SquareMatrix::Entry& entry) { return number_[entry.first]; };
     std::vector<PetscInt> own;  // with one more, for a diagonal that the file leaves out
     std::vector<PetscInt> other;
     for (const auto& row : rows) {

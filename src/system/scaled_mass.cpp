@@ -31,15 +31,14 @@ double ScaledMass::add(const ElementBlock& block, std::size_t element, const Reg
 
 void ScaledMass::add_blocks(const ElementBlock& block, std::size_t element) {
   const ElementLayout layout = element_layout(block.type);
-  const auto components = static_cast<std::size_t>(layout.components);
-  const auto size = static_cast<std::size_t>(layout.size());
+  const std::size_t components = layout.components;
+  const std::size_t size = layout.size();
   const auto dofs = element_dofs(mesh_, block, element, layout);
   const auto node_at = [&](std::size_t a) {
     return block.connectivity[element * static_cast<std::size_t>(layout.nodes) + a / components];
   };
   const auto place_at = [&](std::size_t i) {
-    return static_cast<std::size_t>(dofs[i] -
-                                    mesh_.first_dof[static_cast<std::size_t>(node_at(i))]);
+    return static_cast<std::size_t>(dofs[i] - mesh_.first_dof[node_at(i)]);
   };
   bool here = false;
   bool elsewhere = false;
@@ -63,7 +62,7 @@ void ScaledMass::add_blocks(const ElementBlock& block, std::size_t element) {
 void ScaledMass::add_rows(const ElementBlock& block, std::size_t element,
                           std::span<const double> stiffness) {
   const ElementLayout layout = element_layout(block.type);
-  const auto size = static_cast<std::size_t>(layout.size());
+  const std::size_t size = layout.size();
   const auto dofs = element_dofs(mesh_, block, element, layout);
   for (std::size_t i = 0; i < size; ++i) {
     for (std::size_t j = 0; j < size; ++j) {
@@ -83,7 +82,7 @@ void ScaledMass::finish(LinearSystem& system) {
     }
   }
   for (auto& [node, place] : number) {
-    const auto n = static_cast<std::size_t>(node);
+    const std::size_t n = node;
     place = static_cast<int>(added.nodes.size());
     added.nodes.push_back({mesh_.first_dof[n], component_count(mesh_.free_components[n])});
     report_.dofs += added.nodes.back().count;
@@ -92,8 +91,8 @@ void ScaledMass::finish(LinearSystem& system) {
     added.blocks[{number.at(pair[0]), number.at(pair[1])}] = block;
   }
   for (const auto& [dof, sum] : row_sums_) {
-    report_.row_frequency = std::max(
-        report_.row_frequency, std::sqrt(sum / system.lumped_mass[static_cast<std::size_t>(dof)]));
+    report_.row_frequency =
+        std::max(report_.row_frequency, std::sqrt(sum / system.lumped_mass[dof]));
   }
   if (!added.nodes.empty()) {
     system.coupled_mass = std::make_unique<CoupledMass>(system.lumped_mass, std::move(added));

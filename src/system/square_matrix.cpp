@@ -38,16 +38,16 @@ SquareMatrix::SquareMatrix(std::string path, const std::vector<PetscInt>& owned_
       diagonal_(number.size(), 0.0) {}
 
 void SquareMatrix::add(const MatrixEntry& entry) {
-  const auto row = static_cast<std::size_t>(entry.row);
-  const auto column = static_cast<std::size_t>(entry.column);
+  const std::size_t row = entry.row;
+  const std::size_t column = entry.column;
   if (number_[row] < 0 || number_[column] < 0) {
     return;
   }
   if (owned_dof_[row] >= 0) {
-    rows_[static_cast<std::size_t>(owned_dof_[row])].emplace_back(entry.column, entry.value);
+    rows_[owned_dof_[row]].emplace_back(entry.column, entry.value);
   }
   if (owned_dof_[column] >= 0) {
-    mirrored_[static_cast<std::size_t>(owned_dof_[column])].emplace_back(entry.row, entry.value);
+    mirrored_[owned_dof_[column]].emplace_back(entry.row, entry.value);
   }
   diagonal_[row] += row == column ? entry.value : 0;
 }
@@ -73,7 +73,7 @@ void SquareMatrix::check() const {
   }
   for (std::size_t row = 0; row < owned_dof_.size(); ++row) {
     if (owned_dof_[row] >= 0) {
-      const auto dof = static_cast<std::size_t>(owned_dof_[row]);
+      const std::size_t dof = owned_dof_[row];
       check_row(static_cast<PetscInt>(row), rows_[dof], mirrored_[dof]);
     }
   }
@@ -95,8 +95,7 @@ void SquareMatrix::check_row(PetscInt row, const std::vector<Entry>& entries,
            << ": not symmetric";
       fail(row, column, text.str());
     }
-    const double bound = std::sqrt(diagonal_[static_cast<std::size_t>(row)] *
-                                   diagonal_[static_cast<std::size_t>(column)]);
+    const double bound = std::sqrt(diagonal_[row] * diagonal_[column]);
     if (std::abs(value) > bound + round_off * largest_) {
       text << value << ", more than the diagonals there allow (" << bound
            << "): some motion would give energy";

@@ -11,7 +11,7 @@ namespace pounding {
 namespace {
 
 int place_in_field(const CoupledMass& mass, int node, LocalIndex dof) {
-  const auto n = static_cast<std::size_t>(node);
+  const std::size_t n = node;
   return static_cast<int>(mass.place(n)) + dof - mass.nodes()[n].begin;
 }
 
@@ -35,14 +35,14 @@ Trace::Trace(const LinearSystem& system, const Mesh& mesh, std::span<const Trace
     }
   }
   for (const LocalIndex dof : dofs_) {
-    inverse_mass_.push_back(system.inverse_mass[static_cast<std::size_t>(dof)]);
+    inverse_mass_.push_back(system.inverse_mass[dof]);
   }
   force_.assign(dofs_.size(), 0.0);
 }
 
 void Trace::take_unit_rows(const Mesh& mesh, std::span<const TracePoint> places) {
   for (const int place : known_) {
-    const TracePoint& point = places[static_cast<std::size_t>(place)];
+    const TracePoint& point = places[place];
     const LocalIndex dof = mesh.dof(mesh.owned_node(point.node), point.component);
     own_dof_.push_back(dof < 0 ? -1 : static_cast<int>(dofs_.size()));
     if (dof >= 0) {
@@ -81,11 +81,11 @@ void Trace::take_dense_rows(const LinearSystem& system, const Mesh& mesh,
     return;
   }
   const GeneralisedCoordinates& coordinates = *system.generalised;
-  const auto width = static_cast<std::size_t>(system.owned_dofs());
+  const std::size_t width = system.owned_dofs();
   dofs_.resize(width);
   std::iota(dofs_.begin(), dofs_.end(), LocalIndex{0});
   for (const int place : known_) {
-    const TracePoint& point = places[static_cast<std::size_t>(place)];
+    const TracePoint& point = places[place];
     if (mesh.dof(mesh.owned_node(point.node), point.component) < 0) {
       rows_.resize(rows_.size() + width, 0.0);
       continue;
@@ -110,7 +110,7 @@ void Trace::restrict_to_dofs(const double* owned, double* x) const {
 void Trace::apply(const double* owned, double* out, std::size_t stride) const {
   if (!dense_) {
     for (std::size_t k = 0; k < own_dof_.size(); ++k) {
-      out[stride * k] = own_dof_[k] < 0 ? 0 : owned[dofs_[static_cast<std::size_t>(own_dof_[k])]];
+      out[stride * k] = own_dof_[k] < 0 ? 0 : owned[dofs_[own_dof_[k]]];
     }
     return;
   }
@@ -120,12 +120,12 @@ void Trace::apply(const double* owned, double* out, std::size_t stride) const {
 void Trace::add_force(std::size_t k, double f, std::span<double> owned) const {
   if (!dense_) {
     if (own_dof_[k] >= 0) {
-      owned[static_cast<std::size_t>(dofs_[static_cast<std::size_t>(own_dof_[k])])] += f;
+      owned[dofs_[own_dof_[k]]] += f;
     }
     return;
   }
   for (std::size_t i = 0; i < dofs_.size(); ++i) {
-    owned[static_cast<std::size_t>(dofs_[i])] += f * rows_[k * dofs_.size() + i];
+    owned[dofs_[i]] += f * rows_[k * dofs_.size() + i];
   }
 }
 
@@ -133,7 +133,7 @@ void Trace::add_impulse(const double* f, double* x) {
   std::fill(force_.begin(), force_.end(), 0.0);
   for (std::size_t k = 0; k < known_.size(); ++k) {
     if (!dense_ && own_dof_[k] >= 0) {
-      force_[static_cast<std::size_t>(own_dof_[k])] = f[k];
+      force_[own_dof_[k]] = f[k];
     } else if (dense_ && f[k] != 0) {
       const double* row = &rows_[k * dofs_.size()];
       for (std::size_t i = 0; i < force_.size(); ++i) {
@@ -154,13 +154,12 @@ void Trace::add_solution(double* x) {
   std::fill(field_.begin(), field_.end(), 0.0);
   for (std::size_t i = 0; i < force_.size(); ++i) {
     if (field_place_[i] >= 0) {
-      field_[static_cast<std::size_t>(field_place_[i])] = force_[i];
+      field_[field_place_[i]] = force_[i];
     }
   }
   coupled_mass_->solve(field_.data());
   for (std::size_t i = 0; i < force_.size(); ++i) {
-    x[i] += field_place_[i] < 0 ? inverse_mass_[i] * force_[i]
-                                : field_[static_cast<std::size_t>(field_place_[i])];
+    x[i] += field_place_[i] < 0 ? inverse_mass_[i] * force_[i] : field_[field_place_[i]];
   }
 }
 
@@ -170,16 +169,16 @@ double Trace::compliance(std::size_t a, std::size_t b) {
       return 0;
     }
     if (coupled_mass_ == nullptr) {
-      return a == b ? inverse_mass_[static_cast<std::size_t>(own_dof_[a])] : 0;
+      return a == b ? inverse_mass_[own_dof_[a]] : 0;
     }
     if (response_.empty() || response_place_ != a) {
       response_.assign(dofs_.size(), 0.0);
       response_place_ = a;
       std::fill(force_.begin(), force_.end(), 0.0);
-      force_[static_cast<std::size_t>(own_dof_[a])] = 1;
+      force_[own_dof_[a]] = 1;
       add_solution(response_.data());
     }
-    return response_[static_cast<std::size_t>(own_dof_[b])];
+    return response_[own_dof_[b]];
   }
   double sum = 0;
   const double* row_a = &rows_[a * dofs_.size()];

@@ -9,7 +9,7 @@ namespace {
 using Place = std::array<LocalIndex, 6>;
 
 const Place& place_of(const DofPlaces& places, LocalIndex node) {
-  return places.of_node[static_cast<std::size_t>(node)];
+  return places.of_node[node];
 }
 
 /// Dofs x, y, z in a row.
@@ -53,9 +53,7 @@ void set_core(const DofPlaces& places, std::span<const LocalIndex> nodes, BrickC
     return !core.empty();
   };
   const auto plain = [&](LocalIndex node) { return is_plain(places, node); };
-  const auto end_of = [&](LocalIndex node) {
-    return places.node_end[static_cast<std::size_t>(node)];
-  };
+  const auto end_of = [&](LocalIndex node) { return places.node_end[node]; };
   const auto owned = longest_stretch(nodes, plain, [&](LocalIndex before, LocalIndex node) {
     return x_of(node) == end_of(before);
   });
@@ -93,12 +91,12 @@ const BrickChain& BrickChains::add(const DofPlaces& places, const std::vector<Lo
   set_core(places, nodes, chain);
   chain.begin = static_cast<int>(places_.size());
   for (int p = chain.first; chain.plain && p < chain.first + chain.core; ++p) {
-    places_.push_back(place_of(places, nodes[static_cast<std::size_t>(p)])[0]);
+    places_.push_back(place_of(places, nodes[p])[0]);
   }
   chain.ends = static_cast<int>(ends_.size());
   for (int p = 0; p < chain.length; ++p) {
     if (chain.in_core(p)) continue;
-    const Place& place = place_of(places, nodes[static_cast<std::size_t>(p)]);
+    const Place& place = place_of(places, nodes[p]);
     ends_.push_back({p, {place[0], place[1], place[2]}});
   }
   return chains_.emplace_back(chain);
@@ -106,8 +104,8 @@ const BrickChain& BrickChains::add(const DofPlaces& places, const std::vector<Lo
 
 LocalIndex BrickChains::place(const BrickChain& chain, int node, int component) const {
   if (!chain.in_core(node)) {
-    const auto number = static_cast<std::size_t>(node < chain.first ? node : node - chain.core);
-    return ends(chain)[number].place[static_cast<std::size_t>(component)];
+    const std::size_t number = node < chain.first ? node : node - chain.core;
+    return ends(chain)[number].place[component];
   }
   const int in_core = node - chain.first;
   if (!chain.plain) return chain.first_ghost + 3 * in_core + component;

@@ -38,7 +38,7 @@ class BrickChains {
  public:
   /// Adds a chain; returns it.
   const BrickChain& add(const DofPlaces& places, const std::vector<LocalIndex>& nodes);
-  const BrickChain& at(int number) const { return chains_[static_cast<std::size_t>(number)]; }
+  const BrickChain& at(int number) const { return chains_[number]; }
   /// Dof of a component (0-2) of a chain's node; -1 where there is none.
   LocalIndex place(const BrickChain& chain, int node, int component) const;
   /// First dof of a plain core's nodes.

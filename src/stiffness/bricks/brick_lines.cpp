@@ -28,14 +28,14 @@ BrickLines::BrickLines(const DofPlaces& places, const Matrix3& axes,
   const BrickPairs pairs = pair_chains(rows);
   rotated_ = axes != Matrix3{Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}};
   for (std::size_t d = 0; d < 3; ++d) {
-    const auto axis = static_cast<std::size_t>(pairs.axes[d]);
+    const std::size_t axis = pairs.axes[d];
     axes_[d] = axes[axis];
     component_[rotated_ ? d : axis] = static_cast<int>(d);
   }
   for (const BrickShape& shape : shapes) {
     Vector3 lengths{};
     for (std::size_t d = 0; d < 3; ++d) {
-      lengths[d] = shape.lengths[static_cast<std::size_t>(pairs.axes[d])];
+      lengths[d] = shape.lengths[pairs.axes[d]];
     }
     const auto split = split_brick(shape.type, shape.properties, lengths);
     if (!split) throw std::logic_error("BrickLines: a shape that does not split");
@@ -54,7 +54,7 @@ BrickLines::BrickLines(const DofPlaces& places, const Matrix3& axes,
     pair_loads_.push_back(split.load ? plan_load(split.place) : PairLoad{});
   }
   deferred_.assign(schedule_.joins.size(), 0);
-  buffer_.assign(static_cast<std::size_t>(schedule_.buffer_size), 0.0);
+  buffer_.assign(schedule_.buffer_size, 0.0);
 }
 
 ComponentArrays BrickLines::displacements(int start) const {
@@ -121,8 +121,8 @@ BrickLines::PairLoad BrickLines::plan_load(const PairPlace& place) const {
     PairEnd& end = load.ends.emplace_back();
     end.node = p;
     for (int c = 0; c < 3; ++c) {
-      end.near[static_cast<std::size_t>(c)] = chains_.place(near, p, c);
-      end.far[static_cast<std::size_t>(c)] = chains_.place(far, p, c);
+      end.near[c] = chains_.place(near, p, c);
+      end.far[c] = chains_.place(far, p, c);
     }
   }
   return load;
@@ -172,8 +172,8 @@ void BrickLines::apply_step(const LineStep& step) const {
   for (std::size_t i = 0; i < 3; ++i) {
     lines[i] = {buffer_.data() + step.start[i][0], buffer_.data() + step.start[i][1]};
   }
-  add_line_forces(stencils_[static_cast<std::size_t>(step.shape)], step.sides, step.first_behind,
-                  lines[0], lines[1], lines[2], line_stride_, step.count);
+  add_line_forces(stencils_[step.shape], step.sides, step.first_behind, lines[0], lines[1],
+                  lines[2], line_stride_, step.count);
 }
 
 void BrickLines::join_chains(std::size_t join) const {
@@ -193,7 +193,7 @@ void BrickLines::join_chains(std::size_t join) const {
 /// The pair that still holds the forces of a chain as sums and differences; null: none.
 const PairPlace* BrickLines::deferred_pair(const Store& store) const {
   if (store.place.join < 0) return nullptr;
-  const auto join = static_cast<std::size_t>(store.place.join);
+  const std::size_t join = store.place.join;
   return deferred_[join] != 0 ? &schedule_.joins[join].place : nullptr;
 }
 
@@ -205,7 +205,7 @@ void BrickLines::add_core(const Store& store, double* q) const {
     if (!chain.row) std::fill(added_.begin(), added_.begin() + size, 0.0);
     collect_forces(store, added_.data());
     for (LocalIndex i = 0; i < size; ++i) {
-      q[chain.range.begin + i] += added_[static_cast<std::size_t>(i)];
+      q[chain.range.begin + i] += added_[i];
     }
     return;
   }
@@ -327,7 +327,7 @@ void BrickLines::find_deferred() {
   std::vector<int> rows(deferred_.size(), 0);
   for (const Store& store : stores_) {
     if (store.place.join < 0 || store.outcome == Outcome::add) continue;
-    if (chains_.at(store.place.chain).row) ++rows[static_cast<std::size_t>(store.place.join)];
+    if (chains_.at(store.place.chain).row) ++rows[store.place.join];
   }
   for (std::size_t j = 0; j < rows.size(); ++j) deferred_[j] = rows[j] == 2 ? 1 : 0;
 }
@@ -350,7 +350,7 @@ void BrickLines::unite_ranges() {
   for (Store& store : stores_) {
     const DofRange range = chains_.at(store.place.chain).range;
     if (store.outcome == Outcome::add) {
-      const auto size = static_cast<std::size_t>(range.end - range.begin);
+      const std::size_t size = range.end - range.begin;
       if (added_.size() < size) added_.resize(size, 0.0);
       continue;
     }

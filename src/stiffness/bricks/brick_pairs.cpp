@@ -91,13 +91,13 @@ class PairFinder {
   void find_alone() {
     std::vector<int> uses(rows_.chains.size(), 0);
     for (const ChainPair& pair : result_.pairs) {
-      ++uses[static_cast<std::size_t>(pair.near)];
-      ++uses[static_cast<std::size_t>(pair.far)];
+      ++uses[pair.near];
+      ++uses[pair.far];
     }
     for (ChainPair& pair : result_.pairs) {
       pair.alone = pair.near_begin == 0 && pair.far_begin == 0;
       for (const int chain : {pair.near, pair.far}) {
-        const auto c = static_cast<std::size_t>(chain);
+        const std::size_t c = chain;
         pair.alone = pair.alone && uses[c] == 1 &&
                      rows_.chains[c].size() == static_cast<std::size_t>(pair.length);
       }

@@ -23,7 +23,7 @@ std::vector<double> corner_stiffness(ElementType type, const ElementProperties& 
   for (const std::size_t bits : corner_bits)
     for (std::size_t d = 0; d < 3; ++d)
       coordinates.push_back((bits >> d & 1) != 0 ? lengths[d] : 0);
-  const auto size = static_cast<std::size_t>(element_layout(type).size());
+  const std::size_t size = element_layout(type).size();
   std::vector<double> stiffness(size * size);
   std::vector<double> mass(size);
   element_matrices(type, coordinates, properties, stiffness, mass);
@@ -37,7 +37,7 @@ std::vector<double> stiffness_by_parity(ElementType type, const ElementPropertie
                                         std::span<const std::size_t> corner_bits) {
   const auto stiffness = corner_stiffness(type, properties, lengths, corner_bits);
   const std::size_t nodes = corner_bits.size();
-  const auto components = static_cast<std::size_t>(element_layout(type).components);
+  const std::size_t components = element_layout(type).components;
   const std::size_t size = nodes * components;
   const auto sign = [&](std::size_t s, std::size_t node) {
     return std::popcount(s & ~corner_bits[node]) % 2 == 0 ? 1.0 : -1.0;

@@ -18,7 +18,7 @@ struct StiffnessArgument {
   std::array<double, 3> origin{};
 
   double operator[](std::size_t dof) const { return displacement[dof] + beta * velocity[dof]; }
-  double operator[](LocalIndex dof) const { return (*this)[static_cast<std::size_t>(dof)]; }
+  double operator[](LocalIndex dof) const { return displacement[dof] + beta * velocity[dof]; }
 };
 
 /// Owned dofs that follow each other.

@@ -28,7 +28,7 @@ ShellLines::ShellLines(const DofPlaces& places, const Matrix3& axes, int normal,
   const std::array<int, 3> order{(normal + 1 + run) % 3, (normal + 2 - run) % 3, normal};
   rotated_ = axes != Matrix3{Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}};
   for (std::size_t d = 0; d < 3; ++d) {
-    const auto axis = static_cast<std::size_t>(order[d]);
+    const std::size_t axis = order[d];
     axes_[d] = axes[axis];
     component_[rotated_ ? d : axis] = static_cast<int>(d);
   }
@@ -45,10 +45,10 @@ void ShellLines::add_chain(const DofPlaces& places, const std::vector<LocalIndex
   Chain chain{static_cast<int>(places_.size()), static_cast<int>(nodes.size()), true, {}};
   bool contiguous = true;
   for (const LocalIndex node : nodes) {
-    const auto& place = places.of_node[static_cast<std::size_t>(node)];
+    const auto& place = places.of_node[node];
     const LocalIndex first = place[0];
     for (int c = 0; c < components; ++c) {
-      chain.plain = chain.plain && first >= 0 && place[static_cast<std::size_t>(c)] == first + c;
+      chain.plain = chain.plain && first >= 0 && place[c] == first + c;
     }
     chain.plain = chain.plain && first + components <= owned_dofs_;
     contiguous = contiguous && chain.plain && (node == nodes[0] || first == chain.range.end);
@@ -57,7 +57,7 @@ void ShellLines::add_chain(const DofPlaces& places, const std::vector<LocalIndex
   }
   if (!contiguous) chain.range = {};
   for (const LocalIndex node : nodes) {
-    const auto& place = places.of_node[static_cast<std::size_t>(node)];
+    const auto& place = places.of_node[node];
     places_.insert(places_.end(), place.begin(), place.begin() + (chain.plain ? 1 : components));
   }
   line_stride_ = std::max(line_stride_, padded(chain.length));
@@ -69,7 +69,7 @@ void ShellLines::schedule(const RectangleRows& rows) {
   const int line_size = arrays_per_line * line_stride_;
   std::vector<int> uses(rows.chains.size(), 0);
   for (const RectangleRun& run : rows.runs) {
-    for (const int chain : run.chain) ++uses[static_cast<std::size_t>(chain)];
+    for (const int chain : run.chain) ++uses[chain];
   }
   std::vector<int> start(rows.chains.size(), -1);
   std::vector<int> free_lines;
@@ -77,7 +77,7 @@ void ShellLines::schedule(const RectangleRows& rows) {
   for (const RectangleRun& row : rows.runs) {
     Run run{row.shape, row.count, {}, 0, 0};
     for (std::size_t l = 0; l < 2; ++l) {
-      int& line = start[static_cast<std::size_t>(row.chain[l])];
+      int& line = start[row.chain[l]];
       if (line < 0) {
         if (free_lines.empty()) free_lines.push_back(line_count++ * line_size);
         line = free_lines.back();
@@ -87,15 +87,15 @@ void ShellLines::schedule(const RectangleRows& rows) {
       run.start[l] = line + row.offset[l];
     }
     for (const int chain : row.chain) {
-      if (--uses[static_cast<std::size_t>(chain)] > 0) continue;
-      stores_.push_back({chain, start[static_cast<std::size_t>(chain)]});
+      if (--uses[chain] > 0) continue;
+      stores_.push_back({chain, start[chain]});
       free_lines.push_back(stores_.back().start);
     }
     run.loads_end = loads_.size();
     run.stores_end = stores_.size();
     runs_.push_back(run);
   }
-  buffer_.assign(static_cast<std::size_t>(line_count * line_size), 0.0);
+  buffer_.assign(line_count * line_size, 0.0);
 }
 
 LocalIndex ShellLines::place(const Chain& chain, int node, int component) const {
@@ -129,7 +129,7 @@ void ShellLines::load_chain(const Transfer& transfer, const StiffnessArgument& w
   } else {
     for (int p = 0; p < chain.length; ++p) {
       for (int c = 0; c < components; ++c) {
-        to[static_cast<std::size_t>(c)][p] = value_at(place(chain, p, c), owned_dofs_, w, ghosts);
+        to[c][p] = value_at(place(chain, p, c), owned_dofs_, w, ghosts);
       }
     }
   }
@@ -149,7 +149,7 @@ void ShellLines::store_chain(const Transfer& transfer, double* q, ForceReceiver&
     for (int p = 0; p < chain.length; ++p) {
       for (int c = 0; c < components; ++c) {
         const LocalIndex dof = place(chain, p, c);
-        if (dof >= 0 && dof < owned_dofs_) q[dof] += from[static_cast<std::size_t>(c)][p];
+        if (dof >= 0 && dof < owned_dofs_) q[dof] += from[c][p];
       }
     }
     return;
@@ -158,7 +158,7 @@ void ShellLines::store_chain(const Transfer& transfer, double* q, ForceReceiver&
   store_shell_nodes(from, places_.data() + chain.begin, chain.length, begin, range_.data());
   if (transfer.outcome == Outcome::complete) {
     for (LocalIndex dof = begin; dof < end; ++dof) {
-      range_[static_cast<std::size_t>(dof - begin)] += q[dof];
+      range_[dof - begin] += q[dof];
       q[dof] = 0;
     }
   }
@@ -176,7 +176,7 @@ void ShellLines::apply(const StiffnessArgument& w, const double* ghosts, double*
       double* const start = buffer_.data() + run.start[l];
       lines[l] = {start, start + components * line_stride_};
     }
-    add_shell_run(splits_[static_cast<std::size_t>(run.shape)], lines, line_stride_, run.count);
+    add_shell_run(splits_[run.shape], lines, line_stride_, run.count);
     while (stored < run.stores_end) store_chain(stores_[stored++], q, receiver);
   }
 }
@@ -201,7 +201,7 @@ void ShellLines::set_outcomes(const std::vector<Outcome>& outcomes) {
   for (std::size_t s = 0; s < stores_.size(); ++s) {
     stores_[s].outcome = outcomes[s];
     const DofRange range = chain_of(stores_[s].chain).range;
-    const auto size = static_cast<std::size_t>(range.end - range.begin);
+    const std::size_t size = range.end - range.begin;
     if (range_.size() < size) range_.resize(size);
   }
 }

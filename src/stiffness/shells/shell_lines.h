@@ -66,7 +66,7 @@ class ShellLines final : public ElementLines {
   void rotate(bool back, int length, double* values) const;
   SixArrays arrays(double* values) const;
   LocalIndex place(const Chain& chain, int node, int component) const;
-  const Chain& chain_of(int number) const { return chains_[static_cast<std::size_t>(number)]; }
+  const Chain& chain_of(int number) const { return chains_[number]; }
 
   LocalIndex owned_dofs_ = 0;
   bool rotated_ = false;
