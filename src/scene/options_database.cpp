@@ -51,7 +51,8 @@ OptionsDatabase read_options_database(MPI_Comm comm, const CommandLine& line) {
   };
   take_include(database);
   while (!waiting.empty()) {
-    const auto [option, file] = waiting.front();
+    const std::string option = waiting.front().first;
+    const std::string file = waiting.front().second;
     waiting.pop_front();
     if (!seen.insert(file).second) {
       throw UserError("option -" + option + " " + file + ": this file is read already");

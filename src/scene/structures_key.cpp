@@ -69,6 +69,11 @@ bool is_preset(const std::string& name, const std::string& value,
   });
 }
 
+bool is_mesh(const std::string& name, const std::vector<std::string>& structures) {
+  return std::ranges::any_of(
+      structures, [&](const std::string& structure) { return name == structure + "_mesh"; });
+}
+
 /// Numbers by their value, everything else by its text.
 void add_value(const std::string& value, Hash& hash) {
   if (const auto numbers = parse_reals(value)) {
@@ -106,9 +111,7 @@ std::string structures_key(const Options& in_force) {
       continue;
     }
     hash.add(name);
-    const bool mesh = std::ranges::any_of(
-        structures, [&](const std::string& structure) { return name == structure + "_mesh"; });
-    if (mesh) {
+    if (is_mesh(name, structures)) {
       add_file(value, hash);
     } else {
       add_value(value, hash);

@@ -36,14 +36,14 @@ inline Vectors to_global(const Lanes* axes, const Vectors& v) {
 /// Adds forces and moments to the nodes of four beams, one after the other: they may be the same.
 inline void scatter(const Vectors& force, const Vectors& moment,
                     const std::array<LocalIndex, 4>& start, double* q) {
-  const Lanes xy_low = __builtin_shuffle(force.x, force.y, LaneMask{0, 4, 2, 6});
-  const Lanes xy_high = __builtin_shuffle(force.x, force.y, LaneMask{1, 5, 3, 7});
-  const Lanes zx_low = __builtin_shuffle(force.z, moment.x, LaneMask{0, 4, 2, 6});
-  const Lanes zx_high = __builtin_shuffle(force.z, moment.x, LaneMask{1, 5, 3, 7});
-  const Lanes first[beams_at_once] = {__builtin_shuffle(xy_low, zx_low, LaneMask{0, 1, 4, 5}),
-                                      __builtin_shuffle(xy_high, zx_high, LaneMask{0, 1, 4, 5}),
-                                      __builtin_shuffle(xy_low, zx_low, LaneMask{2, 3, 6, 7}),
-                                      __builtin_shuffle(xy_high, zx_high, LaneMask{2, 3, 6, 7})};
+  const Lanes xy_low = __builtin_shufflevector(force.x, force.y, 0, 4, 2, 6);
+  const Lanes xy_high = __builtin_shufflevector(force.x, force.y, 1, 5, 3, 7);
+  const Lanes zx_low = __builtin_shufflevector(force.z, moment.x, 0, 4, 2, 6);
+  const Lanes zx_high = __builtin_shufflevector(force.z, moment.x, 1, 5, 3, 7);
+  const Lanes first[beams_at_once] = {__builtin_shufflevector(xy_low, zx_low, 0, 1, 4, 5),
+                                      __builtin_shufflevector(xy_high, zx_high, 0, 1, 4, 5),
+                                      __builtin_shufflevector(xy_low, zx_low, 2, 3, 6, 7),
+                                      __builtin_shufflevector(xy_high, zx_high, 2, 3, 6, 7)};
   for (std::size_t b = 0; b < beams_at_once; ++b) {
     double* const node = q + start[b];
     Lanes sum;
@@ -66,7 +66,7 @@ BeamElements::Beam BeamElements::make(const std::array<LocalIndex, 2>& start,
   const auto [direction, length] = segment_between(coordinates);
   const double young = properties.young;
   const double shear = young / (2 * (1 + properties.poisson));
-  const auto bending = [&](double inertia) {
+  const auto bending = [young, length = length](double inertia) {
     const double rigidity = young * inertia / length;
     return std::array<double, 3>{12 * rigidity / (length * length), 6 * rigidity / length,
                                  2 * rigidity};

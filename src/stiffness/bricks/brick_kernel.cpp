@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#define POUNDING_INLINE static inline __attribute__((always_inline))
+#define POUNDING_INLINE inline __attribute__((always_inline))
 
 namespace pounding {
 namespace {
@@ -68,7 +68,7 @@ POUNDING_INLINE void find_ends(int first, int count, RunEnds& ends) {
 POUNDING_INLINE void load_first(const double* values, const LaneMask& inside, Window& window) {
   load(values, window.nodes);
   mask(inside, window.nodes);
-  window.seam = __builtin_shuffle(Lanes{}, window.nodes, LaneMask{2, 3, 4, 5});
+  window.seam = __builtin_shufflevector(Lanes{}, window.nodes, 2, 3, 4, 5);
 }
 
 POUNDING_INLINE void mask_last(const LaneMask& inside, Window& window) {
@@ -81,9 +81,9 @@ template <bool at_end>
 POUNDING_INLINE void advance(const double* next, const RunEnds& ends, Window& window, Stencil& v) {
   Lanes nodes{};
   if (next != nullptr) load(next, nodes);
-  const Lanes seam = __builtin_shuffle(window.nodes, nodes, LaneMask{2, 3, 4, 5});
-  const Lanes left = __builtin_shuffle(window.seam, window.nodes, LaneMask{1, 4, 3, 6});
-  const Lanes right = __builtin_shuffle(window.nodes, seam, LaneMask{1, 4, 3, 6});
+  const Lanes seam = __builtin_shufflevector(window.nodes, nodes, 2, 3, 4, 5);
+  const Lanes left = __builtin_shufflevector(window.seam, window.nodes, 1, 4, 3, 6);
+  const Lanes right = __builtin_shufflevector(window.nodes, seam, 1, 4, 3, 6);
   v.centre = window.nodes;
   v.sum = left + right;
   v.slope = right - left;

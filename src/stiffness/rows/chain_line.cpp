@@ -43,13 +43,13 @@ inline void load_four(const StiffnessArgument& w, const LocalIndex* places, int 
   load_argument<0>(w, places[1], b);
   load_argument<0>(w, places[2], c);
   load_argument<0>(w, places[3], d);
-  const Lanes xz_ab = __builtin_shuffle(a, b, LaneMask{0, 4, 2, 6});
-  const Lanes xz_cd = __builtin_shuffle(c, d, LaneMask{0, 4, 2, 6});
-  const Lanes y_ab = __builtin_shuffle(a, b, LaneMask{1, 5, 3, 7});
-  const Lanes y_cd = __builtin_shuffle(c, d, LaneMask{1, 5, 3, 7});
-  store(to.x + p, __builtin_shuffle(xz_ab, xz_cd, LaneMask{0, 1, 4, 5}));
-  store(to.y + p, __builtin_shuffle(y_ab, y_cd, LaneMask{0, 1, 4, 5}));
-  store(to.z + p, __builtin_shuffle(xz_ab, xz_cd, LaneMask{2, 3, 6, 7}));
+  const Lanes xz_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  const Lanes xz_cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  const Lanes y_ab = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Lanes y_cd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  store(to.x + p, __builtin_shufflevector(xz_ab, xz_cd, 0, 1, 4, 5));
+  store(to.y + p, __builtin_shufflevector(y_ab, y_cd, 0, 1, 4, 5));
+  store(to.z + p, __builtin_shufflevector(xz_ab, xz_cd, 2, 3, 6, 7));
 }
 
 inline void store_four(const ComponentArrays& from, int p, const LocalIndex* places,
@@ -57,12 +57,12 @@ inline void store_four(const ComponentArrays& from, int p, const LocalIndex* pla
   Lanes a, b;
   load(from.x + p, a);
   load(from.y + p, b);
-  const Lanes even = __builtin_shuffle(a, b, LaneMask{0, 4, 2, 6});
-  const Lanes odd = __builtin_shuffle(a, b, LaneMask{1, 5, 3, 7});
+  const Lanes even = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  const Lanes odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
   std::memcpy(q + (places[0] - first), &even, sizeof(HalfLanes));
   std::memcpy(q + (places[1] - first), &odd, sizeof(HalfLanes));
-  const Lanes even_far = __builtin_shuffle(even, LaneMask{2, 3, 0, 1});
-  const Lanes odd_far = __builtin_shuffle(odd, LaneMask{2, 3, 0, 1});
+  const Lanes even_far = __builtin_shufflevector(even, even, 2, 3, 0, 1);
+  const Lanes odd_far = __builtin_shufflevector(odd, odd, 2, 3, 0, 1);
   std::memcpy(q + (places[2] - first), &even_far, sizeof(HalfLanes));
   std::memcpy(q + (places[3] - first), &odd_far, sizeof(HalfLanes));
   for (int i = 0; i < 4; ++i) q[places[i] - first + 2] = from.z[p + i];
@@ -90,21 +90,21 @@ inline void load_row_of_four(const StiffnessArgument& w, LocalIndex first, FourN
 }
 
 inline void to_components(const FourNodes& nodes, int p, const ComponentArrays& to) {
-  const Lanes xy_02 = __builtin_shuffle(nodes.a, nodes.b, LaneMask{0, 1, 6, 7});
-  const Lanes zx_02 = __builtin_shuffle(nodes.a, nodes.c, LaneMask{2, 3, 4, 5});
-  const Lanes yz_13 = __builtin_shuffle(nodes.b, nodes.c, LaneMask{0, 1, 6, 7});
-  store(to.x + p, __builtin_shuffle(xy_02, zx_02, LaneMask{0, 5, 2, 7}));
-  store(to.y + p, __builtin_shuffle(xy_02, yz_13, LaneMask{1, 4, 3, 6}));
-  store(to.z + p, __builtin_shuffle(zx_02, yz_13, LaneMask{0, 5, 2, 7}));
+  const Lanes xy_02 = __builtin_shufflevector(nodes.a, nodes.b, 0, 1, 6, 7);
+  const Lanes zx_02 = __builtin_shufflevector(nodes.a, nodes.c, 2, 3, 4, 5);
+  const Lanes yz_13 = __builtin_shufflevector(nodes.b, nodes.c, 0, 1, 6, 7);
+  store(to.x + p, __builtin_shufflevector(xy_02, zx_02, 0, 5, 2, 7));
+  store(to.y + p, __builtin_shufflevector(xy_02, yz_13, 1, 4, 3, 6));
+  store(to.z + p, __builtin_shufflevector(zx_02, yz_13, 0, 5, 2, 7));
 }
 
 inline void from_components(const Lanes& x, const Lanes& y, const Lanes& z, double* q) {
-  const Lanes xy_02 = __builtin_shuffle(x, y, LaneMask{0, 4, 2, 6});
-  const Lanes zx_02 = __builtin_shuffle(z, x, LaneMask{0, 5, 2, 7});
-  const Lanes yz_13 = __builtin_shuffle(y, z, LaneMask{1, 5, 3, 7});
-  store(q, __builtin_shuffle(xy_02, zx_02, LaneMask{0, 1, 4, 5}));
-  store(q + 4, __builtin_shuffle(yz_13, xy_02, LaneMask{0, 1, 6, 7}));
-  store(q + 8, __builtin_shuffle(zx_02, yz_13, LaneMask{2, 3, 6, 7}));
+  const Lanes xy_02 = __builtin_shufflevector(x, y, 0, 4, 2, 6);
+  const Lanes zx_02 = __builtin_shufflevector(z, x, 0, 5, 2, 7);
+  const Lanes yz_13 = __builtin_shufflevector(y, z, 1, 5, 3, 7);
+  store(q, __builtin_shufflevector(xy_02, zx_02, 0, 1, 4, 5));
+  store(q + 4, __builtin_shufflevector(yz_13, xy_02, 0, 1, 6, 7));
+  store(q + 8, __builtin_shufflevector(zx_02, yz_13, 2, 3, 6, 7));
 }
 
 /// Calls four(p) for groups of four of `count` nodes; the last group may overlap the one before it.

@@ -7,7 +7,7 @@
 /// Blocks of B, lane by lane: the common part of the kernels of rectangles and segments.
 namespace pounding {
 
-#define POUNDING_INLINE static inline __attribute__((always_inline))
+#define POUNDING_INLINE inline __attribute__((always_inline))
 
 /// c += b x for a number b.
 POUNDING_INLINE void add_times(double b, const Lanes& x, Lanes& c) {
@@ -53,7 +53,7 @@ POUNDING_INLINE void mask_lanes(const LaneMask& keep, Lanes& values) {
 /// Forces of the far ends at nodes i .. i + 3: those of elements i .. i + 2 reach the nodes
 /// i + 1 .. i + 3, the last one's is kept in `carry` for the next call, which takes it out at i.
 POUNDING_INLINE Lanes carry_over(const Lanes& far, Lanes& carry) {
-  const Lanes shifted = __builtin_shuffle(carry, far, LaneMask{3, 4, 5, 6});
+  const Lanes shifted = __builtin_shufflevector(carry, far, 3, 4, 5, 6);
   carry = far;
   return shifted;
 }

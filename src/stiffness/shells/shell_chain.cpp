@@ -22,14 +22,14 @@ struct FourLanes {
 
 /// Four values of four nodes, node by node, to value by value; its own inverse.
 inline void transpose(FourLanes& v) {
-  const Lanes even_ab = __builtin_shuffle(v.a, v.b, LaneMask{0, 4, 2, 6});
-  const Lanes even_cd = __builtin_shuffle(v.c, v.d, LaneMask{0, 4, 2, 6});
-  const Lanes odd_ab = __builtin_shuffle(v.a, v.b, LaneMask{1, 5, 3, 7});
-  const Lanes odd_cd = __builtin_shuffle(v.c, v.d, LaneMask{1, 5, 3, 7});
-  v.a = __builtin_shuffle(even_ab, even_cd, LaneMask{0, 1, 4, 5});
-  v.b = __builtin_shuffle(odd_ab, odd_cd, LaneMask{0, 1, 4, 5});
-  v.c = __builtin_shuffle(even_ab, even_cd, LaneMask{2, 3, 6, 7});
-  v.d = __builtin_shuffle(odd_ab, odd_cd, LaneMask{2, 3, 6, 7});
+  const Lanes even_ab = __builtin_shufflevector(v.a, v.b, 0, 4, 2, 6);
+  const Lanes even_cd = __builtin_shufflevector(v.c, v.d, 0, 4, 2, 6);
+  const Lanes odd_ab = __builtin_shufflevector(v.a, v.b, 1, 5, 3, 7);
+  const Lanes odd_cd = __builtin_shufflevector(v.c, v.d, 1, 5, 3, 7);
+  v.a = __builtin_shufflevector(even_ab, even_cd, 0, 1, 4, 5);
+  v.b = __builtin_shufflevector(odd_ab, odd_cd, 0, 1, 4, 5);
+  v.c = __builtin_shufflevector(even_ab, even_cd, 2, 3, 6, 7);
+  v.d = __builtin_shufflevector(odd_ab, odd_cd, 2, 3, 6, 7);
 }
 
 /// The components from `begin` on of four nodes.

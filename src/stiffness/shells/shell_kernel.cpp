@@ -33,7 +33,7 @@ POUNDING_INLINE void transform(const double* line0, const double* line1, Transfo
 struct Membrane {
   static constexpr int component[3] = {0, 1, 5};
   static constexpr bool translation[3] = {true, true, false};
-  POUNDING_INLINE void multiply(const ShellSplit& b, Transformed (&v)[3]) {
+  static POUNDING_INLINE void multiply(const ShellSplit& b, Transformed (&v)[3]) {
     multiply2(b.stretch, v[0].odd[0], v[1].even[1]);
     multiply2(b.bending[0], v[1].odd[1], v[2].even[1]);
     multiply2(b.bending[1], v[0].odd[1], v[2].odd[0]);
@@ -46,7 +46,7 @@ struct Membrane {
 struct Plate {
   static constexpr int component[3] = {2, 3, 4};
   static constexpr bool translation[3] = {true, false, false};
-  POUNDING_INLINE void multiply(const ShellSplit& b, Transformed (&v)[3]) {
+  static POUNDING_INLINE void multiply(const ShellSplit& b, Transformed (&v)[3]) {
     multiply2(b.curvature, v[1].even[1], v[2].odd[0]);
     multiply2(b.slope[0], v[0].odd[0], v[2].even[0]);
     multiply2(b.slope[1], v[0].even[1], v[1].even[0]);
