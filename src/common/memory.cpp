@@ -40,7 +40,8 @@ std::vector<double> zeros_on_large_pages(std::size_t size) {
   const std::uintptr_t end = (begin + size * sizeof(double)) / large_page * large_page;
   if (end > first) {
     // A wish: ordinary pages do as well.
-    madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
+    char* const bytes = reinterpret_cast<char*>(zeros.data());
+    madvise(bytes + (first - begin), end - first, MADV_HUGEPAGE);
   }
 #endif
   zeros.resize(size, 0.0);

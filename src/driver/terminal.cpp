@@ -39,7 +39,7 @@ bool is_watched() {
   // Scripts between mpirun and the program have the same terminal as the program.
   const std::string own = standard_output("self");
   std::string process = std::to_string(getppid());
-  while (process != "" && process != "0" && standard_output(process) == own) {
+  while (!process.empty() && process != "0" && standard_output(process) == own) {
     process = parent_of(process);
   }
   const std::string outer = standard_output(process);

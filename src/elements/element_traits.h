@@ -64,10 +64,10 @@ struct ElementTraits {
   StiffnessFunction stiffness;
   LumpedMassFunction lumped_mass;
   ElementKernel kernel;
-  int cost;                       ///< see measured_costs.h
-  bool linear;                    ///< its force is K u
-  bool scalable;                  ///< mass scaling may add to its mass
-  std::string_view caution = "";  ///< said whenever a scene uses it
+  int cost;                    ///< see measured_costs.h
+  bool linear;                 ///< its force is K u
+  bool scalable;               ///< mass scaling may add to its mass
+  std::string_view caution{};  ///< said whenever a scene uses it
 };
 
 /// The table, in the order of ElementType.

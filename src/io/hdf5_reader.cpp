@@ -27,7 +27,7 @@ class Handle {
   hid_t id_;
 };
 
-std::string without_padding(std::string text) {
+std::string without_padding(const std::string& text) {
   return text.substr(0, text.find('\0'));
 }
 

@@ -7,9 +7,8 @@
 
 namespace pounding {
 
-/// Pairs of nodes (the lower number first, in increasing order) at most `distance` > 0 [m] apart,
+/// Pairs of nodes (the lower number first, in increasing order) at most `near` > 0 [m] apart,
 /// found in cells of a grid. Serial.
-std::vector<std::pair<GlobalIndex, GlobalIndex>> near_nodes(const GlobalMesh& mesh,
-                                                            double distance);
+std::vector<std::pair<GlobalIndex, GlobalIndex>> near_nodes(const GlobalMesh& mesh, double near);
 
 }  // namespace pounding

@@ -21,7 +21,7 @@ struct Workspace {
   explicit Workspace(int n)
       : size(n),
         signal(fftw_alloc_real(static_cast<std::size_t>(n))),
-        spectrum(fftw_alloc_complex(static_cast<std::size_t>(n / 2 + 1))) {}
+        spectrum(fftw_alloc_complex(static_cast<std::size_t>(n) / 2 + 1)) {}
 };
 
 void execute(fftw_plan plan) {
@@ -55,7 +55,7 @@ std::vector<std::complex<double>> fourier(std::span<const double> signal) {
 std::vector<double> inverse_fourier(std::span<const std::complex<double>> spectrum, int n) {
   const Workspace work(n);
   const auto plan = fftw_plan_dft_c2r_1d(n, work.spectrum.get(), work.signal.get(), FFTW_ESTIMATE);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(n / 2 + 1); ++k) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(n) / 2 + 1; ++k) {
     const auto value = k < spectrum.size() ? spectrum[k] : 0.0;
     work.spectrum.get()[k][0] = value.real();
     work.spectrum.get()[k][1] = value.imag();

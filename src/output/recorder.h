@@ -115,7 +115,7 @@ class Recorder {
   void note_peaks(std::size_t first_record, std::span<const double> displacement,
                   std::span<const double> acceleration);
   void write_rows(std::size_t rows, const std::vector<double>& gathered,
-                  const std::vector<int>& row_widths);
+                  const std::vector<int>& offsets);
   /// Sends appended rows to the disk before their number says that they are there. Rank 0.
   void count_rows();
 

@@ -1,5 +1,6 @@
 #include "scene/fidelity_target.h"
 
+#include <algorithm>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -114,13 +115,10 @@ bool same(const std::string& a, const std::string& b) {
 /// with all of them.
 bool agrees(const Setting& setting, const OptionsDatabase& given,
             const std::vector<std::string>& structures) {
-  for (const auto& [option, value] : options_of(setting, structures)) {
-    const auto found = given.find(option);
-    if (found != given.end() && !same(found->second, value)) {
-      return false;
-    }
-  }
-  return true;
+  return std::ranges::all_of(options_of(setting, structures), [&](const auto& option) {
+    const auto found = given.find(option.first);
+    return found == given.end() || same(found->second, option.second);
+  });
 }
 
 const Setting& fastest(const std::vector<Setting>& settings, double target,

@@ -37,7 +37,7 @@ struct Range {
   bool low_open = false;
   bool high_open = false;
 
-  bool contains(double value) const;
+  bool contains(double number) const;
   std::string text() const;  ///< "> 0", "(0, 1]", "any"
 };
 

@@ -108,9 +108,9 @@ std::optional<std::vector<double>> parse_reals(std::string_view text) {
 
 std::optional<std::vector<double>> parse_increasing(std::string_view text) {
   const std::vector<std::string> parts = split(text, ':');
-  const auto values = parts.size() == 3   ? parse_range(parts)
-                      : parts.size() == 1 ? parse_reals(text)
-                                          : std::nullopt;
+  auto values = parts.size() == 3   ? parse_range(parts)
+                : parts.size() == 1 ? parse_reals(text)
+                                    : std::nullopt;
   if (!values || std::ranges::adjacent_find(*values, std::greater_equal<>{}) != values->end()) {
     return std::nullopt;
   }

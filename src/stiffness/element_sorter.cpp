@@ -11,6 +11,7 @@ namespace {
 template <typename Key, typename Set>
 std::vector<std::pair<Key, Set*>> largest_first(std::map<Key, Set>& sets) {
   std::vector<std::pair<Key, Set*>> sorted;
+  sorted.reserve(sets.size());
   for (auto& [key, set] : sets) sorted.push_back({key, &set});
   std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
     return a.second->elements.size() > b.second->elements.size();

@@ -119,7 +119,7 @@ class MatrixSystem {
 
  private:
   std::string needed_path_of(const std::string& name) const {
-    const std::string path = matrix_file(folder_, name);
+    std::string path = matrix_file(folder_, name);
     if (path.empty()) {
       throw UserError(folder_ + ": neither " + name + ".mtx nor " + name + ".petsc is there");
     }
@@ -274,7 +274,7 @@ class MatrixSystem {
 
   /// Gershgorin on M^-1/2 K M^-1/2: no omega^2 is beyond the largest sum of |K_ij| (m_i m_j)^-1/2
   /// over a row.
-  void bound_frequency(LinearSystem& system) const {
+  static void bound_frequency(LinearSystem& system) {
     std::vector<double> root;
     for (const double mass : system.lumped_mass) {
       root.push_back(1 / std::sqrt(mass));

@@ -295,8 +295,8 @@ void BrickLines::apply(const StiffnessArgument& w, const double* ghosts, double*
   }
 }
 
-std::vector<LocalIndex> BrickLines::chain_dofs(std::size_t number) const {
-  const BrickChain& chain = chains_.at(stores_[number].place.chain);
+std::vector<LocalIndex> BrickLines::chain_dofs(std::size_t place) const {
+  const BrickChain& chain = chains_.at(stores_[place].place.chain);
   std::vector<LocalIndex> dofs;
   for (int p = 0; p < chain.length; ++p) {
     for (int c = 0; c < 3; ++c) {

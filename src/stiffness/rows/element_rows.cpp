@@ -153,7 +153,8 @@ double expected_cycles(const ElementRows<lines>& rows) {
   constexpr LocalIndex near_step = 8;  // nodes; beyond, each node opens cache lines of its own
   double cycles = 400.0 * static_cast<double>(rows.left_over.size());
   for (const ElementRun<lines>& run : rows.runs) {
-    cycles += per_run + per_batch * ((run.count + lane_count - 1) / lane_count);
+    const LocalIndex batches = (run.count + lane_count - 1) / lane_count;
+    cycles += per_run + per_batch * batches;
   }
   for (const auto& chain : rows.chains) {
     const std::size_t middle = chain.size() / 2;
