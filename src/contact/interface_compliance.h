@@ -24,7 +24,6 @@ class InterfaceCompliance {
     const int block = block_of_[a];
     return block < 0 || block != block_of_[b] ? 0 : blocks_[row_begin_[a] + place_[b]];
   }
-  double diagonal(std::size_t a) const { return diagonal_[a]; }
   /// (G f)_a for impulses f over the interface's dofs.
   double velocity_change(std::size_t a, std::span<const double> f) const;
   /// Dofs with the same number here move together.

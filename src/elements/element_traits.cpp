@@ -139,10 +139,6 @@ static_assert(words_have_rows(), "a word of element_words has no row");
 
 }  // namespace
 
-std::span<const ElementTraits> element_table() {
-  return table;
-}
-
 const ElementTraits& traits_of(ElementType type) {
   return table.at(static_cast<std::size_t>(type));
 }

@@ -70,9 +70,6 @@ struct ElementTraits {
   std::string_view caution{};  ///< said whenever a scene uses it
 };
 
-/// The table, in the order of ElementType.
-std::span<const ElementTraits> element_table();
-
 const ElementTraits& traits_of(ElementType type);
 
 /// The element of a word of the option. Throws std::logic_error for a word without one.

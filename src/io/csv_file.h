@@ -25,7 +25,6 @@ class CsvFile {
   void row(const std::string& label, std::initializer_list<double> values) {
     row(label, std::span(values.begin(), values.size()));
   }
-  void flush() { std::fflush(file_); }
   /// Throws if anything was not written. Standard output stays open.
   void close();
 

@@ -145,10 +145,4 @@ double GroundMotion::peak_acceleration() const {
   return std::hypot(peak[0], peak[1], peak[2]);
 }
 
-double GroundMotion::end_time() const {
-  double end = 0;
-  for (const auto& component : components_) end = std::max(end, component.duration());
-  return end;
-}
-
 }  // namespace pounding

@@ -65,7 +65,6 @@ class GroundMotion {
   Vector3 peaks() const;
   /// Bound of |a_g| at all times: the norm of the components' peaks, which may coincide [m/s2].
   double peak_acceleration() const;
-  double end_time() const;  ///< last sample of the longest component [s]; 0 without any
 
   /// Descriptions of the directions that have a motion.
   const std::vector<MotionDescription>& descriptions() const { return descriptions_; }

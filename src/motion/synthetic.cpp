@@ -46,13 +46,19 @@ std::vector<double> control_frequencies(const TargetSpectrum& target) {
 }
 
 // ln(PSA / target) at the control frequencies, for a peak ground acceleration of 1.
-std::vector<double> log_misfit(std::span<const double> acceleration, double step,
+std::vector<double> log_misfit(std::span<const double> acceleration,
                                const std::vector<double>& controls, const TargetSpectrum& target) {
   std::vector<double> misfit;
-  for (const auto& point : response_spectrum(acceleration, step, controls, target_damping))
+  for (const auto& point : response_spectrum(acceleration, time_step, controls, target_damping))
     misfit.push_back(std::log(point.pseudo_acceleration / target.at(point.frequency)));
   return misfit;
 }
+
+// How far a motion is from the target.
+struct SpectralMisfit {
+  double rms = 0;  // [-]
+  double max = 0;  // [-]
+};
 
 SpectralMisfit summarise(const std::vector<double>& misfit, double log_scale) {
   SpectralMisfit result;
@@ -220,13 +226,6 @@ TargetSpectrum read_target_spectrum(const std::string& file) {
   return target;
 }
 
-SpectralMisfit spectral_misfit(const Accelerogram& accelerogram, const TargetSpectrum& target,
-                               double pga) {
-  return summarise(log_misfit(accelerogram.acceleration, accelerogram.time_step,
-                              control_frequencies(target), target),
-                   std::log(pga));
-}
-
 Accelerogram generate_accelerogram(const TargetSpectrum& target, const SyntheticMotion& motion,
                                    double pga) {
   check(target, motion, pga);
@@ -244,7 +243,7 @@ Accelerogram generate_accelerogram(const TargetSpectrum& target, const Synthetic
   for (int iteration = 0; iteration < iterations; ++iteration) {
     impose_peak(current, wavelet);
     correct_baseline(current);
-    const auto misfit = log_misfit(current, time_step, controls, target);
+    const auto misfit = log_misfit(current, controls, target);
     const auto seen = summarise(misfit, std::log(peak_of(current)));
     const double score = std::max(seen.rms, seen.max / 3);
     if (score < best_score) best = current, best_score = score, best_rms = seen.rms;

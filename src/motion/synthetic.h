@@ -21,15 +21,6 @@ struct TargetSpectrum {
 /// opens a comment; a line of names may come first. Throws UserError (file, line, what to do).
 TargetSpectrum read_target_spectrum(const std::string& file);
 
-/// How far the 5 % spectrum of an accelerogram is from a target scaled to `pga` [m/s2], over the
-/// target's frequencies below 50 Hz (40 points per decade), as ln(PSA / target).
-struct SpectralMisfit {
-  double rms = 0;  ///< [-]
-  double max = 0;  ///< [-]
-};
-SpectralMisfit spectral_misfit(const Accelerogram& accelerogram, const TargetSpectrum& target,
-                               double pga);
-
 /// A synthetic accelerogram whose 5 % spectrum follows the target, sampled every 0.005 s: random
 /// phases under an envelope (quadratic rise, plateau, exponential decay), then iterations that
 /// multiply the Fourier amplitudes by target / spectrum (Gasparini and Vanmarcke, MIT R76-4, 1976);

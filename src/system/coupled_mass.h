@@ -45,8 +45,6 @@ class CoupledMass {
   void put(const double* x, double* owned) const;
   /// v^T S v of a vector over the owned dofs.
   double added_product(const double* v) const;
-  /// Blocks of L beside the diagonal.
-  std::size_t factor_blocks() const { return lower_column_.size(); }
 
  private:
   void factorise(std::span<const double> lumped_mass);

@@ -32,15 +32,16 @@ std::unique_ptr<LinkLaw> Link::make_law(double time_step) const {
 
 std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh) {
   std::unique_ptr<Links> found(new Links);
+  GlobalIndex count = 0;  // of all ranks
   for (const ElementBlock& block : mesh.blocks) {
     if (!is_linear(block.type)) {
-      found->count_ += block.global_count;
+      count += block.global_count;
       for (std::size_t e = 0; e < block.count(); ++e) {
         found->add(structure, mesh, block, e);
       }
     }
   }
-  if (found->count_ == 0) {
+  if (count == 0) {
     return nullptr;
   }
   std::vector<LocalIndex>& dofs = found->dofs_;

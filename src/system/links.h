@@ -43,14 +43,12 @@ class Links {
 
   const std::vector<Link>& links() const { return links_; }  ///< of this rank
   const Trace& trace() const { return *trace_; }
-  GlobalIndex count() const { return count_; }
 
  private:
   Links() = default;
   void add(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
            std::size_t element);
 
-  GlobalIndex count_ = 0;
   std::vector<Link> links_;
   std::vector<LocalIndex> dofs_;  ///< per place of the trace, increasing
   std::unique_ptr<Trace> trace_;

@@ -31,7 +31,6 @@ class SquareMatrix {
 
   /// Per owned dof its entries by column.
   const std::vector<std::vector<Entry>>& rows() const { return rows_; }
-  const std::string& path() const { return path_; }
 
  private:
   void check_row(PetscInt row, const std::vector<Entry>& entries,

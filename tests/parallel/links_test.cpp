@@ -46,7 +46,6 @@ TEST(Links, ThatShareNodesLiveOnOneRank) {
   constexpr int cells = 9;
   const auto built = testing::build_system(chain(cells), ties());
   ASSERT_TRUE(built.system.links);
-  EXPECT_EQ(built.system.links->count(), cells);
   const auto here = static_cast<int>(built.system.links->links().size());
   EXPECT_TRUE(here == 0 || here == cells);
   int all = here;

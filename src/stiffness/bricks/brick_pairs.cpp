@@ -167,7 +167,7 @@ class PairFinder {
   }
 
   const BrickRows& rows_;
-  std::array<std::size_t, 4> corners_{};  ///< places in BrickRun::chain: near, far, near, far
+  std::array<std::size_t, 4> corners_{};  ///< places in ElementRun::chain: near, far, near, far
   std::map<std::tuple<int, int, int>, std::size_t> numbers_;
   std::vector<std::array<Place, 2>> places_;               ///< per run
   std::vector<std::array<std::vector<Piece>, 2>> bricks_;  ///< per pair: at which end of the run

@@ -24,7 +24,6 @@ struct PairPlace {
   std::array<int, 2> node{};   ///< start of the near chain's and the far chain's nodes
   std::array<int, 2> line{};   ///< start of the sums and of the differences
   int length = 0;
-  bool lent() const { return line == node; }
 };
 
 struct PairSplit {

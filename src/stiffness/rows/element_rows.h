@@ -48,7 +48,6 @@ template <std::size_t lines>
 ElementRows<lines> best_rows(const std::vector<RowElement<lines>>& elements, LocalIndex node_count);
 
 using BrickElement = RowElement<4>;
-using BrickRun = ElementRun<4>;
 using BrickRows = ElementRows<4>;
 using RectangleElement = RowElement<2>;
 using RectangleRun = ElementRun<2>;

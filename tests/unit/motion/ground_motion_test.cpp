@@ -41,7 +41,7 @@ TEST_F(GroundMotionTest, LinearBetweenSamplesAndZeroOutside) {
   EXPECT_EQ(motion.acceleration(0, -1e-9), 0);
   EXPECT_EQ(motion.acceleration(0, NAN), 0);
   EXPECT_EQ(motion.acceleration(1, 0.5), 0);
-  EXPECT_EQ(motion.end_time(), 1.5);
+  EXPECT_EQ(motion.component(0).duration(), 1.5);
   EXPECT_EQ(motion.peak_acceleration(), 4);
   static_assert(noexcept(motion.acceleration(0, 0.0)));
 }
@@ -61,14 +61,14 @@ TEST_F(GroundMotionTest, ThreeDirectionsOfTheirOwnLengthAndScale) {
   EXPECT_TRUE(motion.active(0));
   EXPECT_FALSE(motion.active(1));
   EXPECT_EQ(motion.component(2).acceleration.size(), 2u);
-  EXPECT_EQ(motion.end_time(), 1.5);
+  EXPECT_EQ(motion.component(0).duration(), 1.5);
   EXPECT_DOUBLE_EQ(motion.peak_acceleration(), 2.5);
 }
 
 TEST_F(GroundMotionTest, NoMotionAtAll) {
   const GroundMotion motion(Components{}, Resampling::band_limited);
   EXPECT_EQ(motion.acceleration(2, 1), 0);
-  EXPECT_EQ(motion.end_time(), 0);
+  EXPECT_EQ(motion.component(2).duration(), 0);
   EXPECT_EQ(motion.peak_acceleration(), 0);
 }
 
@@ -91,7 +91,7 @@ TEST_F(GroundMotionTest, BandLimitedResamplingFollowsASineBetweenItsSamples) {
   EXPECT_GT(linear_error, 0.1);
   EXPECT_LT(limited_error, 6e-4);  // straight lines of 5e-4 s: (omega h)^2 / 8
   EXPECT_LE(limited.component(0).time_step, 5e-4);
-  EXPECT_EQ(limited.end_time(), linear.end_time());
+  EXPECT_EQ(limited.component(0).duration(), linear.component(0).duration());
 }
 
 TEST_F(GroundMotionTest, SyntheticComponent) {
@@ -101,7 +101,7 @@ TEST_F(GroundMotionTest, SyntheticComponent) {
       Components{std::nullopt, MotionComponent{synthetic, 1.5, 1}, std::nullopt},
       Resampling::linear);
   EXPECT_EQ(motion.peak_acceleration(), 1.5);
-  EXPECT_DOUBLE_EQ(motion.end_time(), 10);
+  EXPECT_DOUBLE_EQ(motion.component(1).duration(), 10);
   EXPECT_THAT(refusal([&] {
                 GroundMotion(
                     Components{MotionComponent{synthetic, 0, 1}, std::nullopt, std::nullopt},
