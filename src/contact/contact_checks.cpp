@@ -1,7 +1,5 @@
 #include "contact/contact_checks.h"
 
-#include <algorithm>
-#include <cmath>
 #include <sstream>
 
 #include "common/error.h"

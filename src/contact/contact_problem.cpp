@@ -1,7 +1,6 @@
 #include "contact/contact_problem.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "contact/contact_components.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/contact_face.h"
+#include "common/matrix3.h"
 #include "contact/interface_traces.h"
 
 namespace pounding {

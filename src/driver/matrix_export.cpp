@@ -1,10 +1,8 @@
 #include "driver/matrix_export.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <filesystem>
-#include <numeric>
 
 #include "common/component_names.h"
 #include "common/error.h"

@@ -9,7 +9,6 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "driver/checkpoint_schedule.h"
-#include "driver/gap_bounds.h"
 #include "driver/stop_signal.h"
 #include "driver/terminal.h"
 #include "driver/watchdog.h"

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <tuple>
 
-#include "elements/element.h"
 #include "elements/measured_costs.h"
 #include "mesh/node_planes.h"
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
 
 #include "common/error.h"
 #include "common/petsc_message.h"

@@ -1,6 +1,5 @@
 #include "motion/record_content.h"
 
-#include <algorithm>
 #include <cctype>
 #include <cmath>
 

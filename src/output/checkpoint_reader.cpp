@@ -3,7 +3,6 @@
 #include <optional>
 #include <sstream>
 
-#include "common/error.h"
 #include "common/parallel.h"
 #include "io/hdf5_reader.h"
 #include "mesh/node_table.h"

@@ -1,7 +1,5 @@
 #include "output/saved_state_exchange.h"
 
-#include <algorithm>
-
 #include "common/parallel.h"
 
 namespace pounding {

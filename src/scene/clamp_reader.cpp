@@ -1,7 +1,6 @@
 #include "scene/clamp_reader.h"
 
 #include <algorithm>
-#include <array>
 
 #include "common/component_names.h"
 #include "scene/option_values.h"

@@ -1,7 +1,6 @@
 #include "scene/nearest_name.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace pounding {
 

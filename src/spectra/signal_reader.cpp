@@ -1,12 +1,10 @@
 #include "spectra/signal_reader.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 
 #include "common/error.h"
-#include "common/types.h"
 #include "io/hdf5_reader.h"
 #include "motion/accelerogram.h"
 #include "scene/nearest_name.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "common/error.h"
 #include "motion/spectrum_shape.h"

@@ -9,7 +9,6 @@
 #include "mesh/location.h"
 #include "stiffness/element_loop.h"
 #include "stiffness/element_properties.h"
-#include "stiffness/element_shapes.h"
 #include "stiffness/element_stiffness.h"
 #include "stiffness/sparse_matrix.h"
 #include "system/element_bounds.h"

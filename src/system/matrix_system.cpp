@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <sstream>
@@ -14,7 +13,6 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "io/matrix_market.h"
-#include "mesh/location.h"
 #include "system/critical_time_step.h"
 #include "system/square_matrix.h"
 
