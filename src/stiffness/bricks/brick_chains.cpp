@@ -17,22 +17,20 @@ bool in_a_row(const Place& place) {
   return place[0] >= 0 && place[1] == place[0] + 1 && place[2] == place[0] + 2;
 }
 
-/// Owned ones, and not the very last: one more may be read.
-bool is_plain(const DofPlaces& places, LocalIndex node) {
+bool is_owned(const DofPlaces& places, LocalIndex node) {
   const Place& place = place_of(places, node);
-  return in_a_row(place) && place[2] + 1 < places.owned_dofs;
+  return in_a_row(place) && place[2] < places.owned_dofs;
 }
 
-/// The first of the longest stretches of at least half of the nodes in which each node follows
-/// the one before it; else none.
-template <typename Alone, typename Follows>
-std::span<const LocalIndex> longest_stretch(std::span<const LocalIndex> nodes, Alone&& alone,
-                                            Follows&& follows) {
+/// The first of the longest stretches of at least half of the nodes in which each node is owned and
+/// its dofs follow those of the one before it; else none.
+std::span<const LocalIndex> longest_stretch(const DofPlaces& places,
+                                            std::span<const LocalIndex> nodes) {
   std::size_t best = 0, best_begin = 0;
   for (std::size_t begin = 0; begin < nodes.size();) {
     std::size_t end = begin;
-    while (end < nodes.size() && alone(nodes[end]) &&
-           (end == begin || follows(nodes[end - 1], nodes[end]))) {
+    while (end < nodes.size() && is_owned(places, nodes[end]) &&
+           (end == begin || place_of(places, nodes[end])[0] == places.node_end[nodes[end - 1]])) {
       ++end;
     }
     if (end - begin > best) {
@@ -44,43 +42,13 @@ std::span<const LocalIndex> longest_stretch(std::span<const LocalIndex> nodes, A
   return 2 * best >= nodes.size() ? nodes.subspan(best_begin, best) : nodes.first(0);
 }
 
-/// The longest stretch of owned nodes, else of ghosts, else all that moves if it is plain.
 void set_core(const DofPlaces& places, std::span<const LocalIndex> nodes, BrickChain& chain) {
-  const auto x_of = [&](LocalIndex node) { return place_of(places, node)[0]; };
-  const auto take = [&](std::span<const LocalIndex> core) {
-    chain.first = static_cast<int>(core.data() - nodes.data());
-    chain.core = static_cast<int>(core.size());
-    return !core.empty();
-  };
-  const auto plain = [&](LocalIndex node) { return is_plain(places, node); };
-  const auto end_of = [&](LocalIndex node) { return places.node_end[node]; };
-  const auto owned = longest_stretch(nodes, plain, [&](LocalIndex before, LocalIndex node) {
-    return x_of(node) == end_of(before);
-  });
-  if (take(owned)) {
-    chain.plain = true;
-    chain.range = {x_of(owned.front()), end_of(owned.back())};
-    chain.row = chain.range.end - chain.range.begin == 3 * chain.core;
-    return;
-  }
-  const auto ghosts = longest_stretch(
-      nodes,
-      [&](LocalIndex node) {
-        return in_a_row(place_of(places, node)) && x_of(node) >= places.owned_dofs;
-      },
-      [&](LocalIndex before, LocalIndex node) { return x_of(node) == x_of(before) + 3; });
-  if (take(ghosts)) {
-    chain.first_ghost = x_of(ghosts.front());
-    return;
-  }
-  const auto moves = [&](LocalIndex node) {
-    const Place& place = place_of(places, node);
-    return *std::max_element(place.begin(), place.begin() + 3) >= 0;
-  };
-  const auto first = std::find_if(nodes.begin(), nodes.end(), moves);
-  const auto last = std::find_if(nodes.rbegin(), nodes.rend(), moves).base();
-  chain.plain = first < last && std::all_of(first, last, plain);
-  if (chain.plain) take({first, last});
+  const auto core = longest_stretch(places, nodes);
+  if (core.empty()) return;
+  chain.first = static_cast<int>(core.data() - nodes.data());
+  chain.core = static_cast<int>(core.size());
+  chain.range = {place_of(places, core.front())[0], places.node_end[core.back()]};
+  chain.row = chain.range.end - chain.range.begin == 3 * chain.core;
 }
 
 }  // namespace
@@ -90,7 +58,7 @@ const BrickChain& BrickChains::add(const DofPlaces& places, const std::vector<Lo
   chain.length = static_cast<int>(nodes.size());
   set_core(places, nodes, chain);
   chain.begin = static_cast<int>(places_.size());
-  for (int p = chain.first; chain.plain && p < chain.first + chain.core; ++p) {
+  for (int p = chain.first; p < chain.first + chain.core; ++p) {
     places_.push_back(place_of(places, nodes[p])[0]);
   }
   chain.ends = static_cast<int>(ends_.size());
@@ -107,9 +75,7 @@ LocalIndex BrickChains::place(const BrickChain& chain, int node, int component) 
     const std::size_t number = node < chain.first ? node : node - chain.core;
     return ends(chain)[number].place[component];
   }
-  const int in_core = node - chain.first;
-  if (!chain.plain) return chain.first_ghost + 3 * in_core + component;
-  return places(chain)[in_core] + component;
+  return places(chain)[node - chain.first] + component;
 }
 
 }  // namespace pounding

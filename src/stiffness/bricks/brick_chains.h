@@ -15,21 +15,16 @@ struct ChainEnd {
   std::array<LocalIndex, 3> place{};
 };
 
-/// Nodes of bricks in a row, and where their dofs are. Most of them form a core whose values move
-/// in vectors; nodes before and behind it may be clamped, ghosts, or numbered elsewhere.
+/// Nodes of bricks in a row, and where their dofs are. Most of them form a core whose dofs follow
+/// each other; nodes before and behind it may be clamped, ghosts, or numbered elsewhere.
 struct BrickChain {
   int length = 0;
-  int first = 0;  ///< node of the core
-  int core = 0;   ///< nodes of the core; none if it is neither plain nor of ghosts
-  /// Every node of the core owns x, y, z in a row, and one more dof follows.
-  bool plain = false;
-  bool row = false;  ///< plain, and the nodes' dofs follow each other, no rotations between
-  /// Place of the first dof of a core of ghosts, whose x, y, z follow each other; -1: no such core.
-  LocalIndex first_ghost = -1;
-  /// All dofs of the core, rotations included, if they are owned and follow each other; else empty.
-  DofRange range;
-  int begin = 0;  ///< into the places: one per node of a plain core
-  int ends = 0;   ///< into the ends
+  int first = 0;     ///< node of the core
+  int core = 0;      ///< owned nodes of the core, at least half of all; else none
+  DofRange range;    ///< all dofs of the core, rotations included
+  bool row = false;  ///< no rotations are between them
+  int begin = 0;     ///< into the places: one per node of the core
+  int ends = 0;      ///< into the ends
 
   bool in_core(int node) const { return first <= node && node < first + core; }
 };
@@ -41,7 +36,7 @@ class BrickChains {
   const BrickChain& at(int number) const { return chains_[number]; }
   /// Dof of a component (0-2) of a chain's node; -1 where there is none.
   LocalIndex place(const BrickChain& chain, int node, int component) const;
-  /// First dof of a plain core's nodes.
+  /// First dof of each node of the core.
   const LocalIndex* places(const BrickChain& chain) const { return places_.data() + chain.begin; }
   /// Nodes outside the core, in their order.
   std::span<const ChainEnd> ends(const BrickChain& chain) const {

@@ -53,7 +53,6 @@ BrickLines::BrickLines(const DofPlaces& places, const Matrix3& axes,
   for (const PairSplit& split : schedule_.splits) {
     pair_loads_.push_back(split.load ? plan_load(split.place) : PairLoad{});
   }
-  deferred_.assign(schedule_.joins.size(), 0);
   buffer_.assign(schedule_.buffer_size, 0.0);
 }
 
@@ -79,9 +78,7 @@ void BrickLines::load_chain(const ChainLoad& load, const StiffnessArgument& w,
   const BrickChain& chain = chains_.at(load.chain);
   const ComponentArrays to = displacements(load.start);
   const ComponentArrays core = shifted(to, chain.first);
-  if (chain.first_ghost >= 0) {
-    load_row({ghosts, ghosts, 0, w.origin}, chain.first_ghost - owned_dofs_, chain.core, core);
-  } else if (chain.row) {
+  if (chain.row) {
     load_row(w, chain.range.begin, chain.core, core);
   } else {
     load_nodes(w, chains_.places(chain), chain.core, core);
@@ -176,77 +173,42 @@ void BrickLines::apply_step(const LineStep& step) const {
                   lines[2], line_stride_, step.count);
 }
 
-void BrickLines::join_chains(std::size_t join) const {
-  const auto& [place, first] = schedule_.joins[join];
+void BrickLines::join_chains(const PairJoin& join) const {
+  const auto& [place, first] = join;
   double* const buffer = buffer_.data();
-  if (deferred_[join] == 0) {
-    join_pair({buffer + place.line[0], buffer + place.line[1]}, place.length, line_stride_, first,
-              buffer + place.node[0], buffer + place.node[1]);
-    return;
-  }
-  for (std::size_t i = 0; rotated_ && i < 2; ++i) {
-    rotate_vectors(axes_, true, place.length, line_stride_,
-                   buffer + place.line[i] + 3 * line_stride_);
-  }
-}
-
-/// The pair that still holds the forces of a chain as sums and differences; null: none.
-const PairPlace* BrickLines::deferred_pair(const Store& store) const {
-  if (store.place.join < 0) return nullptr;
-  const std::size_t join = store.place.join;
-  return deferred_[join] != 0 ? &schedule_.joins[join].place : nullptr;
+  join_pair({buffer + place.line[0], buffer + place.line[1]}, place.length, line_stride_, first,
+            buffer + place.node[0], buffer + place.node[1]);
 }
 
 /// Adds the forces of a chain to q.
 void BrickLines::add_core(const Store& store, double* q) const {
   const BrickChain& chain = chains_.at(store.place.chain);
-  if (!chain.range.empty()) {
-    const LocalIndex size = chain.range.end - chain.range.begin;
-    if (!chain.row) std::fill(added_.begin(), added_.begin() + size, 0.0);
-    collect_forces(store, added_.data());
-    for (LocalIndex i = 0; i < size; ++i) {
-      q[chain.range.begin + i] += added_[i];
-    }
-    return;
-  }
-  if (chain.first_ghost >= 0) return;
-  const ComponentArrays force = shifted(forces(store.place.start), chain.first);
-  const LocalIndex* const place = chains_.places(chain);
-  for (int p = 0; p < chain.core; ++p) {
-    q[place[p]] += force.x[p];
-    q[place[p] + 1] += force.y[p];
-    q[place[p] + 2] += force.z[p];
+  if (chain.range.empty()) return;
+  const LocalIndex size = chain.range.end - chain.range.begin;
+  if (!chain.row) std::fill(added_.begin(), added_.begin() + size, 0.0);
+  collect_forces(store, added_.data());
+  for (LocalIndex i = 0; i < size; ++i) {
+    q[chain.range.begin + i] += added_[i];
   }
 }
 
 /// Adds the forces of the nodes outside the core to q.
 void BrickLines::add_ends(const Store& store, double* q) const {
   const BrickChain& chain = chains_.at(store.place.chain);
-  if (chain.core == chain.length) return;
-  const PairPlace* const pair = deferred_pair(store);
-  const ComponentArrays force = forces(pair != nullptr ? pair->line[0] : store.place.start);
-  const ComponentArrays difference = pair != nullptr ? forces(pair->line[1]) : force;
-  const double sign = pair != nullptr && pair->chain[0] == store.place.chain ? -1 : 1;
-  const auto add = [&](LocalIndex dof, int p, const double* sum, const double* odd) {
-    if (dof >= 0 && dof < owned_dofs_) q[dof] += pair != nullptr ? sum[p] + sign * odd[p] : sum[p];
+  const ComponentArrays force = forces(store.place.start);
+  const auto add = [&](LocalIndex dof, double value) {
+    if (dof >= 0 && dof < owned_dofs_) q[dof] += value;
   };
   for (const ChainEnd& end : chains_.ends(chain)) {
-    add(end.place[0], end.node, force.x, difference.x);
-    add(end.place[1], end.node, force.y, difference.y);
-    add(end.place[2], end.node, force.z, difference.z);
+    add(end.place[0], force.x[end.node]);
+    add(end.place[1], force.y[end.node]);
+    add(end.place[2], force.z[end.node]);
   }
 }
 
 /// Forces of a core with a range, that of its first dof to range[0].
 void BrickLines::collect_forces(const Store& store, double* range) const {
   const BrickChain& chain = chains_.at(store.place.chain);
-  if (const PairPlace* const pair = deferred_pair(store); pair != nullptr) {
-    const bool near = pair->chain[0] == store.place.chain;
-    (near ? store_near_row : store_far_row)(shifted(forces(pair->line[0]), chain.first),
-                                            shifted(forces(pair->line[1]), chain.first), chain.core,
-                                            range);
-    return;
-  }
   const ComponentArrays core = shifted(forces(store.place.start), chain.first);
   if (chain.row) {
     store_row(core, chain.core, range);
@@ -258,7 +220,7 @@ void BrickLines::collect_forces(const Store& store, double* range) const {
 void BrickLines::store_chain(const Store& store, double* q, ForceReceiver& receiver) const {
   const auto& [place, outcome, begin, end, growing] = store;
   const BrickChain& chain = chains_.at(place.chain);
-  if (rotated_ && deferred_pair(store) == nullptr) {
+  if (rotated_) {
     rotate_vectors(axes_, true, chain.length, line_stride_,
                    buffer_.data() + place.start + 3 * line_stride_);
   }
@@ -290,7 +252,7 @@ void BrickLines::apply(const StiffnessArgument& w, const double* ghosts, double*
     while (loaded < step.loads_end) load_chain(schedule_.loads[loaded++], w, ghosts);
     while (split < step.splits_end) split_chains(split++, w, ghosts);
     apply_step(step);
-    while (joined < step.joins_end) join_chains(joined++);
+    while (joined < step.joins_end) join_chains(schedule_.joins[joined++]);
     while (stored < step.stores_end) store_chain(stores_[stored++], q, receiver);
   }
 }
@@ -313,23 +275,12 @@ DofRange BrickLines::chain_range(std::size_t place) const {
 
 void BrickLines::set_outcomes(const std::vector<Outcome>& outcomes) {
   for (std::size_t s = 0; s < stores_.size(); ++s) stores_[s].outcome = outcomes[s];
-  find_deferred();
   std::size_t begin = 0;
   for (const LineStep& step : schedule_.steps) {
     sort_stores(begin, step.stores_end);
     begin = step.stores_end;
   }
   unite_ranges();
-}
-
-/// Rows of one pair need not be joined before they are stored, if both are handed over.
-void BrickLines::find_deferred() {
-  std::vector<int> rows(deferred_.size(), 0);
-  for (const Store& store : stores_) {
-    if (store.place.join < 0 || store.outcome == Outcome::add) continue;
-    if (chains_.at(store.place.chain).row) ++rows[store.place.join];
-  }
-  for (std::size_t j = 0; j < rows.size(); ++j) deferred_[j] = rows[j] == 2 ? 1 : 0;
 }
 
 /// Those of one step, in the order of their dofs.

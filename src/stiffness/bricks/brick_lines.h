@@ -68,7 +68,6 @@ class BrickLines final : public ElementLines {
 
   void sort_stores(std::size_t begin, std::size_t end);
   void unite_ranges();
-  void find_deferred();
   void load_chain(const ChainLoad& load, const StiffnessArgument& w, const double* ghosts) const;
   Vector3 value(const std::array<LocalIndex, 3>& place, const StiffnessArgument& w,
                 const double* ghosts) const;
@@ -77,9 +76,8 @@ class BrickLines final : public ElementLines {
                  const double* ghosts) const;
   void split_chains(std::size_t number, const StiffnessArgument& w, const double* ghosts) const;
   void apply_step(const LineStep& step) const;
-  void join_chains(std::size_t join) const;
+  void join_chains(const PairJoin& join) const;
   void store_chain(const Store& store, double* q, ForceReceiver& receiver) const;
-  const PairPlace* deferred_pair(const Store& store) const;
   void add_core(const Store& store, double* q) const;
   void add_ends(const Store& store, double* q) const;
   void collect_forces(const Store& store, double* range) const;
@@ -96,7 +94,6 @@ class BrickLines final : public ElementLines {
   LineSchedule schedule_;
   std::vector<PairLoad> pair_loads_;  ///< per split
   std::vector<Store> stores_;         ///< those of schedule_
-  std::vector<char> deferred_;        ///< per join: done as the two rows are stored
   int line_stride_ = 0;
   /// Lines of shape (6, line_stride): displacement, force. Work space of `apply`.
   mutable LaneArray buffer_;

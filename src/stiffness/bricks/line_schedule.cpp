@@ -139,8 +139,7 @@ class Scheduler {
     for (const int number_of_chain : place.chain) {
       ChainState& chain = chain_states_[index(number_of_chain)];
       if (--chain.uses > 0) continue;
-      const int join = pair.alone ? static_cast<int>(result_.joins.size()) - 1 : -1;
-      result_.stores.push_back({number_of_chain, chain.line, join});
+      result_.stores.push_back({number_of_chain, chain.line});
       pool_.give_back(chain.line);
     }
   }

@@ -41,8 +41,6 @@ struct PairJoin {
 struct ChainStore {
   int chain = 0;
   int start = 0;
-  /// Number of the join by which the chain gets its line back, if it was lent; else -1.
-  int join = -1;
 };
 
 /// A call of the kernel; the entries of the other lists up to the given ends come before it (loads,

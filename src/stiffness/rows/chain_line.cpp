@@ -35,39 +35,6 @@ inline void store_node(const ComponentArrays& from, int p, double* q) {
   q[2] = from.z[p];
 }
 
-/// x, y, z of four nodes whose dofs start at places[0..3].
-inline void load_four(const StiffnessArgument& w, const LocalIndex* places, int p,
-                      const ComponentArrays& to) {
-  Lanes a, b, c, d;
-  load_argument<0>(w, places[0], a);
-  load_argument<0>(w, places[1], b);
-  load_argument<0>(w, places[2], c);
-  load_argument<0>(w, places[3], d);
-  const Lanes xz_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
-  const Lanes xz_cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);
-  const Lanes y_ab = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const Lanes y_cd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-  store(to.x + p, __builtin_shufflevector(xz_ab, xz_cd, 0, 1, 4, 5));
-  store(to.y + p, __builtin_shufflevector(y_ab, y_cd, 0, 1, 4, 5));
-  store(to.z + p, __builtin_shufflevector(xz_ab, xz_cd, 2, 3, 6, 7));
-}
-
-inline void store_four(const ComponentArrays& from, int p, const LocalIndex* places,
-                       LocalIndex first, double* q) {
-  Lanes a, b;
-  load(from.x + p, a);
-  load(from.y + p, b);
-  const Lanes even = __builtin_shufflevector(a, b, 0, 4, 2, 6);
-  const Lanes odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  std::memcpy(q + (places[0] - first), &even, sizeof(HalfLanes));
-  std::memcpy(q + (places[1] - first), &odd, sizeof(HalfLanes));
-  const Lanes even_far = __builtin_shufflevector(even, even, 2, 3, 0, 1);
-  const Lanes odd_far = __builtin_shufflevector(odd, odd, 2, 3, 0, 1);
-  std::memcpy(q + (places[2] - first), &even_far, sizeof(HalfLanes));
-  std::memcpy(q + (places[3] - first), &odd_far, sizeof(HalfLanes));
-  for (int i = 0; i < 4; ++i) q[places[i] - first + 2] = from.z[p + i];
-}
-
 /// Rows follow each other in memory, but between two of them other arrays are read: from far away
 /// the next row would come late. Asks for the 12 values of four nodes there; any address will do.
 inline void fetch_ahead(const double* values) {
@@ -119,41 +86,11 @@ inline void by_fours(int count, Four four, One one) {
   if (count % 4 != 0) four(count - 4);
 }
 
-/// Sums combined with differences, as a row.
-template <typename Combine>
-inline void store_combined(const ComponentArrays& sum, const ComponentArrays& difference, int count,
-                           double* q, Combine combine) {
-  by_fours(
-      count,
-      [&](int p) {
-        Lanes x, y, z, dx, dy, dz;
-        load(sum.x + p, x);
-        load(sum.y + p, y);
-        load(sum.z + p, z);
-        load(difference.x + p, dx);
-        load(difference.y + p, dy);
-        load(difference.z + p, dz);
-        combine(x, dx);
-        combine(y, dy);
-        combine(z, dz);
-        from_components(x, y, z, q + 3 * p);
-      },
-      [&](int p) {
-        double* const node = q + 3 * p;
-        store_node(sum, p, node);
-        combine(node[0], difference.x[p]);
-        combine(node[1], difference.y[p]);
-        combine(node[2], difference.z[p]);
-      });
-}
-
 }  // namespace
 
 void load_nodes(const StiffnessArgument& w, const LocalIndex* places, int count,
                 const ComponentArrays& to) {
-  by_fours(
-      count, [&](int p) { load_four(w, places + p, p, to); },
-      [&](int p) { load_node(w, places[p], p, to); });
+  for (int p = 0; p < count; ++p) load_node(w, places[p], p, to);
 }
 
 void load_row(const StiffnessArgument& w, LocalIndex first, int count, const ComponentArrays& to) {
@@ -193,9 +130,7 @@ void load_row_pair(const StiffnessArgument& w, std::array<LocalIndex, 2> first, 
 
 void store_nodes(const ComponentArrays& from, const LocalIndex* places, int count, LocalIndex first,
                  double* q) {
-  by_fours(
-      count, [&](int p) { store_four(from, p, places + p, first, q); },
-      [&](int p) { store_node(from, p, q + (places[p] - first)); });
+  for (int p = 0; p < count; ++p) store_node(from, p, q + (places[p] - first));
 }
 
 void store_row(const ComponentArrays& from, int count, double* q) {
@@ -209,16 +144,6 @@ void store_row(const ComponentArrays& from, int count, double* q) {
         from_components(x, y, z, q + 3 * p);
       },
       [&](int p) { store_node(from, p, q + 3 * p); });
-}
-
-void store_near_row(const ComponentArrays& sum, const ComponentArrays& difference, int count,
-                    double* q) {
-  store_combined(sum, difference, count, q, [](auto& f, const auto& d) { f -= d; });
-}
-
-void store_far_row(const ComponentArrays& sum, const ComponentArrays& difference, int count,
-                   double* q) {
-  store_combined(sum, difference, count, q, [](auto& f, const auto& d) { f += d; });
 }
 
 void rotate_vectors(const Matrix3& rotation, bool back, int count, std::ptrdiff_t stride,

@@ -17,11 +17,10 @@ struct ComponentArrays {
   double* z = nullptr;
 };
 
-/// w, less its origin, of `count` nodes with dofs x, y, z in a row from places[p]. Reads one dof
-/// beyond each node.
+/// w, less its origin, of `count` nodes with dofs x, y, z in a row from places[p].
 void load_nodes(const StiffnessArgument& w, const LocalIndex* places, int count,
                 const ComponentArrays& to);
-/// Loads nodes whose dofs follow each other from `first`: a row. Reads nothing else.
+/// Loads nodes whose dofs follow each other from `first`: a row.
 void load_row(const StiffnessArgument& w, LocalIndex first, int count, const ComponentArrays& to);
 /// Two such rows: their sum, and the second one minus the first.
 void load_row_pair(const StiffnessArgument& w, std::array<LocalIndex, 2> first, int count,
@@ -31,12 +30,6 @@ void load_row_pair(const StiffnessArgument& w, std::array<LocalIndex, 2> first, 
 void store_nodes(const ComponentArrays& from, const LocalIndex* places, int count, LocalIndex first,
                  double* q);
 void store_row(const ComponentArrays& from, int count, double* q);
-/// Stores one row of a pair: the near one, sum minus difference, or the far one, sum plus
-/// difference.
-void store_near_row(const ComponentArrays& sum, const ComponentArrays& difference, int count,
-                    double* q);
-void store_far_row(const ComponentArrays& sum, const ComponentArrays& difference, int count,
-                   double* q);
 
 /// Vectors v <- R v, or v <- R' v, in three arrays of a line from `line`.
 void rotate_vectors(const Matrix3& rotation, bool back, int count, std::ptrdiff_t stride,
