@@ -22,8 +22,9 @@ std::vector<std::pair<Key, Set*>> largest_first(std::map<Key, Set>& sets) {
 }  // namespace
 
 ElementSorter::ElementSorter(const Structure& structure, const Mesh& mesh,
-                             const ElementShapes& shapes, const Halo& halo)
-    : structure_(structure), mesh_(mesh), element_shapes_(shapes) {
+                             const ElementShapes& shapes, const Halo& halo,
+                             const ProductForms& forms)
+    : structure_(structure), mesh_(mesh), element_shapes_(shapes), forms_(forms) {
   places_.owned_dofs = mesh.owned_dofs;
   places_.of_dof.resize(mesh.dof_count);
   for (LocalIndex dof = 0; dof < mesh.dof_count; ++dof) {
@@ -66,7 +67,12 @@ void ElementSorter::sort_shapes(std::size_t b) {
   for (std::size_t e = 0; e < block.count(); ++e) {
     const bool in_row =
         is_solid(block.type) ? add_brick({b, e}, properties) : add_rectangle({b, e}, properties);
-    if (!in_row) add_congruent({b, e}, properties);
+    if (in_row) continue;
+    if (forms_.congruent) {
+      add_congruent({b, e}, properties);
+    } else {
+      others_.push_back({b, e});
+    }
   }
 }
 
@@ -74,7 +80,7 @@ bool ElementSorter::add_brick(const Element& element, const ElementProperties& p
   const auto [b, e] = element;
   const ElementBlock& block = mesh_.blocks[b];
   const Box* const brick = element_shapes_.box(b, e);
-  if (brick == nullptr) return false;
+  if (brick == nullptr || !forms_.bricks) return false;
   const int number = brick_shape({block.type, properties, brick->lengths}, b);
   if (number < 0) return false;
   BrickElement entry{number, {}};
@@ -91,7 +97,7 @@ bool ElementSorter::add_brick(const Element& element, const ElementProperties& p
 bool ElementSorter::add_rectangle(const Element& element, const ElementProperties& properties) {
   const auto [b, e] = element;
   const Box* const box = element_shapes_.box(b, e);
-  if (box == nullptr) return false;
+  if (box == nullptr || !forms_.rectangles) return false;
   const auto first = static_cast<std::size_t>(box->normal + 1) % 3;
   const auto second = static_cast<std::size_t>(box->normal + 2) % 3;
   const int number = rectangle_shape({properties, {box->lengths[first], box->lengths[second]}}, b);
@@ -109,7 +115,7 @@ bool ElementSorter::add_rectangle(const Element& element, const ElementPropertie
 }
 
 bool ElementSorter::add_beam(const Element& element) {
-  if (!is_beam(mesh_.blocks[element.first].type)) return false;
+  if (!forms_.beams || !is_beam(mesh_.blocks[element.first].type)) return false;
   const auto place = places(element);
   for (std::size_t i = 1; i < 12; ++i) {
     // Six dofs in a row, or none.
@@ -167,7 +173,8 @@ void ElementSorter::demote_rare_shapes() {
 /// Elements that fit in no row leave the set for the others.
 template <std::size_t lines>
 ElementRows<lines> ElementSorter::form_rows(RowSet<lines>& set) {
-  ElementRows<lines> rows = best_rows(set.rows, mesh_.node_count());
+  ElementRows<lines> rows = forms_.best_axis ? best_rows(set.rows, mesh_.node_count())
+                                             : find_rows(set.rows, mesh_.node_count(), 0);
   std::vector<Element> kept;
   auto left = rows.left_over.begin();
   for (std::size_t e = 0; e < set.elements.size(); ++e) {
@@ -183,12 +190,12 @@ std::vector<std::unique_ptr<ElementLines>> ElementSorter::element_lines(bool out
   std::vector<std::unique_ptr<ElementLines>> lines;
   for (const auto& [frame, set] : largest_first(brick_sets_[outer ? 1 : 0])) {
     lines.push_back(std::make_unique<BrickLines>(places_, element_shapes_.axes(frame),
-                                                 brick_shapes_, form_rows(*set)));
+                                                 brick_shapes_, form_rows(*set), forms_));
   }
   for (const auto& [key, set] : largest_first(rectangle_sets_[outer ? 1 : 0])) {
     const auto& [frame, normal] = key;
     lines.push_back(std::make_unique<ShellLines>(places_, element_shapes_.axes(frame), normal,
-                                                 rectangle_shapes_, form_rows(*set)));
+                                                 rectangle_shapes_, form_rows(*set), forms_));
   }
   return lines;
 }

@@ -14,6 +14,7 @@
 #include "stiffness/element_kinds.h"
 #include "stiffness/element_loop.h"
 #include "stiffness/element_shapes.h"
+#include "stiffness/rows/product_forms.h"
 #include "stiffness/shells/shell_lines.h"
 #include "stiffness/sparse_rows.h"
 
@@ -24,7 +25,7 @@ class ElementSorter {
  public:
   /// References must outlive this object.
   ElementSorter(const Structure& structure, const Mesh& mesh, const ElementShapes& shapes,
-                const Halo& halo);
+                const Halo& halo, const ProductForms& forms);
 
   void sort();
 
@@ -70,6 +71,7 @@ class ElementSorter {
   const Structure& structure_;
   const Mesh& mesh_;
   const ElementShapes& element_shapes_;
+  ProductForms forms_;
   DofPlaces places_;
   mutable ElementWork work_;
   std::vector<BrickShape> brick_shapes_;

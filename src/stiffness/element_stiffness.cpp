@@ -43,7 +43,8 @@ class TouchCounter {
 };
 
 /// Chains that nothing adds to after them hand over their forces.
-void decide_outcomes(const std::vector<std::unique_ptr<ElementLines>>& all, TouchCounter& counter,
+void decide_outcomes(const std::vector<std::unique_ptr<ElementLines>>& all,
+                     const ProductForms& forms, TouchCounter& counter,
                      std::vector<char>& handed_over) {
   for (const auto& lines : all) {
     std::vector<ElementLines::Outcome> outcomes;
@@ -52,7 +53,7 @@ void decide_outcomes(const std::vector<std::unique_ptr<ElementLines>>& all, Touc
       const bool alone = counter.untouched(range);
       counter.happen(lines->chain_dofs(c));
       auto& outcome = outcomes.emplace_back(ElementLines::Outcome::add);
-      if (!range.empty() && counter.done(range)) {
+      if (forms.hand_over && (alone || forms.completed) && !range.empty() && counter.done(range)) {
         outcome = alone ? ElementLines::Outcome::hand_over : ElementLines::Outcome::complete;
         std::fill(handed_over.begin() + range.begin, handed_over.begin() + range.end, 1);
       }
@@ -70,7 +71,7 @@ void append(std::vector<DofRange>& ranges, LocalIndex dof) {
 }  // namespace
 
 ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
-                                   std::unique_ptr<Stiffness> assembled)
+                                   std::unique_ptr<Stiffness> assembled, const ProductForms& forms)
     : owned_dofs_(mesh.owned_dofs), assembled_(std::move(assembled)) {
   std::vector<GlobalIndex> ghosts(mesh.dof_count - mesh.owned_dofs);
   for (LocalIndex node = mesh.owned_nodes; node < mesh.node_count(); ++node) {
@@ -86,7 +87,7 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
   halo_ = std::make_unique<Halo>(mesh.comm, mesh.first_owned_dof, mesh.owned_dofs, ghosts);
   const ElementShapes shapes(mesh);
   on_every_rank(mesh.comm, [&] {
-    ElementSorter sorter(structure, mesh, shapes, *halo_);
+    ElementSorter sorter(structure, mesh, shapes, *halo_, forms);
     sorter.sort();
     const LocalIndex idle = mesh.dof_count;
     for (const bool outer : {false, true}) {
@@ -105,7 +106,7 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
     argument_ = ZeroedArray(places);
     force_ = ZeroedArray(places);
     kinds_ = sorter.kinds();
-    plan();
+    plan(forms);
   });
   for (GlobalIndex* const count :
        {&kinds_.bricks, &kinds_.rectangles, &kinds_.congruent, &kinds_.beams, &kinds_.other}) {
@@ -114,7 +115,7 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
 }
 
 /// Decides which chains of nodes may hand their forces over, by going through a product.
-void ElementStiffness::plan() {
+void ElementStiffness::plan(const ProductForms& forms) {
   std::vector<LocalIndex> early = inner_.dofs;
   early.insert(early.end(), sparse_->owned_rows().begin(), sparse_->owned_rows().end());
   std::vector<LocalIndex> late = outer_.dofs;
@@ -129,9 +130,9 @@ void ElementStiffness::plan() {
   }
   std::vector<char> handed_over(owned_dofs_, 0);
   counter.happen(early);
-  decide_outcomes(inner_.lines, counter, handed_over);
+  decide_outcomes(inner_.lines, forms, counter, handed_over);
   counter.happen(late);
-  decide_outcomes(outer_.lines, counter, handed_over);
+  decide_outcomes(outer_.lines, forms, counter, handed_over);
   for (LocalIndex dof = 0; dof < owned_dofs_; ++dof) {
     if (handed_over[dof] == 0) append(late_ranges_, dof);
   }

@@ -11,6 +11,7 @@
 #include "stiffness/congruent_elements.h"
 #include "stiffness/element_kinds.h"
 #include "stiffness/rows/element_lines.h"
+#include "stiffness/rows/product_forms.h"
 #include "stiffness/sparse_rows.h"
 #include "stiffness/stiffness.h"
 
@@ -30,7 +31,7 @@ class ElementStiffness final : public Stiffness {
   /// `assembled` lends its matrix to those who ask for it; may be null, then matrix() is.
   /// Collective.
   ElementStiffness(const Structure& structure, const Mesh& mesh,
-                   std::unique_ptr<Stiffness> assembled);
+                   std::unique_ptr<Stiffness> assembled, const ProductForms& forms = {});
 
   using Stiffness::apply;
   void start(const StiffnessArgument& w) const override { halo_->begin(w); }
@@ -54,7 +55,7 @@ class ElementStiffness final : public Stiffness {
     std::unique_ptr<BeamElements> beams;
     std::vector<LocalIndex> dofs;  ///< owned, of all but the rows; some more than once
   };
-  void plan();
+  void plan(const ProductForms& forms);
   void add_general(const Part& part) const;
   StiffnessArgument relative_to_origin(StiffnessArgument w) const;
 

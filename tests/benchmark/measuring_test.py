@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -14,6 +15,7 @@ import program
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 sys.dont_write_bytecode = True
 from parts.benchmark.comparison import check_agreement  # noqa: E402
+from parts.benchmark.forms import CASES, LABELS  # noqa: E402
 from parts.benchmark.scaling_model import CostCurve, Messages, Model  # noqa: E402
 from parts.benchmark.series import Series  # noqa: E402
 from parts.benchmark.workers import MeasuringError, block_cells, slab_cells, storey_dofs  # noqa: E402
@@ -75,6 +77,30 @@ class Benchmark(Measured):
     def test_wrong_options_are_refused(self):
         for words in (["--sizes", "0"], ["--rounds", "none"], ["--ranks", "1,-2"], ["--fast"]):
             self.assertEqual(script("benchmark", *words).returncode, 2, words)
+
+
+class Forms(unittest.TestCase):
+    def test_what_the_forms_of_the_plate_earn(self):
+        folder = tempfile.mkdtemp(prefix="pounding-")
+        result = script("benchmark", "--forms", "plate", "--ranks", 1, "--rounds", 1, "--seconds", 0.01,
+                        "--output", folder)
+        self.assertEqual(result.returncode, 0, result.stderr[-3000:])
+        with open(os.path.join(folder, "forms.md")) as file:
+            self.assertIn(file.read(), result.stdout)
+        rows = rows_of(os.path.join(folder, "forms.csv"))
+        self.assertEqual([row["form"] for row in rows], CASES["plate"].forms)
+        for row in rows:
+            self.assertGreater(float(row["ratio"]), 0, row)
+            self.assertGreater(float(row["microseconds_per_step"]), 0, row)
+
+    def test_every_form_is_in_the_table_and_in_a_case(self):
+        with open(os.path.join(program.SOURCE, "src/stiffness/rows/product_forms.h")) as file:
+            forms = set(re.findall(r"bool (\w+) = true;", file.read())) | {"update_vectors", "nothing"}
+        self.assertEqual(forms, set(LABELS))
+        self.assertEqual(forms, {form for case in CASES.values() for form in case.forms})
+
+    def test_unknown_cases_are_refused(self):
+        self.assertEqual(script("benchmark", "--forms", "house").returncode, 2)
 
 
 class Scaling(Measured):

@@ -1,6 +1,7 @@
 #include "benchmark/stepped_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -8,8 +9,13 @@
 #include "benchmark/storey_pair.h"
 #include "common/memory.h"
 #include "common/parallel.h"
+#include "driver/build_model.h"
+#include "scene/options_database.h"
+#include "scene/scene_reader.h"
 #include "stability/stable_time_step.h"
+#include "stiffness/element_stiffness.h"
 #include "support/box_mesh.h"
+#include "support/named_forms.h"
 #include "system/finite_element_system.h"
 
 namespace pounding::measuring {
@@ -19,10 +25,55 @@ constexpr Vector3 cell_size{0.12, 0.12, 0.22};  // of the brick [m]
 constexpr Rayleigh damping{0.1562, 1.2557e-5};
 constexpr double courant = 0.9;
 
-Structure concrete_structure(const std::string& name) {
-  Structure structure = testing::solid_structure(name, 30e9, 0.2, 2400);
+Structure concrete_structure(const std::string& name, const ModelRequest& request) {
+  const bool plate = request.cells[0] > 0 && request.cells[2] == 0;
+  Structure structure = testing::solid_structure(name, 30e9, 0.2, 2400,
+                                                 plate ? ElementType::shell4 : ElementType::hex8);
+  structure.regions[0].thickness = cell_size[2];
   structure.damping = damping;
   return structure;
+}
+
+/// A plate clamped at x = 0; the opening takes a third of its width and a quarter of its length.
+GlobalMesh plate_mesh(int nx, int ny, bool opening) {
+  const auto open = [&](int i, int j) {
+    return opening && 3 * i >= nx && 3 * i < 2 * nx && 8 * j >= 3 * ny && 8 * j < 5 * ny;
+  };
+  const auto used = [&](int i, int j) {
+    for (const int a : {i - 1, i}) {
+      for (const int b : {j - 1, j}) {
+        if (a >= 0 && a < nx && b >= 0 && b < ny && !open(a, b)) return true;
+      }
+    }
+    return false;
+  };
+  GlobalMesh mesh;
+  std::vector<GlobalIndex> number;
+  for (int j = 0; j <= ny; ++j) {
+    for (int i = 0; i <= nx; ++i) {
+      number.push_back(mesh.node_count());
+      if (!used(i, j)) continue;
+      mesh.node_tags.push_back(mesh.node_count() + 1);
+      mesh.coordinates.insert(mesh.coordinates.end(), {cell_size[0] * i, cell_size[1] * j, 0.0});
+      mesh.free_components.push_back(i == 0 ? 0 : 0x3f);
+    }
+  }
+  mesh.components.assign(mesh.node_tags.size(), 0x3f);
+  ElementSet set;
+  set.group = "body";
+  set.type = ElementType::shell4;
+  for (int j = 0; j < ny; ++j) {
+    for (int i = 0; i < nx; ++i) {
+      if (open(i, j)) continue;
+      set.tags.push_back(static_cast<std::int64_t>(set.tags.size()) + 1);
+      const int first = j * (nx + 1) + i;
+      for (const int place : {first, first + 1, first + nx + 2, first + nx + 1}) {
+        set.connectivity.push_back(number[static_cast<std::size_t>(place)]);
+      }
+    }
+  }
+  mesh.regions.push_back(std::move(set));
+  return mesh;
 }
 
 /// The meshes as rank 0 sees them before they are distributed.
@@ -34,12 +85,18 @@ std::vector<GlobalMesh> make_meshes(const ModelRequest& request, Interface& inte
     std::move(pair.meshes.begin(), pair.meshes.end(), std::back_inserter(meshes));
     return meshes;
   }
+  if (request.cells[2] == 0) {
+    meshes.push_back(plate_mesh(request.cells[0], request.cells[1], request.opening));
+    return meshes;
+  }
   Vector3 size{};
   for (std::size_t d = 0; d < 3; ++d) {
     size[d] = cell_size[d] * request.cells[d];
   }
   meshes.push_back(testing::box_mesh({0, 0, 0}, size, request.cells));
   testing::clamp(meshes.back(), "x_min");
+  std::vector<double>& x = meshes.back().coordinates;
+  for (std::size_t i = 0; request.skew && i < x.size(); i += 3) x[i] += 0.3 * x[i + 1];
   return meshes;
 }
 
@@ -64,7 +121,51 @@ std::unique_ptr<GroundMotion> read_motion(const ModelRequest& request) {
       Resampling::linear);
 }
 
+/// The model of a scene, as the program builds it.
+SteppedModel scene_model(MPI_Comm comm, const ModelRequest& request, StiffnessMethod method) {
+  CommandLine line;
+  line.files = {request.scene};
+  Scene scene = read_scene(read_options_database(comm, line)).scene;
+  scene.stiffness = method;
+  scene.modes = 0;
+  Profile profile;
+  Model built = build_model(comm, scene, profile);
+  SteppedModel model;
+  model.comm = comm;
+  model.structures = std::move(scene.structures);
+  model.meshes = std::move(built.meshes);
+  model.systems = std::move(built.systems);
+  model.interface = std::move(built.interface);
+  model.motion = std::move(built.motion);
+  model.time_step = built.time_step;
+  return model;
+}
+
+/// Nodes as StructureStep moves them in vectors, told so that it does not know them for such: masses
+/// that differ in the last digit, rotations that are not written as -1.
+void hide_nodes(LinearSystem& system) {
+  for (std::size_t i = 0; i < system.direction.size(); ++i) {
+    if (system.direction[i] == 1) {
+      system.lumped_mass[i] = std::nextafter(system.lumped_mass[i], 0.0);
+    } else if (system.direction[i] < 0) {
+      system.direction[i] = -2;
+    }
+  }
+}
+
 }  // namespace
+
+void leave_out(const std::string& form, SteppedModel& model) {
+  for (std::size_t s = 0; s < model.systems.size(); ++s) {
+    if (form == "update_vectors") {
+      hide_nodes(model.systems[s]);
+    } else {
+      model.systems[s].stiffness = std::make_unique<ElementStiffness>(
+          model.structures[s], model.meshes[s], nullptr, testing::forms_without(form));
+    }
+  }
+  return_freed_memory();
+}
 
 GlobalIndex SteppedModel::global_dofs() const {
   GlobalIndex dofs = 0;
@@ -76,14 +177,15 @@ GlobalIndex SteppedModel::global_dofs() const {
 
 SteppedModel build_stepped_model(MPI_Comm comm, const ModelRequest& request,
                                  StiffnessMethod method) {
+  if (!request.scene.empty()) return scene_model(comm, request, method);
   SteppedModel model;
   model.comm = comm;
   on_every_rank(comm, [&] { model.motion = read_motion(request); });
   distribute(comm, request, model);
   double stable = std::numeric_limits<double>::infinity();
   for (const Mesh& mesh : model.meshes) {
-    model.systems.push_back(
-        build_finite_element_system(concrete_structure(mesh.structure), mesh, method));
+    model.structures.push_back(concrete_structure(mesh.structure, request));
+    model.systems.push_back(build_finite_element_system(model.structures.back(), mesh, method));
     const LinearSystem& system = model.systems.back();
     stable = std::min(stable, stable_time_step(system.damping, system.element_frequency_bound));
   }

@@ -11,6 +11,8 @@ namespace {
 /// each of as many ranges as grow in turns: near and far chains of a layer.
 constexpr LocalIndex most_united = 400;
 constexpr std::size_t growing_ranges = 2;
+/// How far ahead rows are asked for [doubles].
+constexpr int fetch_distance = 256;
 
 ComponentArrays shifted(const ComponentArrays& arrays, int nodes) {
   return {arrays.x + nodes, arrays.y + nodes, arrays.z + nodes};
@@ -23,9 +25,10 @@ int round_up(int count) {
 }  // namespace
 
 BrickLines::BrickLines(const DofPlaces& places, const Matrix3& axes,
-                       const std::vector<BrickShape>& shapes, const BrickRows& rows)
-    : owned_dofs_(places.owned_dofs) {
-  const BrickPairs pairs = pair_chains(rows);
+                       const std::vector<BrickShape>& shapes, const BrickRows& rows,
+                       const ProductForms& forms)
+    : forms_(forms), owned_dofs_(places.owned_dofs) {
+  const BrickPairs pairs = pair_chains(rows, forms);
   rotated_ = axes != Matrix3{Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}};
   for (std::size_t d = 0; d < 3; ++d) {
     const std::size_t axis = pairs.axes[d];
@@ -41,13 +44,13 @@ BrickLines::BrickLines(const DofPlaces& places, const Matrix3& axes,
     if (!split) throw std::logic_error("BrickLines: a shape that does not split");
     stencils_.push_back(brick_stencil(*split));
   }
-  std::vector<ChainForm> forms;
+  std::vector<ChainForm> chain_forms;
   for (const auto& nodes : rows.chains) {
-    const BrickChain& chain = chains_.add(places, nodes);
-    forms.push_back({chain.length, chain.row});
+    const BrickChain& chain = chains_.add(places, nodes, forms);
+    chain_forms.push_back({chain.length, chain.row});
     line_stride_ = std::max(line_stride_, round_up(chain.length + lane_count));
   }
-  schedule_ = schedule_lines(pairs, forms, line_stride_);
+  schedule_ = schedule_lines(pairs, chain_forms, line_stride_, forms);
   for (const ChainStore& store : schedule_.stores)
     stores_.push_back({store, Outcome::add, 0, 0, 0});
   for (const PairSplit& split : schedule_.splits) {
@@ -79,7 +82,7 @@ void BrickLines::load_chain(const ChainLoad& load, const StiffnessArgument& w,
   const ComponentArrays to = displacements(load.start);
   const ComponentArrays core = shifted(to, chain.first);
   if (chain.row) {
-    load_row(w, chain.range.begin, chain.core, core);
+    load_row(w, chain.range.begin, chain.core, forms_.fetch_ahead ? fetch_distance : 0, core);
   } else {
     load_nodes(w, chains_.places(chain), chain.core, core);
   }
@@ -130,8 +133,8 @@ void BrickLines::load_pair(const PairPlace& place, const PairLoad& load, const S
                            const double* ghosts) const {
   const ComponentArrays sum = displacements(place.line[0]);
   const ComponentArrays difference = displacements(place.line[1]);
-  load_row_pair(w, load.first, load.count, shifted(sum, load.begin),
-                shifted(difference, load.begin));
+  load_row_pair(w, load.first, load.count, forms_.fetch_ahead ? fetch_distance : 0,
+                shifted(sum, load.begin), shifted(difference, load.begin));
   for (const PairEnd& end : load.ends) {
     const Vector3 near = value(end.near, w, ghosts);
     const Vector3 far = value(end.far, w, ghosts);
@@ -309,7 +312,7 @@ void BrickLines::unite_ranges() {
     store.end = range.end;
     const auto grown = std::find_if(last.begin(), last.end(), [&](const Store* before) {
       return before != nullptr && before->end == range.begin &&
-             range.end - before->begin <= most_united;
+             range.end - before->begin <= (forms_.united_ranges ? most_united : 0);
     });
     if (grown != last.end()) {
       store.begin = (*grown)->begin;
@@ -319,7 +322,7 @@ void BrickLines::unite_ranges() {
       store.growing = oldest;
     }
     last[store.growing] = &store;
-    if (store.growing == oldest) oldest = (oldest + 1) % growing_ranges;
+    if (store.growing == oldest) oldest = (oldest + 1) % (forms_.two_ranges ? growing_ranges : 1);
     longest = std::max(longest, store.end - store.begin);
   }
   range_stride_ = round_up(longest + lane_count);

@@ -35,7 +35,7 @@ class BrickLines final : public ElementLines {
  public:
   /// `rows` of splittable bricks of `shapes`; `axes`: rows are the axes of the frame.
   BrickLines(const DofPlaces& places, const Matrix3& axes, const std::vector<BrickShape>& shapes,
-             const BrickRows& rows);
+             const BrickRows& rows, const ProductForms& forms);
 
   std::size_t chain_count() const override { return stores_.size(); }
   std::vector<LocalIndex> chain_dofs(std::size_t place) const override;
@@ -85,6 +85,7 @@ class BrickLines final : public ElementLines {
   ComponentArrays forces(int start) const;
   void clear_forces(int start, int length) const;
 
+  ProductForms forms_;
   LocalIndex owned_dofs_ = 0;
   bool rotated_ = false;
   Matrix3 axes_{};                      ///< those of the pairs

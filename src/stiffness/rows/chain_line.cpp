@@ -1,7 +1,5 @@
 #include "stiffness/rows/chain_line.h"
 
-#include <cstring>
-
 #include "common/lanes.h"
 
 namespace pounding {
@@ -35,12 +33,11 @@ inline void store_node(const ComponentArrays& from, int p, double* q) {
   q[2] = from.z[p];
 }
 
-/// Rows follow each other in memory, but between two of them other arrays are read: from far away
-/// the next row would come late. Asks for the 12 values of four nodes there; any address will do.
-inline void fetch_ahead(const double* values) {
-  constexpr int distance = 256, cache_line = 8;  // doubles
-  __builtin_prefetch(values + distance);
-  __builtin_prefetch(values + distance + cache_line);
+/// Asks for the 12 values of four nodes; any address will do.
+inline void fetch(const double* values) {
+  constexpr int cache_line = 8;  // doubles
+  __builtin_prefetch(values);
+  __builtin_prefetch(values + cache_line);
 }
 
 /// Four nodes in a row in memory, x0 y0 z0 x1, y1 z1 x2 y2, z2 x3 y3 z3.
@@ -48,9 +45,10 @@ struct FourNodes {
   Lanes a, b, c;
 };
 
-inline void load_row_of_four(const StiffnessArgument& w, LocalIndex first, FourNodes& nodes) {
-  fetch_ahead(w.displacement + first);
-  fetch_ahead(w.velocity + first);
+inline void load_row_of_four(const StiffnessArgument& w, LocalIndex first, int ahead,
+                             FourNodes& nodes) {
+  fetch(w.displacement + first + ahead);
+  fetch(w.velocity + first + ahead);
   load_argument<0>(w, first, nodes.a);
   load_argument<1>(w, first + 4, nodes.b);
   load_argument<2>(w, first + 8, nodes.c);
@@ -93,25 +91,26 @@ void load_nodes(const StiffnessArgument& w, const LocalIndex* places, int count,
   for (int p = 0; p < count; ++p) load_node(w, places[p], p, to);
 }
 
-void load_row(const StiffnessArgument& w, LocalIndex first, int count, const ComponentArrays& to) {
+void load_row(const StiffnessArgument& w, LocalIndex first, int count, int ahead,
+              const ComponentArrays& to) {
   by_fours(
       count,
       [&](int p) {
         FourNodes nodes;
-        load_row_of_four(w, first + 3 * p, nodes);
+        load_row_of_four(w, first + 3 * p, ahead, nodes);
         to_components(nodes, p, to);
       },
       [&](int p) { load_node(w, first + 3 * p, p, to); });
 }
 
 void load_row_pair(const StiffnessArgument& w, std::array<LocalIndex, 2> first, int count,
-                   const ComponentArrays& sum, const ComponentArrays& difference) {
+                   int ahead, const ComponentArrays& sum, const ComponentArrays& difference) {
   by_fours(
       count,
       [&](int p) {
         FourNodes near, far;
-        load_row_of_four(w, first[0] + 3 * p, near);
-        load_row_of_four(w, first[1] + 3 * p, far);
+        load_row_of_four(w, first[0] + 3 * p, ahead, near);
+        load_row_of_four(w, first[1] + 3 * p, ahead, far);
         to_components({far.a + near.a, far.b + near.b, far.c + near.c}, p, sum);
         to_components({far.a - near.a, far.b - near.b, far.c - near.c}, p, difference);
       },

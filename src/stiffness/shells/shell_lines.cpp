@@ -22,8 +22,9 @@ int padded(int length) {
 }  // namespace
 
 ShellLines::ShellLines(const DofPlaces& places, const Matrix3& axes, int normal,
-                       const std::vector<RectangleShape>& shapes, const RectangleRows& rows)
-    : owned_dofs_(places.owned_dofs) {
+                       const std::vector<RectangleShape>& shapes, const RectangleRows& rows,
+                       const ProductForms& forms)
+    : forms_(forms), owned_dofs_(places.owned_dofs) {
   const int run = rows.run_axis;
   const std::array<int, 3> order{(normal + 1 + run) % 3, (normal + 2 - run) % 3, normal};
   rotated_ = axes != Matrix3{Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}};
@@ -42,7 +43,8 @@ ShellLines::ShellLines(const DofPlaces& places, const Matrix3& axes, int normal,
 }
 
 void ShellLines::add_chain(const DofPlaces& places, const std::vector<LocalIndex>& nodes) {
-  Chain chain{static_cast<int>(places_.size()), static_cast<int>(nodes.size()), true, {}};
+  Chain chain{
+      static_cast<int>(places_.size()), static_cast<int>(nodes.size()), forms_.shell_vectors, {}};
   bool contiguous = true;
   for (const LocalIndex node : nodes) {
     const auto& place = places.of_node[node];

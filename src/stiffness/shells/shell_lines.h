@@ -8,6 +8,7 @@
 #include "stiffness/rows/dof_places.h"
 #include "stiffness/rows/element_lines.h"
 #include "stiffness/rows/element_rows.h"
+#include "stiffness/rows/product_forms.h"
 #include "stiffness/shells/shell_chain.h"
 #include "stiffness/shells/shell_class.h"
 
@@ -29,7 +30,8 @@ class ShellLines final : public ElementLines {
  public:
   /// `rows` of splittable rectangles of `shapes`; `axes`: rows are the axes of the frame.
   ShellLines(const DofPlaces& places, const Matrix3& axes, int normal,
-             const std::vector<RectangleShape>& shapes, const RectangleRows& rows);
+             const std::vector<RectangleShape>& shapes, const RectangleRows& rows,
+             const ProductForms& forms);
 
   std::size_t chain_count() const override { return stores_.size(); }
   std::vector<LocalIndex> chain_dofs(std::size_t place) const override;
@@ -68,6 +70,7 @@ class ShellLines final : public ElementLines {
   LocalIndex place(const Chain& chain, int node, int component) const;
   const Chain& chain_of(int number) const { return chains_[number]; }
 
+  ProductForms forms_;
   LocalIndex owned_dofs_ = 0;
   bool rotated_ = false;
   Matrix3 axes_{};                  ///< along the run, across it, normal

@@ -1,0 +1,32 @@
+#pragma once
+
+namespace pounding {
+
+/// Forms of the element-wise product that serve its speed alone: without any of them it is the same
+/// to round-off. All are in use; only who measures what one earns leaves it out.
+struct ProductForms {
+  bool bricks = true;      ///< boxes in rows, split by their mid-planes; else dense matrices
+  bool rectangles = true;  ///< rectangular shells likewise
+  bool congruent = true;   ///< a dense matrix for elements of one shape; else sparse rows
+  bool beams = true;       ///< from their local stiffnesses; else sparse rows
+  // Bricks and rectangles in rows:
+  bool best_axis = true;  ///< rows along the axis that takes least time; else along axis 0
+  bool hand_over = true;  ///< forces of a chain are handed over when it is done; else with the last
+  bool completed = true;  ///< of chains that others add to as well
+  // Bricks in rows:
+  bool best_thickness = true;  ///< pairs along the better axis; else along the one after the next
+  bool both_sides = true;      ///< bricks before and behind a pair in one step
+  bool lent_lines = true;      ///< chains of a pair that is alone lend it their lines
+  bool row_pairs = true;       ///< two rows of such a pair are loaded as sums and differences
+  bool rows = true;            ///< dofs that follow each other move in vectors; else node by node
+  bool part_cores = true;      ///< they do where some nodes of the chain move otherwise
+  bool set_behind = true;      ///< the first forces on a pair are set, not added to zeros
+  bool set_joins = true;       ///< the first forces on a chain likewise
+  bool united_ranges = true;   ///< chains side by side are handed over together
+  bool two_ranges = true;      ///< two such unions grow in turns
+  bool fetch_ahead = true;     ///< rows are asked for before they are loaded
+  // Rectangles in rows:
+  bool shell_vectors = true;  ///< nodes with six dofs move in vectors
+};
+
+}  // namespace pounding

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "stiffness/rows/product_forms.h"
+
+namespace pounding::testing {
+
+/// A form by its name in ProductForms.
+struct NamedForm {
+  std::string_view name;
+  bool ProductForms::*form;
+};
+
+#define POUNDING_FORM(name)    \
+  NamedForm {                  \
+#name, &ProductForms::name \
+  }
+inline constexpr std::array named_forms{
+    POUNDING_FORM(bricks),        POUNDING_FORM(rectangles),     POUNDING_FORM(congruent),
+    POUNDING_FORM(beams),         POUNDING_FORM(best_axis),      POUNDING_FORM(hand_over),
+    POUNDING_FORM(completed),     POUNDING_FORM(best_thickness), POUNDING_FORM(both_sides),
+    POUNDING_FORM(lent_lines),    POUNDING_FORM(row_pairs),      POUNDING_FORM(rows),
+    POUNDING_FORM(part_cores),    POUNDING_FORM(set_behind),     POUNDING_FORM(set_joins),
+    POUNDING_FORM(united_ranges), POUNDING_FORM(two_ranges),     POUNDING_FORM(fetch_ahead),
+    POUNDING_FORM(shell_vectors)};
+#undef POUNDING_FORM
+static_assert(named_forms.size() == sizeof(ProductForms));
+
+/// Every form but the named one; all of them for `nothing` and names that begin so. Throws
+/// std::invalid_argument.
+inline ProductForms forms_without(std::string_view name) {
+  ProductForms forms;
+  bool found = name.starts_with("nothing");
+  for (const NamedForm& named : named_forms) {
+    if (named.name != name) continue;
+    forms.*named.form = false;
+    found = true;
+  }
+  if (!found) throw std::invalid_argument("no form " + std::string(name));
+  return forms;
+}
+
+}  // namespace pounding::testing
