@@ -147,13 +147,19 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
     return;
   }
   const bool exported = !scene.export_matrices.empty();
+  const bool keeps_first = structure.uniform_damping && structure.uniform_damping->reference == 0;
+  const int modes = std::max(scene.modes, keeps_first ? 1 : 0);
   {
     const ScopedTimer timer(profile, Phase::assembly);
-    system = build_system(structure, mesh, scene.stiffness, scene.modes > 0 || exported);
+    system = build_system(structure, mesh, scene.stiffness, modes > 0 || exported);
   }
   const ScopedTimer timer(profile, Phase::modes);
   require_passive_matrices(structure, system);
-  building.modal = lowest_modes(system, mesh, scene.modes, scene.write_modes);
+  building.modal = lowest_modes(system, mesh, modes, scene.write_modes);
+  if (keeps_first) {
+    system.uniform_damping->reference = reference_frequency(structure, building.modal);
+  }
+  building.modal.modes.resize(std::min<std::size_t>(building.modal.modes.size(), scene.modes));
   if (!exported) {
     system.stiffness->release_matrix();
   }

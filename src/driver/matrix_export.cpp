@@ -77,6 +77,7 @@ class Export {
       write_probes(folder);
     });
     write_square(folder + "stiffness.mtx", "stiffness, N/m and so on", system.stiffness->matrix());
+    on_rank0(comm_, [&] { write_filters(folder, system); });
     if (system.extra_damping) {
       write_square(folder + "damping.mtx", "damping beside alpha M + beta K, N s/m and so on",
                    system.extra_damping->matrix());
@@ -100,6 +101,25 @@ class Export {
     }
     file.close();
     write_matrix(folder + "mass.mtx", "lumped masses, kg and kg m2", {size(), 1}, masses);
+  }
+
+  /// Uniform damping, which no matrix holds.
+  void write_filters(const std::string& folder, const LinearSystem& system) const {
+    if (!system.uniform_damping) {
+      return;
+    }
+    const UniformDamping& damping = *system.uniform_damping;
+    char number[40];
+    std::snprintf(number, sizeof number, "%.17g", damping.at_rest());
+    CsvFile file(folder + "uniform_damping.csv");
+    file.comment(
+        std::string("in place of K: s G K, G = 1 + sum weight i omega / (rate + i omega), s = ") +
+        number + "; rate in rad/s");
+    file.header("weight,rate");
+    for (const DampingFilter& filter : damping.filters) {
+      file.row("", {filter.weight, filter.rate});
+    }
+    file.close();
   }
 
   void write_influence(const std::string& folder) const {

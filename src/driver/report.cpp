@@ -1,6 +1,7 @@
 #include "driver/report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -12,7 +13,36 @@
 namespace pounding {
 namespace {
 
-void print_damping(const Structure& structure) {
+constexpr std::array shown_frequencies{1.0, 10.0, 100.0, 400.0};  // Hz
+
+void print_uniform_damping(const UniformDamping& damping) {
+  std::printf("  uniform damping of %.4g %% from %.6g to %.6g Hz", 100 * damping.ratio,
+              damping.lowest, damping.highest);
+  if (damping.filters.empty()) {
+    std::printf(": none\n");
+    return;
+  }
+  std::printf(" within %.2g %% of it, %zu filters; ratio at", 100 * damping.ripple,
+              damping.filters.size());
+  for (const double frequency : shown_frequencies) {
+    std::printf("%s%.0f", frequency == shown_frequencies.front() ? " " : ", ", frequency);
+  }
+  std::printf(" Hz:");
+  for (const double frequency : shown_frequencies) {
+    std::printf(" %.3f %%", 100 * damping.ratio_at(2 * std::numbers::pi * frequency));
+  }
+  std::printf(
+      "\n    stiffness: that of the materials at %.6g Hz, %.4f of it at rest, %.4f for the fastest "
+      "motions\n",
+      damping.reference, damping.at_rest(), damping.at_once());
+}
+
+void print_damping(const Building& building) {
+  const Structure& structure = *building.structure;
+  if (building.system->uniform_damping) {
+    print_uniform_damping(*building.system->uniform_damping);
+    return;
+  }
   if (structure.modal && !structure.modal->damping_ratios.empty()) {
     const std::vector<double>& ratios = structure.modal->damping_ratios;
     std::printf(
@@ -25,7 +55,7 @@ void print_damping(const Structure& structure) {
     return;
   }
   const auto print_ratios = [](const Rayleigh& damping) {
-    for (const double frequency : {1.0, 10.0, 100.0, 400.0}) {
+    for (const double frequency : shown_frequencies) {
       std::printf(" %.3f %%", 100 * damping_ratio(damping, 2 * std::numbers::pi * frequency));
     }
     std::printf("\n");
@@ -90,7 +120,9 @@ void print_time_step_limit(const Building& building) {
   }
   if (!system.extra_damping) {
     std::printf("    damping ratio %.2f at omega_max\n",
-                damping_ratio(system.damping, building.limits.largest.omega_max));
+                system.uniform_damping
+                    ? system.uniform_damping->ratio_at(building.limits.largest.omega_max)
+                    : damping_ratio(system.damping, building.limits.largest.omega_max));
   }
 }
 
@@ -145,16 +177,22 @@ void print_structure(const Building& building) {
   if (building.basis) {
     print_reduction(*building.structure->modal, *building.basis, system.mass_scaling);
   }
-  print_damping(*building.structure);
+  print_damping(building);
   std::printf("  mode  frequency  direction  effective mass, share of it\n");
   int number = 0;
   for (const Mode& mode : building.modal.modes) {
     const std::size_t axis =
         std::max_element(mode.effective_modal_mass.begin(), mode.effective_modal_mass.begin() + 3) -
         mode.effective_modal_mass.begin();
-    std::printf("  %4d  %9.3f  %-9s  %8.0f kg along %s, %4.1f %% about/along %s\n", ++number,
+    std::printf("  %4d  %9.3f  %-9s  %8.0f kg along %s, %4.1f %% about/along %s", ++number,
                 mode.frequency, mode.direction.c_str(), mode.effective_modal_mass[axis],
                 direction_names[axis], 100 * mode.direction_fraction, mode.direction.c_str());
+    if (system.uniform_damping) {
+      const double moved = system.uniform_damping->moved(mode.frequency);
+      std::printf(", damped %.3f Hz at %.3f %%", moved,
+                  100 * system.uniform_damping->ratio_at(2 * std::numbers::pi * moved));
+    }
+    std::printf("\n");
   }
   if (building.basis) {
     std::printf("  stable time step %.4e s, exact from the frequencies; it is that of %s\n",

@@ -21,6 +21,20 @@ Json describe_damping(const Rayleigh& damping) {
   return {{"alpha", damping.alpha}, {"beta", damping.beta}};
 }
 
+Json describe_uniform_damping(const UniformDamping& damping) {
+  Json description{{"uniform", damping.ratio},
+                   {"band", {damping.lowest, damping.highest}},
+                   {"ripple", damping.ripple},
+                   {"reference_frequency", damping.reference},
+                   {"stiffness_at_rest", damping.at_rest()},
+                   {"stiffness_of_fastest_motions", damping.at_once()}};
+  description["filters"] = Json::array();
+  for (const DampingFilter& filter : damping.filters) {
+    description["filters"].push_back({{"weight", filter.weight}, {"rate", filter.rate}});
+  }
+  return description;
+}
+
 Json describe_places(const Places& places) {
   Json description{{"count", places.count}};
   if (places.count > 0) {
@@ -67,7 +81,9 @@ Json describe_structure(const Building& building) {
   structure["connectivity"] = describe_findings(building.findings);
   structure["mass"] = building.system->total_mass;
   structure["stiffness"] = building.system->stiffness_method;
-  structure["damping"] = describe_damping(building.structure->damping);
+  const std::optional<UniformDamping>& uniform = building.system->uniform_damping;
+  structure["damping"] =
+      uniform ? describe_uniform_damping(*uniform) : describe_damping(building.structure->damping);
   for (const Region& region : building.structure->regions) {
     if (region.damping) {
       structure["region_damping"][region.group] = describe_damping(*region.damping);
@@ -108,6 +124,9 @@ Json describe_structure(const Building& building) {
                                         {"fraction", mode.direction_fraction},
                                         {"effective_mass", effective_mass},
                                         {"effective_modal_mass", mode.effective_modal_mass}});
+    if (uniform) {
+      structure["frequencies"].back()["damped_frequency"] = uniform->moved(mode.frequency);
+    }
   }
   structure["omega_max"] = building.limits.largest.omega_max;
   structure["omega_max_location"] = building.limits.largest.location;

@@ -51,7 +51,33 @@ std::vector<std::string> damping_warnings(const Structure& structure, const Moda
     }
   };
   const bool by_mode = structure.modal && !structure.modal->damping_ratios.empty();
-  if (!by_mode) {
+  const std::optional<UniformDamping>& uniform = structure.uniform_damping;
+  constexpr double large_ripple = 0.2;
+  if (uniform && uniform->ripple > large_ripple) {
+    std::ostringstream text;
+    text.precision(3);
+    text << "structure " << structure.name << ": " << uniform->filters.size()
+         << " filters hold the uniform damping within " << 100 * uniform->ripple
+         << " % of its ratio only; give more -" << structure.name
+         << "_damping_filters, or a narrower band";
+    warnings.push_back(text.str());
+  }
+  for (const Mode& mode : uniform ? modal.modes : std::vector<Mode>()) {
+    const double found = uniform->ratio_at(2 * std::numbers::pi * mode.frequency);
+    const bool inside = mode.frequency >= uniform->lowest && mode.frequency <= uniform->highest;
+    constexpr double doubtful_part = 0.8;
+    if (mode.location.empty() && !inside && found < doubtful_part * uniform->ratio) {
+      std::ostringstream text;
+      text.precision(3);
+      text << "structure " << structure.name << ": a mode of " << mode.frequency
+           << " Hz lies outside of the band of its uniform damping and has " << 100 * found
+           << " % of critical instead of " << 100 * uniform->ratio << " %; give a wider -"
+           << structure.name << "_damping_band";
+      warnings.push_back(text.str());
+      break;
+    }
+  }
+  if (!by_mode && !uniform) {
     look_at("structure " + structure.name, structure.damping);
   }
   for (const Region& region : structure.regions) {

@@ -29,7 +29,7 @@ std::string complaint(const StructureEnergy& energy) {
   if (!std::isfinite(energy.energy()) || !std::isfinite(energy.positive_part)) {
     text << "its energy is not a number";
   } else if (energy.positive_part < -round_off * std::abs(energy.kinetic)) {
-    text << "v^T (M + S - dt/2 C - dt^2/4 K) v / 2 = " << energy.positive_part
+    text << "v^T (M + S - dt/2 C - dt^2/4 s K) v / 2 = " << energy.positive_part
          << " J is negative (kinetic " << energy.kinetic << " J, strain " << energy.strain << " J)";
   }
   return text.str();
@@ -77,7 +77,7 @@ void watch_passivity(const EnergyLine& line, double largest_term) {
     refuse("the tension-only bars", line.link_loss);
   }
   const double dashpots = line.device_work - line.link_loss;
-  if (line.damping_loss + dashpots < -allowed) {
+  if (line.damping_loss + dashpots + std::abs(line.slow_relief) < -allowed) {
     refuse("damping", line.damping_loss + dashpots);
   }
 }

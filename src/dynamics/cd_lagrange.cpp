@@ -35,6 +35,9 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
             : nullptr);
     StoredForces store(state.stiffness_displacement.data());  // K u_0
     systems_[s].stiffness->apply({state.displacement.data(), state.displacement.data(), 0}, store);
+    for (std::vector<double>& filtered : state.filtered) {
+      filtered = state.stiffness_displacement;  // as after standing like this for ever
+    }
   }
   for (std::size_t s = 0; contact_ != nullptr && s < systems_.size(); ++s) {
     const std::size_t dofs = contact_->trace(s).dofs().size();

@@ -28,7 +28,8 @@ namespace pounding {
 ///     v_{n+1/2} = v_free + M^-1 L^T lambda
 ///     u_{n+1}   = u_n + dt v_{n+1/2}
 ///
-/// with x the force of the extra damping D and of links (LinkStep), if there are any.
+/// with uniform damping in place of Rayleigh's the force K u_n goes through filters (update.h), and
+/// x the force of the extra damping D and of links (LinkStep), if there are any.
 /// `step` has a line for each of these; they are events of -log_view under the same names. The
 /// stiffness hands its forces over range by range, and StructureStep updates velocity and
 /// displacement there while they are in the nearest cache; contact then corrects the few dofs of

@@ -21,14 +21,20 @@ CoordinateRates::CoordinateRates(const LinearSystem& system, std::vector<double>
   const VecHandle diagonal = wrap_vector(system, stiffness);
   POUNDING_PETSC(MatGetDiagonal(system.stiffness->matrix(), diagonal.get()));
   std::vector<double> growth(size);
+  const double at_rest = system.uniform_damping ? system.uniform_damping->at_rest() : 1;
+  branch_over_a_.resize(system.uniform_damping ? system.uniform_damping->filters.size() : 0);
   for (std::size_t i = 0; i < size; ++i) {
     const double m = system.lumped_mass[i];
     const double k = stiffness[i];
     const double c = system.damping.alpha * m + system.damping.beta * k;
-    const double a = m - time_step / 2 * c - time_step * time_step / 4 * k;
+    const double a = m - time_step / 2 * c - time_step * time_step / 4 * system.stiffening() * k;
     const auto& iota = system.generalised->influence;
     const double force = m * std::hypot(iota[0][i], iota[1][i], iota[2][i]) * ground_acceleration;
-    stiffness_over_a_.push_back(k / a);
+    stiffness_over_a_.push_back(at_rest * k / a);
+    compliance_.push_back(k > 0 ? 1 / k : 0);
+    for (std::size_t b = 0; b < branch_over_a_.size(); ++b) {
+      branch_over_a_[b].push_back(at_rest * system.uniform_damping->filters[b].weight * k / a);
+    }
     growth[i] = time_step * force / a;
   }
   for (double& value : rows_) {
@@ -43,7 +49,12 @@ double CoordinateRates::rate(const StructureState& state) {
   for (std::size_t i = 0; i < speeds_.size(); ++i) {
     const double v = state.velocity[i];
     const double mean = state.displacement[i] - time_step_ / 2 * v;
-    speeds_[i] = std::sqrt(v * v + stiffness_over_a_[i] * (mean * mean));
+    double square = v * v + stiffness_over_a_[i] * (mean * mean);
+    for (std::size_t b = 0; b < branch_over_a_.size(); ++b) {
+      const double branch = mean - state.filtered[b][i] * compliance_[i];
+      square += branch_over_a_[b][i] * (branch * branch);
+    }
+    speeds_[i] = std::sqrt(square);
   }
   return largest(speeds_);
 }

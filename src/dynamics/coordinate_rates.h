@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "dynamics/state.h"
@@ -16,7 +15,8 @@ namespace pounding {
 ///
 /// falls but for the ground: |v| <= r = sqrt(v^2 + k ubar^2 / a), which rises per step by at most
 /// dt m |iota| |a_g| / a (energy identity of dynamics/energy_balance.h). A gap then changes no
-/// faster than sum_k |L_k| r_k. Local.
+/// faster than sum_k |L_k| r_k. Uniform damping stiffens k in `a`, softens that of ubar, and adds
+/// its branches, s a_i k (ubar - y_i)^2, see docs/theory.md. Local.
 class CoordinateRates {
  public:
   /// `rows`: L T over the owned coordinates, shape (gaps, coordinates). `ground_acceleration`:
@@ -34,10 +34,13 @@ class CoordinateRates {
   double largest(const std::vector<double>& speeds);
 
   double time_step_;
-  std::vector<double> stiffness_over_a_;  ///< k / a [1/s2]
-  std::vector<double> rows_;              ///< |L T|
-  std::vector<double> speeds_;            ///< r
-  std::vector<double> rates_;             ///< per gap
+  std::vector<double> stiffness_over_a_;  ///< k / a, softened [1/s2]
+  /// Stiffness of each branch over the coordinates, s a_i k / a [1/s2], and 1 / k [m/N].
+  std::vector<std::vector<double>> branch_over_a_;
+  std::vector<double> compliance_;
+  std::vector<double> rows_;    ///< |L T|
+  std::vector<double> speeds_;  ///< r
+  std::vector<double> rates_;   ///< per gap
   double growth_ = 0;
 };
 

@@ -6,8 +6,9 @@
 
 namespace pounding {
 
-CoupledStep::CoupledStep(const LinearSystem& system, StructureState& state)
-    : system_(system), state_(state) {
+CoupledStep::CoupledStep(const LinearSystem& system, StructureState& state,
+                         const Filters<double>& filters)
+    : system_(system), state_(state), filters_(filters) {
   const CoupledMass& mass = *system.coupled_mass;
   std::size_t force = 0;
   for (std::size_t n = 0; n < mass.nodes().size(); ++n) {
@@ -25,6 +26,7 @@ CoupledStep::CoupledStep(const LinearSystem& system, StructureState& state)
     force += node.count;
   }
   force_.assign(force, 0.0);
+  filtered_.assign(system.uniform_damping ? force : 0, 0.0);
   field_.assign(mass.field_size(), 0.0);
 }
 
@@ -38,6 +40,7 @@ void CoupledStep::advance(const StepTerms<double>& terms, const std::array<doubl
   if (with_energies) {
     sums.added_kinetic_before += system_.coupled_mass->added_product(state_.velocity.data());
   }
+  filter_forces();
   form_impulses(terms, ground_step);
   system_.coupled_mass->solve(field_.data());
   if (with_energies) {
@@ -45,15 +48,43 @@ void CoupledStep::advance(const StepTerms<double>& terms, const std::array<doubl
   } else {
     settle_nodes<false>(terms, dof_sums, dof_energies, sums);
   }
+  sums.filtered += filtered_work();
+}
+
+void CoupledStep::filter_forces() {
+  for (const Node& node : nodes_) {
+    for (std::size_t c = 0; !filtered_.empty() && c < node.count; ++c) {
+      const std::size_t i = node.begin + c;
+      const double q = force_[node.force + c];
+      const double both = q + state_.stiffness_displacement[i];
+      double f = filters_.at_once * q;
+      for (std::size_t k = 0; k < filters_.count; ++k) {
+        pass_filter(filters_.filters[k], both, state_.filtered[k][i], f);
+      }
+      filtered_[node.force + c] = f;
+    }
+  }
+}
+
+double CoupledStep::filtered_work() const {
+  double work = 0;
+  for (const Node& node : nodes_) {
+    for (std::size_t c = 0; !filtered_.empty() && c < node.count; ++c) {
+      const double sum = 2 * state_.velocity[node.begin + c] - field_[node.field + c];
+      work += (filtered_[node.force + c] - force_[node.force + c]) * sum;
+    }
+  }
+  return work;
 }
 
 void CoupledStep::form_regular(const Node& node, const StepTerms<double>& terms,
                                const std::array<double, 3>& ground_step) {
+  const std::vector<double>& acting = filtered_.empty() ? force_ : filtered_;
   const auto form = [&](auto vector, std::size_t first, const auto& ground) {
     auto q = vector;
     auto v = vector;
     auto m = vector;
-    load(&force_[node.force + first], q);
+    load(&acting[node.force + first], q);
     load(&state_.velocity[node.begin + first], v);
     load(&system_.lumped_mass[node.begin + first], m);
     const double decay = terms.duration * system_.damping.alpha;
@@ -65,6 +96,7 @@ void CoupledStep::form_regular(const Node& node, const StepTerms<double>& terms,
 
 void CoupledStep::form_impulses(const StepTerms<double>& terms,
                                 const std::array<double, 3>& ground_step) {
+  const std::vector<double>& acting = filtered_.empty() ? force_ : filtered_;
   const double decay = terms.duration * system_.damping.alpha;
   for (const Node& node : nodes_) {
     if (node.regular) {
@@ -78,7 +110,7 @@ void CoupledStep::form_impulses(const StepTerms<double>& terms,
         const int direction = system_.direction[i];
         const double ground = direction < 0 ? 0 : ground_step[direction];
         impulse = -(system_.lumped_mass[i] * (decay * state_.velocity[i] + ground)) -
-                  terms.duration * force_[node.force + c];
+                  terms.duration * acting[node.force + c];
         if (!state_.extra_force.empty()) {
           impulse -= terms.duration * state_.extra_force[i];
         }

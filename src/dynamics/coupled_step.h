@@ -12,14 +12,15 @@ namespace pounding {
 
 /// The step of those dofs of a rank whose mass is not diagonal (see update.h for the others):
 ///
-///     v+ = v- - h (M + S)^-1 ( q + x + alpha M v- + M iota (a_g - g) )
+///     v+ = v- - h (M + S)^-1 ( f + x + alpha M v- + M iota (a_g - g) )
 ///
+/// with f = q but for uniform damping, which filters it.
 /// Their forces are kept as they come; when all are there, the velocities are solved for and the
 /// state is brought one step on. Allocates nothing.
 class CoupledStep {
  public:
   /// The system has a coupled mass. References must outlive this object.
-  CoupledStep(const LinearSystem& system, StructureState& state);
+  CoupledStep(const LinearSystem& system, StructureState& state, const Filters<double>& filters);
 
   /// q of coupled dofs that follow each other, `place` the number of the first among them all.
   void keep(std::size_t place, std::size_t count, const double* force);
@@ -40,6 +41,10 @@ class CoupledStep {
   void form_impulses(const StepTerms<double>& terms, const std::array<double, 3>& ground_step);
   void form_regular(const Node& node, const StepTerms<double>& terms,
                     const std::array<double, 3>& ground_step);
+  /// f of all dofs from q and the filters' memories.
+  void filter_forces();
+  /// The part of the energy balance that stems from f - q.
+  double filtered_work() const;
   template <bool with_energies>
   void settle_nodes(const StepTerms<double>& terms, DofSums<double>& dof_sums,
                     DofEnergies<double>& dof_energies, StepSums& sums);
@@ -50,8 +55,10 @@ class CoupledStep {
   const LinearSystem& system_;
   StructureState& state_;
   std::vector<Node> nodes_;
-  std::vector<double> force_;  ///< q, in the order of the dofs
-  std::vector<double> field_;  ///< impulses, then changes of velocity; see CoupledMass
+  Filters<double> filters_;
+  std::vector<double> force_;     ///< q, in the order of the dofs
+  std::vector<double> filtered_;  ///< f likewise; empty without uniform damping
+  std::vector<double> field_;     ///< impulses, then changes of velocity; see CoupledMass
 };
 
 }  // namespace pounding

@@ -17,7 +17,12 @@ double EnergyBalance::mass_damping(const LinearSystem& system) const {
 }
 
 EnergyBalance::EnergyBalance(MPI_Comm comm, std::span<const LinearSystem> systems, double time_step)
-    : comm_(comm), systems_(systems), time_step_(time_step), energies_(systems.size()) {}
+    : comm_(comm),
+      systems_(systems),
+      time_step_(time_step),
+      energies_(systems.size()),
+      filtered_(systems.size()),
+      open_filtered_(systems.size(), 0.0) {}
 
 void EnergyBalance::add_step(std::span<const StepSums> sums,
                              const std::array<double, 3>& ground_acceleration,
@@ -42,6 +47,13 @@ void EnergyBalance::add_step(std::span<const StepSums> sums,
     contact_.add(open_.contact);
     device_.add(open_.device);
     links_.add(open_.links);
+    for (std::size_t b = 0; b < systems_.size(); ++b) {
+      damping_.add(open_filtered_[b]);
+      filtered_[b].add(open_filtered_[b]);
+    }
+  }
+  for (std::size_t b = 0; b < systems_.size(); ++b) {
+    open_filtered_[b] = time_step_ / 2 * sums[b].filtered;
   }
   open_ = works(sums, ground_acceleration, contact_work);
   ++steps_;
@@ -74,13 +86,21 @@ StructureEnergy EnergyBalance::energy(const LinearSystem& system, const StepSums
       (1 - dt / 2 * mass_damping(system)) * sums.kinetic_before + sums.added_kinetic_before;
   const double damped =
       inertia - dt / 2 * (system.damping.beta * sums.stiffness_before + sums.extra_damping_before);
-  return {damped / 2, sums.strain_before / 2 + sums.link_energy_before,
-          (damped - dt * dt / 4 * sums.stiffness_before) / 2, sums.displacement_mass};
+  const double relief = system.uniform_damping ? 1 - system.uniform_damping->at_rest() : 0;
+  return {damped / 2,
+          sums.strain_before / 2 + sums.link_energy_before,
+          (damped - dt * dt / 4 * system.stiffening() * sums.stiffness_before) / 2,
+          sums.displacement_mass,
+          0,
+          relief * sums.strain_before / 2};
 }
 
 EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
-  constexpr std::size_t values = 4;  // of a StructureEnergy
+  constexpr std::size_t values = sizeof(StructureEnergy) / sizeof(double);
   std::copy(energies_.begin(), energies_.end(), structures.begin());
+  for (std::size_t b = 0; b < structures.size(); ++b) {
+    structures[b].held = structures[b].energy() + filtered_[b].total();
+  }
   MPI_Allreduce(MPI_IN_PLACE, structures.data(), static_cast<int>(values * structures.size()),
                 MPI_DOUBLE, MPI_SUM, comm_);
   std::array<double, 6> sums{initial_,
@@ -95,6 +115,7 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   for (const StructureEnergy& structure : structures) {
     line.kinetic += structure.kinetic;
     line.strain += structure.strain;
+    line.slow_relief += structure.slow_relief;
   }
   line.damping_loss = sums[1];
   line.contact_work = sums[2];
@@ -118,6 +139,13 @@ void EnergyBalance::for_each_sum(Balance& balance, Function&& function) {
   for (auto* work : {&balance.open_.damping, &balance.open_.input, &balance.open_.contact,
                      &balance.open_.device, &balance.open_.links}) {
     function(*work);
+  }
+  for (auto& sum : balance.filtered_) {
+    function(sum.value);
+    function(sum.correction);
+  }
+  for (auto& work : balance.open_filtered_) {
+    function(work);
   }
 }
 

@@ -24,9 +24,10 @@ struct EnergyLine {
   /// Taken up by dashpots, by what regions with damping of their own have beside the structure's,
   /// and by links.
   double device_work = 0;
-  double residual = 0;   ///< energy - initial energy + damping loss + device work - contact work
-                         ///< - input work
-  double link_loss = 0;  ///< of links alone: what they took and did not keep
+  double residual = 0;     ///< energy - initial energy + damping loss + device work - contact work
+                           ///< - input work
+  double link_loss = 0;    ///< of links alone: what they took and did not keep
+  double slow_relief = 0;  ///< see StructureEnergy
 
   double energy() const { return kinetic + strain; }
 };
@@ -40,6 +41,12 @@ struct StructureEnergy {
   double positive_part = 0;
   /// u^T M u [kg m2]; omega_max^2 times this bounds the parts of u^T K u, and so its round-off.
   double displacement_mass = 0;
+  /// Bound of what the structure holds, the branches of uniform damping included: its energy, and
+  /// all that the filters took since the start.
+  double held = 0;
+  /// Part of the strain energy that uniform damping gives to a motion so slow that its branches
+  /// have let go: (1 - s) / 2 u_{n+1}^T K u_n.
+  double slow_relief = 0;
 
   double energy() const { return kinetic + strain; }
 };
@@ -59,6 +66,9 @@ struct StructureEnergy {
 /// v_{n+1/2}^T K v_{n+1/2} comes with the step after, and so does the balance of step n:
 ///
 ///     4 vbar^T K vbar = v+^T K v+ + 2 v+^T K v- + v-^T K v-
+///
+/// Uniform damping replaces K u_n by a filtered force f_n; then C = D and the damping loss is
+/// dt vbar^T (f_n - K u_n): what branches keep for a while counts as lost until they give it back.
 ///
 /// Sums are kept per rank and added up only when a line is asked for. The balance starts at E_{1/2}
 /// without the contact work of the first half step, which is the first that it counts.
@@ -130,6 +140,10 @@ class EnergyBalance {
   Sum contact_;
   Sum device_;
   Sum links_;
+  /// Work of the uniform damping of each structure, closed and of the open step; a part of the
+  /// damping loss.
+  std::vector<Sum> filtered_;
+  std::vector<double> open_filtered_;
   std::int64_t steps_ = 0;
   double largest_term_ = 0;
   double largest_residual_ = 0;

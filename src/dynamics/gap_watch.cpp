@@ -53,8 +53,7 @@ void GapWatch::energies_known(std::int64_t step, std::span<const StructureEnergy
   for (std::size_t s = 0; s < energies.size(); ++s) {
     // Round-off of a structure at rest, or far from its place, must not count as knowledge that
     // nothing moves.
-    root_energy_[s] =
-        std::sqrt(2 * (std::max(0.0, energies[s].energy()) + round_off[s])) * (1 + 1e-6);
+    root_energy_[s] = std::sqrt(2 * (std::max(0.0, energies[s].held) + round_off[s])) * (1 + 1e-6);
   }
 }
 

@@ -3,6 +3,13 @@
 #include "common/memory.h"
 
 namespace pounding {
+namespace {
+
+std::string filter_name(std::size_t filter) {
+  return "filter_" + std::to_string(filter + 1);
+}
+
+}  // namespace
 
 StateVectors::StateVectors(const LinearSystem& system, StructureState& state)
     : displacement_(wrap_vector(system, state.displacement)),
@@ -27,8 +34,15 @@ State::State(std::span<const LinearSystem> systems) {
     const std::size_t dofs = system.lumped_mass.size();
     const std::vector<double> extra_force(system.has_extra_damping() ? dofs : 0, 0.0);
     structures.push_back({zeros_on_large_pages(dofs), zeros_on_large_pages(dofs),
-                          zeros_on_large_pages(dofs), extra_force});
+                          zeros_on_large_pages(dofs),
+
+                          extra_force});
     StructureState& structure = structures.back();
+    if (system.uniform_damping) {
+      for (std::size_t i = 0; i < system.uniform_damping->filters.size(); ++i) {
+        structure.filtered.push_back(zeros_on_large_pages(dofs));
+      }
+    }
     for (std::size_t d = 0; d < 3; ++d) {
       const std::vector<double> iota = system.influence(static_cast<int>(d));
       for (std::size_t i = 0; i < iota.size(); ++i) {
@@ -46,6 +60,9 @@ void State::save(SavedState& saved) const {
     saved.put_dofs(number, "displacement", structures[s].displacement);
     saved.put_dofs(number, "velocity", structures[s].velocity);
     saved.put_dofs(number, "stiffness_displacement", structures[s].stiffness_displacement);
+    for (std::size_t i = 0; i < structures[s].filtered.size(); ++i) {
+      saved.put_dofs(number, filter_name(i), structures[s].filtered[i]);
+    }
   }
 }
 
@@ -56,6 +73,9 @@ void State::load(const SavedState& saved) {
     saved.get_dofs(number, "displacement", structures[s].displacement);
     saved.get_dofs(number, "velocity", structures[s].velocity);
     saved.get_dofs(number, "stiffness_displacement", structures[s].stiffness_displacement);
+    for (std::size_t i = 0; i < structures[s].filtered.size(); ++i) {
+      saved.get_dofs(number, filter_name(i), structures[s].filtered[i]);
+    }
   }
 }
 

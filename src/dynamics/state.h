@@ -12,10 +12,11 @@ namespace pounding {
 
 /// State of one structure, all that evolves; owned dofs of this rank. Before the step to t_n:
 struct StructureState {
-  std::vector<double> displacement;            ///< u_n [m, rad]
-  std::vector<double> velocity;                ///< v_{n-1/2} [m/s, rad/s]
-  std::vector<double> stiffness_displacement;  ///< K u_{n-1} [N, N m]
-  std::vector<double> extra_force;             ///< of the extra damping in the step; empty without
+  std::vector<double> displacement;             ///< u_n [m, rad]
+  std::vector<double> velocity;                 ///< v_{n-1/2} [m/s, rad/s]
+  std::vector<double> stiffness_displacement;   ///< K u_{n-1} [N, N m]
+  std::vector<double> extra_force;              ///< of the extra damping in the step; empty without
+  std::vector<std::vector<double>> filtered{};  ///< W_i of uniform damping, by filter [N, N m]
 };
 
 /// Displacement and velocity of a structure as PETSc vectors over its ranks, with the layout of its

@@ -13,6 +13,7 @@ struct StepSums {
   double stiffness_across = 0;       ///< v+^T K v-
   double mass_sum = 0;               ///< s^T M s [J]
   std::array<double, 3> momentum{};  ///< iota_d^T M s [kg m/s]
+  double filtered = 0;               ///< (f - q)^T s, f the force that uniform damping filters [W]
   double device = 0;                 ///< x^T s, x the force of the extra damping [W]
   double link_energy_before = 0;     ///< of links, between u_{n-1} and u_n [J]
   double link_loss = 0;              ///< what the step made them take and not keep [J]
@@ -29,6 +30,7 @@ void add_to(const DofSums<Value>& from, StepSums& sums) {
   sums.stiffness_before += add_up(from.stiffness_before);
   sums.stiffness_across += add_up(from.stiffness_across);
   sums.mass_sum += add_up(from.mass_sum);
+  sums.filtered += add_up(from.filtered);
 }
 
 /// Adds the energies of dofs likewise.

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "dynamics/step_policies.h"
+
 namespace pounding {
 namespace {
 
-constexpr std::size_t lanes = sizeof(Lanes) / sizeof(double);
-constexpr std::size_t pattern = 3 * lanes;  // dofs
+constexpr std::size_t lanes = lane_count;
+constexpr std::size_t pattern = step_pattern;
 
 bool directions_are(const LinearSystem& system, std::size_t dof, std::array<int, 3> expected) {
   if (dof + 3 > system.direction.size()) {
@@ -21,143 +23,27 @@ bool directions_are(const LinearSystem& system, std::size_t dof, std::array<int,
   return true;
 }
 
-/// The number of values that fill a vector; others are given as a number below.
-struct AllLanes {};
-
-inline void load_first(const double* from, AllLanes, Lanes& to) {
-  load(from, to);
-}
-inline void store_first(const Lanes& from, AllLanes, double* to) {
-  store(to, from);
-}
-inline void keep_first(AllLanes, Lanes&) {}
-
-/// The others become zero.
-inline void load_first(const double* from, std::size_t count, Lanes& to) {
-  to = Lanes{from[0], count > 1 ? from[1] : 0, count > 2 ? from[2] : 0, 0};
-}
-inline void store_first(const Lanes& from, std::size_t count, double* to) {
-  to[0] = from[0];
-  if (count > 1) to[1] = from[1];
-  if (count > 2) to[2] = from[2];
-}
-inline void keep_first(std::size_t count, Lanes& values) {
-  values = Lanes{values[0], count > 1 ? values[1] : 0, count > 2 ? values[2] : 0, 0};
-}
-
-/// Masses of the three vectors of a pattern, from one value per node of four nodes.
-class NodeMasses {
- public:
-  NodeMasses(const double* mass, const double* inverse_mass)
-      : mass_(mass), inverse_mass_(inverse_mass) {}
-
-  void begin_pattern(std::size_t number) {
-    load(mass_ + number * lanes, values_);
-    load(inverse_mass_ + number * lanes, inverses_);
-  }
-  template <int vector, typename Count>
-  void at(Count, Lanes& mass, Lanes& inverse) const {
-    constexpr LaneMask places[3]{{0, 0, 0, 1}, {1, 1, 2, 2}, {2, 3, 3, 3}};
-    mass = __builtin_shuffle(values_, places[vector]);
-    inverse = __builtin_shuffle(inverses_, places[vector]);
-  }
-
- private:
-  const double* mass_;
-  const double* inverse_mass_;
-  Lanes values_{};
-  Lanes inverses_{};
-};
-
-/// Masses of the three vectors of a pattern, from one value per dof.
-class DofMasses {
- public:
-  DofMasses(const double* mass, const double* inverse_mass)
-      : mass_(mass), inverse_mass_(inverse_mass) {}
-
-  void begin_pattern(std::size_t number) { offset_ = number * pattern; }
-  template <int vector, typename Count>
-  void at(Count count, Lanes& mass, Lanes& inverse) const {
-    load_first(mass_ + offset_ + vector * lanes, count, mass);
-    load_first(inverse_mass_ + offset_ + vector * lanes, count, inverse);
-  }
-
- private:
-  const double* mass_;
-  const double* inverse_mass_;
-  std::size_t offset_ = 0;
-};
-
-/// The ground's part of the three vectors of a pattern whose directions repeat.
-class PatternGround {
- public:
-  PatternGround(const Lanes* ground_step, Lanes* momentum)
-      : step_{ground_step[0], ground_step[1], ground_step[2]},
-        sum_{momentum[0], momentum[1], momentum[2]},
-        momentum_(momentum) {}
-  ~PatternGround() { std::copy(sum_, sum_ + 3, momentum_); }
-  PatternGround(const PatternGround&) = delete;
-  PatternGround& operator=(const PatternGround&) = delete;
-
-  template <int vector, typename Count>
-  Lanes step(std::size_t, Count count) const {
-    Lanes step = step_[vector];
-    keep_first(count, step);
-    return step;
-  }
-  template <int vector, typename Count>
-  void add(std::size_t, Count, const Lanes& momentum) {
-    sum_[vector] += momentum;
-  }
-
- private:
-  Lanes step_[3];
-  Lanes sum_[3];
-  Lanes* momentum_;
-};
-
-/// The ground's part of generalised coordinates, each with an influence of its own.
-class InfluenceGround {
- public:
-  InfluenceGround(const GeneralisedCoordinates& coordinates,
-                  const std::array<double, 3>& ground_step, Lanes* momentum)
-      : coordinates_(coordinates),
-        step_{all_lanes(ground_step[0]), all_lanes(ground_step[1]), all_lanes(ground_step[2])},
-        momentum_(momentum) {}
-
-  template <int, typename Count>
-  Lanes step(std::size_t i, Count count) const {
-    Lanes step{};
-    for (std::size_t d = 0; d < 3; ++d) {
-      Lanes influence;
-      load_first(&coordinates_.influence[d][i], count, influence);
-      add_product(step_[d], influence, step);
-    }
-    return step;
-  }
-  template <int, typename Count>
-  void add(std::size_t i, Count count, const Lanes& momentum) {
-    for (std::size_t d = 0; d < 3; ++d) {
-      Lanes influence;
-      load_first(&coordinates_.influence[d][i], count, influence);
-      add_product(influence, momentum, momentum_[d]);
-    }
-  }
-
- private:
-  const GeneralisedCoordinates& coordinates_;
-  Lanes step_[3];
-  Lanes* momentum_;
-};
-
 }  // namespace
 
+Filters<double> filters_of(const LinearSystem& system, double time_step) {
+  Filters<double> result{0, 1, {}};
+  if (system.uniform_damping) {
+    const double at_rest = system.uniform_damping->at_rest();
+    result.at_once = system.uniform_damping->at_once();
+    for (const DampingFilter& filter : system.uniform_damping->filters) {
+      const double c = filter.rate * time_step / 2;
+      result.filters.at(result.count++) = {at_rest * filter.weight, (1 - c) / (1 + c), c / (1 + c)};
+    }
+  }
+  return result;
+}
+
 StructureStep::StructureStep(const LinearSystem& system, StructureState& state, double time_step)
-    : system_(system), state_(state) {
+    : system_(system), state_(state), filters_(filters_of(system, time_step)) {
   terms_.time_step = time_step;
   find_segments(damped_dofs(system));
   if (system.coupled_mass) {
-    coupled_ = std::make_unique<CoupledStep>(system, state);
+    coupled_ = std::make_unique<CoupledStep>(system, state, filters_);
   }
 }
 
@@ -275,18 +161,23 @@ void StructureStep::receive(LocalIndex begin, LocalIndex end, const double* forc
                                   [](LocalIndex dof, const Segment& s) { return dof < s.end; });
   for (LocalIndex dof = begin; dof < end; ++segment) {
     const LocalIndex stop = std::min(end, segment->end);
-    if (with_energies_) {
-      advance<true>(*segment, dof, stop, force + (dof - begin));
+    const double* const from = force + (dof - begin);
+    const auto advance_with = [&](const auto& damping) {
+      with_energies_ ? advance<true>(*segment, dof, stop, from, damping)
+                     : advance<false>(*segment, dof, stop, from, damping);
+    };
+    if (system_.uniform_damping) {
+      advance_with(Filtered(filters_, state_.filtered));
     } else {
-      advance<false>(*segment, dof, stop, force + (dof - begin));
+      advance_with(Unfiltered());
     }
     dof = stop;
   }
 }
 
-template <bool with_energies, typename Masses, typename Ground>
+template <bool with_energies, typename Damping, typename Masses, typename Ground>
 void StructureStep::advance_vectors(std::size_t first, std::size_t end, const double* force,
-                                    Masses masses, Ground& ground) {
+                                    const Damping& damping, Masses masses, Ground& ground) {
   double* const displacement = state_.displacement.data();
   double* const velocity = state_.velocity.data();
   double* const stiffness = state_.stiffness_displacement.data();
@@ -304,8 +195,13 @@ void StructureStep::advance_vectors(std::size_t first, std::size_t end, const do
     if constexpr (with_energies) {
       add_energies(mass, dof, vector_energies_);
     }
+    const Lanes before = dof.velocity;
+    const Lanes f = damping.force(i, count, q, dof.stiffness_displacement);
     const Lanes free =
-        free_velocity(terms, dof.velocity, q, inverse_mass, ground.template step<k>(i, count));
+        free_velocity(terms, before, f, inverse_mass, ground.template step<k>(i, count));
+    if constexpr (Damping::acts) {
+      sums.filtered += (f - q) * (free + before);
+    }
     ground.template add<k>(i, count, settle(terms, q, free, mass, dof, sums));
     store_first(dof.stiffness_displacement, count, stiffness + i);
     store_first(dof.velocity, count, velocity + i);
@@ -344,12 +240,20 @@ void StructureStep::advance_dofs(std::size_t first, std::size_t end, const doubl
     if constexpr (with_energies) {
       add_energies(mass, dof, dof_energies_);
     }
-    double after =
-        free_velocity(terms_, before, *force, system_.inverse_mass[i], ground_step_at(i));
+    double f = *force;
+    if (system_.uniform_damping) {
+      const double both = f + dof.stiffness_displacement;
+      f *= filters_.at_once;
+      for (std::size_t k = 0; k < filters_.count; ++k) {
+        pass_filter(filters_.filters[k], both, state_.filtered[k][i], f);
+      }
+    }
+    double after = free_velocity(terms_, before, f, system_.inverse_mass[i], ground_step_at(i));
     if (!state_.extra_force.empty()) {
       subtract_product(terms_.duration, system_.inverse_mass[i] * state_.extra_force[i], after);
       sums_.device += state_.extra_force[i] * (after + before);
     }
+    dof_sums_.filtered += (f - *force) * (after + before);
     add_momentum(i, settle(terms_, *force, after, mass, dof, dof_sums_));
     state_.displacement[i] = dof.displacement;
     state_.velocity[i] = dof.velocity;
@@ -357,9 +261,9 @@ void StructureStep::advance_dofs(std::size_t first, std::size_t end, const doubl
   }
 }
 
-template <bool with_energies>
+template <bool with_energies, typename Damping>
 void StructureStep::advance(const Segment& segment, LocalIndex begin, LocalIndex end,
-                            const double* force) {
+                            const double* force, const Damping& damping) {
   const std::size_t first = begin;
   const std::size_t stop = end;
   const auto offset = first - static_cast<std::size_t>(segment.begin);
@@ -371,18 +275,19 @@ void StructureStep::advance(const Segment& segment, LocalIndex begin, LocalIndex
     case Order::translations: {
       const std::size_t node = segment.first_node + offset / 3;
       PatternGround ground(ground_[0], momentum_[0]);
-      advance_vectors<with_energies>(
-          first, stop, force, NodeMasses(&node_mass_[node], &node_inverse_mass_[node]), ground);
+      advance_vectors<with_energies>(first, stop, force, damping,
+                                     NodeMasses(&node_mass_[node], &node_inverse_mass_[node]),
+                                     ground);
       break;
     }
     case Order::nodes_of_six: {
       PatternGround ground(ground_[1], momentum_[1]);
-      advance_vectors<with_energies>(first, stop, force, dof_masses, ground);
+      advance_vectors<with_energies>(first, stop, force, damping, dof_masses, ground);
       break;
     }
     case Order::generalised: {
       InfluenceGround ground(*system_.generalised, ground_step_, influenced_momentum_);
-      advance_vectors<with_energies>(first, stop, force, dof_masses, ground);
+      advance_vectors<with_energies>(first, stop, force, damping, dof_masses, ground);
       break;
     }
     case Order::none:
@@ -394,6 +299,17 @@ void StructureStep::complete() {
   if (coupled_) {
     coupled_->advance(terms_, ground_step_, with_energies_, dof_sums_, dof_energies_, sums_);
   }
+}
+
+double StructureStep::filtered_part(std::size_t dof) const {
+  if (!system_.uniform_damping) {
+    return 0;
+  }
+  double part = (filters_.at_once - 1) * state_.stiffness_displacement[dof];
+  for (std::size_t k = 0; k < filters_.count; ++k) {
+    subtract_product(filters_.filters[k].weight, state_.filtered[k][dof], part);
+  }
+  return part;
 }
 
 void StructureStep::remember(std::span<const LocalIndex> dofs, Before& before) const {
@@ -419,6 +335,7 @@ void StructureStep::correct(std::span<const LocalIndex> dofs, const Before& befo
     dof_sums_.stiffness_across += change * kv;
     dof_sums_.mass_sum += mass * change * (2 * (free + before.velocity[k]) + change);
     add_momentum(i, mass * change);
+    dof_sums_.filtered += filtered_part(i) * change;
     if (!state_.extra_force.empty()) {
       sums_.device += state_.extra_force[i] * change;
     }

@@ -14,6 +14,9 @@
 
 namespace pounding {
 
+/// Numbers of the filters of a system's uniform damping; none without.
+Filters<double> filters_of(const LinearSystem& system, double time_step);
+
 /// Takes the forces q = K (u_n + beta v-) of a structure range by range and brings the state there
 /// one step on (update.h) while the range is in the nearest cache; the sums for the energy balance
 /// are taken on the way. Dofs whose mass is coupled wait for `complete`. v+ is free of contact
@@ -61,15 +64,19 @@ class StructureStep final : public ForceReceiver {
   void find_segments(const std::vector<char>& damped);
   Order order_at(std::size_t dof, const std::vector<char>& damped) const;
   std::size_t length_at(std::size_t dof, Order order) const;
-  template <bool with_energies>
-  void advance(const Segment& segment, LocalIndex begin, LocalIndex end, const double* force);
-  /// Dofs by vectors: policies tell their masses, and what the ground does to them.
-  template <bool with_energies, typename Masses, typename Ground>
-  void advance_vectors(std::size_t first, std::size_t end, const double* force, Masses masses,
-                       Ground& ground);
+  template <bool with_energies, typename Damping>
+  void advance(const Segment& segment, LocalIndex begin, LocalIndex end, const double* force,
+               const Damping& damping);
+  /// Dofs by vectors: policies tell their masses, what the ground does to them, and whether the
+  /// force is filtered.
+  template <bool with_energies, typename Damping, typename Masses, typename Ground>
+  void advance_vectors(std::size_t first, std::size_t end, const double* force,
+                       const Damping& damping, Masses masses, Ground& ground);
   /// Dofs one by one.
   template <bool with_energies>
   void advance_dofs(std::size_t first, std::size_t end, const double* force);
+  /// f - q of a dof after the step.
+  double filtered_part(std::size_t dof) const;
   /// h (a_g - g) iota of a dof.
   double ground_step_at(std::size_t dof) const;
   /// Adds to iota_d^T M s what M s is at a dof.
@@ -82,6 +89,7 @@ class StructureStep final : public ForceReceiver {
   std::vector<double> node_inverse_mass_;
   std::unique_ptr<CoupledStep> coupled_;  ///< null if no mass is coupled here
   StepTerms<double> terms_{};
+  Filters<double> filters_{};  ///< none without uniform damping
   bool with_energies_ = false;
   std::array<double, 3> ground_step_{};
   /// Patterns of nodes without and with rotations: h (a_g - g) iota, and the sums of M s.

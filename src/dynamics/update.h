@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "common/lanes.h"
 
 /// One step of central differences for one dof (double) or for several, a lane for each (HalfLanes,
@@ -12,8 +15,9 @@
 ///     K u_n   = K u_{n-1} + dt K v-
 ///     u_{n+1} = u_n + dt v+
 ///
-/// with v+ = v_free where nothing else acts, and h = dt, but dt / 2 in the first step. Single
-/// values are rounded like those of a vector.
+/// with f in place of q in v_free where uniform damping filters it (Filters), v+ = v_free where
+/// nothing else acts, and h = dt, but dt / 2 in the first step. Single values are rounded like
+/// those of a vector.
 namespace pounding {
 
 /// Numbers of a step that all dofs of a structure share.
@@ -46,7 +50,54 @@ struct DofSums {
   Value stiffness_before{};
   Value stiffness_across{};
   Value mass_sum{};
+  Value filtered{};  ///< of (f - q) (v+ + v-)
 };
+
+/// Most filters of uniform damping.
+constexpr std::size_t max_filters = 8;
+
+/// Numbers of the filters of uniform damping that all dofs of a structure share. With Q_n = K u_n,
+/// beta = 0 and W_i the memory of filter i,
+///
+///     W_i <- ((1 - c_i) W_i + c_i (Q_n + Q_{n-1})) / (1 + c_i),      c_i = omega_i dt / 2
+///     f   = s ( Q_n + sum_i a_i (Q_n - W_i) )
+///
+/// the trapezoidal rule for dW/dt = omega_i (Q - W). Stable if and only if M - dt^2/4 s (1 + sum
+/// a_i) K is positive definite; docs/theory.md has the energy that proves it.
+template <typename Value>
+struct Filters {
+  std::size_t count = 0;
+  Value at_once;  ///< s (1 + sum a_i)
+  struct Filter {
+    Value weight;  ///< s a_i
+    Value keep;    ///< (1 - c_i) / (1 + c_i)
+    Value take;    ///< c_i / (1 + c_i)
+  };
+  std::array<Filter, max_filters> filters;
+};
+
+/// Copies the numbers into every lane of `Value`.
+template <typename Value>
+Filters<Value> in_lanes(const Filters<double>& filters) {
+  const Value zero{};
+  Filters<Value> copy{filters.count, zero + filters.at_once, {}};
+  for (std::size_t i = 0; i < filters.count; ++i) {
+    const auto& [weight, keep, take] = filters.filters[i];
+    copy.filters[i] = {zero + weight, zero + keep, zero + take};
+  }
+  return copy;
+}
+
+/// Brings the memory of one filter from n - 1 to n, and takes its part off the force f.
+template <typename Value>
+[[gnu::always_inline]] inline void pass_filter(const typename Filters<Value>::Filter& filter,
+                                               Value both, Value& memory, Value& force) {
+  Value passed{};
+  add_product(filter.keep, memory, passed);
+  add_product(filter.take, both, passed);
+  memory = passed;
+  subtract_product(filter.weight, passed, force);
+}
 
 /// Energies before the step likewise, where they are asked for.
 template <typename Value>

@@ -36,6 +36,22 @@ double frequency_bound(const LinearSystem& system) {
 
 }  // namespace
 
+double reference_frequency(const Structure& structure, const ModalResult& modal) {
+  for (const Mode& mode : modal.modes) {
+    const bool vibrates =
+        mode.location.empty() && mode.frequency > near_zero * modal.modes.back().frequency;
+    if (vibrates) {
+      const double unit = std::pow(10.0, std::floor(std::log10(mode.frequency)) - 5);
+      return std::round(mode.frequency / unit) * unit;
+    }
+  }
+  throw UserError(
+      "option -" + structure.name + "_damping_uniform: none of the first " +
+      std::to_string(modal.modes.size()) +
+      " modes vibrates, so the stiffness has no frequency to keep its place at; give -" +
+      structure.name + "_damping_reference, or more -modes");
+}
+
 Mode describe_mode(double eigenvalue, const std::array<double, 6>& participation,
                    const std::array<double, 6>& inertia) {
   Mode mode;

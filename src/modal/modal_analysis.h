@@ -40,6 +40,10 @@ struct LargestFrequency {
 Mode describe_mode(double eigenvalue, const std::array<double, 6>& participation,
                    const std::array<double, 6>& inertia);
 
+/// Frequency of the first mode that vibrates, to six digits, where uniform damping leaves the
+/// stiffness as it is [Hz]. Throws UserError where none does.
+double reference_frequency(const Structure& structure, const ModalResult& modal);
+
 /// The lowest `count` modes by SLEPc's Krylov-Schur on M^-1/2 K M^-1/2, shift-and-invert with a
 /// Cholesky factorisation (MUMPS), the shift just below zero so that free structures pass; on K
 /// and M + S where mass is coupled.

@@ -36,6 +36,22 @@ std::vector<double> damping_rates(const Structure& structure, const ModalBasis& 
   return rates;
 }
 
+/// Uniform damping of a reduced structure, its reference known.
+std::optional<UniformDamping> uniform_damping_of(const Structure& structure,
+                                                 const ModalBasis& basis) {
+  std::optional<UniformDamping> damping = structure.uniform_damping;
+  if (damping && damping->reference == 0) {
+    damping->reference =
+        reference_frequency(structure, modes_of_basis(basis, static_cast<int>(basis.size())));
+  }
+  return damping;
+}
+
+double stiffening_of(const Structure& structure, const ModalBasis& basis) {
+  const std::optional<UniformDamping> damping = uniform_damping_of(structure, basis);
+  return damping ? damping->at_once() : 1;
+}
+
 /// Smallest value of a function of the Rayleigh quotients of damping and stiffness over all
 /// coordinates.
 template <typename Function>
@@ -43,10 +59,12 @@ double smallest(const Structure& structure, const ModalBasis& basis, Function&& 
   const std::vector<double> rates = damping_rates(structure, basis);
   const std::vector<double> masses = coordinate_masses(structure, basis);
   const double alpha = structure.modal->damping_ratios.empty() ? structure.damping.alpha : 0;
+  const double stiffening = stiffening_of(structure, basis);
   double result = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < rates.size(); ++i) {
     const double damping = alpha + (rates[i] - alpha) / masses[i];
-    result = std::min(result, function(damping, basis.squared_frequency[i] / masses[i]));
+    result =
+        std::min(result, function(damping, stiffening * basis.squared_frequency[i] / masses[i]));
   }
   return result;
 }
@@ -99,6 +117,7 @@ LinearSystem build_reduced_system(MPI_Comm comm, int owner, const Structure& str
   system.stiffness_method = "modal, K = diag(omega^2)";
   if (structure.modal->damping_ratios.empty()) {
     system.damping = structure.damping;
+    system.uniform_damping = uniform_damping_of(structure, basis);
   } else {
     system.extra_damping = share(damping_rates(structure, basis));
   }
@@ -153,8 +172,10 @@ std::vector<double> coordinate_masses(const Structure& structure, const ModalBas
     throw UserError(text.str());
   }
   const std::vector<double> rates = damping_rates(structure, basis);
+  const double stiffening = stiffening_of(structure, basis);
   for (std::size_t i = 0; i < masses.size(); ++i) {
-    const double needed = 2 * dt * (rates[i] - alpha) + dt * dt * basis.squared_frequency[i];
+    const double needed =
+        2 * dt * (rates[i] - alpha) + dt * dt * stiffening * basis.squared_frequency[i];
     masses[i] = std::max(1.0, needed / (4 - 2 * dt * alpha));
   }
   return masses;

@@ -28,8 +28,9 @@ ModalResult modes_of_basis(const ModalBasis& basis, int count);
 /// m of each coordinate: 1, or what brings its own limit up to the step dt that scaled mass asks
 /// for (`Structure::mass_scaling`), damping included:
 ///
-///     m (4 - 2 dt alpha) = 2 dt beta omega^2 + dt^2 omega^2
+///     m (4 - 2 dt alpha) = 2 dt beta omega^2 + dt^2 s omega^2
 ///
+/// with s the stiffening of uniform damping, 1 without.
 /// Static responses do not change; a coordinate that is slow against 2 / dt keeps its mass. Throws
 /// UserError where alpha alone forbids dt.
 std::vector<double> coordinate_masses(const Structure& structure, const ModalBasis& basis);

@@ -59,6 +59,40 @@ Rayleigh read_structure_damping(OptionReader& options, const std::string& struct
   return read_damping(options, structure_damping, {structure}, {});
 }
 
+std::optional<UniformDamping> read_uniform_damping(OptionReader& options,
+                                                   const std::string& structure) {
+  constexpr std::string_view uniform = "<structure>_damping_uniform";
+  constexpr std::string_view band = "<structure>_damping_band";
+  constexpr std::string_view filters = "<structure>_damping_filters";
+  constexpr std::string_view reference = "<structure>_damping_reference";
+  const Names names{structure};
+  if (!options.given(uniform, names)) {
+    for (const std::string_view pattern : {band, filters, reference}) {
+      options.forbid(pattern, names,
+                     "goes with -" + option_name(uniform, names) + ", which is not given");
+    }
+    return std::nullopt;
+  }
+  const std::string why = "give either this or -" + option_name(uniform, names) + ", not both";
+  for (const std::string_view pattern : {structure_damping.alpha, structure_damping.beta}) {
+    if (options.real(pattern, names) != 0) {
+      options.refuse(pattern, names, why + " (0 takes back what an included file says)");
+    }
+  }
+  options.forbid(structure_damping.ratio, names, why);
+  options.forbid(structure_damping.frequencies, names, why);
+  const std::vector<double> ends = options.reals(band, names, 2);
+  if (!(ends[0] < ends[1])) {
+    options.refuse(band, names, "the lower frequency first, then the higher one");
+  }
+  UniformDamping damping = fit_uniform_damping(options.real(uniform, names), ends[0], ends[1],
+                                               options.integer(filters, names));
+  if (options.given(reference, names)) {
+    damping.reference = options.real(reference, names);
+  }
+  return damping;
+}
+
 std::optional<Rayleigh> read_region_damping(OptionReader& options, const Names& names,
                                             const Region& region, const Rayleigh& inherited) {
   bool given = false;

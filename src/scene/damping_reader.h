@@ -12,6 +12,11 @@ namespace pounding {
 /// UserError.
 Rayleigh read_structure_damping(OptionReader& options, const std::string& structure);
 
+/// Uniform damping of a structure over a band, if it is asked for; then Rayleigh damping of the
+/// structure is refused. Throws UserError.
+std::optional<UniformDamping> read_uniform_damping(OptionReader& options,
+                                                   const std::string& structure);
+
 /// Damping of a region, `names` being its structure and group; what is not given of alpha and beta
 /// is that of `inherited`. Nothing where the region has no damping options at all. Refused for
 /// tension-only bars, whose force has one beta, that of their structure. Throws UserError.

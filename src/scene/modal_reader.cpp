@@ -74,6 +74,9 @@ std::optional<ModalModel> read_modal_model(OptionReader& options, const Structur
   }
   modal.attachment = options.boolean(attachment, names);
   if (options.given(damping, names)) {
+    if (structure.uniform_damping) {
+      options.forbid(damping, names, "not with -" + structure.name + "_damping_uniform");
+    }
     modal.damping_ratios = options.reals(damping, names);
   }
   const std::string file = options.text(basis, names);

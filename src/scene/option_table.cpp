@@ -19,6 +19,8 @@ constexpr Range not_negative{0, infinity, false, false};
 constexpr Range at_least_1{1, infinity, false, false};
 constexpr Range fraction{0, 1, true, false};
 constexpr Range damping_ratio{0, 1, false, true};
+constexpr Range uniform_ratio{0, 0.3, false, false};
+constexpr Range filter_count{1, 8, false, false};
 constexpr Range poisson_ratio{-1, 0.5, true, true};
 
 constexpr Preset required{false, true, "required"};
@@ -81,6 +83,10 @@ constexpr std::array table{
     OptionRow{Block::structure, "<structure>_damping_beta", Kind::real, "s", value("0"), not_negative, "", "Rayleigh damping, stiffness term"},
     OptionRow{Block::structure, "<structure>_damping_ratio", Kind::real, "-", absent("optional"), damping_ratio, "", "instead of alpha and beta: damping ratio at two frequencies"},
     OptionRow{Block::structure, "<structure>_damping_frequencies", Kind::reals, "Hz", absent("required with the ratio"), positive, "two numbers f1,f2", "the two frequencies of the damping ratio"},
+    OptionRow{Block::structure, "<structure>_damping_uniform", Kind::real, "-", absent("optional"), uniform_ratio, "", "instead of alpha and beta: one damping ratio for every frequency of a band, which hardly shortens the step"},
+    OptionRow{Block::structure, "<structure>_damping_band", Kind::reals, "Hz", value("1,400"), positive, "two numbers f1,f2", "uniform damping: the band"},
+    OptionRow{Block::structure, "<structure>_damping_filters", Kind::integer, "-", value("3"), filter_count, "", "uniform damping: number of filters that make it; more hold the ratio more closely, or over a wider band"},
+    OptionRow{Block::structure, "<structure>_damping_reference", Kind::real, "Hz", absent("left out: the first mode"), positive, "", "uniform damping: frequency at which the stiffness is that of the materials; slower motions find less, faster ones more"},
 
     OptionRow{Block::region, "<structure>_<group>_element", Kind::choice, "word", required, any, element_words, "element of the group (hex8: with incompatible modes)"},
     OptionRow{Block::region, "<structure>_<group>_material", Kind::text, "name", absent("required but for points and springs"), any, "the name of a material", "its material"},

@@ -9,6 +9,7 @@
 
 #include "common/types.h"
 #include "elements/element_traits.h"
+#include "scene/uniform_damping.h"
 
 /// Plain structs of what the user asked, in SI units, validated; made by scene/scene_reader and
 /// constant afterwards. Identical on every rank.
@@ -80,12 +81,15 @@ struct Structure {
   std::vector<Clamp> clamps;
   std::vector<Region> regions;
   Rayleigh damping;
-  std::optional<ModalModel> modal;        ///< nothing: the finite-element model itself
+  std::optional<UniformDamping> uniform_damping;  ///< in place of Rayleigh damping, which is 0 then
+  std::optional<ModalModel> modal;                ///< nothing: the finite-element model itself
   double mass_scaling = 0;                ///< step [s] that what is stiff gets mass for; 0: none
   Vector3 initial_displacement{0, 0, 0};  ///< of every free node [m]
   Vector3 initial_velocity{0, 0, 0};      ///< of every free node [m/s]
   Vector3 gravity{0, 0, 0};               ///< constant body acceleration [m/s2]
 
+  /// Bound of what the fastest motions find K multiplied by [-].
+  double stiffening() const { return uniform_damping ? uniform_damping->at_once() : 1; }
   /// The damping of a region's elements.
   Rayleigh damping_of(const Region& region) const { return region.damping.value_or(damping); }
 };

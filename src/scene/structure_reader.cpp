@@ -227,6 +227,18 @@ void forbid_tension_bars(const OptionReader& options, const Structure& structure
   }
 }
 
+/// The filters follow the forces of all elements together.
+void forbid_damping_beside_uniform(const OptionReader& options, const Structure& structure) {
+  for (const Region& region : structure.regions) {
+    for (const char* option : {"alpha", "beta", "ratio", "frequencies"}) {
+      options.forbid(std::string("<structure>_<group>_damping_") + option,
+                     {structure.name, region.group},
+                     "not in a structure with -" + structure.name +
+                         "_damping_uniform, whose ratio is that of all its elements");
+    }
+  }
+}
+
 /// Beside matrices no element makes damping: it has to stand in the files.
 void forbid_damping_of_regions(const OptionReader& options, const Structure& structure) {
   const std::string remedy = "would be lost beside -" + structure.name +
@@ -263,13 +275,19 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   structure.initial_displacement = read_vector(options, "<structure>_initial_displacement", {name});
   structure.initial_velocity = read_vector(options, "<structure>_initial_velocity", {name});
   structure.gravity = read_vector(options, "<structure>_gravity", {name});
-  structure.damping = read_structure_damping(options, name);
+  structure.uniform_damping = read_uniform_damping(options, name);
+  if (!structure.uniform_damping) {
+    structure.damping = read_structure_damping(options, name);
+  }
   const std::set<std::string> groups = region_groups(options.database(), name);
   require_elements(options, name, groups);
   for (const std::string& group : groups) {
     structure.regions.push_back(read_region(options, {name, group}, structure.damping));
   }
   forbid_tension_bars(options, structure);
+  if (structure.uniform_damping) {
+    forbid_damping_beside_uniform(options, structure);
+  }
   structure.modal = read_modal_model(options, structure);
   forbid_mass_scaling(options, structure);
   if (!structure.matrices.empty()) {

@@ -14,7 +14,7 @@ constexpr double above_round_off = 1 + 1e-9;
 
 std::vector<ScaledOperator::Term> terms_of(const LinearSystem& system, double dt) {
   std::vector<ScaledOperator::Term> terms{
-      {-dt / 2 * system.damping.beta - dt * dt / 4, &system.stiffest()}};
+      {-dt / 2 * system.damping.beta - dt * dt / 4 * system.stiffening(), &system.stiffest()}};
   if (system.extra_damping) terms.push_back({-dt / 2, system.extra_damping.get()});
   return terms;
 }

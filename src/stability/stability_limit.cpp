@@ -26,7 +26,8 @@ class ScaledProblem {
   /// The largest eigenvalue of A(dt).
   LargestEigenpair largest(double dt) const {
     const auto [alpha, beta] = system_.damping;
-    std::vector<ScaledOperator::Term> terms{{2 * dt * beta + dt * dt, &system_.stiffest()}};
+    std::vector<ScaledOperator::Term> terms{
+        {2 * dt * beta + dt * dt * system_.stiffening(), &system_.stiffest()}};
     if (system_.extra_damping) terms.push_back({2 * dt, system_.extra_damping.get()});
     const ScaledOperator scaled(system_, terms, 2 * dt * alpha);
     return largest_eigenpair(system_, mesh_, scaled.matrix(), "the stable time step");
@@ -37,7 +38,7 @@ class ScaledProblem {
     const double square = stiffness_.quotient(y);
     double rate = system_.damping.alpha + system_.damping.beta * square;
     if (extra_damping_) rate += extra_damping_->quotient(y);
-    return critical_time_step(std::max(0.0, rate), std::max(0.0, square));
+    return critical_time_step(std::max(0.0, rate), system_.stiffening() * std::max(0.0, square));
   }
 
  private:

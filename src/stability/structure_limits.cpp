@@ -12,9 +12,10 @@ StructureLimits limits_of(const Structure& structure, const LinearSystem& system
     return {largest_frequency(structure, *basis), stable_time_step(structure, *basis)};
   }
   StructureLimits limits{largest_frequency(system, mesh), 0};
-  limits.stable_time_step = system.has_extra_damping()
-                                ? stability_limit(system, mesh)
-                                : stable_time_step(system.damping, limits.largest.omega_max);
+  limits.stable_time_step =
+      system.has_extra_damping()
+          ? stability_limit(system, mesh)
+          : stable_time_step(system.damping, limits.largest.omega_max, system.stiffening());
   return limits;
 }
 
@@ -23,9 +24,9 @@ double energy_margin_of(const Structure& structure, const LinearSystem& system, 
   if (basis != nullptr) {
     return energy_margin(structure, *basis, time_step);
   }
-  return system.has_extra_damping()
-             ? smallest_energy_margin(system, mesh, time_step)
-             : energy_margin(system.damping, limits.largest.omega_max, time_step);
+  return system.has_extra_damping() ? smallest_energy_margin(system, mesh, time_step)
+                                    : energy_margin(system.damping, limits.largest.omega_max,
+                                                    time_step, system.stiffening());
 }
 
 }  // namespace pounding

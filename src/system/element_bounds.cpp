@@ -139,7 +139,8 @@ double ElementBounds::time_step_alone(const ElementBlock& block, double frequenc
   }
   const Rayleigh damping = damping_of(block);
   const double square = frequency * frequency;
-  return critical_time_step(damping.alpha + damping.beta * square, square);
+  return critical_time_step(damping.alpha + damping.beta * square,
+                            structure_.stiffening() * square);
 }
 
 /// Time step of an element with the springs at its owned dofs; other ranks that hold it see to the
@@ -158,9 +159,10 @@ double ElementBounds::time_step(const ElementBlock& block, std::size_t element, 
   for (std::size_t i = 0; i < static_cast<std::size_t>(layout.size()); ++i) {
     if (dofs[i] >= 0 && dofs[i] < mesh_.owned_dofs) {
       const std::size_t dof = dofs[i];
-      smallest = std::min(smallest,
-                          critical_time_step(rate + device_damping_[dof] / lumped_mass[dof],
-                                             square + device_stiffness_[dof] / lumped_mass[dof]));
+      smallest = std::min(
+          smallest, critical_time_step(rate + device_damping_[dof] / lumped_mass[dof],
+                                       structure_.stiffening() *
+                                           (square + device_stiffness_[dof] / lumped_mass[dof])));
     }
   }
   return smallest;

@@ -20,6 +20,7 @@ LinearSystem describe_system(const Structure& structure, const Mesh& mesh) {
   system.name = structure.name;
   system.comm = mesh.comm;
   system.damping = structure.damping;
+  system.uniform_damping = structure.uniform_damping;
   system.initial_displacement = structure.initial_displacement;
   system.initial_velocity = structure.initial_velocity;
   system.gravity = structure.gravity;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct GeneralisedCoordinates {
 ///
 ///     (M + S) u'' + C u' + K u = -M iota a_g(t) + L^T r,      C = alpha M + beta K + D
 ///
+/// or, with uniform damping over a band, s G K in place of K (see UniformDamping) and C = D,
 /// with M diagonal, D the damping that alpha and beta do not tell (dashpots, and regions damped
 /// otherwise), and S the mass that stiff elements are given for a longer time step, mostly none.
 /// Arrays hold this rank's owned dofs. Constant during a run.
@@ -49,6 +51,7 @@ struct LinearSystem {
   std::string name;
   MPI_Comm comm = MPI_COMM_SELF;
   Rayleigh damping;
+  std::optional<UniformDamping> uniform_damping;  ///< its reference known once the modes are
   GlobalIndex global_dofs = 0;
   std::vector<double> lumped_mass;   ///< M [kg, kg m2]
   std::vector<double> inverse_mass;  ///< [1/kg, 1/(kg m2)]
@@ -82,6 +85,8 @@ struct LinearSystem {
   /// K for eigenvalues: every link at its stiffest.
   const Stiffness& stiffest() const { return taut ? *taut : *stiffness; }
   Mat stiffest_matrix() const { return stiffest().matrix(); }
+  /// Factor of K for the fastest motions [-].
+  double stiffening() const { return uniform_damping ? uniform_damping->at_once() : 1; }
   /// Forces beside K u, alpha M v and beta K v.
   bool has_extra_damping() const { return extra_damping != nullptr; }
   /// iota of a direction [-].

@@ -107,7 +107,8 @@ class Decision {
       return false;  // the assembly names it
     }
     return add_element_mass(structure_.mass_scaling, structure_.damping_of(region), stiffness, mass,
-                            {no_dashpots_.data(), size * size}, {added_.data(), size * size}) > 0;
+                            {no_dashpots_.data(), size * size}, {added_.data(), size * size},
+                            structure_.stiffening()) > 0;
   }
 
  private:
@@ -123,18 +124,20 @@ class Decision {
 
 }  // namespace
 
-double mass_scaling_factor(double time_step, const Rayleigh& damping, double frequency) {
-  const double needed = time_step / 4 * (2 * damping.beta + time_step);
+double mass_scaling_factor(double time_step, const Rayleigh& damping, double frequency,
+                           double stiffening) {
+  const double needed = time_step / 4 * (2 * damping.beta + stiffening * time_step);
   return std::max(0.0, needed - (1 - time_step * damping.alpha / 2) / (frequency * frequency));
 }
 
 double add_element_mass(double time_step, const Rayleigh& damping,
                         std::span<const double> stiffness, std::span<const double> lumped_mass,
-                        std::span<const double> dashpots, std::span<double> added) {
+                        std::span<const double> dashpots, std::span<double> added,
+                        double stiffening) {
   const bool has_mass = *std::max_element(lumped_mass.begin(), lumped_mass.end()) > 0;
   const double frequency = has_mass ? std::sqrt(largest_eigenvalue(stiffness, lumped_mass))
                                     : std::numeric_limits<double>::infinity();
-  const double factor = mass_scaling_factor(time_step, damping, frequency);
+  const double factor = mass_scaling_factor(time_step, damping, frequency, stiffening);
   if (factor > 0) {
     for (std::size_t i = 0; i < added.size(); ++i) {
       added[i] += factor * stiffness[i] + time_step / 2 * dashpots[i];

@@ -32,15 +32,18 @@ struct MassScaling {
   double row_frequency = 0;
 };
 
-/// c_e [s2]; `frequency` [rad/s] is infinite for an element without mass.
-double mass_scaling_factor(double time_step, const Rayleigh& damping, double frequency);
+/// c_e [s2]; `frequency` [rad/s] is infinite for an element without mass; `stiffening`
+/// is what the fastest motions find K multiplied by.
+double mass_scaling_factor(double time_step, const Rayleigh& damping, double frequency,
+                           double stiffening = 1);
 
 /// Adds S_e, shape (n, n) [kg, kg m2], of an element with the given matrices, and returns c_e; the
 /// dashpots D_e of a spring add dt / 2 D_e as well. Does nothing and returns 0 where the element
 /// allows the wanted step by itself.
 double add_element_mass(double time_step, const Rayleigh& damping,
                         std::span<const double> stiffness, std::span<const double> lumped_mass,
-                        std::span<const double> dashpots, std::span<double> added);
+                        std::span<const double> dashpots, std::span<double> added,
+                        double stiffening = 1);
 
 /// Nodes that scaled elements or tension-only bars connect, group by group: M + S couples the dofs
 /// of the ones, the step solves for the tensions of the others together, so one rank must own them.

@@ -287,7 +287,8 @@ class MatrixSystem {
     system.element_time_step_bound =
         system.extra_damping
             ? 0
-            : critical_time_step(system.damping.alpha + system.damping.beta * square, square);
+            : critical_time_step(system.damping.alpha + system.damping.beta * square,
+                                 system.stiffening() * square);
   }
 
   std::string folder_;

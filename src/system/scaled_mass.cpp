@@ -19,7 +19,7 @@ double ScaledMass::add(const ElementBlock& block, std::size_t element, const Reg
   std::fill(added.begin(), added.end(), 0.0);
   const double factor =
       add_element_mass(structure_.mass_scaling, structure_.damping_of(region), matrices.stiffness,
-                       matrices.mass, matrices.dashpots, added);
+                       matrices.mass, matrices.dashpots, added, structure_.stiffening());
   if (factor > 0) {
     report_.elements += block.counted[element];
     report_.largest_factor = std::max(report_.largest_factor, factor);

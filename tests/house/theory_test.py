@@ -71,6 +71,55 @@ class System:
         return impulse
 
 
+class Filters(unittest.TestCase):
+    """Uniform damping: its energy only falls, and its limit is exact."""
+    weights, rates, at_rest = numpy.array([0.2, 0.4]), numpy.array([0.5, 3.0]), 0.9
+
+    def move(self, stiffness, mass, dt, steps, seed):
+        """Energy E' of every step and by how much it should have changed; the last displacement."""
+        random = numpy.random.default_rng(seed)
+        size = len(stiffness)
+        u, v = random.normal(size=size), random.normal(size=size)
+        c = (self.rates * dt / 2)[:, None]
+        y, held = numpy.zeros((2, size)), None
+        lengths = u - y
+        fast = mass - dt**2 / 4 * self.at_rest * (1 + self.weights.sum()) * stiffness
+        for step in range(steps):
+            before = lengths
+            if step > 0:
+                y = ((1 - c) * y + c * (u + last)) / (1 + c)
+            lengths = u - y
+            force = self.at_rest * stiffness @ (u + self.weights @ lengths)
+            last, v = u, v - dt * numpy.linalg.solve(mass, force)
+            u = u + dt * v
+            mean = (u + last) / 2
+            energy = v @ fast @ v / 2 + self.at_rest / 2 * (mean @ stiffness @ mean + sum(
+                a * x @ stiffness @ x for a, x in zip(self.weights, lengths + dt / 2 * v)))
+            if step > 0:
+                sums = lengths + before
+                change = -self.at_rest / 2 * sum(
+                    a * k * x @ stiffness @ x for a, k, x in zip(self.weights, c[:, 0], sums))
+                yield energy - held, change, energy, u
+            held = energy
+
+    def test_energy_falls_by_what_the_dashpots_take(self):
+        for seed in range(4):
+            system = System(seed)
+            limit = largest_step(system.mass, 0 * system.mass, self.at_rest * 1.6 * system.stiffness)
+            for found, expected, energy, _ in self.move(system.stiffness, system.mass, 0.98 * limit, 400, seed):
+                self.assertAlmostEqual(found, expected, delta=1e-12 * max(1, energy))
+                self.assertLessEqual(expected, 0)
+                self.assertGreater(energy, 0)
+
+    def test_limit_is_exact(self):
+        for seed in range(3):
+            system = System(seed)
+            limit = largest_step(system.mass, 0 * system.mass, self.at_rest * 1.6 * system.stiffness)
+            for part, grows in ((0.999, False), (1.001, True)):
+                *_, (_, _, _, last) = self.move(system.stiffness, system.mass, part * limit, 1500, seed)
+                self.assertEqual(abs(last).max() > 1e6, grows, (seed, part))
+
+
 class Scheme(unittest.TestCase):
     def test_energy_identity_with_contact(self):
         touched = 0

@@ -122,6 +122,25 @@ class BitIdentity(RestartCase):
         self.complete([*case, "-restart", checkpoint(cut)], folder=cut)
         self.assert_same_results(whole, cut)
 
+    def test_memories_of_uniform_damping(self):
+        uniform = [f"-{name}_damping_{word}" for name in ("s1", "s2") for word in ("alpha", "beta", "uniform")]
+        values = [0, 0, 0.02, 0, 0, 0.05]
+        pair = PAIR + [word for both in zip(uniform, values) for word in both] + ["-end_time", 0.3]
+        reduced = [word for name in ("s1", "s2")
+                   for word in (f"-{name}_model", "modal", f"-{name}_modal_vectors", 20)]
+        scaled = ["-s2_mass_scaling", 1e-4]
+        for more in ([], reduced, scaled):
+            case = pair + more
+            whole = self.complete(case)
+            step, time_step = self.middle_of_an_impact(whole, 0)
+            cut = self.cut(case, step, time_step)
+            with h5py.File(checkpoint(cut), "r") as file:
+                names = []
+                file.visit(names.append)
+                self.assertEqual(sum(name.endswith("filter_3") for name in names), 2, names)
+            self.complete([*case, "-restart", checkpoint(cut)], folder=cut)
+            self.assert_same_results(whole, cut)
+
     def test_checkpoints_change_nothing(self):
         case = BAR + ["-end_time", 3]
         whole = self.complete(case)

@@ -23,7 +23,7 @@ std::vector<LinearSystem> one_system() {
 /// The step of the next look after one at step 1, nothing touching.
 std::int64_t next_look(double norm, const std::array<double, 3>& force_norm = {},
                        const Vector3& peaks = {}, double known = energy, double round_off = 0) {
-  const std::vector<StructureEnergy> energies{{known, 0, known}};
+  const std::vector<StructureEnergy> energies{{0, 0, 0, 0, known, 0}};
   GapWatch watch(one_system(), {{norm, force_norm, {}}}, peaks, time_step);
   watch.energies_known(0, energies, {&round_off, 1});
   watch.looked(1, clearance, false);

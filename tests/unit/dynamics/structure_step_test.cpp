@@ -65,6 +65,14 @@ LinearSystem coordinates(std::size_t count) {
   return system;
 }
 
+/// The same system with uniform damping in place of Rayleigh's.
+LinearSystem filtered(LinearSystem system, int filters = 3) {
+  system.damping = {};
+  system.uniform_damping = fit_uniform_damping(0.05, 1, 100, filters);
+  system.uniform_damping->reference = 2;
+  return system;
+}
+
 std::vector<double> random_values(std::size_t count, unsigned seed, double size) {
   std::mt19937 generator(seed);
   std::uniform_real_distribution<double> uniform(-size, size);
@@ -88,11 +96,33 @@ struct Case {
     for (std::size_t i = 0; i < state.extra_force.size(); ++i) {
       if (damped_dofs(system)[i] == 0) state.extra_force[i] = 0;
     }
+    if (system.uniform_damping) {
+      for (unsigned k = 0; k < system.uniform_damping->filters.size(); ++k) {
+        state.filtered.push_back(random_values(n, 6 + k, 1e4));
+      }
+    }
     force = random_values(n, 5, 1e4);
     if (first) force = state.stiffness_displacement;
   }
   double duration() const { return first ? time_step / 2 : time_step; }
 };
+
+/// f of uniform damping at a dof, the memories of its filters brought one step on: the trapezoidal
+/// rule for dW/dt = omega (Q - W).
+double reference_force(const Case& given, std::size_t i, StructureState& state) {
+  const double q = given.force[i], before = state.stiffness_displacement[i];
+  if (!given.system.uniform_damping) return q;
+  const UniformDamping& damping = *given.system.uniform_damping;
+  double f = q;
+  for (std::size_t k = 0; k < damping.filters.size(); ++k) {
+    const auto& [weight, rate] = damping.filters[k];
+    double& w = state.filtered[k][i];
+    const double mean = (q + before) / 2;
+    w = (w + time_step * rate * (mean - w / 2)) / (1 + time_step * rate / 2);
+    f += weight * (q - w);
+  }
+  return damping.at_rest() * f;
+}
 
 /// The scheme of cd_lagrange.h in ten lines, dof by dof, and its sums.
 StepSums take_reference_step(const Case& given, StructureState& state) {
@@ -105,7 +135,8 @@ StepSums take_reference_step(const Case& given, StructureState& state) {
     for (std::size_t d = 0; d < 3; ++d) {
       ground_rate += system.influence(static_cast<int>(d))[i] * (ground[d] - system.gravity[d]);
     }
-    const double rate = (given.force[i] + x) / m + system.damping.alpha * v + ground_rate;
+    const double f = reference_force(given, i, state);
+    const double rate = (f + x) / m + system.damping.alpha * v + ground_rate;
     const double after = v - given.duration() * rate;
     const double stiffness_velocity = given.first
                                           ? 0
@@ -118,6 +149,7 @@ StepSums take_reference_step(const Case& given, StructureState& state) {
     sums.stiffness_across += after * stiffness_velocity;
     sums.mass_sum += m * (after + v) * (after + v);
     sums.device += x * (after + v);
+    sums.filtered += (f - given.force[i]) * (after + v);
     for (std::size_t d = 0; d < 3; ++d) {
       sums.momentum[d] += system.influence(static_cast<int>(d))[i] * m * (after + v);
     }
@@ -155,6 +187,9 @@ void expect_reference_step(LinearSystem system, bool first, std::size_t pieces =
     expect_close(given.state.velocity[i], expected.velocity[i], 20);
     expect_close(given.state.displacement[i], expected.displacement[i], 0.1);
     expect_close(given.state.stiffness_displacement[i], expected.stiffness_displacement[i], 1e4);
+    for (std::size_t k = 0; k < expected.filtered.size(); ++k) {
+      expect_close(given.state.filtered[k][i], expected.filtered[k][i], 1e4);
+    }
   }
   const auto n = static_cast<double>(expected.velocity.size());
   expect_close(sums.kinetic_before, reference.kinetic_before, 100 * n);
@@ -164,6 +199,7 @@ void expect_reference_step(LinearSystem system, bool first, std::size_t pieces =
   expect_close(sums.stiffness_across, reference.stiffness_across, 1e8 * n);
   expect_close(sums.mass_sum, reference.mass_sum, 1e3 * n);
   expect_close(sums.device, reference.device, 1e3 * n);
+  expect_close(sums.filtered, reference.filtered, 1e5 * n);
   for (std::size_t d = 0; d < 3; ++d) {
     expect_close(sums.momentum[d], reference.momentum[d], 1e3 * n);
   }
@@ -189,6 +225,36 @@ TEST(StructureStep, MovesAMixtureOfNodesAsTheSchemeDoes) {
                                 Kind::damped,       Kind::six,          Kind::translations};
   expect_reference_step(nodes_in_a_row(kinds), false);
   expect_reference_step(nodes_in_a_row(kinds), true);
+}
+
+TEST(StructureStep, FiltersTheForceOfDofsOfEveryKind) {
+  const std::vector<Kind> mixture{Kind::translations, Kind::damped, Kind::six, Kind::lone,
+                                  Kind::translations, Kind::six,    Kind::six};
+  for (const bool first : {false, true}) {
+    for (const int filters : {1, 3, 8}) {
+      for (int count = 1; count <= 5; ++count) {
+        for (const Kind kind : {Kind::translations, Kind::six, Kind::lone, Kind::damped}) {
+          expect_reference_step(filtered(nodes_in_a_row(std::vector<Kind>(count, kind)), filters),
+                                first);
+        }
+        expect_reference_step(filtered(coordinates(count), filters), first);
+      }
+      expect_reference_step(filtered(nodes_in_a_row(mixture), filters), first);
+    }
+  }
+}
+
+TEST(StructureStep, FiltersOfAStructureAtRestPassItsForceAsItIs) {
+  Case given(filtered(nodes_in_a_row(std::vector<Kind>(5, Kind::translations))), true);
+  given.state.filtered.assign(3, given.force);
+  const UniformDamping& damping = *given.system.uniform_damping;
+  const std::vector<double> before = given.state.velocity;
+  take_step(given, 0);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const double load = ground[i % 3] - given.system.gravity[i % 3];
+    const double force = damping.at_rest() * given.force[i] * given.system.inverse_mass[i];
+    expect_close(given.state.velocity[i], before[i] - time_step / 2 * (force + load), 20);
+  }
 }
 
 TEST(StructureStep, DoesNotDependOnTheRangesInWhichForcesCome) {
@@ -227,8 +293,7 @@ TEST(StructureStep, RoundsADofAloneLikeOneInAVector) {
   EXPECT_EQ(vectors.state.displacement, alone.state.displacement);
 }
 
-TEST(StructureStep, SolvesForDofsOfCoupledMass) {
-  LinearSystem system = nodes_in_a_row(std::vector<Kind>(3, Kind::six));
+void expect_coupled_step(LinearSystem system) {
   NodeBlocks added;
   added.nodes = {{0, 6}, {6, 6}};
   NodeBlock diagonal{}, beside{};
@@ -261,10 +326,27 @@ TEST(StructureStep, SolvesForDofsOfCoupledMass) {
                 before.displacement[i] + time_step * given.state.velocity[i], 1e-16);
   }
   EXPECT_NEAR(sums.added_kinetic_before, added_kinetic, 1e-13);
+  double filtered_work = 0;
+  StructureState filters = before;
+  for (std::size_t i = 0; i < 18; ++i) {
+    const double part = reference_force(given, i, filters) - given.force[i];
+    filtered_work += part * (before.velocity[i] + given.state.velocity[i]);
+  }
+  EXPECT_NEAR(sums.filtered, filtered_work, 1e-12 * std::abs(filtered_work));
+  EXPECT_EQ(sums.filtered != 0, given.system.uniform_damping.has_value());
 }
 
-TEST(StructureStep, CorrectsSumsAndStateForAnotherVelocity) {
-  Case given(nodes_in_a_row({Kind::translations, Kind::damped, Kind::six}));
+TEST(StructureStep, SolvesForDofsOfCoupledMass) {
+  expect_coupled_step(nodes_in_a_row(std::vector<Kind>(3, Kind::six)));
+  expect_coupled_step(filtered(nodes_in_a_row(std::vector<Kind>(3, Kind::six))));
+}
+
+void expect_correction(bool with_filters) {
+  const auto make = [&] {
+    LinearSystem system = nodes_in_a_row({Kind::translations, Kind::damped, Kind::six});
+    return Case(with_filters ? filtered(std::move(system)) : std::move(system));
+  };
+  Case given = make();
   const std::vector<LocalIndex> dofs{1, 4, 7};
   StructureState expected = given.state;
   StructureStep step(given.system, given.state, time_step);
@@ -279,7 +361,7 @@ TEST(StructureStep, CorrectsSumsAndStateForAnotherVelocity) {
   }
   step.correct(dofs, before, velocity);
   // The reference: the forces that lead to these velocities act beside q.
-  Case pushed = Case(nodes_in_a_row({Kind::translations, Kind::damped, Kind::six}));
+  Case pushed = make();
   StructureState plain = expected;
   StepSums reference = take_reference_step(pushed, plain);
   for (std::size_t k = 0; k < dofs.size(); ++k) {
@@ -292,6 +374,8 @@ TEST(StructureStep, CorrectsSumsAndStateForAnotherVelocity) {
     reference.mass_sum += m * ((after + v) * (after + v) - (free + v) * (free + v));
     reference.stiffness_across += 0.25 * rate;
     reference.device += given.state.extra_force[i] * 0.25;
+    StructureState filters = expected;
+    reference.filtered += 0.25 * (reference_force(pushed, i, filters) - given.force[i]);
     reference.momentum[static_cast<std::size_t>(given.system.direction[i])] += m * 0.25;
     EXPECT_NEAR(given.state.velocity[i], after, 1e-13);
     EXPECT_NEAR(given.state.displacement[i], expected.displacement[i] + time_step * after, 1e-15);
@@ -301,9 +385,15 @@ TEST(StructureStep, CorrectsSumsAndStateForAnotherVelocity) {
   EXPECT_NEAR(sums.stiffness_across, reference.stiffness_across,
               1e-10 * std::abs(reference.stiffness_across));
   EXPECT_NEAR(sums.device, reference.device, 1e-10 * std::abs(reference.device));
+  EXPECT_NEAR(sums.filtered, reference.filtered, 1e-10 * std::abs(reference.filtered));
   for (std::size_t d = 0; d < 3; ++d) {
     EXPECT_NEAR(sums.momentum[d], reference.momentum[d], 1e-9);
   }
+}
+
+TEST(StructureStep, CorrectsSumsAndStateForAnotherVelocity) {
+  expect_correction(false);
+  expect_correction(true);
 }
 
 TEST(DampedDofs, AreThoseWithARowOfTheExtraDamping) {

@@ -1,0 +1,192 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "common/lanes.h"
+#include "dynamics/update.h"
+#include "system/linear_system.h"
+
+/// Policies by which vectors of dofs are brought one step on: where their masses stand, what the
+/// ground does to them, and whether uniform damping filters their forces. See StructureStep.
+namespace pounding {
+
+/// Dofs in which directions repeat, three vectors of them.
+inline constexpr std::size_t step_pattern = 3 * lane_count;
+
+/// The number of values that fill a vector; others are given as a number below.
+struct AllLanes {};
+
+inline void load_first(const double* from, AllLanes, Lanes& to) {
+  load(from, to);
+}
+inline void store_first(const Lanes& from, AllLanes, double* to) {
+  store(to, from);
+}
+inline void keep_first(AllLanes, Lanes&) {}
+
+/// The others become zero.
+inline void load_first(const double* from, std::size_t count, Lanes& to) {
+  to = Lanes{from[0], count > 1 ? from[1] : 0, count > 2 ? from[2] : 0, 0};
+}
+inline void store_first(const Lanes& from, std::size_t count, double* to) {
+  to[0] = from[0];
+  if (count > 1) to[1] = from[1];
+  if (count > 2) to[2] = from[2];
+}
+inline void keep_first(std::size_t count, Lanes& values) {
+  values = Lanes{values[0], count > 1 ? values[1] : 0, count > 2 ? values[2] : 0, 0};
+}
+
+/// Masses of the three vectors of a pattern, from one value per node of four nodes.
+class NodeMasses {
+ public:
+  NodeMasses(const double* mass, const double* inverse_mass)
+      : mass_(mass), inverse_mass_(inverse_mass) {}
+
+  void begin_pattern(std::size_t number) {
+    load(mass_ + number * lane_count, values_);
+    load(inverse_mass_ + number * lane_count, inverses_);
+  }
+  template <int vector, typename Count>
+  void at(Count, Lanes& mass, Lanes& inverse) const {
+    const auto spread = [](const Lanes& of) -> Lanes {
+      if constexpr (vector == 0) {
+        return __builtin_shufflevector(of, of, 0, 0, 0, 1);
+      } else if constexpr (vector == 1) {
+        return __builtin_shufflevector(of, of, 1, 1, 2, 2);
+      } else {
+        return __builtin_shufflevector(of, of, 2, 3, 3, 3);
+      }
+    };
+    mass = spread(values_);
+    inverse = spread(inverses_);
+  }
+
+ private:
+  const double* mass_;
+  const double* inverse_mass_;
+  Lanes values_{};
+  Lanes inverses_{};
+};
+
+/// Masses of the three vectors of a pattern, from one value per dof.
+class DofMasses {
+ public:
+  DofMasses(const double* mass, const double* inverse_mass)
+      : mass_(mass), inverse_mass_(inverse_mass) {}
+
+  void begin_pattern(std::size_t number) { offset_ = number * step_pattern; }
+  template <int vector, typename Count>
+  void at(Count count, Lanes& mass, Lanes& inverse) const {
+    load_first(mass_ + offset_ + vector * lane_count, count, mass);
+    load_first(inverse_mass_ + offset_ + vector * lane_count, count, inverse);
+  }
+
+ private:
+  const double* mass_;
+  const double* inverse_mass_;
+  std::size_t offset_ = 0;
+};
+
+/// The ground's part of the three vectors of a pattern whose directions repeat.
+class PatternGround {
+ public:
+  PatternGround(const Lanes* ground_step, Lanes* momentum)
+      : step_{ground_step[0], ground_step[1], ground_step[2]},
+        sum_{momentum[0], momentum[1], momentum[2]},
+        momentum_(momentum) {}
+  ~PatternGround() { std::copy(sum_, sum_ + 3, momentum_); }
+  PatternGround(const PatternGround&) = delete;
+  PatternGround& operator=(const PatternGround&) = delete;
+
+  template <int vector, typename Count>
+  Lanes step(std::size_t, Count count) const {
+    Lanes step = step_[vector];
+    keep_first(count, step);
+    return step;
+  }
+  template <int vector, typename Count>
+  void add(std::size_t, Count, const Lanes& momentum) {
+    sum_[vector] += momentum;
+  }
+
+ private:
+  Lanes step_[3];
+  Lanes sum_[3];
+  Lanes* momentum_;
+};
+
+/// The ground's part of generalised coordinates, each with an influence of its own.
+class InfluenceGround {
+ public:
+  InfluenceGround(const GeneralisedCoordinates& coordinates,
+                  const std::array<double, 3>& ground_step, Lanes* momentum)
+      : coordinates_(coordinates),
+        step_{all_lanes(ground_step[0]), all_lanes(ground_step[1]), all_lanes(ground_step[2])},
+        momentum_(momentum) {}
+
+  template <int, typename Count>
+  Lanes step(std::size_t i, Count count) const {
+    Lanes step{};
+    for (std::size_t d = 0; d < 3; ++d) {
+      Lanes influence;
+      load_first(&coordinates_.influence[d][i], count, influence);
+      add_product(step_[d], influence, step);
+    }
+    return step;
+  }
+  template <int, typename Count>
+  void add(std::size_t i, Count count, const Lanes& momentum) {
+    for (std::size_t d = 0; d < 3; ++d) {
+      Lanes influence;
+      load_first(&coordinates_.influence[d][i], count, influence);
+      add_product(influence, momentum, momentum_[d]);
+    }
+  }
+
+ private:
+  const GeneralisedCoordinates& coordinates_;
+  Lanes step_[3];
+  Lanes* momentum_;
+};
+
+/// Where nothing filters the force.
+struct Unfiltered {
+  static constexpr bool acts = false;
+  template <typename Count>
+  Lanes force(std::size_t, Count, const Lanes& q, const Lanes&) const {
+    return q;
+  }
+};
+
+/// The filters of uniform damping, with their memories of all dofs.
+class Filtered {
+ public:
+  static constexpr bool acts = true;
+  Filtered(const Filters<double>& filters, std::vector<std::vector<double>>& memories)
+      : filters_(in_lanes<Lanes>(filters)) {
+    for (std::size_t k = 0; k < filters.count; ++k) memory_[k] = memories[k].data();
+  }
+
+  template <typename Count>
+  Lanes force(std::size_t i, Count count, const Lanes& q, const Lanes& before) const {
+    const Lanes both = q + before;
+    Lanes force = filters_.at_once * q;
+    for (std::size_t k = 0; k < filters_.count; ++k) {
+      Lanes memory;
+      load_first(memory_[k] + i, count, memory);
+      pass_filter(filters_.filters[k], both, memory, force);
+      store_first(memory, count, memory_[k] + i);
+    }
+    return force;
+  }
+
+ private:
+  Filters<Lanes> filters_;
+  std::array<double*, max_filters> memory_{};
+};
+
+}  // namespace pounding

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+namespace pounding {
+
+/// Damping filter of first order, a Maxwell branch beside the springs of K: it carries K (u - y),
+/// with dy/dt = rate (u - y).
+struct DampingFilter {
+  double weight = 0;  ///< a_i, stiffness of the branch over that of K [-]
+  double rate = 0;    ///< omega_i [rad/s]
+};
+
+/// Uniform damping over a band: one damping ratio for every motion between two frequencies. K acts
+/// through filters, in Laplace's variable z
+///
+///     s G(z) K,      G(z) = 1 + sum_i a_i z / (omega_i + z)
+///
+/// so that a mode omega_0 of K swings freely as exp(z t) with z^2 = -omega_0^2 s G(z), at the
+/// frequency |z| and the damping ratio -Re z / |z|. The largest deviation of that ratio over the
+/// band is as small as the number of filters allows. Causality makes fast motions stiffer than slow
+/// ones: s = 1 / |G| at one frequency, where modes keep their place. Sources: docs/theory.md.
+struct UniformDamping {
+  double ratio = 0;      ///< xi [-]
+  double lowest = 1;     ///< end of the band [Hz]
+  double highest = 400;  ///< likewise
+  /// Where modes keep their frequency [Hz]; 0 as long as it is not known: then s = 1, its bound.
+  double reference = 0;
+  std::vector<DampingFilter> filters;
+  double ripple = 0;  ///< largest deviation from `ratio` over the band, relative [-]
+
+  /// s: what K is multiplied by at rest [-].
+  double at_rest() const;
+  /// s (1 + sum a_i): what K is multiplied by for the fastest motions, which limit the step [-].
+  double at_once() const;
+  /// Damping ratio -Re z / |z| of free motions with |z| = omega [rad/s].
+  double ratio_at(double omega) const;
+  /// Frequency |z| at which a mode moves that K alone lets move at `frequency`: both in Hz.
+  double moved(double frequency) const;
+};
+
+/// Filters for a damping ratio in [0, 0.3] between two frequencies [Hz], lowest < highest: the
+/// equal ripple of Chebyshev, by Remez' exchange from a fit in the mean. No filters where the
+/// ratio is 0.
+UniformDamping fit_uniform_damping(double ratio, double lowest, double highest, int filters);
+
+}  // namespace pounding
