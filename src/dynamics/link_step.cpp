@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "links/law_of.h"
+
 namespace pounding {
 namespace {
 
@@ -27,7 +29,7 @@ LinkStep::LinkStep(const LinearSystem& system, const StructureState& state, Stru
       field_(trace_.known().size(), 0.0),
       velocity_(trace_.dofs().size(), 0.0) {
   for (const Link& link : links_) {
-    laws_.push_back(link.make_law(time_step));
+    laws_.push_back(law_of(*link.region, link.length, link.beta, time_step));
     memory_.emplace_back(laws_.back()->memory_size(), 0.0);
   }
   find_couplings();

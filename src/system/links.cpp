@@ -4,7 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "links/tension_law.h"
 #include "mesh/location.h"
 
 namespace pounding {
@@ -24,10 +23,6 @@ double Link::elongation(std::span<const double> field) const {
     }
   }
   return sum;
-}
-
-std::unique_ptr<LinkLaw> Link::make_law(double time_step) const {
-  return std::make_unique<TensionLaw>(stiffness, damping / (2 * time_step));
 }
 
 std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh) {
@@ -65,8 +60,9 @@ void Links::add(const Structure& structure, const Mesh& mesh, const ElementBlock
   const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
   Link link;
   link.number = block.tags[element];
-  link.stiffness = region.material.young * region.area / length;
-  link.damping = structure.damping_of(region).beta * link.stiffness;
+  link.length = length;
+  link.beta = structure.damping_of(region).beta;
+  link.region = &region;
   bool here = false;
   bool elsewhere = false;
   for (std::size_t d = 0; d < 3; ++d) {

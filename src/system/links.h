@@ -16,16 +16,15 @@ namespace pounding {
 
 /// A link between two nodes of which this rank owns those that can move.
 struct Link {
-  std::array<int, 6> place{};  ///< of its ends' components in the trace of all links; -1: held
-  Vector3 axis{0, 0, 0};       ///< from the first end to the second, of length 1
-  double stiffness = 0;        ///< k = E A / L, the stiffest it can be [N/m]
-  double damping = 0;          ///< beta k while it acts [N s/m]
+  std::array<int, 6> place{};      ///< of its ends' components in the trace of all links; -1: held
+  Vector3 axis{0, 0, 0};           ///< from the first end to the second, of length 1
+  double length = 0;               ///< [m]
+  double beta = 0;                 ///< stiffness damping of its structure [s]
+  const Region* region = nullptr;  ///< borrowed from the structure
   std::int64_t number = 0;  ///< among the elements of its structure's file; its name in checkpoints
 
   /// axis . (w_2 - w_1) of a field at the places of the trace.
   double elongation(std::span<const double> field) const;
-  /// The law by which it pulls at a time step [s].
-  std::unique_ptr<LinkLaw> make_law(double time_step) const;
 };
 
 /// Links of a structure: elements between two nodes whose force is not linear in their elongation.

@@ -20,7 +20,7 @@ MAY_INCLUDE = {
     "stiffness/shells": {"common", "elements", "stiffness/rows"},
     "stiffness": {"common", "scene", "elements", "mesh", "stiffness/rows", "stiffness/bricks",
                   "stiffness/shells"},
-    "links": {"common"},
+    "links": {"common", "scene"},
     "system": {"common", "io", "scene", "elements", "mesh", "links", "stiffness"},
     "modal": {"common", "io", "scene", "elements", "mesh", "stiffness", "system", "contact"},
     "stability": {"common", "scene", "mesh", "system", "modal"},
