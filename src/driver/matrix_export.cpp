@@ -37,6 +37,25 @@ std::vector<Value> gathered(MPI_Comm comm, std::vector<Value> mine) {
   return mine;
 }
 
+/// Uniform damping, which no matrix holds.
+void write_filters(const std::string& folder, const LinearSystem& system) {
+  if (!system.uniform_damping) {
+    return;
+  }
+  const UniformDamping& damping = *system.uniform_damping;
+  char number[40];
+  std::snprintf(number, sizeof number, "%.17g", damping.at_rest());
+  CsvFile file(folder + "uniform_damping.csv");
+  file.comment(
+      std::string("in place of K: s G K, G = 1 + sum weight i omega / (rate + i omega), s = ") +
+      number + "; rate in rad/s");
+  file.header("weight,rate");
+  for (const DampingFilter& filter : damping.filters) {
+    file.row("", {filter.weight, filter.rate});
+  }
+  file.close();
+}
+
 /// One structure's files; on rank 0 it knows all dofs.
 class Export {
  public:
@@ -101,25 +120,6 @@ class Export {
     }
     file.close();
     write_matrix(folder + "mass.mtx", "lumped masses, kg and kg m2", {size(), 1}, masses);
-  }
-
-  /// Uniform damping, which no matrix holds.
-  void write_filters(const std::string& folder, const LinearSystem& system) const {
-    if (!system.uniform_damping) {
-      return;
-    }
-    const UniformDamping& damping = *system.uniform_damping;
-    char number[40];
-    std::snprintf(number, sizeof number, "%.17g", damping.at_rest());
-    CsvFile file(folder + "uniform_damping.csv");
-    file.comment(
-        std::string("in place of K: s G K, G = 1 + sum weight i omega / (rate + i omega), s = ") +
-        number + "; rate in rad/s");
-    file.header("weight,rate");
-    for (const DampingFilter& filter : damping.filters) {
-      file.row("", {filter.weight, filter.rate});
-    }
-    file.close();
   }
 
   void write_influence(const std::string& folder) const {
