@@ -44,17 +44,11 @@ int run_job(MPI_Comm comm, std::span<const std::string> words) {
     run_words(comm, words, petsc);
     return 0;
   } catch (const pounding::UserError& error) {
-    if (root) {
-      std::fprintf(stderr, "pounding: %s\n", error.what());
-    }
+    if (root) std::fprintf(stderr, "pounding: %s\n", error.what());
   } catch (const pounding::DivergenceError& error) {
-    if (root) {
-      std::fprintf(stderr, "pounding: %s\n", error.what());
-    }
+    if (root) std::fprintf(stderr, "pounding: %s\n", error.what());
   } catch (const pounding::StoppedBySignal& stop) {
-    if (root) {
-      std::fprintf(stderr, "pounding: %s\n", stop.what());
-    }
+    if (root) std::fprintf(stderr, "pounding: %s\n", stop.what());
     return 2;
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "pounding: %s\n",

@@ -37,9 +37,7 @@ void restrict_process(bool guarded) {
 bool write_answer(const std::vector<char>& bytes) {
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t count = write(answer_descriptor, bytes.data() + done, bytes.size() - done);
-    if (count < 0 && errno != EINTR) {
-      return false;
-    }
+    if (count < 0 && errno != EINTR) return false;
     done += count > 0 ? static_cast<std::size_t>(count) : 0;
   }
   return true;

@@ -31,9 +31,7 @@ void greet_everybody(int ranks, int rank) {
 
 NamelessSegments::NamelessSegments() {
   const char* const job = std::getenv("OMPI_MCA_ess_base_jobid");
-  if (job == nullptr) {
-    return;
-  }
+  if (job == nullptr) return;
   int ranks = 1;
   int rank = 0;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
@@ -46,15 +44,11 @@ NamelessSegments::NamelessSegments() {
   std::snprintf(name.data(), name.size(), "%s/vader_segment.%s.%u.%lx.%d",
                 folder != nullptr ? folder : "/dev/shm", host.data(), geteuid(),
                 std::strtoul(job, nullptr, 10), rank);
-  if (unlink(name.data()) == 0) {
-    path_ = name.data();
-  }
+  if (unlink(name.data()) == 0) path_ = name.data();
 }
 
 NamelessSegments::~NamelessSegments() {
-  if (!path_.empty()) {
-    close(open(path_.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600));
-  }
+  if (!path_.empty()) close(open(path_.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600));
 }
 
 }  // namespace pounding

@@ -28,9 +28,7 @@ double largest_eigenvalue(std::span<const double> stiffness, std::span<const dou
   PetscBLASInt info = 0;
   LAPACKsyev_("N", "U", &order, scaled.data(), &order, eigenvalues.data(), work.data(), &work_size,
               &info);
-  if (info != 0) {
-    throw std::runtime_error("dsyev failed with info " + std::to_string(info));
-  }
+  if (info != 0) throw std::runtime_error("dsyev failed with info " + std::to_string(info));
   return eigenvalues.back();
 }
 

@@ -25,9 +25,7 @@ class Hash {
   template <typename Values>
   void add_all(const Values& values) {
     add(static_cast<double>(values.size()));
-    for (const auto& value : values) {
-      add(static_cast<double>(value));
-    }
+    for (const auto& value : values) add(static_cast<double>(value));
   }
   std::string text() const {
     char digits[17];

@@ -43,8 +43,9 @@ inline Matrix3 inverse(const Matrix3& m) {
   const double scale = 1.0 / determinant(m);
   const Matrix3 columns{cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
   Matrix3 result{};
-  for (std::size_t i = 0; i < 3; ++i)
+  for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) result[i][j] = scale * columns[j][i];
+  }
   return result;
 }
 

@@ -27,9 +27,7 @@ std::pair<Failure, std::string> failure_of(MPI_Comm comm, const std::function<vo
 }
 
 [[noreturn]] void raise(Failure failure, const std::string& message) {
-  if (failure == Failure::user) {
-    throw UserError(message);
-  }
+  if (failure == Failure::user) throw UserError(message);
   throw std::runtime_error(message);
 }
 
@@ -71,9 +69,7 @@ void broadcast(MPI_Comm comm, std::string& text) {
 
 void on_rank0(MPI_Comm comm, const std::function<void()>& work) {
   std::pair<Failure, std::string> outcome{Failure::none, ""};
-  if (rank_of(comm) == 0) {
-    outcome = failure_of(comm, work);
-  }
+  if (rank_of(comm) == 0) outcome = failure_of(comm, work);
   int kind = static_cast<int>(outcome.first);
   MPI_Bcast(&kind, 1, MPI_INT, 0, comm);
   if (kind != 0) {
@@ -87,9 +83,7 @@ void on_every_rank(MPI_Comm comm, const std::function<void()>& work) {
   const int mine = failure == Failure::none ? size_of(comm) : rank_of(comm);
   int first = 0;
   MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, comm);
-  if (first == size_of(comm)) {
-    return;
-  }
+  if (first == size_of(comm)) return;
   int kind = static_cast<int>(failure);
   MPI_Bcast(&kind, 1, MPI_INT, first, comm);
   std::vector<char> bytes(message.begin(), message.end());

@@ -30,12 +30,8 @@ std::string take_petsc_message() {
 }
 
 void check_petsc(PetscErrorCode error, const char* call, const char* file, int line) {
-  if (error == 0) {
-    return;
-  }
-  if (error == PETSC_ERR_MEM) {
-    throw std::bad_alloc();
-  }
+  if (error == 0) return;
+  if (error == PETSC_ERR_MEM) throw std::bad_alloc();
   const char* text = nullptr;
   PetscErrorMessage(error, &text, nullptr);
   const std::string message = take_petsc_message();

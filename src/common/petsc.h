@@ -27,9 +27,7 @@ class PetscHandle {
     return *this;
   }
   ~PetscHandle() {
-    if (object_ != nullptr) {
-      Destroy(&object_);
-    }
+    if (object_ != nullptr) Destroy(&object_);
   }
 
   Object get() const { return object_; }

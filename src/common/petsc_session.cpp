@@ -14,13 +14,9 @@ PetscSession::PetscSession(const std::map<std::string, std::string>& options) {
   words_ = {"pounding", "-skip_petscrc", "-viewer_binary_skip_info"};
   for (const auto& [name, value] : options) {
     words_.push_back("-" + name);
-    if (!value.empty()) {
-      words_.push_back(value);
-    }
+    if (!value.empty()) words_.push_back(value);
   }
-  for (std::string& word : words_) {
-    pointers_.push_back(word.data());
-  }
+  for (std::string& word : words_) pointers_.push_back(word.data());
   pointers_.push_back(nullptr);
   count_ = static_cast<int>(words_.size());
   char** words = pointers_.data();

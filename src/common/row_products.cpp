@@ -26,9 +26,7 @@ void multiply_together(const double* rows, std::size_t n, const double* x, doubl
   }
   for (std::size_t r = 0; r < count; ++r) {
     double sum = add_up(sums[0][r] + sums[1][r]);
-    for (std::size_t k = i; k < n; ++k) {
-      sum += rows[r * n + k] * x[k];
-    }
+    for (std::size_t k = i; k < n; ++k) sum += rows[r * n + k] * x[k];
     out[r * stride] = sum;
   }
 }
@@ -38,12 +36,8 @@ void multiply_together(const double* rows, std::size_t n, const double* x, doubl
 void multiply_rows(const double* rows, std::size_t count, std::size_t n, const double* x,
                    double* out, std::size_t stride) {
   std::size_t r = 0;
-  for (; r + 4 <= count; r += 4) {
-    multiply_together<4>(rows + r * n, n, x, out + stride * r, stride);
-  }
-  for (; r < count; ++r) {
-    multiply_together<1>(rows + r * n, n, x, out + stride * r, stride);
-  }
+  for (; r + 4 <= count; r += 4) multiply_together<4>(rows + r * n, n, x, out + stride * r, stride);
+  for (; r < count; ++r) multiply_together<1>(rows + r * n, n, x, out + stride * r, stride);
 }
 
 }  // namespace pounding

@@ -35,9 +35,7 @@ void SavedState::refuse_values(const std::string& name) const {
 
 void SavedState::get(const std::string& name, std::span<double> values) const {
   const auto found = tables_.find(name);
-  if (found == tables_.end() || found->second.values.size() != values.size()) {
-    refuse(name);
-  }
+  if (found == tables_.end() || found->second.values.size() != values.size()) refuse(name);
   std::ranges::copy(found->second.values, values.begin());
 }
 
@@ -53,33 +51,25 @@ std::int64_t SavedState::integer(const std::string& name) const {
 
 std::int64_t SavedState::whole(const std::string& name, double value) const {
   constexpr double largest = 9007199254740992;  // above it doubles leave whole numbers out
-  if (!(std::abs(value) <= largest) || value != std::floor(value)) {
-    refuse_values(name);
-  }
+  if (!(std::abs(value) <= largest) || value != std::floor(value)) refuse_values(name);
   return static_cast<std::int64_t>(value);
 }
 
 const std::vector<double>& SavedState::table(const std::string& name, std::size_t columns) const {
   const auto found = tables_.find(name);
-  if (found == tables_.end() || found->second.columns != columns) {
-    refuse(name);
-  }
+  if (found == tables_.end() || found->second.columns != columns) refuse(name);
   return found->second.values;
 }
 
 void SavedState::get_sums(const std::string& name, std::span<double> values) const {
   const auto found = sums_.find(name);
-  if (found == sums_.end() || found->second.size() != values.size()) {
-    refuse(name);
-  }
+  if (found == sums_.end() || found->second.size() != values.size()) refuse(name);
   std::ranges::copy(found->second, values.begin());
 }
 
 void SavedState::get_dofs(int structure, const std::string& name, std::span<double> values) const {
   const auto found = dofs_.find({structure, name});
-  if (found == dofs_.end() || found->second.size() != values.size()) {
-    refuse(name);
-  }
+  if (found == dofs_.end() || found->second.size() != values.size()) refuse(name);
   std::ranges::copy(found->second, values.begin());
 }
 

@@ -44,9 +44,7 @@ void* common_memory(MPI_Comm comm, std::size_t size) {
   int file = -1;
   if (rank_of(comm) == 0) {
     file = memfd_create("pounding", MFD_CLOEXEC);
-    if (file >= 0 && posix_fallocate(file, 0, static_cast<off_t>(size)) == 0) {
-      place[1] = file;
-    }
+    if (file >= 0 && posix_fallocate(file, 0, static_cast<off_t>(size)) == 0) place[1] = file;
   }
   MPI_Bcast(place.data(), 2, MPI_LONG, 0, comm);
   if (rank_of(comm) != 0 && place[1] >= 0) {
@@ -57,9 +55,7 @@ void* common_memory(MPI_Comm comm, std::size_t size) {
   void* memory = file >= 0 && place[1] >= 0 ? map_memory(file, size) : nullptr;
   int everybody = memory != nullptr ? 1 : 0;
   MPI_Allreduce(MPI_IN_PLACE, &everybody, 1, MPI_INT, MPI_MIN, comm);
-  if (file >= 0) {
-    close(file);
-  }
+  if (file >= 0) close(file);
   if (everybody == 0 && memory != nullptr) {
     munmap(memory, size);
     memory = nullptr;
@@ -86,9 +82,7 @@ void pause_shortly() {
 
 SharedExchange::SharedExchange(MPI_Comm comm, std::size_t capacity)
     : comm_(comm), rank_(static_cast<std::size_t>(rank_of(comm))) {
-  if (!on_one_node(comm)) {
-    return;
-  }
+  if (!on_one_node(comm)) return;
   const std::size_t ranks = size_of(comm);
   const unsigned long size = board_size(capacity);
   std::vector<unsigned long> begin(ranks + 1, 0);
@@ -109,9 +103,7 @@ SharedExchange::SharedExchange(MPI_Comm comm, std::size_t capacity)
 }
 
 SharedExchange::~SharedExchange() {
-  if (memory_ != nullptr) {
-    munmap(memory_, memory_size_);
-  }
+  if (memory_ != nullptr) munmap(memory_, memory_size_);
 }
 
 void SharedExchange::publish(std::span<const double> values) {

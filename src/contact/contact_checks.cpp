@@ -21,9 +21,7 @@ class ContactCheck {
 
   void check() {
     check_overlap();
-    if (!contact_.gap.values.empty()) {
-      check_given_gap();
-    }
+    if (!contact_.gap.values.empty()) check_given_gap();
     if (contact_.primary.structure == contact_.secondary.structure) {
       warn() << "both sides belong to structure " << contact_.secondary.structure
              << "; that is right only for parts of one building that can hit each other";

@@ -13,9 +13,7 @@ namespace {
 /// The element behind a facet; null where several may be and no direction chooses.
 const Backing* element_towards(const FacetBacking& behind, const std::optional<Vector3>& towards) {
   const std::vector<std::size_t> outer = behind.outer();
-  if (outer.size() > 1 && !towards) {
-    return nullptr;
-  }
+  if (outer.size() > 1 && !towards) return nullptr;
   const auto cosine = [&](std::size_t i) {
     return towards ? dot(normalised(behind.elements[i].area), *towards) : 0.0;
   };
@@ -41,9 +39,7 @@ void settle_normals(ContactFace& face) {
     Vector3 normal = normalised(sum);
     for (double& component : normal) {
       // Round-off of a face along an axis would couple components that have nothing to do with it.
-      if (std::abs(component) < 1e-12) {
-        component = 0;
-      }
+      if (std::abs(component) < 1e-12) component = 0;
     }
     face.node_normals.push_back(normalised(normal));
   }
@@ -58,9 +54,7 @@ void turn(Vector3& area) {
 void align_shells(ContactFace& face) {
   const std::vector<char> reversed = reversed_shells(face.facets, face.two_sided);
   for (std::size_t f = 0; f < face.facets.size(); ++f) {
-    if (reversed[f] != 0) {
-      turn(face.facet_areas[f]);
-    }
+    if (reversed[f] != 0) turn(face.facet_areas[f]);
   }
 }
 
@@ -79,9 +73,7 @@ void settle_nodes(const GlobalMesh& mesh, ContactFace& face) {
     face.node_half_thickness.push_back(half_thickness[node]);
     face.node_depth.push_back(depth[node]);
   }
-  if (!face.nodes.empty()) {
-    face.centroid = centroid(mesh, face.nodes);
-  }
+  if (!face.nodes.empty()) face.centroid = centroid(mesh, face.nodes);
 }
 
 std::optional<FacetPoint> meet_edge(const GlobalMesh& mesh, const Facet& facet,
@@ -97,9 +89,7 @@ std::optional<FacetPoint> meet_edge(const GlobalMesh& mesh, const Facet& facet,
   const Vector3 flat_start = across(start);
   const Vector3 flat_edge = across(edge);
   const double square = dot(flat_edge, flat_edge);
-  if (!(square > 0)) {
-    return std::nullopt;
-  }
+  if (!(square > 0)) return std::nullopt;
   const double s = -dot(flat_start, flat_edge) / square;
   const Vector3 miss{flat_start[0] + s * flat_edge[0], flat_start[1] + s * flat_edge[1],
                      flat_start[2] + s * flat_edge[2]};
@@ -118,9 +108,7 @@ ContactFace build_contact_face(const GlobalMesh& mesh, std::span<const Region> r
   ContactFace face;
   const std::vector<FacetBacking> behind = elements_behind(mesh, regions, group.facets);
   for (std::size_t f = 0; f < group.facets.size(); ++f) {
-    if (behind[f].elements.empty()) {
-      continue;
-    }
+    if (behind[f].elements.empty()) continue;
     const Backing* const element = element_towards(behind[f], towards);
     if (element == nullptr) {
       for (const std::size_t i : behind[f].outer()) {
@@ -147,13 +135,9 @@ void turn_towards(ContactFace& face, const Vector3& point) {
       normal[d] += face.two_sided[f] != 0 ? face.facet_areas[f][d] : 0.0;
     }
   }
-  if (dot(normal, minus(point, face.centroid)) >= 0) {
-    return;
-  }
+  if (dot(normal, minus(point, face.centroid)) >= 0) return;
   for (std::size_t f = 0; f < face.facets.size(); ++f) {
-    if (face.two_sided[f] != 0) {
-      turn(face.facet_areas[f]);
-    }
+    if (face.two_sided[f] != 0) turn(face.facet_areas[f]);
   }
   settle_normals(face);
 }
@@ -161,9 +145,7 @@ void turn_towards(ContactFace& face, const Vector3& point) {
 std::optional<FacetPoint> meet_facet(const GlobalMesh& mesh, const Facet& facet,
                                      const Vector3& origin, const Vector3& direction,
                                      double tolerance, double reach) {
-  if (facet.count == 2) {
-    return meet_edge(mesh, facet, origin, direction, tolerance, reach);
-  }
+  if (facet.count == 2) return meet_edge(mesh, facet, origin, direction, tolerance, reach);
   // Newton on x(xi, eta) - origin - distance * direction = 0; exact in one step on a triangle.
   const bool triangle = facet.count == 3;
   double xi = triangle ? 1.0 / 3 : 0;
@@ -197,25 +179,17 @@ std::optional<FacetPoint> meet_facet(const GlobalMesh& mesh, const Facet& facet,
     // Solve tangent_xi dxi + tangent_eta deta = -(part of offset across the line).
     const Vector3 normal = cross(tangent_xi, tangent_eta);
     const double determinant = dot(normal, direction);
-    if (std::abs(determinant) < 1e-12 * std::sqrt(dot(normal, normal))) {
-      return std::nullopt;
-    }
+    if (std::abs(determinant) < 1e-12 * std::sqrt(dot(normal, normal))) return std::nullopt;
     const double step_xi = -dot(cross(offset, tangent_eta), direction) / determinant;
     const double step_eta = -dot(cross(tangent_xi, offset), direction) / determinant;
-    if (!(std::abs(step_xi) < 1e3) || !(std::abs(step_eta) < 1e3)) {
-      return std::nullopt;
-    }
-    if (std::abs(step_xi) + std::abs(step_eta) < 1e-14) {
-      break;
-    }
+    if (!(std::abs(step_xi) < 1e3) || !(std::abs(step_eta) < 1e3)) return std::nullopt;
+    if (std::abs(step_xi) + std::abs(step_eta) < 1e-14) break;
     xi += step_xi;
     eta += step_eta;
   }
   const double outside =
       triangle ? std::max({-xi, -eta, xi + eta - 1}) : std::max(std::abs(xi), std::abs(eta)) - 1;
-  if (outside > tolerance) {
-    return std::nullopt;
-  }
+  if (outside > tolerance) return std::nullopt;
   return point;
 }
 

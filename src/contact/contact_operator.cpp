@@ -20,9 +20,7 @@ ContactOperator::ContactOperator(MPI_Comm comm, const std::vector<Constraint>& c
     for (const ConstraintTerm& term : constraint.terms) {
       const auto [found, fresh] = number.try_emplace({term.structure, term.node, term.component},
                                                      static_cast<int>(all.size()));
-      if (fresh) {
-        all.push_back({term.structure, term.node, term.component});
-      }
+      if (fresh) all.push_back({term.structure, term.node, term.component});
     }
   }
   std::vector<int> free(all.size(), 0);
@@ -52,18 +50,14 @@ double ContactOperator::apply(int row, std::span<const double> x) const {
   const auto columns = row_dofs(row);
   const auto values = row_coefficients(row);
   double sum = 0;
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    sum += values[k] * x[columns[k]];
-  }
+  for (std::size_t k = 0; k < columns.size(); ++k) sum += values[k] * x[columns[k]];
   return sum;
 }
 
 void ContactOperator::add_transposed(int row, double value, std::span<double> y) const {
   const auto columns = row_dofs(row);
   const auto values = row_coefficients(row);
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    y[columns[k]] += values[k] * value;
-  }
+  for (std::size_t k = 0; k < columns.size(); ++k) y[columns[k]] += values[k] * value;
 }
 
 }  // namespace pounding

@@ -56,9 +56,7 @@ ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
 }
 
 void ContactProblem::build_delassus() {
-  for (int row = 0; row < operator_.rows(); ++row) {
-    diagonal_.push_back(delassus_entry(row, row));
-  }
+  for (int row = 0; row < operator_.rows(); ++row) diagonal_.push_back(delassus_entry(row, row));
 }
 
 std::vector<double> ContactProblem::row_force(int row, std::size_t structure,
@@ -132,9 +130,7 @@ void ContactProblem::find_components() {
   rate_.resize(largest);
   solution_.resize(largest);
   increment_.resize(largest);
-  if (largest > 1) {
-    lcp_ = std::make_unique<LcpSolver>(static_cast<int>(largest));
-  }
+  if (largest > 1) lcp_ = std::make_unique<LcpSolver>(static_cast<int>(largest));
 }
 
 void ContactProblem::set_displacement(std::size_t structure, const double* displacement) {
@@ -178,9 +174,7 @@ void ContactProblem::solve_component(const Component& component) {
   const std::span<const double> free_velocity(velocities_.data() + dofs, dofs);
   active_places_.clear();
   for (std::size_t i = 0; i < component.rows.size(); ++i) {
-    if (active_[component.rows[i]] != 0) {
-      active_places_.push_back(i);
-    }
+    if (active_[component.rows[i]] != 0) active_places_.push_back(i);
   }
   if (active_places_.size() == 1) {
     const int row = component.rows[active_places_[0]];
@@ -208,15 +202,9 @@ void ContactProblem::solve_coupled(const Component& component) {
   const LcpResult result =
       lcp_->solve({matrix_.data(), n * n}, {rate_.data(), n}, {solution_.data(), n});
   largest_residual_ = std::max(largest_residual_, result.residual);
-  for (std::size_t i = 0; i < n; ++i) {
-    operator_.add_transposed(row(i), solution_[i], dof_impulse_);
-  }
-  if (result.roundoff > correction_threshold) {
-    correct_component(component);
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    impulse_[row(i)] = solution_[i];
-  }
+  for (std::size_t i = 0; i < n; ++i) operator_.add_transposed(row(i), solution_[i], dof_impulse_);
+  if (result.roundoff > correction_threshold) correct_component(component);
+  for (std::size_t i = 0; i < n; ++i) impulse_[row(i)] = solution_[i];
 }
 
 void ContactProblem::correct_component(const Component& component) {
@@ -249,15 +237,11 @@ void ContactProblem::solve_impulse() {
   clear_impulse();
   std::fill(dof_impulse_.begin(), dof_impulse_.end(), 0.0);
   std::fill(dof_increment_.begin(), dof_increment_.end(), 0.0);
-  for (const Component& component : components_) {
-    solve_component(component);
-  }
+  for (const Component& component : components_) solve_component(component);
   const std::span<const double> velocity_before(velocities_.data(), displacement_.size());
   for (int row = 0; row < operator_.rows(); ++row) {
     const double impulse = impulse_[row];
-    if (impulse > 0) {
-      work_[row] = 0.5 * impulse * operator_.apply(row, velocity_before);
-    }
+    if (impulse > 0) work_[row] = 0.5 * impulse * operator_.apply(row, velocity_before);
   }
 }
 
@@ -285,9 +269,7 @@ void ContactProblem::load(const SavedState& saved) {
 
 double ContactProblem::total_work() const {
   double sum = 0;
-  for (const double work : work_) {
-    sum += work;
-  }
+  for (const double work : work_) sum += work;
   return sum;
 }
 

@@ -12,18 +12,14 @@ namespace {
 
 std::size_t structure_index(const Scene& scene, const std::string& name) {
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
-    if (scene.structures[s].name == name) {
-      return s;
-    }
+    if (scene.structures[s].name == name) return s;
   }
   throw UserError("contact: structure '" + name + "' is not in the scene");
 }
 
 double shell_thickness(const Structure& structure) {
   double thickness = 0;
-  for (const Region& region : structure.regions) {
-    thickness = std::max(thickness, region.thickness);
-  }
+  for (const Region& region : structure.regions) thickness = std::max(thickness, region.thickness);
   return thickness;
 }
 
@@ -82,9 +78,7 @@ class SideFinder {
   }
 
   void refuse_common_nodes(const ContactSides& sides) const {
-    if (sides.secondary.structure != sides.primary.structure) {
-      return;
-    }
+    if (sides.secondary.structure != sides.primary.structure) return;
     const std::vector<GlobalIndex>& a = group(contact_.secondary).nodes;
     const std::vector<GlobalIndex>& b = group(contact_.primary).nodes;
     std::vector<GlobalIndex> common;
@@ -122,9 +116,7 @@ class SideFinder {
     FaceSide& primary = sides.primary;
     for (const auto& [side, s] :
          {std::pair(&secondary, &contact_.secondary), std::pair(&primary, &contact_.primary)}) {
-      if (!side->face.facets.empty()) {
-        decide(*side, *s, side->face.mean_normal);
-      }
+      if (!side->face.facets.empty()) decide(*side, *s, side->face.mean_normal);
     }
     if (!primary.face.facets.empty()) {
       turn_towards(primary.face, centre(contact_.secondary));

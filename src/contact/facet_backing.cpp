@@ -20,9 +20,7 @@ constexpr double along = 0.1;
 /// Twice the facet's area along its normal, for the node order of the facet.
 Vector3 area_vector(const GlobalMesh& mesh, std::span<const GlobalIndex> nodes) {
   const auto at = [&](std::size_t i) { return mesh.position(nodes[i]); };
-  if (nodes.size() == 3) {
-    return cross(minus(at(1), at(0)), minus(at(2), at(0)));
-  }
+  if (nodes.size() == 3) return cross(minus(at(1), at(0)), minus(at(2), at(0)));
   return cross(minus(at(2), at(0)), minus(at(3), at(1)));
 }
 
@@ -84,13 +82,9 @@ std::vector<std::size_t> FacetBacking::outer() const {
       const bool again = std::ranges::any_of(found, [&](std::size_t k) {
         return dot(normalised(elements[k].area), normalised(element.area)) > alike;
       });
-      if ((all || !blocked) && !again) {
-        found.push_back(i);
-      }
+      if ((all || !blocked) && !again) found.push_back(i);
     }
-    if (!found.empty()) {
-      break;
-    }
+    if (!found.empty()) break;
   }
   return found;
 }
@@ -115,15 +109,11 @@ std::vector<FacetBacking> elements_behind(const GlobalMesh& mesh, std::span<cons
                                           const std::vector<Facet>& facets) {
   std::map<GlobalIndex, std::vector<std::size_t>> facets_at;
   for (std::size_t f = 0; f < facets.size(); ++f) {
-    for (const GlobalIndex node : facets[f].corners()) {
-      facets_at[node].push_back(f);
-    }
+    for (const GlobalIndex node : facets[f].corners()) facets_at[node].push_back(f);
   }
   std::vector<FacetBacking> behind(facets.size());
   for (const ElementSet& set : mesh.regions) {
-    if (!carries_faces(set.type)) {
-      continue;
-    }
+    if (!carries_faces(set.type)) continue;
     const double thickness = regions[set.region].thickness;
     const std::size_t width = element_layout(set.type).nodes;
     for (std::size_t e = 0; e < set.tags.size(); ++e) {
@@ -132,16 +122,12 @@ std::vector<FacetBacking> elements_behind(const GlobalMesh& mesh, std::span<cons
       for (const GlobalIndex node : nodes) {
         const auto found = facets_at.find(node);
         if (found != facets_at.end()) {
-          for (const std::size_t f : found->second) {
-            ++shared[f];
-          }
+          for (const std::size_t f : found->second) ++shared[f];
         }
       }
       for (const auto& [f, count] : shared) {
         // An edge of a solid is no face.
-        if (count != facets[f].count || (count == 2 && !is_shell(set.type))) {
-          continue;
-        }
+        if (count != facets[f].count || (count == 2 && !is_shell(set.type))) continue;
         behind[f].elements.push_back(
             make_backing(mesh, facets[f], nodes, is_shell(set.type), thickness));
         if (is_shell(set.type)) {

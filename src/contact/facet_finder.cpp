@@ -44,14 +44,10 @@ FacetFinder::Result FacetFinder::find(const Vector3& origin, const Vector3& dire
     const Vector3 to = minus(centre_[f], origin);
     const double along = dot(to, direction);
     const double across = std::sqrt(std::max(0.0, dot(to, to) - along * along));
-    if (across > 1.01 * radius_[f] + reach_ || !looks_against(f, direction)) {
-      continue;
-    }
+    if (across > 1.01 * radius_[f] + reach_ || !looks_against(f, direction)) continue;
     const auto point =
         meet_facet(mesh_, face_.facets[f], origin, direction, facet_tolerance, reach_);
-    if (!point) {
-      continue;
-    }
+    if (!point) continue;
     const double gap = point->distance - half_thickness - face_.facet_half_thickness[f];
     const double margin = 1e-9 * radius_[f];
     if (gap < -depth - margin) {

@@ -36,13 +36,9 @@ class PairFinder {
       pair_with_wall(interface);
     } else {
       pair(sides_.secondary, sides_.primary, interface);
-      if (contact_.passes == 2) {
-        pair(sides_.primary, sides_.secondary, interface);
-      }
+      if (contact_.passes == 2) pair(sides_.primary, sides_.secondary, interface);
     }
-    if (interface.constraints.size() == first) {
-      refuse_without_pairs();
-    }
+    if (interface.constraints.size() == first) refuse_without_pairs();
     set_gaps({&interface.constraints[first], interface.constraints.size() - first});
     interface.reports.push_back(report_);
   }
@@ -68,9 +64,7 @@ class PairFinder {
     int normal_axis = 0;
     const Vector3& normal = sides_.secondary.face.mean_normal;
     for (int d = 1; d < 3; ++d) {
-      if (std::abs(normal[d]) > std::abs(normal[normal_axis]) + 1e-9) {
-        normal_axis = d;
-      }
+      if (std::abs(normal[d]) > std::abs(normal[normal_axis]) + 1e-9) normal_axis = d;
     }
     report_.tangent_axes = {normal_axis == 0 ? 1 : 0, normal_axis == 2 ? 1 : 2};
   }
@@ -148,9 +142,7 @@ class PairFinder {
     constraint.contact = number_;
     add_terms(nodes.structure, node, -1, nodes.face.node_normals[i], constraint);
     const Vector3 x = nodes.mesh->position(node);
-    for (std::size_t t = 0; t < 2; ++t) {
-      constraint.place[t] = x[report_.tangent_axes[t]];
-    }
+    for (std::size_t t = 0; t < 2; ++t) constraint.place[t] = x[report_.tangent_axes[t]];
     ++report_.pairs;
     report_.matched += constraint.matched ? 1 : 0;
     interface.constraints.push_back(std::move(constraint));
@@ -160,21 +152,15 @@ class PairFinder {
                         Constraint& constraint) {
     for (int d = 0; d < 3; ++d) {
       const double coefficient = weight * normal[d];
-      if (coefficient != 0) {
-        constraint.terms.push_back({structure, node, d, coefficient});
-      }
+      if (coefficient != 0) constraint.terms.push_back({structure, node, d, coefficient});
     }
   }
 
   /// The gap that the user gave, interpolated between the corners of the secondary face.
   double given_gap(const std::array<double, 2>& s) const {
     const std::vector<double>& g = contact_.gap.values;
-    if (g.size() == 1) {
-      return g[0];
-    }
-    if (g.size() == 2) {
-      return g[0] * (1 - s[0]) + g[1] * s[0];
-    }
+    if (g.size() == 1) return g[0];
+    if (g.size() == 2) return g[0] * (1 - s[0]) + g[1] * s[0];
     return (g[0] * (1 - s[0]) + g[1] * s[0]) * (1 - s[1]) +
            (g[3] * (1 - s[0]) + g[2] * s[0]) * s[1];
   }

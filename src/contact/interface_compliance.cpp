@@ -40,9 +40,7 @@ InterfaceCompliance::InterfaceCompliance(MPI_Comm comm, const std::vector<Interf
 }
 
 double InterfaceCompliance::velocity_change(std::size_t a, std::span<const double> f) const {
-  if (block_of_[a] < 0) {
-    return diagonal_[a] * f[a];
-  }
+  if (block_of_[a] < 0) return diagonal_[a] * f[a];
   const std::vector<int>& members = members_[block_of_[a]];
   double sum = 0;
   for (std::size_t b = 0; b < members.size(); ++b) {

@@ -18,9 +18,7 @@ class InterfaceCompliance {
                       std::span<Trace> traces);
 
   double entry(std::size_t a, std::size_t b) const {
-    if (a == b) {
-      return diagonal_[a];
-    }
+    if (a == b) return diagonal_[a];
     const int block = block_of_[a];
     return block < 0 || block != block_of_[b] ? 0 : blocks_[row_begin_[a] + place_[b]];
   }

@@ -18,9 +18,7 @@ InterfaceGather::InterfaceGather(MPI_Comm comm, std::span<const int> mine, bool 
   int counts = mine.empty() ? 0 : 1;
   MPI_Allreduce(&counts, &members_, 1, MPI_INT, MPI_SUM, comm);
   MPI_Comm_split(comm, mine.empty() ? MPI_UNDEFINED : 0, rank_of(comm), &comm_);
-  if (!member()) {
-    return;
-  }
+  if (!member()) return;
   const std::size_t members = members_;
   counts_.resize(members);
   lengths_.resize(members);
@@ -38,17 +36,13 @@ InterfaceGather::InterfaceGather(MPI_Comm comm, std::span<const int> mine, bool 
   if (common_memory && members_ > 1) {
     shared_ = std::make_unique<SharedExchange>(
         comm_, std::max(mine.size() * static_cast<std::size_t>(max_fields), most_added));
-    if (!shared_->works()) {
-      shared_.reset();
-    }
+    if (!shared_->works()) shared_.reset();
   }
   buffer_.resize(shared_ ? 0 : static_cast<std::size_t>(total * max_fields));
 }
 
 InterfaceGather::~InterfaceGather() {
-  if (member()) {
-    MPI_Comm_free(&comm_);
-  }
+  if (member()) MPI_Comm_free(&comm_);
 }
 
 /// Puts what is known of the gathered dofs from `first` on in their places.
@@ -89,17 +83,13 @@ void InterfaceGather::gather(int fields, std::span<const double> mine, std::span
 }
 
 void InterfaceGather::add(std::span<double> values) {
-  if (members_ == 1) {
-    return;
-  }
+  if (members_ == 1) return;
   if (shared_ && values.size() <= most_added) {
     shared_->publish(values);
     std::fill(values.begin(), values.end(), 0.0);
     for (int m = 0; m < members_; ++m) {
       const double* const theirs = shared_->wait_for(m);
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        values[i] += theirs[i];
-      }
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] += theirs[i];
     }
     return;
   }

@@ -30,9 +30,7 @@ std::vector<int> known_dofs(std::span<const std::vector<int>> structure_dofs,
                             std::span<const Trace> traces) {
   std::vector<int> known;
   for (std::size_t s = 0; s < traces.size(); ++s) {
-    for (const int place : traces[s].known()) {
-      known.push_back(structure_dofs[s][place]);
-    }
+    for (const int place : traces[s].known()) known.push_back(structure_dofs[s][place]);
   }
   return known;
 }

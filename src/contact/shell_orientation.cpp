@@ -37,9 +37,7 @@ std::vector<char> reversed_shells(std::span<const Facet> facets, std::span<const
   std::vector<char> seen(facets.size(), 0);
   std::vector<std::size_t> queue;
   for (std::size_t first = 0; first < facets.size(); ++first) {
-    if (shells[first] == 0 || seen[first] != 0) {
-      continue;
-    }
+    if (shells[first] == 0 || seen[first] != 0) continue;
     seen[first] = 1;
     queue.assign(1, first);
     while (!queue.empty()) {
@@ -49,9 +47,7 @@ std::vector<char> reversed_shells(std::span<const Facet> facets, std::span<const
         const Edge edge = edge_of(facets[f], side);
         const std::vector<FacetAtEdge>& there = facets_at.at(sorted(edge));
         for (const FacetAtEdge& other : there) {
-          if (there.size() != 2 || seen[other.facet] != 0) {
-            continue;
-          }
+          if (there.size() != 2 || seen[other.facet] != 0) continue;
           // Neighbours of one orientation run along their common edge in opposite directions.
           const bool forward = (edge.first < edge.second) != (reversed[f] != 0);
           reversed[other.facet] = other.forward == forward ? 1 : 0;

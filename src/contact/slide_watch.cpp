@@ -57,9 +57,7 @@ std::vector<Constraint> tangential_rows(std::span<const Constraint> constraints)
       for (const ConstraintTerm& node : nodes) {
         for (int d = 0; d < 3; ++d) {
           const double coefficient = node.coefficient * tangent[d];
-          if (coefficient != 0) {
-            row.terms.push_back({node.structure, node.node, d, coefficient});
-          }
+          if (coefficient != 0) row.terms.push_back({node.structure, node.node, d, coefficient});
         }
       }
     }
@@ -99,9 +97,7 @@ void SlideWatch::look(double time) {
         std::hypot(operator_.apply(row, displacement_), operator_.apply(row + 1, displacement_));
     const double size = facet_size_[i];
     Slide& slide = slides_[contact_[i]];
-    if (size > 0 && distance > Slide::limit * size && slide.since < 0) {
-      slide.since = time;
-    }
+    if (size > 0 && distance > Slide::limit * size && slide.since < 0) slide.since = time;
     // All pairs of a contact face facets, or all a wall.
     if (size > 0 ? distance * slide.facet_size > slide.distance * size || slide.facet_size == 0
                  : distance > slide.distance) {

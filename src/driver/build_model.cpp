@@ -29,9 +29,7 @@ void check_mesh(const Scene& scene, std::size_t s, const GlobalMesh& mesh, Model
   const Structure& structure = scene.structures[s];
   MeshFindings findings{examine_connectivity(structure, mesh),
                         check_unused(scene, structure, mesh)};
-  if (structure.matrices.empty()) {
-    check_connectivity(scene, structure, findings.connectivity);
-  }
+  if (structure.matrices.empty()) check_connectivity(scene, structure, findings.connectivity);
   append(mesh_warnings(structure, mesh, findings.connectivity), model.warnings);
   model.buildings[s].findings = std::move(findings);
 }
@@ -83,9 +81,7 @@ void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& mo
   }
   timer.reset();
   auto bases = find_bases(comm, scene, meshes, model.interface, model.probes, profile);
-  for (std::size_t s = 0; s < meshes.size(); ++s) {
-    model.buildings[s].basis = std::move(bases[s]);
-  }
+  for (std::size_t s = 0; s < meshes.size(); ++s) model.buildings[s].basis = std::move(bases[s]);
 }
 
 /// A fraction of the stable one. A reduced structure may allow more than its records resolve: then
@@ -160,24 +156,18 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
     system.uniform_damping->reference = reference_frequency(structure, building.modal);
   }
   building.modal.modes.resize(std::min<std::size_t>(building.modal.modes.size(), scene.modes));
-  if (!exported) {
-    system.stiffness->release_matrix();
-  }
+  if (!exported) system.stiffness->release_matrix();
   building.limits = limits_of(structure, system, mesh, nullptr);
 }
 
 void add_warnings(MPI_Comm comm, const Scene& scene, Model& model) {
   append(model.motion->doubts(), model.warnings);
-  for (const LinearSystem& system : model.systems) {
-    append(sliver_warnings(system), model.warnings);
-  }
+  for (const LinearSystem& system : model.systems) append(sliver_warnings(system), model.warnings);
   append(model.interface.warnings, model.warnings);
   for (const Building& building : model.buildings) {
     append(damping_warnings(*building.structure, building.modal), model.warnings);
   }
-  if (rank_of(comm) == 0) {
-    append(mechanism_warnings(scene, model), model.warnings);
-  }
+  if (rank_of(comm) == 0) append(mechanism_warnings(scene, model), model.warnings);
 }
 
 }  // namespace

@@ -30,15 +30,9 @@ CheckpointSchedule::CheckpointSchedule(MPI_Comm comm, double interval, std::int6
 
 CheckpointSchedule::Decision CheckpointSchedule::after_step(std::int64_t n) {
   Decision decision;
-  if (n >= next_agreement_) {
-    decision = agree(n);
-  }
-  if (steps_ > 0 && n > 0 && n % steps_ == 0) {
-    decision.write = true;
-  }
-  if (decision.write) {
-    last_write_ = MPI_Wtime();
-  }
+  if (n >= next_agreement_) decision = agree(n);
+  if (steps_ > 0 && n > 0 && n % steps_ == 0) decision.write = true;
+  if (decision.write) last_write_ = MPI_Wtime();
   return decision;
 }
 

@@ -58,9 +58,7 @@ std::vector<ProbeSpectrum> compute_floor_spectra(MPI_Comm comm, const Scene& sce
     }
   });
   if (rank_of(comm) != 0) {
-    for (const std::vector<SpectrumPoint>& points : mine) {
-      send_array(comm, 0, points);
-    }
+    for (const std::vector<SpectrumPoint>& points : mine) send_array(comm, 0, points);
     return {};
   }
   const std::size_t ranks = size_of(comm);

@@ -34,9 +34,7 @@ void try_writing(const std::string& option, const std::string& folder) {
   const std::string why = file ? "" : std::strerror(errno);
   std::error_code failure;
   fs::remove(trial, failure);
-  if (!why.empty()) {
-    refuse(option, folder, why);
-  }
+  if (!why.empty()) refuse(option, folder, why);
 }
 
 bool tells_the_scene(const std::string& option) {
@@ -48,9 +46,7 @@ bool tells_the_scene(const std::string& option) {
 std::map<std::string, std::string> scene_options(const std::string& resolved) {
   std::map<std::string, std::string> options;
   for (const auto& [name, value] : resolved_values(resolved)) {
-    if (tells_the_scene(name)) {
-      options[name] = value;
-    }
+    if (tells_the_scene(name)) options[name] = value;
   }
   return options;
 }
@@ -61,17 +57,11 @@ void try_folder(const std::string& option, const std::string& folder) {
   std::error_code failure;
   const std::vector<fs::path> missing = missing_folders(fs::path(folder).lexically_normal());
   fs::create_directories(folder, failure);
-  if (failure) {
-    refuse(option, folder, failure.message());
-  }
-  if (!fs::is_directory(folder, failure)) {
-    refuse(option, folder, "it is a file");
-  }
+  if (failure) refuse(option, folder, failure.message());
+  if (!fs::is_directory(folder, failure)) refuse(option, folder, "it is a file");
   const auto restore = [&missing] {
     std::error_code ignored;
-    for (const fs::path& made : missing) {
-      fs::remove(made, ignored);
-    }
+    for (const fs::path& made : missing) fs::remove(made, ignored);
   };
   try {
     try_writing(option, folder);
@@ -84,16 +74,12 @@ void try_folder(const std::string& option, const std::string& folder) {
 
 std::vector<std::string> replaced_results(const Scene& scene, const std::string& resolved) {
   std::ifstream file(scene.output + "/resolved.yaml");
-  if (!file || !scene.restart.empty()) {
-    return {};
-  }
+  if (!file || !scene.restart.empty()) return {};
   std::ostringstream text;
   text << file.rdbuf();
   const auto before = scene_options(text.str());
   const auto now = scene_options(resolved);
-  if (before.empty() || before == now) {
-    return {};
-  }
+  if (before.empty() || before == now) return {};
   const auto other = std::ranges::find_if(now, [&before](const auto& option) {
     const auto found = before.find(option.first);
     return found != before.end() && found->second != option.second;

@@ -37,9 +37,7 @@ GapWatch::Bound energy_bound(const ContactProblem& contact, std::size_t structur
   }
   for (int row = 0; row < contact.rows(); ++row) {
     const double coarse = std::sqrt(contact.row_compliance(row, structure) / margin);
-    if (coarse <= bound.rate_norm) {
-      continue;
-    }
+    if (coarse <= bound.rate_norm) continue;
     const double found = norm.exhausted()
                              ? coarse
                              : norm.bound(contact.row_force(row, structure, system.owned_dofs()));

@@ -39,9 +39,7 @@ std::vector<Value> gathered(MPI_Comm comm, std::vector<Value> mine) {
 
 /// Uniform damping, which no matrix holds.
 void write_filters(const std::string& folder, const LinearSystem& system) {
-  if (!system.uniform_damping) {
-    return;
-  }
+  if (!system.uniform_damping) return;
   const UniformDamping& damping = *system.uniform_damping;
   char number[40];
   std::snprintf(number, sizeof number, "%.17g", damping.at_rest());
@@ -50,9 +48,7 @@ void write_filters(const std::string& folder, const LinearSystem& system) {
       std::string("in place of K: s G K, G = 1 + sum weight i omega / (rate + i omega), s = ") +
       number + "; rate in rad/s");
   file.header("weight,rate");
-  for (const DampingFilter& filter : damping.filters) {
-    file.row("", {filter.weight, filter.rate});
-  }
+  for (const DampingFilter& filter : damping.filters) file.row("", {filter.weight, filter.rate});
   file.close();
 }
 
@@ -152,9 +148,7 @@ class Export {
       for (const ConstraintTerm& term : constraint.terms) {
         const bool mine = term.structure == static_cast<int>(structure_);
         const PetscInt column = mine ? row_of(term.node, term.component) : -1;
-        if (column >= 0) {
-          entries.push_back({row, column, term.coefficient});
-        }
+        if (column >= 0) entries.push_back({row, column, term.coefficient});
       }
       gaps.row(scene_.contacts[constraint.contact].name, {constraint.initial_gap});
       ++row;
@@ -169,9 +163,7 @@ class Export {
     names.header("row");
     PetscInt row = 0;
     for (const ResolvedProbe& probe : model_.probes) {
-      if (probe.structure != static_cast<int>(structure_)) {
-        continue;
-      }
+      if (probe.structure != static_cast<int>(structure_)) continue;
       for (int d = 0; d < 3; ++d, ++row) {
         names.row(probe.name + "." + direction_names[d], {});
         for (const GlobalIndex node : probe.nodes) {
@@ -197,9 +189,7 @@ class Export {
       const PetscInt* columns = nullptr;
       const double* values = nullptr;
       POUNDING_PETSC(MatGetRow(matrix, row, &count, &columns, &values));
-      for (PetscInt k = 0; k < count; ++k) {
-        mine.push_back({row, columns[k], values[k]});
-      }
+      for (PetscInt k = 0; k < count; ++k) mine.push_back({row, columns[k], values[k]});
       POUNDING_PETSC(MatRestoreRow(matrix, row, &count, &columns, &values));
     }
     std::vector<MatrixEntry> all = gathered(comm_, std::move(mine));

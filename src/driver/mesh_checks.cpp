@@ -30,20 +30,14 @@ std::string found_at(const Places& places, const char* what) {
 /// Groups that clamps, contacts and probes name, and those that are left out on purpose.
 std::set<std::string> named_groups(const Scene& scene, const Structure& structure) {
   std::set<std::string> names(structure.ignored_groups.begin(), structure.ignored_groups.end());
-  for (const Clamp& clamp : structure.clamps) {
-    names.insert(clamp.group);
-  }
+  for (const Clamp& clamp : structure.clamps) names.insert(clamp.group);
   for (const Contact& contact : scene.contacts) {
     for (const ContactSide& side : {contact.secondary, contact.primary}) {
-      if (side.structure == structure.name) {
-        names.insert(side.group);
-      }
+      if (side.structure == structure.name) names.insert(side.group);
     }
   }
   for (const Probe& probe : scene.probes) {
-    if (probe.structure == structure.name) {
-      names.insert(probe.group);
-    }
+    if (probe.structure == structure.name) names.insert(probe.group);
   }
   return names;
 }
@@ -109,24 +103,16 @@ std::vector<UnusedElements> check_unused(const Scene& scene, const Structure& st
   const std::set<std::string> named = named_groups(scene, structure);
   std::vector<UnusedElements> places;
   for (const UnusedElements& unused : mesh.unused) {
-    if (named.contains(unused.group.empty() ? ungrouped : unused.group)) {
-      continue;
-    }
-    if (unused.left_out > 0 && structure.matrices.empty()) {
-      refuse_unused(structure, unused);
-    }
-    if (!unused.group.empty()) {
-      places.push_back(unused);
-    }
+    if (named.contains(unused.group.empty() ? ungrouped : unused.group)) continue;
+    if (unused.left_out > 0 && structure.matrices.empty()) refuse_unused(structure, unused);
+    if (!unused.group.empty()) places.push_back(unused);
   }
   return places;
 }
 
 void check_connectivity(const Scene& scene, const Structure& structure,
                         const Connectivity& connectivity) {
-  if (structure.allow_loose) {
-    return;
-  }
+  if (structure.allow_loose) return;
   if (connectivity.coincident_apart.count > 0) {
     refuse(
         structure,

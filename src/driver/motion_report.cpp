@@ -18,9 +18,7 @@ void print_motion(const GroundMotion& motion) {
     std::printf("\n  scaled: %s; pga %.4g m/s2 (%.4g g)\n", d.scaling.c_str(), d.pga,
                 d.pga / standard_gravity);
   }
-  if (motion.descriptions().empty()) {
-    std::printf("motion: none\n");
-  }
+  if (motion.descriptions().empty()) std::printf("motion: none\n");
 }
 
 nlohmann::ordered_json describe_motion(const GroundMotion& motion) {

@@ -16,18 +16,14 @@ using NodeSet = std::set<std::pair<int, GlobalIndex>>;  // structure and node
 NodeSet contact_nodes(const Interface& interface) {
   NodeSet nodes;
   for (const Constraint& constraint : interface.constraints) {
-    for (const ConstraintTerm& term : constraint.terms) {
-      nodes.emplace(term.structure, term.node);
-    }
+    for (const ConstraintTerm& term : constraint.terms) nodes.emplace(term.structure, term.node);
   }
   return nodes;
 }
 
 /// "probe roof: 2 of its 4 nodes are"; "probe roof: its node is".
 std::string subject(const ResolvedProbe& probe, std::size_t count) {
-  if (probe.nodes.size() == 1) {
-    return "probe " + probe.name + ": its node is";
-  }
+  if (probe.nodes.size() == 1) return "probe " + probe.name + ": its node is";
   return "probe " + probe.name + ": " + std::to_string(count) + " of its " +
          std::to_string(probe.nodes.size()) + " nodes are";
 }

@@ -48,9 +48,7 @@ void print_damping(const Building& building) {
     std::printf(
         "  damping ratio per mode, the last one of all that follow and of vectors that are no "
         "mode:");
-    for (const double ratio : ratios) {
-      std::printf(" %.3f %%", 100 * ratio);
-    }
+    for (const double ratio : ratios) std::printf(" %.3f %%", 100 * ratio);
     std::printf("\n");
     return;
   }
@@ -156,9 +154,7 @@ void print_findings(const MeshFindings& findings) {
   for (const UnusedElements& elements : findings.unused) {
     unused += (unused.empty() ? "" : ", ") + elements.group;
   }
-  if (!unused.empty()) {
-    std::printf("  groups without a use: %s\n", unused.c_str());
-  }
+  if (!unused.empty()) std::printf("  groups without a use: %s\n", unused.c_str());
 }
 
 void print_structure(const Building& building) {
@@ -221,9 +217,7 @@ void print_contact(const InterfaceReport& report) {
 
 void print_impacts(const Scene& scene, const RunStatistics& statistics,
                    const ImpactCatalogue& impacts) {
-  if (scene.contacts.empty()) {
-    return;
-  }
+  if (scene.contacts.empty()) return;
   std::printf(
       "\nimpacts: %d episodes, total impulse %.1f N s, largest %.1f N s, penetration at most "
       "%.2e m\n",
@@ -249,18 +243,14 @@ void print_slides(const Scene& scene, const RunStatistics& statistics) {
     const Slide& slide = statistics.slides[c];
     std::printf("  %-12s slid along itself by at most %.4g mm", scene.contacts[c].name.c_str(),
                 1000 * slide.distance);
-    if (slide.facet_size > 0) {
-      std::printf(", on a facet of %.4g mm", 1000 * slide.facet_size);
-    }
+    if (slide.facet_size > 0) std::printf(", on a facet of %.4g mm", 1000 * slide.facet_size);
     std::printf("\n");
   }
 }
 
 void print_probes(const Recorder& recorder, const std::vector<ProbeSpectrum>& spectra,
                   double start) {
-  if (recorder.channels().empty()) {
-    return;
-  }
+  if (recorder.channels().empty()) return;
   if (start > 0) {
     std::printf("\npeaks and spectra from %.6g s on, the oscillators at rest then\n", start);
   }
@@ -298,15 +288,11 @@ void print_probe_places(const Scene& scene, const std::vector<ResolvedProbe>& pr
         scene.structures[probe.structure].name.c_str(), probe.position[0], probe.position[1],
         probe.position[2], 1000 * probe.snap_distance);
   }
-  if (probes.size() > shown) {
-    std::printf("  ... and %zu more probes\n", probes.size() - shown);
-  }
+  if (probes.size() > shown) std::printf("  ... and %zu more probes\n", probes.size() - shown);
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) {
-    std::printf("warning: %s\n", warning.c_str());
-  }
+  for (const std::string& warning : warnings) std::printf("warning: %s\n", warning.c_str());
 }
 
 }  // namespace
@@ -318,23 +304,15 @@ void print_title(const Scene& scene, int ranks) {
   PetscGetVersionNumber(&major, &minor, &subminor, nullptr);
   std::printf("pounding %s (%s), PETSc %d.%d.%d, %d rank%s\n", program_version(), program_commit(),
               major, minor, subminor, ranks, ranks == 1 ? "" : "s");
-  if (!scene.title.empty()) {
-    std::printf("%s\n", scene.title.c_str());
-  }
-  if (!scene.fidelity_note.empty()) {
-    std::printf("%s\n", scene.fidelity_note.c_str());
-  }
+  if (!scene.title.empty()) std::printf("%s\n", scene.title.c_str());
+  if (!scene.fidelity_note.empty()) std::printf("%s\n", scene.fidelity_note.c_str());
   print_warnings(scene.warnings);
 }
 
 void print_model(const Scene& scene, const Model& model) {
   print_motion(*model.motion);
-  for (const Building& building : model.buildings) {
-    print_structure(building);
-  }
-  for (const InterfaceReport& report : model.interface.reports) {
-    print_contact(report);
-  }
+  for (const Building& building : model.buildings) print_structure(building);
+  for (const InterfaceReport& report : model.interface.reports) print_contact(report);
   print_probe_places(scene, model.probes);
   std::printf("\npartition: imbalance %.3f, cut edges %ld\n", model.partition_imbalance,
               model.partition_edge_cut);
@@ -354,9 +332,7 @@ void print_time_step(const Scene& scene, const Model& model, double seconds_per_
 
 void print_removed(const Scene& scene, std::span<const std::string> files) {
   std::printf("removed from %s, left by an earlier run:", scene.output.c_str());
-  for (const std::string& file : files) {
-    std::printf(" %s", file.c_str());
-  }
+  for (const std::string& file : files) std::printf(" %s", file.c_str());
   std::printf("\n");
 }
 

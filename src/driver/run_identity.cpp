@@ -22,9 +22,7 @@ std::string hash_of(const GroundMotion& motion) {
 std::map<std::string, std::string> lasting_options(const std::string& resolved) {
   std::map<std::string, std::string> options;
   for (const auto& [name, value] : resolved_values(resolved)) {
-    if (!may_change_on_restart(name)) {
-      options[name] = value;
-    }
+    if (!may_change_on_restart(name)) options[name] = value;
   }
   return options;
 }

@@ -31,18 +31,14 @@ namespace {
 void create_output(const Scene& scene) {
   std::error_code failure;
   std::filesystem::create_directories(scene.output, failure);
-  if (failure) {
-    throw UserError("option -output " + scene.output + ": the folder cannot be created");
-  }
+  if (failure) throw UserError("option -output " + scene.output + ": the folder cannot be created");
 }
 
 /// Removes what an earlier run left; the resolved options are the first thing in the folder. Rank
 /// 0.
 void begin_results(const Scene& scene, const std::string& resolved, const ResultFolder& folder) {
   const std::vector<std::string> removed = folder.clear(scene.restart);
-  if (!removed.empty()) {
-    print_removed(scene, removed);
-  }
+  if (!removed.empty()) print_removed(scene, removed);
   std::ofstream file(scene.output + "/resolved.yaml");
   file << resolved;
   file.close();
@@ -54,9 +50,7 @@ void begin_results(const Scene& scene, const std::string& resolved, const Result
 
 std::vector<std::string> contact_names(const Scene& scene) {
   std::vector<std::string> names;
-  for (const Contact& contact : scene.contacts) {
-    names.push_back(contact.name);
-  }
+  for (const Contact& contact : scene.contacts) names.push_back(contact.name);
   return names;
 }
 
@@ -71,23 +65,17 @@ std::vector<std::string> contact_names(const Scene& scene) {
 /// The state to continue from; none for a new run. Collective.
 std::optional<SavedState> read_restart(MPI_Comm comm, const Scene& scene, const Model& model,
                                        const RunIdentity& identity) {
-  if (scene.restart.empty()) {
-    return std::nullopt;
-  }
+  if (scene.restart.empty()) return std::nullopt;
   SavedState saved = read_checkpoint(comm, scene.restart, identity, model.meshes, model.systems);
   const std::int64_t step = saved.integer("step");
-  if (step < 0) {
-    saved.refuse_values("step");
-  }
+  if (step < 0) saved.refuse_values("step");
   if (step > model.steps) {
     std::ostringstream text;
     text << "option -end_time " << scene.end_time << " s: the checkpoint " << scene.restart
          << " stands at " << static_cast<double>(step) * model.time_step << " s already";
     throw UserError(text.str());
   }
-  if (rank_of(comm) == 0) {
-    print_restart(scene, model, step);
-  }
+  if (rank_of(comm) == 0) print_restart(scene, model, step);
   return saved;
 }
 
@@ -102,48 +90,30 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
   const bool writes = !scene.dry_run || scene.write_modes;
   std::optional<ResultFolder> folder;  // of rank 0
   on_rank0(comm, [&] {
-    if (writes) {
-      try_folder("output", scene.output);
-    }
-    if (!scene.export_matrices.empty()) {
-      try_folder("export_matrices", scene.export_matrices);
-    }
+    if (writes) try_folder("output", scene.output);
+    if (!scene.export_matrices.empty()) try_folder("export_matrices", scene.export_matrices);
     if (!scene.dry_run) {
       folder.emplace(scene.output);
       std::ranges::copy(replaced_results(scene, resolved), std::back_inserter(scene.warnings));
     }
   });
-  if (root) {
-    print_title(scene, size_of(comm));
-  }
-  if (!scene.restart.empty()) {
-    check_checkpoint(comm, scene.restart, lasting_options(resolved));
-  }
+  if (root) print_title(scene, size_of(comm));
+  if (!scene.restart.empty()) check_checkpoint(comm, scene.restart, lasting_options(resolved));
   const Model model = build_model(comm, scene, profile);
   return_freed_memory();
-  if (root) {
-    print_model(scene, model);
-  }
-  if (!scene.export_matrices.empty()) {
-    export_matrices(comm, scene, model);
-  }
+  if (root) print_model(scene, model);
+  if (!scene.export_matrices.empty()) export_matrices(comm, scene, model);
   const RunIdentity identity = identity_of(resolved, model);
   const std::optional<SavedState> restart = read_restart(comm, scene, model, identity);
-  if (!scene.dry_run) {
-    on_rank0(comm, [&] { begin_results(scene, resolved, *folder); });
-  }
+  if (!scene.dry_run) on_rank0(comm, [&] { begin_results(scene, resolved, *folder); });
   if (scene.write_modes) {
     on_rank0(comm, [&] { create_output(scene); });
     write_mode_shapes(comm, scene.output + "/modes.h5", model);
   }
   TimeLoop loop(comm, scene, model, profile);
   const double seconds = loop.measure(scene.dry_run ? 200 : 50);
-  if (root) {
-    print_time_step(scene, model, seconds);
-  }
-  if (scene.dry_run) {
-    return;
-  }
+  if (root) print_time_step(scene, model, seconds);
+  if (scene.dry_run) return;
   const double step_start = MPI_Wtime();
   const int signal = loop.run(identity, restart ? &*restart : nullptr);
   RunStatistics statistics;
@@ -153,9 +123,7 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
     write_impacts(scene.output + "/impacts.csv", contact_names(scene), loop.impacts().impacts());
     write_energy(scene.output + "/energy.csv", loop.ledger().lines());
   });
-  if (signal != 0) {
-    stop(scene, model, signal, loop.step());
-  }
+  if (signal != 0) stop(scene, model, signal, loop.step());
   const std::vector<ProbeSpectrum> spectra = compute_floor_spectra(comm, scene, loop.recorder());
   on_rank0(comm, [&] {
     write_floor_spectra(scene.output + "/spectra.csv", spectra, loop.recorder().interval(),

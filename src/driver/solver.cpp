@@ -8,9 +8,7 @@ namespace pounding {
 namespace {
 
 std::unique_ptr<ContactProblem> make_contact(const Solver::Parts& parts) {
-  if (parts.interface->constraints.empty()) {
-    return nullptr;
-  }
+  if (parts.interface->constraints.empty()) return nullptr;
   return std::make_unique<ContactProblem>(parts.comm, *parts.interface, parts.systems, parts.meshes,
                                           parts.gap_tolerance);
 }

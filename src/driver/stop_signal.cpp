@@ -27,9 +27,7 @@ StopSignal::StopSignal() {
 }
 
 StopSignal::~StopSignal() {
-  for (std::size_t i = 0; i < signals.size(); ++i) {
-    sigaction(signals[i], &before_[i], nullptr);
-  }
+  for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before_[i], nullptr);
 }
 
 int StopSignal::received() {

@@ -37,9 +37,7 @@ Json describe_uniform_damping(const UniformDamping& damping) {
 
 Json describe_places(const Places& places) {
   Json description{{"count", places.count}};
-  if (places.count > 0) {
-    description["first"] = places.first;
-  }
+  if (places.count > 0) description["first"] = places.first;
   return description;
 }
 
@@ -234,14 +232,10 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
   }
   summary["warnings"] = Json::array();
   for (const auto* warnings : {&scene.warnings, &model.warnings, &statistics.warnings}) {
-    for (const std::string& warning : *warnings) {
-      summary["warnings"].push_back(warning);
-    }
+    for (const std::string& warning : *warnings) summary["warnings"].push_back(warning);
   }
   summary["options"] = Json::object();
-  for (const auto& [name, value] : resolved_values(resolved)) {
-    summary["options"][name] = value;
-  }
+  for (const auto& [name, value] : resolved_values(resolved)) summary["options"][name] = value;
   write_whole_file(path, summary.dump(1) + '\n');
 }
 

@@ -30,9 +30,7 @@ std::string parent_of(const std::string& process) {
 }  // namespace
 
 bool is_watched() {
-  if (isatty(STDOUT_FILENO) == 0) {
-    return false;
-  }
+  if (isatty(STDOUT_FILENO) == 0) return false;
   if (std::getenv("OMPI_COMM_WORLD_RANK") == nullptr && std::getenv("PMI_RANK") == nullptr) {
     return true;
   }

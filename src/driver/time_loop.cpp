@@ -21,17 +21,13 @@ constexpr double slide_interval = 1e-3;
 
 std::vector<int> contacts_of(const Interface& interface) {
   std::vector<int> contacts;
-  for (const Constraint& constraint : interface.constraints) {
-    contacts.push_back(constraint.contact);
-  }
+  for (const Constraint& constraint : interface.constraints) contacts.push_back(constraint.contact);
   return contacts;
 }
 
 std::vector<std::array<double, 2>> places_of(const Interface& interface) {
   std::vector<std::array<double, 2>> places;
-  for (const Constraint& constraint : interface.constraints) {
-    places.push_back(constraint.place);
-  }
+  for (const Constraint& constraint : interface.constraints) places.push_back(constraint.place);
   return places;
 }
 
@@ -75,9 +71,7 @@ TimeLoop::TimeLoop(MPI_Comm comm, const Scene& scene, const Model& model, Profil
 double TimeLoop::measure(int steps) {
   MPI_Barrier(comm_);
   const double start = MPI_Wtime();
-  for (int i = 0; i < steps; ++i) {
-    solver_.stepper().step(true, false);
-  }
+  for (int i = 0; i < steps; ++i) solver_.stepper().step(true, false);
   MPI_Barrier(comm_);
   const double seconds = (MPI_Wtime() - start) / steps;
   solver_.restart();
@@ -93,9 +87,7 @@ void TimeLoop::create_recorder(bool continued) {
   }
   layout.title = scene_.title;
   layout.probes = model_.probes;
-  for (const Contact& contact : scene_.contacts) {
-    layout.contacts.push_back(contact.name);
-  }
+  for (const Contact& contact : scene_.contacts) layout.contacts.push_back(contact.name);
   layout.interface_root = solver_.contact() != nullptr ? solver_.contact()->root() : -1;
   const auto whole = [&](double count) {  // never more than the run has, nor than an int holds
     constexpr double most = std::numeric_limits<int>::max();
@@ -116,9 +108,7 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
   const StopSignal stop_signal;
   watched_ = is_watched();
   create_recorder(restart != nullptr);
-  if (restart != nullptr) {
-    load(*restart);
-  }
+  if (restart != nullptr) load(*restart);
   CheckpointSchedule schedule(comm_, scene_.checkpoint_interval, scene_.checkpoint_steps,
                               first_step_);
   int signal = 0;
@@ -127,18 +117,12 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
   for (std::int64_t n = first_step_; n <= model_.steps && signal == 0; ++n) {
     const bool ledger = n > 0 && (n % scene_.energy_interval == 0 || n == model_.steps);
     const bool records = recorder_->due(n);
-    if (records) {
-      recorder_->take_displacements(solver_.stepper().state());
-    }
+    if (records) recorder_->take_displacements(solver_.stepper().state());
     watch_slides(n);
     solver_.stepper().step(records && n % gap_stride_ == 0, ledger);
     observe(n);
-    if (ledger) {
-      close_ledger_line();
-    }
-    if (n > 0 && n % progress_interval == 0) {
-      show_progress(start);
-    }
+    if (ledger) close_ledger_line();
+    if (n > 0 && n % progress_interval == 0) show_progress(start);
     const CheckpointSchedule::Decision decision = schedule.after_step(n);
     if (decision.write) {
       write_checkpoint(identity);
@@ -157,9 +141,7 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
 void TimeLoop::observe(std::int64_t step) {
   const ScopedTimer timer(profile_, Phase::output);
   std::array<double, 3> ground_step = solver_.stepper().ground_acceleration();
-  for (double& value : ground_step) {
-    value *= solver_.stepper().force_duration();
-  }
+  for (double& value : ground_step) value *= solver_.stepper().force_duration();
   recorder_->add_step(ground_step);
   const bool reports =
       solver_.stepper().interface_known() && solver_.contact()->root() == rank_of(comm_);
@@ -172,9 +154,7 @@ void TimeLoop::observe(std::int64_t step) {
                              solver_.contact()->impulses()[row]);
     }
   }
-  if (!recorder_->due(step)) {
-    return;
-  }
+  if (!recorder_->due(step)) return;
   const double unknown = std::numeric_limits<double>::quiet_NaN();
   const double none = std::numeric_limits<double>::max();
   std::fill(smallest_gaps_.begin(), smallest_gaps_.end(), reports ? none : unknown);
@@ -188,9 +168,7 @@ void TimeLoop::observe(std::int64_t step) {
 }
 
 void TimeLoop::watch_slides(std::int64_t step) {
-  if (!slides_ || !slides_->member() || step % slide_stride_ != 0) {
-    return;
-  }
+  if (!slides_ || !slides_->member() || step % slide_stride_ != 0) return;
   const ScopedTimer timer(profile_, Phase::output);
   const std::vector<StructureState>& structures = solver_.stepper().state().structures;
   for (std::size_t s = 0; s < structures.size(); ++s) {
@@ -230,12 +208,8 @@ void TimeLoop::write_checkpoint(const RunIdentity& identity) {
   if (rank_of(comm_) == (solver_.contact() != nullptr ? solver_.contact()->root() : 0)) {
     catalogue_.save(saved);
   }
-  if (slides_ && slides_->root() == rank_of(comm_)) {
-    slides_->save(saved);
-  }
-  if (rank_of(comm_) == 0) {
-    ledger_.save(saved);
-  }
+  if (slides_ && slides_->root() == rank_of(comm_)) slides_->save(saved);
+  if (rank_of(comm_) == 0) ledger_.save(saved);
   pounding::write_checkpoint(comm_, scene_.output + "/checkpoint.h5", identity, model_.meshes,
                              model_.systems, saved);
 }
@@ -243,9 +217,7 @@ void TimeLoop::write_checkpoint(const RunIdentity& identity) {
 void TimeLoop::load(const SavedState& saved) {
   solver_.stepper().load(saved);
   catalogue_.load(saved);
-  if (slides_) {
-    slides_->load(saved);
-  }
+  if (slides_) slides_->load(saved);
   ledger_.load(saved);
   recorder_->load(saved);  // last: it replaces the history, which nothing refused may touch
   first_step_ = step() + 1;
@@ -258,18 +230,14 @@ void TimeLoop::show_progress(double start) {
     now = {solver_.contact()->smallest_gap(), -static_cast<double>(catalogue_.episodes())};
   }
   MPI_Allreduce(MPI_IN_PLACE, now.data(), 2, MPI_DOUBLE, MPI_MIN, comm_);
-  if (rank_of(comm_) != 0 || !watched_) {
-    return;
-  }
+  if (rank_of(comm_) != 0 || !watched_) return;
   const double elapsed = MPI_Wtime() - start;
   const double time = solver_.stepper().time();
   const double done = time - static_cast<double>(first_step_) * model_.time_step;
   const double cost = elapsed / std::max(done, model_.time_step);
   std::printf("\r  %5.1f %%  t = %.3f s  %.3f s/s  remaining %.0f s", 100 * time / scene_.end_time,
               time, cost, cost * (scene_.end_time - time));
-  if (now[0] < no_gap) {
-    std::printf("  gap %.2f mm  impacts %.0f", 1000 * now[0], std::abs(now[1]));
-  }
+  if (now[0] < no_gap) std::printf("  gap %.2f mm  impacts %.0f", 1000 * now[0], std::abs(now[1]));
   std::printf("  energy residual %.1e   ", solver_.stepper().energy().relative_residual());
   std::fflush(stdout);
 }

@@ -31,16 +31,12 @@ std::vector<std::string> damping_warnings(const Structure& structure, const Moda
       frequencies.push_back(mode.frequency);
     }
   }
-  if (frequencies.empty()) {
-    frequencies = {1, highest};
-  }
+  if (frequencies.empty()) frequencies = {1, highest};
   std::vector<std::string> warnings;
   const auto look_at = [&](const std::string& owner, const Rayleigh& damping) {
     for (const double frequency : frequencies) {
       const double ratio = damping_ratio(damping, 2 * std::numbers::pi * frequency);
-      if (!(ratio > doubtful_ratio) || !(frequency > 0)) {
-        continue;
-      }
+      if (!(ratio > doubtful_ratio) || !(frequency > 0)) continue;
       std::ostringstream text;
       text.precision(4);
       text << owner << ": alpha " << damping.alpha << " 1/s and beta " << damping.beta << " s damp "
@@ -77,9 +73,7 @@ std::vector<std::string> damping_warnings(const Structure& structure, const Moda
       break;
     }
   }
-  if (!by_mode && !uniform) {
-    look_at("structure " + structure.name, structure.damping);
-  }
+  if (!by_mode && !uniform) look_at("structure " + structure.name, structure.damping);
   for (const Region& region : structure.regions) {
     if (region.damping && !by_mode) {
       look_at("structure " + structure.name + ", group " + region.group, *region.damping);
@@ -95,9 +89,7 @@ std::vector<std::string> mechanism_warnings(const Scene& scene, const Model& mod
     const auto count =
         std::ranges::count_if(modes, [](const Mode& mode) { return !mode.location.empty(); });
     const Connectivity& connectivity = model.buildings[s].findings.connectivity;
-    if (count == 0 || !connectivity.wholly_held() || scene.structures[s].allow_loose) {
-      continue;
-    }
+    if (count == 0 || !connectivity.wholly_held() || scene.structures[s].allow_loose) continue;
     const auto first =
         std::ranges::find_if(modes, [](const Mode& mode) { return !mode.location.empty(); });
     std::ostringstream text;
@@ -111,9 +103,7 @@ std::vector<std::string> mechanism_warnings(const Scene& scene, const Model& mod
 
 std::vector<std::string> displacement_warnings(double largest, double model_size) {
   constexpr double small = 0.05;  // of the model
-  if (!(largest > small * model_size)) {
-    return {};
-  }
+  if (!(largest > small * model_size)) return {};
   std::ostringstream text;
   text.precision(3);
   text << "displacements reach " << largest << " m in a model of " << model_size
@@ -123,9 +113,7 @@ std::vector<std::string> displacement_warnings(double largest, double model_size
 
 std::vector<std::string> contact_warnings(double residual) {
   constexpr double solved = 1e-6;
-  if (!(residual > solved)) {
-    return {};
-  }
+  if (!(residual > solved)) return {};
   std::ostringstream text;
   text.precision(3);
   text << "the contact problem of some step was not solved to the end: complementarity residual "
@@ -138,9 +126,7 @@ std::vector<std::string> slide_warnings(const Scene& scene, const RunStatistics&
   std::vector<std::string> warnings;
   for (std::size_t c = 0; c < statistics.slides.size(); ++c) {
     const Slide& slide = statistics.slides[c];
-    if (slide.since < 0) {
-      continue;
-    }
+    if (slide.since < 0) continue;
     std::ostringstream text;
     text.precision(4);
     text << "contact " << scene.contacts[c].name << ": its faces slid along each other by up to "

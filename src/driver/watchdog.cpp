@@ -41,9 +41,7 @@ void watch_divergence(const Model& model, const State& state, const EnergyLine& 
                       std::span<const StructureEnergy> structures) {
   for (std::size_t s = 0; s < structures.size(); ++s) {
     const std::string wrong = complaint(structures[s]);
-    if (wrong.empty()) {
-      continue;
-    }
+    if (wrong.empty()) continue;
     std::vector<double> motion = state.structures[s].velocity;
     for (std::size_t i = 0; i < motion.size(); ++i) {
       motion[i] *= std::sqrt(model.systems[s].lumped_mass[i]);
@@ -73,9 +71,7 @@ void watch_passivity(const EnergyLine& line, double largest_term) {
     throw DivergenceError(text.str());
   };
   const double allowed = given_energy * largest_term;
-  if (line.link_loss < -allowed) {
-    refuse("the tension-only bars", line.link_loss);
-  }
+  if (line.link_loss < -allowed) refuse("the tension-only bars", line.link_loss);
   const double dashpots = line.device_work - line.link_loss;
   if (line.damping_loss + dashpots + std::abs(line.slow_relief) < -allowed) {
     refuse("damping", line.damping_loss + dashpots);

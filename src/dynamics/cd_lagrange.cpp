@@ -64,9 +64,7 @@ void CdLagrange::detect_contact(bool look_at_gap) {
   interface_known_ =
       contact_ != nullptr && contact_->member() && (look_at_gap || watch_.due(state_.step));
   touching_ = false;
-  if (!interface_known_) {
-    return;
-  }
+  if (!interface_known_) return;
   const ScopedEvent event(events_.detect_contact);
   const ScopedTimer timer(profile_, Phase::contact);
   ++looks_;
@@ -81,9 +79,7 @@ void CdLagrange::detect_contact(bool look_at_gap) {
   }
   if (!touching_) {
     contact_->clear_impulse();
-    if (watch_.measures()) {
-      contact_->add_over_members(watch_.measure(state_.structures));
-    }
+    if (watch_.measures()) contact_->add_over_members(watch_.measure(state_.structures));
   }
   watch_.looked(state_.step, contact_->smallest_gap() - contact_->gap_tolerance(), touching_);
 }
@@ -92,21 +88,15 @@ void CdLagrange::free_velocity(bool with_energies) {
   const ScopedEvent event(events_.free_velocity);
   const ScopedTimer timer(profile_, Phase::step);
   const bool first = state_.step == 0;
-  for (std::size_t s = 0; s < systems_.size(); ++s) {
-    systems_[s].stiffness->start(argument(s));
-  }
+  for (std::size_t s = 0; s < systems_.size(); ++s) systems_[s].stiffness->start(argument(s));
   for (std::size_t s = 0; s < systems_.size(); ++s) {
     sums_[s].extra_damping_before = apply_extra_damping(s);
-    if (link_steps_[s]) {
-      link_steps_[s]->begin();
-    }
+    if (link_steps_[s]) link_steps_[s]->begin();
     structure_steps_[s].begin(force_duration_, acceleration_, first,
                               with_energies || energy_.needs_energies());
     systems_[s].stiffness->finish(argument(s), structure_steps_[s]);
     structure_steps_[s].complete();
-    if (link_steps_[s]) {
-      link_steps_[s]->pull(first);
-    }
+    if (link_steps_[s]) link_steps_[s]->pull(first);
   }
 }
 
@@ -137,9 +127,7 @@ void CdLagrange::close_energy() {
     const double extra_damping = sums_[s].extra_damping_before;
     sums_[s] = structure_steps_[s].sums();
     sums_[s].extra_damping_before = extra_damping;
-    if (link_steps_[s]) {
-      link_steps_[s]->finish(sums_[s]);
-    }
+    if (link_steps_[s]) link_steps_[s]->finish(sums_[s]);
   }
   energy_.add_step(sums_, acceleration_, touching_ && counts_work_ ? contact_->total_work() : 0);
 }
@@ -174,9 +162,7 @@ StiffnessArgument CdLagrange::argument(std::size_t s) const {
 }
 
 double CdLagrange::apply_extra_damping(std::size_t s) {
-  if (!systems_[s].has_extra_damping()) {
-    return 0;
-  }
+  if (!systems_[s].has_extra_damping()) return 0;
   systems_[s].extra_damping->apply(vectors_[s].velocity(), extra_forces_[s].get());
   const StructureState& state = state_.structures[s];
   return std::inner_product(state.velocity.begin(), state.velocity.end(), state.extra_force.begin(),

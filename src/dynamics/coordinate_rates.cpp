@@ -37,9 +37,7 @@ CoordinateRates::CoordinateRates(const LinearSystem& system, std::vector<double>
     }
     growth[i] = time_step * force / a;
   }
-  for (double& value : rows_) {
-    value = std::abs(value);
-  }
+  for (double& value : rows_) value = std::abs(value);
   rates_.resize(size == 0 ? 0 : rows_.size() / size);
   speeds_.resize(size);
   growth_ = largest(growth);

@@ -111,9 +111,7 @@ void CoupledStep::form_impulses(const StepTerms<double>& terms,
         const double ground = direction < 0 ? 0 : ground_step[direction];
         impulse = -(system_.lumped_mass[i] * (decay * state_.velocity[i] + ground)) -
                   terms.duration * acting[node.force + c];
-        if (!state_.extra_force.empty()) {
-          impulse -= terms.duration * state_.extra_force[i];
-        }
+        if (!state_.extra_force.empty()) impulse -= terms.duration * state_.extra_force[i];
       }
       field_[node.field + c] = impulse;
     }
@@ -140,9 +138,7 @@ void CoupledStep::settle_nodes(const StepTerms<double>& terms, DofSums<double>& 
     load(&state_.displacement[i], dof.displacement);
     load(&state_.velocity[i], dof.velocity);
     load(&state_.stiffness_displacement[i], dof.stiffness_displacement);
-    if constexpr (with_energies) {
-      add_energies(mass, dof, part_energies);
-    }
+    if constexpr (with_energies) add_energies(mass, dof, part_energies);
     const Vector both = settle(all, q, Vector(dof.velocity + change), mass, dof, part_sums);
     store(&state_.displacement[i], dof.displacement);
     store(&state_.velocity[i], dof.velocity);
@@ -163,9 +159,7 @@ void CoupledStep::settle_nodes(const StepTerms<double>& terms, DofSums<double>& 
   add_to(high_sums, sums);
   add_to(low_energies, sums);
   add_to(high_energies, sums);
-  for (std::size_t d = 0; d < 3; ++d) {
-    sums.momentum[d] += momentum[d];
-  }
+  for (std::size_t d = 0; d < 3; ++d) sums.momentum[d] += momentum[d];
 }
 
 template <bool with_energies>
@@ -179,19 +173,13 @@ void CoupledStep::settle_dofs(const Node& node, const StepTerms<double>& terms,
     const double mass = system_.lumped_mass[i];
     const double before = dof.velocity;
     const double after = before + field_[node.field + c];
-    if constexpr (with_energies) {
-      add_energies(mass, dof, dof_energies);
-    }
+    if constexpr (with_energies) add_energies(mass, dof, dof_energies);
     const double momentum = settle(terms, force_[node.force + c], after, mass, dof, dof_sums);
     state_.displacement[i] = dof.displacement;
     state_.velocity[i] = dof.velocity;
     state_.stiffness_displacement[i] = dof.stiffness_displacement;
-    if (system_.direction[i] >= 0) {
-      sums.momentum[system_.direction[i]] += momentum;
-    }
-    if (!state_.extra_force.empty()) {
-      sums.device += state_.extra_force[i] * (after + before);
-    }
+    if (system_.direction[i] >= 0) sums.momentum[system_.direction[i]] += momentum;
+    if (!state_.extra_force.empty()) sums.device += state_.extra_force[i] * (after + before);
   }
 }
 

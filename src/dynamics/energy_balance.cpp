@@ -31,9 +31,7 @@ void EnergyBalance::add_step(std::span<const StepSums> sums,
   for (std::size_t b = 0; b < systems_.size(); ++b) {
     lagged_damping_ += time_step_ / 4 * sums[b].extra_damping_before;
     energies_[b] = energy(systems_[b], sums[b]);
-    if (steps_ == 1) {
-      initial_ += energies_[b].energy();
-    }
+    if (steps_ == 1) initial_ += energies_[b].energy();
     open_.damping += time_step_ * systems_[b].damping.beta / 4 * sums[b].stiffness_before;
   }
   if (steps_ == 1) {
@@ -144,9 +142,7 @@ void EnergyBalance::for_each_sum(Balance& balance, Function&& function) {
     function(sum.value);
     function(sum.correction);
   }
-  for (auto& work : balance.open_filtered_) {
-    function(work);
-  }
+  for (auto& work : balance.open_filtered_) function(work);
 }
 
 void EnergyBalance::save(SavedState& saved) const {

@@ -82,30 +82,22 @@ double GapWatch::rate_bound(std::int64_t look, std::int64_t step) const {
 }
 
 void GapWatch::looked(std::int64_t step, double clearance, bool touching) {
-  if (touching) {
-    last_touch_ = step;
-  }
+  if (touching) last_touch_ = step;
   next_look_ = step + 1;
   const bool known = !touching && step > 0 && (!needs_energy_ || energy_step_ > last_touch_);
-  if (!possible_ || clearance <= 0 || !known) {
-    return;
-  }
+  if (!possible_ || clearance <= 0 || !known) return;
   // The bound rises with time: its value at the last step holds for all steps before.
   const auto reaches = [&](std::int64_t steps) {
     return time_step_ * static_cast<double>(steps) * rate_bound(step, step + steps) >= clearance;
   };
   std::int64_t low = 1;
-  while (low < 100000 && !reaches(2 * low)) {
-    low *= 2;
-  }
+  while (low < 100000 && !reaches(2 * low)) low *= 2;
   std::int64_t high = 2 * low;
   while (high - low > 1) {
     const std::int64_t middle = low + (high - low) / 2;
     (reaches(middle) ? high : low) = middle;
   }
-  if (!reaches(low)) {
-    next_look_ = step + low;
-  }
+  if (!reaches(low)) next_look_ = step + low;
 }
 
 }  // namespace pounding

@@ -42,15 +42,11 @@ void LinkStep::find_couplings() {
   for (const Link& link : links_) {
     std::fill(unit.begin(), unit.end(), 0.0);
     for (std::size_t i = 0; i < link.place.size(); ++i) {
-      if (link.place[i] >= 0) {
-        unit[link.place[i]] += i < 3 ? -link.axis[i] : link.axis[i - 3];
-      }
+      if (link.place[i] >= 0) unit[link.place[i]] += i < 3 ? -link.axis[i] : link.axis[i - 3];
     }
     velocity_ = at_rest;
     trace_.add_impulse(unit.data(), velocity_.data());
-    for (std::size_t k = 0; k < velocity_.size(); ++k) {
-      all[trace_.dofs()[k]] = velocity_[k];
-    }
+    for (std::size_t k = 0; k < velocity_.size(); ++k) all[trace_.dofs()[k]] = velocity_[k];
     measure(all, free_after_);
     std::vector<Coupling>& coupled = coupled_.emplace_back();
     const std::size_t self = coupled_.size() - 1;
@@ -65,18 +61,14 @@ void LinkStep::find_couplings() {
 
 void LinkStep::measure(const std::vector<double>& owned, std::vector<double>& elongations) {
   trace_.apply(owned.data(), field_.data(), 1);
-  for (std::size_t b = 0; b < links_.size(); ++b) {
-    elongations[b] = links_[b].elongation(field_);
-  }
+  for (std::size_t b = 0; b < links_.size(); ++b) elongations[b] = links_[b].elongation(field_);
 }
 
 void LinkStep::begin() {
   step_.remember(trace_.dofs(), held_);
   measure(state_.displacement, now_);
   measure(state_.velocity, before_);
-  for (std::size_t b = 0; b < links_.size(); ++b) {
-    before_[b] = now_[b] - time_step_ * before_[b];
-  }
+  for (std::size_t b = 0; b < links_.size(); ++b) before_[b] = now_[b] - time_step_ * before_[b];
 }
 
 double LinkStep::sweep() {
@@ -100,9 +92,7 @@ void LinkStep::pull(bool first) {
   for (std::size_t b = 0; b < links_.size(); ++b) {
     idle = idle && laws_[b]->is_idle(now_[b], memory_[b]);
   }
-  if (idle) {
-    return;
-  }
+  if (idle) return;
   if (first) {
     for (std::size_t b = 0; b < links_.size(); ++b) {
       force_[b] = laws_[b]->force(before_[b], now_[b], 2 * now_[b] - before_[b], memory_[b]);
@@ -111,9 +101,7 @@ void LinkStep::pull(bool first) {
     measure(state_.displacement, free_after_);
     for (int i = 0; i < most_sweeps; ++i) {
       const double change = sweep();
-      if (change <= converged * largest_force()) {
-        break;
-      }
+      if (change <= converged * largest_force()) break;
     }
   }
   const double duration = first ? time_step_ / 2 : time_step_;
@@ -133,9 +121,7 @@ void LinkStep::pull(bool first) {
 
 double LinkStep::largest_force() const {
   double largest = 0;
-  for (const double force : force_) {
-    largest = std::max(largest, std::abs(force));
-  }
+  for (const double force : force_) largest = std::max(largest, std::abs(force));
   return largest;
 }
 
@@ -160,17 +146,13 @@ std::string memory_name(int structure, const Link& link) {
 
 void LinkStep::save(int structure, SavedState& saved) const {
   for (std::size_t b = 0; b < links_.size(); ++b) {
-    if (!memory_[b].empty()) {
-      saved.put(memory_name(structure, links_[b]), memory_[b]);
-    }
+    if (!memory_[b].empty()) saved.put(memory_name(structure, links_[b]), memory_[b]);
   }
 }
 
 void LinkStep::load(int structure, const SavedState& saved) {
   for (std::size_t b = 0; b < links_.size(); ++b) {
-    if (!memory_[b].empty()) {
-      saved.get(memory_name(structure, links_[b]), memory_[b]);
-    }
+    if (!memory_[b].empty()) saved.get(memory_name(structure, links_[b]), memory_[b]);
   }
 }
 

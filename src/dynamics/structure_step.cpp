@@ -12,13 +12,9 @@ constexpr std::size_t lanes = lane_count;
 constexpr std::size_t pattern = step_pattern;
 
 bool directions_are(const LinearSystem& system, std::size_t dof, std::array<int, 3> expected) {
-  if (dof + 3 > system.direction.size()) {
-    return false;
-  }
+  if (dof + 3 > system.direction.size()) return false;
   for (std::size_t d = 0; d < 3; ++d) {
-    if (system.direction[dof + d] != expected[d]) {
-      return false;
-    }
+    if (system.direction[dof + d] != expected[d]) return false;
   }
   return true;
 }
@@ -42,9 +38,7 @@ StructureStep::StructureStep(const LinearSystem& system, StructureState& state, 
     : system_(system), state_(state), filters_(filters_of(system, time_step)) {
   terms_.time_step = time_step;
   find_segments(damped_dofs(system));
-  if (system.coupled_mass) {
-    coupled_ = std::make_unique<CoupledStep>(system, state, filters_);
-  }
+  if (system.coupled_mass) coupled_ = std::make_unique<CoupledStep>(system, state, filters_);
 }
 
 double StructureStep::ground_step_at(std::size_t dof) const {
@@ -79,15 +73,9 @@ StructureStep::Order StructureStep::order_at(std::size_t dof,
   if (system_.coupled_mass && system_.coupled_mass->node_of(static_cast<LocalIndex>(dof)) >= 0) {
     return Order::coupled;
   }
-  if (is_damped(dof, 1)) {
-    return Order::none;
-  }
-  if (system_.generalised) {
-    return Order::generalised;
-  }
-  if (!directions_are(system_, dof, {0, 1, 2}) || is_damped(dof, 3)) {
-    return Order::none;
-  }
+  if (is_damped(dof, 1)) return Order::none;
+  if (system_.generalised) return Order::generalised;
+  if (!directions_are(system_, dof, {0, 1, 2}) || is_damped(dof, 3)) return Order::none;
   if (directions_are(system_, dof + 3, {-1, -1, -1})) {
     return is_damped(dof, 6) ? Order::none : Order::nodes_of_six;
   }
@@ -192,16 +180,12 @@ void StructureStep::advance_vectors(std::size_t first, std::size_t end, const do
     load_first(velocity + i, count, dof.velocity);
     load_first(stiffness + i, count, dof.stiffness_displacement);
     masses.template at<k>(count, mass, inverse_mass);
-    if constexpr (with_energies) {
-      add_energies(mass, dof, vector_energies_);
-    }
+    if constexpr (with_energies) add_energies(mass, dof, vector_energies_);
     const Lanes before = dof.velocity;
     const Lanes f = damping.force(i, count, q, dof.stiffness_displacement);
     const Lanes free =
         free_velocity(terms, before, f, inverse_mass, ground.template step<k>(i, count));
-    if constexpr (Damping::acts) {
-      sums.filtered += (f - q) * (free + before);
-    }
+    if constexpr (Damping::acts) sums.filtered += (f - q) * (free + before);
     ground.template add<k>(i, count, settle(terms, q, free, mass, dof, sums));
     store_first(dof.stiffness_displacement, count, stiffness + i);
     store_first(dof.velocity, count, velocity + i);
@@ -237,9 +221,7 @@ void StructureStep::advance_dofs(std::size_t first, std::size_t end, const doubl
                          state_.stiffness_displacement[i]};
     const double mass = system_.lumped_mass[i];
     const double before = dof.velocity;
-    if constexpr (with_energies) {
-      add_energies(mass, dof, dof_energies_);
-    }
+    if constexpr (with_energies) add_energies(mass, dof, dof_energies_);
     double f = *force;
     if (system_.uniform_damping) {
       const double both = f + dof.stiffness_displacement;
@@ -302,9 +284,7 @@ void StructureStep::complete() {
 }
 
 double StructureStep::filtered_part(std::size_t dof) const {
-  if (!system_.uniform_damping) {
-    return 0;
-  }
+  if (!system_.uniform_damping) return 0;
   double part = (filters_.at_once - 1) * state_.stiffness_displacement[dof];
   for (std::size_t k = 0; k < filters_.count; ++k) {
     subtract_product(filters_.filters[k].weight, state_.filtered[k][dof], part);
@@ -336,9 +316,7 @@ void StructureStep::correct(std::span<const LocalIndex> dofs, const Before& befo
     dof_sums_.mass_sum += mass * change * (2 * (free + before.velocity[k]) + change);
     add_momentum(i, mass * change);
     dof_sums_.filtered += filtered_part(i) * change;
-    if (!state_.extra_force.empty()) {
-      sums_.device += state_.extra_force[i] * change;
-    }
+    if (!state_.extra_force.empty()) sums_.device += state_.extra_force[i] * change;
     state_.velocity[i] = velocity[k];
     state_.displacement[i] = before.displacement[k];
     add_product(terms_.time_step, velocity[k], state_.displacement[i]);
@@ -353,13 +331,9 @@ StepSums StructureStep::sums() const {
   add_to(vector_energies_, total);
   for (std::size_t l = 0; l < pattern; ++l) {
     total.momentum[l % 3] += momentum_[0][l / lanes][l % lanes];
-    if (l % 6 < 3) {
-      total.momentum[l % 3] += momentum_[1][l / lanes][l % lanes];
-    }
+    if (l % 6 < 3) total.momentum[l % 3] += momentum_[1][l / lanes][l % lanes];
   }
-  for (std::size_t d = 0; d < 3; ++d) {
-    total.momentum[d] += add_up(influenced_momentum_[d]);
-  }
+  for (std::size_t d = 0; d < 3; ++d) total.momentum[d] += add_up(influenced_momentum_[d]);
   return total;
 }
 

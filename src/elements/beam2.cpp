@@ -40,8 +40,9 @@ void add_bending(std::size_t deflection, std::size_t rotation, double sign, doub
                                                     {6 * arm, 2 * square, -6 * arm, 4 * square}}};
   const std::array<std::size_t, 4> dofs{deflection, rotation, deflection + per_node,
                                         rotation + per_node};
-  for (std::size_t i = 0; i < 4; ++i)
+  for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < 4; ++j) matrix[dofs[i] * beam2_size + dofs[j]] += k * local[i][j];
+  }
 }
 
 }  // namespace

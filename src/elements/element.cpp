@@ -13,9 +13,10 @@ namespace {
 
 /// A wrong shape is a mistake of the program, not of the user.
 void require_size(std::size_t found, int expected, const char* what) {
-  if (found != static_cast<std::size_t>(expected))
+  if (found != static_cast<std::size_t>(expected)) {
     throw std::logic_error(std::string("element: size of ") + what + " is " +
                            std::to_string(found) + ", not " + std::to_string(expected));
+  }
 }
 
 }  // namespace

@@ -99,12 +99,8 @@ constexpr std::array table{
 constexpr bool contains_word(std::string_view list, char separator, std::string_view word) {
   while (true) {
     const std::size_t end = list.find(separator);
-    if (list.substr(0, end) == word) {
-      return true;
-    }
-    if (end == std::string_view::npos) {
-      return false;
-    }
+    if (list.substr(0, end) == word) return true;
+    if (end == std::string_view::npos) return false;
     list.remove_prefix(end + 1);
   }
 }
@@ -127,9 +123,7 @@ constexpr bool words_have_rows() {
     if (std::ranges::find(table, left.substr(0, end), &ElementTraits::option) == table.end()) {
       return false;
     }
-    if (end == std::string_view::npos) {
-      return true;
-    }
+    if (end == std::string_view::npos) return true;
     left.remove_prefix(end + 1);
   }
 }
@@ -145,9 +139,7 @@ const ElementTraits& traits_of(ElementType type) {
 
 ElementType element_of_word(std::string_view word) {
   const auto row = std::ranges::find(table, word, &ElementTraits::option);
-  if (row == table.end()) {
-    throw std::logic_error("no element has the word " + std::string(word));
-  }
+  if (row == table.end()) throw std::logic_error("no element has the word " + std::string(word));
   return row->type;
 }
 
@@ -157,9 +149,7 @@ bool takes(const ElementTraits& element, std::string_view property) {
 
 int shared_by_neighbours(ElementType type) {
   int fewest = max_element_nodes;
-  for (const ElementFace& face : traits_of(type).faces) {
-    fewest = std::min(fewest, face.count);
-  }
+  for (const ElementFace& face : traits_of(type).faces) fewest = std::min(fewest, face.count);
   return is_solid(type) ? fewest : 1;
 }
 

@@ -23,10 +23,12 @@ void scatter(std::span<const double> part, const std::array<std::size_t, 3>& com
              std::size_t nodes, std::span<double> stiffness) {
   const std::size_t size = per_node * nodes;
   const auto place = [&](std::size_t i) { return per_node * (i / 3) + components[i % 3]; };
-  for (std::size_t i = 0; i < 3 * nodes; ++i)
-    for (std::size_t j = 0; j <= i; ++j)
+  for (std::size_t i = 0; i < 3 * nodes; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
       stiffness[place(i) * size + place(j)] = stiffness[place(j) * size + place(i)] =
           part[i * 3 * nodes + j];
+    }
+  }
 }
 
 /// K <- T' K T, where the foot of each node in the plane moves by ux - z ry, uy + z rx.

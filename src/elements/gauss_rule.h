@@ -23,8 +23,9 @@ inline constexpr std::array<Vector3, 8> hex_corners{{{-1, -1, -1},
 /// The eight points of the 2 x 2 x 2 rule, each of weight 1.
 constexpr std::array<Vector3, 8> hex_gauss_points() {
   std::array<Vector3, 8> points = hex_corners;
-  for (Vector3& point : points)
+  for (Vector3& point : points) {
     for (double& coordinate : point) coordinate *= gauss_abscissa;
+  }
   return points;
 }
 

@@ -67,12 +67,15 @@ Gradients gradients_at(const Vector3& point, const Matrix3& jacobian_here,
   Gradients gradients{};
   const Matrix3 inverse_here = inverse(jacobian_here);
   const auto derivatives = shape_derivatives(point);
-  for (std::size_t a = 0; a < node_count; ++a)
+  for (std::size_t a = 0; a < node_count; ++a) {
     gradients[a] = multiply(inverse_here, derivatives[a]);
+  }
   const double scale = centre.determinant / determinant(jacobian_here);
-  for (std::size_t m = 0; m < mode_count; ++m)
-    for (std::size_t i = 0; i < 3; ++i)
+  for (std::size_t m = 0; m < mode_count; ++m) {
+    for (std::size_t i = 0; i < 3; ++i) {
       gradients[node_count + m][i] = -2 * point[m] * scale * centre.inverse_jacobian[i][m];
+    }
+  }
   return gradients;
 }
 
@@ -105,8 +108,9 @@ void hex8_lumped_mass(std::span<const double> coordinates, const ElementProperti
     const auto values = shape_values(point);
     for (std::size_t a = 0; a < node_count; ++a) mass[a] += weight * values[a];
   }
-  for (std::size_t a = 0; a < node_count; ++a)
+  for (std::size_t a = 0; a < node_count; ++a) {
     for (std::size_t i = 0; i < 3; ++i) lumped_mass[3 * a + i] = mass[a];
+  }
 }
 
 }  // namespace pounding

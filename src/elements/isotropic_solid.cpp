@@ -20,9 +20,11 @@ LameConstants lame_constants(const ElementProperties& properties) {
 
 Matrix3 jacobian_of(std::span<const Vector3> nodes, std::span<const Vector3> derivatives) {
   Matrix3 result{};
-  for (std::size_t a = 0; a < nodes.size(); ++a)
-    for (std::size_t i = 0; i < 3; ++i)
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) result[i][j] += derivatives[a][i] * nodes[a][j];
+    }
+  }
   return result;
 }
 
@@ -52,11 +54,13 @@ void add_elastic_blocks(std::span<const Vector3> gradients, const LameConstants&
       const Vector3& ga = gradients[a];
       const Vector3& gb = gradients[b];
       const double diagonal = lame.shear * dot(ga, gb);
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
           matrix[(3 * a + i) * size + 3 * b + j] +=
               weight * (lame.lambda * ga[i] * gb[j] + lame.shear * ga[j] * gb[i] +
                         (i == j ? diagonal : 0.0));
+        }
+      }
     }
   }
 }

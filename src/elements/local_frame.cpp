@@ -41,13 +41,15 @@ Segment segment_between(std::span<const double> coordinates) {
 
 Matrix3 local_frame(const Vector3& x_axis, const Vector3& z_axis) {
   const double z_length = norm(z_axis);
-  if (!(z_length > 0) || !std::isfinite(z_length))
+  if (!(z_length > 0) || !std::isfinite(z_length)) {
     throw ElementError("z_axis " + text(z_axis) + " is not a direction");
+  }
   const Vector3 across = cross(z_axis, x_axis);
   const double sine = norm(across) / z_length;
-  if (!(sine > smallest_sine))
+  if (!(sine > smallest_sine)) {
     throw ElementError("z_axis " + text(z_axis) + " is parallel to the axis of the element " +
                        text(x_axis) + "; give another one");
+  }
   const double scale = 1.0 / (sine * z_length);
   const Vector3 y{across[0] * scale, across[1] * scale, across[2] * scale};
   return {x_axis, y, cross(x_axis, y)};
@@ -58,22 +60,28 @@ void rotate_to_global(const Matrix3& frame, std::span<double> matrix, int size) 
   for (std::size_t row = 0; row < n; row += 3) {
     for (std::size_t column = 0; column < n; column += 3) {
       Matrix3 right{};  // block times frame
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-          for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+          for (std::size_t k = 0; k < 3; ++k) {
             right[i][j] += matrix[(row + i) * n + column + k] * frame[k][j];
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
+          }
+        }
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
           matrix[(row + i) * n + column + j] =
               frame[0][i] * right[0][j] + frame[1][i] * right[1][j] + frame[2][i] * right[2][j];
+        }
+      }
     }
   }
 }
 
 Vector3 rotate_diagonal_to_global(const Matrix3& frame, const Vector3& local) {
   Vector3 global{};
-  for (std::size_t i = 0; i < 3; ++i)
+  for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t k = 0; k < 3; ++k) global[i] += frame[k][i] * frame[k][i] * local[k];
+  }
   return global;
 }
 

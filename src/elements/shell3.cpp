@@ -27,8 +27,9 @@ struct FlatTriangle {
 
 FlatTriangle checked_triangle(std::span<const double> coordinates) {
   std::array<Vector3, node_count> x{};  // relative to the first node, to keep digits far away
-  for (std::size_t a = 0; a < node_count; ++a)
+  for (std::size_t a = 0; a < node_count; ++a) {
     for (std::size_t i = 0; i < 3; ++i) x[a][i] = coordinates[3 * a + i] - coordinates[i];
+  }
   const Vector3 normal = cross(x[1], x[2]);
   const Vector3 third{x[2][0] - x[1][0], x[2][1] - x[1][1], x[2][2] - x[1][2]};
   FlatTriangle triangle;
@@ -46,8 +47,9 @@ FlatTriangle checked_triangle(std::span<const double> coordinates) {
     triangle.frame[2][i] = normal[i] / (2 * triangle.area);
   }
   triangle.frame[1] = cross(triangle.frame[2], triangle.frame[0]);
-  for (std::size_t a = 0; a < node_count; ++a)
+  for (std::size_t a = 0; a < node_count; ++a) {
     triangle.nodes[a] = {dot(triangle.frame[0], x[a]), dot(triangle.frame[1], x[a])};
+  }
   for (std::size_t a = 0; a < node_count; ++a) {
     const Vector2& b = triangle.nodes[(a + 1) % node_count];
     const Vector2& c = triangle.nodes[(a + 2) % node_count];
@@ -70,9 +72,11 @@ PlaneMatrix membrane_stiffness(const FlatTriangle& triangle, const PlaneModuli& 
                                double thickness) {
   PlaneMatrix matrix{};
   std::array<StrainRow<plane_size>, 2> grad_x{}, grad_y{};
-  for (std::size_t a = 0; a < node_count; ++a)
-    for (std::size_t i = 0; i < 2; ++i)
+  for (std::size_t a = 0; a < node_count; ++a) {
+    for (std::size_t i = 0; i < 2; ++i) {
       grad_x[i][3 * a] = grad_y[i][3 * a + 1] = triangle.gradients[a][i];
+    }
+  }
   const double volume = triangle.area * thickness;
   add_plane_energy<plane_size>(grad_x, grad_y, moduli, volume, matrix);
   for (std::size_t g = 0; g < node_count; ++g) {
@@ -104,11 +108,12 @@ PlaneMatrix plate_stiffness(const FlatTriangle& triangle, const PlaneModuli& mod
                             double thickness) {
   PlaneMatrix matrix{};
   std::array<StrainRow<plane_size>, 2> grad_x{}, grad_y{};
-  for (std::size_t a = 0; a < node_count; ++a)
+  for (std::size_t a = 0; a < node_count; ++a) {
     for (std::size_t i = 0; i < 2; ++i) {
       grad_x[i][3 * a + 2] = triangle.gradients[a][i];
       grad_y[i][3 * a + 1] = -triangle.gradients[a][i];
     }
+  }
   const double square = thickness * thickness;
   add_plane_energy<plane_size>(grad_x, grad_y, moduli, triangle.area * thickness * square / 12,
                                matrix);

@@ -74,8 +74,9 @@ void require_little_warp(double height, double area) {
 
 FlatQuad checked_quad(std::span<const double> coordinates) {
   std::array<Vector3, node_count> x{};  // relative to the first node, to keep digits far away
-  for (std::size_t a = 0; a < node_count; ++a)
+  for (std::size_t a = 0; a < node_count; ++a) {
     for (std::size_t i = 0; i < 3; ++i) x[a][i] = coordinates[3 * a + i] - coordinates[i];
+  }
   const Vector3 first = minus(x[2], x[0]);
   const Vector3 second = minus(x[3], x[1]);
   const Vector3 normal = cross(first, second);
@@ -125,9 +126,11 @@ struct Map {
 
 Map map_at(const FlatQuad& quad, const Shape& shape) {
   Matrix2 j{};
-  for (std::size_t a = 0; a < node_count; ++a)
-    for (std::size_t i = 0; i < 2; ++i)
+  for (std::size_t a = 0; a < node_count; ++a) {
+    for (std::size_t i = 0; i < 2; ++i) {
       for (std::size_t k = 0; k < 2; ++k) j[i][k] += shape.derivatives[a][i] * quad.nodes[a][k];
+    }
+  }
   const double d = cross2(j[0], j[1]);
   return {d, {{{j[1][1] / d, -j[0][1] / d}, {-j[1][0] / d, j[0][0] / d}}}};
 }
@@ -154,8 +157,9 @@ void add_membrane(const Shape& shape, const Map& map, const Map& centre, const V
     Vector2 natural{};
     natural[m] = -2 * point[m] * scale;
     const Vector2 gradient = to_space(centre, natural);
-    for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t i = 0; i < 2; ++i) {
       grad_x[i][plane_size + m] = grad_y[i][plane_size + mode_count + m] = gradient[i];
+    }
   }
   for (std::size_t i = 0; i < membrane_size; ++i) drilling[i] -= (grad_y[0][i] - grad_x[1][i]) / 2;
   const double weight = thickness * map.determinant;
@@ -200,8 +204,9 @@ void add_plate(const FlatQuad& quad, const Shape& shape, const Map& map, const V
   const double weight = map.determinant;
   const double inertia = thickness * thickness * thickness / 12;
   add_plane_energy<plane_size>(grad_x, grad_y, moduli, weight * inertia, matrix);
-  for (const auto& row : shear)
+  for (const auto& row : shear) {
     add_square<plane_size>(row, weight * shear_correction * moduli.shear * thickness, matrix);
+  }
 }
 
 Vector2 gauss_point(std::size_t g) {

@@ -9,8 +9,9 @@ namespace pounding {
 
 void mirror_lower_triangle(std::span<double> matrix, int size) {
   const std::size_t n = size;
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < i; ++j) matrix[j * n + i] = matrix[i * n + j];
+  }
 }
 
 void condense_last(std::span<double> matrix, int size, int kept, std::span<double> condensed) {
@@ -30,8 +31,9 @@ void condense_last(std::span<double> matrix, int size, int kept, std::span<doubl
       for (std::size_t j = 0; j <= i; ++j) matrix[i * n + j] -= factor * matrix[p * n + j];
     }
   }
-  for (std::size_t i = 0; i < m; ++i)
+  for (std::size_t i = 0; i < m; ++i) {
     for (std::size_t j = 0; j <= i; ++j) condensed[i * m + j] = matrix[i * n + j];
+  }
   mirror_lower_triangle(condensed, kept);
 }
 

@@ -31,8 +31,9 @@ void tet4_stiffness(std::span<const double> coordinates, const ElementProperties
   const Matrix3 jacobian = checked_jacobian(coordinates);
   const Matrix3 inverse_jacobian = inverse(jacobian);
   std::array<Vector3, node_count> gradients{};
-  for (std::size_t a = 0; a < node_count; ++a)
+  for (std::size_t a = 0; a < node_count; ++a) {
     gradients[a] = multiply(inverse_jacobian, shape_derivatives[a]);
+  }
   std::fill(stiffness.begin(), stiffness.end(), 0.0);
   add_elastic_blocks(gradients, lame_constants(properties), determinant(jacobian) / 6, stiffness);
   mirror_lower_triangle(stiffness, tet4_size);

@@ -23,9 +23,10 @@ using NodeCoordinates = std::array<Vector3, node_count>;
 /// cubics across it, -1 to 1.
 constexpr std::array<Vector3, 6> gauss_points() {
   std::array<Vector3, 6> points{};
-  for (std::size_t g = 0; g < points.size(); ++g)
+  for (std::size_t g = 0; g < points.size(); ++g) {
     points[g] = {g % 3 == 1 ? 2.0 / 3 : 1.0 / 6, g % 3 == 2 ? 2.0 / 3 : 1.0 / 6,
                  g < 3 ? -gauss_abscissa : gauss_abscissa};
+  }
   return points;
 }
 
@@ -96,8 +97,9 @@ void wedge6_lumped_mass(std::span<const double> coordinates, const ElementProper
     const auto values = shape_values(point);
     for (std::size_t a = 0; a < node_count; ++a) mass[a] += here * values[a];
   }
-  for (std::size_t a = 0; a < node_count; ++a)
+  for (std::size_t a = 0; a < node_count; ++a) {
     for (std::size_t i = 0; i < 3; ++i) lumped_mass[3 * a + i] = mass[a];
+  }
 }
 
 }  // namespace pounding

@@ -8,15 +8,11 @@ CsvFile::CsvFile(const std::string& path)
     : standard_output_(path.empty() || path == "/dev/stdout"),
       path_(standard_output_ ? "standard output" : path),
       file_(standard_output_ ? stdout : std::fopen(path.c_str(), "w")) {
-  if (file_ == nullptr) {
-    throw UserError(path + ": cannot be written");
-  }
+  if (file_ == nullptr) throw UserError(path + ": cannot be written");
 }
 
 CsvFile::~CsvFile() {
-  if (file_ != nullptr && !standard_output_) {
-    std::fclose(file_);
-  }
+  if (file_ != nullptr && !standard_output_) std::fclose(file_);
 }
 
 void CsvFile::comment(const std::string& text) {

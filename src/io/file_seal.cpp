@@ -48,12 +48,8 @@ void seal_file(const std::string& path) {
       readable && file >= 0 &&
       pwrite(file, seal.data(), seal.size(), 0) == static_cast<ssize_t>(seal_size) &&
       fsync(file) == 0;
-  if (file >= 0) {
-    close(file);
-  }
-  if (!written) {
-    throw UserError(path + ": could not be written completely (is the disk full?)");
-  }
+  if (file >= 0) close(file);
+  if (!written) throw UserError(path + ": could not be written completely (is the disk full?)");
 }
 
 void check_seal(const std::string& path) {

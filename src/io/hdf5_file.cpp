@@ -17,9 +17,7 @@ Hdf5File::Hdf5File(const std::string& path, Kind kind) : path_(path), kind_(kind
   const hid_t access = checked(H5Pcreate(H5P_FILE_ACCESS), "create");
   const hid_t creation = checked(H5Pcreate(H5P_FILE_CREATE), "create");
   H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
-  if (kind == Kind::sealed) {
-    H5Pset_userblock(creation, seal_size);
-  }
+  if (kind == Kind::sealed) H5Pset_userblock(creation, seal_size);
   file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access);
   H5Pclose(creation);
   H5Pclose(access);
@@ -32,13 +30,9 @@ Hdf5File::~Hdf5File() {
 
 herr_t Hdf5File::close_handles() {
   herr_t status = 0;
-  for (const Dataset& dataset : datasets_) {
-    status = std::min(status, H5Dclose(dataset.id));
-  }
+  for (const Dataset& dataset : datasets_) status = std::min(status, H5Dclose(dataset.id));
   datasets_.clear();
-  if (file_ >= 0) {
-    status = std::min(status, H5Fclose(file_));
-  }
+  if (file_ >= 0) status = std::min(status, H5Fclose(file_));
   file_ = -1;
   return status;
 }
@@ -84,18 +78,14 @@ void Hdf5File::mark(const std::string& attribute, double value) {
 }
 
 hid_t Hdf5File::checked(hid_t id, const std::string& what) const {
-  if (id < 0) {
-    throw UserError(path_ + ": HDF5 could not " + what);
-  }
+  if (id < 0) throw UserError(path_ + ": HDF5 could not " + what);
   return id;
 }
 
 Hdf5File::Dataset& Hdf5File::find(const std::string& name) {
   const auto found = std::find_if(datasets_.begin(), datasets_.end(),
                                   [&](const Dataset& dataset) { return dataset.name == name; });
-  if (found == datasets_.end()) {
-    throw std::runtime_error(path_ + ": no dataset " + name);
-  }
+  if (found == datasets_.end()) throw std::runtime_error(path_ + ": no dataset " + name);
   return *found;
 }
 
@@ -122,9 +112,7 @@ void Hdf5File::append(const std::string& name, std::span<const double> values) {
   Dataset& dataset = find(name);
   const hsize_t columns = std::max<hsize_t>(1, dataset.columns);
   const hsize_t count[2] = {values.size() / columns, columns};
-  if (count[0] == 0) {
-    return;
-  }
+  if (count[0] == 0) return;
   const hsize_t total[2] = {dataset.rows + count[0], columns};
   const hsize_t start[2] = {dataset.rows, 0};
   const int rank = dataset.columns == 0 ? 1 : 2;
@@ -168,9 +156,7 @@ void Hdf5File::write_array(const std::string& name, std::size_t columns,
 
 void Hdf5File::write_strings(const std::string& name, const std::vector<std::string>& values) {
   std::size_t width = 1;
-  for (const std::string& value : values) {
-    width = std::max(width, value.size());
-  }
+  for (const std::string& value : values) width = std::max(width, value.size());
   std::string block;
   for (std::string value : values) {
     value.resize(width, '\0');

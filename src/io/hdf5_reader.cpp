@@ -17,9 +17,7 @@ class Handle {
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   ~Handle() {
-    if (id_ >= 0) {
-      H5Idec_ref(id_);
-    }
+    if (id_ >= 0) H5Idec_ref(id_);
   }
   hid_t get() const { return id_; }
 
@@ -35,22 +33,14 @@ std::string without_padding(const std::string& text) {
 
 Hdf5Reader::Hdf5Reader(const std::string& path, Kind kind) : path_(path) {
   prepare_hdf5();
-  if (!std::filesystem::is_regular_file(path)) {
-    fail("no such file");
-  }
-  if (kind == Kind::sealed) {
-    check_seal(path);
-  }
-  if (H5Fis_hdf5(path.c_str()) <= 0) {
-    fail("not an HDF5 file, or its beginning is damaged");
-  }
+  if (!std::filesystem::is_regular_file(path)) fail("no such file");
+  if (kind == Kind::sealed) check_seal(path);
+  if (H5Fis_hdf5(path.c_str()) <= 0) fail("not an HDF5 file, or its beginning is damaged");
   file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file_ < 0 && kind == Kind::left_open) {
     file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT);
   }
-  if (file_ < 0) {
-    fail("truncated or damaged, or in use by a program that still runs");
-  }
+  if (file_ < 0) fail("truncated or damaged, or in use by a program that still runs");
 }
 
 Hdf5Reader::~Hdf5Reader() {
@@ -63,9 +53,7 @@ void Hdf5Reader::fail(const std::string& what) const {
 
 std::vector<std::string> Hdf5Reader::names(const std::string& group) const {
   const Handle object(H5Gopen2(file_, group.c_str(), H5P_DEFAULT));
-  if (object.get() < 0) {
-    return {};
-  }
+  if (object.get() < 0) return {};
   H5G_info_t info{};
   H5Gget_info(object.get(), &info);
   std::vector<std::string> names;
@@ -75,9 +63,7 @@ std::vector<std::string> Hdf5Reader::names(const std::string& group) const {
                                 H5P_DEFAULT);
     };
     const auto length = name(nullptr, 0);
-    if (length < 0) {
-      fail("the names in '" + group + "' cannot be read: the file is damaged");
-    }
+    if (length < 0) fail("the names in '" + group + "' cannot be read: the file is damaged");
     std::string text(static_cast<std::size_t>(length), '\0');
     name(text.data(), text.size() + 1);
     names.push_back(text);
@@ -88,9 +74,7 @@ std::vector<std::string> Hdf5Reader::names(const std::string& group) const {
 
 hid_t Hdf5Reader::open_dataset(const std::string& dataset) const {
   const hid_t id = H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT);
-  if (id < 0) {
-    fail("there is no dataset '" + dataset + "'");
-  }
+  if (id < 0) fail("there is no dataset '" + dataset + "'");
   return id;
 }
 
@@ -99,9 +83,7 @@ Hdf5Reader::Shape Hdf5Reader::shape(const std::string& dataset) const {
   const Handle space(H5Dget_space(data.get()));
   hsize_t size[2] = {0, 0};
   const int rank = H5Sget_simple_extent_ndims(space.get());
-  if (rank != 1 && rank != 2) {
-    fail("dataset '" + dataset + "' has not one or two dimensions");
-  }
+  if (rank != 1 && rank != 2) fail("dataset '" + dataset + "' has not one or two dimensions");
   H5Sget_simple_extent_dims(space.get(), size, nullptr);
   return {size[0], size[1]};
 }
@@ -114,9 +96,7 @@ std::vector<double> Hdf5Reader::rows(const std::string& dataset, std::size_t fir
          std::to_string(first + count) + " or more");
   }
   std::vector<double> values(count * std::max<std::size_t>(1, whole.columns));
-  if (values.empty()) {
-    return values;
-  }
+  if (values.empty()) return values;
   const Handle data(open_dataset(dataset));
   const Handle space(H5Dget_space(data.get()));
   const hsize_t start[2] = {first, 0};
@@ -157,9 +137,7 @@ std::vector<std::string> Hdf5Reader::strings(const std::string& dataset) const {
 hid_t Hdf5Reader::open_attribute(const std::string& object, const std::string& attribute) const {
   const hid_t id =
       H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-  if (id < 0) {
-    fail("'" + object + "' has no attribute '" + attribute + "'");
-  }
+  if (id < 0) fail("'" + object + "' has no attribute '" + attribute + "'");
   return id;
 }
 

@@ -21,9 +21,7 @@ namespace {
 class MarketReader {
  public:
   explicit MarketReader(const std::string& path) : path_(path), file_(path) {
-    if (!file_) {
-      throw UserError(path + ": no such file, or it cannot be read");
-    }
+    if (!file_) throw UserError(path + ": no such file, or it cannot be read");
   }
 
   MatrixSize read(const std::function<void(const MatrixEntry&)>& receive) {
@@ -97,9 +95,7 @@ class MarketReader {
   /// The next line that is neither empty nor a comment; false at the end.
   bool next_line(std::string& text) {
     do {
-      if (!std::getline(file_, text)) {
-        return false;
-      }
+      if (!std::getline(file_, text)) return false;
       ++line_;
     } while (text[0] == '%' || text.find_first_not_of(" \t\r") == std::string::npos);
     return true;
@@ -107,9 +103,7 @@ class MarketReader {
 
   std::vector<double> numbers(std::size_t wanted) {
     std::string text;
-    if (!next_line(text)) {
-      fail("the file ends too early");
-    }
+    if (!next_line(text)) fail("the file ends too early");
     std::vector<double> values;
     const char* place = text.c_str();
     char* end = nullptr;
@@ -118,9 +112,7 @@ class MarketReader {
       place = end;
     }
     const bool all = std::string_view(place).find_first_not_of(" \t\r") == std::string_view::npos;
-    if (values.size() != wanted || !all) {
-      fail("expected " + std::to_string(wanted) + " numbers");
-    }
+    if (values.size() != wanted || !all) fail("expected " + std::to_string(wanted) + " numbers");
     return values;
   }
 
@@ -132,9 +124,7 @@ class MarketReader {
   }
 
   double finite(double value) const {
-    if (!std::isfinite(value)) {
-      fail("a value is not finite");
-    }
+    if (!std::isfinite(value)) fail("a value is not finite");
     return value;
   }
 
@@ -174,9 +164,7 @@ void write_matrix(const std::string& path, const std::string& comment, const Mat
                   const std::vector<MatrixEntry>& entries) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "w"),
                                                              std::fclose);
-  if (!file) {
-    throw UserError(path + ": cannot be written");
-  }
+  if (!file) throw UserError(path + ": cannot be written");
   std::fprintf(file.get(), "%%%%MatrixMarket matrix coordinate real general\n%% %s\n%d %d %zu\n",
                comment.c_str(), size.rows, size.columns, entries.size());
   for (const MatrixEntry& entry : entries) {

@@ -24,9 +24,7 @@ class BinaryReader {
       : path_(path), file_(path, std::ios::binary), size_(0) {
     std::error_code failure;
     size_ = std::filesystem::file_size(path, failure);
-    if (!file_ || failure) {
-      throw UserError(path + ": no such file, or it cannot be read");
-    }
+    if (!file_ || failure) throw UserError(path + ": no such file, or it cannot be read");
   }
 
   MatrixSize read(const std::function<void(const MatrixEntry&)>& receive) {
@@ -57,9 +55,7 @@ class BinaryReader {
         if (entry.column < 0 || entry.column >= columns) {
           fail(at(entry) + ": outside of the matrix of " + std::to_string(columns) + " columns");
         }
-        if (!std::isfinite(entry.value)) {
-          fail(at(entry) + ": the value is not finite");
-        }
+        if (!std::isfinite(entry.value)) fail(at(entry) + ": the value is not finite");
         receive(entry);
       }
     }
@@ -77,9 +73,7 @@ class BinaryReader {
   /// `Bits`: the unsigned integer of the same width.
   template <typename Value, typename Bits>
   std::vector<Value> numbers(std::size_t count) {
-    if (count * sizeof(Bits) > size_) {
-      fail("the file ends too early");
-    }
+    if (count * sizeof(Bits) > size_) fail("the file ends too early");
     std::vector<unsigned char> bytes(count * sizeof(Bits));
     if (!file_.read(reinterpret_cast<char*>(bytes.data()),
                     static_cast<std::streamsize>(bytes.size()))) {

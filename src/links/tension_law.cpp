@@ -19,9 +19,7 @@ double TensionLaw::energy(double now, double after, std::span<const double>) con
 }
 
 double TensionLaw::force(double before, double now, double after, std::span<const double>) const {
-  if (now <= 0) {
-    return 0;
-  }
+  if (now <= 0) return 0;
   double share = before > 0 ? 1 : 0;
   if ((before > 0) != (after > 0) && before != after) {
     share = (std::max(0.0, after) - std::max(0.0, before)) / (after - before);
@@ -31,25 +29,19 @@ double TensionLaw::force(double before, double now, double after, std::span<cons
 
 double TensionLaw::solve(double before, double now, double free_after, double compliance,
                          std::span<const double>) const {
-  if (now <= 0 || compliance <= 0) {
-    return force(before, now, free_after);
-  }
+  if (now <= 0 || compliance <= 0) return force(before, now, free_after);
   const double pull = stiffness_ * now;
   const double r = compliance;
   const double a = 1 + r * damping_rate_;
   if (before > 0) {
     const double taut = (pull + damping_rate_ * (free_after - before)) / a;
-    if (free_after - r * taut >= 0) {
-      return std::max(0.0, taut);
-    }
+    if (free_after - r * taut >= 0) return std::max(0.0, taut);
     // it goes slack: z = before - after
     const double z = positive_root(a, before - free_after, r * pull * before);
     return std::max(0.0, pull * before / z - damping_rate_ * z);
   }
   const double slack = damping_rate_ * (free_after - before) / a;
-  if (free_after - r * slack < 0) {
-    return std::max(0.0, slack);
-  }
+  if (free_after - r * slack < 0) return std::max(0.0, slack);
   // it was slack before and is taut after: z = after - before
   const double z = positive_root(a, free_after - before - r * pull, -r * pull * before);
   return z > 0 ? pull * (before + z) / z + damping_rate_ * z

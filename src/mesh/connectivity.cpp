@@ -31,9 +31,7 @@ class Examination {
 
   Connectivity run() {
     for (const ElementSet& set : mesh_.regions) {
-      for (std::size_t e = 0; e < set.tags.size(); ++e) {
-        join(set, nodes_of(set, e));
-      }
+      for (std::size_t e = 0; e < set.tags.size(); ++e) join(set, nodes_of(set, e));
     }
     find_pieces();
     find_coincident();
@@ -104,9 +102,7 @@ class Examination {
 
   void add_components(GlobalIndex node, std::uint8_t mask, RigidRank& motions) const {
     for (int c = 0; c < 6; ++c) {
-      if ((mask >> c & 1) != 0) {
-        motions.add(mesh_.position(node), c);
-      }
+      if ((mask >> c & 1) != 0) motions.add(mesh_.position(node), c);
     }
   }
 
@@ -122,9 +118,7 @@ class Examination {
 
   void find_coincident() {
     const double near = coincidence * bounding_box({&mesh_, 1}).diagonal();
-    if (!(near > 0)) {
-      return;
-    }
+    if (!(near > 0)) return;
     auto pairs = near_nodes(mesh_, near);
     std::erase_if(pairs, [this](const auto& pair) {
       return mesh_.free_components[pair.first] == 0 && mesh_.free_components[pair.second] == 0;
@@ -169,9 +163,7 @@ class Examination {
         find_ends_in(set, nodes_of(set, e), ends, inside);
       }
     }
-    for (const GlobalIndex node : inside) {
-      found_.ends_inside.add(mesh_.position(node));
-    }
+    for (const GlobalIndex node : inside) found_.ends_inside.add(mesh_.position(node));
   }
 
   void find_ends_in(const ElementSet& set, std::span<const GlobalIndex> nodes,
@@ -220,9 +212,7 @@ class Examination {
       const bool turns = (mesh_.free_components[node] & rotations) == rotations;
       if (meeting.solids > 0 && meeting.beams + meeting.shells > 0 && turns) {
         found_.hinges.add(mesh_.position(node));
-        if (meeting.beams == 1 && meeting.shells == 0) {
-          found_.lone_hinges.add(mesh_.position(node));
-        }
+        if (meeting.beams == 1 && meeting.shells == 0) found_.lone_hinges.add(mesh_.position(node));
       }
     }
   }

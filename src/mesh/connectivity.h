@@ -23,9 +23,7 @@ struct Places {
   Vector3 first{0, 0, 0};  ///< [m]
 
   void add(const Vector3& place) {
-    if (count++ == 0) {
-      first = place;
-    }
+    if (count++ == 0) first = place;
   }
 };
 

@@ -20,9 +20,7 @@ ElementList list_elements(std::span<const GlobalMesh> meshes, std::span<const in
     list.node_offset.push_back(list.node_count);
     list.element_offset.push_back(list.cost.size());
     for (const ElementSet& set : mesh.regions) {
-      if (whole_part(whole, s) >= 0) {
-        break;
-      }
+      if (whole_part(whole, s) >= 0) break;
       const std::size_t width = element_layout(set.type).nodes;
       for (std::size_t e = 0; e < set.tags.size(); ++e) {
         for (std::size_t a = 0; a < width; ++a) {
@@ -44,12 +42,8 @@ ElementList list_elements(std::span<const GlobalMesh> meshes, std::span<const in
 NodeElements elements_at_nodes(const ElementList& list) {
   NodeElements at;
   at.first.assign(static_cast<std::size_t>(list.node_count) + 1, 0);
-  for (const GlobalIndex node : list.nodes) {
-    ++at.first[node + 1];
-  }
-  for (std::size_t n = 1; n < at.first.size(); ++n) {
-    at.first[n] += at.first[n - 1];
-  }
+  for (const GlobalIndex node : list.nodes) ++at.first[node + 1];
+  for (std::size_t n = 1; n < at.first.size(); ++n) at.first[n] += at.first[n - 1];
   at.elements.resize(list.nodes.size());
   std::vector<std::size_t> next(at.first.begin(), at.first.end() - 1);
   for (idx_t e = 0; e < list.count(); ++e) {
@@ -65,9 +59,7 @@ Graph dual_graph(const ElementList& list, const NodeElements& at, std::span<cons
   const auto is_whole = [&](int s) { return whole_part(whole, static_cast<std::size_t>(s)) >= 0; };
   std::vector<std::map<idx_t, idx_t>> extra(static_cast<std::size_t>(list.count()));
   for (const NodeLink& link : links) {
-    if (is_whole(link.structure_a) || is_whole(link.structure_b)) {
-      continue;
-    }
+    if (is_whole(link.structure_a) || is_whole(link.structure_b)) continue;
     const auto global = [&](int structure, GlobalIndex node) {
       return static_cast<std::size_t>(list.node_offset[structure] + node);
     };
@@ -88,9 +80,7 @@ Graph dual_graph(const ElementList& list, const NodeElements& at, std::span<cons
       const std::size_t node = shared_node;
       for (std::size_t j = at.first[node]; j < at.first[node + 1]; ++j) {
         const idx_t other = at.elements[j];
-        if (other != e && shared[other]++ == 0) {
-          touched.push_back(other);
-        }
+        if (other != e && shared[other]++ == 0) touched.push_back(other);
       }
     }
     std::sort(touched.begin(), touched.end());

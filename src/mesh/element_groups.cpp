@@ -60,9 +60,7 @@ std::vector<RowPlace> sorted_rows(const GlobalMesh& mesh, const ElementList& lis
   std::size_t e = list.element_offset[s];
   for (const ElementSet& set : mesh.regions) {
     for (std::size_t i = 0; i < set.tags.size(); ++i, ++e) {
-      if (has_shape(set.type)) {
-        rows.push_back(row_place(list, e, places, list.node_offset[s]));
-      }
+      if (has_shape(set.type)) rows.push_back(row_place(list, e, places, list.node_offset[s]));
     }
   }
   std::sort(rows.begin(), rows.end());
@@ -74,9 +72,7 @@ std::vector<int> cluster_of_nodes(const ElementList& list, std::span<const NodeC
   std::vector<int> cluster(list.node_count, -1);
   for (std::size_t c = 0; c < clusters.size(); ++c) {
     const GlobalIndex offset = list.node_offset[clusters[c].structure];
-    for (const GlobalIndex node : clusters[c].nodes) {
-      cluster[offset + node] = static_cast<int>(c);
-    }
+    for (const GlobalIndex node : clusters[c].nodes) cluster[offset + node] = static_cast<int>(c);
   }
   return cluster;
 }
@@ -95,15 +91,11 @@ ElementGroups group_rows(std::span<const GlobalMesh> meshes, const ElementList& 
   ElementGroups groups;
   groups.of.assign(list.cost.size(), -1);
   for (std::size_t s = 0; s < meshes.size(); ++s) {
-    if (list.element_offset[s] == list.element_offset[s + 1]) {
-      continue;
-    }
+    if (list.element_offset[s] == list.element_offset[s + 1]) continue;
     const std::vector<RowPlace> rows = sorted_rows(meshes[s], list, s);
     for (std::size_t begin = 0; begin < rows.size();) {
       std::size_t end = begin + 1;
-      while (end < rows.size() && rows[end - 1].continued_by(rows[end])) {
-        ++end;
-      }
+      while (end < rows.size() && rows[end - 1].continued_by(rows[end])) ++end;
       const std::size_t length = end - begin;
       const std::size_t most = std::clamp(most_cost / rows[begin].cost, idx_t{1}, longest_piece);
       const std::size_t pieces = (length + most - 1) / most;
@@ -120,9 +112,7 @@ ElementGroups group_rows(std::span<const GlobalMesh> meshes, const ElementList& 
 
 void group_clusters(const ElementList& list, std::span<const NodeCluster> clusters,
                     ElementGroups& groups) {
-  if (clusters.empty()) {
-    return;
-  }
+  if (clusters.empty()) return;
   const std::vector<int> cluster = cluster_of_nodes(list, clusters);
   for (std::size_t e = 0; e < list.cost.size(); ++e) {
     if (const int c = cluster_of_element(list.nodes_of(e), cluster); c >= 0) {
@@ -156,9 +146,7 @@ ElementList merge_groups(const ElementList& all, const ElementGroups& groups) {
     add(all.nodes_of(e), all.cost[e], all.structure[e], all.needed[e]);
   }
   for (std::size_t g = 0; g < members.size(); ++g) {
-    if (members[g].empty()) {
-      continue;
-    }
+    if (members[g].empty()) continue;
     std::vector<GlobalIndex> nodes;
     idx_t cost = 0;
     for (const std::size_t e : members[g]) {

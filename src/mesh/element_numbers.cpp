@@ -12,9 +12,7 @@ namespace {
 /// Moves behind the line that begins with `head`; false at the file's end.
 bool find_line(std::istream& stream, const std::string& head) {
   for (std::string line; std::getline(stream, line);) {
-    if (line.starts_with(head)) {
-      return true;
-    }
+    if (line.starts_with(head)) return true;
   }
   return false;
 }

@@ -33,9 +33,7 @@ double element_size_at(const GlobalMesh& mesh, GlobalIndex node) {
     const std::size_t nodes = element_layout(set.type).nodes;
     for (std::size_t e = 0; e < set.tags.size(); ++e) {
       const std::span<const GlobalIndex> corners(&set.connectivity[e * nodes], nodes);
-      if (std::ranges::find(corners, node) == corners.end()) {
-        continue;
-      }
+      if (std::ranges::find(corners, node) == corners.end()) continue;
       for (const GlobalIndex a : corners) {
         for (const GlobalIndex b : corners) {
           largest = std::max(largest, distance(mesh.position(a), mesh.position(b)));

@@ -53,9 +53,7 @@ class Inspection {
       : option_(std::move(option)), allow_commands_(allow_commands) {}
 
   void inspect(const std::filesystem::path& file, int depth) {
-    if (depth > deepest) {
-      refuse(file, 0, "files that include each other without end");
-    }
+    if (depth > deepest) refuse(file, 0, "files that include each other without end");
     if (!allow_commands_ && std::filesystem::exists(file.string() + ".opt")) {
       refuse(file, 0,
              "an options file " + file.string() +
@@ -96,9 +94,7 @@ class Inspection {
   void inspect_geometry(const std::filesystem::path& file, int depth) {
     const std::vector<Token> tokens = tokens_of(file);
     for (std::size_t i = 0; i < tokens.size(); ++i) {
-      if (tokens[i].kind != Token::Kind::word) {
-        continue;
-      }
+      if (tokens[i].kind != Token::Kind::word) continue;
       found.words.insert(tokens[i].value);
       const bool is_option = i + 1 < tokens.size() && tokens[i + 1].value == ".";
       if (!allow_commands_ && !is_option &&
@@ -108,9 +104,7 @@ class Inspection {
                    "' runs a command or writes a file; remove it, or give "
                    "-allow_geo_commands if you trust the file");
       }
-      if (contains(inclusions, tokens[i].value)) {
-        follow(file, tokens, i, depth);
-      }
+      if (contains(inclusions, tokens[i].value)) follow(file, tokens, i, depth);
     }
   }
 
@@ -142,9 +136,7 @@ class Inspection {
       if (tokens[i].kind == Token::Kind::sign) {
         open += tokens[i].value == "(" || tokens[i].value == "[" ? 1 : 0;
         open -= tokens[i].value == ")" || tokens[i].value == "]" ? 1 : 0;
-        if (open <= 0 && tokens[i].value == ">") {
-          return true;
-        }
+        if (open <= 0 && tokens[i].value == ">") return true;
       }
     }
     return false;

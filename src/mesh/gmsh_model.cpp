@@ -76,21 +76,15 @@ RawMesh take_mesh() {
   std::set<int> types;
   for (const auto& [dimension, tag] : pairs) {
     mesh.entities.push_back(take_entity(dimension, tag));
-    for (const RawElements& elements : mesh.entities.back().elements) {
-      types.insert(elements.type);
-    }
+    for (const RawElements& elements : mesh.entities.back().elements) types.insert(elements.type);
   }
-  for (const int type : types) {
-    mesh.types.push_back(describe_type(type));
-  }
+  for (const int type : types) mesh.types.push_back(describe_type(type));
   gmsh::model::getPhysicalGroups(pairs);
   for (const auto& [dimension, tag] : pairs) {
     RawGroup group;
     group.dimension = dimension;
     gmsh::model::getPhysicalName(dimension, tag, group.name);
-    if (group.name.empty()) {
-      group.name = std::to_string(tag);
-    }
+    if (group.name.empty()) group.name = std::to_string(tag);
     gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, group.entities);
     mesh.groups.push_back(std::move(group));
   }
@@ -104,18 +98,12 @@ RawAnswer gmsh_mesh(const std::string& file, bool make) {
   RawAnswer answer;
   try {
     gmsh::open(file);
-    if (make) {
-      gmsh::model::mesh::generate(3);
-    }
+    if (make) gmsh::model::mesh::generate(3);
     answer.error = logged_error();
-    if (answer.error.empty()) {
-      answer.mesh = take_mesh();
-    }
+    if (answer.error.empty()) answer.mesh = take_mesh();
   } catch (...) {
     answer.error = logged_error();
-    if (answer.error.empty()) {
-      answer.error = "unreadable";
-    }
+    if (answer.error.empty()) answer.error = "unreadable";
   }
   return answer;
 }

@@ -28,9 +28,7 @@ std::string mesh_program() {
   const std::filesystem::path folder =
       std::filesystem::read_symlink("/proc/self/exe").parent_path();
   for (const std::filesystem::path& place : {folder, folder.parent_path()}) {
-    if (std::filesystem::exists(place / "pounding-mesh")) {
-      return (place / "pounding-mesh").string();
-    }
+    if (std::filesystem::exists(place / "pounding-mesh")) return (place / "pounding-mesh").string();
   }
   throw UserError("the program pounding-mesh is not beside this one in " + folder.string() +
                   "; build it, or put both into one folder");
@@ -54,9 +52,7 @@ class GmshProcess {
  public:
   explicit GmshProcess(const MeshRequest& request) {
     std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) {
-      throw std::runtime_error("no pipe to the mesher");
-    }
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe to the mesher");
     answer_ = ends[0];
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
@@ -101,18 +97,14 @@ class GmshProcess {
     std::vector<char> piece(1 << 20);
     while (true) {
       const double left = time_limit - std::chrono::duration<double>(Clock::now() - start).count();
-      if (left <= 0) {
-        return false;
-      }
+      if (left <= 0) return false;
       pollfd waiting{answer_, POLLIN, 0};
       const int ready = poll(&waiting, 1, static_cast<int>(std::min(1e3 * left + 1, 1e4)));
       if (ready <= 0) {
         continue;  // a signal, or the next turn of a long wait
       }
       const ssize_t count = read(answer_, piece.data(), piece.size());
-      if (count == 0) {
-        return true;
-      }
+      if (count == 0) return true;
       if (count < 0 && errno != EINTR) {
         throw std::runtime_error("the pipe from the mesher cannot be read");
       }
@@ -123,9 +115,7 @@ class GmshProcess {
   /// Its exit as waitpid tells it; ends it if it still runs.
   int end(bool by_force = true) {
     if (process_ > 0) {
-      if (by_force) {
-        kill(-process_, SIGKILL);
-      }
+      if (by_force) kill(-process_, SIGKILL);
       while (waitpid(process_, &status_, 0) < 0 && errno == EINTR) {
       }
       process_ = 0;

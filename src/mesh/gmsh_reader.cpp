@@ -93,17 +93,13 @@ using Groups = std::map<std::string, std::vector<RawGroup>>;
 /// Named physical groups; the same name in several dimensions is one group of several parts.
 Groups physical_groups(const RawMesh& raw) {
   Groups groups;
-  for (const RawGroup& group : raw.groups) {
-    groups[group.name].push_back(group);
-  }
+  for (const RawGroup& group : raw.groups) groups[group.name].push_back(group);
   return groups;
 }
 
 std::string names_of(const Groups& groups) {
   std::string names;
-  for (const auto& [name, parts] : groups) {
-    names += (names.empty() ? "" : ", ") + name;
-  }
+  for (const auto& [name, parts] : groups) names += (names.empty() ? "" : ", ") + name;
   return names.empty() ? "none" : names;
 }
 
@@ -111,9 +107,7 @@ std::string names_of(const Groups& groups) {
 /// it.
 std::optional<ElementType> kind_in_region(ElementType wanted, int gmsh_type) {
   const ElementTraits& element = traits_of(wanted);
-  if (gmsh_type == element.gmsh_type) {
-    return wanted;
-  }
+  if (gmsh_type == element.gmsh_type) return wanted;
   const bool fills = element.companion && gmsh_type == traits_of(*element.companion).gmsh_type;
   return fills ? element.companion : std::nullopt;
 }
@@ -129,13 +123,9 @@ class MeshBuilder {
   }
 
   GlobalMesh build() {
-    for (const Region& region : structure_.regions) {
-      read_region(region);
-    }
+    for (const Region& region : structure_.regions) read_region(region);
     number_nodes();
-    for (const auto& [name, parts] : groups_) {
-      read_group(name, parts);
-    }
+    for (const auto& [name, parts] : groups_) read_group(name, parts);
     mark_components();
     check_element_sizes(structure_.name, mesh_);
     check_repeated_elements(structure_.name, mesh_);
@@ -152,9 +142,7 @@ class MeshBuilder {
   void read_region(const Region& region) {
     const std::string option = "-" + structure_.name + "_" + region.group + "_element";
     const auto found = groups_.find(region.group);
-    if (found == groups_.end()) {
-      unknown_group(region.group, option);
-    }
+    if (found == groups_.end()) unknown_group(region.group, option);
     const std::size_t before = mesh_.regions.size();
     for (const RawGroup& part : found->second) {
       for (const int entity : part.entities) {
@@ -206,9 +194,7 @@ class MeshBuilder {
   ElementSet& set_of(const Region& region, ElementType kind) {
     const int number = static_cast<int>(&region - structure_.regions.data());
     for (ElementSet& set : mesh_.regions) {
-      if (set.region == number && set.type == kind) {
-        return set;
-      }
+      if (set.region == number && set.type == kind) return set;
     }
     ElementSet set;
     set.group = region.group;
@@ -230,9 +216,7 @@ class MeshBuilder {
       index_[mesh_.node_tags[i]] = static_cast<GlobalIndex>(i);
     }
     for (ElementSet& set : mesh_.regions) {
-      for (GlobalIndex& node : set.connectivity) {
-        node = index_.at(node);
-      }
+      for (GlobalIndex& node : set.connectivity) node = index_.at(node);
     }
     mesh_.coordinates.resize(3 * mesh_.node_tags.size());
     for (std::size_t i = 0; i < raw_.node_tags.size(); ++i) {
@@ -270,9 +254,7 @@ class MeshBuilder {
           continue;
         }
         nodes_in_use.insert(found->second);
-        if (a < 4) {
-          facet.nodes[a] = found->second;
-        }
+        if (a < 4) facet.nodes[a] = found->second;
       }
       if (whole) {
         facet.count = static_cast<int>(width);
@@ -285,18 +267,14 @@ class MeshBuilder {
     mesh_.components.assign(mesh_.node_tags.size(), 0);
     for (const ElementSet& set : mesh_.regions) {
       const std::uint8_t mask = element_layout(set.type).components == 6 ? 0x3f : 0x07;
-      for (const GlobalIndex node : set.connectivity) {
-        mesh_.components[node] |= mask;
-      }
+      for (const GlobalIndex node : set.connectivity) mesh_.components[node] |= mask;
     }
     mesh_.free_components = mesh_.components;
     for (const Clamp& clamp : structure_.clamps) {
       const std::string& name = clamp.group;
       const auto found = mesh_.groups.find(name);
       const std::string option = "-" + structure_.name + "_clamp";
-      if (found == mesh_.groups.end()) {
-        unknown_group(name, option);
-      }
+      if (found == mesh_.groups.end()) unknown_group(name, option);
       if (found->second.nodes.empty()) {
         throw UserError("option " + option + ": no element of the scene uses a node of group '" +
                         name + "'");

@@ -9,9 +9,7 @@ namespace pounding {
 /// Names of a mesh's groups, for a message: "base, face1, slab".
 inline std::string group_names(const GlobalMesh& mesh) {
   std::string names;
-  for (const auto& [name, group] : mesh.groups) {
-    names += (names.empty() ? "" : ", ") + name;
-  }
+  for (const auto& [name, group] : mesh.groups) names += (names.empty() ? "" : ", ") + name;
   return names;
 }
 

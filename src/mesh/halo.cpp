@@ -85,9 +85,7 @@ void Halo::prepare_messages() {
 }
 
 Halo::~Halo() {
-  for (MPI_Request& request : requests_) {
-    MPI_Request_free(&request);
-  }
+  for (MPI_Request& request : requests_) MPI_Request_free(&request);
   MPI_Comm_free(&comm_);
 }
 

@@ -34,9 +34,7 @@ class Halo {
   template <typename Values>
   void begin(const Values& owned) {
     double* const sent = shared_ ? shared_->draft() : send_.data();
-    for (std::size_t i = 0; i < sent_dofs_.size(); ++i) {
-      sent[i] = owned[sent_dofs_[i]];
-    }
+    for (std::size_t i = 0; i < sent_dofs_.size(); ++i) sent[i] = owned[sent_dofs_[i]];
     start();
   }
   /// Waits until all ghost values are here and all others have, or can still read, those of this

@@ -39,9 +39,7 @@ std::string describe_element(const Mesh& mesh, const ElementBlock& block, std::s
   Vector3 centre{0, 0, 0};
   for (std::size_t a = 0; a < nodes; ++a) {
     const Vector3 x = mesh.position(block.connectivity[element * nodes + a]);
-    for (std::size_t d = 0; d < 3; ++d) {
-      centre[d] += x[d] / static_cast<double>(nodes);
-    }
+    for (std::size_t d = 0; d < 3; ++d) centre[d] += x[d] / static_cast<double>(nodes);
   }
   return "element " + std::to_string(block.tags[element]) + " of group '" + block.group + "' at " +
          describe_position(centre);
@@ -57,9 +55,7 @@ std::string locate_largest(const Mesh& mesh, std::span<const double> values) {
   for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
     for (int c = 0; c < 6; ++c) {
       const LocalIndex dof = mesh.dof(node, c);
-      if (dof < 0) {
-        continue;
-      }
+      if (dof < 0) continue;
       const double value = values[dof];
       const double size =
           std::isfinite(value) ? std::abs(value) : std::numeric_limits<double>::infinity();

@@ -58,9 +58,7 @@ class Cutter {
     const std::vector<Element> elements = elements_of(part);
     append_ghosts(part, elements, nodes);
     std::unordered_map<GlobalIndex, LocalIndex> local;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      local[nodes[i]] = static_cast<LocalIndex>(i);
-    }
+    for (std::size_t i = 0; i < nodes.size(); ++i) local[nodes[i]] = static_cast<LocalIndex>(i);
     add_elements(part, elements, local, out);
     const GlobalIndex owned = end - begin;
     for (const GlobalIndex node : nodes) {
@@ -98,9 +96,7 @@ class Cutter {
     std::stable_sort(order_.begin(), order_.end(),
                      [&](GlobalIndex a, GlobalIndex b) { return places[a] < places[b]; });
     place_.resize(order_.size());
-    for (std::size_t i = 0; i < order_.size(); ++i) {
-      place_[order_[i]] = static_cast<GlobalIndex>(i);
-    }
+    for (std::size_t i = 0; i < order_.size(); ++i) place_[order_[i]] = static_cast<GlobalIndex>(i);
   }
 
   void number_dofs() {
@@ -208,9 +204,7 @@ Mesh unpack(MPI_Comm comm, const std::string& name, Parcel&& parcel) {
     const std::size_t n = node;
     mesh.first_dof[n] = mesh.dof_count;
     mesh.dof_count += component_count(mesh.free_components[n]);
-    if (node < mesh.owned_nodes) {
-      mesh.owned_dofs = mesh.dof_count;
-    }
+    if (node < mesh.owned_nodes) mesh.owned_dofs = mesh.dof_count;
   }
   mesh.by_file_node.resize(mesh.owned_nodes);
   std::iota(mesh.by_file_node.begin(), mesh.by_file_node.end(), LocalIndex{0});

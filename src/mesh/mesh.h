@@ -52,9 +52,7 @@ struct Mesh {
   /// Local dof of a component (0-5) at a local node, -1 if it is clamped or does not exist.
   LocalIndex dof(LocalIndex node, int component) const {
     const std::uint8_t mask = free_components[node];
-    if ((mask >> component & 1) == 0) {
-      return -1;
-    }
+    if ((mask >> component & 1) == 0) return -1;
     const auto below = static_cast<std::uint8_t>(mask & ((1u << component) - 1u));
     return first_dof[node] + component_count(below);
   }

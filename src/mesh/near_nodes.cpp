@@ -29,9 +29,7 @@ void add_cells(const Vector3& x, double side, double distance, GlobalIndex node,
   }
   for (std::int64_t i = low[0]; i <= high[0]; ++i) {
     for (std::int64_t j = low[1]; j <= high[1]; ++j) {
-      for (std::int64_t k = low[2]; k <= high[2]; ++k) {
-        entries.push_back({{i, j, k}, node});
-      }
+      for (std::int64_t k = low[2]; k <= high[2]; ++k) entries.push_back({{i, j, k}, node});
     }
   }
 }

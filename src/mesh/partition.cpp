@@ -18,9 +18,7 @@ namespace {
 
 std::size_t element_count(const GlobalMesh& mesh) {
   std::size_t count = 0;
-  for (const ElementSet& set : mesh.regions) {
-    count += set.tags.size();
-  }
+  for (const ElementSet& set : mesh.regions) count += set.tags.size();
   return count;
 }
 
@@ -28,9 +26,7 @@ std::vector<idx_t> cut_graph(ElementList& list, Graph& graph, int parts, long& e
   std::vector<idx_t> owner(list.cost.size(), 0);
   edge_cut = 0;
   if (list.count() <= parts) {
-    for (std::size_t e = 0; e < owner.size(); ++e) {
-      owner[e] = static_cast<idx_t>(e);
-    }
+    for (std::size_t e = 0; e < owner.size(); ++e) owner[e] = static_cast<idx_t>(e);
     return owner;
   }
   idx_t options[METIS_NOPTIONS];
@@ -64,9 +60,7 @@ idx_t most_piece_cost(const ElementList& list, int parts) {
 /// Cost of the elements of the most loaded part.
 double largest_cost(const ElementList& list, const std::vector<idx_t>& owner, int parts) {
   std::vector<double> cost(parts, 0);
-  for (std::size_t e = 0; e < owner.size(); ++e) {
-    cost[owner[e]] += list.cost[e];
-  }
+  for (std::size_t e = 0; e < owner.size(); ++e) cost[owner[e]] += list.cost[e];
   return *std::max_element(cost.begin(), cost.end());
 }
 
@@ -78,9 +72,7 @@ double imbalance_of(const ElementList& list, const std::vector<idx_t>& owner, in
 /// Every structure to one part, the costliest first, each to the part with the least so far.
 std::vector<idx_t> keep_structures(const ElementList& list, std::size_t structures, int parts) {
   std::vector<double> cost(structures, 0.0);
-  for (std::size_t e = 0; e < list.cost.size(); ++e) {
-    cost[list.structure[e]] += list.cost[e];
-  }
+  for (std::size_t e = 0; e < list.cost.size(); ++e) cost[list.structure[e]] += list.cost[e];
   std::vector<std::size_t> order(structures);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -93,18 +85,14 @@ std::vector<idx_t> keep_structures(const ElementList& list, std::size_t structur
     *lightest += cost[s];
   }
   std::vector<idx_t> owner;
-  for (const int s : list.structure) {
-    owner.push_back(part[s]);
-  }
+  for (const int s : list.structure) owner.push_back(part[s]);
   return owner;
 }
 
 bool structures_are_cheaper(const ElementList& list, const std::vector<idx_t>& cut,
                             const std::vector<idx_t>& kept, int parts) {
   std::map<int, std::set<idx_t>> owners;
-  for (std::size_t e = 0; e < cut.size(); ++e) {
-    owners[list.structure[e]].insert(cut[e]);
-  }
+  for (std::size_t e = 0; e < cut.size(); ++e) owners[list.structure[e]].insert(cut[e]);
   const auto shared = std::ranges::count_if(
       owners, [](const auto& structure) { return structure.second.size() > 1; });
   return largest_cost(list, kept, parts) <=
@@ -114,15 +102,11 @@ bool structures_are_cheaper(const ElementList& list, const std::vector<idx_t>& c
 /// One owner for the nodes of a cluster: that of most of them, the lowest on a tie.
 void unite(const NodeCluster& cluster, std::vector<int>& node_owner) {
   std::map<int, int> counts;
-  for (const GlobalIndex node : cluster.nodes) {
-    ++counts[node_owner[node]];
-  }
+  for (const GlobalIndex node : cluster.nodes) ++counts[node_owner[node]];
   const auto owner =
       std::max_element(counts.begin(), counts.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
-  for (const GlobalIndex node : cluster.nodes) {
-    node_owner[node] = owner->first;
-  }
+  for (const GlobalIndex node : cluster.nodes) node_owner[node] = owner->first;
 }
 
 int most_frequent_owner(std::span<const idx_t> elements, const std::vector<idx_t>& owner) {
@@ -150,9 +134,7 @@ Partition partition_meshes(std::span<const GlobalMesh> meshes, std::span<const N
   ElementGroups groups = cuts ? group_rows(meshes, list, most_piece_cost(list, parts))
                               : ElementGroups{std::vector<int>(list.cost.size(), -1)};
   group_clusters(list, clusters, groups);
-  if (groups.count > 0) {
-    list = merge_groups(list, groups);
-  }
+  if (groups.count > 0) list = merge_groups(list, groups);
   const NodeElements at = elements_at_nodes(list);
   Partition partition;
   partition.parts = parts;

@@ -36,9 +36,7 @@ ProbeNode nearest_node(const GlobalMesh& mesh, const Probe& probe, const Vector3
   best_distance = best_distance < round_off ? 0 : best_distance;
   double farthest = far * bounding_box({&mesh, 1}).diagonal();
   const double size = best_distance > 0 ? element_size_at(mesh, best) : 0;
-  if (size > 0) {
-    farthest = std::min(farthest, size);
-  }
+  if (size > 0) farthest = std::min(farthest, size);
   if (best_distance > farthest) {
     std::ostringstream text;
     text << "option -" << probe.name << "_at: the point (" << point[0] << ", " << point[1] << ", "
@@ -52,9 +50,7 @@ ProbeNode nearest_node(const GlobalMesh& mesh, const Probe& probe, const Vector3
 std::vector<ProbeNode> probe_nodes(const Probe& probe, const GlobalMesh& mesh) {
   std::vector<ProbeNode> nodes;
   if (probe.group.empty()) {
-    for (const Vector3& point : probe.points) {
-      nodes.push_back(nearest_node(mesh, probe, point));
-    }
+    for (const Vector3& point : probe.points) nodes.push_back(nearest_node(mesh, probe, point));
     return nodes;
   }
   const auto found = mesh.groups.find(probe.group);
@@ -63,9 +59,7 @@ std::vector<ProbeNode> probe_nodes(const Probe& probe, const GlobalMesh& mesh) {
                     "' is not in the mesh of " + probe.structure +
                     ", which has: " + group_names(mesh));
   }
-  for (const GlobalIndex node : found->second.nodes) {
-    nodes.push_back({node, 0, 0});
-  }
+  for (const GlobalIndex node : found->second.nodes) nodes.push_back({node, 0, 0});
   return nodes;
 }
 
@@ -94,9 +88,7 @@ std::vector<ResolvedProbe> resolve_probes(const Scene& scene, std::span<const Gl
   std::vector<ResolvedProbe> probes;
   for (const Probe& probe : scene.probes) {
     std::size_t structure = 0;
-    while (scene.structures[structure].name != probe.structure) {
-      ++structure;
-    }
+    while (scene.structures[structure].name != probe.structure) ++structure;
     const GlobalMesh& mesh = meshes[structure];
     const std::vector<ProbeNode> nodes = probe_nodes(probe, mesh);
     const int index = static_cast<int>(structure);

@@ -30,9 +30,7 @@ class Writer {
   template <typename Value, typename Visit>
   void list(const std::vector<Value>& values, const Visit& visit) {
     (*this)(static_cast<std::uint64_t>(values.size()));
-    for (const Value& value : values) {
-      visit(value);
-    }
+    for (const Value& value : values) visit(value);
   }
   std::vector<char> bytes;
 
@@ -61,17 +59,13 @@ class Reader {
     const std::uint64_t size = count();
     const char* first = take(size, sizeof(Value));
     values.resize(size);
-    if (size > 0) {
-      std::memcpy(values.data(), first, size * sizeof(Value));
-    }
+    if (size > 0) std::memcpy(values.data(), first, size * sizeof(Value));
   }
   template <typename Value, typename Visit>
   void list(std::vector<Value>& values, const Visit& visit) {
     const std::uint64_t size = count();
     take(size, 0);
-    for (std::uint64_t i = 0; i < size; ++i) {
-      visit(values.emplace_back());
-    }
+    for (std::uint64_t i = 0; i < size; ++i) visit(values.emplace_back());
   }
 
  private:
@@ -141,9 +135,7 @@ RawAnswer from_bytes(std::span<const char> bytes) {
     pass(reader, answer);
     reader(word);
   }
-  if (word != last_word) {
-    throw std::runtime_error("the answer about a mesh is none");
-  }
+  if (word != last_word) throw std::runtime_error("the answer about a mesh is none");
   return answer;
 }
 

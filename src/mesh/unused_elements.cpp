@@ -40,9 +40,7 @@ class Search {
       regions_.insert(set.group);
       in_use_.insert(set.tags.begin(), set.tags.end());
     }
-    for (const RawType& type : raw.types) {
-      types_[type.type] = &type;
-    }
+    for (const RawType& type : raw.types) types_[type.type] = &type;
   }
 
   std::vector<UnusedElements> run() {
@@ -54,19 +52,13 @@ class Search {
       }
     }
     for (const RawEntity& entity : raw_.entities) {
-      if (entity.dimension == 0) {
-        continue;
-      }
+      if (entity.dimension == 0) continue;
       if (!grouped.contains({entity.dimension, entity.tag})) {
-        if (!entity.bounds_another) {
-          add(entity, "");
-        }
+        if (!entity.bounds_another) add(entity, "");
         continue;
       }
       for (const RawGroup* group : owners_[{entity.dimension, entity.tag}]) {
-        if (!regions_.contains(group->name)) {
-          add(entity, group->name);
-        }
+        if (!regions_.contains(group->name)) add(entity, group->name);
       }
     }
     mark_places();
@@ -104,25 +96,17 @@ class Search {
       nodes[a] = mesh_.node_tags[set.connectivity[element * width + corners[a]]];
     }
     const auto [first, last] = by_key_.equal_range(key_of({nodes.data(), corners.size()}));
-    for (auto it = first; it != last; ++it) {
-      candidates_[it->second].place = true;
-    }
+    for (auto it = first; it != last; ++it) candidates_[it->second].place = true;
   }
 
   void mark_places() {
-    if (by_key_.empty()) {
-      return;
-    }
+    if (by_key_.empty()) return;
     constexpr std::array<std::size_t, 4> all{0, 1, 2, 3};
     for (const ElementSet& set : mesh_.regions) {
       const std::size_t width = element_layout(set.type).nodes;
       for (std::size_t e = 0; e < set.tags.size(); ++e) {
-        for (const ElementFace& face : traits_of(set.type).faces) {
-          mark(set, e, face.corners());
-        }
-        if (is_solid(set.type)) {
-          continue;
-        }
+        for (const ElementFace& face : traits_of(set.type).faces) mark(set, e, face.corners());
+        if (is_solid(set.type)) continue;
         mark(set, e, {all.data(), width});
         for (std::size_t a = 0; is_shell(set.type) && a < width; ++a) {
           mark(set, e, std::array{a, (a + 1) % width});
@@ -139,9 +123,7 @@ class Search {
       UnusedElements& unused = found[name];
       const bool first = unused.count++ == 0;
       const bool first_left_out = !candidate.place && unused.left_out++ == 0;
-      if (first || first_left_out) {
-        ends[name] = {candidate.first_node, candidate.last_node};
-      }
+      if (first || first_left_out) ends[name] = {candidate.first_node, candidate.last_node};
     }
     std::vector<UnusedElements> list;
     for (auto& [name, unused] : found) {

@@ -53,18 +53,14 @@ std::string hash_of(const std::vector<Region>& regions) {
 /// The content of a file; nothing of none.
 void add_file(const std::string& path, Hash& hash) {
   hash.add(path.empty() ? 0. : 1.);
-  if (path.empty()) {
-    return;
-  }
+  if (path.empty()) return;
   std::ifstream file(path, std::ios::binary);
   std::string block(1 << 20, '\0');
   while (file) {
     file.read(block.data(), static_cast<std::streamsize>(block.size()));
     hash.add(block.substr(0, static_cast<std::size_t>(file.gcount())));
   }
-  if (!file.eof()) {
-    throw UserError(path + ": no such file, or it cannot be read");
-  }
+  if (!file.eof()) throw UserError(path + ": no such file, or it cannot be read");
 }
 
 std::string hash_of_matrices(const std::string& folder) {
@@ -86,9 +82,7 @@ BasisKey basis_key(const Structure& structure, const GlobalMesh& mesh,
   Hash vectors;
   vectors.add_all(
       std::array{static_cast<double>(request.modes), request.cutoff, request.attachment ? 1. : 0.});
-  if (request.candidates > request.modes) {
-    vectors.add(static_cast<double>(request.candidates));
-  }
+  if (request.candidates > request.modes) vectors.add(static_cast<double>(request.candidates));
   return {{"mesh", hash_of(mesh)},
           {"elements", hash_of(structure.regions)},
           {"matrices", hash_of_matrices(structure.matrices)},

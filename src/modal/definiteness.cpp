@@ -15,9 +15,7 @@ void require_semidefinite(const LinearSystem& system, Mat matrix, const std::str
   const MatHandle scaled = mass_scaled(system, matrix);
   double bound = 0;  // of the largest eigenvalue, by Gershgorin
   POUNDING_PETSC(MatNorm(scaled.get(), NORM_INFINITY, &bound));
-  if (bound == 0) {
-    return;
-  }
+  if (bound == 0) return;
   const int negative = ShiftedSolver(system, scaled.get(), -round_off * bound).eigenvalues_below();
   if (negative > 0) {
     throw UserError(path + ": not positive semidefinite, " + std::to_string(negative) +
@@ -29,9 +27,7 @@ void require_semidefinite(const LinearSystem& system, Mat matrix, const std::str
 }  // namespace
 
 void require_passive_matrices(const Structure& structure, const LinearSystem& system) {
-  if (structure.matrices.empty()) {
-    return;
-  }
+  if (structure.matrices.empty()) return;
   require_semidefinite(system, system.stiffness->matrix(),
                        matrix_file(structure.matrices, "stiffness"));
   if (system.extra_damping) {

@@ -40,9 +40,7 @@ std::vector<double> symmetric_eigenvalues(DenseMatrix& matrix) {
   std::vector<PetscBLASInt> integers(static_cast<std::size_t>(integer_size));
   auto size = static_cast<PetscBLASInt>(work.size());
   decompose(work.data(), &size, integers.data(), &integer_size);
-  if (info != 0) {
-    throw std::runtime_error("dsyevd failed with info " + std::to_string(info));
-  }
+  if (info != 0) throw std::runtime_error("dsyevd failed with info " + std::to_string(info));
   return eigenvalues;
 }
 

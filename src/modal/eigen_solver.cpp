@@ -19,9 +19,7 @@ std::string given_option(EPS solver) {
   for (const char* name : {"-eps_type", "-eps_ncv", "-eps_mpd", "-eps_max_it", "-eps_tol"}) {
     PetscBool given = PETSC_FALSE;
     POUNDING_PETSC(PetscOptionsHasName(nullptr, prefix, name, &given));
-    if (given == PETSC_TRUE) {
-      return "-" + std::string(prefix) + (name + 1);
-    }
+    if (given == PETSC_TRUE) return "-" + std::string(prefix) + (name + 1);
   }
   return "";
 }
@@ -78,18 +76,14 @@ MatHandle mass_matrix(const LinearSystem& system) {
   const LocalIndex n = system.owned_dofs();
   std::vector<PetscInt> entries(n, 1);
   const auto for_each_block = [&](const auto& visit) {
-    if (!system.coupled_mass) {
-      return;
-    }
+    if (!system.coupled_mass) return;
     const std::vector<NodeDofs>& nodes = system.coupled_mass->nodes();
     for (const auto& [pair, block] : system.coupled_mass->added().blocks) {
       visit(nodes[pair[0]], nodes[pair[1]], block);
     }
   };
   for_each_block([&](const NodeDofs& row, const NodeDofs& column, const NodeBlock&) {
-    for (int i = 0; i < row.count; ++i) {
-      entries[row.begin + i] += column.count;
-    }
+    for (int i = 0; i < row.count; ++i) entries[row.begin + i] += column.count;
     for (int j = 0; j < column.count && row.begin != column.begin; ++j) {
       entries[column.begin + j] += row.count;
     }
@@ -102,17 +96,13 @@ MatHandle mass_matrix(const LinearSystem& system) {
   const auto add = [&](LocalIndex i, LocalIndex j, double value) {
     POUNDING_PETSC(MatSetValue(matrix.get(), first + i, first + j, value, ADD_VALUES));
   };
-  for (LocalIndex i = 0; i < n; ++i) {
-    add(i, i, system.lumped_mass[i]);
-  }
+  for (LocalIndex i = 0; i < n; ++i) add(i, i, system.lumped_mass[i]);
   for_each_block([&](const NodeDofs& row, const NodeDofs& column, const NodeBlock& block) {
     for (int i = 0; i < row.count; ++i) {
       for (int j = 0; j < column.count; ++j) {
         const double value = block[6 * i + j];
         add(row.begin + i, column.begin + j, value);
-        if (row.begin != column.begin) {
-          add(column.begin + j, row.begin + i, value);
-        }
+        if (row.begin != column.begin) add(column.begin + j, row.begin + i, value);
       }
     }
   });

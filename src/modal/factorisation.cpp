@@ -13,9 +13,7 @@ void factorise_with_mumps(PC factorisation) {
       std::string("-") + (prefix == nullptr ? "" : prefix) + "mat_mumps_icntl_14";
   PetscBool given = PETSC_FALSE;
   POUNDING_PETSC(PetscOptionsHasName(nullptr, nullptr, option.c_str(), &given));
-  if (given == PETSC_FALSE) {
-    POUNDING_PETSC(PetscOptionsSetValue(nullptr, option.c_str(), "100"));
-  }
+  if (given == PETSC_FALSE) POUNDING_PETSC(PetscOptionsSetValue(nullptr, option.c_str(), "100"));
 }
 
 }  // namespace pounding

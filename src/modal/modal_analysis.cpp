@@ -17,17 +17,13 @@ namespace {
 
 /// M^1/2 x.
 void weigh(const LinearSystem& system, std::vector<double>& x) {
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    x[i] *= std::sqrt(system.lumped_mass[i]);
-  }
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] *= std::sqrt(system.lumped_mass[i]);
 }
 
 /// Bound of every circular frequency [rad/s]. Elements with stiffness and no mass, springs, have
 /// no bound of their own: then that of the rows of M^-1/2 K M^-1/2.
 double frequency_bound(const LinearSystem& system) {
-  if (std::isfinite(system.element_frequency_bound)) {
-    return system.element_frequency_bound;
-  }
+  if (std::isfinite(system.element_frequency_bound)) return system.element_frequency_bound;
   const MatHandle scaled = mass_scaled(system, system.stiffest_matrix());
   PetscReal norm = 0;
   POUNDING_PETSC(MatNorm(scaled.get(), NORM_INFINITY, &norm));
@@ -73,9 +69,7 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
   ModalResult result;
   result.mass = motions.mass();
   result.centre_of_mass = motions.centre();
-  if (count == 0) {
-    return result;
-  }
+  if (count == 0) return result;
   const bool diagonal_mass = system.mass_scaling.elements == 0;
   MatHandle matrix;
   MatHandle mass;
@@ -96,9 +90,7 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
     double eigenvalue = 0;
     POUNDING_PETSC(EPSGetEigenpair(solver.get(), i, &eigenvalue, nullptr, vector.get(), nullptr));
     std::vector<double> shape;
-    if (keep_shapes) {
-      shape = storage;
-    }
+    if (keep_shapes) shape = storage;
     if (!diagonal_mass) {
       weigh(system, storage);
     } else {
@@ -109,9 +101,7 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
     result.modes.push_back(
         describe_mode(eigenvalue, motions.participation(storage.data()), motions.inertia()));
     result.modes.back().shape = std::move(shape);
-    if (eigenvalue < bound * bound) {
-      result.modes.back().location = locate_largest(mesh, storage);
-    }
+    if (eigenvalue < bound * bound) result.modes.back().location = locate_largest(mesh, storage);
   }
   std::stable_sort(result.modes.begin(), result.modes.end(),
                    [](const Mode& a, const Mode& b) { return a.frequency < b.frequency; });

@@ -38,9 +38,7 @@ void scale(std::vector<double>& a, double factor) {
 /// a -= b (b . a)
 void take_off(const double* b, std::vector<double>& a) {
   const double part = dot(b, a.data(), a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    a[i] -= part * b[i];
-  }
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= part * b[i];
 }
 
 /// Orthonormal columns, shape (dofs, k), in y = M^1/2 u.
@@ -58,13 +56,9 @@ class BasisMaker {
     ModalBasis basis;
     const std::size_t wanted = wanted_modes();
     add_modes(std::max(wanted, std::min(static_cast<std::size_t>(request_.candidates), dofs_)));
-    if (request_.candidates > request_.modes) {
-      choose_modes(wanted);
-    }
+    if (request_.candidates > request_.modes) choose_modes(wanted);
     basis.modes = static_cast<int>(space_.columns);
-    if (request_.attachment && space_.columns < dofs_) {
-      add_attachment_vectors();
-    }
+    if (request_.attachment && space_.columns < dofs_) add_attachment_vectors();
     basis.attachment_vectors = static_cast<int>(space_.columns) - basis.modes;
     basis.full_dofs = system_.global_dofs;
     basis.total_mass = system_.total_mass;
@@ -74,9 +68,7 @@ class BasisMaker {
 
  private:
   std::size_t wanted_modes() const {
-    if (request_.modes > 0) {
-      return std::min(static_cast<std::size_t>(request_.modes), dofs_);
-    }
+    if (request_.modes > 0) return std::min(static_cast<std::size_t>(request_.modes), dofs_);
     const double omega = 2 * std::numbers::pi * request_.cutoff;
     const int below = ShiftedSolver(system_, matrix_.get(), omega * omega).eigenvalues_below();
     if (below == 0) {
@@ -133,9 +125,7 @@ class BasisMaker {
     const std::size_t candidates = space_.columns;
     std::vector<double> share(candidates, 0.0);
     for (const auto* points : {&request_.contact_points, &request_.other_points}) {
-      for (const TracePoint& point : *points) {
-        add_shares(point, share);
-      }
+      for (const TracePoint& point : *points) add_shares(point, share);
     }
     std::vector<std::size_t> order(candidates);
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -182,9 +172,7 @@ class BasisMaker {
   }
 
   void project(std::vector<double>& x) const {
-    for (std::size_t j = 0; j < space_.columns; ++j) {
-      take_off(space_.column(j), x);
-    }
+    for (std::size_t j = 0; j < space_.columns; ++j) take_off(space_.column(j), x);
   }
 
   void add_attachment_vectors() {
@@ -192,15 +180,11 @@ class BasisMaker {
     std::vector<std::vector<double>> vectors;
     for (const TracePoint& point : request_.contact_points) {
       const LocalIndex dof = mesh_.dof(mesh_.owned_node(point.node), point.component);
-      if (dof < 0) {
-        continue;
-      }
+      if (dof < 0) continue;
       std::vector<double> z(dofs_, 0.0);
       z[dof] = 1;  // of any length
       project(z);
-      if (norm(z) <= inside_span) {
-        continue;
-      }
+      if (norm(z) <= inside_span) continue;
       project(z);
       solver.solve(z);
       project(z);
@@ -221,30 +205,22 @@ class BasisMaker {
           [&](std::size_t a, std::size_t b) { return norm(vectors[a]) < norm(vectors[b]); });
       std::vector<double> z = vectors[*best];
       left.erase(best);
-      if (norm(z) <= inside_span) {
-        return;
-      }
+      if (norm(z) <= inside_span) return;
       scale(z, 1 / norm(z));
       project(z);  // once more: what rounding put back grew with the scale
       scale(z, 1 / norm(z));
       space_.append(z);
-      for (const std::size_t i : left) {
-        take_off(space_.column(space_.columns - 1), vectors[i]);
-      }
+      for (const std::size_t i : left) take_off(space_.column(space_.columns - 1), vectors[i]);
     }
   }
 
   /// Rayleigh-Ritz: the basis is W S with W the space and S^T (W^T A W) S diagonal.
   void rotate(ModalBasis& basis) const {
     DenseMatrix product(dofs_, space_.columns);
-    for (std::size_t j = 0; j < space_.columns; ++j) {
-      multiply(space_.column(j), product.column(j));
-    }
+    for (std::size_t j = 0; j < space_.columns; ++j) multiply(space_.column(j), product.column(j));
     DenseMatrix rotation = transposed_product(space_, product);
     basis.squared_frequency = symmetric_eigenvalues(rotation);
-    for (double& value : basis.squared_frequency) {
-      value = std::max(value, 0.0);
-    }
+    for (double& value : basis.squared_frequency) value = std::max(value, 0.0);
     find_modes_in(rotation, basis);
     add_participation(rotation, basis);
     add_rows(rotation, basis);
@@ -258,17 +234,13 @@ class BasisMaker {
     std::vector<std::size_t> order(space_.columns);
     for (std::size_t i = 0; i < space_.columns; ++i) {
       order[i] = i;
-      for (std::size_t j = 0; j < modes; ++j) {
-        share[i] += std::pow(rotation.column(i)[j], 2);
-      }
+      for (std::size_t j = 0; j < modes; ++j) share[i] += std::pow(rotation.column(i)[j], 2);
     }
     std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return share[i]; });
     order.resize(modes);
     std::ranges::sort(order);
     basis.mode_numbers.assign(space_.columns, 0);
-    for (std::size_t j = 0; j < modes; ++j) {
-      basis.mode_numbers[order[j]] = mode_numbers_[j];
-    }
+    for (std::size_t j = 0; j < modes; ++j) basis.mode_numbers[order[j]] = mode_numbers_[j];
   }
 
   void add_participation(const DenseMatrix& rotation, ModalBasis& basis) const {
@@ -279,9 +251,7 @@ class BasisMaker {
     DenseMatrix of_space(space_.columns, 6);
     for (std::size_t j = 0; j < space_.columns; ++j) {
       const std::array<double, 6> values = motions.participation(space_.column(j));
-      for (std::size_t k = 0; k < 6; ++k) {
-        of_space.column(k)[j] = values[k];
-      }
+      for (std::size_t k = 0; k < 6; ++k) of_space.column(k)[j] = values[k];
     }
     basis.participation = transposed_product(rotation, of_space).values;
   }
@@ -291,9 +261,7 @@ class BasisMaker {
     for (const auto* points : {&request_.contact_points, &request_.other_points}) {
       for (const TracePoint& point : *points) {
         const LocalIndex dof = mesh_.dof(mesh_.owned_node(point.node), point.component);
-        if (dof < 0 || std::ranges::find(basis.points, point) != basis.points.end()) {
-          continue;
-        }
+        if (dof < 0 || std::ranges::find(basis.points, point) != basis.points.end()) continue;
         const std::size_t i = dof;
         basis.points.push_back(point);
         std::vector<double> row(space_.columns);

@@ -20,9 +20,7 @@ constexpr const char* key_holder = "squared_frequency";
 std::string difference(const Hdf5Reader& file, const BasisKey& key) {
   std::string names;
   for (const auto& [name, hash] : key) {
-    if (file.text(key_holder, name) != hash) {
-      names += (names.empty() ? "" : ", ") + name;
-    }
+    if (file.text(key_holder, name) != hash) names += (names.empty() ? "" : ", ") + name;
   }
   return names;
 }
@@ -96,9 +94,7 @@ void write_modal_basis(const std::string& path, const BasisKey& key, const Modal
   file.write_attribute("/", "total_mass", basis.total_mass);
   file.write_attribute("/", "mass", basis.mass);
   file.write_array("squared_frequency", 0, basis.squared_frequency);
-  for (const auto& [name, hash] : key) {
-    file.write_attribute(key_holder, name, hash);
-  }
+  for (const auto& [name, hash] : key) file.write_attribute(key_holder, name, hash);
   file.write_array("mode_numbers", 0,
                    std::vector<double>(basis.mode_numbers.begin(), basis.mode_numbers.end()));
   file.write_array("participation", basis.size(), basis.participation);
@@ -123,9 +119,7 @@ StoredBasis read_modal_basis(const std::string& path, const BasisKey& key) {
     }
     StoredBasis stored;
     stored.differs = difference(file, key);
-    if (stored.differs.empty()) {
-      stored.basis = read_arrays(file);
-    }
+    if (stored.differs.empty()) stored.basis = read_arrays(file);
     return stored;
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(path + ": no modal basis, or a damaged one (" + error.what() + ")");

@@ -79,9 +79,7 @@ std::unique_ptr<GeneralisedCoordinates> take_coordinates(ModalBasis& basis, bool
         coordinates->influence[d].push_back(participation[i] / masses[i]);
       }
     }
-    for (std::size_t i = 0; i < basis.points.size(); ++i) {
-      coordinates->row_of[basis.points[i]] = i;
-    }
+    for (std::size_t i = 0; i < basis.points.size(); ++i) coordinates->row_of[basis.points[i]] = i;
     coordinates->rows = std::move(basis.rows);
   }
   basis.rows.clear();
@@ -134,9 +132,7 @@ ModalResult modes_of_basis(const ModalBasis& basis, int count) {
   result.mass = basis.mass;
   result.centre_of_mass = basis.centre_of_mass;
   for (std::size_t i = 0; i < basis.size(); ++i) {
-    if (basis.mode_numbers[i] == 0 || static_cast<int>(result.modes.size()) == count) {
-      continue;
-    }
+    if (basis.mode_numbers[i] == 0 || static_cast<int>(result.modes.size()) == count) continue;
     std::array<double, 6> participation{};
     for (std::size_t k = 0; k < 6; ++k) {
       participation[k] = basis.participation[k * basis.size() + i];
@@ -159,9 +155,7 @@ LargestFrequency largest_frequency(const Structure& structure, const ModalBasis&
 std::vector<double> coordinate_masses(const Structure& structure, const ModalBasis& basis) {
   std::vector<double> masses(basis.size(), 1.0);
   const double dt = structure.mass_scaling;
-  if (dt == 0) {
-    return masses;
-  }
+  if (dt == 0) return masses;
   const bool rayleigh = structure.modal->damping_ratios.empty();
   const double alpha = rayleigh ? structure.damping.alpha : 0;
   if (dt * alpha >= 2) {

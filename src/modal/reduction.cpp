@@ -30,9 +30,7 @@ ModalRequest request_of(const Scene& scene, int s, const Interface& interface,
     for (const Constraint& row : rows) {
       for (const ConstraintTerm& term : row.terms) {
         const TracePoint point{term.node, term.component};
-        if (term.structure == s && known.insert(point).second) {
-          points.push_back(point);
-        }
+        if (term.structure == s && known.insert(point).second) points.push_back(point);
       }
     }
   };
@@ -40,9 +38,7 @@ ModalRequest request_of(const Scene& scene, int s, const Interface& interface,
   add(tangential_rows(interface.constraints), request.other_points);
   for (const ResolvedProbe& probe : probes) {
     for (std::size_t k = 0; probe.structure == s && k < probe.nodes.size(); ++k) {
-      for (int d = 0; d < 3; ++d) {
-        request.other_points.push_back({probe.nodes[k], d});
-      }
+      for (int d = 0; d < 3; ++d) request.other_points.push_back({probe.nodes[k], d});
     }
   }
   return request;
@@ -50,9 +46,7 @@ ModalRequest request_of(const Scene& scene, int s, const Interface& interface,
 
 /// A full matrix in the generalised coordinates is nothing that a step takes.
 void forbid_damping_matrix(const Structure& structure) {
-  if (structure.matrices.empty()) {
-    return;
-  }
+  if (structure.matrices.empty()) return;
   const std::string path = matrix_file(structure.matrices, "damping");
   if (!path.empty()) {
     throw UserError("option -" + structure.name + "_matrices " + structure.matrices + ": " + path +
@@ -154,9 +148,7 @@ std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& sc
   std::vector<Reduction> reductions;
   int next_worker = 0;
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
-    if (!scene.structures[s].modal) {
-      continue;
-    }
+    if (!scene.structures[s].modal) continue;
     Reduction& reduction = reductions.emplace_back();
     reduction.structure = static_cast<int>(s);
     reduction.request = request_of(scene, reduction.structure, interface, probes);
@@ -179,9 +171,7 @@ std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& sc
   }
   on_every_rank(comm, [&] {
     for (Reduction& reduction : reductions) {
-      if (reduction.worker == rank_of(comm)) {
-        compute(structure_of(reduction), profile, reduction);
-      }
+      if (reduction.worker == rank_of(comm)) compute(structure_of(reduction), profile, reduction);
     }
   });
   std::vector<std::optional<ModalBasis>> bases(scene.structures.size());

@@ -10,9 +10,7 @@ void for_each_translation(const Mesh& mesh, Visit&& visit) {
   for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
     for (int c = 0; c < 3; ++c) {
       const LocalIndex dof = mesh.dof(node, c);
-      if (dof >= 0) {
-        visit(static_cast<std::size_t>(dof), c, mesh.position(node));
-      }
+      if (dof >= 0) visit(static_cast<std::size_t>(dof), c, mesh.position(node));
     }
   }
 }
@@ -25,9 +23,7 @@ RigidMotions::RigidMotions(const LinearSystem& system, const Mesh& mesh) : syste
     if (c == 0) {
       const double m = system.lumped_mass[dof];
       sums[0] += m;
-      for (std::size_t d = 0; d < 3; ++d) {
-        sums[d + 1] += m * x[d];
-      }
+      for (std::size_t d = 0; d < 3; ++d) sums[d + 1] += m * x[d];
     }
   });
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), 4, MPI_DOUBLE, MPI_SUM, system.comm);
@@ -45,9 +41,7 @@ RigidMotions::RigidMotions(const LinearSystem& system, const Mesh& mesh) : syste
     motions_[3 + next][dof] = x[last] - centre_[last];
     motions_[3 + last][dof] = -(x[next] - centre_[next]);
   });
-  for (std::size_t k = 0; k < 6; ++k) {
-    inertia_[k] = weighted_square(motions_[k]);
-  }
+  for (std::size_t k = 0; k < 6; ++k) inertia_[k] = weighted_square(motions_[k]);
   MPI_Allreduce(MPI_IN_PLACE, inertia_.data(), 6, MPI_DOUBLE, MPI_SUM, system.comm);
 }
 
@@ -64,9 +58,7 @@ std::array<double, 6> RigidMotions::participation(const double* y) const {
 
 double RigidMotions::weighted_square(const std::vector<double>& a) const {
   double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    sum += a[i] * a[i] * system_.lumped_mass[i];
-  }
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * a[i] * system_.lumped_mass[i];
   return sum;
 }
 

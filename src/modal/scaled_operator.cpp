@@ -52,9 +52,7 @@ ScaledOperator::ScaledOperator(const LinearSystem& system, std::vector<Term> ter
 }
 
 void ScaledOperator::solve_coupled(Vec x, Half half) const {
-  if (!system_.coupled_mass) {
-    return;
-  }
+  if (!system_.coupled_mass) return;
   const CoupledMass& mass = *system_.coupled_mass;
   double* values = nullptr;
   POUNDING_PETSC(VecGetArray(x, &values));

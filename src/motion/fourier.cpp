@@ -34,8 +34,9 @@ void execute(fftw_plan plan) {
 int good_fourier_size(int n) {
   for (int size = n + n % 2;; size += 2) {
     int rest = size;
-    for (const int prime : {2, 3, 5})
+    for (const int prime : {2, 3, 5}) {
       while (rest % prime == 0) rest /= prime;
+    }
     if (rest == 1) return size;
   }
 }
@@ -47,8 +48,9 @@ std::vector<std::complex<double>> fourier(std::span<const double> signal) {
   std::copy(signal.begin(), signal.end(), work.signal.get());
   execute(plan);
   std::vector<std::complex<double>> result(n / 2 + 1);
-  for (std::size_t k = 0; k < result.size(); ++k)
+  for (std::size_t k = 0; k < result.size(); ++k) {
     result[k] = {work.spectrum.get()[k][0], work.spectrum.get()[k][1]};
+  }
   return result;
 }
 

@@ -20,33 +20,39 @@ constexpr double small_pga = 0.5;                      // m/s2: might be a numbe
 
 void check_scaling(const std::string& name, const MotionComponent& component) {
   const double pga = component.pga, scale = component.scale;
-  if (!std::isfinite(pga) || pga < 0)
+  if (!std::isfinite(pga) || pga < 0) {
     throw UserError(name + ": pga " + text_of(pga) + " must be positive [m/s2]");
-  if (!std::isfinite(scale))
+  }
+  if (!std::isfinite(scale)) {
     throw UserError(name + ": scale " + text_of(scale) + " must be a finite number");
-  if (pga > 0 && scale != 1)
+  }
+  if (pga > 0 && scale != 1) {
     throw UserError(name + ": pga " + text_of(pga) + " and scale " + text_of(scale) +
                     " exclude one another; give one of them");
-  if (pga == 0 && std::holds_alternative<SyntheticMotion>(component.source))
+  }
+  if (pga == 0 && std::holds_alternative<SyntheticMotion>(component.source)) {
     throw UserError(name + ": a synthetic motion needs a pga [m/s2]");
+  }
 }
 
 double scaling_factor(const std::string& name, const MotionComponent& component,
                       const MotionDescription& description) {
   if (component.pga == 0) return component.scale;
   const double factor = component.pga / description.file_peak;
-  if (!std::isfinite(factor))
+  if (!std::isfinite(factor)) {
     throw UserError(name + ": " + description.source +
                     " is zero throughout and cannot be scaled to pga " + text_of(component.pga) +
                     "; leave pga out or give another record");
+  }
   return factor;
 }
 
 void require_possible_peak(const std::string& name, const std::string& what, double peak) {
-  if (!(peak <= impossible_peak))
+  if (!(peak <= impossible_peak)) {
     throw UserError(name + ": " + what + " " + text_of(peak) + " m/s2 (" +
                     text_of(peak / standard_gravity) + " g) is above " + text_of(impossible_peak) +
                     " m/s2 (10000 g), which nothing bears; correct unit, scale or pga");
+  }
 }
 
 MotionDescription describe_synthetic(const SyntheticMotion& motion) {
@@ -73,14 +79,16 @@ std::string scaling_text(const MotionComponent& component) {
 // Peaks of one direction that hint at another unit.
 std::vector<std::string> peak_doubts(const std::string& name, const MotionComponent& component,
                                      const MotionDescription& description) {
-  if (component.pga > 0 && component.pga <= small_pga)
+  if (component.pga > 0 && component.pga <= small_pga) {
     return {name + ": pga " + text_of(component.pga) + " m/s2 is " +
             text_of(component.pga / standard_gravity) + " g; if g was meant, give " +
             text_of(component.pga * standard_gravity)};
-  if (description.pga > doubtful_pga)
+  }
+  if (description.pga > doubtful_pga) {
     return {name + ": the peak of " + description.source + " is " + text_of(description.pga) +
             " m/s2 (" + text_of(description.pga / standard_gravity) +
             " g), above 3 g; are unit, scale and pga right?"};
+  }
   return {};
 }
 
@@ -112,8 +120,9 @@ void GroundMotion::add(std::size_t direction, const MotionComponent& component) 
   description.scaling = scaling_text(component);
   description.pga = accelerogram.peak();
   for (const std::string& doubt : accelerogram.doubts) doubts_.push_back(name + ": " + doubt);
-  for (const std::string& doubt : peak_doubts(name, component, description))
+  for (const std::string& doubt : peak_doubts(name, component, description)) {
     doubts_.push_back(doubt);
+  }
   descriptions_.push_back(std::move(description));
 }
 
@@ -122,8 +131,9 @@ GroundMotion::GroundMotion(const std::array<std::optional<MotionComponent>, 3>& 
   for (std::size_t i = 0; i < 3; ++i) {
     if (!components[i]) continue;
     add(i, *components[i]);
-    if (resampling == Resampling::band_limited)
+    if (resampling == Resampling::band_limited) {
       components_[i] = resample_band_limited(components_[i], resampled_step);
+    }
   }
   double largest = 0;
   bool as_given = !descriptions_.empty();  // peaks that no option names
@@ -131,9 +141,10 @@ GroundMotion::GroundMotion(const std::array<std::optional<MotionComponent>, 3>& 
     largest = std::max(largest, description.pga);
     as_given = as_given && description.file_peak > 0 && !description.scaling.starts_with("to pga");
   }
-  if (as_given && largest <= small_pga)
+  if (as_given && largest <= small_pga) {
     doubts_.push_back("motion: the largest peak is " + text_of(largest) +
                       " m/s2, not above 0.5 m/s2; are the files' numbers in g?");
+  }
 }
 
 Vector3 GroundMotion::peaks() const {

@@ -52,8 +52,9 @@ class GroundMotion {
 
   /// The three components [m/s2] at time t [s].
   void evaluate(double t, Vector3& ground_acceleration) const noexcept {
-    for (int direction = 0; direction < 3; ++direction)
+    for (int direction = 0; direction < 3; ++direction) {
       ground_acceleration[direction] = acceleration(direction, t);
+    }
   }
 
   bool active(int direction) const { return !components_[direction].acceleration.empty(); }

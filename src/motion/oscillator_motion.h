@@ -174,8 +174,9 @@ inline StepSeries derivative_of(const StepSeries& u) {
 inline StepSeries sum(double a, const StepSeries& u, double b, const StepSeries& v) {
   StepSeries w;
   w.order = std::min(u.order, v.order);
-  for (std::size_t k = 0; k <= static_cast<std::size_t>(w.order); ++k)
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(w.order); ++k) {
     w.c[k] = a * u.c[k] + b * v.c[k];
+  }
   return w;
 }
 

@@ -26,13 +26,15 @@ std::size_t first_row(const std::vector<TextLine>& lines) {
 void refuse_spoilt_first_row(const std::string& file, const TextLine& line, std::size_t columns,
                              bool below_sampling) {
   if (is_comment(line.text) || line.text.find('"') != std::string::npos ||
-      RecordHeader::declares_sampling(line.text))
+      RecordHeader::declares_sampling(line.text)) {
     return;
+  }
   const auto words = split_words(line.text);
   const auto number_like = [](std::string_view word) {
     std::string lower;
-    for (const char c : word.substr(0, 5))
+    for (const char c : word.substr(0, 5)) {
       if (c != '-' && c != '+') lower += static_cast<char>(std::tolower(c));
+    }
     return parse_number(word) || lower == "nan" || lower == "inf";
   };
   const std::string_view text = line.text;
@@ -40,9 +42,10 @@ void refuse_spoilt_first_row(const std::string& file, const TextLine& line, std:
   const auto first = text.substr(begin, text.find_first_of(" \t", begin) - begin);
   const bool starts_as_one = number_like(words[0]) || number_like(first);
   const bool same_size = words.size() == columns;
-  if ((below_sampling && (same_size || starts_as_one)) || (same_size && starts_as_one))
+  if ((below_sampling && (same_size || starts_as_one)) || (same_size && starts_as_one)) {
     throw UserError(at_line(file, line.number) + "'" + first_bad_word(line.text) +
                     "' is not a finite number; correct it");
+  }
 }
 
 void read_rows(const std::string& file, const std::vector<TextLine>& lines, std::size_t begin,
@@ -102,8 +105,9 @@ RecordContent read_record_content(const std::string& file, const std::vector<Tex
   for (std::size_t i = 0; i < begin; ++i) content.header.read(lines[i]);
   content.header.require_acceleration();
   read_rows(file, lines, begin, content);
-  if (content.rows.empty())
+  if (content.rows.empty()) {
     throw UserError(file + ": holds no line of numbers; give a file of acceleration values");
+  }
   const std::size_t columns = content.rows.back().values.size();
   for (std::size_t i = begin; i-- > 0;) {
     if (lines[i].text.empty()) continue;

@@ -61,22 +61,26 @@ void RecordHeader::contradiction(int line, const char* what, const std::string& 
 void RecordHeader::declare_count(double number_of_values, int line) {
   constexpr double most = 1e9;
   if (!(number_of_values >= 2 && number_of_values <= most) ||
-      number_of_values != std::floor(number_of_values))
+      number_of_values != std::floor(number_of_values)) {
     throw UserError(at_line(file_, line) + "the header announces " + text_of(number_of_values) +
                     " values, which cannot be; correct the file");
+  }
   const auto count = static_cast<long long>(number_of_values);
-  if (number_of_values_.value_or(count) != count)
+  if (number_of_values_.value_or(count) != count) {
     contradiction(line, "number of values", std::to_string(count),
                   std::to_string(*number_of_values_));
+  }
   number_of_values_ = count;
 }
 
 void RecordHeader::declare_time_step(double time_step, int line) {
-  if (!(time_step > 0))
+  if (!(time_step > 0)) {
     throw UserError(at_line(file_, line) + "time step " + text_of(time_step) +
                     " is not positive; correct the file");
-  if (std::abs(time_step_.value_or(time_step) / time_step - 1) > 1e-3)
+  }
+  if (std::abs(time_step_.value_or(time_step) / time_step - 1) > 1e-3) {
     contradiction(line, "time step", std::to_string(time_step), std::to_string(*time_step_));
+  }
   time_step_ = time_step;
 }
 
@@ -85,9 +89,10 @@ void RecordHeader::read_sampling(const std::string& text, int line) {
     return parse_number(match.str()).value_or(0);
   };
   std::smatch match;
-  if (std::regex_search(text, match, no_number_pattern))
+  if (std::regex_search(text, match, no_number_pattern)) {
     throw UserError(at_line(file_, line) + "no number behind " + match[1].str() +
                     "; correct the file");
+  }
   if (std::regex_search(text, match, trailing_names)) {
     declare_count(value(match[1]), line);
     declare_time_step(value(match[2]), line);
@@ -97,8 +102,9 @@ void RecordHeader::read_sampling(const std::string& text, int line) {
     const auto& group = match[1].matched ? match[1] : (match[2].matched ? match[2] : match[3]);
     declare_count(value(group), line);
   }
-  if (std::regex_search(text, match, step_pattern))
+  if (std::regex_search(text, match, step_pattern)) {
     declare_time_step(value(match[1]) * (match[2].matched ? 1e-3 : 1), line);
+  }
   if (std::regex_search(text, match, numbers_in_comment) && value(match[2]) > 0 &&
       value(match[2]) < 1) {
     declare_count(value(match[1]), line);
@@ -124,9 +130,10 @@ void RecordHeader::read(const TextLine& line) {
 }
 
 void RecordHeader::require_acceleration() const {
-  if (spectrum_line_ > 0)
+  if (spectrum_line_ > 0) {
     throw UserError(at_line(file_, spectrum_line_) +
                     "the first column is not a time but that of a spectrum; give an accelerogram");
+  }
   if (acceleration_ || !(other_quantity_ || (velocity_unit_ && stated_units().empty()))) return;
   throw UserError(at_line(file_, other_line_) +
                   "the header speaks of velocity or displacement, not of acceleration; give an "
@@ -137,11 +144,13 @@ RecordUnit RecordHeader::unit(const std::string& asked) const {
   const auto& stated = stated_units();
   std::string used = asked;
   if (asked.empty()) {
-    if (stated.empty())
+    if (stated.empty()) {
       throw UserError(file_ + ": the unit is not in the header; give unit: g, m/s2 or cm/s2");
-    if (stated.size() > 1)
+    }
+    if (stated.size() > 1) {
       throw UserError(file_ + ": the header names several units (" + *stated.begin() + ", " +
                       *stated.rbegin() + "); give unit: g, m/s2 or cm/s2");
+    }
     used = *stated.begin();
   } else if (!stated.empty() && !stated.contains(asked)) {
     throw UserError(file_ + ": unit " + asked + " is asked but the header says " + *stated.begin() +

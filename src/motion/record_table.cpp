@@ -24,8 +24,9 @@ bool is_table(const RecordContent& content, int column) {
   const long long announced = content.header.number_of_values().value_or(0);
   const long long lines = static_cast<long long>(rows.size());
   if (announced > 0 && std::abs(total - announced) <= few_values &&
-      std::abs(total - announced) < std::abs(lines - announced))
+      std::abs(total - announced) < std::abs(lines - announced)) {
     return false;
+  }
   const auto increases = [](const NumberRow& a, const NumberRow& b) {
     return b.values[0] > a.values[0];
   };
@@ -56,33 +57,39 @@ double uniform_step(const std::string& file, const std::vector<NumberRow>& rows,
   std::vector<double> steps;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     steps.push_back(time(i) - time(i - 1));
-    if (!(steps.back() > 0))
+    if (!(steps.back() > 0)) {
       throw UserError(at_line(file, rows[i].line) + "time " + text_of(time(i)) +
                       " does not follow " + text_of(time(i - 1)) + "; times must increase");
+    }
   }
   const double count = static_cast<double>(steps.size());
   const double mean = (time(rows.size() - 1) - time(0)) / count;
   auto sorted = steps;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
-  for (std::size_t i = 1; i < rows.size(); ++i)
-    if (std::abs(steps[i - 1] - *middle) > 0.1 * *middle)
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (std::abs(steps[i - 1] - *middle) > 0.1 * *middle) {
       throw UserError(at_line(file, rows[i].line) + "time " + text_of(time(i)) + " after " +
                       text_of(time(i - 1)) + " breaks the uniform step " + text_of(*middle) +
                       " s; resample the record or restore the missing lines");
-  for (std::size_t i = 1; i < rows.size(); ++i)
-    if (std::abs(time(i) - time(0) - static_cast<double>(i) * mean) > 0.1 * mean)
+    }
+  }
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (std::abs(time(i) - time(0) - static_cast<double>(i) * mean) > 0.1 * mean) {
       throw UserError(at_line(file, rows[i].line) + "time " + text_of(time(i)) +
                       " is not where a uniform step " + text_of(mean) +
                       " s puts it; resample the record");
+    }
+  }
   const double rounded = std::stod(text_of(std::round(mean * 1e7) / 1e7));
   return std::abs(rounded - mean) * count < 1e-6 * mean ? rounded : mean;
 }
 
 bool counts_rows(const std::vector<NumberRow>& rows) {
   const double first = rows[0].values[0];
-  for (std::size_t i = 0; i < rows.size(); ++i)
+  for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].values[0] != first + static_cast<double>(i)) return false;
+  }
   return first == 0 || first == 1;
 }
 
@@ -93,8 +100,9 @@ bool is_time(const std::string& name) {
 // The column of the times, from 1; 0: there is none.
 int time_column(const RecordContent& content) {
   const std::size_t width = content.rows[0].values.size();
-  for (std::size_t i = 0; i < content.names.size() && width > 1; ++i)
+  for (std::size_t i = 0; i < content.names.size() && width > 1; ++i) {
     if (is_time(content.names[i])) return static_cast<int>(i) + 1;
+  }
   if (width < 2 || !content.names.empty()) return 0;
   if (!counts_rows(content.rows)) return 1;
   return width > 2 ? 2 : 0;
@@ -102,8 +110,9 @@ int time_column(const RecordContent& content) {
 
 std::string columns_text(const RecordContent& content, int time) {
   std::string text = std::to_string(content.rows[0].values.size()) + " columns";
-  for (std::size_t i = 0; i < content.names.size(); ++i)
+  for (std::size_t i = 0; i < content.names.size(); ++i) {
     text += (i == 0 ? " (" : ", ") + content.names[i];
+  }
   if (!content.names.empty()) text += ")";
   return text + (time > 0 ? ", time in column " + std::to_string(time) : ", none of them a time");
 }
@@ -114,17 +123,20 @@ RecordValues read_table(const RecordedMotion& motion, const RecordContent& conte
   const int width = static_cast<int>(rows[0].values.size());
   const int time = time_column(content);
   const std::string range = "give column: 1 to " + std::to_string(width);
-  if (motion.column == 0 && width > 2)
+  if (motion.column == 0 && width > 2) {
     throw UserError(at_line(motion.file, rows[0].line) + columns_text(content, time) +
                     "; which one holds the acceleration? " + range);
+  }
   const int column = motion.column > 0 ? motion.column : width;
-  if (column > width)
+  if (column > width) {
     throw UserError(at_line(motion.file, rows[0].line) + "column " + std::to_string(column) +
                     " is asked but there are " + std::to_string(width) + "; " + range);
-  if (time == column)
+  }
+  if (time == column) {
     throw UserError(motion.file + ": column " + std::to_string(column) +
                     " is the time; give column: the number of another one, up to " +
                     std::to_string(width));
+  }
   const std::size_t index = column - 1;
   if (!content.names.empty()) {
     RecordHeader name(motion.file);
@@ -133,8 +145,9 @@ RecordValues read_table(const RecordedMotion& motion, const RecordContent& conte
   }
   RecordValues result;
   for (const auto& row : rows) result.values.push_back(row.values[index]);
-  if (time > 0 && rows.size() > 1)
+  if (time > 0 && rows.size() > 1) {
     result.time_step = uniform_step(motion.file, rows, static_cast<std::size_t>(time - 1));
+  }
   result.layout = "column " + std::to_string(column) + " of " + std::to_string(width);
   if (!content.names.empty()) result.layout += " (" + content.names[index] + ")";
   if (time > 0) result.layout += ", time in column " + std::to_string(time);
@@ -145,15 +158,17 @@ RecordValues read_running(const RecordedMotion& motion, const RecordContent& con
   const bool announced = content.header.number_of_values().has_value();
   if (!announced) require_equal_rows(motion.file, content.rows, true);
   RecordValues result;
-  for (const auto& row : content.rows)
+  for (const auto& row : content.rows) {
     result.values.insert(result.values.end(), row.values.begin(), row.values.end());
+  }
   const std::size_t width = content.rows[0].values.size();
   result.layout = width == 1
                       ? "one column"
                       : "rows of " + std::to_string(width) + " values that follow one another";
-  if (!announced && width > 1 && width <= columns_in_doubt)
+  if (!announced && width > 1 && width <= columns_in_doubt) {
     result.doubts.push_back(motion.file + ": " + result.layout +
                             ", or columns? If they are columns, give the number of one");
+  }
   return result;
 }
 

@@ -54,14 +54,16 @@ std::string at_line(const std::string& file, int line) {
 }
 
 std::vector<TextLine> read_text_lines(const std::string& file) {
-  if (std::filesystem::is_directory(file))
+  if (std::filesystem::is_directory(file)) {
     throw UserError(file + ": is a folder; give the file of the record");
+  }
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw UserError(file + ": cannot be opened; check the path and the permissions");
   std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  if (text.find('\0') != std::string::npos)
+  if (text.find('\0') != std::string::npos) {
     throw UserError(file + ": is not a text file; export the record as text");
+  }
   if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
 
   std::vector<TextLine> lines;
@@ -88,8 +90,9 @@ std::optional<double> parse_number(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   std::string text(word);
   if (text.empty() || text.front() == '+') return {};
-  for (char& c : text)
+  for (char& c : text) {
     if (c == 'D' || c == 'd') c = 'e';
+  }
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
@@ -140,8 +143,9 @@ std::optional<NumberRow> parse_row(const TextLine& line) {
 }
 
 std::string first_bad_word(std::string_view text) {
-  for (const auto word : split_words(text))
+  for (const auto word : split_words(text)) {
     if (!parse_number(word)) return std::string(word.substr(0, 40));
+  }
   return {};
 }
 

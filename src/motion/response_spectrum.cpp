@@ -26,11 +26,12 @@ struct OscillatorBlock {
       const Oscillator& o = some[std::min(i, some.size() - 1)];  // the last one fills up
       const auto [state_part, load_part] = oscillator_step(o.theta, o.xi);
       const std::size_t b = i / lane_count, l = i % lane_count;
-      for (std::size_t r = 0; r < 2; ++r)
+      for (std::size_t r = 0; r < 2; ++r) {
         for (std::size_t c = 0; c < 2; ++c) {
           A[r][c][b][l] = state_part[r][c];
           B[r][c][b][l] = load_part[r][c];
         }
+      }
       k[b][l] = o.theta * o.theta;
       damping[b][l] = 2 * o.xi * o.theta;
     }
@@ -84,10 +85,11 @@ std::vector<double> peak_displacements(std::span<const double> acceleration, dou
         const LaneMask higher = may_be_higher & turns;
         for (std::size_t l = 0; l < lane_count; ++l) {
           const std::size_t i = b * lane_count + l;
-          if (higher[l] != 0 && i < block.oscillators.size())
+          if (higher[l] != 0 && i < block.oscillators.size()) {
             peak[b][l] =
                 std::max(peak[b][l],
                          interior_peak(StepSeries(block.oscillators[i], u[b][l], v[b][l], a, a1)));
+          }
         }
       }
       // Rest after a long silence: subnormal numbers would only cost time.
@@ -103,9 +105,10 @@ std::vector<double> peak_displacements(std::span<const double> acceleration, dou
   for (std::size_t i = 0; i < block.oscillators.size(); ++i) {
     const std::size_t b = i / lane_count, l = i % lane_count;
     peaks.push_back(peak[b][l]);
-    if (after == AfterRecord::free_vibration)
+    if (after == AfterRecord::free_vibration) {
       peaks.back() =
           std::max(peaks.back(), free_vibration_peak(block.oscillators[i], u[b][l], v[b][l]));
+    }
   }
   return peaks;
 }
@@ -156,16 +159,18 @@ std::vector<double> all_peaks(std::span<const double> acceleration, double time_
 }
 
 void check(bool ok, const char* what, double seen) {
-  if (!ok)
+  if (!ok) {
     throw UserError("response spectrum: " + std::string(what) + ", not " + std::to_string(seen));
+  }
 }
 
 void check_arguments(std::span<const double> acceleration, double time_step,
                      std::span<const double> frequencies, double damping_ratio) {
   check(std::isfinite(time_step) && time_step > 0, "time step must be positive", time_step);
   check(damping_ratio >= 0 && damping_ratio < 1, "damping ratio must be in [0, 1)", damping_ratio);
-  for (const double f : frequencies)
+  for (const double f : frequencies) {
     check(std::isfinite(f) && f >= 0, "frequencies must be finite and not negative", f);
+  }
   for (const double a : acceleration) check(std::isfinite(a), "accelerations must be finite", a);
 }
 
@@ -201,20 +206,23 @@ class TruePeaks {
   void add_step(const std::array<double, 4>& start, const std::array<double, 4>& end) {
     const bool use_series = o_.theta < series_limit;
     const auto from = ends(start, end[3] - start[3]), to = ends(end, end[3] - start[3]);
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 3; ++i) {
       raise_peak(peaks_[i], from[i], to[i], use_series, [&] {
-        if (use_series)
+        if (use_series) {
           return interior_peak(quantity(i, StepSeries(o_, start[0], start[1], start[3], end[3])));
+        }
         const StepClosedForm step(o_, start[0], start[1], start[3], end[3]);
         const StepClosedForm wanted = quantity(i, step);
         return wanted.bound(0) > peaks_[i] ? interior_peak(wanted, peaks_[i]) : peaks_[i];
       });
+    }
   }
 
   void add_free_vibration(double u, double v) {
     const auto last = ends({u, v, -(damping() * v + stiffness() * u), 0}, 0);
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 3; ++i) {
       peaks_[i] = std::max(peaks_[i], free_vibration_peak(o_, last[i].value, last[i].slope));
+    }
   }
 
   const std::array<double, 3>& peaks() const { return peaks_; }
@@ -280,10 +288,11 @@ OscillatorStep oscillator_step(double theta, double damping_ratio) {
     column(0, result.load, Step(o, 0, 0, 1, 0));
     column(1, result.load, Step(o, 0, 0, 0, 1));
   };
-  if (theta < series_limit)
+  if (theta < series_limit) {
     all(static_cast<const StepSeries*>(nullptr));
-  else
+  } else {
     all(static_cast<const StepClosedForm*>(nullptr));
+  }
   return result;
 }
 
@@ -292,9 +301,10 @@ std::vector<SpectrumPoint> response_spectrum(std::span<const double> acceleratio
                                              double damping_ratio, AfterRecord after) {
   check_arguments(acceleration, time_step, frequencies, damping_ratio);
   std::vector<Oscillator> oscillators;
-  for (const double frequency : frequencies)
+  for (const double frequency : frequencies) {
     oscillators.push_back(
         make_oscillator(2 * std::numbers::pi * frequency * time_step, damping_ratio));
+  }
   const std::vector<double> peaks = acceleration.empty()
                                         ? std::vector<double>(frequencies.size(), 0.0)
                                         : all_peaks(acceleration, time_step, oscillators, after);
@@ -316,8 +326,9 @@ std::vector<TrueSpectrumPoint> true_response_spectrum(std::span<const double> ac
   for (const double frequency : frequencies) {
     const double theta = 2 * std::numbers::pi * frequency * time_step;
     std::array<double, 3> peaks{};
-    if (!acceleration.empty())
+    if (!acceleration.empty()) {
       peaks = true_peaks(acceleration, time_step, make_oscillator(theta, damping_ratio), after);
+    }
     spectrum.push_back({frequency, peaks[0] / time_step, peaks[1] / (time_step * time_step),
                         peaks[2] / (time_step * time_step)});
   }

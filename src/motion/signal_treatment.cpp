@@ -53,10 +53,11 @@ std::vector<SignalPeak> find_peaks(const SampledSignal& signal, std::span<const 
   std::ranges::sort(found, {}, &SignalPeak::first);
   std::vector<SignalPeak> peaks;
   for (const SignalPeak& peak : found) {
-    if (!peaks.empty() && peak.first <= peaks.back().last)
+    if (!peaks.empty() && peak.first <= peaks.back().last) {
       peaks.back().last = std::max(peaks.back().last, peak.last);
-    else
+    } else {
       peaks.push_back(peak);
+    }
   }
   for (SignalPeak& peak : peaks) peak.impulse = impulse(signal, peak);
   return peaks;
@@ -71,14 +72,16 @@ SampledSignal treat(const SampledSignal& signal, std::span<const SignalPeak> pea
                     Treatment treatment, double dirac_step) {
   const bool keep_peaks = treatment == Treatment::all_peaks || treatment == Treatment::highest_peak;
   if (treatment == Treatment::complete) return signal;
-  if (treatment == Treatment::dirac && !peaks.empty())
+  if (treatment == Treatment::dirac && !peaks.empty()) {
     return triangle(signal, highest_peak(peaks), dirac_step);
+  }
   SampledSignal treated = signal;
   if (treatment != Treatment::without_peaks) std::ranges::fill(treated.acceleration, 0.0);
   for (const SignalPeak& peak : peaks) {
     if (treatment == Treatment::highest_peak && &peak != &highest_peak(peaks)) continue;
-    for (std::size_t k = peak.first; k < peak.last; ++k)
+    for (std::size_t k = peak.first; k < peak.last; ++k) {
       treated.acceleration[k] = keep_peaks ? signal.acceleration[k] : 0;
+    }
   }
   return treated;
 }

@@ -35,32 +35,37 @@ std::vector<double> regulatory_frequencies() {
                               {1500, 50}, {1800, 100}, {2200, 200}, {3400, 300}};
   std::vector<double> frequencies;
   int f = 20;
-  for (const Range& range : ranges)
+  for (const Range& range : ranges) {
     for (; f < range.end; f += range.step) frequencies.push_back(f / 100.0);
+  }
   frequencies.push_back(f / 100.0);
   return frequencies;
 }
 
 std::vector<double> envelope_of(std::span<const std::vector<double>> spectra) {
   std::vector<double> envelope = spectra.front();
-  for (const auto& spectrum : spectra)
+  for (const auto& spectrum : spectra) {
     std::ranges::transform(envelope, spectrum, envelope.begin(),
                            [](double a, double b) { return std::max(a, b); });
+  }
   return envelope;
 }
 
 std::vector<double> broadened(std::span<const double> frequencies, std::span<const double> values,
                               double fraction) {
-  if (!(fraction >= 0 && fraction < 1))
+  if (!(fraction >= 0 && fraction < 1)) {
     throw UserError("broadening must be in [0, 1), not " + std::to_string(fraction));
+  }
   std::vector<double> result(values.begin(), values.end());
   if (fraction == 0) return result;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double low = frequencies[i] / (1 + fraction), high = frequencies[i] / (1 - fraction);
     result[i] = std::max(value_at(frequencies, values, low), value_at(frequencies, values, high));
-    for (std::size_t k = 0; k < values.size(); ++k)
-      if (frequencies[k] >= low && frequencies[k] <= high)
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (frequencies[k] >= low && frequencies[k] <= high) {
         result[i] = std::max(result[i], values[k]);
+      }
+    }
   }
   return result;
 }

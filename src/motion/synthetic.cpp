@@ -40,8 +40,9 @@ std::vector<double> control_frequencies(const TargetSpectrum& target) {
   const double high = std::min(highest_matched, target.frequency.back());
   const double intervals = std::ceil(points_per_decade * std::log10(high / low));
   std::vector<double> frequencies;
-  for (int i = 0; i <= static_cast<int>(intervals); ++i)
+  for (int i = 0; i <= static_cast<int>(intervals); ++i) {
     frequencies.push_back(low * std::pow(high / low, i / intervals));
+  }
   return frequencies;
 }
 
@@ -49,8 +50,9 @@ std::vector<double> control_frequencies(const TargetSpectrum& target) {
 std::vector<double> log_misfit(std::span<const double> acceleration,
                                const std::vector<double>& controls, const TargetSpectrum& target) {
   std::vector<double> misfit;
-  for (const auto& point : response_spectrum(acceleration, time_step, controls, target_damping))
+  for (const auto& point : response_spectrum(acceleration, time_step, controls, target_damping)) {
     misfit.push_back(std::log(point.pseudo_acceleration / target.at(point.frequency)));
+  }
   return misfit;
 }
 
@@ -141,8 +143,9 @@ void impose_peak(std::vector<double>& acceleration, double wavelet) {
   const double centre = time_at(static_cast<std::size_t>(largest - acceleration.begin()));
   for (std::size_t i = 0; i < acceleration.size(); ++i) {
     const double x = wavelet * (time_at(i) - centre);
-    if (std::abs(x) < 3)
+    if (std::abs(x) < 3) {
       acceleration[i] += missing * std::exp(-3.125 * x * x) * std::cos(2 * pi * x);
+    }
   }
 }
 
@@ -161,8 +164,9 @@ void correct_baseline(std::vector<double>& acceleration) {
   }
   const double determinant = v0 * d1 - v1 * d0;
   const double c0 = (v * d1 - v1 * d) / determinant, c1 = (v0 * d - v * d0) / determinant;
-  for (std::size_t i = 0; i < acceleration.size(); ++i)
+  for (std::size_t i = 0; i < acceleration.size(); ++i) {
     acceleration[i] -= (c0 + c1 * linear(time_at(i))) * window(time_at(i));
+  }
   acceleration.front() = acceleration.back() = 0;
 }
 
@@ -174,16 +178,20 @@ void check(const TargetSpectrum& target, const SyntheticMotion& motion, double p
   const auto refuse = [](const std::string& what) { throw UserError("synthetic motion: " + what); };
   const auto [rise_end, decay_start] = motion.envelope;
   if (target.frequency.size() < 2) refuse("the target spectrum needs at least 2 frequencies");
-  if (!(target.frequency.front() < highest_matched))
+  if (!(target.frequency.front() < highest_matched)) {
     refuse("the target spectrum must begin below " + std::to_string(highest_matched) + " Hz");
-  if (!(std::isfinite(pga) && pga > 0))
+  }
+  if (!(std::isfinite(pga) && pga > 0)) {
     refuse("pga " + std::to_string(pga) + " must be positive [m/s2]");
-  if (!(motion.duration >= 2 / target.frequency.front() && motion.duration <= 1000))
+  }
+  if (!(motion.duration >= 2 / target.frequency.front() && motion.duration <= 1000)) {
     refuse("duration " + std::to_string(motion.duration) +
            " s must hold two periods of the lowest target frequency and not exceed 1000 s");
-  if (!(rise_end >= 0 && rise_end <= decay_start && decay_start <= motion.duration))
+  }
+  if (!(rise_end >= 0 && rise_end <= decay_start && decay_start <= motion.duration)) {
     refuse("envelope " + std::to_string(rise_end) + "," + std::to_string(decay_start) +
            " must be 0 <= end of rise <= start of decay <= duration [s]");
+  }
 }
 
 }  // namespace
@@ -207,9 +215,10 @@ TargetSpectrum read_target_spectrum(const std::string& file) {
       continue;
     }
     names_allowed = false;
-    if (!row || row->values.size() != 2 || !(row->values[0] > 0) || !(row->values[1] > 0))
+    if (!row || row->values.size() != 2 || !(row->values[0] > 0) || !(row->values[1] > 0)) {
       throw UserError(at_line(file, line.number) + "'" + line.text.substr(0, 60) +
                       "' is not a frequency [Hz] and a ratio PSA / PGA, both positive");
+    }
     target.frequency.push_back(row->values[0]);
     target.ratio.push_back(row->values[1]);
   }
@@ -219,10 +228,12 @@ TargetSpectrum read_target_spectrum(const std::string& file) {
     std::reverse(target.frequency.begin(), target.frequency.end());
     std::reverse(target.ratio.begin(), target.ratio.end());
   }
-  for (std::size_t i = 1; i < size; ++i)
-    if (!(target.frequency[i] > target.frequency[i - 1]))
+  for (std::size_t i = 1; i < size; ++i) {
+    if (!(target.frequency[i] > target.frequency[i - 1])) {
       throw UserError(file + ": frequency " + std::to_string(target.frequency[i]) +
                       " Hz is out of order; sort the lines by frequency, each once");
+    }
+  }
   return target;
 }
 
@@ -234,8 +245,9 @@ Accelerogram generate_accelerogram(const TargetSpectrum& target, const Synthetic
   // The wavelet belongs to the upper end of the target's plateau.
   const double top = *std::max_element(target.ratio.begin(), target.ratio.end());
   double wavelet = controls.back();
-  for (const double f : controls)
+  for (const double f : controls) {
     if (target.at(f) >= 0.95 * top) wavelet = f;
+  }
 
   auto current = random_motion(target, motion, size, controls.back());
   std::vector<double> best;
@@ -249,10 +261,11 @@ Accelerogram generate_accelerogram(const TargetSpectrum& target, const Synthetic
     if (score < best_score) best = current, best_score = score, best_rms = seen.rms;
     current = correct_spectrum(std::move(current), controls, misfit);
   }
-  if (!(best_rms < accepted_rms))
+  if (!(best_rms < accepted_rms)) {
     throw UserError("synthetic motion: the 5 % spectrum stays " +
                     std::to_string(std::lround(100 * best_rms)) + " % rms from " + motion.target +
                     "; lengthen the duration or smooth the target");
+  }
   const double scale = pga / peak_of(best);
   for (double& a : best) {
     a *= scale;

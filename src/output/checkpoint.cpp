@@ -61,9 +61,7 @@ class CheckpointWriter {
       file_->write_attribute("/", "time_step", identity.time_step);
       file_->write_attribute("/", "ground_motion", identity.ground_motion);
       std::vector<std::string> lines;
-      for (const auto& [name, value] : identity.options) {
-        lines.push_back(name + ": " + value);
-      }
+      for (const auto& [name, value] : identity.options) lines.push_back(name + ": " + value);
       file_->write_strings("options", lines);
     });
   }

@@ -23,9 +23,7 @@ inline std::string folder(const Mesh& mesh) {
 
 inline GlobalIndex element_count(const Mesh& mesh) {
   GlobalIndex count = 0;
-  for (const ElementBlock& block : mesh.blocks) {
-    count += block.global_count;
-  }
+  for (const ElementBlock& block : mesh.blocks) count += block.global_count;
   return count;
 }
 

@@ -25,9 +25,7 @@ class CheckpointReader {
   CheckpointReader(MPI_Comm comm, const std::string& path) : comm_(comm), path_(path) {
     on_root([&] {
       file_.emplace(path, Hdf5Reader::Kind::sealed);
-      if (!is_checkpoint()) {
-        refuse("an HDF5 file, but not a checkpoint");
-      }
+      if (!is_checkpoint()) refuse("an HDF5 file, but not a checkpoint");
       if (const double version = file_->number("/", "version"); version != format::version) {
         std::ostringstream text;
         text << "a checkpoint of format " << version << ", this program reads format "
@@ -48,9 +46,7 @@ class CheckpointReader {
       }
       for (const auto& [name, value] : options) {
         const auto before = written.find(name);
-        if (before == written.end()) {
-          refuse("written without the option -" + name + " " + value);
-        }
+        if (before == written.end()) refuse("written without the option -" + name + " " + value);
         if (before->second != value) {
           refuse("written with -" + name + " " + before->second + ", now it is " + value +
                  "; give the same or start anew");
@@ -95,13 +91,9 @@ class CheckpointReader {
         refuse("structure " + mesh.structure + " has its nodes elsewhere: another mesh");
       }
     });
-    if (system.generalised) {
-      check_basis(folder, system);
-    }
+    if (system.generalised) check_basis(folder, system);
     for (const std::string& name : names(folder)) {
-      if (name == "coordinates" || name == "basis_check") {
-        continue;
-      }
+      if (name == "coordinates" || name == "basis_check") continue;
       std::vector<double> table;
       on_root([&] {
         const std::string place = folder + "/" + name;
@@ -143,18 +135,14 @@ class CheckpointReader {
       }
     });
     broadcast_tables(comm_, tables);
-    for (const auto& [name, table] : tables) {
-      saved.put(name, table.values, table.columns);
-    }
+    for (const auto& [name, table] : tables) saved.put(name, table.values, table.columns);
     for (const std::string& name : names("sums")) {
       std::vector<double> table;
       std::uint64_t columns = 0;
       on_root([&] {
         table = finite_array("sums/" + name);
         columns = file_->shape("sums/" + name).columns;
-        if (columns == 0) {
-          refuse("'sums/" + name + "' does not have one row per rank");
-        }
+        if (columns == 0) refuse("'sums/" + name + "' does not have one row per rank");
       });
       MPI_Bcast(&columns, 1, MPI_UINT64_T, 0, comm_);
       saved.put_sums(name, scatter_parts(comm_, table, columns));
@@ -203,15 +191,11 @@ class CheckpointReader {
   std::vector<std::string> names(const std::string& group) {
     SavedTables tables;
     on_root([&] {
-      for (const std::string& name : file_->names(group)) {
-        tables[name] = {};
-      }
+      for (const std::string& name : file_->names(group)) tables[name] = {};
     });
     broadcast_tables(comm_, tables);
     std::vector<std::string> result;
-    for (const auto& entry : tables) {
-      result.push_back(entry.first);
-    }
+    for (const auto& entry : tables) result.push_back(entry.first);
     return result;
   }
 

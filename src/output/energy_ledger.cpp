@@ -33,17 +33,13 @@ EnergyLedger::EnergyLedger(std::int64_t expected_lines)
 
 void EnergyLedger::add(const EnergyLine& line) {
   last_ = line;
-  if (added_ % stride_ == 0) {
-    lines_.push_back(line);
-  }
+  if (added_ % stride_ == 0) lines_.push_back(line);
   ++added_;
 }
 
 void EnergyLedger::save(SavedState& saved) const {
   std::vector<double> numbers;
-  for (const EnergyLine& line : lines_) {
-    append_numbers(line, numbers);
-  }
+  for (const EnergyLine& line : lines_) append_numbers(line, numbers);
   saved.put("ledger", numbers, columns);
   numbers.clear();
   append_numbers(last_, numbers);

@@ -111,12 +111,8 @@ void ImpactCatalogue::add_step(double time, double duration, std::span<const dou
     step_impulse_[contact_of_row_[row]] += impulses[row];
   }
   for (std::size_t c = 0; c < open_.size(); ++c) {
-    if (!(step_impulse_[c] > 0)) {
-      continue;
-    }
-    if (is_open_[c] != 0 && time - open_[c].end > merge_time_) {
-      close(c);
-    }
+    if (!(step_impulse_[c] > 0)) continue;
+    if (is_open_[c] != 0 && time - open_[c].end > merge_time_) close(c);
     if (is_open_[c] == 0) {
       is_open_[c] = 1;
       open_[c] = Impact{};
@@ -156,17 +152,13 @@ void ImpactCatalogue::close(std::size_t contact) {
   impacts_.push_back(impact);
   is_open_[contact] = 0;
   for (std::size_t row = 0; row < touched_.size(); ++row) {
-    if (contact_of_row_[row] == static_cast<int>(contact)) {
-      touched_[row] = 0;
-    }
+    if (contact_of_row_[row] == static_cast<int>(contact)) touched_[row] = 0;
   }
 }
 
 void ImpactCatalogue::finish(MPI_Comm comm, int root) {
   for (std::size_t c = 0; c < open_.size(); ++c) {
-    if (is_open_[c] != 0) {
-      close(c);
-    }
+    if (is_open_[c] != 0) close(c);
   }
   broadcast_array(comm, impacts_, root);
   std::stable_sort(impacts_.begin(), impacts_.end(),
@@ -188,12 +180,8 @@ void ImpactCatalogue::load(const SavedState& saved) {
   saved.get("impacts_is_open", is_open);
   saved.get("impacts_touched_rows", touched);
   const std::vector<double>& closed = saved.table("impacts", impact_columns);
-  if (!names_contacts(closed, open_.size())) {
-    saved.refuse_values("impacts");
-  }
-  if (!names_contacts(open, open_.size())) {
-    saved.refuse_values("impacts_open");
-  }
+  if (!names_contacts(closed, open_.size())) saved.refuse_values("impacts");
+  if (!names_contacts(open, open_.size())) saved.refuse_values("impacts_open");
   impacts_ = from_table(closed);
   open_ = from_table(open);
   const auto is_set = [](double value) { return static_cast<char>(value != 0); };
@@ -204,18 +192,14 @@ void ImpactCatalogue::load(const SavedState& saved) {
 ImpactTotals ImpactCatalogue::totals(int contact) const {
   ImpactTotals totals;
   for (const Impact& impact : impacts_) {
-    if (impact.contact == contact) {
-      totals.add(impact);
-    }
+    if (impact.contact == contact) totals.add(impact);
   }
   return totals;
 }
 
 ImpactTotals ImpactCatalogue::totals() const {
   ImpactTotals totals;
-  for (const Impact& impact : impacts_) {
-    totals.add(impact);
-  }
+  for (const Impact& impact : impacts_) totals.add(impact);
   return totals;
 }
 
@@ -245,9 +229,7 @@ std::vector<NamedWindow> read_impact_windows(const std::string& path) {
   std::vector<NamedWindow> windows;
   bool named = false;
   for (const TextLine& line : read_text_lines(path)) {
-    if (line.text.empty() || is_comment(line.text)) {
-      continue;
-    }
+    if (line.text.empty() || is_comment(line.text)) continue;
     const auto words = split_words(line.text);
     if (!named) {
       named = true;

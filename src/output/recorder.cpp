@@ -50,9 +50,7 @@ Recorder::Recorder(Layout layout, std::span<const LinearSystem> systems,
     }
   }
   name_channels();
-  if (layout_.continued.empty()) {
-    create_file(layout_.path);
-  }
+  if (layout_.continued.empty()) create_file(layout_.path);
 }
 
 Recorder::StructureNodes Recorder::find_nodes(const LinearSystem& system, const Mesh& mesh,
@@ -70,13 +68,9 @@ Recorder::StructureNodes Recorder::find_nodes(const LinearSystem& system, const 
       if (!system.generalised || places.size() == before) {
         found.insert(found.end(), {static_cast<GlobalIndex>(p), static_cast<GlobalIndex>(k)});
       }
-      for (int d = 0; d < 3; ++d) {
-        places.push_back({probe.nodes[k], d});
-      }
+      for (int d = 0; d < 3; ++d) places.push_back({probe.nodes[k], d});
     }
-    if (places.size() > before) {
-      counts.push_back((places.size() - before) / 3);
-    }
+    if (places.size() > before) counts.push_back((places.size() - before) / 3);
   }
   StructureNodes nodes{structure, Trace(system, mesh, places, false), {}, nodes_, {}};
   nodes.values.resize(system.generalised ? 3 * counts.size() : places.size());
@@ -98,9 +92,7 @@ Recorder::StructureNodes Recorder::find_nodes(const LinearSystem& system, const 
 
 void Recorder::name_channels() {
   for (const ResolvedProbe& probe : layout_.probes) {
-    for (const char* direction : direction_names) {
-      channels_.push_back(probe.name + "." + direction);
-    }
+    for (const char* direction : direction_names) channels_.push_back(probe.name + "." + direction);
     const Vector3& v = layout_.initial_velocity[probe.structure];
     last_velocity_.insert(last_velocity_.end(), v.begin(), v.end());
   }
@@ -144,9 +136,7 @@ void Recorder::create_file(const std::string& path) {
 }
 
 void Recorder::add_step(const std::array<double, 3>& ground_velocity_step) {
-  for (std::size_t d = 0; d < 3; ++d) {
-    ground_sum_[d] += ground_velocity_step[d];
-  }
+  for (std::size_t d = 0; d < 3; ++d) ground_sum_[d] += ground_velocity_step[d];
 }
 
 void Recorder::put(const State& state, std::vector<double> StructureState::*quantity,
@@ -182,9 +172,7 @@ void Recorder::record(const State& state, std::span<const double> gaps) {
   }
   std::copy(ground_sum_.begin(), ground_sum_.end(), &ground_[3 * buffered_]);
   ground_sum_ = {0, 0, 0};
-  if (++buffered_ == buffer_records) {
-    flush();
-  }
+  if (++buffered_ == buffer_records) flush();
 }
 
 void Recorder::flush() {
@@ -205,9 +193,7 @@ void Recorder::flush() {
   MPI_Gatherv(buffer_.data(), static_cast<int>(rows * width_), MPI_DOUBLE, gathered.data(),
               counts.data(), offsets.data(), MPI_DOUBLE, 0, layout_.comm);
   on_rank0(layout_.comm, [&] {
-    if (rows > 0) {
-      write_rows(rows, gathered, offsets);
-    }
+    if (rows > 0) write_rows(rows, gathered, offsets);
   });
 }
 
@@ -222,9 +208,7 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
   std::vector<double> force;
   // Node values of one record by probe and position: means are taken in the probe's own order.
   std::vector<std::vector<const double*>> values;
-  for (const std::size_t count : recorded_nodes_) {
-    values.emplace_back(count, nullptr);
-  }
+  for (const std::size_t count : recorded_nodes_) values.emplace_back(count, nullptr);
   const auto first = static_cast<std::ptrdiff_t>(accelerations_.size());
   for (std::size_t row = 0; row < rows; ++row) {
     std::size_t node = 0;
@@ -270,9 +254,7 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
   }
   std::vector<double> ground(ground_.begin(),
                              ground_.begin() + static_cast<std::ptrdiff_t>(3 * rows));
-  for (double& value : ground) {
-    value /= interval();
-  }
+  for (double& value : ground) value /= interval();
   file_->append("ground_acceleration", ground);
   if (contacts > 0) {
     file_->append("gap", gap);
@@ -297,9 +279,7 @@ void Recorder::note_peaks(std::size_t first_record, std::span<const double> disp
   const std::size_t first = first_record_from(layout_.peaks_start);
   for (std::size_t i = 0; i < displacement.size(); ++i) {
     largest_displacement_ = std::max(largest_displacement_, std::abs(displacement[i]));
-    if (first_record + i / channels_.size() < first) {
-      continue;
-    }
+    if (first_record + i / channels_.size() < first) continue;
     ChannelPeaks& peaks = peaks_[i % channels_.size()];
     peaks.acceleration = std::max(peaks.acceleration, std::abs(acceleration[i]));
     peaks.displacement = std::max(peaks.displacement, std::abs(displacement[i]));
@@ -310,9 +290,7 @@ void Recorder::finish(bool complete) {
   flush();
   on_rank0(layout_.comm, [&] {
     file_->close();
-    if (complete) {
-      file_->mark("complete", 1);
-    }
+    if (complete) file_->mark("complete", 1);
   });
 }
 

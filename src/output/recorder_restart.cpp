@@ -18,9 +18,7 @@ constexpr std::size_t copied_records = 16384;
 void Recorder::save(SavedState& saved) {
   flush();
   saved.put("recorder_ground_velocity", ground_sum_);
-  if (rank_of(layout_.comm) == layout_.interface_root) {
-    saved.put("recorder_impulse", impulse_);
-  }
+  if (rank_of(layout_.comm) == layout_.interface_root) saved.put("recorder_impulse", impulse_);
   if (rank_of(layout_.comm) == 0) {
     saved.put("recorder_records", {static_cast<double>(records_)});
     saved.put("recorder_last_velocity", last_velocity_);
@@ -29,13 +27,9 @@ void Recorder::save(SavedState& saved) {
 
 void Recorder::load(const SavedState& saved) {
   saved.get("recorder_ground_velocity", ground_sum_);
-  if (layout_.interface_root >= 0) {
-    saved.get("recorder_impulse", impulse_);
-  }
+  if (layout_.interface_root >= 0) saved.get("recorder_impulse", impulse_);
   records_ = saved.integer("recorder_records");
-  if (records_ < 0) {
-    saved.refuse_values("recorder_records");
-  }
+  if (records_ < 0) saved.refuse_values("recorder_records");
   on_rank0(layout_.comm, [&] {
     saved.get("recorder_last_velocity", last_velocity_);
     std::optional<Hdf5Reader> history;

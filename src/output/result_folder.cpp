@@ -79,9 +79,7 @@ void ResultFolder::lock() {
                       first_line(path) + "); wait for its end, or give another folder");
     }
     own = has_name(lock_, path);  // else the run before took it away meanwhile
-    if (!own) {
-      close(lock_);
-    }
+    if (!own) close(lock_);
   }
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
@@ -93,9 +91,7 @@ void ResultFolder::lock() {
 }
 
 ResultFolder::~ResultFolder() {
-  if (has_name(lock_, lock_path(path_))) {
-    unlink(lock_path(path_).c_str());
-  }
+  if (has_name(lock_, lock_path(path_))) unlink(lock_path(path_).c_str());
   close(lock_);
   for (const fs::path& folder : made_) {
     rmdir(folder.c_str());  // fails where there is anything in it
@@ -113,13 +109,9 @@ std::vector<std::string> ResultFolder::clear(const std::string& restart) const {
       removed.emplace_back(name);
     }
   };
-  for (const char* name : written) {
-    remove(name);
-  }
+  for (const char* name : written) remove(name);
   for (const char* name : continued) {
-    if (!goes_on) {
-      remove(name);
-    }
+    if (!goes_on) remove(name);
   }
   return removed;
 }
@@ -130,9 +122,7 @@ void write_whole_file(const std::string& path, const std::string& text) {
   file << text;
   file.close();
   std::error_code failure;
-  if (file) {
-    fs::rename(draft, path, failure);
-  }
+  if (file) fs::rename(draft, path, failure);
   if (!file || failure) {
     throw UserError(path + ": could not be written completely (is the disk full?)");
   }

@@ -68,9 +68,7 @@ void broadcast_tables(MPI_Comm comm, SavedTables& tables) {
 std::vector<double> gather_parts(MPI_Comm comm, const std::vector<double>& parts) {
   const int count = static_cast<int>(parts.size());
   std::vector<double> table;
-  if (rank_of(comm) == 0) {
-    table.resize(parts.size() * static_cast<std::size_t>(size_of(comm)));
-  }
+  if (rank_of(comm) == 0) table.resize(parts.size() * static_cast<std::size_t>(size_of(comm)));
   MPI_Gather(parts.data(), count, MPI_DOUBLE, table.data(), count, MPI_DOUBLE, 0, comm);
   return table;
 }
@@ -83,9 +81,7 @@ std::vector<double> scatter_parts(MPI_Comm comm, const std::vector<double>& tabl
     if (table.size() == rows.size()) {
       rows = table;
     } else {
-      for (std::size_t i = 0; i < table.size(); ++i) {
-        rows[i % columns] += table[i];
-      }
+      for (std::size_t i = 0; i < table.size(); ++i) rows[i % columns] += table[i];
     }
   }
   const int count = static_cast<int>(columns);

@@ -58,9 +58,7 @@ CommandLine read_command_line(std::span<const std::string> words) {
   });
   for (std::size_t i = 0; i < words.size() && !line.help && !line.version; ++i) {
     const std::string& word = words[i];
-    if (!is_option(word)) {
-      refuse_stray(word);
-    }
+    if (!is_option(word)) refuse_stray(word);
     refuse_joined(word);
     const bool has_value = i + 1 < words.size() && !is_option(words[i + 1]);
     const std::string value = has_value ? words[++i] : "";

@@ -41,9 +41,7 @@ Rayleigh read_damping_ratio(OptionReader& options, const DampingPatterns& patter
 /// is that of `inherited`.
 Rayleigh read_damping(OptionReader& options, const DampingPatterns& patterns, const Names& names,
                       const Rayleigh& inherited) {
-  if (options.given(patterns.ratio, names)) {
-    return read_damping_ratio(options, patterns, names);
-  }
+  if (options.given(patterns.ratio, names)) return read_damping_ratio(options, patterns, names);
   options.forbid(patterns.frequencies, names,
                  "goes with -" + option_name(patterns.ratio, names) + ", which is not given");
   const auto number = [&](std::string_view pattern, double otherwise) {
@@ -87,9 +85,7 @@ std::optional<UniformDamping> read_uniform_damping(OptionReader& options,
   }
   UniformDamping damping = fit_uniform_damping(options.real(uniform, names), ends[0], ends[1],
                                                options.integer(filters, names));
-  if (options.given(reference, names)) {
-    damping.reference = options.real(reference, names);
-  }
+  if (options.given(reference, names)) damping.reference = options.real(reference, names);
   return damping;
 }
 
@@ -104,9 +100,7 @@ std::optional<Rayleigh> read_region_damping(OptionReader& options, const Names& 
     }
     given = given || options.given(pattern, names);
   }
-  if (!given) {
-    return std::nullopt;
-  }
+  if (!given) return std::nullopt;
   return read_damping(options, region_damping, names, inherited);
 }
 

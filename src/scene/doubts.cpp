@@ -31,9 +31,7 @@ class Doubts {
   void add(const std::string& line) { lines_.push_back(line); }
 
   void look_at(const std::string& owner, const Plausible& range, double value) {
-    if (value >= range.low && value <= range.high) {
-      return;
-    }
+    if (value >= range.low && value <= range.high) return;
     std::ostringstream text;
     text << owner << ": " << range.what << " " << value << " " << range.unit << " is outside "
          << range.low << " to " << range.high << " " << range.unit << "; " << range.hint;
@@ -67,9 +65,7 @@ class Doubts {
 };
 
 void look_at_region(const std::string& structure, const Region& region, Doubts& doubts) {
-  if (!has_extent(region.element)) {
-    return;
-  }
+  if (!has_extent(region.element)) return;
   const std::string owner = structure + ", group " + region.group;
   if (const std::string_view caution = traits_of(region.element).caution; !caution.empty()) {
     doubts.add(owner + ": " + std::string(caution));
@@ -103,9 +99,7 @@ void look_at_gravity(const Structure& structure, Doubts& doubts) {
   for (std::size_t d = 0; d < 3; ++d) {
     dropped = dropped || (structure.gravity[d] != 0 && is_held(structure, d));
   }
-  if (!dropped) {
-    return;
-  }
+  if (!dropped) return;
   doubts.add("structure " + structure.name +
              ": gravity acts at once at t = 0 on a structure that is held: a drop test, it swings "
              "about its sagging by as much again; leave gravity out, or let this die away before "

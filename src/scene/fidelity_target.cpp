@@ -146,9 +146,7 @@ const Setting& fastest(const std::vector<Setting>& settings, double target,
 ChosenFidelity choose_fidelity(const OptionsDatabase& given, const std::string& structures_key) {
   ChosenFidelity chosen{given, ""};
   OptionReader reader(given);
-  if (!reader.given("fidelity_target")) {
-    return chosen;
-  }
+  if (!reader.given("fidelity_target")) return chosen;
   const double target = reader.real("fidelity_target");
   const std::string path = reader.text("fidelity_table");
   const Table table = read_table(path);
@@ -157,9 +155,7 @@ ChosenFidelity choose_fidelity(const OptionsDatabase& given, const std::string& 
   const Setting& setting = fastest(table.settings, target, given, structures, path);
   std::string changes;
   for (const auto& [option, value] : options_of(setting, structures)) {
-    if (chosen.options.try_emplace(option, value).second) {
-      changes += " -" + option + " " + value;
-    }
+    if (chosen.options.try_emplace(option, value).second) changes += " -" + option + " " + value;
   }
   std::ostringstream text;
   text << "fidelity target " << 100 * target << " %: setting '" << setting.name

@@ -31,12 +31,8 @@ const char* title_of(OptionBlock block) {
 }
 
 std::string preset_of(const OptionRow& row) {
-  if (row.preset.required) {
-    return "required";
-  }
-  if (!row.preset.has_value) {
-    return std::string(row.preset.text);
-  }
+  if (row.preset.required) return "required";
+  if (!row.preset.has_value) return std::string(row.preset.text);
   return row.preset.text.empty() ? "default: empty" : "default: " + std::string(row.preset.text);
 }
 
@@ -79,9 +75,7 @@ std::string help_text() {
   bool first = true;
   OptionBlock block{};
   for (const OptionRow& row : option_table()) {
-    if (first || row.block != block) {
-      text.append("\n").append(title_of(row.block)).append("\n");
-    }
+    if (first || row.block != block) text.append("\n").append(title_of(row.block)).append("\n");
     first = false;
     block = row.block;
     append(text, row);

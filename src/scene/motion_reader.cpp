@@ -10,9 +10,7 @@ using Names = OptionReader::Names;
 /// Options that would have no effect are mistakes.
 void forbid_all(const OptionReader& options, std::initializer_list<std::string_view> patterns,
                 const Names& names, const std::string& why) {
-  for (const std::string_view pattern : patterns) {
-    options.forbid(pattern, names, why);
-  }
+  for (const std::string_view pattern : patterns) options.forbid(pattern, names, why);
 }
 
 RecordedMotion read_record(OptionReader& options, const Names& names) {
@@ -66,9 +64,7 @@ std::optional<MotionComponent> read_motion(OptionReader& options, const std::str
       }
     }
   }
-  if (!synthetic && options.text("motion_<x|y|z>_record", names) == "none") {
-    return std::nullopt;
-  }
+  if (!synthetic && options.text("motion_<x|y|z>_record", names) == "none") return std::nullopt;
   MotionComponent component;
   component.pga = options.real("motion_<x|y|z>_pga", names);
   component.scale = options.real("motion_<x|y|z>_scale", names);

@@ -8,9 +8,7 @@ int edit_distance(std::string_view a, std::string_view b) {
   std::vector<int> two_back(b.size() + 1);
   std::vector<int> previous(b.size() + 1);
   std::vector<int> current(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) {
-    current[j] = static_cast<int>(j);
-  }
+  for (std::size_t j = 0; j <= b.size(); ++j) current[j] = static_cast<int>(j);
   for (std::size_t i = 1; i <= a.size(); ++i) {
     two_back.swap(previous);
     previous.swap(current);

@@ -34,9 +34,7 @@ bool is_complete(const OptionsDatabase& database, OptionBlock block, const std::
 std::set<std::string> region_groups(const OptionsDatabase& database, const std::string& structure) {
   std::set<std::string> groups;
   for (const OptionRow& row : option_table()) {
-    if (row.block != OptionBlock::region) {
-      continue;
-    }
+    if (row.block != OptionBlock::region) continue;
     const std::string tail(row.pattern.substr(row.pattern.rfind('>') + 1));
     for (const auto& [option, value] : database) {
       if (const auto group = match_option(structure + "_<group>" + tail, option)) {
@@ -54,9 +52,7 @@ std::vector<std::string> complete_names(const OptionsDatabase& database, OptionB
   std::vector<std::string> names;
   for (const auto& [option, value] : database) {
     const auto name = match_option(first->pattern, option);
-    if (name && is_complete(database, block, *name)) {
-      names.push_back(*name);
-    }
+    if (name && is_complete(database, block, *name)) names.push_back(*name);
   }
   return names;
 }

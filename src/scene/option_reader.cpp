@@ -15,9 +15,7 @@ bool OptionReader::given(std::string_view pattern, const Names& names) const {
 std::string OptionReader::value(std::string_view pattern, const Names& names) const {
   const OptionRow& row = option_row(pattern);
   const auto entry = database_.find(option_name(pattern, names));
-  if (entry != database_.end()) {
-    return trimmed(entry->second);
-  }
+  if (entry != database_.end()) return trimmed(entry->second);
   if (!row.preset.has_value) {
     throw UserError("missing option -" + option_name(pattern, names) + " (" +
                     std::string(row.help) + "): expected " + expected_text(row));
@@ -53,9 +51,7 @@ void OptionReader::forbid(std::string_view pattern, const Names& names,
 std::string OptionReader::text(std::string_view pattern, const Names& names) {
   const Preset& preset = option_row(pattern).preset;
   std::string result = value(pattern, names);
-  if (result.empty() && !(preset.has_value && preset.text.empty())) {
-    refuse(pattern, names);
-  }
+  if (result.empty() && !(preset.has_value && preset.text.empty())) refuse(pattern, names);
   keep(pattern, names);
   return result;
 }
@@ -91,9 +87,7 @@ int OptionReader::integer(std::string_view pattern, const Names& names) {
 
 bool OptionReader::boolean(std::string_view pattern, const Names& names) {
   const auto flag = parse_boolean(value(pattern, names));
-  if (!flag) {
-    refuse(pattern, names);
-  }
+  if (!flag) refuse(pattern, names);
   keep(pattern, names);
   return *flag;
 }
@@ -102,16 +96,10 @@ std::vector<std::string> OptionReader::list(std::string_view pattern, const Name
   const bool required = option_row(pattern).preset.required;
   const std::string whole = value(pattern, names);
   std::vector<std::string> items = split(whole, ',');
-  if (whole == "none" && !required) {
-    items.clear();
-  }
+  if (whole == "none" && !required) items.clear();
   for (auto item = items.begin(); item != items.end(); ++item) {
-    if (item->empty()) {
-      refuse(pattern, names, "empty name");
-    }
-    if (*item == "none") {
-      refuse(pattern, names, "none is not a name");
-    }
+    if (item->empty()) refuse(pattern, names, "empty name");
+    if (*item == "none") refuse(pattern, names, "none is not a name");
     if (std::find(items.begin(), item, *item) != item) {
       refuse(pattern, names, *item + " appears twice");
     }
@@ -123,12 +111,8 @@ std::vector<std::string> OptionReader::list(std::string_view pattern, const Name
 std::vector<double> OptionReader::reals(std::string_view pattern, const Names& names,
                                         std::size_t count) {
   const auto numbers = parse_reals(value(pattern, names));
-  if (!numbers) {
-    refuse(pattern, names, "not finite numbers between commas");
-  }
-  if (count != 0 && numbers->size() != count) {
-    refuse(pattern, names, "wrong count of numbers");
-  }
+  if (!numbers) refuse(pattern, names, "not finite numbers between commas");
+  if (count != 0 && numbers->size() != count) refuse(pattern, names, "wrong count of numbers");
   const Range& range = option_row(pattern).range;
   if (!std::ranges::all_of(*numbers, [&range](double number) { return range.contains(number); })) {
     refuse(pattern, names, "out of range");

@@ -161,12 +161,8 @@ std::string Range::text() const {
     digits.erase(digits.find_last_not_of('0') + 1);
     return digits.back() == '.' ? digits.substr(0, digits.size() - 1) : digits;
   };
-  if (low == -infinity && high == infinity) {
-    return "any";
-  }
-  if (high == infinity) {
-    return (low_open ? "> " : ">= ") + number(low);
-  }
+  if (low == -infinity && high == infinity) return "any";
+  if (high == infinity) return (low_open ? "> " : ">= ") + number(low);
   return (low_open ? "(" : "[") + number(low) + ", " + number(high) + (high_open ? ")" : "]");
 }
 
@@ -188,18 +184,14 @@ std::string option_name(std::string_view pattern, const std::vector<std::string>
   while (true) {
     const std::size_t open = pattern.find('<');
     result += pattern.substr(0, open);
-    if (open == std::string_view::npos) {
-      break;
-    }
+    if (open == std::string_view::npos) break;
     if (name == names.end()) {
       throw std::logic_error("a placeholder without a name in " + std::string(pattern));
     }
     result += *name++;
     pattern.remove_prefix(pattern.find('>') + 1);
   }
-  if (name != names.end()) {
-    throw std::logic_error("more names than placeholders for " + result);
-  }
+  if (name != names.end()) throw std::logic_error("more names than placeholders for " + result);
   return result;
 }
 

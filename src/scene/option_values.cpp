@@ -14,24 +14,18 @@ constexpr int max_range_count = 100000;
 template <typename Number>
 std::optional<Number> parse_number(std::string_view text) {
   std::string digits = trimmed(text);
-  if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') {
-    digits.erase(0, 1);
-  }
+  if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.erase(0, 1);
   Number number{};
   const char* end = digits.data() + digits.size();
   const auto [stop, error] = std::from_chars(digits.data(), end, number);
-  if (error != std::errc{} || stop != end) {
-    return std::nullopt;
-  }
+  if (error != std::errc{} || stop != end) return std::nullopt;
   return number;
 }
 
 std::optional<std::vector<double>> parse_range(const std::vector<std::string>& parts) {
   const std::string& count_and_law = parts[2];
   const bool logarithmic = count_and_law.ends_with("log");
-  if (!logarithmic && !count_and_law.ends_with("lin")) {
-    return std::nullopt;
-  }
+  if (!logarithmic && !count_and_law.ends_with("lin")) return std::nullopt;
   const auto start = parse_real(parts[0]);
   const auto stop = parse_real(parts[1]);
   const auto count = parse_integer(count_and_law.substr(0, count_and_law.size() - 3));
@@ -54,9 +48,7 @@ std::optional<std::vector<double>> parse_range(const std::vector<std::string>& p
 std::string trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t\r\n";
   const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) {
-    return "";
-  }
+  if (first == std::string_view::npos) return "";
   return std::string(text.substr(first, text.find_last_not_of(blanks) - first + 1));
 }
 
@@ -65,9 +57,7 @@ std::vector<std::string> split(std::string_view text, char separator) {
   while (true) {
     const std::size_t end = text.find(separator);
     pieces.push_back(trimmed(text.substr(0, end)));
-    if (end == std::string_view::npos) {
-      return pieces;
-    }
+    if (end == std::string_view::npos) return pieces;
     text.remove_prefix(end + 1);
   }
 }
@@ -85,12 +75,8 @@ std::optional<bool> parse_boolean(std::string_view text) {
   std::string word = trimmed(text);
   std::ranges::transform(word, word.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (word.empty() || word == "true" || word == "yes" || word == "on" || word == "1") {
-    return true;
-  }
-  if (word == "false" || word == "no" || word == "off" || word == "0") {
-    return false;
-  }
+  if (word.empty() || word == "true" || word == "yes" || word == "on" || word == "1") return true;
+  if (word == "false" || word == "no" || word == "off" || word == "0") return false;
   return std::nullopt;
 }
 
@@ -98,9 +84,7 @@ std::optional<std::vector<double>> parse_reals(std::string_view text) {
   std::vector<double> values;
   for (const std::string& piece : split(text, ',')) {
     const auto value = parse_real(piece);
-    if (!value) {
-      return std::nullopt;
-    }
+    if (!value) return std::nullopt;
     values.push_back(*value);
   }
   return values;
@@ -122,9 +106,7 @@ std::string shown_value(std::string_view text) {
   std::string line = trimmed(text);
   std::ranges::replace_if(
       line, [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
-  if (line.empty()) {
-    return "(no value)";
-  }
+  if (line.empty()) return "(no value)";
   return line.size() <= longest ? line : line.substr(0, longest) + "...";
 }
 

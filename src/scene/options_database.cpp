@@ -27,9 +27,7 @@ std::string read_text(const std::string& option, const std::string& file) {
   }
   std::ifstream stream(file, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(stream), {});
-  if (!stream || stream.bad()) {
-    throw UserError(what + "it cannot be read; look at its permissions");
-  }
+  if (!stream || stream.bad()) throw UserError(what + "it cannot be read; look at its permissions");
   return text;
 }
 
@@ -38,9 +36,7 @@ std::string read_text(const std::string& option, const std::string& file) {
 OptionsDatabase read_options_database(MPI_Comm comm, const CommandLine& line) {
   OptionsDatabase database = line.options;
   std::deque<std::pair<std::string, std::string>> waiting;  // option and file
-  for (const std::string& file : line.files) {
-    waiting.emplace_front("options_file", file);
-  }
+  for (const std::string& file : line.files) waiting.emplace_front("options_file", file);
   std::set<std::string> seen;
   const auto take_include = [&](OptionsDatabase& from) {
     const auto found = from.find("include");
@@ -70,9 +66,7 @@ OptionsDatabase read_options_database(MPI_Comm comm, const CommandLine& line) {
 OptionsDatabase petsc_options(const OptionsDatabase& database) {
   OptionsDatabase options;
   for (const auto& [name, value] : database) {
-    if (is_petsc_option(name)) {
-      options[name] = value;
-    }
+    if (is_petsc_option(name)) options[name] = value;
   }
   return options;
 }

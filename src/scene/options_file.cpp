@@ -32,9 +32,7 @@ using Entries = std::map<std::string, Entry>;
 
 /// Whether a tab stands before the first word of a line (counted from 0).
 bool indented_by_tab(std::string_view text, std::size_t line) {
-  for (; line > 0; --line) {
-    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
-  }
+  for (; line > 0; --line) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
   return text.substr(0, text.find_first_not_of(" \t")).find('\t') != std::string_view::npos;
 }
 
@@ -63,9 +61,7 @@ bool indented_by_tab(std::string_view text, std::size_t line) {
 class Yaml {
  public:
   Yaml(const std::string& text, const std::string& file) : text_(text), file_(file) {
-    if (yaml_parser_initialize(&parser_) == 0) {
-      throw std::bad_alloc();
-    }
+    if (yaml_parser_initialize(&parser_) == 0) throw std::bad_alloc();
     yaml_parser_set_input_string(&parser_, reinterpret_cast<const unsigned char*>(text.data()),
                                  text.size());
   }
@@ -79,9 +75,7 @@ class Yaml {
   /// The root of the next document; null behind the last one.
   yaml_node_t* next() {
     forget();
-    if (yaml_parser_load(&parser_, &document_) == 0) {
-      refuse_text(text_, file_, parser_);
-    }
+    if (yaml_parser_load(&parser_, &document_) == 0) refuse_text(text_, file_, parser_);
     loaded_ = true;
     return yaml_document_get_root_node(&document_);
   }
@@ -128,9 +122,7 @@ class OptionsReader {
       }
       const std::string name = text_of(key);
       const auto [first, fresh] = lines.try_emplace(name, key.start_mark.line + 1);
-      if (!fresh) {
-        refuse_twice(key, prefix + name, first->second);
-      }
+      if (!fresh) refuse_twice(key, prefix + name, first->second);
       if (name == "<<") {
         merge(value, prefix, depth, merged);
       } else if (!name.starts_with("$$")) {
@@ -159,9 +151,7 @@ class OptionsReader {
       refuse(file_, value.start_mark, shown_value(option) + " holds a zero character");
     }
     const auto [entry, fresh] = entries.try_emplace(option, Entry{text, key.start_mark.line + 1});
-    if (!fresh) {
-      refuse_twice(key, option, entry->second.line);
-    }
+    if (!fresh) refuse_twice(key, option, entry->second.line);
     if (entries.size() > most_options) {
       refuse(file_, key.start_mark, "more than " + std::to_string(most_options) + " options");
     }
@@ -224,9 +214,7 @@ OptionsDatabase parse_options_file(const std::string& text, const std::string& f
            "a second document (after ---); one file holds one, leave the line --- out");
   }
   OptionsDatabase database;
-  for (const auto& [name, entry] : entries) {
-    database[name] = entry.value;
-  }
+  for (const auto& [name, entry] : entries) database[name] = entry.value;
   return database;
 }
 

@@ -72,9 +72,7 @@ bool is_petsc_option(std::string_view name) {
 std::optional<std::string> petsc_value_fault(const std::string& name, const std::string& value) {
   const auto option = std::ranges::find_if(
       options, [&](const PetscOption& known) { return matches(known.pattern, name); });
-  if (option == options.end()) {
-    return std::nullopt;
-  }
+  if (option == options.end()) return std::nullopt;
   switch (option->value) {
     case Value::flag:
       return parse_boolean(value)
@@ -93,13 +91,9 @@ std::optional<std::string> petsc_value_fault(const std::string& name, const std:
     case Value::solver:
       break;
   }
-  if (std::ranges::find(eigen_solvers, value) != eigen_solvers.end()) {
-    return std::nullopt;
-  }
+  if (std::ranges::find(eigen_solvers, value) != eigen_solvers.end()) return std::nullopt;
   std::string expected = "expected one of:";
-  for (const std::string& solver : eigen_solvers) {
-    expected += " " + solver;
-  }
+  for (const std::string& solver : eigen_solvers) expected += " " + solver;
   return expected + suggestion(value, eigen_solvers);
 }
 

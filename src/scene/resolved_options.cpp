@@ -33,13 +33,9 @@ std::string yaml_line(const std::string& name, const std::string& value) {
 std::string resolved_yaml(const OptionReader& options) {
   std::string text =
       "# All options in force, defaults included; running this file repeats the run.\n";
-  for (const auto& [name, value] : options.in_force()) {
-    text += yaml_line(name, value);
-  }
+  for (const auto& [name, value] : options.in_force()) text += yaml_line(name, value);
   for (const auto& [name, value] : options.database()) {
-    if (is_petsc_option(name)) {
-      text += yaml_line(name, value);
-    }
+    if (is_petsc_option(name)) text += yaml_line(name, value);
   }
   return text;
 }
@@ -49,9 +45,7 @@ std::vector<std::pair<std::string, std::string>> resolved_values(const std::stri
   std::istringstream lines(yaml);
   for (std::string line; std::getline(lines, line);) {
     const std::size_t colon = line.find(": ");
-    if (line.empty() || line[0] == '#' || colon == std::string::npos) {
-      continue;
-    }
+    if (line.empty() || line[0] == '#' || colon == std::string::npos) continue;
     std::string value = line.substr(colon + 2);
     if (value.size() >= 2 && value.front() == '"' && value.back() == '"') {
       value = value.substr(1, value.size() - 2);

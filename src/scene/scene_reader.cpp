@@ -38,15 +38,11 @@ class SceneReader {
       require_own_basis(scene_.structures.back());
       require_full_order(scene_.structures.back());
     }
-    for (const std::string& name : listed_.contacts) {
-      scene_.contacts.push_back(read_contact(name));
-    }
+    for (const std::string& name : listed_.contacts) scene_.contacts.push_back(read_contact(name));
     for (std::size_t d = 0; d < 3; ++d) {
       scene_.motion[d] = read_motion(options_, direction_names[d]);
     }
-    for (const std::string& name : listed_.probes) {
-      scene_.probes.push_back(read_probe(name));
-    }
+    for (const std::string& name : listed_.probes) scene_.probes.push_back(read_probe(name));
     read_spectra();
     const std::vector<std::string> doubts = scene_doubts(scene_);
     scene_.warnings.insert(scene_.warnings.end(), doubts.begin(), doubts.end());
@@ -98,9 +94,7 @@ class SceneReader {
   std::vector<std::string> read_names(std::string_view pattern) {
     std::vector<std::string> list = options_.list(pattern);
     for (const std::string& name : list) {
-      if (const auto fault = name_fault(name)) {
-        options_.refuse(pattern, {}, *fault);
-      }
+      if (const auto fault = name_fault(name)) options_.refuse(pattern, {}, *fault);
       std::string lower = name;
       std::ranges::transform(lower, lower.begin(),
                              [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -116,9 +110,7 @@ class SceneReader {
   void require_full_order(const Structure& structure) const {
     const std::string why =
         "structure " + structure.name + " is reduced; not with -" + structure.name + "_model modal";
-    if (structure.modal && scene_.write_modes) {
-      options_.refuse("write_modes", {}, why);
-    }
+    if (structure.modal && scene_.write_modes) options_.refuse("write_modes", {}, why);
     if (structure.modal && !scene_.export_matrices.empty()) {
       options_.refuse("export_matrices", {}, why);
     }

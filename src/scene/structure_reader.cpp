@@ -78,9 +78,7 @@ std::vector<std::pair<std::string, std::string>> read_mesh_set(OptionReader& opt
 void require_defined(const OptionReader& options, std::string_view pattern, const Names& region,
                      OptionBlock block, const std::string& name) {
   for (const OptionRow& row : option_table()) {
-    if (row.block == block && options.given(row.pattern, {name})) {
-      return;
-    }
+    if (row.block == block && options.given(row.pattern, {name})) return;
   }
   options.refuse(pattern, region,
                  "'" + name + "' is not defined" +
@@ -141,18 +139,14 @@ void read_spring(OptionReader& options, const Names& names, Region& region) {
 void read_point_mass(OptionReader& options, const Names& names, Region& region) {
   region.mass = options.real("<structure>_<group>_mass", names);
   region.rotary_inertia = read_vector(options, "<structure>_<group>_rotary_inertia", names);
-  if (region.rotary_inertia != Vector3{0, 0, 0}) {
-    region.element = ElementType::point_mass6;
-  }
+  if (region.rotary_inertia != Vector3{0, 0, 0}) region.element = ElementType::point_mass6;
 }
 
 /// Reads the properties that elements with a shape need.
 void read_solid(OptionReader& options, const Names& names, Region& region) {
   const ElementTraits& element = traits_of(region.element);
   region.material = read_material(options, names);
-  if (takes(element, "section")) {
-    region.section = read_section(options, names);
-  }
+  if (takes(element, "section")) region.section = read_section(options, names);
   if (takes(element, "area")) {
     region.area = options.real("<structure>_<group>_area", names);
     if (options.boolean("<structure>_<group>_tension_only", names)) {
@@ -276,9 +270,7 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   structure.initial_velocity = read_vector(options, "<structure>_initial_velocity", {name});
   structure.gravity = read_vector(options, "<structure>_gravity", {name});
   structure.uniform_damping = read_uniform_damping(options, name);
-  if (!structure.uniform_damping) {
-    structure.damping = read_structure_damping(options, name);
-  }
+  if (!structure.uniform_damping) structure.damping = read_structure_damping(options, name);
   const std::set<std::string> groups = region_groups(options.database(), name);
   require_elements(options, name, groups);
   for (const std::string& group : groups) {

@@ -37,21 +37,15 @@ bool is_representation(const std::string& option) {
 /// Whether an option tells what the structures are.
 bool belongs(const std::string& name, const std::vector<std::string>& structures,
              const std::vector<std::string>& contacts) {
-  if (name.starts_with("material_") || name.starts_with("section_")) {
-    return true;
-  }
+  if (name.starts_with("material_") || name.starts_with("section_")) return true;
   const auto rest = [&](const std::vector<std::string>& owners) {
     for (const std::string& owner : owners) {
-      if (name.starts_with(owner + "_")) {
-        return name.substr(owner.size() + 1);
-      }
+      if (name.starts_with(owner + "_")) return name.substr(owner.size() + 1);
     }
     return std::string();
   };
   const std::string of_contact = rest(contacts);
-  if (!of_contact.empty()) {
-    return of_contact != "gap";
-  }
+  if (!of_contact.empty()) return of_contact != "gap";
   const std::string of_structure = rest(structures);
   return !of_structure.empty() && !is_representation(of_structure);
 }
@@ -107,9 +101,7 @@ std::string structures_key(const Options& in_force) {
   std::ranges::sort(sorted);
   Hash hash;
   for (const auto& [name, value] : sorted) {
-    if (!belongs(name, structures, contacts) || is_preset(name, value, structures)) {
-      continue;
-    }
+    if (!belongs(name, structures, contacts) || is_preset(name, value, structures)) continue;
     hash.add(name);
     if (is_mesh(name, structures)) {
       add_file(value, hash);

@@ -50,9 +50,7 @@ class Fit {
     for (std::size_t k = 0; k < points; ++k) {
       omega_.push_back(two_pi * lowest * std::exp(length * static_cast<double>(k) / (points - 1)));
     }
-    for (std::size_t i = 0; i < count; ++i) {
-      unknowns_.push_back(std::log(weight / n));
-    }
+    for (std::size_t i = 0; i < count; ++i) unknowns_.push_back(std::log(weight / n));
     for (std::size_t i = 0; i < count; ++i) {
       unknowns_.push_back(std::log(two_pi * lowest) + length * (static_cast<double>(i) + 0.5) / n);
     }
@@ -142,9 +140,7 @@ void Fit::minimise_mean() {
     for (std::size_t i = 0; i < n; ++i) matrix[i * n + i] *= 1 + trust;
     const double before = mean();
     const std::vector<double> start = unknowns_;
-    if (!solve_dense(matrix, change)) {
-      return;
-    }
+    if (!solve_dense(matrix, change)) return;
     move(change, 1);
     const double after = mean();
     if (after < before) {
@@ -192,18 +188,14 @@ void Fit::equalise_ripple() {
       matrix[j * (n + 1) + n] = error_[places[j]] > 0 ? -1 : 1;
       change[j] = -error_[places[j]];
     }
-    if (!solve_dense(matrix, change)) {
-      break;
-    }
+    if (!solve_dense(matrix, change)) break;
     move(change, 0.3);
     const double now = ripple();
     if (now < least) {
       best = unknowns_;
       least = now;
     }
-    if (std::abs(std::abs(change[n]) - now) < 1e-9 * now) {
-      break;
-    }
+    if (std::abs(std::abs(change[n]) - now) < 1e-9 * now) break;
   }
   unknowns_ = best;
   evaluate();

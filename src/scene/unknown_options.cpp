@@ -31,9 +31,7 @@ NameSet referenced(const OptionsDatabase& database, const ListedNames& listed,
   for (const std::string& structure : listed.structures) {
     for (const std::string& group : region_groups(database, structure)) {
       const auto entry = database.find(option_name(pattern, {structure, group}));
-      if (entry != database.end()) {
-        names.insert(trimmed(entry->second));
-      }
+      if (entry != database.end()) names.insert(trimmed(entry->second));
     }
   }
   return names;
@@ -44,9 +42,7 @@ std::vector<std::vector<std::string>> owners(const OptionsDatabase& database,
                                              const ListedNames& listed, OptionBlock block) {
   std::vector<std::vector<std::string>> result;
   const auto add = [&result](const NameSet& names) {
-    for (const std::string& name : names) {
-      result.push_back({name});
-    }
+    for (const std::string& name : names) result.push_back({name});
   };
   switch (block) {
     case OptionBlock::run:
@@ -98,9 +94,7 @@ void refuse_unknown_options(const OptionsDatabase& database, const ListedNames& 
     if (const auto fault = petsc_value_fault(option, value)) {
       throw UserError("option -" + option + " " + shown_value(value) + ": " + *fault);
     }
-    if (lookup.contains(option) || is_petsc_option(option)) {
-      continue;
-    }
+    if (lookup.contains(option) || is_petsc_option(option)) continue;
     const auto near = nearest_name(option, known);
     throw UserError("unknown option -" + shown_value(option) + " (value " + shown_value(value) +
                     ")" + (near ? "; did you mean -" + *near + "?" : "; see pounding -help"));

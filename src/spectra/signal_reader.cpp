@@ -34,9 +34,10 @@ std::vector<std::size_t> choose(const std::string& path, const std::vector<std::
       const bool of_probe = channels[i].substr(0, channels[i].rfind('.')) == name;
       if (of_probe || channels[i] == name) chosen.push_back(i);
     }
-    if (chosen.size() == before)
+    if (chosen.size() == before) {
       throw UserError(path + ": there is no channel or probe '" + name + "'" +
                       suggestion(name, channels));
+    }
   }
   if (chosen.empty()) throw UserError(path + ": no channel is recorded");
   return chosen;
@@ -44,14 +45,17 @@ std::vector<std::size_t> choose(const std::string& path, const std::vector<std::
 
 /// Sampling step of the records, which a run makes uniform.
 double uniform_step(const std::string& path, const std::vector<double>& time) {
-  if (time.size() < 2)
+  if (time.size() < 2) {
     throw UserError(path + ": holds " + std::to_string(time.size()) +
                     " records; a spectrum needs at least 2");
+  }
   const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
-  for (std::size_t i = 1; i < time.size(); ++i)
-    if (!(std::abs(time[i] - time[i - 1] - step) < 1e-6 * step))
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    if (!(std::abs(time[i] - time[i - 1] - step) < 1e-6 * step)) {
       throw UserError(path + ": the records are not evenly spaced at " + std::to_string(time[i]) +
                       " s");
+    }
+  }
   return step;
 }
 
@@ -59,11 +63,13 @@ std::vector<double> less_ground(const Hdf5Reader& history, const std::string& pa
                                 std::vector<double> acceleration, const std::string& channel) {
   const std::string direction = channel.substr(channel.rfind('.') + 1);
   const auto place = std::ranges::find(direction_names, direction) - direction_names.begin();
-  if (place == static_cast<std::ptrdiff_t>(direction_names.size()))
+  if (place == static_cast<std::ptrdiff_t>(direction_names.size())) {
     throw UserError(path + ": channel '" + channel + "' has no direction x, y or z");
+  }
   const auto ground = history.array("ground_acceleration");
-  for (std::size_t i = 0; i < acceleration.size(); ++i)
+  for (std::size_t i = 0; i < acceleration.size(); ++i) {
     acceleration[i] -= ground.at(3 * i + static_cast<std::size_t>(place));
+  }
   return acceleration;
 }
 
@@ -74,8 +80,9 @@ std::size_t whole_records(const Hdf5Reader& history, const std::string& path) {
   const std::vector<std::string> names = history.names("/");
   if (std::ranges::find(names, "records") == names.end()) return rows;
   const double whole = history.array("records").at(0);
-  if (!(whole >= 0 && whole <= static_cast<double>(rows)))
+  if (!(whole >= 0 && whole <= static_cast<double>(rows))) {
     throw UserError(path + ": 'records' is not a number of its " + std::to_string(rows) + " rows");
+  }
   return static_cast<std::size_t>(whole);
 }
 
@@ -88,16 +95,19 @@ void read_history(const std::string& path, const SpectraOptions& options,
   const double step = uniform_step(path, time);
   const double offset = history.number("acceleration", "time_offset");
   const auto shape = history.shape("acceleration");
-  if (shape.columns != channels.size() || shape.rows < records)
+  if (shape.columns != channels.size() || shape.rows < records) {
     throw UserError(path + ": acceleration, time and channels do not fit together");
+  }
   const auto all = history.rows("acceleration", 0, records);
   for (const std::size_t channel : choose(path, channels, options.channels)) {
     std::vector<double> acceleration;
     acceleration.reserve(records);
-    for (std::size_t row = 0; row < records; ++row)
+    for (std::size_t row = 0; row < records; ++row) {
       acceleration.push_back(all[row * shape.columns + channel]);
-    if (options.relative)
+    }
+    if (options.relative) {
       acceleration = less_ground(history, path, std::move(acceleration), channels[channel]);
+    }
     signals.push_back({channels[channel],
                        {std::move(acceleration), step, time.front() + offset},
                        folder_of(path),
@@ -107,8 +117,9 @@ void read_history(const std::string& path, const SpectraOptions& options,
 
 void read_record(const std::string& path, const SpectraOptions& options,
                  std::vector<NamedSignal>& signals) {
-  if (!options.channels.empty() || options.relative)
+  if (!options.channels.empty() || options.relative) {
     throw UserError(path + " is a record: --channels and --frame go with the history.h5 of a run");
+  }
   for (const int column : options.columns) {
     Accelerogram record = read_accelerogram({path, options.unit, options.time_step, column});
     const std::string name = column == 0 ? std::filesystem::path(path).stem().string()
@@ -126,9 +137,10 @@ void begin_at(double start, NamedSignal& named) {
   SampledSignal& signal = named.signal;
   const double before = std::ceil((start - signal.first_time) / signal.time_step - 1e-6);
   if (start == 0 || before <= 0) return;
-  if (before > static_cast<double>(signal.acceleration.size()) - 2)
+  if (before > static_cast<double>(signal.acceleration.size()) - 2) {
     throw UserError(named.name + ": ends before two samples are left after --start " +
                     std::to_string(start));
+  }
   signal.acceleration.erase(signal.acceleration.begin(),
                             signal.acceleration.begin() + static_cast<std::ptrdiff_t>(before));
   signal.first_time += before * signal.time_step;
@@ -140,12 +152,14 @@ std::vector<NamedSignal> read_signals(const SpectraOptions& options) {
   std::vector<NamedSignal> signals;
   for (const std::string& file : options.files) {
     const std::size_t first = signals.size();
-    if (is_history(file))
+    if (is_history(file)) {
       read_history(file, options, signals);
-    else
+    } else {
       read_record(file, options, signals);
-    for (std::size_t i = first; options.files.size() > 1 && i < signals.size(); ++i)
+    }
+    for (std::size_t i = first; options.files.size() > 1 && i < signals.size(); ++i) {
       signals[i].name = file + ":" + signals[i].name;
+    }
   }
   for (NamedSignal& signal : signals) {
     std::ranges::replace(signal.name, ',', '_');

@@ -41,19 +41,23 @@ bool needs_peaks(const SpectraOptions& options) {
 }
 
 std::vector<TimeWindow> contact_windows(const SpectraOptions& options, const NamedSignal& named) {
-  if (options.impacts.empty() && !named.is_history)
+  if (options.impacts.empty() && !named.is_history) {
     throw UserError(named.name + " is a record: its impacts are known only from --impacts FILE");
+  }
   const std::string path =
       options.impacts.empty() ? named.folder + "/impacts.csv" : options.impacts;
   const auto impacts = read_impact_windows(path);
   std::vector<TimeWindow> windows;
-  for (const NamedWindow& impact : impacts)
+  for (const NamedWindow& impact : impacts) {
     if (options.contacts.empty() ||
-        std::ranges::find(options.contacts, impact.contact) != options.contacts.end())
+        std::ranges::find(options.contacts, impact.contact) != options.contacts.end()) {
       windows.push_back({impact.start, impact.end});
-  if (windows.empty())
+    }
+  }
+  if (windows.empty()) {
     throw UserError(path + ": no impact" + (impacts.empty() ? "" : " of these contacts") +
                     ", so there are no peaks to keep or to leave out");
+  }
   return windows;
 }
 
@@ -61,8 +65,9 @@ double time_step_of_run(const NamedSignal& named) {
   const std::string path = named.folder + "/summary.json";
   const auto summary = nlohmann::json::parse(std::ifstream(path), nullptr, false);
   const auto found = summary.is_object() ? summary.find("time_step") : summary.end();
-  if (!summary.is_object() || found == summary.end() || !found->is_number())
+  if (!summary.is_object() || found == summary.end() || !found->is_number()) {
     throw UserError(path + " does not tell the time step of the run; give --dirac-step");
+  }
   return found->get<double>();
 }
 
@@ -71,10 +76,12 @@ Input prepare(const SpectraOptions& options, NamedSignal named) {
   if (!needs_peaks(options)) return input;
   input.peaks =
       find_peaks(input.named.signal, contact_windows(options, input.named), options.margin);
-  if (input.peaks.empty())
+  if (input.peaks.empty()) {
     throw UserError(input.named.name + ": the impacts lie outside the signal");
-  if (input.dirac_step == 0 && asked(options, Treatment::dirac))
+  }
+  if (input.dirac_step == 0 && asked(options, Treatment::dirac)) {
     input.dirac_step = time_step_of_run(input.named);
+  }
   return input;
 }
 
@@ -109,19 +116,22 @@ std::vector<Spectrum> spectra_of(const SpectraOptions& options, const Input& inp
   for (const Treatment treatment : options.treatments) {
     const SampledSignal treated =
         treat(input.named.signal, input.peaks, treatment, input.dirac_step);
-    for (const double ratio : options.damping_ratios)
+    for (const double ratio : options.damping_ratios) {
       spectra.push_back({input.named.name, treatment, ratio,
                          compute(options, treated, ratio, after(options, input, treatment))});
+    }
   }
   return spectra;
 }
 
 /// Takes the spectra of one more channel, in the same order, into the envelope.
 void widen(std::vector<Spectrum>& envelope, const std::vector<Spectrum>& spectra) {
-  for (std::size_t i = 0; i < envelope.size(); ++i)
-    for (std::size_t q = 0; q < envelope[i].columns.size(); ++q)
+  for (std::size_t i = 0; i < envelope.size(); ++i) {
+    for (std::size_t q = 0; q < envelope[i].columns.size(); ++q) {
       envelope[i].columns[q] =
           envelope_of(std::vector{envelope[i].columns[q], spectra[i].columns[q]});
+    }
+  }
 }
 
 void write_header(CsvFile& file, const SpectraOptions& options, double longest_step) {
@@ -153,8 +163,9 @@ void write_spectra(CsvFile& file, const SpectraOptions& options,
                    const std::vector<Spectrum>& spectra) {
   for (const Spectrum& spectrum : spectra) {
     std::vector<std::vector<double>> columns;
-    for (const auto& values : spectrum.columns)
+    for (const auto& values : spectrum.columns) {
       columns.push_back(broadened(options.frequencies, values, options.broadening));
+    }
     const std::string label =
         spectrum.channel + "," + treatment_names()[static_cast<std::size_t>(spectrum.treatment)];
     std::vector<double> row;
@@ -171,9 +182,10 @@ void write_peaks(CsvFile& file, const Input& input) {
   const auto start_of = [&](std::size_t k) {
     return signal.first_time + (static_cast<double>(k) - 0.5) * signal.time_step;
   };
-  for (const SignalPeak& peak : input.peaks)
+  for (const SignalPeak& peak : input.peaks) {
     file.row(input.named.name, {start_of(peak.first), start_of(peak.last), peak.impulse,
                                 &peak == &highest_peak(input.peaks) ? 1.0 : 0.0});
+  }
 }
 
 }  // namespace
@@ -197,12 +209,13 @@ void run_spectra(const SpectraOptions& options) {
   for (const Input& input : inputs) {
     std::vector<Spectrum> spectra = spectra_of(options, input);
     if (peaks) write_peaks(*peaks, input);
-    if (!options.envelope)
+    if (!options.envelope) {
       write_spectra(file, options, spectra);
-    else if (envelope.empty())
+    } else if (envelope.empty()) {
       envelope = std::move(spectra);
-    else
+    } else {
       widen(envelope, spectra);
+    }
   }
   for (Spectrum& spectrum : envelope) spectrum.channel = "envelope";
   write_spectra(file, options, envelope);

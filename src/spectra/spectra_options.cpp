@@ -52,8 +52,9 @@ bool read_columns(const std::string& text, SpectraOptions& options) {
 
 bool read_damping(const std::string& text, SpectraOptions& options) {
   const auto ratios = parse_reals(text);
-  if (!ratios || std::ranges::any_of(*ratios, [](double r) { return r < 0 || r >= 1; }))
+  if (!ratios || std::ranges::any_of(*ratios, [](double r) { return r < 0 || r >= 1; })) {
     return false;
+  }
   options.damping_ratios = *ratios;
   return true;
 }
@@ -74,13 +75,15 @@ bool read_treatments(const std::string& text, SpectraOptions& options) {
   options.treatments.clear();
   for (const std::string& word : split(text, ',')) {
     const auto found = std::ranges::find(names, word);
-    if (word == "all")
-      for (std::size_t i = 0; i < names.size(); ++i)
+    if (word == "all") {
+      for (std::size_t i = 0; i < names.size(); ++i) {
         options.treatments.push_back(static_cast<Treatment>(i));
-    else if (found == names.end())
+      }
+    } else if (found == names.end()) {
       return false;
-    else
+    } else {
       options.treatments.push_back(static_cast<Treatment>(found - names.begin()));
+    }
   }
   return true;
 }
@@ -201,15 +204,17 @@ void check_together(const SpectraOptions& options) {
         return treatment != Treatment::complete;
       });
   if (!peaks && (!options.impacts.empty() || !options.contacts.empty() || options.margin > 0 ||
-                 options.dirac_step > 0))
+                 options.dirac_step > 0)) {
     throw UserError(
         "--impacts, --contacts, --margin and --dirac-step have no effect without --treatment or "
         "--peaks");
+  }
   const auto place = [](const std::string& file) {
     return file.empty() ? std::string("/dev/stdout") : file;
   };
-  if (!options.peaks.empty() && options.peaks == place(options.output))
+  if (!options.peaks.empty() && options.peaks == place(options.output)) {
     throw UserError("--peaks " + options.peaks + ": the spectra go there; give another file");
+  }
 }
 
 }  // namespace
@@ -255,9 +260,10 @@ SpectraOptions read_spectra_options(std::span<const std::string> words) {
       if (i + 1 == words.size()) throw UserError("--" + name + " needs a value: " + spec.expected);
       value = words[++i];
     }
-    if ((*spec.value == '\0' && joined) || !spec.read(trimmed(value), options))
+    if ((*spec.value == '\0' && joined) || !spec.read(trimmed(value), options)) {
       throw UserError("--" + name + " '" + shown_value(value) + "': " + spec.expected +
                       " expected");
+    }
   }
   check_together(options);
   return options;

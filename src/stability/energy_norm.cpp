@@ -43,9 +43,7 @@ EnergyNorm::EnergyNorm(const LinearSystem& system, double time_step, double ener
 }
 
 double EnergyNorm::bound(std::vector<double> f) {
-  if (!(energy_margin_ > 0)) {
-    return std::numeric_limits<double>::infinity();
-  }
+  if (!(energy_margin_ > 0)) return std::numeric_limits<double>::infinity();
   scaled_.from_force(f);
   const VecHandle force = wrap_vector(system_, f);
   const double square = product(force.get(), force.get());

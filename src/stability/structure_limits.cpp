@@ -21,9 +21,7 @@ StructureLimits limits_of(const Structure& structure, const LinearSystem& system
 
 double energy_margin_of(const Structure& structure, const LinearSystem& system, const Mesh& mesh,
                         const ModalBasis* basis, const StructureLimits& limits, double time_step) {
-  if (basis != nullptr) {
-    return energy_margin(structure, *basis, time_step);
-  }
+  if (basis != nullptr) return energy_margin(structure, *basis, time_step);
   return system.has_extra_damping() ? smallest_energy_margin(system, mesh, time_step)
                                     : energy_margin(system.damping, limits.largest.omega_max,
                                                     time_step, system.stiffening());

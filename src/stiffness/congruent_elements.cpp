@@ -36,9 +36,7 @@ CongruentElements::CongruentElements(LocalIndex owned_dofs, const std::vector<do
   for (std::size_t e = 0; e < elements.size(); ++e) {
     const std::size_t lane = e % lane_count;
     if (lane == 0) batches_.push_back(empty);
-    for (std::size_t i = 0; i < elements[e].size(); ++i) {
-      batches_.back()[i][lane] = elements[e][i];
-    }
+    for (std::size_t i = 0; i < elements[e].size(); ++i) batches_.back()[i][lane] = elements[e][i];
   }
 }
 

@@ -63,9 +63,7 @@ std::vector<PetscInt> global_numbers(const Mesh& mesh) {
   for (LocalIndex node = 0; node < mesh.node_count(); ++node) {
     for (int c = 0; c < 6; ++c) {
       const LocalIndex dof = mesh.dof(node, c);
-      if (dof >= 0) {
-        numbers[dof] = static_cast<PetscInt>(mesh.dof_global(node, c));
-      }
+      if (dof >= 0) numbers[dof] = static_cast<PetscInt>(mesh.dof_global(node, c));
     }
   }
   return numbers;

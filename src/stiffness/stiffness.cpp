@@ -11,9 +11,7 @@ void AssembledStiffness::finish(const StiffnessArgument& w, ForceReceiver& recei
   POUNDING_PETSC(VecGetLocalSize(argument_.get(), &size));
   double* argument = nullptr;
   POUNDING_PETSC(VecGetArrayWrite(argument_.get(), &argument));
-  for (PetscInt i = 0; i < size; ++i) {
-    argument[i] = w[i];
-  }
+  for (PetscInt i = 0; i < size; ++i) argument[i] = w[i];
   POUNDING_PETSC(VecRestoreArrayWrite(argument_.get(), &argument));
   POUNDING_PETSC(MatMult(matrix_.get(), argument_.get(), force_.get()));
   const VecReader force(force_.get());

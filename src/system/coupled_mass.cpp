@@ -55,9 +55,7 @@ void multiply(const NodeBlock& block, double* x) {
 NodeBlock transposed(const NodeBlock& a) {
   NodeBlock result;
   for (std::size_t i = 0; i < width; ++i) {
-    for (std::size_t j = 0; j < width; ++j) {
-      result[j * width + i] = a[i * width + j];
-    }
+    for (std::size_t j = 0; j < width; ++j) result[j * width + i] = a[i * width + j];
   }
   return result;
 }
@@ -82,9 +80,7 @@ NodeBlock inverse_cholesky(const NodeBlock& d) {
   for (std::size_t i = 0; i < width; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       double value = d[i * width + j];
-      for (std::size_t k = 0; k < j; ++k) {
-        value -= root[i * width + k] * root[j * width + k];
-      }
+      for (std::size_t k = 0; k < j; ++k) value -= root[i * width + k] * root[j * width + k];
       if (i == j && !(value > 0)) {
         throw std::runtime_error("a mass matrix is not positive definite");
       }
@@ -94,9 +90,7 @@ NodeBlock inverse_cholesky(const NodeBlock& d) {
   for (std::size_t j = 0; j < width; ++j) {
     for (std::size_t i = j; i < width; ++i) {
       double value = i == j ? 1 : 0;
-      for (std::size_t k = j; k < i; ++k) {
-        value -= root[i * width + k] * inverse[k * width + j];
-      }
+      for (std::size_t k = j; k < i; ++k) value -= root[i * width + k] * inverse[k * width + j];
       inverse[i * width + j] = value / root[i * width + i];
     }
   }
@@ -114,9 +108,7 @@ int CoupledMass::node_of(LocalIndex dof) const {
   const auto after =
       std::upper_bound(nodes().begin(), nodes().end(), dof,
                        [](LocalIndex d, const NodeDofs& node) { return d < node.begin; });
-  if (after == nodes().begin() || dof >= (after - 1)->begin + (after - 1)->count) {
-    return -1;
-  }
+  if (after == nodes().begin() || dof >= (after - 1)->begin + (after - 1)->count) return -1;
   return static_cast<int>(after - 1 - nodes().begin());
 }
 
@@ -131,9 +123,7 @@ void CoupledMass::factorise(std::span<const double> lumped_mass) {
   }
   const Elimination elimination = eliminate(std::move(neighbours));
   place_.resize(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    place_[elimination.order[k]] = k;
-  }
+  for (std::size_t k = 0; k < count; ++k) place_[elimination.order[k]] = k;
   // Remainder of M + S, columns and rows by their places, lower triangle.
   std::vector<std::map<std::size_t, NodeBlock>> columns(count);
   for (std::size_t n = 0; n < count; ++n) {
@@ -150,9 +140,7 @@ void CoupledMass::factorise(std::span<const double> lumped_mass) {
     const std::size_t column = place_[pair[1]];
     NodeBlock& entry = columns[std::min(row, column)][std::max(row, column)];
     const NodeBlock values = row >= column ? block : transposed(block);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      entry[i] += values[i];
-    }
+    for (std::size_t i = 0; i < values.size(); ++i) entry[i] += values[i];
   }
   std::vector<std::map<std::size_t, NodeBlock>> rows(count);  // of L
   for (std::size_t k = 0; k < count; ++k) {
@@ -169,12 +157,8 @@ void CoupledMass::factorise(std::span<const double> lumped_mass) {
       for (auto j = columns[k].begin(); j->first <= i; ++j) {
         const NodeBlock update = product_with_transposed(block, rows[j->first].at(k));
         NodeBlock& entry = columns[j->first][i];
-        for (std::size_t e = 0; e < update.size(); ++e) {
-          entry[e] -= update[e];
-        }
-        if (j->first == i) {
-          break;
-        }
+        for (std::size_t e = 0; e < update.size(); ++e) entry[e] -= update[e];
+        if (j->first == i) break;
       }
     }
   }
@@ -222,17 +206,13 @@ void CoupledMass::backward(double* x) const {
 
 void CoupledMass::solve(double* x) const {
   forward(x);
-  for (std::size_t k = 0; k < nodes().size(); ++k) {
-    multiply(inverse_diagonal_[k], x + width * k);
-  }
+  for (std::size_t k = 0; k < nodes().size(); ++k) multiply(inverse_diagonal_[k], x + width * k);
   backward(x);
 }
 
 void CoupledMass::solve_half(double* x) const {
   forward(x);
-  for (std::size_t k = 0; k < nodes().size(); ++k) {
-    multiply(inverse_root_[k], x + width * k);
-  }
+  for (std::size_t k = 0; k < nodes().size(); ++k) multiply(inverse_root_[k], x + width * k);
 }
 
 void CoupledMass::solve_transposed_half(double* x) const {

@@ -59,13 +59,9 @@ void share_extreme(MPI_Comm comm, MPI_Op extreme, double& value, std::string& na
 double ElementBounds::frequency(std::span<const double> stiffness, std::span<const double> mass) {
   const std::string key = shape_key(stiffness, mass);
   const auto found = known_.find(key);
-  if (found != known_.end()) {
-    return found->second;
-  }
+  if (found != known_.end()) return found->second;
   const double value = std::sqrt(std::max(0.0, largest_eigenvalue(stiffness, mass)));
-  if (known_.size() < 100000) {
-    known_[key] = value;
-  }
+  if (known_.size() < 100000) known_[key] = value;
   return value;
 }
 
@@ -85,9 +81,7 @@ void ElementBounds::add(const ElementBlock& block, std::span<const double> stiff
   device_stiffness_.resize(device_damping_.size());
   const double beta = damping_of(block).beta;
   for (std::size_t i = 0; i < dofs.size(); ++i) {
-    if (dofs[i] < 0 || dofs[i] >= mesh_.owned_dofs) {
-      continue;
-    }
+    if (dofs[i] < 0 || dofs[i] >= mesh_.owned_dofs) continue;
     for (std::size_t j = 0; j < dofs.size(); ++j) {
       if (dofs[j] >= 0) {
         const double k = stiffness[i * dofs.size() + j];
@@ -131,9 +125,7 @@ void ElementBounds::finish(LinearSystem& system) {
 
 double ElementBounds::time_step_alone(const ElementBlock& block, double frequency,
                                       double mass_scaling) const {
-  if (mass_scaling > 0) {
-    return structure_.mass_scaling;
-  }
+  if (mass_scaling > 0) return structure_.mass_scaling;
   if (std::isinf(frequency)) {
     return infinity;  // without mass: the others carry it
   }
@@ -148,9 +140,7 @@ double ElementBounds::time_step_alone(const ElementBlock& block, double frequenc
 double ElementBounds::time_step(const ElementBlock& block, std::size_t element, double frequency,
                                 double mass_scaling, std::span<const double> lumped_mass) const {
   double smallest = time_step_alone(block, frequency, mass_scaling);
-  if (mass_scaling > 0 || std::isinf(frequency) || device_damping_.empty()) {
-    return smallest;
-  }
+  if (mass_scaling > 0 || std::isinf(frequency) || device_damping_.empty()) return smallest;
   const Rayleigh damping = damping_of(block);
   const double square = frequency * frequency;
   const double rate = damping.alpha + damping.beta * square;

@@ -52,9 +52,7 @@ class Assembly {
         added_mass_(structure, mesh) {
     if (with_matrix) matrix_ = create_matrix(mesh);
     for (const ElementBlock& block : mesh.blocks) {
-      if (!is_linear(block.type) && taut_.get() == nullptr) {
-        taut_ = create_matrix(mesh);
-      }
+      if (!is_linear(block.type) && taut_.get() == nullptr) taut_ = create_matrix(mesh);
       if (has_extra_damping(block) && extra_damping_.get() == nullptr) {
         extra_damping_ = create_matrix(
             mesh, [this](const ElementBlock& other) { return has_extra_damping(other); });
@@ -92,9 +90,7 @@ class Assembly {
       const bool owned = dof >= 0 && dof < mesh_.owned_dofs;
       columns[i] = dof >= 0 ? numbers_[dof] : -1;
       rows[i] = owned ? columns[i] : -1;
-      if (owned) {
-        system_.lumped_mass[dof] += work.mass[i];
-      }
+      if (owned) system_.lumped_mass[dof] += work.mass[i];
       if (block.counted[element] != 0 && static_cast<int>(i) % layout.components == 0) {
         system_.total_mass += work.mass[i];
       }
@@ -104,12 +100,8 @@ class Assembly {
       POUNDING_PETSC(
           MatSetValues(matrix.get(), n, rows.data(), n, columns.data(), values, ADD_VALUES));
     };
-    if (matrix_.get() != nullptr && is_linear(block.type)) {
-      insert(matrix_, work.stiffness.data());
-    }
-    if (taut_.get() != nullptr) {
-      insert(taut_, work.stiffness.data());
-    }
+    if (matrix_.get() != nullptr && is_linear(block.type)) insert(matrix_, work.stiffness.data());
+    if (taut_.get() != nullptr) insert(taut_, work.stiffness.data());
     const std::span<const double> stiffness(work.stiffness.data(), size * size);
     const std::span<const double> mass(work.mass.data(), size);
     const std::span<double> damping(damping_.data(), size * size);
@@ -119,12 +111,8 @@ class Assembly {
     bounds_.add(block, stiffness, mass, damping, {dofs.data(), size}, scaling);
     if (has_extra_damping(block)) {
       const Rayleigh extra = extra_rayleigh(block);
-      for (std::size_t i = 0; i < damping.size(); ++i) {
-        damping[i] += extra.beta * stiffness[i];
-      }
-      for (std::size_t i = 0; i < size; ++i) {
-        damping[i * size + i] += extra.alpha * mass[i];
-      }
+      for (std::size_t i = 0; i < damping.size(); ++i) damping[i] += extra.beta * stiffness[i];
+      for (std::size_t i = 0; i < size; ++i) damping[i * size + i] += extra.alpha * mass[i];
       insert(extra_damping_, damping.data());
     }
   }
@@ -238,9 +226,7 @@ LinearSystem build_finite_element_system(const Structure& structure, const Mesh&
     }
   }
   finish_system(mesh, system);
-  if (system.links) {
-    system.links->find_trace(system, mesh);
-  }
+  if (system.links) system.links->find_trace(system, mesh);
   return system;
 }
 

@@ -5,13 +5,9 @@
 namespace pounding {
 
 std::vector<double> LinearSystem::influence(int d) const {
-  if (generalised) {
-    return generalised->influence[d];
-  }
+  if (generalised) return generalised->influence[d];
   std::vector<double> iota(direction.size());
-  for (std::size_t i = 0; i < iota.size(); ++i) {
-    iota[i] = direction[i] == d ? 1 : 0;
-  }
+  for (std::size_t i = 0; i < iota.size(); ++i) iota[i] = direction[i] == d ? 1 : 0;
   return iota;
 }
 
@@ -37,9 +33,7 @@ void finish_system(const Mesh& mesh, LinearSystem& system) {
   for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
     for (int d = 0; d < 3; ++d) {
       const LocalIndex dof = mesh.dof(node, d);
-      if (dof >= 0) {
-        system.direction[dof] = static_cast<std::int8_t>(d);
-      }
+      if (dof >= 0) system.direction[dof] = static_cast<std::int8_t>(d);
     }
   }
 }
@@ -47,9 +41,7 @@ void finish_system(const Mesh& mesh, LinearSystem& system) {
 std::vector<char> damped_dofs(const LinearSystem& system) {
   std::vector<char> damped(system.lumped_mass.size(), system.has_extra_damping() ? 1 : 0);
   const Mat matrix = system.has_extra_damping() ? system.extra_damping->matrix() : nullptr;
-  if (matrix == nullptr) {
-    return damped;
-  }
+  if (matrix == nullptr) return damped;
   PetscInt row = 0;
   POUNDING_PETSC(MatGetOwnershipRange(matrix, &row, nullptr));
   for (char& acts : damped) {

@@ -18,9 +18,7 @@ int place_of(const std::vector<LocalIndex>& dofs, LocalIndex dof) {
 double Link::elongation(std::span<const double> field) const {
   double sum = 0;
   for (std::size_t i = 0; i < place.size(); ++i) {
-    if (place[i] >= 0) {
-      sum += (i < 3 ? -axis[i] : axis[i - 3]) * field[place[i]];
-    }
+    if (place[i] >= 0) sum += (i < 3 ? -axis[i] : axis[i - 3]) * field[place[i]];
   }
   return sum;
 }
@@ -31,21 +29,15 @@ std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh
   for (const ElementBlock& block : mesh.blocks) {
     if (!is_linear(block.type)) {
       count += block.global_count;
-      for (std::size_t e = 0; e < block.count(); ++e) {
-        found->add(structure, mesh, block, e);
-      }
+      for (std::size_t e = 0; e < block.count(); ++e) found->add(structure, mesh, block, e);
     }
   }
-  if (count == 0) {
-    return nullptr;
-  }
+  if (count == 0) return nullptr;
   std::vector<LocalIndex>& dofs = found->dofs_;
   std::sort(dofs.begin(), dofs.end());
   dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
   for (Link& link : found->links_) {
-    for (int& place : link.place) {
-      place = place < 0 ? -1 : place_of(dofs, place);
-    }
+    for (int& place : link.place) place = place < 0 ? -1 : place_of(dofs, place);
   }
   return found;
 }

@@ -49,14 +49,10 @@ class Couplings {
     GlobalIndex first = -1;
     for (const GlobalIndex node : nodes) {
       const std::size_t n = node;
-      if (mesh_.free_components[n] == 0) {
-        continue;
-      }
+      if (mesh_.free_components[n] == 0) continue;
       coupled_[n] = 1;
       scaled_[n] = scaled || scaled_[n] != 0;
-      if (first >= 0) {
-        groups_.join(static_cast<std::size_t>(first), n);
-      }
+      if (first >= 0) groups_.join(static_cast<std::size_t>(first), n);
       first = node;
     }
   }
@@ -151,18 +147,14 @@ std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalM
   const bool scaling = structure.mass_scaling > 0;
   Couplings couplings(mesh);
   Decision decision(structure, mesh);
-  for (const Region& region : structure.regions) {
-    check_alpha(structure, region);
-  }
+  for (const Region& region : structure.regions) check_alpha(structure, region);
   for (const ElementSet& set : mesh.regions) {
     const bool tension = !is_linear(set.type);
     const std::size_t width = element_layout(set.type).nodes;
     const bool looked_at = tension || (scaling && traits_of(set.type).scalable);
     for (std::size_t e = 0; looked_at && e < set.tags.size(); ++e) {
       const std::span<const GlobalIndex> nodes(&set.connectivity[e * width], width);
-      if (tension || decision.scales(set, nodes)) {
-        couplings.join(nodes, !tension);
-      }
+      if (tension || decision.scales(set, nodes)) couplings.join(nodes, !tension);
     }
   }
   std::vector<NodeCluster> result;

@@ -30,9 +30,7 @@ struct Row {
 
 std::vector<Row> read_rows(const std::string& path) {
   std::ifstream file(path);
-  if (!file) {
-    throw UserError(path + ": no such file, or it cannot be read");
-  }
+  if (!file) throw UserError(path + ": no such file, or it cannot be read");
   std::vector<Row> rows;
   std::string line;
   for (long number = 1; std::getline(file, line); ++number) {
@@ -40,9 +38,7 @@ std::vector<Row> read_rows(const std::string& path) {
     std::istringstream words(line);
     Row row;
     std::string component;
-    if (line.empty() || line[0] == '#' || line.starts_with("x y z")) {
-      continue;
-    }
+    if (line.empty() || line[0] == '#' || line.starts_with("x y z")) continue;
     words >> row.position[0] >> row.position[1] >> row.position[2] >> component;
     const auto found = std::ranges::find(component_names, component);
     if (!words || found == component_names.end()) {
@@ -52,9 +48,7 @@ std::vector<Row> read_rows(const std::string& path) {
     row.component = static_cast<int>(found - component_names.begin());
     rows.push_back(row);
   }
-  if (rows.empty()) {
-    throw UserError(path + ": no rows");
-  }
+  if (rows.empty()) throw UserError(path + ": no rows");
   return rows;
 }
 
@@ -83,9 +77,7 @@ class NodeFinder {
     for (auto near = std::ranges::lower_bound(order_, x[0] - tolerance_, {}, coordinate);
          near != order_.end() && coordinate(*near) <= x[0] + tolerance_; ++near) {
       const Vector3 p = mesh_.position(*near);
-      if (std::abs(p[1] - x[1]) <= tolerance_ && std::abs(p[2] - x[2]) <= tolerance_) {
-        return *near;
-      }
+      if (std::abs(p[1] - x[1]) <= tolerance_ && std::abs(p[2] - x[2]) <= tolerance_) return *near;
     }
     return -1;
   }
@@ -199,9 +191,7 @@ class MatrixSystem {
     std::vector<double> column(rows_.size(), 0.0);
     const std::string path = needed_path_of("mass");
     const MatrixSize size = read_matrix(path, [&](const MatrixEntry& entry) {
-      if (!inside(entry, false)) {
-        return;
-      }
+      if (!inside(entry, false)) return;
       const std::size_t i = entry.row;
       const std::size_t j = entry.column;
       row_sum[i] += rows_[i].component == rows_[j].component ? entry.value : 0;
@@ -213,9 +203,7 @@ class MatrixSystem {
       const double lumped = rows_[row].component < 3 ? row_sum[row] : diagonal[row];
       const double mass = size.columns == 1 && size.rows > 1 ? column[row] : lumped;
       system.total_mass += rows_[row].component == 0 ? mass : 0;
-      if (owned_dof_[row] >= 0) {
-        system.lumped_mass[owned_dof_[row]] = mass;
-      }
+      if (owned_dof_[row] >= 0) system.lumped_mass[owned_dof_[row]] = mass;
       if (number_[row] >= 0 && !(mass > 0)) {
         throw UserError(path + ": row " + std::to_string(row + 1) +
                         " has no mass; the step needs one that is positive at every free dof");
@@ -230,9 +218,7 @@ class MatrixSystem {
       SquareMatrix& matrix =
           read.emplace(path, owned_dof_, number_, static_cast<std::size_t>(mesh_.owned_dofs));
       const MatrixSize size = read_matrix(path, [&](const MatrixEntry& entry) {
-        if (inside(entry, false)) {
-          matrix.add(entry);
-        }
+        if (inside(entry, false)) matrix.add(entry);
       });
       check_size(path, size, false);
       matrix.finish();
@@ -274,9 +260,7 @@ class MatrixSystem {
   /// over a row.
   static void bound_frequency(LinearSystem& system) {
     std::vector<double> root;
-    for (const double mass : system.lumped_mass) {
-      root.push_back(1 / std::sqrt(mass));
-    }
+    for (const double mass : system.lumped_mass) root.push_back(1 / std::sqrt(mass));
     const VecHandle scale = wrap_vector(system, root);
     MatHandle scaled;
     POUNDING_PETSC(MatDuplicate(system.stiffness->matrix(), MAT_COPY_VALUES, scaled.out()));

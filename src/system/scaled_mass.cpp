@@ -12,9 +12,7 @@ namespace pounding {
 
 double ScaledMass::add(const ElementBlock& block, std::size_t element, const Region& region,
                        const Matrices& matrices) {
-  if (structure_.mass_scaling == 0 || !traits_of(block.type).scalable) {
-    return 0;
-  }
+  if (structure_.mass_scaling == 0 || !traits_of(block.type).scalable) return 0;
   const std::span<double> added(added_.data(), matrices.stiffness.size());
   std::fill(added.begin(), added.end(), 0.0);
   const double factor =
@@ -77,9 +75,7 @@ void ScaledMass::finish(LinearSystem& system) {
   NodeBlocks added;
   std::map<LocalIndex, int> number;
   for (const auto& [pair, block] : blocks_) {
-    for (const LocalIndex node : pair) {
-      number[node] = 0;
-    }
+    for (const LocalIndex node : pair) number[node] = 0;
   }
   for (auto& [node, place] : number) {
     const std::size_t n = node;

@@ -34,9 +34,7 @@ Range range_of(MPI_Comm comm, std::span<const double> time_steps) {
 double median_of(MPI_Comm comm, const ElementBlock& block, std::span<const double> time_steps) {
   std::vector<double> values;
   for (std::size_t e = 0; e < block.count(); ++e) {
-    if (block.counted[e] != 0) {
-      values.push_back(time_steps[e]);
-    }
+    if (block.counted[e] != 0) values.push_back(time_steps[e]);
   }
   double median = 0;
   if (rank_of(comm) == 0) {
@@ -90,14 +88,10 @@ std::string first_at_most(const Mesh& mesh, const ElementBlock& block,
 std::optional<Sliver> find_sliver(const Mesh& mesh, const ElementBlock& block,
                                   std::span<const double> time_steps) {
   const Range range = range_of(mesh.comm, time_steps);
-  if (!(range.smallest < share_of_median * range.largest)) {
-    return std::nullopt;
-  }
+  if (!(range.smallest < share_of_median * range.largest)) return std::nullopt;
   const double median = median_of(mesh.comm, block, time_steps);
   const double limit = share_of_median * median;
-  if (!(range.smallest < limit)) {
-    return std::nullopt;
-  }
+  if (!(range.smallest < limit)) return std::nullopt;
   return Sliver{first_at_most(mesh, block, time_steps, range.smallest * (1 + equal)),
                 count_below(mesh.comm, block, time_steps, limit), range.smallest, median};
 }

@@ -40,15 +40,9 @@ SquareMatrix::SquareMatrix(std::string path, const std::vector<PetscInt>& owned_
 void SquareMatrix::add(const MatrixEntry& entry) {
   const std::size_t row = entry.row;
   const std::size_t column = entry.column;
-  if (number_[row] < 0 || number_[column] < 0) {
-    return;
-  }
-  if (owned_dof_[row] >= 0) {
-    rows_[owned_dof_[row]].emplace_back(entry.column, entry.value);
-  }
-  if (owned_dof_[column] >= 0) {
-    mirrored_[owned_dof_[column]].emplace_back(entry.row, entry.value);
-  }
+  if (number_[row] < 0 || number_[column] < 0) return;
+  if (owned_dof_[row] >= 0) rows_[owned_dof_[row]].emplace_back(entry.column, entry.value);
+  if (owned_dof_[column] >= 0) mirrored_[owned_dof_[column]].emplace_back(entry.row, entry.value);
   diagonal_[row] += row == column ? entry.value : 0;
 }
 
@@ -56,9 +50,7 @@ void SquareMatrix::finish() {
   for (auto* lists : {&rows_, &mirrored_}) {
     for (std::vector<Entry>& list : *lists) {
       merge(list);
-      for (const Entry& entry : list) {
-        largest_ = std::max(largest_, std::abs(entry.second));
-      }
+      for (const Entry& entry : list) largest_ = std::max(largest_, std::abs(entry.second));
     }
   }
 }

@@ -22,21 +22,15 @@ Trace::Trace(const LinearSystem& system, const Mesh& mesh, std::span<const Trace
     : coupled_(system.generalised != nullptr || system.mass_scaling.elements > 0),
       dense_(system.generalised != nullptr) {
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if (mesh.owned_node(places[i].node) >= 0) {
-      known_.push_back(static_cast<int>(i));
-    }
+    if (mesh.owned_node(places[i].node) >= 0) known_.push_back(static_cast<int>(i));
   }
   if (dense_) {
     take_dense_rows(system, mesh, places);
   } else {
     take_unit_rows(mesh, places);
-    if (impulses && system.coupled_mass) {
-      take_coupled_dofs(*system.coupled_mass);
-    }
+    if (impulses && system.coupled_mass) take_coupled_dofs(*system.coupled_mass);
   }
-  for (const LocalIndex dof : dofs_) {
-    inverse_mass_.push_back(system.inverse_mass[dof]);
-  }
+  for (const LocalIndex dof : dofs_) inverse_mass_.push_back(system.inverse_mass[dof]);
   force_.assign(dofs_.size(), 0.0);
 }
 
@@ -55,13 +49,9 @@ void Trace::take_coupled_dofs(const CoupledMass& mass) {
   for (const LocalIndex dof : dofs_) {
     const int node = mass.node_of(dof);
     field_place_.push_back(node < 0 ? -1 : place_in_field(mass, node, dof));
-    if (node >= 0) {
-      coupled_mass_ = &mass;
-    }
+    if (node >= 0) coupled_mass_ = &mass;
   }
-  if (coupled_mass_ == nullptr) {
-    return;
-  }
+  if (coupled_mass_ == nullptr) return;
   const std::set<LocalIndex> own(dofs_.begin(), dofs_.end());
   for (std::size_t n = 0; n < mass.nodes().size(); ++n) {
     const NodeDofs& node = mass.nodes()[n];
@@ -77,9 +67,7 @@ void Trace::take_coupled_dofs(const CoupledMass& mass) {
 
 void Trace::take_dense_rows(const LinearSystem& system, const Mesh& mesh,
                             std::span<const TracePoint> places) {
-  if (known_.empty()) {
-    return;
-  }
+  if (known_.empty()) return;
   const GeneralisedCoordinates& coordinates = *system.generalised;
   const std::size_t width = system.owned_dofs();
   dofs_.resize(width);
@@ -102,9 +90,7 @@ void Trace::take_dense_rows(const LinearSystem& system, const Mesh& mesh,
 }
 
 void Trace::restrict_to_dofs(const double* owned, double* x) const {
-  for (std::size_t k = 0; k < dofs_.size(); ++k) {
-    x[k] = owned[dofs_[k]];
-  }
+  for (std::size_t k = 0; k < dofs_.size(); ++k) x[k] = owned[dofs_[k]];
 }
 
 void Trace::apply(const double* owned, double* out, std::size_t stride) const {
@@ -119,14 +105,10 @@ void Trace::apply(const double* owned, double* out, std::size_t stride) const {
 
 void Trace::add_force(std::size_t k, double f, std::span<double> owned) const {
   if (!dense_) {
-    if (own_dof_[k] >= 0) {
-      owned[dofs_[own_dof_[k]]] += f;
-    }
+    if (own_dof_[k] >= 0) owned[dofs_[own_dof_[k]]] += f;
     return;
   }
-  for (std::size_t i = 0; i < dofs_.size(); ++i) {
-    owned[dofs_[i]] += f * rows_[k * dofs_.size() + i];
-  }
+  for (std::size_t i = 0; i < dofs_.size(); ++i) owned[dofs_[i]] += f * rows_[k * dofs_.size() + i];
 }
 
 void Trace::add_impulse(const double* f, double* x) {
@@ -146,16 +128,12 @@ void Trace::add_impulse(const double* f, double* x) {
 
 void Trace::add_solution(double* x) {
   if (coupled_mass_ == nullptr) {
-    for (std::size_t i = 0; i < force_.size(); ++i) {
-      x[i] += inverse_mass_[i] * force_[i];
-    }
+    for (std::size_t i = 0; i < force_.size(); ++i) x[i] += inverse_mass_[i] * force_[i];
     return;
   }
   std::fill(field_.begin(), field_.end(), 0.0);
   for (std::size_t i = 0; i < force_.size(); ++i) {
-    if (field_place_[i] >= 0) {
-      field_[field_place_[i]] = force_[i];
-    }
+    if (field_place_[i] >= 0) field_[field_place_[i]] = force_[i];
   }
   coupled_mass_->solve(field_.data());
   for (std::size_t i = 0; i < force_.size(); ++i) {
@@ -165,12 +143,8 @@ void Trace::add_solution(double* x) {
 
 double Trace::compliance(std::size_t a, std::size_t b) {
   if (!dense_) {
-    if (own_dof_[a] < 0 || own_dof_[b] < 0) {
-      return 0;
-    }
-    if (coupled_mass_ == nullptr) {
-      return a == b ? inverse_mass_[own_dof_[a]] : 0;
-    }
+    if (own_dof_[a] < 0 || own_dof_[b] < 0) return 0;
+    if (coupled_mass_ == nullptr) return a == b ? inverse_mass_[own_dof_[a]] : 0;
     if (response_.empty() || response_place_ != a) {
       response_.assign(dofs_.size(), 0.0);
       response_place_ = a;
@@ -183,9 +157,7 @@ double Trace::compliance(std::size_t a, std::size_t b) {
   double sum = 0;
   const double* row_a = &rows_[a * dofs_.size()];
   const double* row_b = &rows_[b * dofs_.size()];
-  for (std::size_t i = 0; i < dofs_.size(); ++i) {
-    sum += row_a[i] * inverse_mass_[i] * row_b[i];
-  }
+  for (std::size_t i = 0; i < dofs_.size(); ++i) sum += row_a[i] * inverse_mass_[i] * row_b[i];
   return sum;
 }
 

@@ -37,9 +37,7 @@ BrickLines::BrickLines(const DofPlaces& places, const Matrix3& axes,
   }
   for (const BrickShape& shape : shapes) {
     Vector3 lengths{};
-    for (std::size_t d = 0; d < 3; ++d) {
-      lengths[d] = shape.lengths[pairs.axes[d]];
-    }
+    for (std::size_t d = 0; d < 3; ++d) lengths[d] = shape.lengths[pairs.axes[d]];
     const auto split = split_brick(shape.type, shape.properties, lengths);
     if (!split) throw std::logic_error("BrickLines: a shape that does not split");
     stencils_.push_back(brick_stencil(*split));
@@ -51,8 +49,9 @@ BrickLines::BrickLines(const DofPlaces& places, const Matrix3& axes,
     line_stride_ = std::max(line_stride_, round_up(chain.length + lane_count));
   }
   schedule_ = schedule_lines(pairs, chain_forms, line_stride_, forms);
-  for (const ChainStore& store : schedule_.stores)
+  for (const ChainStore& store : schedule_.stores) {
     stores_.push_back({store, Outcome::add, 0, 0, 0});
+  }
   for (const PairSplit& split : schedule_.splits) {
     pair_loads_.push_back(split.load ? plan_load(split.place) : PairLoad{});
   }
@@ -190,9 +189,7 @@ void BrickLines::add_core(const Store& store, double* q) const {
   const LocalIndex size = chain.range.end - chain.range.begin;
   if (!chain.row) std::fill(added_.begin(), added_.begin() + size, 0.0);
   collect_forces(store, added_.data());
-  for (LocalIndex i = 0; i < size; ++i) {
-    q[chain.range.begin + i] += added_[i];
-  }
+  for (LocalIndex i = 0; i < size; ++i) q[chain.range.begin + i] += added_[i];
 }
 
 /// Adds the forces of the nodes outside the core to q.

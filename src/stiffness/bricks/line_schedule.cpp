@@ -152,8 +152,9 @@ class Scheduler {
   bool join_chain(int number, const ChainPair& pair) {
     ChainState& chain = chain_states_[index(number)];
     if (chain.joins++ > 0) return false;
-    if (pair.length == chains_[index(number)].length && (forms_.set_joins || pair.alone))
+    if (pair.length == chains_[index(number)].length && (forms_.set_joins || pair.alone)) {
       return true;
+    }
     result_.loads[index(chain.load)].clear = true;
     return false;
   }

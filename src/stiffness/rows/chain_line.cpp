@@ -149,8 +149,9 @@ void rotate_vectors(const Matrix3& rotation, bool back, int count, std::ptrdiff_
                     double* line) {
   Matrix3 r = rotation;
   if (back) {
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) r[i][j] = rotation[j][i];
+    }
   }
   for (int p = 0; p < count; ++p) {
     const Vector3 v = multiply(r, {line[p], line[stride + p], line[2 * stride + p]});

@@ -20,9 +20,11 @@ std::vector<double> corner_stiffness(ElementType type, const ElementProperties& 
                                      const Vector3& lengths,
                                      std::span<const std::size_t> corner_bits) {
   std::vector<double> coordinates;
-  for (const std::size_t bits : corner_bits)
-    for (std::size_t d = 0; d < 3; ++d)
+  for (const std::size_t bits : corner_bits) {
+    for (std::size_t d = 0; d < 3; ++d) {
       coordinates.push_back((bits >> d & 1) != 0 ? lengths[d] : 0);
+    }
+  }
   const std::size_t size = element_layout(type).size();
   std::vector<double> stiffness(size * size);
   std::vector<double> mass(size);
@@ -45,17 +47,25 @@ std::vector<double> stiffness_by_parity(ElementType type, const ElementPropertie
   const auto scale = static_cast<double>(nodes * nodes);
   std::vector<double> half(size * size, 0.0);  // H K / n^2
   std::vector<double> result(size * size, 0.0);
-  for (std::size_t c = 0; c < components; ++c)
-    for (std::size_t s = 0; s < nodes; ++s)
-      for (std::size_t a = 0; a < nodes; ++a)
-        for (std::size_t j = 0; j < size; ++j)
+  for (std::size_t c = 0; c < components; ++c) {
+    for (std::size_t s = 0; s < nodes; ++s) {
+      for (std::size_t a = 0; a < nodes; ++a) {
+        for (std::size_t j = 0; j < size; ++j) {
           half[(s + nodes * c) * size + j] +=
               sign(s, a) * stiffness[(components * a + c) * size + j] / scale;
-  for (std::size_t i = 0; i < size; ++i)
-    for (std::size_t c = 0; c < components; ++c)
-      for (std::size_t s = 0; s < nodes; ++s)
-        for (std::size_t a = 0; a < nodes; ++a)
+        }
+      }
+    }
+  }
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t c = 0; c < components; ++c) {
+      for (std::size_t s = 0; s < nodes; ++s) {
+        for (std::size_t a = 0; a < nodes; ++a) {
           result[i * size + s + nodes * c] += half[i * size + components * a + c] * sign(s, a);
+        }
+      }
+    }
+  }
   return result;
 }
 
