@@ -89,6 +89,41 @@ void print_reduction(const ModalModel& modal, const ModalBasis& basis, const Mas
   }
 }
 
+/// Causes that shorten the step, and what each remedy would give.
+void print_remedies(const Building& building) {
+  constexpr double worth_a_word = 1.3;
+  const LinearSystem& system = *building.system;
+  const double omega = building.limits.largest.omega_max;
+  const double undamped = 2 / omega;
+  const double cost = undamped / building.limits.stable_time_step;
+  double first = 0;
+  for (const Mode& mode : building.modal.modes) {
+    if (first == 0 && mode.location.empty()) first = mode.frequency;
+  }
+  const double ratio = std::min(0.3, damping_ratio(system.damping, 2 * std::numbers::pi * first));
+  if (cost > worth_a_word && system.damping.beta > 0 && first > 0 && ratio > 0) {
+    UniformDamping uniform = fit_uniform_damping(ratio, std::min(1.0, first / 2), 400, 3);
+    uniform.reference = first;
+    std::printf(
+        "    Rayleigh damping costs %.3g times the steps that there would be without damping; "
+        "uniform damping (-%s_damping_uniform %.2g) would cost %.3g\n",
+        cost, system.name.c_str(), ratio, std::sqrt(uniform.at_once()));
+  }
+  const ScalingOffer& offer = system.scaling_offer;
+  const double gain = offer.time_step / building.limits.stable_time_step;
+  if (offer.elements > 0 && gain > worth_a_word) {
+    constexpr double frequency = 10;  // Hz
+    const double beta = system.damping.beta;
+    const double factor = offer.time_step / 4 * (2 * beta + system.stiffening() * offer.time_step);
+    const double turn = 2 * std::numbers::pi * frequency;
+    std::printf(
+        "    %lld elements of %s hold the step: -%s_mass_scaling %.2g would allow %.2g times "
+        "it, and move no frequency below %.0f Hz by more than %.1g %%\n",
+        static_cast<long long>(offer.elements), offer.groups.c_str(), system.name.c_str(),
+        offer.time_step, gain, frequency, 50 * factor * turn * turn);
+  }
+}
+
 void print_time_step_limit(const Building& building) {
   const LinearSystem& system = *building.system;
   const MassScaling& scaling = system.mass_scaling;
@@ -116,6 +151,7 @@ void print_time_step_limit(const Building& building) {
   if (!system.limiting_element.empty()) {
     std::printf("    limiting: %s\n", system.limiting_element.c_str());
   }
+  print_remedies(building);
   if (!system.extra_damping) {
     std::printf("    damping ratio %.2f at omega_max\n",
                 system.uniform_damping

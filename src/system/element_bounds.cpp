@@ -97,9 +97,9 @@ void ElementBounds::finish(LinearSystem& system) {
   system.element_time_step_bound = infinity;
   auto frequency = frequencies_.begin();
   auto factor = mass_scaling_.begin();
-  std::vector<double> alone;  // what the elements of a block allow without devices
+  std::vector<std::vector<double>> all;  // what the elements of each block allow without devices
   for (const ElementBlock& block : mesh_.blocks) {
-    alone.clear();
+    std::vector<double>& alone = all.emplace_back();
     for (std::size_t e = 0; e < block.count(); ++e, ++frequency, ++factor) {
       // omega^2 / (1 + c omega^2)
       const double scaled =
@@ -119,8 +119,31 @@ void ElementBounds::finish(LinearSystem& system) {
       system.slivers.push_back(std::move(*sliver));
     }
   }
+  if (structure_.mass_scaling == 0) system.scaling_offer = find_offer(all);
   share_extreme(mesh_.comm, MPI_MAXLOC, system.element_frequency_bound, system.stiffest_element);
   share_extreme(mesh_.comm, MPI_MINLOC, system.element_time_step_bound, system.limiting_element);
+}
+
+ScalingOffer ElementBounds::find_offer(const std::vector<std::vector<double>>& alone) const {
+  double least = infinity;  // of elements that cannot be scaled
+  for (std::size_t b = 0; b < alone.size(); ++b) {
+    if (traits_of(mesh_.blocks[b].type).scalable) continue;
+    for (const double step : alone[b]) least = std::min(least, step);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, mesh_.comm);
+  const double unit = std::pow(10.0, std::floor(std::log10(least)) - 1);  // two digits
+  ScalingOffer offer{std::floor(least / unit) * unit, 0, ""};
+  for (std::size_t b = 0; std::isfinite(least) && b < alone.size(); ++b) {
+    const ElementBlock& block = mesh_.blocks[b];
+    GlobalIndex count = 0;
+    for (std::size_t e = 0; traits_of(block.type).scalable && e < alone[b].size(); ++e) {
+      count += alone[b][e] < offer.time_step ? block.counted[e] : 0;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_INT64_T, MPI_SUM, mesh_.comm);
+    if (count > 0) offer.groups += (offer.groups.empty() ? "" : ", ") + block.group;
+    offer.elements += count;
+  }
+  return offer;
 }
 
 double ElementBounds::time_step_alone(const ElementBlock& block, double frequency,

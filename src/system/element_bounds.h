@@ -43,6 +43,8 @@ class ElementBounds {
   double time_step(const ElementBlock& block, std::size_t element, double frequency,
                    double mass_scaling, std::span<const double> lumped_mass) const;
   Rayleigh damping_of(const ElementBlock& block) const;
+  /// The offer to scale mass, from what the elements of each block allow by themselves. Collective.
+  ScalingOffer find_offer(const std::vector<std::vector<double>>& alone) const;
 
   const Structure& structure_;
   const Mesh& mesh_;

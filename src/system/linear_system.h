@@ -80,6 +80,7 @@ struct LinearSystem {
   /// where nothing limits it.
   double element_time_step_bound = 0;  ///< [s]
   std::string limiting_element;
+  ScalingOffer scaling_offer;   ///< where mass is not scaled
   std::vector<Sliver> slivers;  ///< the worst of every group that has any
 
   /// K for eigenvalues: every link at its stiffest.

@@ -32,6 +32,14 @@ struct MassScaling {
   double row_frequency = 0;
 };
 
+/// Offer to scale mass: what the stiff elements that can be scaled hold the step back by. Told by
+/// the bounds of single elements.
+struct ScalingOffer {
+  double time_step = 0;      ///< least that the elements which cannot be scaled allow [s]
+  GlobalIndex elements = 0;  ///< that allow less than `time_step`; 0: nothing is to be gained
+  std::string groups;        ///< of them
+};
+
 /// c_e [s2]; `frequency` [rad/s] is infinite for an element without mass; `stiffening`
 /// is what the fastest motions find K multiplied by.
 double mass_scaling_factor(double time_step, const Rayleigh& damping, double frequency,
