@@ -22,7 +22,12 @@ EnergyBalance::EnergyBalance(MPI_Comm comm, std::span<const LinearSystem> system
       time_step_(time_step),
       energies_(systems.size()),
       filtered_(systems.size()),
-      open_filtered_(systems.size(), 0.0) {}
+      open_filtered_(systems.size(), 0.0) {
+  for (const LinearSystem& system : systems) {
+    stiffening_.push_back(system.stiffening());
+    relief_.push_back(system.uniform_damping ? 1 - system.uniform_damping->at_rest() : 0);
+  }
+}
 
 void EnergyBalance::add_step(std::span<const StepSums> sums,
                              const std::array<double, 3>& ground_acceleration,
@@ -30,7 +35,7 @@ void EnergyBalance::add_step(std::span<const StepSums> sums,
   lagged_damping_ = 0;
   for (std::size_t b = 0; b < systems_.size(); ++b) {
     lagged_damping_ += time_step_ / 4 * sums[b].extra_damping_before;
-    energies_[b] = energy(systems_[b], sums[b]);
+    energies_[b] = energy(b, sums[b]);
     if (steps_ == 1) initial_ += energies_[b].energy();
     open_.damping += time_step_ * systems_[b].damping.beta / 4 * sums[b].stiffness_before;
   }
@@ -78,19 +83,19 @@ EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
   return result;
 }
 
-StructureEnergy EnergyBalance::energy(const LinearSystem& system, const StepSums& sums) const {
+StructureEnergy EnergyBalance::energy(std::size_t structure, const StepSums& sums) const {
+  const LinearSystem& system = systems_[structure];
   const double dt = time_step_;
   const double inertia =
       (1 - dt / 2 * mass_damping(system)) * sums.kinetic_before + sums.added_kinetic_before;
   const double damped =
       inertia - dt / 2 * (system.damping.beta * sums.stiffness_before + sums.extra_damping_before);
-  const double relief = system.uniform_damping ? 1 - system.uniform_damping->at_rest() : 0;
   return {damped / 2,
           sums.strain_before / 2 + sums.link_energy_before,
-          (damped - dt * dt / 4 * system.stiffening() * sums.stiffness_before) / 2,
+          (damped - dt * dt / 4 * stiffening_[structure] * sums.stiffness_before) / 2,
           sums.displacement_mass,
           0,
-          relief * sums.strain_before / 2};
+          relief_[structure] * sums.strain_before / 2};
 }
 
 EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {

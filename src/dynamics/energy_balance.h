@@ -125,12 +125,14 @@ class EnergyBalance {
   double mass_damping(const LinearSystem& system) const;
   Works works(std::span<const StepSums> sums, const std::array<double, 3>& ground_acceleration,
               double contact_work) const;
-  StructureEnergy energy(const LinearSystem& system, const StepSums& sums) const;
+  StructureEnergy energy(std::size_t structure, const StepSums& sums) const;
 
   MPI_Comm comm_;
   std::span<const LinearSystem> systems_;
   double time_step_;
   std::vector<StructureEnergy> energies_;
+  std::vector<double> stiffening_;  ///< of each structure, see LinearSystem
+  std::vector<double> relief_;      ///< 1 - s of its uniform damping, 0 without
   double initial_ = 0;
   double lagged_damping_ = 0;  ///< dt/4 v^T D v now and at the start [J]
   double initial_lagged_damping_ = 0;
