@@ -136,8 +136,8 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
   building.mesh = &mesh;
   building.system = &system;
   if (building.basis) {
-    system =
-        build_reduced_system(comm, owners_of_reduced(comm, scene)[s], structure, *building.basis);
+    system = build_reduced_system(comm, owners_of_reduced(comm, scene)[s], structure, mesh,
+                                  *building.basis);
     building.modal = modes_of_basis(*building.basis, scene.modes);
     building.limits = limits_of(structure, system, mesh, building.basis_or_null());
     return;

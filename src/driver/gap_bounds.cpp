@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "stability/energy_norm.h"
+#include "system/links.h"
 
 namespace pounding {
 namespace {
@@ -55,7 +56,7 @@ std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSys
   for (std::size_t s = 0; contact != nullptr && s < bounds.size(); ++s) {
     const LinearSystem& system = systems[s];
     // Tension-only bars hold energy that no bound knows of.
-    if (system.links || !(energy_margins[s] > 0)) {
+    if ((system.links && system.links->hold_energy()) || !(energy_margins[s] > 0)) {
       bounds[s].rate_norm = std::numeric_limits<double>::infinity();
       continue;
     }

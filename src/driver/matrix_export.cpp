@@ -9,6 +9,7 @@
 #include "common/parallel.h"
 #include "io/csv_file.h"
 #include "io/matrix_market.h"
+#include "system/damping_matrix.h"
 
 namespace pounding {
 namespace {
@@ -93,9 +94,11 @@ class Export {
     });
     write_square(folder + "stiffness.mtx", "stiffness, N/m and so on", system.stiffness->matrix());
     on_rank0(comm_, [&] { write_filters(folder, system); });
-    if (system.extra_damping) {
+    const MatHandle damping =
+        damping_matrix(scene_.structures[structure_], model_.meshes[structure_], system);
+    if (damping.get() != nullptr) {
       write_square(folder + "damping.mtx", "damping beside alpha M + beta K, N s/m and so on",
-                   system.extra_damping->matrix());
+                   damping.get());
     }
   }
 

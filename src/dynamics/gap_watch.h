@@ -34,7 +34,7 @@ class GapWatch {
 
   /// Whether a structure is bounded coordinate by coordinate.
   static bool goes_by_coordinates(const LinearSystem& system) {
-    return system.generalised && !system.has_extra_damping();
+    return system.generalised && !system.has_extra_damping() && !system.links;
   }
 
   /// `peaks`: largest ground acceleration in each direction [m/s2]. Collective.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "links/law_of.h"
 
@@ -29,32 +30,56 @@ LinkStep::LinkStep(const LinearSystem& system, const StructureState& state, Stru
       field_(trace_.known().size(), 0.0),
       velocity_(trace_.dofs().size(), 0.0) {
   for (const Link& link : links_) {
-    laws_.push_back(law_of(*link.region, link.length, link.beta, time_step));
+    laws_.push_back(law_of(link.origin, time_step));
     memory_.emplace_back(laws_.back()->memory_size(), 0.0);
   }
   find_couplings();
 }
 
-void LinkStep::find_couplings() {
-  std::vector<double> unit(field_.size(), 0.0);
-  const std::vector<double> at_rest(velocity_.size(), 0.0);
+void LinkStep::respond(const Link& link) {
+  std::fill(field_.begin(), field_.end(), 0.0);
+  for (std::size_t i = 0; i < link.place.size(); ++i) {
+    if (link.place[i] >= 0) field_[link.place[i]] += link.weight[i];
+  }
+  std::fill(velocity_.begin(), velocity_.end(), 0.0);
+  trace_.add_impulse(field_.data(), velocity_.data());
   std::vector<double> all(state_.velocity.size(), 0.0);
-  for (const Link& link : links_) {
-    std::fill(unit.begin(), unit.end(), 0.0);
-    for (std::size_t i = 0; i < link.place.size(); ++i) {
-      if (link.place[i] >= 0) unit[link.place[i]] += i < 3 ? -link.axis[i] : link.axis[i - 3];
+  for (std::size_t k = 0; k < velocity_.size(); ++k) all[trace_.dofs()[k]] = velocity_[k];
+  measure(all, free_after_);
+}
+
+void LinkStep::find_couplings() {
+  const double square = time_step_ * time_step_;
+  std::vector<std::vector<std::size_t>> at_place(field_.size());
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    for (const int place : links_[b].place) {
+      if (place >= 0) at_place[place].push_back(b);
     }
-    velocity_ = at_rest;
-    trace_.add_impulse(unit.data(), velocity_.data());
-    for (std::size_t k = 0; k < velocity_.size(); ++k) all[trace_.dofs()[k]] = velocity_[k];
-    measure(all, free_after_);
+  }
+  for (std::size_t b = 0; b < links_.size(); ++b) {
     std::vector<Coupling>& coupled = coupled_.emplace_back();
-    const std::size_t self = coupled_.size() - 1;
-    coupled.push_back({self, time_step_ * time_step_ * std::max(0.0, free_after_[self])});
-    for (std::size_t other = 0; other < links_.size(); ++other) {
-      if (other != self && free_after_[other] != 0) {
-        coupled.push_back({other, time_step_ * time_step_ * free_after_[other]});
+    std::map<std::size_t, double> response;  // [1/kg]
+    if (std::ranges::any_of(links_[b].place,
+                            [&](int k) { return k >= 0 && trace_.moves_others(k); })) {
+      respond(links_[b]);
+      for (std::size_t other = 0; other < links_.size(); ++other) {
+        response[other] = free_after_[other];
       }
+    } else {
+      for (std::size_t i = 0; i < links_[b].place.size(); ++i) {
+        const int place = links_[b].place[i];
+        if (place < 0) continue;
+        const double moved = trace_.compliance(place, place) * links_[b].weight[i];
+        for (const std::size_t other : at_place[place]) {
+          const auto& places = links_[other].place;
+          const auto there = std::ranges::find(places, place) - places.begin();
+          response[other] += links_[other].weight[there] * moved;
+        }
+      }
+    }
+    coupled.push_back({b, square * std::max(0.0, response[b])});
+    for (const auto& [other, moved] : response) {
+      if (other != b && moved != 0) coupled.push_back({other, square * moved});
     }
   }
 }
@@ -67,19 +92,26 @@ void LinkStep::measure(const std::vector<double>& owned, std::vector<double>& el
 void LinkStep::begin() {
   step_.remember(trace_.dofs(), held_);
   measure(state_.displacement, now_);
-  measure(state_.velocity, before_);
-  for (std::size_t b = 0; b < links_.size(); ++b) before_[b] = now_[b] - time_step_ * before_[b];
+  for (std::size_t b = 0; b < links_.size(); ++b) now_[b] = laws_[b]->is_relative() ? 0 : now_[b];
+  measure_step(-time_step_, before_);
 }
 
-double LinkStep::sweep() {
+void LinkStep::measure_step(double duration, std::vector<double>& elongations) {
+  measure(state_.velocity, elongations);
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    elongations[b] = now_[b] + duration * elongations[b];
+  }
+}
+
+double LinkStep::sweep(double share) {
   double change = 0;
   for (std::size_t b = 0; b < links_.size(); ++b) {
     double free_after = free_after_[b];
     for (std::size_t k = 1; k < coupled_[b].size(); ++k) {
-      free_after -= coupled_[b][k].compliance * force_[coupled_[b][k].link];
+      free_after -= share * coupled_[b][k].compliance * force_[coupled_[b][k].link];
     }
-    const double force =
-        laws_[b]->solve(before_[b], now_[b], free_after, coupled_[b][0].compliance, memory_[b]);
+    const double force = laws_[b]->solve(before_[b], now_[b], free_after,
+                                         share * coupled_[b][0].compliance, memory_[b]);
     change = std::max(change, std::abs(force - force_[b]));
     force_[b] = force;
   }
@@ -93,24 +125,17 @@ void LinkStep::pull(bool first) {
     idle = idle && laws_[b]->is_idle(now_[b], memory_[b]);
   }
   if (idle) return;
-  if (first) {
-    for (std::size_t b = 0; b < links_.size(); ++b) {
-      force_[b] = laws_[b]->force(before_[b], now_[b], 2 * now_[b] - before_[b], memory_[b]);
-    }
-  } else {
-    measure(state_.displacement, free_after_);
-    for (int i = 0; i < most_sweeps; ++i) {
-      const double change = sweep();
-      if (change <= converged * largest_force()) break;
-    }
+  measure_step(time_step_, free_after_);
+  const double share = first ? 0.5 : 1;
+  for (int i = 0; i < most_sweeps; ++i) {
+    const double change = sweep(share);
+    if (change <= converged * largest_force()) break;
   }
-  const double duration = first ? time_step_ / 2 : time_step_;
   std::fill(field_.begin(), field_.end(), 0.0);
   for (std::size_t b = 0; b < links_.size(); ++b) {
     for (std::size_t i = 0; i < links_[b].place.size(); ++i) {
       if (links_[b].place[i] >= 0) {
-        field_[links_[b].place[i]] +=
-            (i < 3 ? links_[b].axis[i] : -links_[b].axis[i - 3]) * duration * force_[b];
+        field_[links_[b].place[i]] -= links_[b].weight[i] * share * time_step_ * force_[b];
       }
     }
   }
@@ -126,7 +151,7 @@ double LinkStep::largest_force() const {
 }
 
 void LinkStep::finish(StepSums& sums) {
-  measure(state_.displacement, after_);
+  measure_step(time_step_, after_);
   for (std::size_t b = 0; b < links_.size(); ++b) {
     const double held = laws_[b]->energy(before_[b], now_[b], memory_[b]);
     sums.link_energy_before += held;

@@ -18,8 +18,8 @@ namespace pounding {
 /// without them is made, their forces are solved for (LinkLaw; links that move each other by
 /// Gauss-Seidel sweeps, which converge since no force falls as its elongation grows) and v+ and
 /// u_{n+1} corrected at the dofs that they move. Contact comes after them; where it acts on the
-/// nodes of a link that switches in the same step, the link's work differs from what its energy
-/// takes by what contact changed, and the ledger shows it as loss. Local.
+/// nodes of a dashpot, or of a link that switches in the same step, the link's work differs from
+/// what its law tells by what contact changed, and the ledger shows it as loss. Local.
 class LinkStep {
  public:
   /// `system` has links. References must outlive this object.
@@ -28,7 +28,7 @@ class LinkStep {
 
   /// Before the structure's step to t_n: e_n, e_{n-1}, and what the dofs hold.
   void begin();
-  /// After it: forces, v+, u_{n+1}. `first`: half a step from v_0, with the force of u_0.
+  /// After it: forces, v+, u_{n+1}. `first`: they act for half a step, from v_0.
   void pull(bool first);
   /// After contact: adds the links' energy before the step and their loss in it; they remember it.
   void finish(StepSums& sums);
@@ -43,10 +43,14 @@ class LinkStep {
     double compliance = 0;  ///< dt^2 b_i^T M^-1 b_j [m/N]
   };
   void find_couplings();
-  /// Largest change of a force [N].
-  double sweep();
+  /// e of all links that impulses [N s] of one of them cause in a second [m/N s2].
+  void respond(const Link& link);
+  /// Largest change of a force [N]; `share` of a step for which forces act.
+  double sweep(double share);
   double largest_force() const;
   void measure(const std::vector<double>& owned, std::vector<double>& elongations);
+  /// e_n + duration b . v.
+  void measure_step(double duration, std::vector<double>& elongations);
 
   const StructureState& state_;
   StructureStep& step_;
@@ -58,7 +62,7 @@ class LinkStep {
   std::vector<std::vector<double>> memory_;     ///< per link; see LinkLaw
   std::vector<std::vector<Coupling>> coupled_;  ///< per link: itself first
   std::vector<double> before_;                  ///< e_{n-1} [m]
-  std::vector<double> now_;                     ///< e_n
+  std::vector<double> now_;                     ///< e_n; 0 of laws that are relative
   std::vector<double> after_;                   ///< e_{n+1}
   std::vector<double> free_after_;              ///< e_{n+1} without any link
   std::vector<double> force_;                   ///< N_n [N]

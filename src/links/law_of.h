@@ -7,8 +7,21 @@
 
 namespace pounding {
 
-/// Law of the links of a region, by what its options say: the only place that chooses among laws.
-/// `length` [m] of the element, `beta` [s] of its structure's damping, `time_step` [s].
-std::unique_ptr<LinkLaw> law_of(const Region& region, double length, double beta, double time_step);
+/// Whether the elements of a region are links, or hold some: tension-only bars, springs with
+/// dashpots.
+bool has_links(const Region& region);
+
+/// Origin of a link: what its law follows from.
+struct LinkOrigin {
+  const Region* region = nullptr;  ///< borrowed from the structure
+  int component = 0;               ///< along or about which a spring's dashpot acts; 0 of a bar
+  double length = 0;               ///< of a bar [m]
+  double beta = 0;                 ///< stiffness damping of its structure [s]
+  bool in_stiffness = false;       ///< K of its structure holds it at its tangent already
+};
+
+/// Law of a link by what the options of its region say: the only place that chooses among laws.
+/// `time_step` [s].
+std::unique_ptr<LinkLaw> law_of(const LinkOrigin& origin, double time_step);
 
 }  // namespace pounding

@@ -48,7 +48,7 @@ class BasisMaker {
       : system_(system),
         mesh_(mesh),
         request_(request),
-        matrix_(mass_scaled(system, system.stiffness->matrix())),
+        matrix_(mass_scaled(system, system.stiffest_matrix())),
         dofs_(system.lumped_mass.size()),
         space_(dofs_, 0) {}
 

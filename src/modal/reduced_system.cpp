@@ -11,6 +11,7 @@
 #include "common/parallel.h"
 #include "stiffness/diagonal_stiffness.h"
 #include "system/critical_time_step.h"
+#include "system/links.h"
 
 namespace pounding {
 namespace {
@@ -89,7 +90,7 @@ std::unique_ptr<GeneralisedCoordinates> take_coordinates(ModalBasis& basis, bool
 }  // namespace
 
 LinearSystem build_reduced_system(MPI_Comm comm, int owner, const Structure& structure,
-                                  ModalBasis& basis) {
+                                  const Mesh& mesh, ModalBasis& basis) {
   const bool mine = rank_of(comm) == owner;
   LinearSystem system;
   system.name = structure.name;
@@ -124,6 +125,8 @@ LinearSystem build_reduced_system(MPI_Comm comm, int owner, const Structure& str
   system.element_frequency_bound = largest.omega_max;
   system.element_time_step_bound = stable_time_step(structure, basis);
   system.stiffest_element = largest.location;
+  system.links = Links::build(structure, mesh);
+  if (system.links) system.links->find_trace(system, mesh);
   return system;
 }
 

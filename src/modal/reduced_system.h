@@ -17,10 +17,10 @@
 /// exact and need no eigensolver.
 namespace pounding {
 
-/// The system; rank `owner` has all coordinates, the others none. The rows of the basis go into it.
-/// Collective over `comm`.
+/// The system; rank `owner` has all coordinates, and the whole mesh for its links, the others none.
+/// The rows of the basis go into it. Collective over `comm`.
 LinearSystem build_reduced_system(MPI_Comm comm, int owner, const Structure& structure,
-                                  ModalBasis& basis);
+                                  const Mesh& mesh, ModalBasis& basis);
 
 /// The lowest `count` modes of the basis, for the report.
 ModalResult modes_of_basis(const ModalBasis& basis, int count);

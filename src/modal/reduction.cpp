@@ -14,15 +14,16 @@
 #include "modal/definiteness.h"
 #include "modal/modal_basis_file.h"
 #include "system/build_system.h"
+#include "system/links.h"
 #include "system/matrix_system.h"
 
 namespace pounding {
 namespace {
 
-/// Where a run asks for the motion of a structure: contacts, along and across their normals, and
-/// probes.
-ModalRequest request_of(const Scene& scene, int s, const Interface& interface,
-                        std::span<const ResolvedProbe> probes) {
+/// Where a run asks for the motion of a structure: contacts, along and across their normals, probes
+/// and links. Links are known on rank 0 alone, which has the mesh. Collective.
+ModalRequest request_of(MPI_Comm comm, const Scene& scene, int s, const GlobalMesh& mesh,
+                        const Interface& interface, std::span<const ResolvedProbe> probes) {
   const ModalModel& modal = *scene.structures[s].modal;
   ModalRequest request{modal.modes, modal.candidates, modal.cutoff, modal.attachment, {}, {}};
   std::set<TracePoint> known;
@@ -40,6 +41,12 @@ ModalRequest request_of(const Scene& scene, int s, const Interface& interface,
     for (std::size_t k = 0; probe.structure == s && k < probe.nodes.size(); ++k) {
       for (int d = 0; d < 3; ++d) request.other_points.push_back({probe.nodes[k], d});
     }
+  }
+  std::vector<TracePoint> links;
+  if (rank_of(comm) == 0) links = link_points(scene.structures[s], mesh);
+  broadcast_array(comm, links, 0);
+  for (const TracePoint& point : links) {
+    if (known.insert(point).second) request.other_points.push_back(point);
   }
   return request;
 }
@@ -151,7 +158,7 @@ std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& sc
     if (!scene.structures[s].modal) continue;
     Reduction& reduction = reductions.emplace_back();
     reduction.structure = static_cast<int>(s);
-    reduction.request = request_of(scene, reduction.structure, interface, probes);
+    reduction.request = request_of(comm, scene, reduction.structure, meshes[s], interface, probes);
     int stored = 0;
     on_rank0(comm, [&] {
       forbid_damping_matrix(scene.structures[s]);

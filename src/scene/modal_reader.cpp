@@ -17,17 +17,17 @@ constexpr std::string_view attachment = "<structure>_modal_attachment";
 constexpr std::string_view damping = "<structure>_modal_damping";
 constexpr std::string_view basis = "<structure>_modal_basis";
 
-void refuse_devices(const OptionReader& options, const Structure& structure) {
+void refuse_couplings(const OptionReader& options, const Structure& structure) {
   for (const Region& region : structure.regions) {
     const Names names{structure.name, region.group};
     const std::string remedy = "not in a structure with -" + option_name(model, {structure.name}) +
                                " modal; leave it out, or give -" +
                                option_name(model, {structure.name}) + " full";
-    if (!is_linear(region.element)) {
-      options.forbid("<structure>_<group>_tension_only", names, remedy);
-    }
-    if (std::ranges::any_of(region.dashpot, [](double value) { return value > 0; })) {
-      options.forbid("<structure>_<group>_dashpot", names, remedy);
+    if (!is_linear(region.element) && structure.uniform_damping) {
+      options.forbid("<structure>_<group>_tension_only", names,
+                     "not with -" + option_name(model, {structure.name}) + " modal and -" +
+                         structure.name + "_damping_uniform, which would damp slack bars; leave " +
+                         "one of the three out");
     }
     if (region.damping) {
       for (const char* option : {"alpha", "beta", "ratio"}) {
@@ -49,7 +49,7 @@ std::optional<ModalModel> read_modal_model(OptionReader& options, const Structur
     }
     return std::nullopt;
   }
-  refuse_devices(options, structure);
+  refuse_couplings(options, structure);
   ModalModel modal;
   if (options.given(vectors, names)) {
     options.forbid(cutoff, names,

@@ -66,8 +66,8 @@ double ElementBounds::frequency(std::span<const double> stiffness, std::span<con
 }
 
 void ElementBounds::add(const ElementBlock& block, std::span<const double> stiffness,
-                        std::span<const double> mass, std::span<const double> dashpots,
-                        std::span<const LocalIndex> dofs, double mass_scaling) {
+                        std::span<const double> mass, std::span<const LocalIndex> dofs,
+                        double mass_scaling) {
   mass_scaling_.push_back(mass_scaling);
   if (*std::max_element(mass.begin(), mass.end()) > 0) {
     frequencies_.push_back(frequency(stiffness, mass));
@@ -86,7 +86,7 @@ void ElementBounds::add(const ElementBlock& block, std::span<const double> stiff
       if (dofs[j] >= 0) {
         const double k = stiffness[i * dofs.size() + j];
         device_stiffness_[dofs[i]] += std::abs(k);
-        device_damping_[dofs[i]] += std::abs(beta * k + dashpots[i * dofs.size() + j]);
+        device_damping_[dofs[i]] += std::abs(beta * k);
       }
     }
   }

@@ -16,20 +16,19 @@ namespace pounding {
 ///
 ///     x^T (4 M - 2 dt C - dt^2 K) x  =  sum over elements e of x^T (4 M_e - 2 dt C_e - dt^2 K_e) x
 ///
-/// with C_e = alpha M_e + beta K_e of the element's region. Springs and dashpots have no mass: by
-/// Gershgorin, theirs are at most diagonal matrices of the sums of their |C_ij| and |K_ij| over
-/// each row, which the elements with mass carry in proportion to the mass that they give to the
-/// row. Elements with scaled mass allow the step that it is for, and have the frequencies of it.
+/// with C_e = alpha M_e + beta K_e of the element's region. Springs have no mass: by Gershgorin,
+/// theirs are at most diagonal matrices of the sums of their |C_ij| and |K_ij| over each row, which
+/// the elements with mass carry in proportion to the mass that they give to the row. Elements with
+/// scaled mass allow the step that it is for, and have the frequencies of it.
 class ElementBounds {
  public:
   ElementBounds(const Structure& structure, const Mesh& mesh)
       : structure_(structure), mesh_(mesh) {}
 
-  /// Every element of this rank in the order of the mesh: stiffness and dashpots of shape (n, n),
-  /// lumped mass and local dofs (-1: none) of shape (n); its mass scaling factor c [s2].
+  /// Every element of this rank in the order of the mesh: stiffness of shape (n, n), lumped mass
+  /// and local dofs (-1: none) of shape (n); its mass scaling factor c [s2].
   void add(const ElementBlock& block, std::span<const double> stiffness,
-           std::span<const double> mass, std::span<const double> dashpots,
-           std::span<const LocalIndex> dofs, double mass_scaling);
+           std::span<const double> mass, std::span<const LocalIndex> dofs, double mass_scaling);
 
   /// After every element, with the lumped mass complete: fills in the bounds of `system` and its
   /// slivers. Collective.

@@ -104,16 +104,14 @@ class Assembly {
     if (taut_.get() != nullptr) insert(taut_, work.stiffness.data());
     const std::span<const double> stiffness(work.stiffness.data(), size * size);
     const std::span<const double> mass(work.mass.data(), size);
-    const std::span<double> damping(damping_.data(), size * size);
-    element_dashpots(block.type, properties_of(block), damping);
     const Region& region = structure_.regions[block.region];
-    const double scaling = added_mass_.add(block, element, region, {stiffness, mass, damping});
-    bounds_.add(block, stiffness, mass, damping, {dofs.data(), size}, scaling);
+    const double scaling = added_mass_.add(block, element, region, stiffness, mass);
+    bounds_.add(block, stiffness, mass, {dofs.data(), size}, scaling);
     if (has_extra_damping(block)) {
       const Rayleigh extra = extra_rayleigh(block);
-      for (std::size_t i = 0; i < damping.size(); ++i) damping[i] += extra.beta * stiffness[i];
-      for (std::size_t i = 0; i < size; ++i) damping[i * size + i] += extra.alpha * mass[i];
-      insert(extra_damping_, damping.data());
+      for (std::size_t i = 0; i < stiffness.size(); ++i) damping_[i] = extra.beta * stiffness[i];
+      for (std::size_t i = 0; i < size; ++i) damping_[i * size + i] += extra.alpha * mass[i];
+      insert(extra_damping_, damping_.data());
     }
   }
 
@@ -125,10 +123,6 @@ class Assembly {
     return std::make_unique<AssembledStiffness>(std::move(matrix));
   }
 
-  ElementProperties properties_of(const ElementBlock& block) const {
-    return element_properties(structure_.regions[block.region]);
-  }
-
   /// Damping of a block's region beside the structure's. Tension-only bars are damped
   /// while they are taut, by themselves.
   Rayleigh extra_rayleigh(const ElementBlock& block) const {
@@ -138,10 +132,8 @@ class Assembly {
   }
 
   bool has_extra_damping(const ElementBlock& block) const {
-    const auto& rates = properties_of(block).dashpot;
     const Rayleigh extra = extra_rayleigh(block);
-    return extra.alpha != 0 || extra.beta != 0 ||
-           std::any_of(rates.begin(), rates.end(), [](double rate) { return rate > 0; });
+    return extra.alpha != 0 || extra.beta != 0;
   }
 
   void check_mass() const {
@@ -213,7 +205,8 @@ LinearSystem build_finite_element_system(const Structure& structure, const Mesh&
   system.links = Links::build(structure, mesh);
   const bool by_element = multiplies_elements(mesh, method);
   // Modes want every bar taut: the linear elements alone are of no use to them then.
-  const bool for_modes = with_matrix && system.links == nullptr;
+  const bool for_modes =
+      with_matrix && std::ranges::all_of(mesh.blocks, is_linear, &ElementBlock::type);
   Assembly(structure, mesh, !by_element || for_modes, system).run();
   system.stiffness_method = "assembled";
   if (by_element) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "elements/element.h"
 #include "mesh/location.h"
 
 namespace pounding {
@@ -18,7 +19,7 @@ int place_of(const std::vector<LocalIndex>& dofs, LocalIndex dof) {
 double Link::elongation(std::span<const double> field) const {
   double sum = 0;
   for (std::size_t i = 0; i < place.size(); ++i) {
-    if (place[i] >= 0) sum += (i < 3 ? -axis[i] : axis[i - 3]) * field[place[i]];
+    if (place[i] >= 0) sum += weight[i] * field[place[i]];
   }
   return sum;
 }
@@ -27,9 +28,15 @@ std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh
   std::unique_ptr<Links> found(new Links);
   GlobalIndex count = 0;  // of all ranks
   for (const ElementBlock& block : mesh.blocks) {
-    if (!is_linear(block.type)) {
-      count += block.global_count;
-      for (std::size_t e = 0; e < block.count(); ++e) found->add(structure, mesh, block, e);
+    if (!has_links(structure.regions[block.region])) continue;
+    count += block.global_count;
+    found->hold_energy_ = found->hold_energy_ || !is_spring(block.type);
+    for (std::size_t e = 0; e < block.count(); ++e) {
+      if (is_spring(block.type)) {
+        found->add_dashpots(structure, mesh, block, e);
+      } else {
+        found->add_bar(structure, mesh, block, e);
+      }
     }
   }
   if (count == 0) return nullptr;
@@ -42,37 +49,57 @@ std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh
   return found;
 }
 
-/// Leaves dofs where places will stand.
-void Links::add(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
-                std::size_t element) {
+void Links::add_bar(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
+                    std::size_t element) {
   const Region& region = structure.regions[block.region];
   const LocalIndex* nodes = &block.connectivity[2 * element];
   const Vector3 a = mesh.position(nodes[0]);
   const Vector3 b = mesh.position(nodes[1]);
-  const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
   Link link;
   link.number = block.tags[element];
-  link.length = length;
-  link.beta = structure.damping_of(region).beta;
-  link.region = &region;
-  bool here = false;
-  bool elsewhere = false;
+  const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+  // The modes of a reduced structure have every bar taut, and their damping is the bars' as well.
+  const bool reduced = structure.modal.has_value();
+  link.origin = {&region, 0, length, reduced ? 0 : structure.damping_of(region).beta, reduced};
   for (std::size_t d = 0; d < 3; ++d) {
-    link.axis[d] = (b[d] - a[d]) / length;
     for (std::size_t end = 0; end < 2; ++end) {
-      const LocalIndex dof = mesh.dof(nodes[end], static_cast<int>(d));
-      link.place[3 * end + d] = dof;
-      here = here || (dof >= 0 && dof < mesh.owned_dofs);
-      elsewhere = elsewhere || dof >= mesh.owned_dofs;
+      link.place[3 * end + d] = mesh.dof(nodes[end], static_cast<int>(d));
+      link.weight[3 * end + d] = (end == 0 ? -1 : 1) * (b[d] - a[d]) / length;
     }
   }
+  keep(mesh, block, element, link);
+}
+
+void Links::add_dashpots(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
+                         std::size_t element) {
+  const Region& region = structure.regions[block.region];
+  const std::size_t ends = element_layout(block.type).nodes;
+  const LocalIndex* nodes = &block.connectivity[ends * element];
+  for (std::size_t c = 0; c < region.dashpot.size(); ++c) {
+    if (region.dashpot[c] == 0) continue;
+    Link link;
+    link.number = block.tags[element];
+    link.origin = {&region, static_cast<int>(c), 0, 0, false};
+    for (std::size_t end = 0; end < ends; ++end) {
+      link.place[end] = mesh.dof(nodes[end], static_cast<int>(c));
+      link.weight[end] = end + 1 == ends ? 1 : -1;
+    }
+    keep(mesh, block, element, link);
+  }
+}
+
+void Links::keep(const Mesh& mesh, const ElementBlock& block, std::size_t element,
+                 const Link& link) {
+  const bool here =
+      std::ranges::any_of(link.place, [&](int dof) { return dof >= 0 && dof < mesh.owned_dofs; });
+  const bool elsewhere =
+      std::ranges::any_of(link.place, [&](int dof) { return dof >= mesh.owned_dofs; });
   if (here && elsewhere) {
     throw std::logic_error(describe_element(mesh, block, element) +
                            " is a link and lives on several ranks");
   }
   if (here) {
-    std::copy_if(link.place.begin(), link.place.end(), std::back_inserter(dofs_),
-                 [](int dof) { return dof >= 0; });
+    std::ranges::copy_if(link.place, std::back_inserter(dofs_), [](int dof) { return dof >= 0; });
     links_.push_back(link);
   }
 }
@@ -80,7 +107,7 @@ void Links::add(const Structure& structure, const Mesh& mesh, const ElementBlock
 void Links::find_trace(const LinearSystem& system, const Mesh& mesh) {
   std::vector<TracePoint> places;
   for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    for (int c = 0; c < 3; ++c) {
+    for (int c = 0; c < 6; ++c) {
       const LocalIndex dof = mesh.dof(node, c);
       if (dof >= 0 && std::binary_search(dofs_.begin(), dofs_.end(), dof)) {
         places.push_back({mesh.file_node[node], c});
@@ -88,6 +115,21 @@ void Links::find_trace(const LinearSystem& system, const Mesh& mesh) {
     }
   }
   trace_ = std::make_unique<Trace>(system, mesh, places, true);
+}
+
+std::vector<TracePoint> link_points(const Structure& structure, const GlobalMesh& mesh) {
+  std::vector<TracePoint> points;
+  for (const ElementSet& set : mesh.regions) {
+    const Region& region = structure.regions[set.region];
+    if (!has_links(region)) continue;
+    for (const GlobalIndex node : set.connectivity) {
+      for (int c = 0; c < 6; ++c) {
+        const bool pulls = is_spring(set.type) ? region.dashpot[c] > 0 : c < 3;
+        if (pulls) points.push_back({node, c});
+      }
+    }
+  }
+  return points;
 }
 
 }  // namespace pounding

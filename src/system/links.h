@@ -6,7 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "links/link_law.h"
+#include "links/law_of.h"
+#include "mesh/global_mesh.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
 #include "system/linear_system.h"
@@ -14,23 +15,23 @@
 
 namespace pounding {
 
-/// A link between two nodes of which this rank owns those that can move.
+/// A link between two nodes, or from one to the ground. This rank owns those that can move.
 struct Link {
-  std::array<int, 6> place{};      ///< of its ends' components in the trace of all links; -1: held
-  Vector3 axis{0, 0, 0};           ///< from the first end to the second, of length 1
-  double length = 0;               ///< [m]
-  double beta = 0;                 ///< stiffness damping of its structure [s]
-  const Region* region = nullptr;  ///< borrowed from the structure
+  /// Places in the trace of all links, -1 where the end is held: a bar has three of each end.
+  std::array<int, 6> place{-1, -1, -1, -1, -1, -1};
+  std::array<double, 6> weight{};  ///< b: of each place in the elongation
+  LinkOrigin origin;
   std::int64_t number = 0;  ///< among the elements of its structure's file; its name in checkpoints
 
-  /// axis . (w_2 - w_1) of a field at the places of the trace.
+  /// b . w of a field w at the places of the trace: the second end's less the first one's [m, rad].
   double elongation(std::span<const double> field) const;
 };
 
-/// Links of a structure: elements between two nodes whose force is not linear in their elongation.
-/// Today these are the bars that resist stretching only. Links that share a node that can move live
-/// on one rank, with all that moves with their nodes (see `coupled_nodes`). Constant during a run;
-/// what evolves is with LinkStep.
+/// Links of a structure: what pulls between two nodes, or from one to the ground, by a law that is
+/// no part of K u. Today these are the bars that resist stretching only, and the dashpots of
+/// springs, one for each component. Links that share a node that can move live on one rank, with
+/// all that moves with their nodes (see `coupled_nodes`). Constant during a run; what evolves is
+/// with LinkStep.
 class Links {
  public:
   /// Null if the structure has no link. Throws std::logic_error if the nodes of one live on several
@@ -42,15 +43,25 @@ class Links {
 
   const std::vector<Link>& links() const { return links_; }  ///< of this rank
   const Trace& trace() const { return *trace_; }
+  /// Some link of some rank holds energy, as bars do and dashpots do not.
+  bool hold_energy() const { return hold_energy_; }
 
  private:
   Links() = default;
-  void add(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
-           std::size_t element);
+  void add_bar(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
+               std::size_t element);
+  void add_dashpots(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
+                    std::size_t element);
+  /// Keeps a link whose places are local dofs as yet, if this rank owns those that can move.
+  void keep(const Mesh& mesh, const ElementBlock& block, std::size_t element, const Link& link);
 
+  bool hold_energy_ = false;
   std::vector<Link> links_;
   std::vector<LocalIndex> dofs_;  ///< per place of the trace, increasing
   std::unique_ptr<Trace> trace_;
 };
+
+/// Nodes of a structure's links, and components along which these may pull; some more than once.
+std::vector<TracePoint> link_points(const Structure& structure, const GlobalMesh& mesh);
 
 }  // namespace pounding

@@ -11,6 +11,7 @@
 #include "common/disjoint_sets.h"
 #include "common/error.h"
 #include "elements/element.h"
+#include "links/law_of.h"
 #include "stiffness/element_properties.h"
 
 namespace pounding {
@@ -103,8 +104,7 @@ class Decision {
       return false;  // the assembly names it
     }
     return add_element_mass(structure_.mass_scaling, structure_.damping_of(region), stiffness, mass,
-                            {no_dashpots_.data(), size * size}, {added_.data(), size * size},
-                            structure_.stiffening()) > 0;
+                            {added_.data(), size * size}, structure_.stiffening()) > 0;
   }
 
  private:
@@ -114,7 +114,6 @@ class Decision {
   std::array<double, 3 * max_element_nodes> coordinates_{};
   std::array<double, max_element_size> mass_{};
   Matrix stiffness_{};
-  Matrix no_dashpots_{};
   Matrix added_{};
 };
 
@@ -128,17 +127,12 @@ double mass_scaling_factor(double time_step, const Rayleigh& damping, double fre
 
 double add_element_mass(double time_step, const Rayleigh& damping,
                         std::span<const double> stiffness, std::span<const double> lumped_mass,
-                        std::span<const double> dashpots, std::span<double> added,
-                        double stiffening) {
+                        std::span<double> added, double stiffening) {
   const bool has_mass = *std::max_element(lumped_mass.begin(), lumped_mass.end()) > 0;
   const double frequency = has_mass ? std::sqrt(largest_eigenvalue(stiffness, lumped_mass))
                                     : std::numeric_limits<double>::infinity();
   const double factor = mass_scaling_factor(time_step, damping, frequency, stiffening);
-  if (factor > 0) {
-    for (std::size_t i = 0; i < added.size(); ++i) {
-      added[i] += factor * stiffness[i] + time_step / 2 * dashpots[i];
-    }
-  }
+  for (std::size_t i = 0; factor > 0 && i < added.size(); ++i) added[i] += factor * stiffness[i];
   return factor;
 }
 
@@ -149,12 +143,13 @@ std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalM
   Decision decision(structure, mesh);
   for (const Region& region : structure.regions) check_alpha(structure, region);
   for (const ElementSet& set : mesh.regions) {
-    const bool tension = !is_linear(set.type);
     const std::size_t width = element_layout(set.type).nodes;
-    const bool looked_at = tension || (scaling && traits_of(set.type).scalable);
+    const bool links = width == 2 && has_links(structure.regions[set.region]);
+    const bool looked_at = links || (scaling && traits_of(set.type).scalable);
     for (std::size_t e = 0; looked_at && e < set.tags.size(); ++e) {
       const std::span<const GlobalIndex> nodes(&set.connectivity[e * width], width);
-      if (tension || decision.scales(set, nodes)) couplings.join(nodes, !tension);
+      const bool scaled = is_linear(set.type) && scaling && decision.scales(set, nodes);
+      if (links || scaled) couplings.join(nodes, scaled);
     }
   }
   std::vector<NodeCluster> result;

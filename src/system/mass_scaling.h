@@ -45,16 +45,14 @@ struct ScalingOffer {
 double mass_scaling_factor(double time_step, const Rayleigh& damping, double frequency,
                            double stiffening = 1);
 
-/// Adds S_e, shape (n, n) [kg, kg m2], of an element with the given matrices, and returns c_e; the
-/// dashpots D_e of a spring add dt / 2 D_e as well. Does nothing and returns 0 where the element
-/// allows the wanted step by itself.
+/// Adds S_e, shape (n, n) [kg, kg m2], of an element with the given matrices, and returns c_e. Does
+/// nothing and returns 0 where the element allows the wanted step by itself.
 double add_element_mass(double time_step, const Rayleigh& damping,
                         std::span<const double> stiffness, std::span<const double> lumped_mass,
-                        std::span<const double> dashpots, std::span<double> added,
-                        double stiffening = 1);
+                        std::span<double> added, double stiffening = 1);
 
-/// Nodes that scaled elements or tension-only bars connect, group by group: M + S couples the dofs
-/// of the ones, the step solves for the tensions of the others together, so one rank must own them.
+/// Nodes that scaled elements or links connect, group by group: M + S couples the dofs of the ones,
+/// the step solves for the forces of the others together, so one rank must own them.
 /// `structure_number` is copied. Throws UserError where alpha alone forbids the wanted step or the
 /// scaled nodes of a group are too many to be factorised. Serial.
 std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalMesh& mesh,

@@ -11,18 +11,17 @@
 namespace pounding {
 
 double ScaledMass::add(const ElementBlock& block, std::size_t element, const Region& region,
-                       const Matrices& matrices) {
+                       std::span<const double> stiffness, std::span<const double> mass) {
   if (structure_.mass_scaling == 0 || !traits_of(block.type).scalable) return 0;
-  const std::span<double> added(added_.data(), matrices.stiffness.size());
+  const std::span<double> added(added_.data(), stiffness.size());
   std::fill(added.begin(), added.end(), 0.0);
-  const double factor =
-      add_element_mass(structure_.mass_scaling, structure_.damping_of(region), matrices.stiffness,
-                       matrices.mass, matrices.dashpots, added, structure_.stiffening());
+  const double factor = add_element_mass(structure_.mass_scaling, structure_.damping_of(region),
+                                         stiffness, mass, added, structure_.stiffening());
   if (factor > 0) {
     report_.elements += block.counted[element];
     report_.largest_factor = std::max(report_.largest_factor, factor);
     add_blocks(block, element);
-    add_rows(block, element, matrices.stiffness);
+    add_rows(block, element, stiffness);
   }
   return factor;
 }

@@ -19,15 +19,11 @@ class ScaledMass {
  public:
   ScaledMass(const Structure& structure, const Mesh& mesh) : structure_(structure), mesh_(mesh) {}
 
-  struct Matrices {
-    std::span<const double> stiffness;  ///< shape (n, n)
-    std::span<const double> mass;       ///< lumped, shape (n)
-    std::span<const double> dashpots;   ///< shape (n, n)
-  };
-  /// Returns the factor c of the element [s2], 0 if it is not scaled. Throws std::logic_error if
-  /// its nodes live on several ranks; see `coupled_nodes`.
+  /// Returns the factor c of the element [s2], 0 if it is not scaled, from its stiffness of shape
+  /// (n, n) and its lumped mass of shape (n). Throws std::logic_error if its nodes live on several
+  /// ranks; see `coupled_nodes`.
   double add(const ElementBlock& block, std::size_t element, const Region& region,
-             const Matrices& matrices);
+             std::span<const double> stiffness, std::span<const double> mass);
   /// Fills in what `system` knows of this rank; its lumped mass is complete.
   void finish(LinearSystem& system);
   /// The numbers of LinearSystem::mass_scaling over all ranks. Collective.

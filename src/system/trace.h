@@ -44,6 +44,11 @@ class Trace {
   void add_force(std::size_t k, double f, std::span<double> owned) const;
   /// The part of (T M^-1 T^T) of two known places [1/kg].
   double compliance(std::size_t a, std::size_t b);
+  /// Whether an impulse at a known place may move others of this rank.
+  bool moves_others(std::size_t k) const {
+    return dense_ ||
+           (coupled_mass_ != nullptr && own_dof_[k] >= 0 && field_place_[own_dof_[k]] >= 0);
+  }
   /// An impulse at one place may move others, on some rank.
   bool is_coupled() const { return coupled_; }
 

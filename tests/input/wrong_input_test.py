@@ -158,10 +158,6 @@ class WrongInput(unittest.TestCase):
     def test_modal_option_of_a_full_model(self):
         self.refuse(CASE + ["-s2_modal_vectors", "9"], "-s2_modal_vectors 9", "-s2_model modal")
 
-    def test_modal_model_with_bars_that_buckle(self):
-        self.refuse(CASE + ["-s1_model", "modal", "-s1_modal_vectors", "9", "-s1_brace1_tension_only"],
-                    "-s1_brace1_tension_only", "-s1_model")
-
     def test_modal_model_that_is_all_clamped(self):
         self.refuse(CASE + ["-s1_model", "modal", "-s1_modal_vectors", "9", "-contacts", "none",
                             "-s1_clamp", "base,column,slab,beam,joint_beam,joint_column,brace1,brace2"],

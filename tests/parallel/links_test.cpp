@@ -67,7 +67,7 @@ TEST(Links, MeasureElongationsAlongTheirAxes) {
   bars.trace().apply(w.data(), field.data(), 1);
   for (std::size_t b = 0; b < bars.links().size(); ++b) {
     EXPECT_NEAR(bars.links()[b].elongation(field), 0.01 * (2 * static_cast<double>(b) + 1), 1e-14);
-    EXPECT_DOUBLE_EQ(bars.links()[b].length, 1);
+    EXPECT_DOUBLE_EQ(bars.links()[b].origin.length, 1);
   }
 }
 

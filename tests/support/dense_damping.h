@@ -83,7 +83,8 @@ inline DampedStructure random_structure(unsigned seed) {
   return damped;
 }
 
-/// M (diagonal), K and C = sum over regions of alpha M + beta K, and dashpots, over the free dofs.
+/// M (diagonal), K and C = sum over regions of alpha M + beta K over the free dofs. Dashpots are links
+/// and in none of them.
 struct DenseSystem {
   std::map<std::pair<GlobalIndex, int>, std::size_t> dof;  ///< of node and component
   std::vector<double> mass;
@@ -132,10 +133,9 @@ inline DenseSystem dense_system(const DampedStructure& damped) {
     const Rayleigh rayleigh = region.damping ? *region.damping : damped.structure.damping;
     const std::size_t size = 3 * static_cast<std::size_t>(element_layout(set.type).nodes);
     for (std::size_t e = 0; e < set.tags.size(); ++e) {
-      std::vector<double> k(size * size), m(size), d(size * size);
+      std::vector<double> k(size * size), m(size);
       const auto [x, dofs] = dense_element(mesh, set, e, dense);
       element_matrices(set.type, x, element_properties(region), k, m);
-      element_dashpots(set.type, element_properties(region), d);
       for (std::size_t i = 0; i < size; ++i) {
         if (dofs[i] == n) continue;
         dense.mass[dofs[i]] += m[i];
@@ -143,7 +143,7 @@ inline DenseSystem dense_system(const DampedStructure& damped) {
         for (std::size_t j = 0; j < size; ++j) {
           if (dofs[j] == n) continue;
           dense.stiffness[dofs[i] * n + dofs[j]] += k[i * size + j];
-          dense.damping[dofs[i] * n + dofs[j]] += rayleigh.beta * k[i * size + j] + d[i * size + j];
+          dense.damping[dofs[i] * n + dofs[j]] += rayleigh.beta * k[i * size + j];
         }
       }
     }

@@ -34,11 +34,10 @@ inline std::vector<double> dense_mass(const DampedStructure& damped, const Dense
     const Region& region = damped.structure.regions[static_cast<std::size_t>(set.region)];
     const std::size_t size = 3 * static_cast<std::size_t>(element_layout(set.type).nodes);
     for (std::size_t e = 0; traits_of(set.type).scalable && e < set.tags.size(); ++e) {
-      std::vector<double> k(size * size), m(size), d(size * size), added(size * size);
+      std::vector<double> k(size * size), m(size), added(size * size);
       const auto [x, dofs] = dense_element(damped.mesh, set, e, dense);
       element_matrices(set.type, x, element_properties(region), k, m);
-      element_dashpots(set.type, element_properties(region), d);
-      add_element_mass(damped.structure.mass_scaling, damped.structure.damping_of(region), k, m, d,
+      add_element_mass(damped.structure.mass_scaling, damped.structure.damping_of(region), k, m,
                        added);
       for (std::size_t i = 0; i < size; ++i) {
         for (std::size_t j = 0; j < size; ++j) {

@@ -3,8 +3,8 @@
 One mass on a grounded spring with a dashpot beside it; two masses on a grounded spring and a
 spring between them; a mass with rotary inertia on a rotational spring; a beam on a rotational
 spring with a mass at its top. References: closed forms of the oscillators, and of the scheme,
-whose dashpot sees the velocity of half a step before:
-z^2 - (2 - c dt/m - omega^2 dt^2) z + (1 - c dt/m) = 0.
+whose dashpot sees the mean of the velocities before and after, with x = c dt/(2 m):
+(1 + x) z^2 - (2 - omega^2 dt^2) z + (1 - x) = 0.
 """
 import math
 import unittest
@@ -53,9 +53,9 @@ class DampedMass(unittest.TestCase):
                       *spring(group, element, f"{stiffness!r},{2 * stiffness!r},{3 * stiffness!r}",
                               f"{dashpot!r},0,0,0,0,0"), *more)
         run = Recorded(self, words, ranks)
-        roots = numpy.roots([1, -(2 - dashpot * time_step / self.MASS - (self.OMEGA * time_step)**2),
-                             1 - dashpot * time_step / self.MASS])
-        start = SPEED * (1 - dashpot * time_step / (2 * self.MASS))
+        x = dashpot * time_step / (2 * self.MASS)
+        roots = numpy.roots([1 + x, -(2 - (self.OMEGA * time_step)**2), 1 - x])
+        start = SPEED * (1 - x / 2) / (1 + x / 2)  # half a step
         steps = numpy.arange(len(run.time))
         scheme = start * time_step * ((roots[0]**steps - roots[1]**steps) / (roots[0] - roots[1])).real
         return run, run.displacement("one.x"), scheme

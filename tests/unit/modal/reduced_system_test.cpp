@@ -33,7 +33,9 @@ class ReducedSystem : public ::testing::Test {
     basis = box.basis(7);
     rows = basis.rows;
   }
-  LinearSystem build() { return build_reduced_system(MPI_COMM_SELF, 0, box.structure, basis); }
+  LinearSystem build() {
+    return build_reduced_system(MPI_COMM_SELF, 0, box.structure, box.mesh, basis);
+  }
 
   ReducedBox box{true};
   ModalBasis basis;
@@ -142,7 +144,7 @@ TEST_F(ReducedSystem, ScaledMassMovesTheLimitToTheStepAskedFor) {
   box.structure.modal->damping_ratios.clear();
   const std::vector<double> masses = coordinate_masses(box.structure, basis);
   ModalBasis kept = basis;
-  const LinearSystem system = build_reduced_system(MPI_COMM_SELF, 0, box.structure, kept);
+  const LinearSystem system = build_reduced_system(MPI_COMM_SELF, 0, box.structure, box.mesh, kept);
   EXPECT_EQ(system.lumped_mass, masses);
   for (std::size_t i = 0; i < masses.size(); ++i) {
     // The load of the ground, M_q iota, is what it was.

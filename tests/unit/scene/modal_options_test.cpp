@@ -66,15 +66,19 @@ TEST(ModalOptions, RefuseWhatCouplesTheModes) {
   expect_refused(
       reduced({{"tower_slab_damping_ratio", "0.01"}, {"tower_slab_damping_frequencies", "1,10"}}),
       {"-tower_slab_damping_ratio", "-tower_model modal"});
-  expect_refused(reduced({{"tower_tie_element", "bar"},
-                          {"tower_tie_material", "concrete"},
-                          {"tower_tie_area", "1"},
-                          {"tower_tie_tension_only", "true"}}),
-                 {"-tower_tie_tension_only", "-tower_model modal"});
-  expect_refused(reduced({{"tower_pad_element", "grounded_spring"},
-                          {"tower_pad_stiffness", "1,1,1"},
-                          {"tower_pad_dashpot", "0,2,0"}}),
-                 {"-tower_pad_dashpot", "-tower_model modal"});
+}
+
+TEST(ModalOptions, TakeLinksButSlackBarsBesideUniformDamping) {
+  auto links = reduced({{"tower_tie_element", "bar"},
+                        {"tower_tie_material", "concrete"},
+                        {"tower_tie_area", "1"},
+                        {"tower_tie_tension_only", "true"},
+                        {"tower_pad_element", "grounded_spring"},
+                        {"tower_pad_stiffness", "1,1,1"},
+                        {"tower_pad_dashpot", "0,2,0"}});
+  EXPECT_TRUE(read_scene(links).scene.structures[0].modal);
+  links["tower_damping_uniform"] = "0.02";
+  expect_refused(links, {"-tower_tie_tension_only", "-tower_damping_uniform"});
 }
 
 TEST(ModalOptions, RefuseOneFileForTwoBases) {

@@ -1,0 +1,145 @@
+"""Dashpots at mid-step, whatever else the structure has: dense steps of the same scheme.
+
+Two masses in line, the first on a grounded spring with a dashpot, a second dashpot to a clamped point
+and a third between the masses, so that one moves the others. Reference, with C of all dashpots and S
+the scaled mass of the springs: (M + S) (v+ - v-) = -h K u - h C (v+ + v-) / 2, h half a step at first.
+A structure reduced to all of its modes is the same structure in other coordinates, with dashpots and
+with bars that resist stretching only.
+"""
+import unittest
+
+import numpy
+
+import program
+from recorded import Recorded
+from springs_test import SPEED, chain, point, spring
+from tension_brace_test import scene as braces
+
+MASS = numpy.diag([50.0, 20.0])
+STIFFNESS = {"support": 3e4, "link1": 1e4, "link2": 2e4}
+STRONG = {"support": 2e2, "link1": 3e7, "link2": 4e6}  # x = c dt / (2 m) of up to 30 and 20
+MILD = {"support": 2e2, "link1": 300.0, "link2": 150.0}
+TIME_STEP = 1e-4
+
+
+def words(dashpots, *more, stiffness=None):
+    result = chain(TIME_STEP, 0.1, *point("first", 50.0), *point("second", 20.0),
+                   "-chain_clamp", "ground", "-chain_mesh_set", "links=3")
+    for group, k in (stiffness or STIFFNESS).items():
+        c = dashpots[group]
+        result += spring(group, "grounded_spring" if group == "support" else "spring",
+                         f"{k!r},{k!r},{k!r}", f"{c!r},{c / 2!r},{c / 3!r}")
+    return result + list(more)
+
+
+def between(values):
+    """Matrix over the two masses of springs or dashpots."""
+    ends = {"support": numpy.array([1, 0]), "link1": numpy.array([1, 0]), "link2": numpy.array([-1, 1])}
+    return sum(value * numpy.outer(ends[group], ends[group]) for group, value in values.items())
+
+
+def steps(count, dashpots, mass=MASS, stiffness=None):
+    k, c = between(stiffness or STIFFNESS), between(dashpots)
+    u, v = numpy.zeros(2), numpy.full(2, SPEED)
+    result = numpy.zeros((count, 2))
+    for n in range(count):
+        result[n] = u
+        h = TIME_STEP if n > 0 else TIME_STEP / 2
+        v = numpy.linalg.solve(mass + h / 2 * c, (mass - h / 2 * c) @ v - h * k @ u)
+        u = u + TIME_STEP * v
+    return result
+
+
+class TwoMasses(unittest.TestCase):
+    def check(self, run, expected, tolerance=1e-10):
+        for i, name in enumerate(("one", "two")):
+            u = run.displacement(f"{name}.x")
+            self.assertLess(abs(u - expected[:len(u), i]).max(), tolerance * abs(expected).max())
+        self.assertGreater(run.energy["devices"], 0)
+        self.assertLess(run.energy["relative_residual"], 1e-12)
+
+    def test_dashpots_that_move_each_other(self):
+        for dashpots, ranks in ((MILD, 1), (MILD, 2), (STRONG, 3)):
+            self.check(Recorded(self, words(dashpots), ranks), steps(1010, dashpots))
+
+    def test_limit_is_that_without_them(self):
+        found = [program.must_run(self, words(dashpots, "-end_time", TIME_STEP), 2)[1]["structures"]
+                 ["chain"]["stable_time_step"] for dashpots in (MILD, STRONG)]
+        squares = numpy.linalg.eigvalsh(between(STIFFNESS) / numpy.sqrt(numpy.outer([50, 20], [50, 20])))
+        for limit in found:
+            self.assertAlmostEqual(limit / (2 / numpy.sqrt(squares[-1])), 1, delta=1e-9)
+
+    def test_beside_scaled_mass(self):
+        """Springs so stiff that the step would be too long: S = dt^2 / 4 K, and what it couples."""
+        stiffness = {"support": 3e4, "link1": 4e12, "link2": 4e12}
+        mass = MASS + TIME_STEP**2 / 4 * between(stiffness)
+        run = Recorded(self, words(STRONG, "-chain_mass_scaling", TIME_STEP, stiffness=stiffness))
+        self.assertEqual(run.summary["structures"]["chain"]["mass_scaling"]["elements"], 3)
+        self.check(run, steps(1010, STRONG, mass, stiffness), 1e-6)
+
+    def test_beside_uniform_damping(self):
+        run = Recorded(self, words(STRONG, "-chain_damping_uniform", 0.04, "-chain_damping_band", "1,100"))
+        self.assertLess(run.energy["relative_residual"], 1e-12)
+        self.assertGreater(run.energy["devices"], 0)
+
+    def test_in_all_modes(self):
+        for dashpots, others in ((MILD, (1,)), (STRONG, (2, 3))):
+            full = Recorded(self, words(dashpots), 1)
+            for ranks in others:
+                run = Recorded(self, words(dashpots, "-chain_model", "modal", "-chain_modal_vectors", 6), ranks)
+                for name in ("one", "two"):
+                    u, v = full.displacement(f"{name}.x"), run.displacement(f"{name}.x")
+                    self.assertLess(abs(u - v).max(), 1e-9 * abs(u).max())
+                self.assertLess(run.energy["relative_residual"], 1e-12)
+
+
+class AtAContact(unittest.TestCase):
+    """A bar strikes a wall with the very nodes that dashpots hold: contact comes after them."""
+
+    def test_energy_never_grows(self):
+        for dashpot, ranks in ((1e4, 1), (1e6, 2), (1e7, 1)):
+            folder, summary = program.must_run(self, [
+                "-structures", "bar", "-bar_mesh", "tests/meshes/sprung_bar.geo",
+                "-bar_body_element", "hex8", "-bar_body_material", "steel",
+                "-material_steel_young", 2e11, "-material_steel_poisson", 0.3,
+                "-material_steel_density", 7800, "-bar_ends_element", "grounded_spring",
+                "-bar_ends_stiffness", "0,0,0", "-bar_ends_dashpot", f"{dashpot!r},{dashpot!r},0",
+                "-bar_ignore", "inner", "-bar_initial_velocity", "1,0,0", "-contacts", "hit",
+                "-hit_secondary", "bar:x_max", "-hit_primary", "wall", "-hit_gap", 1e-6,
+                "-end_time", 4e-2, "-energy_interval", 1, "-modes", 0], ranks)
+            self.assertLess(summary["energy"]["relative_residual"], 1e-12)
+            columns = program.read_csv(f"{folder}/energy.csv")
+            total = [float(a) + float(b) for a, b in zip(columns["kinetic"], columns["strain"])]
+            self.assertGreater(len(total), 100)
+            self.assertTrue(all(b <= a * (1 + 1e-9) for a, b in zip(total, total[1:])), dashpot)
+            self.assertGreater(summary["impacts"]["hit"]["episodes"], 0)
+
+
+class Braces(unittest.TestCase):
+    """Bars that go slack, in all modes of the structure that has them taut."""
+
+    def run_both(self, *more):
+        arguments = braces(("left",), 3e4, 2e-3, 2.0) + list(more)
+        return Recorded(self, arguments, 1), [
+            Recorded(self, arguments + ["-frame_model", "modal", "-frame_modal_vectors", 3], ranks)
+            for ranks in (1, 2)]
+
+    def test_same_as_the_finite_elements(self):
+        full, reduced = self.run_both()
+        u = full.displacement("hung.x")
+        self.assertGreater(-u.min(), 1.1 * u.max())  # it did go slack
+        for run in reduced:
+            self.assertLess(abs(run.displacement("hung.x") - u).max(), 1e-9 * abs(u).max())
+            self.assertLess(run.energy["relative_residual"], 1e-12)
+            self.assertAlmostEqual(run.energy["strain"] / full.energy["strain"], 1, delta=1e-6)
+
+    def test_with_uniform_damping_they_are_refused(self):
+        arguments = braces(("left",), 3e4, 2e-3, 2.0) + [
+            "-frame_model", "modal", "-frame_modal_vectors", 3, "-frame_damping_uniform", 0.02]
+        result = program.run(arguments, 2)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("-frame_left_tension_only", program.error_lines(result)[0])
+
+
+if __name__ == "__main__":
+    unittest.main()
