@@ -75,7 +75,7 @@ constexpr std::array table{
     ElementTraits{Type::shell4, "shell4", "shell", Family::shell, {4, 6}, 3, Type::shell3, {},
         of_plate, of_shell<shell4_stiffness>, of_shell<shell4_lumped_mass>, Kernel::rectangle, measured_costs::rectangle, true, false},
     ElementTraits{Type::shell3, "shell3", "shell", Family::shell, {3, 6}, 2, {}, {},
-        of_plate, of_shell<shell3_stiffness>, of_shell<shell3_lumped_mass>, Kernel::sparse, measured_costs::sparse_shell3, true, false},
+        of_plate, of_shell<shell3_stiffness>, of_shell<shell3_lumped_mass>, Kernel::triangle, measured_costs::triangle, true, false},
     ElementTraits{Type::point_mass, "point_mass", "point_mass", Family::point_mass, {1, 3}, 15, {}, {},
         of_point, nothing, point_mass, Kernel::sparse, measured_costs::small, true, false},
     ElementTraits{Type::point_mass6, "point_mass", "point_mass", Family::point_mass, {1, 6}, 15, {}, {},

@@ -39,8 +39,9 @@ inline constexpr std::string_view element_words =
 enum class ElementFamily { solid, shell, line, point_mass, grounded_spring, spring };
 
 /// Way in which the product by elements applies an element: in rows of bricks or rectangles if it
-/// has that shape, from the local stiffness of a beam, or in a sparse matrix.
-enum class ElementKernel { brick, rectangle, beam, sparse };
+/// has that shape, else, and triangles, by its strains; from the local stiffness of a beam; or in a
+/// sparse matrix.
+enum class ElementKernel { brick, rectangle, triangle, beam, sparse };
 
 using StiffnessFunction = void (*)(std::span<const double> coordinates,
                                    const ElementProperties& properties,
@@ -108,11 +109,16 @@ inline bool is_beam(ElementType type) {
   return traits_of(type).kernel == ElementKernel::beam;
 }
 
-/// Hexahedra and quadrangles, which may stand in rows if they are boxes or rectangles, or else
-/// share a dense matrix with their likes: of 24 dofs.
+/// Hexahedra and quadrangles, which may stand in rows if they are boxes or rectangles, and of which
+/// those of one shape share their numbers.
 inline bool has_shape(ElementType type) {
   const ElementKernel kernel = traits_of(type).kernel;
   return kernel == ElementKernel::brick || kernel == ElementKernel::rectangle;
+}
+
+/// Elements that are applied by their strains, unless they stand in rows.
+inline bool has_strains(ElementType type) {
+  return has_shape(type) || traits_of(type).kernel == ElementKernel::triangle;
 }
 
 inline bool is_linear(ElementType type) {

@@ -9,13 +9,13 @@
 namespace pounding::measured_costs {
 
 /// One element in a step, its share of the nodes included.
-inline constexpr int brick = 18;           ///< hexahedron in rows
-inline constexpr int rectangle = 20;       ///< quadrangle of a shell in rows
-inline constexpr int sparse_shell3 = 100;  ///< triangle of a shell in a sparse matrix
-inline constexpr int sparse_wedge6 = 45;   ///< wedge in a sparse matrix
-inline constexpr int sparse_tet4 = 12;     ///< tetrahedron in a sparse matrix
-inline constexpr int beam = 14;            ///< from its local stiffness
-inline constexpr int small = 2;            ///< bars, springs, points
+inline constexpr int brick = 18;          ///< hexahedron in rows
+inline constexpr int rectangle = 20;      ///< quadrangle of a shell in rows
+inline constexpr int triangle = 20;       ///< of a shell, by its strains
+inline constexpr int sparse_wedge6 = 45;  ///< wedge in a sparse matrix
+inline constexpr int sparse_tet4 = 12;    ///< tetrahedron in a sparse matrix
+inline constexpr int beam = 14;           ///< from its local stiffness
+inline constexpr int small = 2;           ///< bars, springs, points
 
 /// A node of a cluster: its part in a solution instead of a division.
 inline constexpr int cluster_node = 36;
@@ -28,13 +28,9 @@ inline constexpr double sharing = 4000;
 /// two elements, which weighs their shared nodes.
 inline constexpr int contact_cut = 64;
 
-/// Elements without a kernel of their own cost somewhat more in the rows of the product than in an
-/// assembled matrix, the others a tenth of that or less: so many of the former to one of the latter
-/// and the product by elements still pays.
-inline constexpr int slow_per_fast = 4;
-
-/// One element in so many has to be of a kind that can stand in rows for the product by elements
-/// to be tried at all.
+/// One element in so many has to have a kernel of its own, other than that of beams, for the
+/// product by elements to be taken: those without cost somewhat more in its rows than in an
+/// assembled matrix, the others a fifth of that or less.
 inline constexpr int elements_per_shaped = 4;
 
 }  // namespace pounding::measured_costs

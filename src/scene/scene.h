@@ -143,7 +143,7 @@ struct MotionComponent {
 };
 
 /// How the stiffness is applied: as a sparse matrix, element by element without one, or by what the
-/// mesh is (element by element where most elements are bricks or otherwise congruent).
+/// mesh is (element by element where enough elements have a kernel of their own).
 enum class StiffnessMethod { automatic, assembled, element };
 
 /// Things shared out among the ranks: the elements of all structures, structures as a whole, or

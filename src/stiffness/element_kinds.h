@@ -8,7 +8,7 @@ namespace pounding {
 struct ElementKinds {
   GlobalIndex bricks = 0;      ///< split by their mid-planes, in rows
   GlobalIndex rectangles = 0;  ///< shells likewise
-  GlobalIndex congruent = 0;   ///< other hexahedra and quadrangles that share a dense matrix
+  GlobalIndex general = 0;     ///< other hexahedra, quadrangles, triangles, by their strains
   GlobalIndex beams = 0;       ///< from their local stiffnesses
   GlobalIndex other = 0;       ///< in a sparse matrix
 };

@@ -24,7 +24,11 @@ std::vector<std::pair<Key, Set*>> largest_first(std::map<Key, Set>& sets) {
 ElementSorter::ElementSorter(const Structure& structure, const Mesh& mesh,
                              const ElementShapes& shapes, const Halo& halo,
                              const ProductForms& forms)
-    : structure_(structure), mesh_(mesh), element_shapes_(shapes), forms_(forms) {
+    : structure_(structure),
+      mesh_(mesh),
+      element_shapes_(shapes),
+      forms_(forms),
+      general_(structure, mesh, shapes) {
   places_.owned_dofs = mesh.owned_dofs;
   places_.of_dof.resize(mesh.dof_count);
   for (LocalIndex dof = 0; dof < mesh.dof_count; ++dof) {
@@ -53,11 +57,10 @@ void ElementSorter::sort() {
       sort_shapes(b);
     } else if (is_linear(mesh_.blocks[b].type)) {
       for (std::size_t e = 0; e < mesh_.blocks[b].count(); ++e) {
-        if (!add_beam({b, e})) others_.push_back({b, e});
+        if (!add_beam({b, e})) add_general({b, e});
       }
     }
   }
-  demote_rare_shapes();
 }
 
 void ElementSorter::sort_shapes(std::size_t b) {
@@ -67,12 +70,7 @@ void ElementSorter::sort_shapes(std::size_t b) {
   for (std::size_t e = 0; e < block.count(); ++e) {
     const bool in_row =
         is_solid(block.type) ? add_brick({b, e}, properties) : add_rectangle({b, e}, properties);
-    if (in_row) continue;
-    if (forms_.congruent) {
-      add_congruent({b, e}, properties);
-    } else {
-      others_.push_back({b, e});
-    }
+    if (!in_row) add_general({b, e});
   }
 }
 
@@ -145,32 +143,13 @@ int ElementSorter::rectangle_shape(const RectangleShape& shape, std::size_t bloc
   return found->second;
 }
 
-void ElementSorter::add_congruent(const Element& element, const ElementProperties& properties) {
+void ElementSorter::add_general(const Element& element) {
   const auto [b, e] = element;
-  const auto coordinates = element_shapes_.coordinates(b, e);
-  Congruent& group = congruent_[{b, coordinates}];
-  if (group.elements.empty()) {
-    element_matrices(mesh_.blocks[b].type, coordinates, properties, work_.stiffness, work_.mass);
-    group.stiffness.assign(work_.stiffness.begin(), work_.stiffness.end());
-  }
-  group.elements.push_back(element);
-  group.places[touches_ghost(element) ? 1 : 0].push_back(places(element));
+  const bool general = forms_.strains && general_.add(b, e, touches_ghost(element));
+  if (!general) others_.push_back(element);
 }
 
-/// A dense matrix for a few elements is not worth its batches.
-void ElementSorter::demote_rare_shapes() {
-  for (auto group = congruent_.begin(); group != congruent_.end();) {
-    const auto& elements = group->second.elements;
-    if (elements.size() < lane_count) {
-      others_.insert(others_.end(), elements.begin(), elements.end());
-      group = congruent_.erase(group);
-    } else {
-      ++group;
-    }
-  }
-}
-
-/// Elements that fit in no row leave the set for the others.
+/// Elements that fit in no row leave the set for those of general shape.
 template <std::size_t lines>
 ElementRows<lines> ElementSorter::form_rows(RowSet<lines>& set) {
   ElementRows<lines> rows = forms_.best_axis ? best_rows(set.rows, mesh_.node_count())
@@ -179,8 +158,12 @@ ElementRows<lines> ElementSorter::form_rows(RowSet<lines>& set) {
   auto left = rows.left_over.begin();
   for (std::size_t e = 0; e < set.elements.size(); ++e) {
     const bool out = left != rows.left_over.end() && *left == e;
-    (out ? others_ : kept).push_back(set.elements[e]);
-    if (out) ++left;
+    if (out) {
+      add_general(set.elements[e]);
+      ++left;
+    } else {
+      kept.push_back(set.elements[e]);
+    }
   }
   set.elements = std::move(kept);
   return rows;
@@ -198,15 +181,6 @@ std::vector<std::unique_ptr<ElementLines>> ElementSorter::element_lines(bool out
                                                  rectangle_shapes_, form_rows(*set), forms_));
   }
   return lines;
-}
-
-std::vector<CongruentElements> ElementSorter::congruent_elements(bool outer) const {
-  std::vector<CongruentElements> result;
-  for (const auto& [key, group] : congruent_) {
-    const auto& elements = group.places[outer ? 1 : 0];
-    if (!elements.empty()) result.emplace_back(mesh_.owned_dofs, group.stiffness, elements);
-  }
-  return result;
 }
 
 BeamElements ElementSorter::beam_elements(bool outer, LocalIndex idle) const {
@@ -277,7 +251,7 @@ ElementKinds ElementSorter::kinds() const {
   for (const auto& sets : rectangle_sets_) {
     for (const auto& [key, set] : sets) kinds.rectangles += counted(set.elements);
   }
-  for (const auto& [key, group] : congruent_) kinds.congruent += counted(group.elements);
+  kinds.general = general_.counted();
   for (const auto& beams : beams_) kinds.beams += counted(beams);
   kinds.other = counted(others_);
   return kinds;
@@ -291,7 +265,7 @@ bool ElementSorter::touches_ghost(const Element& element) const {
                      [&](LocalIndex node) { return node >= mesh_.owned_nodes; });
 }
 
-CongruentElements::Places ElementSorter::places(const Element& element) const {
+ElementSorter::Places ElementSorter::places(const Element& element) const {
   const ElementBlock& block = mesh_.blocks[element.first];
   auto dofs = element_dofs(mesh_, block, element.second, element_layout(block.type));
   for (LocalIndex& dof : dofs) {

@@ -10,13 +10,13 @@
 #include "scene/scene.h"
 #include "stiffness/beam_elements.h"
 #include "stiffness/bricks/brick_lines.h"
-#include "stiffness/congruent_elements.h"
 #include "stiffness/element_kinds.h"
 #include "stiffness/element_loop.h"
 #include "stiffness/element_shapes.h"
 #include "stiffness/rows/product_forms.h"
 #include "stiffness/shells/shell_lines.h"
 #include "stiffness/sparse_rows.h"
+#include "stiffness/strain_sorter.h"
 
 namespace pounding {
 
@@ -32,7 +32,9 @@ class ElementSorter {
   /// Results of `sort`; `outer`: elements that touch a ghost. Call in this order; rows are formed
   /// here, and elements that fit in none join the others.
   std::vector<std::unique_ptr<ElementLines>> element_lines(bool outer);
-  std::vector<CongruentElements> congruent_elements(bool outer) const;
+  GeneralElements general_elements(bool outer) const { return general_.elements(outer, places_); }
+  /// Owned dofs of those, some more than once.
+  std::vector<LocalIndex> general_dofs(bool outer) const { return general_.dofs(outer, places_); }
   /// Beams between nodes that are free or clamped in all six components; `idle` as there.
   BeamElements beam_elements(bool outer, LocalIndex idle) const;
   /// Owned dofs of those beams, some more than once.
@@ -49,11 +51,7 @@ class ElementSorter {
     std::vector<RowElement<lines>> rows;
     std::vector<Element> elements;
   };
-  struct Congruent {
-    std::vector<double> stiffness;
-    std::array<std::vector<CongruentElements::Places>, 2> places;  ///< inner, outer
-    std::vector<Element> elements;
-  };
+  using Places = std::array<LocalIndex, max_element_size>;  ///< as in DofPlaces
 
   void sort_shapes(std::size_t block);
   bool add_brick(const Element& element, const ElementProperties& properties);
@@ -61,12 +59,11 @@ class ElementSorter {
   bool add_beam(const Element& element);
   int brick_shape(const BrickShape& shape, std::size_t block);
   int rectangle_shape(const RectangleShape& shape, std::size_t block);
-  void add_congruent(const Element& element, const ElementProperties& properties);
-  void demote_rare_shapes();
+  void add_general(const Element& element);
   template <std::size_t lines>
   ElementRows<lines> form_rows(RowSet<lines>& set);
   bool touches_ghost(const Element& element) const;
-  CongruentElements::Places places(const Element& element) const;
+  Places places(const Element& element) const;
 
   const Structure& structure_;
   const Mesh& mesh_;
@@ -80,7 +77,7 @@ class ElementSorter {
   /// Inner, outer; by frame, and by frame and normal.
   std::array<std::map<int, RowSet<4>>, 2> brick_sets_;
   std::array<std::map<std::pair<int, int>, RowSet<2>>, 2> rectangle_sets_;
-  std::map<std::pair<std::size_t, std::vector<double>>, Congruent> congruent_;
+  StrainSorter general_;
   std::array<std::vector<Element>, 2> beams_;  ///< inner, outer
   std::vector<Element> others_;
 };

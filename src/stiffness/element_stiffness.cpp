@@ -93,13 +93,11 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
     for (const bool outer : {false, true}) {
       Part& part = outer ? outer_ : inner_;
       part.lines = sorter.element_lines(outer);
-      part.congruent = sorter.congruent_elements(outer);
+      part.general = std::make_unique<GeneralElements>(sorter.general_elements(outer));
       part.beams = std::make_unique<BeamElements>(sorter.beam_elements(outer, idle));
       part.dofs = sorter.beam_dofs(outer);
-      for (const CongruentElements& elements : part.congruent) {
-        const auto dofs = elements.touched_dofs();
-        part.dofs.insert(part.dofs.end(), dofs.begin(), dofs.end());
-      }
+      const std::vector<LocalIndex> dofs = sorter.general_dofs(outer);
+      part.dofs.insert(part.dofs.end(), dofs.begin(), dofs.end());
     }
     sparse_ = std::make_unique<SparseRows>(sorter.sparse_rows());
     const std::size_t places = mesh.dof_count + dofs_per_node;
@@ -109,7 +107,7 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
     plan(forms);
   });
   for (GlobalIndex* const count :
-       {&kinds_.bricks, &kinds_.rectangles, &kinds_.congruent, &kinds_.beams, &kinds_.other}) {
+       {&kinds_.bricks, &kinds_.rectangles, &kinds_.general, &kinds_.beams, &kinds_.other}) {
     MPI_Allreduce(MPI_IN_PLACE, count, 1, MPI_INT64_T, MPI_SUM, mesh.comm);
   }
 }
@@ -186,9 +184,7 @@ StiffnessArgument ElementStiffness::relative_to_origin(StiffnessArgument w) cons
 }
 
 void ElementStiffness::add_general(const Part& part) const {
-  for (const CongruentElements& elements : part.congruent) {
-    elements.apply(argument_.data(), halo_->ghosts(), force_.data());
-  }
+  part.general->apply(argument_.data(), force_.data());
   part.beams->apply(argument_.data(), force_.data());
 }
 

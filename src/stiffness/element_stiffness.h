@@ -8,20 +8,21 @@
 #include "mesh/mesh.h"
 #include "scene/scene.h"
 #include "stiffness/beam_elements.h"
-#include "stiffness/congruent_elements.h"
 #include "stiffness/element_kinds.h"
 #include "stiffness/rows/element_lines.h"
 #include "stiffness/rows/product_forms.h"
 #include "stiffness/sparse_rows.h"
 #include "stiffness/stiffness.h"
+#include "stiffness/strain_sorter.h"
 
 namespace pounding {
 
-/// K applied element by element, without reading a matrix: bricks, rectangles and other congruent
-/// elements share theirs. A rank holds every element that touches an owned node, so a product needs
-/// the ghosts of w once; they travel while the elements without ghosts are done:
+/// K applied element by element, without reading a matrix: bricks and rectangles share theirs,
+/// others bring the numbers of their strains. A rank holds every element that touches an owned
+/// node, so a product needs the ghosts of w once; they travel while the elements without ghosts are
+/// done:
 ///
-///     w -> [halo begins] -> sparse rows, congruent, rows -> [halo ends] -> those with ghosts
+///     w -> [halo begins] -> sparse rows, general, rows -> [halo ends] -> those with ghosts
 ///
 /// Forces that nothing adds to any more are handed over at once, the others at the end. Each rank
 /// sums in a fixed order: the same bits on every run. Against the assembled matrix the product
@@ -42,16 +43,13 @@ class ElementStiffness final : public Stiffness {
   Mat matrix() const override { return assembled_ != nullptr ? assembled_->matrix() : nullptr; }
   void release_matrix() override { assembled_.reset(); }
 
-  /// The matrix that was lent, null if there is none.
-  std::unique_ptr<Stiffness> take_matrix() { return std::move(assembled_); }
-
   const ElementKinds& kinds() const { return kinds_; }
 
  private:
   /// Everything applied before, or after the ghosts are here.
   struct Part {
     std::vector<std::unique_ptr<ElementLines>> lines;  ///< bricks and rectangles in rows
-    std::vector<CongruentElements> congruent;
+    std::unique_ptr<GeneralElements> general;
     std::unique_ptr<BeamElements> beams;
     std::vector<LocalIndex> dofs;  ///< owned, of all but the rows; some more than once
   };

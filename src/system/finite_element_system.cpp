@@ -167,33 +167,20 @@ class Assembly {
 /// Whether the element-wise product is asked for or pays.
 bool multiplies_elements(const Mesh& mesh, StiffnessMethod method) {
   GlobalIndex elements = 0;
-  GlobalIndex shaped = 0;  // what can stand in rows
+  GlobalIndex shaped = 0;  // what has a kernel of its own
   for (const ElementBlock& block : mesh.blocks) {
     elements += block.global_count;
-    shaped += has_shape(block.type) ? block.global_count : 0;
+    shaped += has_strains(block.type) ? block.global_count : 0;
   }
   return method == StiffnessMethod::element ||
          (method == StiffnessMethod::automatic &&
           measured_costs::elements_per_shaped * shaped >= elements);
 }
 
-/// Whether the product by elements costs less than an assembled matrix.
-bool pays(const ElementKinds& kinds) {
-  const GlobalIndex fast = kinds.bricks + kinds.rectangles + kinds.congruent + kinds.beams;
-  return kinds.other <= measured_costs::slow_per_fast * fast;
-}
-
-/// The assembled stiffness alone.
-std::unique_ptr<Stiffness> assemble_stiffness(const Structure& structure, const Mesh& mesh) {
-  LinearSystem system = describe_system(structure, mesh);
-  Assembly(structure, mesh, true, system).run();
-  return std::move(system.stiffness);
-}
-
 std::string describe(const ElementKinds& kinds) {
   return "element by element (" + std::to_string(kinds.bricks) + " bricks, " +
-         std::to_string(kinds.rectangles) + " rectangles, " + std::to_string(kinds.congruent) +
-         " congruent, " + std::to_string(kinds.beams) + " beams, " + std::to_string(kinds.other) +
+         std::to_string(kinds.rectangles) + " rectangles, " + std::to_string(kinds.general) +
+         " general, " + std::to_string(kinds.beams) + " beams, " + std::to_string(kinds.other) +
          " others)";
 }
 
@@ -211,12 +198,8 @@ LinearSystem build_finite_element_system(const Structure& structure, const Mesh&
   system.stiffness_method = "assembled";
   if (by_element) {
     auto product = std::make_unique<ElementStiffness>(structure, mesh, std::move(system.stiffness));
-    if (method == StiffnessMethod::element || pays(product->kinds())) {
-      system.stiffness_method = describe(product->kinds());
-      system.stiffness = std::move(product);
-    } else {
-      system.stiffness = for_modes ? product->take_matrix() : assemble_stiffness(structure, mesh);
-    }
+    system.stiffness_method = describe(product->kinds());
+    system.stiffness = std::move(product);
   }
   finish_system(mesh, system);
   if (system.links) system.links->find_trace(system, mesh);

@@ -18,8 +18,9 @@ MAY_INCLUDE = {
     "stiffness/rows": {"common", "elements"},
     "stiffness/bricks": {"common", "elements", "stiffness/rows"},
     "stiffness/shells": {"common", "elements", "stiffness/rows"},
+    "stiffness/strains": {"common"},
     "stiffness": {"common", "scene", "elements", "mesh", "stiffness/rows", "stiffness/bricks",
-                  "stiffness/shells"},
+                  "stiffness/shells", "stiffness/strains"},
     "links": {"common", "scene"},
     "system": {"common", "io", "scene", "elements", "mesh", "links", "stiffness"},
     "modal": {"common", "io", "scene", "elements", "mesh", "stiffness", "system", "contact"},
@@ -37,7 +38,8 @@ MAY_INCLUDE = {
 
 PURE = {"elements": ("mpi.h", "petsc", "slepc"), "links": ("mpi.h", "petsc", "slepc"), "motion": ("mpi.h", "petsc", "slepc"),
         "stiffness/rows": ("mpi.h", "petsc", "slepc"), "stiffness/bricks": ("mpi.h", "petsc", "slepc"),
-        "stiffness/shells": ("mpi.h", "petsc", "slepc")}
+        "stiffness/shells": ("mpi.h", "petsc", "slepc"),
+        "stiffness/strains": ("mpi.h", "petsc", "slepc")}
 
 LARGEST_SHARE = 0.15  # of the lines of src in one room
 

@@ -20,7 +20,7 @@ struct NamedForm {
 #name, &ProductForms::name \
   }
 inline constexpr std::array named_forms{
-    POUNDING_FORM(bricks),        POUNDING_FORM(rectangles),     POUNDING_FORM(congruent),
+    POUNDING_FORM(bricks),        POUNDING_FORM(rectangles),     POUNDING_FORM(strains),
     POUNDING_FORM(beams),         POUNDING_FORM(best_axis),      POUNDING_FORM(hand_over),
     POUNDING_FORM(completed),     POUNDING_FORM(best_thickness), POUNDING_FORM(both_sides),
     POUNDING_FORM(lent_lines),    POUNDING_FORM(row_pairs),      POUNDING_FORM(rows),

@@ -17,7 +17,7 @@ CONTROLS = ["without:nothing_1", "without:nothing_2"]  # two models with all for
 LABELS = {
     "bricks": "boxes in rows, split by their mid-planes",
     "rectangles": "rectangular shells likewise",
-    "congruent": "a dense matrix for elements of one shape",
+    "strains": "elements of general shape by their strains",
     "beams": "beams from their local stiffnesses",
     "best_axis": "rows along the best axis",
     "hand_over": "forces handed over chain by chain",
@@ -66,7 +66,7 @@ CASES = {
     "opening": Case("plate with an opening, 33k", [*cells(PLATE), "-opening"], OF_SHELLS + OF_ANY),
     "million": Case("block of bricks, 1M", cells(block_cells(1_000_000)),
                     ["set_behind", "fetch_ahead", "nothing"]),
-    "skew": Case("slab of skew bricks, 36k", [*cells(SLAB), "-skew"], ["congruent"] + OF_ANY),
+    "skew": Case("slab of skew bricks, 36k", [*cells(SLAB), "-skew"], ["strains"] + OF_ANY),
     "pair": Case("two-storey pair, bricks", ["-scene", "petsc-options/azalee/gap2.yaml"],
                  OF_BRICKS + ["beams"] + OF_ANY),
     "pair-b": Case("two-storey pair, shells", ["-scene", "petsc-options/azalee/b-gap2.yaml"],

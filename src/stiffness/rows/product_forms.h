@@ -5,9 +5,9 @@ namespace pounding {
 /// Forms of the element-wise product that serve its speed alone: without any of them it is the same
 /// to round-off. All are in use; only who measures what one earns leaves it out.
 struct ProductForms {
-  bool bricks = true;      ///< boxes in rows, split by their mid-planes; else dense matrices
+  bool bricks = true;      ///< boxes in rows, split by their mid-planes; else by their strains
   bool rectangles = true;  ///< rectangular shells likewise
-  bool congruent = true;   ///< a dense matrix for elements of one shape; else sparse rows
+  bool strains = true;     ///< elements of general shape by their strains; else sparse rows
   bool beams = true;       ///< from their local stiffnesses; else sparse rows
   // Bricks and rectangles in rows:
   bool best_axis = true;  ///< rows along the axis that takes least time; else along axis 0

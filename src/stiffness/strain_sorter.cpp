@@ -1,0 +1,184 @@
+#include "stiffness/strain_sorter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "stiffness/element_properties.h"
+#include "stiffness/strains/extrusion.h"
+
+namespace pounding {
+namespace {
+
+/// Places along a curve that fills space: what is close there is close in space. By the bits of the
+/// three coordinates in turns.
+class SpaceCurve {
+ public:
+  explicit SpaceCurve(const Mesh& mesh) : mesh_(mesh) {
+    low_.fill(INFINITY);
+    double extent = 0;
+    for (LocalIndex node = 0; node < mesh.node_count(); ++node) {
+      const Vector3 x = mesh.position(node);
+      for (std::size_t d = 0; d < 3; ++d) low_[d] = std::min(low_[d], x[d]);
+    }
+    for (LocalIndex node = 0; node < mesh.node_count(); ++node) {
+      const Vector3 x = mesh.position(node);
+      for (std::size_t d = 0; d < 3; ++d) extent = std::max(extent, x[d] - low_[d]);
+    }
+    scale_ = extent > 0 ? cells / extent : 0;
+  }
+
+  /// Place of the middle of some nodes.
+  std::uint64_t place(std::span<const LocalIndex> nodes) const {
+    std::uint64_t result = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+      double sum = 0;
+      for (const LocalIndex node : nodes) sum += mesh_.position(node)[d] - low_[d];
+      const auto cell =
+          static_cast<std::uint64_t>(sum / static_cast<double>(nodes.size()) * scale_);
+      for (unsigned bit = 0; bit < bits; ++bit) result |= (cell >> bit & 1) << (3 * bit + d);
+    }
+    return result;
+  }
+
+ private:
+  static constexpr unsigned bits = 20;
+  static constexpr double cells = (1 << bits) - 1;
+
+  const Mesh& mesh_;
+  Vector3 low_{};
+  double scale_ = 0;
+};
+
+}  // namespace
+
+bool StrainSorter::add(std::size_t block, std::size_t element, bool outer) {
+  switch (traits_of(mesh_.blocks[block].type).kernel) {
+    case ElementKernel::brick:
+      return add_hexahedron(block, element, outer);
+    case ElementKernel::rectangle:
+      return add_to(quadrangles_, block, element, outer);
+    case ElementKernel::triangle:
+      return add_to(triangles_, block, element, outer);
+    default:
+      return false;
+  }
+}
+
+template <typename Shape>
+bool StrainSorter::add_to(Collection<Shape>& collection, std::size_t b, std::size_t e, bool outer) {
+  const ElementBlock& block = mesh_.blocks[b];
+  find_coordinates(b, e);
+  typename StrainElements<Shape>::Element entry{shape_of(collection, b), {}};
+  std::copy_n(&block.connectivity[e * Shape::node_count], Shape::node_count, entry.nodes.begin());
+  collection.elements[outer ? 1 : 0].push_back(entry);
+  counted_ += block.counted[e];
+  return true;
+}
+
+/// Extruded ones are turned: element matrices know no axes.
+bool StrainSorter::add_hexahedron(std::size_t b, std::size_t e, bool outer) {
+  find_coordinates(b, e);
+  const auto coordinates = work_.coordinates;
+  const auto extrusion = Extrusion::find({coordinates.data(), HexahedronStrains<true>::size});
+  if (!extrusion) return add_to(hexahedra_, b, e, outer);
+  auto& collection = extruded_[extrusion->axis];
+  StrainElements<HexahedronStrains<true>>::Element entry{};
+  for (std::size_t a = 0; a < entry.nodes.size(); ++a) {
+    const std::size_t corner = extrusion->corners[a];
+    entry.nodes[a] = mesh_.blocks[b].connectivity[8 * e + corner];
+    for (std::size_t d = 0; d < 3; ++d) {
+      work_.coordinates[3 * a + d] = coordinates[3 * corner + extrusion->direction(d)];
+    }
+  }
+  entry.shape = shape_of(collection, b);
+  collection.elements[outer ? 1 : 0].push_back(entry);
+  counted_ += mesh_.blocks[b].counted[e];
+  return true;
+}
+
+void StrainSorter::find_coordinates(std::size_t b, std::size_t e) {
+  const ElementBlock& block = mesh_.blocks[b];
+  if (has_shape(block.type)) {
+    const std::vector<double> shape = element_shapes_.coordinates(b, e);
+    std::copy(shape.begin(), shape.end(), work_.coordinates.begin());
+  } else {
+    gather_coordinates(mesh_, block, e, work_);
+  }
+}
+
+template <typename Shape>
+std::size_t StrainSorter::shape_of(Collection<Shape>& collection, std::size_t b) {
+  const ElementBlock& block = mesh_.blocks[b];
+  const std::span<const double> coordinates(work_.coordinates.data(), 3 * Shape::node_count);
+  const std::size_t fresh_number = collection.shapes.size();
+  if (has_shape(block.type)) {
+    const auto [found, fresh] = collection.shape_numbers.try_emplace(
+        {b, std::vector<double>(coordinates.begin(), coordinates.end())}, fresh_number);
+    if (!fresh) return found->second;
+  }
+  const std::span<double> stiffness(work_.stiffness.data(), Shape::size * Shape::size);
+  element_matrices(block.type, coordinates, element_properties(structure_.regions[block.region]),
+                   stiffness, {work_.mass.data(), Shape::size});
+  collection.shapes.push_back(Shape::numbers(coordinates, stiffness));
+  return fresh_number;
+}
+
+template <typename Shape>
+StrainElements<Shape> StrainSorter::in_order(const Collection<Shape>& collection, bool outer,
+                                             const DofPlaces& places) const {
+  const auto& elements = collection.elements[outer ? 1 : 0];
+  const SpaceCurve curve(mesh_);
+  std::vector<std::pair<std::uint64_t, std::size_t>> order;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    order.push_back({curve.place(elements[e].nodes), e});
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<typename StrainElements<Shape>::Element> sorted;
+  sorted.reserve(elements.size());
+  for (const auto& [place, e] : order) sorted.push_back(elements[e]);
+  return {collection.shapes, sorted, places.owned_dofs, places.of_node};
+}
+
+/// Nodes with their components in the order in which elements extruded along an axis see them.
+DofPlaces StrainSorter::seen_along(std::size_t axis, const DofPlaces& places) {
+  const Extrusion extrusion{axis, {}};
+  DofPlaces seen;
+  seen.owned_dofs = places.owned_dofs;
+  for (const auto& node : places.of_node) {
+    auto& turned = seen.of_node.emplace_back(node);
+    for (std::size_t d = 0; d < 3; ++d) turned[d] = node[extrusion.direction(d)];
+  }
+  return seen;
+}
+
+GeneralElements StrainSorter::elements(bool outer, const DofPlaces& places) const {
+  return {
+      in_order(hexahedra_, outer, places),
+      {in_order(extruded_[0], outer, seen_along(0, places)),
+       in_order(extruded_[1], outer, seen_along(1, places)), in_order(extruded_[2], outer, places)},
+      in_order(quadrangles_, outer, places),
+      in_order(triangles_, outer, places)};
+}
+
+std::vector<LocalIndex> StrainSorter::dofs(bool outer, const DofPlaces& places) const {
+  std::vector<LocalIndex> dofs;
+  const auto append = [&](const auto& collection, std::size_t components) {
+    for (const auto& element : collection.elements[outer ? 1 : 0]) {
+      for (const LocalIndex node : element.nodes) {
+        for (std::size_t c = 0; c < components; ++c) {
+          const LocalIndex place = places.of_node[node][c];
+          if (place >= 0 && place < places.owned_dofs) dofs.push_back(place);
+        }
+      }
+    }
+  };
+  append(hexahedra_, 3);
+  for (const auto& collection : extruded_) append(collection, 3);
+  append(quadrangles_, 6);
+  append(triangles_, 6);
+  return dofs;
+}
+
+}  // namespace pounding

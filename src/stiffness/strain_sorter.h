@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "scene/scene.h"
+#include "stiffness/element_loop.h"
+#include "stiffness/element_shapes.h"
+#include "stiffness/rows/dof_places.h"
+#include "stiffness/strains/hexahedron_strains.h"
+#include "stiffness/strains/quadrangle_strains.h"
+#include "stiffness/strains/strain_elements.h"
+#include "stiffness/strains/triangle_strains.h"
+
+namespace pounding {
+
+/// Elements of every kind that is applied by its strains.
+struct GeneralElements {
+  StrainElements<HexahedronStrains<false>> hexahedra;
+  std::array<StrainElements<HexahedronStrains<true>>, 3> extruded;  ///< along x, y, z
+  StrainElements<QuadrangleStrains> quadrangles;
+  StrainElements<TriangleStrains> triangles;
+
+  /// q += K w; both arrays hold all places. Allocates nothing.
+  void apply(const double* w, double* q) const {
+    hexahedra.apply(w, q);
+    for (const auto& elements : extruded) elements.apply(w, q);
+    quadrangles.apply(w, q);
+    triangles.apply(w, q);
+  }
+};
+
+/// Collects the elements of a rank that are applied by their strains. Local.
+class StrainSorter {
+ public:
+  /// References must outlive this object.
+  StrainSorter(const Structure& structure, const Mesh& mesh, const ElementShapes& shapes)
+      : structure_(structure), mesh_(mesh), element_shapes_(shapes) {}
+
+  /// Keeps a linear element of a block; `outer`: it touches a ghost. False for other kinds.
+  bool add(std::size_t block, std::size_t element, bool outer);
+
+  /// Results of `add`.
+  GeneralElements elements(bool outer, const DofPlaces& places) const;
+  /// Owned dofs of the elements, some more than once.
+  std::vector<LocalIndex> dofs(bool outer, const DofPlaces& places) const;
+  /// Elements that this rank counts.
+  GlobalIndex counted() const { return counted_; }
+
+ private:
+  template <typename Shape>
+  struct Collection {
+    std::vector<typename StrainElements<Shape>::Numbers> shapes;
+    /// Elements in the same block with the same coordinates share one.
+    std::map<std::pair<std::size_t, std::vector<double>>, std::size_t> shape_numbers;
+    std::array<std::vector<typename StrainElements<Shape>::Element>, 2> elements;  ///< inner, outer
+  };
+  template <typename Shape>
+  bool add_to(Collection<Shape>& collection, std::size_t block, std::size_t element, bool outer);
+  bool add_hexahedron(std::size_t block, std::size_t element, bool outer);
+  /// The shape with these coordinates, which `work_` holds; those that the elements of a block may
+  /// share are kept.
+  template <typename Shape>
+  std::size_t shape_of(Collection<Shape>& collection, std::size_t block);
+  void find_coordinates(std::size_t block, std::size_t element);
+  static DofPlaces seen_along(std::size_t axis, const DofPlaces& places);
+  template <typename Shape>
+  StrainElements<Shape> in_order(const Collection<Shape>& collection, bool outer,
+                                 const DofPlaces& places) const;
+
+  const Structure& structure_;
+  const Mesh& mesh_;
+  const ElementShapes& element_shapes_;
+  ElementWork work_;
+  Collection<HexahedronStrains<false>> hexahedra_;
+  std::array<Collection<HexahedronStrains<true>>, 3> extruded_;  ///< along x, y, z
+  Collection<QuadrangleStrains> quadrangles_;
+  Collection<TriangleStrains> triangles_;
+  GlobalIndex counted_ = 0;
+};
+
+}  // namespace pounding

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "common/lanes.h"
+#include "stiffness/strains/lane_arithmetic.h"
+
+namespace pounding {
+
+/// Strains of a hexahedron. With the eight signs xi, eta, zeta of its corners, and their products
+/// eta zeta, zeta xi, xi eta, xi eta zeta, the sums U_k and U_m of a nodal field over them, and
+/// those X_kj, X_mj of the coordinates:
+///
+///     g_j = (X^-1)_jk U_k                      (gradient at the centre)
+///     c_m = U_m - T_mk U_k, T = X_m. X^-1      (zero for linear fields)
+///     mean gradient = g_j + M_mj c_m
+///
+/// The six strains of the mean gradients are isotropic and uncoupled from the twelve c_m of the
+/// three displacements; the quadratic modes that the element condenses have no mean, and change
+/// only how the c_m work on each other.
+///
+/// An extruded one has its ends across axis 2, along which zeta runs, at right angles: most of
+/// these numbers are zero then, and the c_m fall into two groups that its mid-plane tells apart.
+template <bool extruded>
+struct HexahedronStrains {
+  static constexpr std::size_t node_count = 8;
+  static constexpr std::size_t components = 3;
+  static constexpr std::size_t size = node_count * components;
+  static constexpr std::size_t mode_count = 4;
+  static constexpr std::size_t strain_count = mode_count * components;
+  static constexpr std::size_t even_count = extruded ? 5 : strain_count;  ///< of the first group
+
+  // Places of the numbers.
+  static constexpr std::size_t lame = 0;                             ///< lambda, mu; times V
+  static constexpr std::size_t inverse = lame + 2;                   ///< X^-1, row by row
+  static constexpr std::size_t skew = inverse + (extruded ? 5 : 9);  ///< T, row by row
+  static constexpr std::size_t mean = skew + (extruded ? 2 : strain_count);   ///< M, row by row
+  static constexpr std::size_t modes = mean + (extruded ? 3 : strain_count);  ///< of c
+  static constexpr std::size_t other_modes = modes + packed_size(even_count);
+  static constexpr std::size_t number_count = other_modes + packed_size(strain_count - even_count);
+
+  /// The numbers of an element with node coordinates of shape (8, 3) [m] and this stiffness, shape
+  /// (24, 24). Of another element than hex8 and hex8_full they make another matrix, and so they do
+  /// of one that is not extruded along axis 2 if it should be.
+  static std::array<double, number_count> numbers(std::span<const double> coordinates,
+                                                  std::span<const double> stiffness);
+
+  /// Forces in the place of displacements, of four elements.
+  static void product(const Lanes* numbers, Lanes* values);
+};
+
+}  // namespace pounding

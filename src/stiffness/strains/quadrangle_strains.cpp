@@ -1,0 +1,179 @@
+#include "stiffness/strains/quadrangle_strains.h"
+
+#include "stiffness/strains/plane_fields.h"
+#include "stiffness/strains/shell_fields.h"
+
+namespace pounding {
+namespace {
+
+using Quadrangle = QuadrangleStrains;
+
+/// A field of the plane: its part in f_p, f_r and f_h.
+struct Differences {
+  Lanes p, r, h;
+};
+
+inline __attribute__((always_inline)) Differences differences(const Lanes* skew, const Lanes& f1,
+                                                              const Lanes& f2, const Lanes& f3,
+                                                              const Lanes& f4) {
+  const Lanes p = f3 - f1;
+  const Lanes r = f4 - f2;
+  return {p, r, less(less((f1 + f3) - (f2 + f4), skew[0], p), skew[1], r)};
+}
+
+/// Forces at the four nodes of what works on the differences.
+inline __attribute__((always_inline)) void nodal_forces(const Lanes* skew, Differences work,
+                                                        Lanes* force) {
+  work.p = less(work.p, skew[0], work.h);
+  work.r = less(work.r, skew[1], work.h);
+  force[0] = work.h - work.p;
+  force[1] = -work.r - work.h;
+  force[2] = work.h + work.p;
+  force[3] = work.r - work.h;
+}
+
+/// u_x, u_y, r_z of the nodes become forces.
+inline __attribute__((always_inline)) void apply_membrane(const Lanes* n, const PlaneFrame& frame,
+                                                          Lanes* values) {
+  const Lanes* const skew = n + Quadrangle::skew;
+  Differences u = differences(skew, values[0], values[6], values[12], values[18]);
+  Differences v = differences(skew, values[1], values[7], values[13], values[19]);
+  PlaneGradient of_u = frame.gradient(u.p, u.r);
+  PlaneGradient of_v = frame.gradient(v.p, v.r);
+  const Lanes spin = n[Quadrangle::spin] * (of_v.x - of_u.y);
+  const Lanes strain[6] = {
+      u.h, v.h, values[5] - spin, values[11] - spin, values[17] - spin, values[23] - spin};
+  Lanes work[6];
+  packed_product<6>(n + Quadrangle::membrane, strain, work);
+  plane_stress(n + Quadrangle::stretch, of_u, of_v);
+  const Lanes moment = (work[2] + work[3]) + (work[4] + work[5]);
+  of_u.y = plus(of_u.y, n[Quadrangle::spin], moment);
+  of_v.x = less(of_v.x, n[Quadrangle::spin], moment);
+  Lanes force[4];
+  nodal_forces(skew, {frame.along_p(of_u), frame.along_r(of_u), work[0]}, force);
+  for (std::size_t a = 0; a < 4; ++a) values[6 * a] = force[a];
+  nodal_forces(skew, {frame.along_p(of_v), frame.along_r(of_v), work[1]}, force);
+  for (std::size_t a = 0; a < 4; ++a) values[6 * a + 1] = force[a];
+  for (std::size_t a = 0; a < 4; ++a) values[6 * a + 5] = work[2 + a];
+}
+
+/// u_z, r_x, r_y of the nodes become forces.
+inline __attribute__((always_inline)) void apply_plate(const Lanes* n, const PlaneFrame& frame,
+                                                       Lanes* values) {
+  const Lanes* const skew = n + Quadrangle::skew;
+  const Lanes* const edge = n + Quadrangle::edges;
+  const Lanes x41 = -(edge[0] + edge[2] + edge[4]);
+  const Lanes y41 = -(edge[1] + edge[3] + edge[5]);
+  const auto shear = [&](std::size_t a, std::size_t b, const Lanes& x, const Lanes& y) {
+    const Lanes w = values[6 * b + 2] - values[6 * a + 2];
+    return less(plus(w + w, values[6 * a + 4] + values[6 * b + 4], x),
+                values[6 * a + 3] + values[6 * b + 3], y);
+  };
+  const Lanes shears[4] = {shear(0, 1, edge[0], edge[1]), shear(1, 2, edge[2], edge[3]),
+                           shear(2, 3, edge[4], edge[5]), shear(3, 0, x41, y41)};
+  Lanes along[4];
+  packed_product<4>(n + Quadrangle::shear, shears, along);
+  const Differences bx = differences(skew, values[4], values[10], values[16], values[22]);
+  const Differences by = differences(skew, -values[3], -values[9], -values[15], -values[21]);
+  PlaneGradient of_x = frame.gradient(bx.p, bx.r);
+  PlaneGradient of_y = frame.gradient(by.p, by.r);
+  plane_stress(n + Quadrangle::bend, of_x, of_y);
+  const Lanes strain[2] = {bx.h, by.h};
+  Lanes work[2];
+  packed_product<2>(n + Quadrangle::twist, strain, work);
+  Lanes moment_x[4];
+  Lanes moment_y[4];
+  nodal_forces(skew, {frame.along_p(of_x), frame.along_r(of_x), work[0]}, moment_x);
+  nodal_forces(skew, {frame.along_p(of_y), frame.along_r(of_y), work[1]}, moment_y);
+  const Lanes x[4] = {edge[0] * along[0], edge[2] * along[1], edge[4] * along[2], x41 * along[3]};
+  const Lanes y[4] = {edge[1] * along[0], edge[3] * along[1], edge[5] * along[2], y41 * along[3]};
+  for (std::size_t a = 0; a < 4; ++a) {
+    const std::size_t last = (a + 3) % 4;
+    const Lanes w = along[last] - along[a];
+    values[6 * a + 2] = w + w;
+    values[6 * a + 3] = -(moment_y[a] + (y[a] + y[last]));
+    values[6 * a + 4] = moment_x[a] + (x[a] + x[last]);
+  }
+}
+
+}  // namespace
+
+void QuadrangleStrains::product(const Lanes* n, Lanes* values) {
+  turn_into<8>(n + axes, values);
+  const Lanes heights[4] = {-n[height], n[height], -n[height], n[height]};
+  for (std::size_t a = 0; a < 4; ++a) {
+    Lanes* const node = values + 6 * a;
+    node[0] = less(node[0], heights[a], node[4]);
+    node[1] = plus(node[1], heights[a], node[3]);
+  }
+  const Lanes* const edge = n + edges;
+  const PlaneFrame frame{edge[0] + edge[2], edge[1] + edge[3], edge[2] + edge[4],
+                         edge[3] + edge[5]};
+  apply_membrane(n, frame, values);
+  apply_plate(n, frame, values);
+  for (std::size_t a = 0; a < 4; ++a) {
+    Lanes* const node = values + 6 * a;
+    node[4] = less(node[4], heights[a], node[0]);
+    node[3] = plus(node[3], heights[a], node[1]);
+  }
+  turn_back<8>(n + axes, values);
+}
+
+std::array<double, QuadrangleStrains::number_count> QuadrangleStrains::numbers(
+    std::span<const double> coordinates, std::span<const double> stiffness) {
+  const auto node = [&](std::size_t a) {
+    return Vector3{coordinates[3 * a], coordinates[3 * a + 1], coordinates[3 * a + 2]};
+  };
+  const Vector3 first = minus(node(2), node(0));
+  const Vector3 second = minus(node(3), node(1));
+  ShellFields<node_count> fields;
+  fields.frame[2] = normalised(cross(first, second));
+  fields.frame[0] = normalised(first);
+  fields.frame[1] = cross(fields.frame[2], fields.frame[0]);
+  const double above = dot(fields.frame[2], minus(node(1), node(0))) / 2;
+  fields.heights = {-above, above, -above, above};
+  for (std::size_t a = 0; a < node_count; ++a) {
+    const Vector3 x = minus(node(a), node(0));
+    fields.x[a] = dot(fields.frame[0], x);
+    fields.y[a] = dot(fields.frame[1], x);
+  }
+  const auto& x = fields.x;
+  const auto& y = fields.y;
+  const double x_p = x[2] - x[0], y_p = y[2] - y[0], x_r = x[3] - x[1], y_r = y[3] - y[1];
+  const double jacobian = x_p * y_r - x_r * y_p;
+  const double x_h = x[0] - x[1] + x[2] - x[3], y_h = y[0] - y[1] + y[2] - y[3];
+
+  std::array<double, number_count> n{};
+  for (std::size_t i = 0; i < 9; ++i) n[axes + i] = fields.frame[i / 3][i % 3];
+  n[height] = above;
+  for (std::size_t e = 0; e < 3; ++e) {
+    n[edges + 2 * e] = x[e + 1] - x[e];
+    n[edges + 2 * e + 1] = y[e + 1] - y[e];
+  }
+  n[spin] = 1 / (2 * jacobian);
+  n[skew] = (x_h * y_r - y_h * x_r) / jacobian;
+  n[skew + 1] = (y_h * x_p - x_h * y_p) / jacobian;
+
+  // Fields of one strain each, all others zero.
+  constexpr std::array<double, node_count> alternating{0.25, -0.25, 0.25, -0.25};
+  using Field = ShellFields<node_count>::Field;
+  std::array<Field, 6> of_membrane{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t a = 0; a < node_count; ++a) of_membrane[i][6 * a + i] = alternating[a];
+  }
+  for (std::size_t a = 0; a < node_count; ++a) of_membrane[2 + a][6 * a + 5] = 1;
+  fields.put_energies(of_membrane, stiffness, &n[membrane]);
+  std::array<Field, 2> of_twist{};
+  for (std::size_t a = 0; a < node_count; ++a) {
+    of_twist[0][6 * a + 4] = alternating[a];
+    of_twist[1][6 * a + 3] = -alternating[a];
+  }
+  fields.put_energies(of_twist, stiffness, &n[twist]);
+  std::array<Field, 4> of_shear{};
+  for (std::size_t e = 0; e < node_count; ++e) of_shear[e] = fields.edge_shear(e, jacobian);
+  fields.put_energies(of_shear, stiffness, &n[shear]);
+  fields.put_moduli(jacobian, stiffness, &n[stretch], &n[bend]);
+  return n;
+}
+
+}  // namespace pounding

@@ -1,0 +1,143 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "common/lanes.h"
+#include "common/memory.h"
+#include "common/types.h"
+#include "stiffness/strains/node_slots.h"
+
+namespace pounding {
+
+/// Elements of general shape, four at a time, by their strains: K = B' S B, where B takes the
+/// displacements to those strains that are not rigid motions. An element keeps the few numbers of
+/// its B and S, `Shape::Numbers`, instead of a matrix. S is symmetric to the bit, and B' applies
+/// the very numbers of B: so is K, and rigid motions give nothing beyond the round-off of their
+/// differences. Nodes have copies in the order of the elements, see NodeSlots.
+///
+/// `Shape`: node_count, components (3 or 6 per node), number_count, and
+/// `static void product(const Lanes* numbers, Lanes* values)`, which puts forces in the place of
+/// displacements, node by node.
+template <typename Shape>
+class StrainElements {
+ public:
+  using Numbers = std::array<double, Shape::number_count>;
+
+  struct Element {
+    std::size_t shape;                                ///< which of the shapes
+    std::array<LocalIndex, Shape::node_count> nodes;  ///< local nodes of the mesh
+  };
+
+  /// Elements that are close to each other should follow each other. `owned_dofs`, `of_node` as in
+  /// DofPlaces.
+  StrainElements(const std::vector<Numbers>& shapes, const std::vector<Element>& elements,
+                 LocalIndex owned_dofs, const std::vector<std::array<LocalIndex, 6>>& of_node);
+
+  /// q += K w on owned dofs; both arrays hold all places, w three values beyond them. Allocates
+  /// nothing.
+  void apply(const double* w, double* q) const;
+
+ private:
+  /// Shapes with so many elements have lanes of their own; of others, four share their lanes.
+  static constexpr std::size_t many = 16;
+
+  struct Batch {
+    std::array<std::array<std::uint32_t, lane_count>, Shape::node_count> start{};
+    std::size_t numbers = 0;  ///< where they begin, in Lanes
+  };
+
+  void begin_numbers(std::span<const Numbers* const> lanes);
+  void put(const Element& element, std::size_t lane,
+           const std::vector<std::array<LocalIndex, 6>>& of_node);
+
+  std::vector<Batch> batches_;
+  std::vector<Lanes, CacheLineAllocator<Lanes>> numbers_;
+  NodeSlots<Shape::components> slots_;
+};
+
+template <typename Shape>
+StrainElements<Shape>::StrainElements(const std::vector<Numbers>& shapes,
+                                      const std::vector<Element>& elements, LocalIndex owned_dofs,
+                                      const std::vector<std::array<LocalIndex, 6>>& of_node)
+    : slots_(owned_dofs, of_node.size()) {
+  std::vector<std::vector<const Element*>> of_shape(shapes.size());
+  std::vector<std::size_t> in_order;  // shapes as they first appear
+  for (const Element& element : elements) {
+    if (of_shape[element.shape].empty()) in_order.push_back(element.shape);
+    of_shape[element.shape].push_back(&element);
+  }
+  std::map<std::size_t, std::vector<std::size_t>> by_count;  // elements of a shape -> such shapes
+  for (const std::size_t shape : in_order) {
+    const auto& alike = of_shape[shape];
+    if (alike.size() < many) {
+      by_count[alike.size()].push_back(shape);
+      continue;
+    }
+    const Numbers* const numbers = &shapes[shape];
+    begin_numbers(std::array{numbers, numbers, numbers, numbers});
+    const std::size_t begin = numbers_.size() - Shape::number_count;
+    for (std::size_t e = 0; e < alike.size(); ++e) {
+      if (e % lane_count == 0) batches_.push_back({{}, begin});
+      put(*alike[e], e % lane_count, of_node);
+    }
+  }
+  for (const auto& [count, alike] : by_count) {
+    for (std::size_t first = 0; first < alike.size(); first += lane_count) {
+      const std::size_t used = std::min<std::size_t>(lane_count, alike.size() - first);
+      std::vector<const Numbers*> lanes;
+      for (std::size_t lane = 0; lane < used; ++lane) lanes.push_back(&shapes[alike[first + lane]]);
+      begin_numbers(lanes);
+      const std::size_t begin = numbers_.size() - Shape::number_count;
+      for (std::size_t e = 0; e < count; ++e) {
+        batches_.push_back({{}, begin});
+        for (std::size_t lane = 0; lane < used; ++lane) {
+          put(*of_shape[alike[first + lane]][e], lane, of_node);
+        }
+      }
+    }
+  }
+  slots_.finish();
+}
+
+template <typename Shape>
+void StrainElements<Shape>::begin_numbers(std::span<const Numbers* const> lanes) {
+  for (std::size_t k = 0; k < Shape::number_count; ++k) {
+    Lanes values{};
+    for (std::size_t lane = 0; lane < lanes.size(); ++lane) values[lane] = (*lanes[lane])[k];
+    numbers_.push_back(values);
+  }
+}
+
+template <typename Shape>
+void StrainElements<Shape>::put(const Element& element, std::size_t lane,
+                                const std::vector<std::array<LocalIndex, 6>>& of_node) {
+  for (std::size_t a = 0; a < Shape::node_count; ++a) {
+    const auto node = static_cast<std::size_t>(element.nodes[a]);
+    batches_.back().start[a][lane] = slots_.start_of(node, of_node[node]);
+  }
+}
+
+template <typename Shape>
+void StrainElements<Shape>::apply(const double* w, double* q) const {
+  if (batches_.empty()) return;
+  slots_.read(w);
+  Lanes values[Shape::node_count * Shape::components];
+  for (const Batch& batch : batches_) {
+    for (std::size_t a = 0; a < Shape::node_count; ++a) {
+      slots_.gather(batch.start[a], values + a * Shape::components);
+    }
+    Shape::product(numbers_.data() + batch.numbers, values);
+    for (std::size_t a = 0; a < Shape::node_count; ++a) {
+      slots_.scatter(values + a * Shape::components, batch.start[a]);
+    }
+  }
+  slots_.add_to(q);
+}
+
+}  // namespace pounding
