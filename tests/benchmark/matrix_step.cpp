@@ -123,18 +123,20 @@ class MatrixStep final : public TimedStep {
     }
   }
 
-  /// Every dof is a translation and the motion is the same in all directions: iota is 1.
   void update_velocity(double duration) {
     Vector3 acceleration{};
     motion_.evaluate(static_cast<double>(step_) * time_step_, acceleration);
     const double decay = 1 - duration * system_.damping.alpha;
-    const double ground_step = duration * acceleration[0];
+    std::array<double, 4> ground_step{};  // of rotations none, then by direction
+    for (std::size_t d = 0; d < 3; ++d) ground_step[1 + d] = duration * acceleration[d];
+    const std::int8_t* const direction = system_.direction.data();
     const double* const inverse_mass = system_.inverse_mass.data();
     const double* const q = force_.data();
     double* const v = velocity_.data();
     const std::size_t n = velocity_.size();
     for (std::size_t i = 0; i < n; ++i) {
-      v[i] = decay * v[i] - duration * (inverse_mass[i] * q[i]) - ground_step;
+      v[i] = decay * v[i] - duration * (inverse_mass[i] * q[i]) -
+             ground_step[static_cast<std::size_t>(1 + direction[i])];
     }
   }
 

@@ -103,6 +103,26 @@ class Forms(unittest.TestCase):
         self.assertEqual(script("benchmark", "--forms", "house").returncode, 2)
 
 
+class Shapes(unittest.TestCase):
+    def test_a_general_mesh_beside_one_in_rows(self):
+        folder = tempfile.mkdtemp(prefix="pounding-")
+        result = script("benchmark", "--shapes", "rectangles,triangles", "--ranks", 1, "--rounds", 1,
+                        "--seconds", 0.01, "--output", folder)
+        self.assertEqual(result.returncode, 0, result.stderr[-3000:])
+        with open(os.path.join(folder, "shapes.md")) as file:
+            self.assertIn(file.read(), result.stdout)
+        rows = rows_of(os.path.join(folder, "shapes.csv"))
+        self.assertEqual([(row["shape"], row["way"]) for row in rows],
+                         [(shape, way) for shape in ("rectangles", "triangles")
+                          for way in ("element", "assembled", "aij", "sbaij")])
+        for row in rows:
+            self.assertGreater(float(row["nanoseconds_per_dof"]), 0, row)
+            self.assertGreater(float(row["ratio_to_element"]), 0, row)
+
+    def test_unknown_shapes_are_refused(self):
+        self.assertEqual(script("benchmark", "--shapes", "round").returncode, 2)
+
+
 class Scaling(Measured):
     def test_measured_and_modelled_points(self):
         scene = os.path.join(tempfile.mkdtemp(prefix="pounding-"), "coarse.yaml")

@@ -1,0 +1,124 @@
+"""Steps of plates of one kind of element and mesh: by elements, and with PETSc's matrices, in turns."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from .comparison import LABELS, check_agreement
+from .tables import markdown, write_csv
+from .workers import SOURCE, Stepper, slab_cells, step_benchmark
+
+WAYS = ["element", "assembled", "aij", "sbaij"]
+CELLS = slab_cells(60_000)
+# One scene for the meshes of tests/meshes/holes.geo.
+SCENE = """\
+structures: plate
+plate:
+  mesh: {mesh}
+  mesh_set: "{parameters}"
+  clamp: x_min
+  damping: {{alpha: 0.1562, beta: 1.2557e-5}}
+  body: {element}
+material: {{concrete: {{young: 30e9, poisson: 0.2, density: 2400}}}}
+motion:
+  x: {{record: {motion}, unit: m/s2, time_step: 2e-3}}
+end_time: 0.001
+output: none
+"""
+SHELL = "{element: shell, material: concrete, thickness: 0.22}"
+SOLID = "{element: hex8, material: concrete}"
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A kind of element and mesh: cells of the benchmark's own, or parameters of holes.geo."""
+
+    label: str
+    cells: tuple = ()
+    parameters: str = ""
+    element: str = SOLID
+
+    def model(self, scratch: Path, motion: Path) -> list:
+        if self.cells:
+            return ["-cells", ",".join(str(n) for n in self.cells)]
+        scene = scratch / "shape.yaml"
+        scene.write_text(SCENE.format(mesh=SOURCE / "tests" / "meshes" / "holes.geo", motion=motion,
+                                      parameters=self.parameters, element=self.element))
+        return ["-scene", scene]
+
+
+SHAPES = {
+    "rectangles": Shape("rectangles of shells in rows", cells=(*CELLS[:2], 0)),
+    "quadrangles": Shape("quadrangles round holes, by Blossom", parameters="kind=1,size=0.11",
+                         element=SHELL),
+    "triangles": Shape("triangles round holes", parameters="kind=0,size=0.11", element=SHELL),
+    "bricks": Shape("bricks in rows, one layer", cells=CELLS),
+    "extruded": Shape("hexahedra extruded from Blossom's quadrangles, one layer",
+                      parameters="kind=2,size=0.1"),
+    "layers": Shape("the same in four layers", parameters="kind=2,size=0.15,layers=4"),
+    "split": Shape("hexahedra made from tetrahedra", parameters="kind=3,size=0.45,thickness=0.5"),
+}
+
+
+def shape_names(text: str) -> list:
+    """Shapes, separated by commas."""
+    names = text.split(",")
+    if not set(names) <= set(SHAPES):
+        raise ValueError
+    return names
+
+
+@dataclass
+class Measured:
+    """Times of one way [s per step], one per round."""
+
+    shape: str
+    ranks: int
+    way: str
+    dofs: int
+    seconds: list = field(default_factory=list)
+
+    @property
+    def nanoseconds_per_dof(self) -> float:
+        return 1e9 * float(np.median(self.seconds)) / self.dofs
+
+
+def measure(folder: Path, scratch: Path, motion: Path, name: str, ranks: int, rounds: int,
+            lasting: float) -> list:
+    """Every way once per round."""
+    model = SHAPES[name].model(scratch, motion)
+    with Stepper(step_benchmark(folder, ranks, motion, model, WAYS)) as stepper:
+        check_agreement({(way, ranks): told["displacement_square"]
+                         for way, told in stepper.ways.items()})
+        measured = [Measured(name, ranks, way, stepper.ways[way]["dofs"]) for way in WAYS]
+        for _ in range(rounds):
+            for one in measured:
+                told = stepper.ask(f"{one.way} {lasting}")
+                one.seconds.append(told["quiet_seconds_per_step"])
+    return measured
+
+
+def ratio(one: Measured, to: Measured) -> float:
+    """Median over the rounds of the times of one over those of the other."""
+    return float(np.median(np.array(one.seconds) / np.array(to.seconds)))
+
+
+def write(folder: Path, measured: list) -> str:
+    """Writes shapes.md and shapes.csv; returns the table."""
+    cases = list(dict.fromkeys((one.shape, one.ranks) for one in measured))
+    found = {(one.shape, one.ranks, one.way): one for one in measured}
+    rows = []
+    for case in cases:
+        element = found[*case, "element"]
+        ratios = [ratio(found[*case, way], element) for way in WAYS[1:]]
+        rows.append([SHAPES[case[0]].label, element.dofs, case[1], element.nanoseconds_per_dof, *ratios])
+    text = markdown("Steps of concrete plates by kind of element and mesh: element by element, and times "
+                    "over that", ["elements", "dofs", "ranks", "ns per dof",
+                                  *(f"{LABELS[way]}, ×" for way in WAYS[1:])], rows)
+    (folder / "shapes.md").write_text(text)
+    write_csv(folder / "shapes.csv", [
+        {"shape": one.shape, "ranks": one.ranks, "way": one.way, "dofs": one.dofs,
+         "nanoseconds_per_dof": one.nanoseconds_per_dof,
+         "ratio_to_element": ratio(one, found[one.shape, one.ranks, "element"])} for one in measured])
+    return text
