@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -121,7 +122,8 @@ void CoupledMass::factorise(std::span<const double> lumped_mass) {
       neighbours[pair[1]].insert(pair[0]);
     }
   }
-  const Elimination elimination = eliminate(std::move(neighbours));
+  const Elimination elimination =
+      *eliminate(std::move(neighbours), std::numeric_limits<std::size_t>::max());
   place_.resize(count);
   for (std::size_t k = 0; k < count; ++k) place_[elimination.order[k]] = k;
   // Remainder of M + S, columns and rows by their places, lower triangle.

@@ -6,12 +6,16 @@
 
 namespace pounding {
 
-Elimination eliminate(std::vector<std::set<int>> neighbours) {
+std::optional<Elimination> eliminate(std::vector<std::set<int>> neighbours, std::size_t most) {
   Elimination result;
   result.columns.resize(neighbours.size());
   std::vector<int> left(neighbours.size());
   std::iota(left.begin(), left.end(), 0);
   std::vector<char> waits(neighbours.size(), 0);
+  std::size_t entries = 0;
+  for (const std::set<int>& around : neighbours) entries += around.size();
+  if (entries / 2 > most) return std::nullopt;
+  entries = 0;
   while (!left.empty()) {
     std::size_t smallest = std::numeric_limits<std::size_t>::max();
     for (const int v : left) {
@@ -20,11 +24,13 @@ Elimination eliminate(std::vector<std::set<int>> neighbours) {
     }
     std::vector<int> rest;
     for (const int v : left) {
-      auto& around = neighbours[v];
+      const std::set<int>& around = neighbours[v];
       if (waits[v] != 0 || around.size() > smallest) {
         rest.push_back(v);
         continue;
       }
+      entries += around.size();
+      if (entries > most) return std::nullopt;
       for (const int a : around) {
         waits[a] = 1;
         auto& others = neighbours[a];

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -12,7 +14,8 @@ struct Elimination {
 };
 
 /// Rounds of vertices of the smallest degree that are no neighbours of each other (multiple minimum
-/// degree). `neighbours` of each vertex, symmetric, without itself.
-Elimination eliminate(std::vector<std::set<int>> neighbours);
+/// degree). `neighbours` of each vertex, symmetric, without itself. Nothing where the columns would
+/// hold more than `most` entries.
+std::optional<Elimination> eliminate(std::vector<std::set<int>> neighbours, std::size_t most);
 
 }  // namespace pounding

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <sstream>
+#include <utility>
 
 #include "common/dense_eigenvalues.h"
 #include "common/disjoint_sets.h"
@@ -13,11 +15,10 @@
 #include "elements/element.h"
 #include "links/law_of.h"
 #include "stiffness/element_properties.h"
+#include "system/elimination_order.h"
 
 namespace pounding {
 namespace {
-
-constexpr GlobalIndex most_dofs = 20000;  // of one group, whose factors may fill in
 
 [[noreturn]] void refuse(const Structure& structure, const std::string& why) {
   std::ostringstream text;
@@ -54,6 +55,7 @@ class Couplings {
       coupled_[n] = 1;
       scaled_[n] = scaled || scaled_[n] != 0;
       if (first >= 0) groups_.join(static_cast<std::size_t>(first), n);
+      if (first >= 0 && scaled) edges_.push_back({first, node});
       first = node;
     }
   }
@@ -61,6 +63,7 @@ class Couplings {
   struct Group {
     NodeCluster cluster;
     GlobalIndex scaled_dofs = 0;
+    std::vector<std::array<GlobalIndex, 2>> edges;  ///< of nodes that S couples
   };
   std::map<std::size_t, Group> groups() {
     std::map<std::size_t, Group> result;
@@ -71,6 +74,9 @@ class Couplings {
         group.scaled_dofs += scaled_[n] != 0 ? component_count(mesh_.free_components[n]) : 0;
       }
     }
+    for (const auto& edge : edges_) {
+      result[groups_.root(static_cast<std::size_t>(edge[0]))].edges.push_back(edge);
+    }
     return result;
   }
 
@@ -79,7 +85,22 @@ class Couplings {
   DisjointSets groups_;
   std::vector<char> coupled_;
   std::vector<char> scaled_;
+  std::vector<std::array<GlobalIndex, 2>> edges_;
 };
+
+/// Whether the factor of M + S of a group is too large.
+bool fills_in(const Couplings::Group& group, std::size_t most_blocks) {
+  const std::vector<GlobalIndex>& nodes = group.cluster.nodes;  // increasing
+  const auto place = [&](GlobalIndex node) {
+    return static_cast<int>(std::ranges::lower_bound(nodes, node) - nodes.begin());
+  };
+  std::vector<std::set<int>> neighbours(nodes.size());
+  for (const auto& [a, b] : group.edges) {
+    neighbours[static_cast<std::size_t>(place(a))].insert(place(b));
+    neighbours[static_cast<std::size_t>(place(b))].insert(place(a));
+  }
+  return !eliminate(std::move(neighbours), most_blocks);
+}
 
 /// Whether an element of the whole mesh is scaled.
 class Decision {
@@ -137,7 +158,7 @@ double add_element_mass(double time_step, const Rayleigh& damping,
 }
 
 std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalMesh& mesh,
-                                       int structure_number) {
+                                       int structure_number, std::size_t most_blocks) {
   const bool scaling = structure.mass_scaling > 0;
   Couplings couplings(mesh);
   Decision decision(structure, mesh);
@@ -154,10 +175,11 @@ std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalM
   }
   std::vector<NodeCluster> result;
   for (auto& [root, group] : couplings.groups()) {
-    if (group.scaled_dofs > most_dofs) {
+    if (fills_in(group, most_blocks)) {
       refuse(structure, "it couples " + std::to_string(group.scaled_dofs) +
-                            " dofs with each other, more than " + std::to_string(most_dofs) +
-                            "; ask for a smaller step");
+                            " dofs with each other, and the factor of their mass has more than " +
+                            std::to_string(most_blocks) +
+                            " blocks of 6 x 6; ask for a smaller step");
     }
     group.cluster.structure = structure_number;
     result.push_back(std::move(group.cluster));

@@ -51,11 +51,15 @@ double add_element_mass(double time_step, const Rayleigh& damping,
                         std::span<const double> stiffness, std::span<const double> lumped_mass,
                         std::span<double> added, double stiffening = 1);
 
+/// Blocks that the factor of one group may have beside its diagonal, each kept twice: 0.6 GB.
+inline constexpr std::size_t most_factor_blocks = 1000000;
+
 /// Nodes that scaled elements or links connect, group by group: M + S couples the dofs of the ones,
 /// the step solves for the forces of the others together, so one rank must own them.
 /// `structure_number` is copied. Throws UserError where alpha alone forbids the wanted step or the
-/// scaled nodes of a group are too many to be factorised. Serial.
+/// factor of a group has more than `most_blocks`. Serial.
 std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalMesh& mesh,
-                                       int structure_number);
+                                       int structure_number,
+                                       std::size_t most_blocks = most_factor_blocks);
 
 }  // namespace pounding

@@ -182,23 +182,43 @@ TEST(MassScaling, RefusesAStepThatAlphaAloneForbids) {
   }
 }
 
-TEST(MassScaling, RefusesAGroupThatIsTooLarge) {
+/// Bars along the lines of a square grid of n x n nodes.
+GlobalMesh grid_of_bars(GlobalIndex n) {
   GlobalMesh mesh;
   ElementSet set;
   set.type = ElementType::bar;
-  for (GlobalIndex node = 0; node < 6700; ++node) {
+  const auto add = [&](GlobalIndex a, GlobalIndex b) {
+    set.tags.push_back(static_cast<std::int64_t>(set.tags.size()) + 1);
+    set.connectivity.insert(set.connectivity.end(), {a, b});
+  };
+  for (GlobalIndex node = 0; node < n * n; ++node) {
     mesh.node_tags.push_back(node + 1);
-    mesh.coordinates.insert(mesh.coordinates.end(), {static_cast<double>(node), 0, 0});
-    if (node > 0) {
-      set.tags.push_back(node);
-      set.connectivity.insert(set.connectivity.end(), {node - 1, node});
-    }
+    mesh.coordinates.insert(mesh.coordinates.end(),
+                            {static_cast<double>(node % n), static_cast<double>(node / n), 0});
+    if (node % n > 0) add(node - 1, node);
+    if (node >= n) add(node - n, node);
   }
   mesh.regions.push_back(set);
   mesh.components.assign(mesh.node_tags.size(), 0x07);
   mesh.free_components = mesh.components;
-  EXPECT_NO_THROW(coupled_nodes(bars_of(3e-4), mesh, 0));
-  EXPECT_THROW(coupled_nodes(bars_of(1e-3), mesh, 0), UserError);
+  return mesh;
+}
+
+TEST(MassScaling, RefusesAGroupWhoseFactorIsTooLarge) {
+  const GlobalMesh grid = grid_of_bars(30);
+  const std::size_t edges = grid.regions[0].tags.size();
+  for (const std::size_t most : {std::size_t{10}, edges}) {
+    EXPECT_NO_THROW(coupled_nodes(bars_of(3e-4), grid, 0, most));  // nothing is scaled
+    EXPECT_THROW(coupled_nodes(bars_of(1e-3), grid, 0, most), UserError);
+  }
+  EXPECT_NO_THROW(coupled_nodes(bars_of(1e-3), grid, 0, 10 * edges));
+}
+
+TEST(MassScaling, TakesManyDofsWhoseFactorIsSmall) {
+  const GlobalMesh grid = grid_of_bars(100);  // 30,000 dofs
+  const auto clusters = coupled_nodes(bars_of(1e-3), grid, 0);
+  ASSERT_EQ(clusters.size(), 1u);
+  EXPECT_EQ(clusters[0].nodes.size(), 10000u);
 }
 
 }  // namespace
