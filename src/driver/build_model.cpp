@@ -6,6 +6,7 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "common/progress.h"
 #include "contact/find_interface.h"
 #include "driver/mesh_checks.h"
 #include "driver/probe_warnings.h"
@@ -22,6 +23,11 @@
 
 namespace pounding {
 namespace {
+
+/// A phase of the start-up of a structure.
+Progress begin(MPI_Comm comm, const Scene& scene, const Structure& structure, const char* what) {
+  return Progress(comm, structure.name + ": " + what, scene.progress_interval);
+}
 
 /// Refuses what cannot be meant in a mesh, keeps what is to be reported of it. Matrices from files
 /// hold and join as they like.
@@ -43,9 +49,11 @@ void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& mo
     const MeshLimits limits{scene.mesh_time_limit, scene.allow_geo_commands};
     on_rank0(comm, [&] {
       for (std::size_t s = 0; s < meshes.size(); ++s) {
+        const Progress progress = begin(comm, scene, scene.structures[s], "mesh");
         meshes[s] = read_mesh(scene.structures[s], limits);
         check_mesh(scene, s, meshes[s], model);
       }
+      const Progress progress(comm, "faces in contact and probes", scene.progress_interval);
       model.interface = find_interface(scene, meshes);
       model.probes = resolve_probes(scene, meshes);
       append(probe_warnings(model.probes, meshes, model.interface), model.warnings);
@@ -54,6 +62,7 @@ void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& mo
     broadcast_probes(comm, model.probes);
   }
   std::optional<ScopedTimer> timer(std::in_place, profile, Phase::partition);
+  std::optional<Progress> progress(std::in_place, comm, "partition", scene.progress_interval);
   Partition partition;
   const std::vector<int> whole = owners_of_reduced(comm, scene);
   on_rank0(comm, [&] {
@@ -80,6 +89,7 @@ void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& mo
     }
   }
   timer.reset();
+  progress.emplace(comm, "modal bases", scene.progress_interval);
   auto bases = find_bases(comm, scene, meshes, model.interface, model.probes, profile);
   for (std::size_t s = 0; s < meshes.size(); ++s) model.buildings[s].basis = std::move(bases[s]);
 }
@@ -117,8 +127,9 @@ void choose_time_step(const Scene& scene, Model& model) {
   model.steps = static_cast<std::int64_t>(std::ceil(scene.end_time / model.time_step - 1e-9));
 }
 
-void find_energy_margins(Model& model) {
+void find_energy_margins(MPI_Comm comm, const Scene& scene, Model& model) {
   for (Building& building : model.buildings) {
+    const Progress progress = begin(comm, scene, *building.structure, "energy margin");
     building.energy_margin =
         energy_margin_of(*building.structure, *building.system, *building.mesh,
                          building.basis_or_null(), building.limits, model.time_step);
@@ -147,16 +158,21 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
   const int modes = std::max(scene.modes, keeps_first ? 1 : 0);
   {
     const ScopedTimer timer(profile, Phase::assembly);
+    const Progress progress = begin(comm, scene, structure, "assembly");
     system = build_system(structure, mesh, scene.stiffness, modes > 0 || exported);
   }
   const ScopedTimer timer(profile, Phase::modes);
   require_passive_matrices(structure, system);
-  building.modal = lowest_modes(system, mesh, modes, scene.write_modes);
+  {
+    const Progress progress = begin(comm, scene, structure, "lowest modes");
+    building.modal = lowest_modes(system, mesh, modes, scene.write_modes);
+  }
   if (keeps_first) {
     system.uniform_damping->reference = reference_frequency(structure, building.modal);
   }
   building.modal.modes.resize(std::min<std::size_t>(building.modal.modes.size(), scene.modes));
   if (!exported) system.stiffness->release_matrix();
+  const Progress progress = begin(comm, scene, structure, "largest frequency and stable time step");
   building.limits = limits_of(structure, system, mesh, nullptr);
 }
 
@@ -186,7 +202,7 @@ Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile) {
   choose_time_step(scene, model);
   append(run_warnings(scene, model), model.warnings);
   const ScopedTimer timer(profile, Phase::modes);
-  find_energy_margins(model);
+  find_energy_margins(comm, scene, model);
   return model;
 }
 

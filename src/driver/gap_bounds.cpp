@@ -5,7 +5,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string>
 
+#include "common/progress.h"
 #include "stability/energy_norm.h"
 #include "system/links.h"
 
@@ -27,7 +29,8 @@ std::vector<double> coordinate_rows(const ContactProblem& contact, std::size_t s
 }
 
 GapWatch::Bound energy_bound(const ContactProblem& contact, std::size_t structure,
-                             const LinearSystem& system, double time_step, double margin) {
+                             const LinearSystem& system, double time_step, double margin,
+                             Progress& progress) {
   GapWatch::Bound bound;
   EnergyNorm norm(system, time_step, margin, work);
   for (std::size_t d = 0; d < 3; ++d) {
@@ -37,6 +40,7 @@ GapWatch::Bound energy_bound(const ContactProblem& contact, std::size_t structur
     bound.force_norm[d] = norm.bound(std::move(force));
   }
   for (int row = 0; row < contact.rows(); ++row) {
+    progress.at("row " + std::to_string(row + 1) + " of " + std::to_string(contact.rows()));
     const double coarse = std::sqrt(contact.row_compliance(row, structure) / margin);
     if (coarse <= bound.rate_norm) continue;
     const double found = norm.exhausted()
@@ -51,7 +55,7 @@ GapWatch::Bound energy_bound(const ContactProblem& contact, std::size_t structur
 
 std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSystem> systems,
                                         std::span<const double> energy_margins, double time_step,
-                                        const ContactProblem* contact) {
+                                        const ContactProblem* contact, double progress_interval) {
   std::vector<GapWatch::Bound> bounds(systems.size());
   for (std::size_t s = 0; contact != nullptr && s < bounds.size(); ++s) {
     const LinearSystem& system = systems[s];
@@ -65,7 +69,8 @@ std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSys
       continue;
     }
     GapWatch::Bound& bound = bounds[s];
-    bound = energy_bound(*contact, s, system, time_step, energy_margins[s]);
+    Progress progress(comm, system.name + ": bounds of the gap rates", progress_interval);
+    bound = energy_bound(*contact, s, system, time_step, energy_margins[s], progress);
     std::array<double, 4> values{bound.rate_norm, bound.force_norm[0], bound.force_norm[1],
                                  bound.force_norm[2]};
     MPI_Allreduce(MPI_IN_PLACE, values.data(), 4, MPI_DOUBLE, MPI_MAX, comm);

@@ -10,9 +10,10 @@
 namespace pounding {
 
 /// Bounds of the gap rates of structures at a time step [s] with their energy margins (see
-/// EnergyNorm), the same on all ranks; `contact` may be null. Collective over `comm`.
+/// EnergyNorm), the same on all ranks; `contact` may be null. `progress_interval` [s]: see
+/// Progress. Collective over `comm`.
 std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSystem> systems,
                                         std::span<const double> energy_margins, double time_step,
-                                        const ContactProblem* contact);
+                                        const ContactProblem* contact, double progress_interval);
 
 }  // namespace pounding

@@ -19,7 +19,7 @@ Solver::Solver(Parts parts) : parts_(std::move(parts)), contact_(make_contact(pa
   {
     const ScopedTimer timer(*parts_.profile, Phase::assembly);
     bounds_ = gap_bounds(parts_.comm, parts_.systems, parts_.energy_margins, parts_.time_step,
-                         contact_.get());
+                         contact_.get(), parts_.progress_interval);
   }
   make_stepper();
 }

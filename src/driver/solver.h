@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -30,6 +31,7 @@ class Solver {
     double time_step = 0;                ///< [s]
     std::vector<double> energy_margins;  ///< per structure, at the time step [-]
     Profile* profile = nullptr;
+    double progress_interval = std::numeric_limits<double>::infinity();  ///< [s], see Progress
   };
 
   /// Puts contact and scheme together, at t_0. Collective.

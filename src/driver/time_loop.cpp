@@ -41,7 +41,8 @@ Solver::Parts solver_parts(MPI_Comm comm, const Scene& scene, const Model& model
                       scene.gap_tolerance * model.interface.model_size,
                       model.time_step,
                       {},
-                      &profile};
+                      &profile,
+                      scene.progress_interval};
   for (const Building& building : model.buildings) {
     parts.energy_margins.push_back(building.energy_margin);
   }

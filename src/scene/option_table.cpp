@@ -51,6 +51,7 @@ constexpr std::array table{
     OptionRow{Block::run, "mesh_time_limit", Kind::real, "s", value("600"), positive, "", "time that Gmsh may take for one mesh"},
     OptionRow{Block::run, "allow_geo_commands", Kind::boolean, "flag", value("false"), any, "", "let .geo files run commands and write files, as Gmsh itself does"},
     OptionRow{Block::run, "dry_run", Kind::boolean, "flag", value("false"), any, "", "check the model, print what a run would cost, and stop"},
+    OptionRow{Block::run, "progress_interval", Kind::real, "s", value("2"), positive, "", "phases of the start-up that take longer say how far they are, twice as late each time"},
     OptionRow{Block::run, "output", Kind::text, "folder", value("results"), any, "a folder", "result folder"},
     OptionRow{Block::run, "checkpoint_interval", Kind::real, "s", value("0"), not_negative, "", "wall time between two checkpoints; 0: one only when a signal stops the run"},
     OptionRow{Block::run, "checkpoint_steps", Kind::integer, "steps", value("0"), not_negative, "", "steps between two checkpoints; 0: none"},
@@ -142,7 +143,7 @@ constexpr std::array table{
 
 // Options that touch neither motion nor records; the time step itself is compared, not its options.
 constexpr std::array changeable_on_restart = std::to_array<std::string_view>({
-    "title", "end_time", "courant", "time_step", "allow_unstable", "modes", "write_modes", "mesh_time_limit", "dry_run", "output",
+    "title", "end_time", "courant", "time_step", "allow_unstable", "progress_interval", "modes", "write_modes", "mesh_time_limit", "dry_run", "output",
     "checkpoint_interval", "checkpoint_steps", "export_matrices", "partition", "restart", "spectra_damping",
     "spectra_frequencies", "spectra_start"});
 // clang-format on

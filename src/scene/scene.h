@@ -183,6 +183,7 @@ struct Scene {
   double courant = 0;            ///< fraction of the stable time step [-]
   double time_step = 0;          ///< [s]; 0: courant times the stable one
   bool allow_unstable = false;   ///< accept a time step above the stable one (for studies)
+  double progress_interval = 0;  ///< of the lines that a long phase of the start-up prints [s]
   int modes = 0;                 ///< lowest modes to compute per structure
   bool write_modes = false;      ///< their shapes as well
   double gap_tolerance = 0;      ///< contact where gap <= gap_tolerance x model size [-]
