@@ -127,12 +127,21 @@ void choose_time_step(const Scene& scene, Model& model) {
   model.steps = static_cast<std::int64_t>(std::ceil(scene.end_time / model.time_step - 1e-9));
 }
 
+EigenvalueEffort effort_of(const Scene& scene, Progress& progress) {
+  EigenvalueEffort effort;
+  effort.tolerance = scene.omega_max_tolerance;
+  effort.report = [&progress](int products) {
+    progress.at(std::to_string(products) + " products with the stiffness");
+  };
+  return effort;
+}
+
 void find_energy_margins(MPI_Comm comm, const Scene& scene, Model& model) {
   for (Building& building : model.buildings) {
-    const Progress progress = begin(comm, scene, *building.structure, "energy margin");
-    building.energy_margin =
-        energy_margin_of(*building.structure, *building.system, *building.mesh,
-                         building.basis_or_null(), building.limits, model.time_step);
+    Progress progress = begin(comm, scene, *building.structure, "energy margin");
+    building.energy_margin = energy_margin_of(*building.structure, *building.system, *building.mesh,
+                                              building.basis_or_null(), building.limits,
+                                              model.time_step, effort_of(scene, progress));
   }
 }
 
@@ -150,7 +159,7 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
     system = build_reduced_system(comm, owners_of_reduced(comm, scene)[s], structure, mesh,
                                   *building.basis);
     building.modal = modes_of_basis(*building.basis, scene.modes);
-    building.limits = limits_of(structure, system, mesh, building.basis_or_null());
+    building.limits = limits_of(structure, system, mesh, building.basis_or_null(), {});
     return;
   }
   const bool exported = !scene.export_matrices.empty();
@@ -172,8 +181,8 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
   }
   building.modal.modes.resize(std::min<std::size_t>(building.modal.modes.size(), scene.modes));
   if (!exported) system.stiffness->release_matrix();
-  const Progress progress = begin(comm, scene, structure, "largest frequency and stable time step");
-  building.limits = limits_of(structure, system, mesh, nullptr);
+  Progress progress = begin(comm, scene, structure, "largest frequency and stable time step");
+  building.limits = limits_of(structure, system, mesh, nullptr, effort_of(scene, progress));
 }
 
 void add_warnings(MPI_Comm comm, const Scene& scene, Model& model) {

@@ -140,6 +140,13 @@ void print_time_step_limit(const Building& building) {
   }
   std::printf("  omega_max %.4e rad/s (bound from single elements %.4e)\n",
               building.limits.largest.omega_max, system.element_frequency_bound);
+  if (building.limits.largest.excess > 0) {
+    std::printf(
+        "    a bound after %d products, too large by %.2g %% at most: 1e-10 would take more than "
+        "some "
+        "seconds (-omega_max_tolerance)\n",
+        building.limits.largest.products, 100 * building.limits.largest.excess);
+  }
   std::printf("    at %s\n", building.limits.largest.location.c_str());
   if (!system.stiffest_element.empty()) {
     std::printf("    stiffest: %s\n", system.stiffest_element.c_str());

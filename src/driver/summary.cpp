@@ -127,6 +127,7 @@ Json describe_structure(const Building& building) {
     }
   }
   structure["omega_max"] = building.limits.largest.omega_max;
+  structure["omega_max_excess"] = building.limits.largest.excess;
   structure["omega_max_location"] = building.limits.largest.location;
   structure["element_frequency_bound"] = building.system->element_frequency_bound;
   structure["stiffest_element"] = building.system->stiffest_element;

@@ -175,39 +175,4 @@ EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix,
   return solver;
 }
 
-LargestEigenpair largest_eigenpair(const LinearSystem& system, const Mesh& mesh, Mat matrix,
-                                   const std::string& what) {
-  const EpsHandle solver = create_eigen_solver(system, mesh, matrix, "largest_");
-  POUNDING_PETSC(EPSSetDimensions(solver.get(), 1, PETSC_DEFAULT, PETSC_DEFAULT));
-  POUNDING_PETSC(EPSSetWhichEigenpairs(solver.get(), EPS_LARGEST_REAL));
-  POUNDING_PETSC(EPSSetTolerances(solver.get(), 1e-10, PETSC_DEFAULT));
-  solve(solver.get());
-  PetscInt found = 0;
-  POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
-  if (found < 1) {
-    // Many equal elements crowd the frequencies at the upper end: a larger space tells them apart.
-    constexpr GlobalIndex large_space = 200;
-    constexpr PetscInt iterations = 1000;
-    PetscReal tolerance = 0;
-    POUNDING_PETSC(EPSSetDimensions(
-        solver.get(), 1, static_cast<PetscInt>(std::min(large_space, system.global_dofs)),
-        PETSC_DEFAULT));
-    POUNDING_PETSC(EPSGetTolerances(solver.get(), &tolerance, nullptr));
-    POUNDING_PETSC(EPSSetTolerances(solver.get(), tolerance, iterations));
-    POUNDING_PETSC(EPSSolve(solver.get()));
-    POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
-  }
-  if (found < 1) {
-    refuse_unconverged(solver.get(),
-                       "structure " + system.name + ": " + what +
-                           " did not converge: look at the units of mesh and materials");
-  }
-  LargestEigenpair pair;
-  pair.vector.resize(system.lumped_mass.size());
-  const VecHandle vector = wrap_vector(system, pair.vector);
-  POUNDING_PETSC(EPSGetEigenpair(solver.get(), 0, &pair.value, nullptr, vector.get(), nullptr));
-  POUNDING_PETSC(EPSComputeError(solver.get(), 0, EPS_ERROR_ABSOLUTE, &pair.error));
-  return pair;
-}
-
 }  // namespace pounding

@@ -32,17 +32,4 @@ inline constexpr double lowest_shift = -1;
 EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix, int count,
                        Mat mass = nullptr);
 
-/// An eigenvalue, bound of its error, and its vector, |y| = 1, over the owned dofs.
-struct LargestEigenpair {
-  double value = 0;
-  double error = 0;
-  std::vector<double> vector;
-};
-
-/// The largest eigenvalue of a symmetric matrix, which a Ritz value approaches from below; PETSc's
-/// options with the prefix largest_ hold. Throws std::runtime_error that `what` of the structure
-/// did not converge. Collective.
-LargestEigenpair largest_eigenpair(const LinearSystem& system, const Mesh& mesh, Mat matrix,
-                                   const std::string& what);
-
 }  // namespace pounding

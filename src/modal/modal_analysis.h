@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "modal/lanczos.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -31,8 +32,10 @@ inline constexpr double near_zero = 1e-6;
 
 /// The largest circular frequency and where its mode lives.
 struct LargestFrequency {
-  double omega_max = 0;  ///< [rad/s]; Ritz value plus its error bound, at most the element bound
+  double omega_max = 0;  ///< upper bound [rad/s], see Lanczos; at most that of the elements
   std::string location;  ///< node and component with the largest share of the mode's mass
+  double excess = 0;     ///< part of it by which it may be too large [-]; 0: 1e-10
+  int products = 0;      ///< with K that it took
 };
 
 /// A mode from omega^2 [1/s2], its participation factors along x, y, z and about them, and the
@@ -53,9 +56,8 @@ double reference_frequency(const Structure& structure, const ModalResult& modal)
 ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count,
                          bool keep_shapes = false);
 
-/// omega_max by Krylov-Schur on the same matrix, of which it needs products only, largest real.
-/// Ritz values approach from below, so the residual norm (a bound of the error in omega^2) is
-/// added. Collective.
-LargestFrequency largest_frequency(const LinearSystem& system, const Mesh& mesh);
+/// omega_max by Lanczos on the same matrix, of which it needs products only. Collective.
+LargestFrequency largest_frequency(const LinearSystem& system, const Mesh& mesh,
+                                   const EigenvalueEffort& effort = {});
 
 }  // namespace pounding

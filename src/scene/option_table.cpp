@@ -20,6 +20,7 @@ constexpr Range at_least_1{1, infinity, false, false};
 constexpr Range fraction{0, 1, true, false};
 constexpr Range damping_ratio{0, 1, false, true};
 constexpr Range uniform_ratio{0, 0.3, false, false};
+constexpr Range eigen_tolerance{1e-10, 0.1, false, false};
 constexpr Range filter_count{1, 8, false, false};
 constexpr Range poisson_ratio{-1, 0.5, true, true};
 
@@ -41,6 +42,7 @@ constexpr std::array table{
     OptionRow{Block::run, "courant", Kind::real, "-", value("0.9"), fraction, "", "fraction of the stable time step that is used"},
     OptionRow{Block::run, "time_step", Kind::real, "s", value("0"), not_negative, "", "time step; 0: courant x the stable one"},
     OptionRow{Block::run, "allow_unstable", Kind::boolean, "flag", value("false"), any, "", "accept a time step above the stable one (for studies)"},
+    OptionRow{Block::run, "omega_max_tolerance", Kind::real, "-", value("1e-3"), eigen_tolerance, "", "part by which omega_max may be too large, and the stable step too small, where 1e-10 would take long"},
     OptionRow{Block::run, "modes", Kind::integer, "-", value("12"), not_negative, "", "lowest modes computed per structure"},
     OptionRow{Block::run, "write_modes", Kind::boolean, "flag", value("false"), any, "", "write their shapes to modes.h5"},
     OptionRow{Block::run, "gap_tolerance", Kind::real, "-", value("1e-12"), not_negative, "", "contact where gap <= gap_tolerance x model size"},
@@ -143,7 +145,7 @@ constexpr std::array table{
 
 // Options that touch neither motion nor records; the time step itself is compared, not its options.
 constexpr std::array changeable_on_restart = std::to_array<std::string_view>({
-    "title", "end_time", "courant", "time_step", "allow_unstable", "progress_interval", "modes", "write_modes", "mesh_time_limit", "dry_run", "output",
+    "title", "end_time", "courant", "time_step", "allow_unstable", "omega_max_tolerance", "progress_interval", "modes", "write_modes", "mesh_time_limit", "dry_run", "output",
     "checkpoint_interval", "checkpoint_steps", "export_matrices", "partition", "restart", "spectra_damping",
     "spectra_frequencies", "spectra_start"});
 // clang-format on

@@ -19,14 +19,6 @@ struct PetscOption {
 };
 
 constexpr auto options = std::to_array<PetscOption>({
-    {"largest_eps_converged_reason", Value::flag},
-    {"largest_eps_max_it", Value::count},
-    {"largest_eps_monitor", Value::flag},
-    {"largest_eps_mpd", Value::count},
-    {"largest_eps_ncv", Value::count},
-    {"largest_eps_tol", Value::positive},
-    {"largest_eps_type", Value::solver},
-    {"largest_eps_view", Value::flag},
     {"log_view", Value::flag},
     {"lowest_eps_converged_reason", Value::flag},
     {"lowest_eps_max_it", Value::count},

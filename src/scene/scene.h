@@ -179,19 +179,20 @@ struct Scene {
   PartitionBy partition_by = PartitionBy::automatic;
   std::vector<Probe> probes;
   SpectraRequest spectra;
-  double end_time = 0;           ///< [s]
-  double courant = 0;            ///< fraction of the stable time step [-]
-  double time_step = 0;          ///< [s]; 0: courant times the stable one
-  bool allow_unstable = false;   ///< accept a time step above the stable one (for studies)
-  double progress_interval = 0;  ///< of the lines that a long phase of the start-up prints [s]
-  int modes = 0;                 ///< lowest modes to compute per structure
-  bool write_modes = false;      ///< their shapes as well
-  double gap_tolerance = 0;      ///< contact where gap <= gap_tolerance x model size [-]
-  double impact_merge_time = 0;  ///< contacts separated by less are one episode [s]
-  double output_interval = 0;    ///< of the probes [s]
-  double gap_interval = 0;       ///< of the gaps at least; 0: with every sample of the probes [s]
-  int energy_interval = 0;       ///< steps between two lines of the energy ledger
-  double mesh_time_limit = 0;    ///< for Gmsh to make or read one mesh [s]
+  double end_time = 0;             ///< [s]
+  double courant = 0;              ///< fraction of the stable time step [-]
+  double time_step = 0;            ///< [s]; 0: courant times the stable one
+  bool allow_unstable = false;     ///< accept a time step above the stable one (for studies)
+  double omega_max_tolerance = 0;  ///< accepted where omega_max to 1e-10 takes long [-]
+  double progress_interval = 0;    ///< of the lines that a long phase of the start-up prints [s]
+  int modes = 0;                   ///< lowest modes to compute per structure
+  bool write_modes = false;        ///< their shapes as well
+  double gap_tolerance = 0;        ///< contact where gap <= gap_tolerance x model size [-]
+  double impact_merge_time = 0;    ///< contacts separated by less are one episode [s]
+  double output_interval = 0;      ///< of the probes [s]
+  double gap_interval = 0;         ///< of the gaps at least; 0: with every sample of the probes [s]
+  int energy_interval = 0;         ///< steps between two lines of the energy ledger
+  double mesh_time_limit = 0;      ///< for Gmsh to make or read one mesh [s]
   bool allow_geo_commands = false;  ///< .geo files may run commands and write files
   bool dry_run = false;
   double checkpoint_interval = 0;  ///< wall time between checkpoints [s]; 0: none

@@ -60,6 +60,7 @@ class SceneReader {
     options_.text("fidelity_table");
     scene_.time_step = options_.real("time_step");
     scene_.allow_unstable = options_.boolean("allow_unstable");
+    scene_.omega_max_tolerance = options_.real("omega_max_tolerance");
     scene_.progress_interval = options_.real("progress_interval");
     scene_.mesh_time_limit = options_.real("mesh_time_limit");
     scene_.allow_geo_commands = options_.boolean("allow_geo_commands");

@@ -2,78 +2,74 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 
-#include "modal/eigen_solver.h"
 #include "modal/scaled_operator.h"
 #include "system/critical_time_step.h"
 
 namespace pounding {
 namespace {
 
-/// K and C scaled by the mass.
-class ScaledProblem {
- public:
-  ScaledProblem(const LinearSystem& system, const Mesh& mesh)
-      : system_(system), mesh_(mesh), stiffness_(system, {{1, &system.stiffest()}}) {
-    if (system.extra_damping) {
-      extra_damping_ = std::make_unique<ScaledOperator>(
-          system, std::vector<ScaledOperator::Term>{{1, system.extra_damping.get()}});
-    }
-  }
-
-  /// The largest eigenvalue of A(dt).
-  LargestEigenpair largest(double dt) const {
-    const auto [alpha, beta] = system_.damping;
-    std::vector<ScaledOperator::Term> terms{
-        {2 * dt * beta + dt * dt * system_.stiffening(), &system_.stiffest()}};
-    if (system_.extra_damping) terms.push_back({2 * dt, system_.extra_damping.get()});
-    const ScaledOperator scaled(system_, terms, 2 * dt * alpha);
-    return largest_eigenpair(system_, mesh_, scaled.matrix(), "the stable time step");
-  }
-
-  /// Where a motion y, |y| = 1, becomes unstable.
-  double critical(std::vector<double>& y) const {
-    const double square = stiffness_.quotient(y);
-    double rate = system_.damping.alpha + system_.damping.beta * square;
-    if (extra_damping_) rate += extra_damping_->quotient(y);
-    return critical_time_step(std::max(0.0, rate), system_.stiffening() * std::max(0.0, square));
-  }
-
- private:
-  const LinearSystem& system_;
-  const Mesh& mesh_;
-  ScaledOperator stiffness_;
-  std::unique_ptr<ScaledOperator> extra_damping_;
+struct Bound {
+  double value = 0;   ///< of the largest eigenvalue of A(dt)
+  double excess = 0;  ///< see Lanczos
 };
+
+Bound largest_growth(const LinearSystem& system, const Mesh& mesh, double dt,
+                     const EigenvalueEffort& effort) {
+  const auto [alpha, beta] = system.damping;
+  std::vector<ScaledOperator::Term> terms{
+      {2 * dt * beta + dt * dt * system.stiffening(), &system.stiffest()}};
+  if (system.extra_damping) terms.push_back({2 * dt, system.extra_damping.get()});
+  const ScaledOperator scaled(system, terms, 2 * dt * alpha);
+  Lanczos lanczos(system, mesh, scaled);
+  lanczos.run(effort, "the stable time step");
+  return {lanczos.bound(), lanczos.excess()};
+}
+
+/// A step to begin with.
+double first_step(const LinearSystem& system) {
+  if (system.element_time_step_bound > 0) return system.element_time_step_bound;
+  const double square = std::pow(system.element_frequency_bound, 2);
+  return critical_time_step(system.damping.alpha + system.damping.beta * square,
+                            system.stiffening() * square);
+}
 
 }  // namespace
 
-double stability_limit(const LinearSystem& system, const Mesh& mesh) {
+double stability_limit(const LinearSystem& system, const Mesh& mesh,
+                       const EigenvalueEffort& effort) {
   constexpr double tolerance = 1e-12;
   constexpr int most_iterations = 100;
-  const ScaledProblem problem(system, mesh);
-  double dt = system.element_time_step_bound;  // below the limit; all that follow are above it
+  double dt = first_step(system);
+  double power = 1.5;
+  double before = 0;  // logarithms of dt and of mu / 4, one iteration ago
+  double growth_before = 0;
   for (int iteration = 0; std::isfinite(dt); ++iteration) {
-    LargestEigenpair pair = problem.largest(dt);
-    const double next = problem.critical(pair.vector);
-    if (iteration > 0 && next >= dt * (1 - tolerance)) {
-      // A(s dt) <= s A(dt) for s < 1: the largest eigenvalue there is at most 4.
-      return dt * 4 / (pair.value + pair.error);
+    const Bound bound = largest_growth(system, mesh, dt, effort);
+    const double part = bound.value / 4;
+    const double step = std::log(dt);
+    const double growth = std::log(part);
+    if (std::abs(growth) <= std::max(tolerance, bound.excess / 2)) {
+      return dt / std::max(part, std::sqrt(part));
     }
     if (iteration == most_iterations) {
       throw std::runtime_error("structure " + system.name +
                                ": the stable time step did not converge");
     }
-    dt = next;
+    if (iteration > 0) {
+      power = std::clamp((growth - growth_before) / (step - before), 1.0, 2.0);
+    }
+    before = step;
+    growth_before = growth;
+    dt = std::exp(step - growth / power);
   }
   return dt;
 }
 
-double smallest_energy_margin(const LinearSystem& system, const Mesh& mesh, double time_step) {
-  const LargestEigenpair pair = ScaledProblem(system, mesh).largest(time_step);
-  return 1 - (pair.value + pair.error) / 4;
+double smallest_energy_margin(const LinearSystem& system, const Mesh& mesh, double time_step,
+                              const EigenvalueEffort& effort) {
+  return 1 - largest_growth(system, mesh, time_step, effort).value / 4;
 }
 
 }  // namespace pounding

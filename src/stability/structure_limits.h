@@ -18,11 +18,12 @@ struct StructureLimits {
 
 /// `basis` is null for a structure that is not reduced. Collective.
 StructureLimits limits_of(const Structure& structure, const LinearSystem& system, const Mesh& mesh,
-                          const ModalBasis* basis);
+                          const ModalBasis* basis, const EigenvalueEffort& effort);
 
 /// Smallest eigenvalue of M^-1 (M - dt/2 C - dt^2/4 K) at a time step [-], positive if and only if
 /// the step is stable: see `energy_margin` of stable_time_step.h. Collective.
 double energy_margin_of(const Structure& structure, const LinearSystem& system, const Mesh& mesh,
-                        const ModalBasis* basis, const StructureLimits& limits, double time_step);
+                        const ModalBasis* basis, const StructureLimits& limits, double time_step,
+                        const EigenvalueEffort& effort);
 
 }  // namespace pounding

@@ -116,7 +116,7 @@ class Libraries(Options):
     def test_files_elsewhere(self):
         elsewhere = os.path.join(self.folder, "elsewhere")
         for name, value in (("log_view", ":" + elsewhere), ("malloc_view", elsewhere), ("info", ":" + elsewhere),
-                            ("lowest_eps_view", "ascii:" + elsewhere), ("largest_eps_monitor", "ascii:" + elsewhere),
+                            ("lowest_eps_view", "ascii:" + elsewhere), ("lowest_eps_monitor", "ascii:" + elsewhere),
                             ("lowest_eps_view_vectors", "binary:" + elsewhere), ("mat_view", ":" + elsewhere),
                             ("log_trace", elsewhere), ("options_view", ":" + elsewhere),
                             ("viewer_binary_filename", elsewhere)):
@@ -141,7 +141,7 @@ class Libraries(Options):
         os.mkdir(home)
         shutil.copy(os.path.join(self.folder, ".petscrc"), home)
         environment = {**program.ENVIRONMENT, "HOME": home,
-                       "PETSC_OPTIONS": "-largest_eps_type nope -options_view :table.txt -end_time 9"}
+                       "PETSC_OPTIONS": "-lowest_eps_type nope -options_view :table.txt -end_time 9"}
         scene = self.file("case.yaml", "include: petsc-options/azalee/gap2.yaml\nend_time: 1e-4\n")
         words = ["-options_file", scene, *program.COARSE_PAIR[2:], "-output", os.path.join(self.folder, "results")]
         for name in ("petsc-options", "meshes"):
@@ -172,7 +172,7 @@ class Libraries(Options):
                 file.write(numpy.asarray(numbers, kind).tobytes())
         os.remove(os.path.join(folder, "stiffness.mtx"))
         with open(os.path.join(folder, "stiffness.petsc.info"), "w") as file:
-            file.write("-lowest_eps_type nope\n-largest_eps_type nope\n")
+            file.write("-lowest_eps_type nope\n-lowest_eps_tol nope\n")
         for ranks in (1, 2):
             result = program.run([*scene, "-m_matrices", folder], ranks, timeout=60)
             self.assertEqual(result.returncode, 0, result.stderr)

@@ -24,6 +24,7 @@ class Progress(unittest.TestCase):
             told = phases(result.stdout)
             for phase in PHASES:
                 self.assertEqual(told.get(phase), 1, (ranks, phase, result.stdout[:4000]))
+            self.assertRegex(result.stdout, r"a: largest frequency and stable time step: \d\.\d s, \d+ products")
             self.assertRegex(result.stdout, r"a: bounds of the gap rates: \d\.\d s, row \d+ of \d+")
 
     def test_short_phases_are_silent(self):

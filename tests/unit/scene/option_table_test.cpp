@@ -114,14 +114,15 @@ TEST(OptionTable, PlaceholdersTakeNamesInOrder) {
 }
 
 TEST(OptionTable, OptionsOfTheLibrariesAreKnown) {
-  for (const char* name : {"log_view", "lowest_st_mat_mumps_icntl_14", "largest_eps_tol",
+  for (const char* name : {"log_view", "lowest_st_mat_mumps_icntl_14", "lowest_eps_tol",
                            "lowest_eps_type", "malloc_debug", "options_left"}) {
     EXPECT_TRUE(is_petsc_option(name)) << name;
   }
-  for (const char* name : {"courant", "kspace", "end_time", "s1_mat_area", "includes", "info",
-                           "on_error_attach_debugger", "start_in_debugger", "options_file",
-                           "options_view", "viewer_binary_filename", "log_trace", "mat_view",
-                           "lowest_eps_view_vectors", "lowest_eps_monitor_all"}) {
+  for (const char* name :
+       {"courant", "kspace", "end_time", "s1_mat_area", "includes", "info",
+        "on_error_attach_debugger", "start_in_debugger", "options_file", "options_view",
+        "viewer_binary_filename", "log_trace", "mat_view", "lowest_eps_view_vectors",
+        "lowest_eps_monitor_all", "largest_eps_tol"}) {
     EXPECT_FALSE(is_petsc_option(name)) << name;
   }
 }
@@ -133,7 +134,7 @@ TEST(OptionTable, ValuesOfTheLibrariesOptionsAreChecked) {
                                           {"lowest_eps_type", "arnoldi"},
                                           {"lowest_eps_ncv", "40"},
                                           {"lowest_st_mat_mumps_icntl_14", "-1"},
-                                          {"largest_eps_tol", "1e-9"},
+                                          {"lowest_eps_tol", "1e-9"},
                                           {"not_of_petsc", "whatever"}}) {
     EXPECT_EQ(petsc_value_fault(name, value), std::nullopt) << name;
   }
@@ -141,11 +142,11 @@ TEST(OptionTable, ValuesOfTheLibrariesOptionsAreChecked) {
        std::map<std::string, std::string>{{"log_view", ":/tmp/log.txt"},
                                           {"malloc_view", "list.txt"},
                                           {"lowest_eps_view", "ascii:solver.txt"},
-                                          {"largest_eps_monitor", "draw"},
+                                          {"lowest_eps_monitor", "draw"},
                                           {"lowest_eps_ncv", "0"},
                                           {"lowest_eps_max_it", "1e3"},
                                           {"lowest_st_mat_mumps_icntl_14", "much"},
-                                          {"largest_eps_tol", "-1e-9"}}) {
+                                          {"lowest_eps_tol", "-1e-9"}}) {
     EXPECT_NE(petsc_value_fault(name, value), std::nullopt) << name;
   }
   EXPECT_EQ(petsc_value_fault("lowest_eps_type", "krylovshur"),
