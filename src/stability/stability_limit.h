@@ -7,7 +7,7 @@
 namespace pounding {
 
 /// The stable time step [s] of central differences with lagged damping for any damping: the dt at
-/// which 4 M - 2 dt C - dt^2 K, C with dashpots and the regions' own damping and every tension-only
+/// which 4 M - 2 dt C - dt^2 K, C with the regions' own damping and every tension-only
 /// bar taut, stops being positive definite, that is, at which the largest eigenvalue of
 ///
 ///     A(dt) = M^-1/2 (2 dt C + dt^2 K) M^-1/2

@@ -115,6 +115,24 @@ TEST(EnergyNorm, IsABoundHoweverFewProductsItMayCost) {
   }
 }
 
+TEST(EnergyNorm, IsNoCloserThanEnough) {
+  const DampedStructure damped = testing::random_structure(1);
+  const BuiltSystem built = testing::build_system(damped.mesh, damped.structure);
+  const DenseSystem dense = testing::dense_system(damped);
+  const double dt = 0.999 * stability_limit(built.system, built.mesh);
+  const double margin = smallest_energy_margin(built.system, built.mesh, dt);
+  const std::vector<double> force = owned_part(built, dense, force_on(dense.mass.size(), 7));
+  const double closest = EnergyNorm(built.system, dt, margin, plenty).bound(force);
+  const double coarsest = EnergyNorm(built.system, dt, margin, 0).bound(force);
+  ASSERT_GT(coarsest, 3 * closest);
+  for (const double enough : {1.5 * closest, 2.5 * closest}) {
+    EnergyNorm norm(built.system, dt, margin, plenty);
+    const double found = norm.bound(force, enough);
+    EXPECT_LE(found, enough * (1 + 1e-5));
+    EXPECT_GT(found, closest * 1.001);
+  }
+}
+
 TEST(EnergyNorm, IsInfiniteWhereTheEnergyIsNoBound) {
   const DampedStructure damped = testing::random_structure(1);
   const BuiltSystem built = testing::build_system(damped.mesh, damped.structure);
