@@ -20,7 +20,7 @@ double now() {
 }  // namespace
 
 Progress::Progress(MPI_Comm comm, std::string what, double interval, std::FILE* out)
-    : what_(std::move(what)), out_(out), start_(now()) {
+    : what_(std::move(what)), out_(out), interval_(interval), start_(now()) {
   if (std::isfinite(interval) && rank_of(comm) == 0) {
     watcher_ = std::thread([this, interval] { watch(interval); });
   }
@@ -34,7 +34,7 @@ Progress::~Progress() {
   }
   ended_.notify_one();
   watcher_.join();
-  if (printed_) print(", done");
+  if (printed_ || elapsed() >= interval_) print(", done");
 }
 
 void Progress::at(std::string how_far) {

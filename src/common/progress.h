@@ -32,6 +32,7 @@ class Progress {
 
   std::string what_;
   std::FILE* out_;
+  double interval_;
   double start_;
   std::mutex mutex_;
   std::condition_variable ended_;
