@@ -1,5 +1,6 @@
 #include "common/dense_solver.h"
 
+#include <cmath>
 #include <cstddef>
 
 #include <petscsys.h>
@@ -18,6 +19,18 @@ bool solve_dense(std::vector<double>& matrix, std::vector<double>& values) {
   PetscBLASInt info = 0;
   std::vector<PetscBLASInt> pivots(n);
   LAPACKgesv_(&order, &one, matrix.data(), &order, pivots.data(), values.data(), &order, &info);
+  return info == 0;
+}
+
+bool invert_definite(std::vector<double>& matrix) {
+  const auto n = static_cast<std::size_t>(std::lround(std::sqrt(matrix.size())));
+  auto order = static_cast<PetscBLASInt>(n);
+  PetscBLASInt info = 0;
+  LAPACKpotrf_("L", &order, matrix.data(), &order, &info);
+  if (info == 0) LAPACKpotri_("L", &order, matrix.data(), &order, &info);
+  for (std::size_t i = 0; i < n; ++i) {  // LAPACK's lower triangle is the upper one by rows
+    for (std::size_t j = i + 1; j < n; ++j) matrix[j * n + i] = matrix[i * n + j];
+  }
   return info == 0;
 }
 

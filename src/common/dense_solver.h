@@ -8,4 +8,8 @@ namespace pounding {
 /// (n), holds b and receives x. False, and b lost, if A is singular. LAPACK dgesv.
 bool solve_dense(std::vector<double>& matrix, std::vector<double>& values);
 
+/// Inverse of a symmetric positive definite matrix, shape (n, n), in its place, symmetric to the
+/// last bit. False, and the matrix lost, if it is not definite. LAPACK dpotrf, dpotri.
+bool invert_definite(std::vector<double>& matrix);
+
 }  // namespace pounding

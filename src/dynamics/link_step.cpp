@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
+#include "common/dense_solver.h"
+#include "common/disjoint_sets.h"
+#include "common/row_products.h"
 #include "links/law_of.h"
 
 namespace pounding {
@@ -28,12 +32,14 @@ LinkStep::LinkStep(const LinearSystem& system, const StructureState& state, Stru
       free_after_(links_.size(), 0.0),
       force_(links_.size(), 0.0),
       field_(trace_.known().size(), 0.0),
-      velocity_(trace_.dofs().size(), 0.0) {
+      velocity_(trace_.dofs().size(), 0.0),
+      rate_(links_.size(), 0.0) {
   for (const Link& link : links_) {
     laws_.push_back(law_of(link.origin, time_step));
     memory_.emplace_back(laws_.back()->memory_size(), 0.0);
   }
   find_couplings();
+  find_blocks();
 }
 
 void LinkStep::respond(const Link& link) {
@@ -84,34 +90,104 @@ void LinkStep::find_couplings() {
   }
 }
 
+void LinkStep::find_blocks() {
+  const auto has_rate = [&](std::size_t link) { return laws_[link]->rate() > 0; };
+  DisjointSets sets(links_.size());
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    if (!has_rate(b)) others_.push_back(b);
+    for (const Coupling& coupling : coupled_[b]) {
+      if (has_rate(b) && has_rate(coupling.link)) sets.join(b, coupling.link);
+    }
+  }
+  std::map<std::size_t, std::size_t> block_of;  // by root
+  std::vector<std::size_t> place(links_.size(), 0);
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    if (!has_rate(b)) continue;
+    const auto [found, is_new] = block_of.try_emplace(sets.root(b), blocks_.size());
+    if (is_new) blocks_.emplace_back();
+    place[b] = blocks_[found->second].links.size();
+    blocks_[found->second].links.push_back(b);
+  }
+  for (Block& block : blocks_) {
+    const std::size_t count = block.links.size();
+    block.compliance.assign(count * count, 0.0);
+    block.free.assign(count, 0.0);
+    block.force.assign(count, 0.0);
+    for (const std::size_t b : block.links) {
+      std::vector<Coupling>& coupled = coupled_[b];
+      for (const Coupling& coupling : coupled) {
+        if (has_rate(coupling.link)) {
+          block.compliance[place[b] * count + place[coupling.link]] = coupling.compliance;
+        }
+      }
+      coupled.erase(std::remove_if(coupled.begin() + 1, coupled.end(),
+                                   [&](const Coupling& c) { return has_rate(c.link); }),
+                    coupled.end());
+    }
+  }
+}
+
+void LinkStep::form_inverses(double share) {
+  share_ = share;
+  for (Block& block : blocks_) {
+    const std::size_t count = block.links.size();
+    block.inverse.resize(count * count);
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < count; ++j) {
+        // Round-off of the response must not spoil the symmetry.
+        block.inverse[i * count + j] =
+            share * (block.compliance[i * count + j] + block.compliance[j * count + i]) / 2;
+      }
+      block.inverse[i * count + i] += 1 / laws_[block.links[i]]->rate();
+    }
+    if (!invert_definite(block.inverse)) {
+      throw std::logic_error("the compliance of dashpots is not positive");
+    }
+  }
+}
+
 void LinkStep::measure(const std::vector<double>& owned, std::vector<double>& elongations) {
   trace_.apply(owned.data(), field_.data(), 1);
   for (std::size_t b = 0; b < links_.size(); ++b) elongations[b] = links_[b].elongation(field_);
 }
 
+void LinkStep::add_rates(double duration, std::vector<double>& elongations) const {
+  for (std::size_t b = 0; b < links_.size(); ++b) elongations[b] = now_[b] + duration * rate_[b];
+}
+
 void LinkStep::begin() {
   step_.remember(trace_.dofs(), held_);
-  measure(state_.displacement, now_);
-  for (std::size_t b = 0; b < links_.size(); ++b) now_[b] = laws_[b]->is_relative() ? 0 : now_[b];
-  measure_step(-time_step_, before_);
-}
-
-void LinkStep::measure_step(double duration, std::vector<double>& elongations) {
-  measure(state_.velocity, elongations);
-  for (std::size_t b = 0; b < links_.size(); ++b) {
-    elongations[b] = now_[b] + duration * elongations[b];
+  if (!others_.empty()) measure(state_.displacement, now_);
+  for (const Block& block : blocks_) {
+    for (const std::size_t b : block.links) now_[b] = 0;
   }
+  if (!rates_known_) measure(state_.velocity, rate_);
+  add_rates(-time_step_, before_);
 }
 
-double LinkStep::sweep(double share) {
+double LinkStep::left_over(std::size_t link) const {
+  double after = free_after_[link];
+  for (std::size_t k = 1; k < coupled_[link].size(); ++k) {
+    after -= share_ * coupled_[link][k].compliance * force_[coupled_[link][k].link];
+  }
+  return after;
+}
+
+void LinkStep::solve(Block& block) {
+  const std::size_t count = block.links.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    block.free[i] = left_over(block.links[i]) - before_[block.links[i]];
+  }
+  multiply_rows(block.inverse.data(), count, count, block.free.data(), block.force.data(), 1);
+  for (std::size_t i = 0; i < count; ++i) force_[block.links[i]] = block.force[i];
+}
+
+double LinkStep::sweep() {
+  for (Block& block : blocks_) solve(block);
   double change = 0;
-  for (std::size_t b = 0; b < links_.size(); ++b) {
-    double free_after = free_after_[b];
-    for (std::size_t k = 1; k < coupled_[b].size(); ++k) {
-      free_after -= share * coupled_[b][k].compliance * force_[coupled_[b][k].link];
-    }
-    const double force = laws_[b]->solve(before_[b], now_[b], free_after,
-                                         share * coupled_[b][0].compliance, memory_[b]);
+  for (const std::size_t b : others_) {
+    const double force = laws_[b]->solve(before_[b], now_[b], left_over(b),
+                                         share_ * coupled_[b][0].compliance, memory_[b]);
     change = std::max(change, std::abs(force - force_[b]));
     force_[b] = force;
   }
@@ -120,15 +196,15 @@ double LinkStep::sweep(double share) {
 
 void LinkStep::pull(bool first) {
   std::fill(force_.begin(), force_.end(), 0.0);
-  bool idle = true;
-  for (std::size_t b = 0; b < links_.size(); ++b) {
-    idle = idle && laws_[b]->is_idle(now_[b], memory_[b]);
-  }
+  bool idle = blocks_.empty();
+  for (const std::size_t b : others_) idle = idle && laws_[b]->is_idle(now_[b], memory_[b]);
   if (idle) return;
-  measure_step(time_step_, free_after_);
   const double share = first ? 0.5 : 1;
+  if (share != share_) form_inverses(share);
+  measure(state_.velocity, rate_);
+  add_rates(time_step_, free_after_);
   for (int i = 0; i < most_sweeps; ++i) {
-    const double change = sweep(share);
+    const double change = sweep();
     if (change <= converged * largest_force()) break;
   }
   std::fill(field_.begin(), field_.end(), 0.0);
@@ -151,7 +227,9 @@ double LinkStep::largest_force() const {
 }
 
 void LinkStep::finish(StepSums& sums) {
-  measure_step(time_step_, after_);
+  measure(state_.velocity, rate_);
+  rates_known_ = true;
+  add_rates(time_step_, after_);
   for (std::size_t b = 0; b < links_.size(); ++b) {
     const double held = laws_[b]->energy(before_[b], now_[b], memory_[b]);
     sums.link_energy_before += held;
@@ -176,6 +254,7 @@ void LinkStep::save(int structure, SavedState& saved) const {
 }
 
 void LinkStep::load(int structure, const SavedState& saved) {
+  rates_known_ = false;
   for (std::size_t b = 0; b < links_.size(); ++b) {
     if (!memory_[b].empty()) saved.get(memory_name(structure, links_[b]), memory_[b]);
   }

@@ -15,9 +15,9 @@
 namespace pounding {
 
 /// Links' part of a step of their structure, on the rank that owns their nodes: once the step
-/// without them is made, their forces are solved for (LinkLaw; links that move each other by
-/// Gauss-Seidel sweeps, which converge since no force falls as its elongation grows) and v+ and
-/// u_{n+1} corrected at the dofs that they move. Contact comes after them; where it acts on the
+/// without them is made, their forces are solved for (LinkLaw; dashpots that move each other
+/// directly, other links by Gauss-Seidel sweeps, which converge since no force falls as its
+/// elongation grows) and v+ and u_{n+1} corrected at the dofs that they move. Contact comes after them; where it acts on the
 /// nodes of a dashpot, or of a link that switches in the same step, the link's work differs from
 /// what its law tells by what contact changed, and the ledger shows it as loss. Local.
 class LinkStep {
@@ -42,15 +42,29 @@ class LinkStep {
     std::size_t link = 0;
     double compliance = 0;  ///< dt^2 b_i^T M^-1 b_j [m/N]
   };
+  /// Links with a rate that move each other, solved for together.
+  struct Block {
+    std::vector<std::size_t> links;
+    std::vector<double> compliance;  ///< dt^2 B^T M^-1 B, shape (links, links) [m/N]
+    std::vector<double> inverse;     ///< of that for `share_` of a step and 1 / rate [N/m]
+    std::vector<double> free;        ///< e_{n+1} - e_{n-1} without them
+    std::vector<double> force;
+  };
   void find_couplings();
+  void find_blocks();
+  void form_inverses(double share);
+  /// Their forces from those of the other links.
+  void solve(Block& block);
   /// e of all links that impulses [N s] of one of them cause in a second [m/N s2].
   void respond(const Link& link);
-  /// Largest change of a force [N]; `share` of a step for which forces act.
-  double sweep(double share);
+  /// Largest change of the force of a link without a rate [N].
+  double sweep();
+  /// e_{n+1} that forces of others than its block leave a link.
+  double left_over(std::size_t link) const;
   double largest_force() const;
   void measure(const std::vector<double>& owned, std::vector<double>& elongations);
   /// e_n + duration b . v.
-  void measure_step(double duration, std::vector<double>& elongations);
+  void add_rates(double duration, std::vector<double>& elongations) const;
 
   const StructureState& state_;
   StructureStep& step_;
@@ -60,14 +74,19 @@ class LinkStep {
   StructureStep::Before held_;
   std::vector<std::unique_ptr<LinkLaw>> laws_;  ///< per link
   std::vector<std::vector<double>> memory_;     ///< per link; see LinkLaw
-  std::vector<std::vector<Coupling>> coupled_;  ///< per link: itself first
-  std::vector<double> before_;                  ///< e_{n-1} [m]
-  std::vector<double> now_;                     ///< e_n; 0 of laws that are relative
-  std::vector<double> after_;                   ///< e_{n+1}
-  std::vector<double> free_after_;              ///< e_{n+1} without any link
-  std::vector<double> force_;                   ///< N_n [N]
-  std::vector<double> field_;                   ///< per place of the trace
-  std::vector<double> velocity_;                ///< per dof of the trace
+  std::vector<std::vector<Coupling>> coupled_;  ///< per link: itself first, none of its block
+  std::vector<Block> blocks_;
+  std::vector<std::size_t> others_;  ///< links without a rate
+  double share_ = 0;                 ///< of a step, for which forces act
+  bool rates_known_ = false;         ///< rate_ is that of v-
+  std::vector<double> before_;       ///< e_{n-1} [m]
+  std::vector<double> now_;          ///< e_n; 0 of laws that are relative
+  std::vector<double> after_;        ///< e_{n+1}
+  std::vector<double> free_after_;   ///< e_{n+1} without any link
+  std::vector<double> force_;        ///< N_n [N]
+  std::vector<double> field_;        ///< per place of the trace
+  std::vector<double> velocity_;     ///< per dof of the trace
+  std::vector<double> rate_;         ///< b . v
 };
 
 }  // namespace pounding

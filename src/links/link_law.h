@@ -32,9 +32,10 @@ class LinkLaw {
   /// Whether it pulls at no elongation that it can reach in this step: it need not be looked at.
   virtual bool is_idle(double now, std::span<const double> memory = {}) const = 0;
 
-  /// Whether the law asks for differences of elongations alone: they are counted from e_n then, so
-  /// that they have no round-off of a large e_n.
-  virtual bool is_relative() const { return false; }
+  /// Rate r [N/m] of a law N_n = r (e_{n+1} - e_{n-1}) and nothing else, 0 of any other: such links
+  /// are solved for together, and their elongations are counted from e_n, so that these have no
+  /// round-off of a large one.
+  virtual double rate() const { return 0; }
   /// Number of values that the law remembers; they start at 0.
   virtual std::size_t memory_size() const { return 0; }
   /// Brings the memory to the end of a step, after contact.

@@ -154,8 +154,7 @@ double ElementBounds::time_step_alone(const ElementBlock& block, double frequenc
   }
   const Rayleigh damping = damping_of(block);
   const double square = frequency * frequency;
-  return critical_time_step(damping.alpha + damping.beta * square,
-                            structure_.stiffening() * square);
+  return critical_time_step(damping.alpha + damping.beta * square, stiffening_ * square);
 }
 
 /// Time step of an element with the springs at its owned dofs; other ranks that hold it see to the
@@ -173,9 +172,9 @@ double ElementBounds::time_step(const ElementBlock& block, std::size_t element, 
     if (dofs[i] >= 0 && dofs[i] < mesh_.owned_dofs) {
       const std::size_t dof = dofs[i];
       smallest = std::min(
-          smallest, critical_time_step(rate + device_damping_[dof] / lumped_mass[dof],
-                                       structure_.stiffening() *
-                                           (square + device_stiffness_[dof] / lumped_mass[dof])));
+          smallest,
+          critical_time_step(rate + device_damping_[dof] / lumped_mass[dof],
+                             stiffening_ * (square + device_stiffness_[dof] / lumped_mass[dof])));
     }
   }
   return smallest;

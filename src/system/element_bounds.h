@@ -23,7 +23,7 @@ namespace pounding {
 class ElementBounds {
  public:
   ElementBounds(const Structure& structure, const Mesh& mesh)
-      : structure_(structure), mesh_(mesh) {}
+      : structure_(structure), mesh_(mesh), stiffening_(structure.stiffening()) {}
 
   /// Every element of this rank in the order of the mesh: stiffness of shape (n, n), lumped mass
   /// and local dofs (-1: none) of shape (n); its mass scaling factor c [s2].
@@ -47,6 +47,7 @@ class ElementBounds {
 
   const Structure& structure_;
   const Mesh& mesh_;
+  const double stiffening_;                        ///< of the structure, which iterates for it
   std::unordered_map<std::string, double> known_;  ///< frequency by shape
   std::vector<double> frequencies_;                ///< per element [rad/s]; infinite without mass
   std::vector<double> mass_scaling_;               ///< c per element [s2]

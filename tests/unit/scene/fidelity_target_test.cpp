@@ -2,6 +2,8 @@
 
 #include <cstdio>
 #include <fstream>
+#include <string>
+#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,7 +27,7 @@ class Table {
   const std::string& path() const { return path_; }
 
  private:
-  std::string path_ = testing::TempDir() + "fidelity_target_test.csv";
+  std::string path_ = testing::TempDir() + "fidelity-" + std::to_string(getpid()) + ".csv";
 };
 
 const char* const measured =
