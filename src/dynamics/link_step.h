@@ -17,9 +17,10 @@ namespace pounding {
 /// Links' part of a step of their structure, on the rank that owns their nodes: once the step
 /// without them is made, their forces are solved for (LinkLaw; dashpots that move each other
 /// directly, other links by Gauss-Seidel sweeps, which converge since no force falls as its
-/// elongation grows) and v+ and u_{n+1} corrected at the dofs that they move. Contact comes after them; where it acts on the
-/// nodes of a dashpot, or of a link that switches in the same step, the link's work differs from
-/// what its law tells by what contact changed, and the ledger shows it as loss. Local.
+/// elongation grows) and v+ and u_{n+1} corrected at the dofs that they move. Contact comes after
+/// them; where it acts on the nodes of a dashpot, or of a link that switches in the same step, the
+/// link's work differs from what its law tells by what contact changed, and the ledger shows it as
+/// loss. Local.
 class LinkStep {
  public:
   /// `system` has links. References must outlive this object.

@@ -103,6 +103,18 @@ class Forms(unittest.TestCase):
         self.assertEqual(script("benchmark", "--forms", "house").returncode, 2)
 
 
+class Plant(unittest.TestCase):
+    def test_the_coarsest_mesh(self):
+        folder = tempfile.mkdtemp(prefix="pounding-")
+        result = script("benchmark", "--plant", "1", "--ranks", 2, "--rounds", 1, "--output", folder)
+        self.assertEqual(result.returncode, 0, result.stderr[-3000:])
+        row, = rows_of(os.path.join(folder, "plant.csv"))
+        self.assertGreater(int(row["dofs"]), 1000)
+        self.assertLess(float(row["damping_shortens"]), 1.3)  # what uniform damping promises
+        self.assertGreater(float(row["damping_shortens"]), 1)
+        self.assertGreater(float(row["minutes"]), 0)
+
+
 class Shapes(unittest.TestCase):
     def test_a_general_mesh_beside_one_in_rows(self):
         folder = tempfile.mkdtemp(prefix="pounding-")
