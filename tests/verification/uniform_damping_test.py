@@ -216,6 +216,16 @@ class BarOnWall(unittest.TestCase):
             self.assertLess(rebound, 0.95 * SPEED)
             self.assertGreater(rebound, 0.7 * SPEED)
 
+    def test_restitution_by_ratio(self):
+        """Less is lost than with stiffness damping of the same ratio at c / 4L, half a period of which is contact."""
+        for ratio, expected in ((0.01, 0.938), (0.02, 0.897), (0.07, 0.749)):
+            _, words = self.words("-bar_damping_uniform", ratio)
+            run = Recorded(self, words, identity=IDENTITY_OF_A_FLIGHT)
+            found = velocity(run, self.ELEMENTS)[-1] / SPEED
+            self.assertAlmostEqual(found, expected, delta=5e-4)
+            beta = 2 * ratio / (2 * math.pi * SPEED_OF_SOUND / (4 * LENGTH))
+            self.assertGreater(found, 1 - 2 / math.sqrt(math.pi) * math.sqrt(beta * SPEED_OF_SOUND / LENGTH))
+
     def test_energy_that_is_lost_is_the_loss(self):
         _, words = self.words()
         run = Recorded(self, words, identity=IDENTITY_OF_A_FLIGHT)
@@ -231,6 +241,47 @@ class BarOnWall(unittest.TestCase):
         result = program.run(words[:place] + words[place + 2:] + ["-modes", 1])
         self.assertEqual(result.returncode, 1)
         self.assertIn("-bar_damping_reference", program.error_lines(result)[0])
+
+
+SECTION = ["-section_tube_area", 34e-4, "-section_tube_inertia_y", 3e-6, "-section_tube_inertia_z", 8e-6,
+           "-section_tube_torsion", 1e-7, "-section_tube_z_axis", "0,0,1"]
+# Mesh, its numbers, what is clamped, the group and its element.
+KINDS = {
+    "bars": ("line.geo", "length=3,n=12", "x_min", "line", "bar", "-kind_line_area", 1e-3),
+    "beams": ("line.geo", "length=3,n=12", "x_min", "line", "beam", "-kind_line_section", "tube", *SECTION),
+    "bricks": ("box.geo", "lx=2,ly=1,lz=0.4,nx=5,ny=3,nz=2", "x_min", "body", "hex8"),
+    "shells": ("quadrilateral.geo", "length=4,width_0=3,width_1=2,nx=8,ny=6", "x_min", "plate", "shell",
+               "-kind_plate_thickness", 0.2)}
+
+
+class Elements(unittest.TestCase):
+    """The limit of structures of every kind of element, with the fastest motions that they have."""
+
+    def words(self, kind, *more):
+        mesh, numbers, clamp, group, element, *properties = KINDS[kind]
+        return ["-structures", "kind", "-kind_mesh", f"tests/meshes/{mesh}", "-kind_mesh_set", numbers,
+                "-kind_clamp", clamp, f"-kind_{group}_element", element, f"-kind_{group}_material", "steel",
+                "-material_steel_young", 2e11, "-material_steel_poisson", 0.3, "-material_steel_density", 7800,
+                *properties, "-kind_initial_velocity", "1,0.5,0.25", "-kind_damping_uniform", RATIO,
+                "-kind_damping_reference", 50, "-modes", 0, "-energy_interval", 50, *more]
+
+    def test_bounded_below_and_growing_above(self):
+        for kind in KINDS:
+            _, summary = program.must_run(self, self.words(kind, "-end_time", 1e-6))
+            limit = summary["structures"]["kind"]["stable_time_step"]
+            with self.subTest(kind):
+                folder, summary = program.must_run(self, self.words(
+                    kind, "-time_step", repr(0.9999 * limit), "-end_time", repr(8000 * limit)))
+                self.assertLess(summary["energy"]["relative_residual"], 1e-11)
+                columns = program.read_csv(os.path.join(folder, "energy.csv"))
+                total = [float(a) + float(b) for a, b in zip(columns["kinetic"], columns["strain"])]
+                self.assertGreater(len(total), 100)
+                self.assertLess(max(total), 1.02 * total[0])
+                self.assertLess(total[-1], 0.9 * total[0])
+                result = program.run(self.words(kind, "-time_step", repr(1.001 * limit), "-end_time",
+                                                repr(8000 * limit), "-allow_unstable"))
+                self.assertEqual(result.returncode, 1)
+                self.assertIn("diverged", program.error_lines(result)[0])
 
 
 UNIFORM_PAIR = program.COARSE_PAIR + [
