@@ -23,10 +23,15 @@ void return_freed_memory() {
   malloc_trim(0);
 }
 
+void share_memory_among_threads() {
+  mallopt(M_ARENA_MAX, 1);
+}
+
 #else
 
 void return_large_arrays() {}
 void return_freed_memory() {}
+void share_memory_among_threads() {}
 
 #endif
 

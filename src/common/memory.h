@@ -16,6 +16,10 @@ void return_large_arrays();
 /// Gives freed memory back to the system, as far as the C library can.
 void return_freed_memory();
 
+/// Threads that are started later take memory from one pool: with one each, a thread would reserve
+/// 64 MB of addresses, and 128 MB for a moment, under a limit that the run may need.
+void share_memory_among_threads();
+
 /// Zeros that a step streams through: of a large array on large pages, where the system has them.
 std::vector<double> zeros_on_large_pages(std::size_t size);
 

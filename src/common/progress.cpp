@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/memory.h"
 #include "common/parallel.h"
 
 namespace pounding {
@@ -22,6 +23,7 @@ double now() {
 Progress::Progress(MPI_Comm comm, std::string what, double interval, std::FILE* out)
     : what_(std::move(what)), out_(out), interval_(interval), start_(now()) {
   if (std::isfinite(interval) && rank_of(comm) == 0) {
+    share_memory_among_threads();
     watcher_ = std::thread([this, interval] { watch(interval); });
   }
 }
