@@ -6,8 +6,11 @@ the scaled mass of the springs: (M + S) (v+ - v-) = -h K u - h C (v+ + v-) / 2, 
 A structure reduced to all of its modes is the same structure in other coordinates, with dashpots and
 with bars that resist stretching only.
 """
+import os
+import tempfile
 import unittest
 
+import h5py
 import numpy
 
 import program
@@ -91,6 +94,19 @@ class TwoMasses(unittest.TestCase):
                     u, v = full.displacement(f"{name}.x"), run.displacement(f"{name}.x")
                     self.assertLess(abs(u - v).max(), 1e-9 * abs(u).max())
                 self.assertLess(run.energy["relative_residual"], 1e-12)
+
+
+    def test_a_continued_run_is_the_uninterrupted_one(self):
+        folder, _ = program.must_run(self, words(STRONG, "-output_interval", 1e-3), 2)
+        with tempfile.TemporaryDirectory() as cut:
+            for more in (["-end_time", 0.05, "-checkpoint_steps", 300],
+                         ["-restart", os.path.join(cut, "checkpoint.h5")]):
+                result = program.run(words(STRONG, "-output_interval", 1e-3, *more, "-output", cut), 2)
+                self.assertEqual(result.returncode, 0, result.stderr[-2000:])
+            with h5py.File(os.path.join(folder, "history.h5")) as whole, \
+                    h5py.File(os.path.join(cut, "history.h5")) as continued:
+                for name in ("displacement", "velocity", "acceleration"):
+                    self.assertTrue(numpy.array_equal(whole[name][()], continued[name][()]), name)
 
 
 class AtAContact(unittest.TestCase):
