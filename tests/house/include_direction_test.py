@@ -18,7 +18,7 @@ MAY_INCLUDE = {
     "stiffness/rows": {"common", "elements"},
     "stiffness/bricks": {"common", "elements", "stiffness/rows"},
     "stiffness/shells": {"common", "elements", "stiffness/rows"},
-    "stiffness/strains": {"common"},
+    "stiffness/strains": {"common", "elements"},
     "stiffness": {"common", "scene", "elements", "mesh", "stiffness/rows", "stiffness/bricks",
                   "stiffness/shells", "stiffness/strains"},
     "links": {"common", "scene"},

@@ -1,6 +1,7 @@
 #include "stiffness/strains/hexahedron_strains.h"
 
 #include "common/matrix3.h"
+#include "elements/gauss_rule.h"
 
 namespace pounding {
 namespace {
@@ -13,17 +14,9 @@ using Field = std::array<double, 3 * node_count>;
 
 /// Signs at the corners: 1, xi, eta, zeta, eta zeta, zeta xi, xi eta, xi eta zeta.
 constexpr std::array<std::array<double, 8>, 8> signs() {
-  constexpr std::array<std::array<double, 3>, 8> corners{{{-1, -1, -1},
-                                                          {1, -1, -1},
-                                                          {1, 1, -1},
-                                                          {-1, 1, -1},
-                                                          {-1, -1, 1},
-                                                          {1, -1, 1},
-                                                          {1, 1, 1},
-                                                          {-1, 1, 1}}};
   std::array<std::array<double, 8>, 8> result{};
   for (std::size_t a = 0; a < 8; ++a) {
-    const auto [xi, eta, zeta] = corners[a];
+    const auto [xi, eta, zeta] = hex_corners[a];
     result[0][a] = 1;
     result[1][a] = xi;
     result[2][a] = eta;
