@@ -74,14 +74,6 @@ CASES = {
 }
 
 
-def case_names(text: str) -> list:
-    """Cases, separated by commas."""
-    names = text.split(",")
-    if not set(names) <= set(CASES):
-        raise ValueError
-    return names
-
-
 @dataclass
 class Earning:
     """Ratios of one form in one case, one per turn, and the times of the step with it [s]."""

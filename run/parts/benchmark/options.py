@@ -21,6 +21,16 @@ def sizes(text: str) -> list:
     return [positive(re.sub("M$", "000000", re.sub("k$", "000", word))) for word in text.split(",")]
 
 
+def names_of(known):
+    """Reader of some of the known names, separated by commas."""
+    def names(text: str) -> list:
+        found = text.split(",")
+        if not set(found) <= set(known):
+            raise ValueError
+        return found
+    return names
+
+
 def positive_number(text: str) -> float:
     value = float(text)
     if not 0 < value < math.inf:

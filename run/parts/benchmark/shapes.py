@@ -61,14 +61,6 @@ SHAPES = {
 }
 
 
-def shape_names(text: str) -> list:
-    """Shapes, separated by commas."""
-    names = text.split(",")
-    if not set(names) <= set(SHAPES):
-        raise ValueError
-    return names
-
-
 @dataclass
 class Measured:
     """Times of one way [s per step], one per round."""
