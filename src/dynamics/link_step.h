@@ -81,7 +81,7 @@ class LinkStep {
   double share_ = 0;                 ///< of a step, for which forces act
   bool rates_known_ = false;         ///< rate_ is that of v-
   std::vector<double> before_;       ///< e_{n-1} [m]
-  std::vector<double> now_;          ///< e_n; 0 of laws that are relative
+  std::vector<double> now_;          ///< e_n; 0 of laws with a rate
   std::vector<double> after_;        ///< e_{n+1}
   std::vector<double> free_after_;   ///< e_{n+1} without any link
   std::vector<double> force_;        ///< N_n [N]
