@@ -4,6 +4,7 @@
 #include <span>
 
 #include "common/common_segments.h"
+#include "common/crowded_node.h"
 #include "common/error.h"
 #include "common/parallel.h"
 #include "common/petsc_session.h"
@@ -65,6 +66,7 @@ int run_job(MPI_Comm comm, std::span<const std::string> words) {
 }  // namespace
 
 int main(int count, char** words) {
+  pounding::yield_where_crowded();
   MPI_Init(&count, &words);
   const std::vector<std::string> arguments(words + 1, words + count);
   const int status = run_job(MPI_COMM_WORLD, arguments);

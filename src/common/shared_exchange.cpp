@@ -10,6 +10,7 @@
 #include <thread>
 #include <unistd.h>
 
+#include "common/crowded_node.h"
 #include "common/parallel.h"
 
 namespace pounding {
@@ -98,7 +99,8 @@ SharedExchange::SharedExchange(MPI_Comm comm, std::size_t capacity)
                         reinterpret_cast<double*>(first + line + half)}});
   }
   // Where ranks share processors, the one that is waited for may need this one.
-  most_patience_ = ranks <= std::thread::hardware_concurrency() ? 10000 : least_patience;
+  const bool crowded = crowded_node() || ranks > std::thread::hardware_concurrency();
+  most_patience_ = crowded ? least_patience : 10000;
   patience_ = most_patience_;
 }
 

@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 #include <slepcsys.h>
 
+#include "common/crowded_node.h"
+
 /// Every rank runs every test; the job fails if any rank does.
 int main(int count, char** words) {
   testing::InitGoogleTest(&count, words);
+  pounding::yield_where_crowded();
   SlepcInitialize(&count, &words, nullptr, nullptr);
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
