@@ -1,5 +1,9 @@
 #include "common/memory.h"
 
+#include <fstream>
+#include <limits>
+#include <string>
+
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -34,6 +38,16 @@ void return_freed_memory() {}
 void share_memory_among_threads() {}
 
 #endif
+
+double available_memory() {
+  std::ifstream file("/proc/meminfo");
+  std::string word;
+  while (file >> word) {
+    double kilobytes = 0;
+    if (word == "MemAvailable:" && file >> kilobytes) return 1024 * kilobytes;
+  }
+  return std::numeric_limits<double>::infinity();
+}
 
 std::vector<double> zeros_on_large_pages(std::size_t size) {
   std::vector<double> zeros;

@@ -13,6 +13,9 @@ namespace pounding {
 /// the next one. Call before anything large is allocated; does nothing where the C library cannot.
 void return_large_arrays();
 
+/// Memory that the system could still give [bytes]; infinite where it does not say.
+double available_memory();
+
 /// Gives freed memory back to the system, as far as the C library can.
 void return_freed_memory();
 

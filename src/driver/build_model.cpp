@@ -10,6 +10,7 @@
 #include "contact/find_interface.h"
 #include "driver/mesh_checks.h"
 #include "driver/probe_warnings.h"
+#include "driver/rest.h"
 #include "driver/run_warnings.h"
 #include "driver/warnings.h"
 #include "mesh/gmsh_reader.h"
@@ -168,7 +169,7 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
   {
     const ScopedTimer timer(profile, Phase::assembly);
     const Progress progress = begin(comm, scene, structure, "assembly");
-    system = build_system(structure, mesh, scene.stiffness, modes > 0 || exported);
+    system = build_system(structure, mesh, scene.stiffness, modes > 0 || exported || scene.preload);
   }
   const ScopedTimer timer(profile, Phase::modes);
   require_passive_matrices(structure, system);
@@ -180,7 +181,7 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
     system.uniform_damping->reference = reference_frequency(structure, building.modal);
   }
   building.modal.modes.resize(std::min<std::size_t>(building.modal.modes.size(), scene.modes));
-  if (!exported) system.stiffness->release_matrix();
+  if (!exported && !scene.preload) system.stiffness->release_matrix();
   Progress progress = begin(comm, scene, structure, "largest frequency and stable time step");
   building.limits = limits_of(structure, system, mesh, nullptr, effort_of(scene, progress));
 }
@@ -193,6 +194,7 @@ void add_warnings(MPI_Comm comm, const Scene& scene, Model& model) {
     append(damping_warnings(*building.structure, building.modal), model.warnings);
   }
   if (rank_of(comm) == 0) append(mechanism_warnings(scene, model), model.warnings);
+  append(rest_warnings(model), model.warnings);
 }
 
 }  // namespace
@@ -207,6 +209,7 @@ Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile) {
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     build_structure(comm, scene, s, profile, model);
   }
+  put_at_rest(comm, scene, profile, model);
   add_warnings(comm, scene, model);
   choose_time_step(scene, model);
   append(run_warnings(scene, model), model.warnings);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "mesh/probe_set.h"
 #include "motion/ground_motion.h"
 #include "scene/scene.h"
+#include "statics/equilibrium.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -24,6 +26,7 @@ struct Model {
   Interface interface;                ///< reports on rank 0 only
   std::vector<ResolvedProbe> probes;
   std::unique_ptr<GroundMotion> motion;
+  std::optional<Equilibrium> equilibrium;  ///< that the run starts from
   double partition_imbalance = 1;
   long partition_edge_cut = 0;
   double time_step = 0;               ///< in force [s]

@@ -8,6 +8,7 @@
 
 #include "common/version.h"
 #include "driver/motion_report.h"
+#include "driver/rest.h"
 #include "stability/stable_time_step.h"
 
 namespace pounding {
@@ -356,6 +357,7 @@ void print_model(const Scene& scene, const Model& model) {
   print_motion(*model.motion);
   for (const Building& building : model.buildings) print_structure(building);
   for (const InterfaceReport& report : model.interface.reports) print_contact(report);
+  print_rest(scene, model);
   print_probe_places(scene, model.probes);
   std::printf("\npartition: imbalance %.3f, cut edges %ld\n", model.partition_imbalance,
               model.partition_edge_cut);
@@ -399,6 +401,9 @@ void print_results(const Scene& scene, const RunStatistics& statistics,
       "\nenergy at the end [J]: kinetic %.4g, strain %.4g, damping loss %.4g, contact work %.4g, "
       "input work %.4g\n",
       energy.kinetic, energy.strain, energy.damping_loss, energy.contact_work, energy.input_work);
+  if (energy.gravity_work != 0) {
+    std::printf("  of the input work that of gravity %.4g\n", energy.gravity_work);
+  }
   if (std::abs(energy.device_work) > 1e-12 * std::abs(energy.energy())) {
     std::printf(
         "  device work %.4g: of dashpots, tension-only bars, and what regions with damping of "

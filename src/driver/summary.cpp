@@ -154,7 +154,34 @@ Json describe_energy(const RunStatistics& statistics) {
           {"damping", energy.damping_loss},
           {"contact", energy.contact_work},
           {"input", energy.input_work},
+          {"gravity", energy.gravity_work},
           {"devices", energy.device_work}};
+}
+
+Json describe_equilibrium(const Scene& scene, const Model& model) {
+  const Equilibrium& rest = *model.equilibrium;
+  Json description{{"iterations", rest.iterations}, {"residual", rest.residual},
+                   {"rows_tried", rest.rows_tried}, {"taut_bars", rest.taut_bars},
+                   {"slack_bars", rest.slack_bars}, {"gravity_potential", rest.gravity_potential}};
+  for (std::size_t s = 0; s < rest.structures.size(); ++s) {
+    const StructureRest& of = rest.structures[s];
+    description["structures"][scene.structures[s].name] = {
+        {"method", of.method},         {"weight", of.weight},
+        {"support", of.support},       {"contact", of.contact},
+        {"settlement", of.settlement}, {"largest_displacement", of.largest_displacement},
+        {"place", of.place},           {"imbalance", of.imbalance}};
+  }
+  description["contacts"] = Json::object();
+  for (const Contact& contact : scene.contacts) {
+    description["contacts"][contact.name] = {{"points", 0}, {"force", 0.0}};
+  }
+  for (std::size_t row = 0; row < rest.contact_force.size(); ++row) {
+    const int contact = model.interface.constraints[row].contact;
+    Json& of = description["contacts"][scene.contacts[contact].name];
+    of["points"] = of["points"].get<int>() + (rest.contact_force[row] > 0 ? 1 : 0);
+    of["force"] = of["force"].get<double>() + rest.contact_force[row];
+  }
+  return description;
 }
 
 Json describe_probe(const Scene& scene, const Recorder& recorder, std::size_t p) {
@@ -198,6 +225,7 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
     summary["structures"][building.name()] = describe_structure(building);
   }
   summary["structures_key"] = scene.structures_key;
+  if (model.equilibrium) summary["equilibrium"] = describe_equilibrium(scene, model);
   summary["motion"] = describe_motion(*model.motion);
   summary["time_step"] = model.time_step;
   summary["stable_time_step"] = model.smallest_stable_time_step();

@@ -50,6 +50,7 @@ void EnergyBalance::add_step(std::span<const StepSums> sums,
     contact_.add(open_.contact);
     device_.add(open_.device);
     links_.add(open_.links);
+    gravity_.add(open_.gravity);
     for (std::size_t b = 0; b < systems_.size(); ++b) {
       damping_.add(open_filtered_[b]);
       filtered_[b].add(open_filtered_[b]);
@@ -76,6 +77,7 @@ EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
     for (std::size_t d = 0; d < 3; ++d) {
       result.input +=
           time_step_ / 2 * (systems_[b].gravity[d] - ground_acceleration[d]) * sums[b].momentum[d];
+      result.gravity += time_step_ / 2 * systems_[b].gravity[d] * sums[b].momentum[d];
     }
     result.device += time_step_ / 2 * sums[b].device;
     result.links += sums[b].link_loss;
@@ -106,13 +108,14 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   }
   MPI_Allreduce(MPI_IN_PLACE, structures.data(), static_cast<int>(values * structures.size()),
                 MPI_DOUBLE, MPI_SUM, comm_);
-  std::array<double, 6> sums{initial_,
+  std::array<double, 7> sums{initial_,
                              damping_.total(),
                              contact_.total(),
                              input_.total(),
                              device_.total() + lagged_damping_ - initial_lagged_damping_,
-                             links_.total()};
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 6, MPI_DOUBLE, MPI_SUM, comm_);
+                             links_.total(),
+                             gravity_.total()};
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 7, MPI_DOUBLE, MPI_SUM, comm_);
   EnergyLine line;
   line.time = static_cast<double>(closed_steps() - 1) * time_step_;
   for (const StructureEnergy& structure : structures) {
@@ -124,6 +127,7 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   line.contact_work = sums[2];
   line.input_work = sums[3];
   line.link_loss = sums[5];
+  line.gravity_work = sums[6];
   line.device_work = sums[4] + line.link_loss;
   line.residual = line.energy() - sums[0] + line.damping_loss + line.device_work -
                   line.contact_work - line.input_work;
@@ -132,15 +136,15 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
 
 template <typename Balance, typename Function>
 void EnergyBalance::for_each_sum(Balance& balance, Function&& function) {
-  for (auto* sum :
-       {&balance.damping_, &balance.input_, &balance.contact_, &balance.device_, &balance.links_}) {
+  for (auto* sum : {&balance.damping_, &balance.input_, &balance.contact_, &balance.device_,
+                    &balance.links_, &balance.gravity_}) {
     function(sum->value);
     function(sum->correction);
   }
   function(balance.initial_);
   function(balance.initial_lagged_damping_);
   for (auto* work : {&balance.open_.damping, &balance.open_.input, &balance.open_.contact,
-                     &balance.open_.device, &balance.open_.links}) {
+                     &balance.open_.device, &balance.open_.links, &balance.open_.gravity}) {
     function(*work);
   }
   for (auto& sum : balance.filtered_) {

@@ -24,10 +24,11 @@ struct EnergyLine {
   /// Taken up by dashpots, by what regions with damping of their own have beside the structure's,
   /// and by links.
   double device_work = 0;
-  double residual = 0;     ///< energy - initial energy + damping loss + device work - contact work
-                           ///< - input work
-  double link_loss = 0;    ///< of links alone: what they took and did not keep
-  double slow_relief = 0;  ///< see StructureEnergy
+  double residual = 0;      ///< energy - initial energy + damping loss + device work - contact work
+                            ///< - input work
+  double link_loss = 0;     ///< of links alone: what they took and did not keep
+  double slow_relief = 0;   ///< see StructureEnergy
+  double gravity_work = 0;  ///< of gravity alone, a part of the input work
 
   double energy() const { return kinetic + strain; }
 };
@@ -115,6 +116,7 @@ class EnergyBalance {
     double contact = 0;
     double device = 0;
     double links = 0;
+    double gravity = 0;  ///< part of the input
   };
   /// Calls `function` with each number of this rank that adds up over ranks.
   template <typename Balance, typename Function>
@@ -142,6 +144,7 @@ class EnergyBalance {
   Sum contact_;
   Sum device_;
   Sum links_;
+  Sum gravity_;
   /// Work of the uniform damping of each structure, closed and of the open step; a part of the
   /// damping loss.
   std::vector<Sum> filtered_;

@@ -1,5 +1,7 @@
 #include "dynamics/state.h"
 
+#include <algorithm>
+
 #include "common/memory.h"
 
 namespace pounding {
@@ -34,15 +36,15 @@ State::State(std::span<const LinearSystem> systems) {
     const std::size_t dofs = system.lumped_mass.size();
     const std::vector<double> extra_force(system.has_extra_damping() ? dofs : 0, 0.0);
     structures.push_back({zeros_on_large_pages(dofs), zeros_on_large_pages(dofs),
-                          zeros_on_large_pages(dofs),
-
-                          extra_force});
+                          zeros_on_large_pages(dofs), extra_force});
     StructureState& structure = structures.back();
     if (system.uniform_damping) {
       for (std::size_t i = 0; i < system.uniform_damping->filters.size(); ++i) {
         structure.filtered.push_back(zeros_on_large_pages(dofs));
       }
     }
+    std::copy(system.rest_displacement.begin(), system.rest_displacement.end(),
+              structure.displacement.begin());
     for (std::size_t d = 0; d < 3; ++d) {
       const std::vector<double> iota = system.influence(static_cast<int>(d));
       for (std::size_t i = 0; i < iota.size(); ++i) {

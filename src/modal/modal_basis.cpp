@@ -58,7 +58,7 @@ class BasisMaker {
     add_modes(std::max(wanted, std::min(static_cast<std::size_t>(request_.candidates), dofs_)));
     if (request_.candidates > request_.modes) choose_modes(wanted);
     basis.modes = static_cast<int>(space_.columns);
-    if (request_.attachment && space_.columns < dofs_) add_attachment_vectors();
+    if (space_.columns < dofs_) add_attachment_vectors();
     basis.attachment_vectors = static_cast<int>(space_.columns) - basis.modes;
     basis.full_dofs = system_.global_dofs;
     basis.total_mass = system_.total_mass;
@@ -175,14 +175,31 @@ class BasisMaker {
     for (std::size_t j = 0; j < space_.columns; ++j) take_off(space_.column(j), x);
   }
 
-  void add_attachment_vectors() {
-    const ShiftedSolver solver(system_, matrix_.get(), lowest_shift);
-    std::vector<std::vector<double>> vectors;
+  /// M^-1/2 times the forces that static responses are wanted to, each of length 1.
+  std::vector<std::vector<double>> static_loads() const {
+    std::vector<std::vector<double>> loads;
+    if (request_.gravity != Vector3{0, 0, 0}) {
+      std::vector<double>& weight = loads.emplace_back(dofs_, 0.0);
+      for (std::size_t i = 0; i < dofs_; ++i) {
+        const int direction = system_.direction[i];
+        if (direction < 0) continue;
+        weight[i] = std::sqrt(system_.lumped_mass[i]) * request_.gravity[direction];
+      }
+      scale(weight, 1 / norm(weight));
+    }
     for (const TracePoint& point : request_.contact_points) {
       const LocalIndex dof = mesh_.dof(mesh_.owned_node(point.node), point.component);
-      if (dof < 0) continue;
-      std::vector<double> z(dofs_, 0.0);
-      z[dof] = 1;  // of any length
+      if (dof >= 0 && request_.attachment) loads.emplace_back(dofs_, 0.0)[dof] = 1;
+    }
+    return loads;
+  }
+
+  void add_attachment_vectors() {
+    std::vector<std::vector<double>> loads = static_loads();
+    if (loads.empty()) return;
+    const ShiftedSolver solver(system_, matrix_.get(), lowest_shift);
+    std::vector<std::vector<double>> vectors;
+    for (std::vector<double>& z : loads) {
       project(z);
       if (norm(z) <= inside_span) continue;
       project(z);

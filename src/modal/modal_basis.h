@@ -31,18 +31,19 @@ struct ModalBasis {
 
 /// Request for a basis: what it shall hold.
 struct ModalRequest {
-  int modes = 0;           ///< number of modes; 0: all below the cut-off
-  int candidates = 0;      ///< number of lowest modes to choose them from; 0: no others
-  double cutoff = 0;       ///< [Hz]
-  bool attachment = true;  ///< a vector per contact point as well
+  int modes = 0;             ///< number of modes; 0: all below the cut-off
+  int candidates = 0;        ///< number of lowest modes to choose them from; 0: no others
+  double cutoff = 0;         ///< [Hz]
+  bool attachment = true;    ///< a vector per contact point as well
+  Vector3 gravity{0, 0, 0};  ///< that the structure is to rest under [m/s2]; 0: no vector for it
   std::vector<TracePoint> contact_points;
   std::vector<TracePoint> other_points;  ///< where the motion is wanted as well
 };
 
-/// The lowest modes, and beside them the attachment vectors: static responses to unit forces at the
-/// contact points, so that forces there find all the flexibility of the structure and not only that
-/// of the modes (Craig and Chang, AIAA J. 15 (1977), 1009; residual flexibility). With Y the modes
-/// in y = M^1/2 u and A = M^-1/2 K M^-1/2,
+/// The lowest modes, and beside them the attachment vectors: static responses to gravity, where the
+/// run starts at rest under it, and to unit forces at the contact points, so that forces there find
+/// all the flexibility of the structure and not only that of the modes (Craig and Chang, AIAA J. 15
+/// (1977), 1009; residual flexibility). With Y the modes in y = M^1/2 u and A = M^-1/2 K M^-1/2,
 ///
 ///     z_j = P (A - shift)^-1 P M^-1/2 e_j,      P = I - Y Y^T
 ///

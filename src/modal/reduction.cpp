@@ -25,7 +25,12 @@ namespace {
 ModalRequest request_of(MPI_Comm comm, const Scene& scene, int s, const GlobalMesh& mesh,
                         const Interface& interface, std::span<const ResolvedProbe> probes) {
   const ModalModel& modal = *scene.structures[s].modal;
-  ModalRequest request{modal.modes, modal.candidates, modal.cutoff, modal.attachment, {}, {}};
+  ModalRequest request;
+  request.modes = modal.modes;
+  request.candidates = modal.candidates;
+  request.cutoff = modal.cutoff;
+  request.attachment = modal.attachment;
+  if (scene.preload) request.gravity = scene.structures[s].gravity;
   std::set<TracePoint> known;
   const auto add = [&](std::span<const Constraint> rows, std::vector<TracePoint>& points) {
     for (const Constraint& row : rows) {

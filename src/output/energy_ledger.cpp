@@ -12,16 +12,18 @@ namespace {
 constexpr std::int64_t capacity = 5000;
 
 /// A line as numbers, in the order of its members.
-constexpr std::size_t columns = 8;
+constexpr std::size_t columns = 9;
 
 void append_numbers(const EnergyLine& line, std::vector<double>& numbers) {
   numbers.insert(numbers.end(),
                  {line.time, line.kinetic, line.strain, line.damping_loss, line.contact_work,
-                  line.input_work, line.device_work, line.residual});
+                  line.input_work, line.device_work, line.residual, line.gravity_work});
 }
 
 EnergyLine line_of_numbers(std::span<const double> v) {
-  return {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]};
+  EnergyLine line{v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]};
+  line.gravity_work = v[8];
+  return line;
 }
 
 }  // namespace
@@ -65,11 +67,12 @@ void write_energy(const std::string& path, const std::vector<EnergyLine>& lines)
   file.comment(
       "kinetic = v^T (M - dt/2 C) v / 2, strain = u_{n+1}^T K u_n / 2 and tension-only bars; the "
       "residual closes the "
-      "identity");
-  file.header("time,kinetic,strain,damping_loss,contact_work,input_work,device_work,residual");
+      "identity; gravity_work is a part of input_work");
+  file.header(
+      "time,kinetic,strain,damping_loss,contact_work,input_work,gravity_work,device_work,residual");
   for (const EnergyLine& line : lines) {
     file.row("", {line.time, line.kinetic, line.strain, line.damping_loss, line.contact_work,
-                  line.input_work, line.device_work, line.residual});
+                  line.input_work, line.gravity_work, line.device_work, line.residual});
   }
   file.close();
 }

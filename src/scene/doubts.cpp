@@ -93,7 +93,7 @@ bool is_held(const Structure& structure, std::size_t direction) {
          std::ranges::any_of(structure.regions, carries);
 }
 
-/// There is no static start: what is held and gets its weight at once swings about its sagging.
+/// Gravity without a static start: what is held and gets its weight at once swings about its sag.
 void look_at_gravity(const Structure& structure, Doubts& doubts) {
   bool dropped = false;
   for (std::size_t d = 0; d < 3; ++d) {
@@ -102,8 +102,8 @@ void look_at_gravity(const Structure& structure, Doubts& doubts) {
   if (!dropped) return;
   doubts.add("structure " + structure.name +
              ": gravity acts at once at t = 0 on a structure that is held: a drop test, it swings "
-             "about its sagging by as much again; leave gravity out, or let this die away before "
-             "-spectra_start and the motion");
+             "about its sagging by as much again; give -preload static, leave gravity out, or let "
+             "this die away before -spectra_start and the motion");
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ std::vector<std::string> scene_doubts(const Scene& scene) {
     for (const Region& region : structure.regions) {
       look_at_region("structure " + structure.name, region, doubts);
     }
-    look_at_gravity(structure, doubts);
+    if (!scene.preload) look_at_gravity(structure, doubts);
   }
   return doubts.lines();
 }

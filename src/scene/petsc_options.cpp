@@ -35,6 +35,12 @@ constexpr auto options = std::to_array<PetscOption>({
     {"memory_view", Value::flag},
     {"no_signal_handler", Value::flag},
     {"options_left", Value::flag},
+    {"rest_ksp_converged_reason", Value::flag},
+    {"rest_ksp_max_it", Value::count},
+    {"rest_ksp_monitor", Value::flag},
+    {"rest_ksp_rtol", Value::positive},
+    {"rest_ksp_view", Value::flag},
+    {"rest_mat_mumps_icntl_*", Value::integer},
 });
 
 constexpr auto patterns = [] {

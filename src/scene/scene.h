@@ -150,6 +150,10 @@ enum class StiffnessMethod { automatic, assembled, element };
 /// whichever costs a step less.
 enum class PartitionBy { automatic, elements, structures };
 
+/// Solution of the static equilibrium: by a factorisation, by an iteration, or by the factorisation
+/// where it fits into the memory.
+enum class StaticSolver { automatic, direct, iterative };
+
 enum class Resampling { linear, band_limited };
 
 struct Probe {
@@ -187,12 +191,14 @@ struct Scene {
   double progress_interval = 0;    ///< of the lines that a long phase of the start-up prints [s]
   int modes = 0;                   ///< lowest modes to compute per structure
   bool write_modes = false;        ///< their shapes as well
-  double gap_tolerance = 0;        ///< contact where gap <= gap_tolerance x model size [-]
-  double impact_merge_time = 0;    ///< contacts separated by less are one episode [s]
-  double output_interval = 0;      ///< of the probes [s]
-  double gap_interval = 0;         ///< of the gaps at least; 0: with every sample of the probes [s]
-  int energy_interval = 0;         ///< steps between two lines of the energy ledger
-  double mesh_time_limit = 0;      ///< for Gmsh to make or read one mesh [s]
+  bool preload = false;            ///< start from the static equilibrium
+  StaticSolver preload_solver = StaticSolver::automatic;
+  double gap_tolerance = 0;      ///< contact where gap <= gap_tolerance x model size [-]
+  double impact_merge_time = 0;  ///< contacts separated by less are one episode [s]
+  double output_interval = 0;    ///< of the probes [s]
+  double gap_interval = 0;       ///< of the gaps at least; 0: with every sample of the probes [s]
+  int energy_interval = 0;       ///< steps between two lines of the energy ledger
+  double mesh_time_limit = 0;    ///< for Gmsh to make or read one mesh [s]
   bool allow_geo_commands = false;  ///< .geo files may run commands and write files
   bool dry_run = false;
   double checkpoint_interval = 0;  ///< wall time between checkpoints [s]; 0: none

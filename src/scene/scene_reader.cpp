@@ -35,6 +35,10 @@ class SceneReader {
     read_run();
     for (const std::string& name : listed_.structures) {
       scene_.structures.push_back(read_structure(options_, name));
+      if (!options_.given("<structure>_gravity", {name})) {
+        scene_.structures.back().gravity = {0, 0, -gravity_};
+      }
+      require_one_start(scene_.structures.back());
       require_own_basis(scene_.structures.back());
       require_full_order(scene_.structures.back());
     }
@@ -66,6 +70,12 @@ class SceneReader {
     scene_.allow_geo_commands = options_.boolean("allow_geo_commands");
     scene_.modes = options_.integer("modes");
     scene_.write_modes = options_.boolean("write_modes");
+    gravity_ = options_.real("gravity");
+    scene_.preload = options_.choice("preload") == "static";
+    const std::string solver = options_.choice("preload_solver");
+    scene_.preload_solver = solver == "auto"     ? StaticSolver::automatic
+                            : solver == "direct" ? StaticSolver::direct
+                                                 : StaticSolver::iterative;
     scene_.gap_tolerance = options_.real("gap_tolerance");
     scene_.impact_merge_time = options_.real("impact_merge_time");
     scene_.output_interval = options_.real("output_interval");
@@ -106,6 +116,14 @@ class SceneReader {
       }
     }
     return list;
+  }
+
+  /// A run starts from the equilibrium or from a given place.
+  void require_one_start(const Structure& structure) const {
+    if (scene_.preload && structure.initial_displacement != Vector3{0, 0, 0}) {
+      options_.refuse("<structure>_initial_displacement", {structure.name},
+                      "the run starts from the static equilibrium; not with -preload static");
+    }
   }
 
   /// Matrices and shapes are written of structures at full order only.
@@ -238,6 +256,7 @@ class SceneReader {
   OptionReader options_;
   Scene scene_;
   ListedNames listed_;
+  double gravity_ = 0;  ///< of structures without their own [m/s2]
   std::set<std::string> used_names_;
 };
 

@@ -268,7 +268,9 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   structure.mass_scaling = options.real("<structure>_mass_scaling", {name});
   structure.initial_displacement = read_vector(options, "<structure>_initial_displacement", {name});
   structure.initial_velocity = read_vector(options, "<structure>_initial_velocity", {name});
-  structure.gravity = read_vector(options, "<structure>_gravity", {name});
+  if (options.given("<structure>_gravity", {name})) {
+    structure.gravity = read_vector(options, "<structure>_gravity", {name});
+  }
   structure.uniform_damping = read_uniform_damping(options, name);
   if (!structure.uniform_damping) structure.damping = read_structure_damping(options, name);
   const std::set<std::string> groups = region_groups(options.database(), name);

@@ -71,7 +71,9 @@ struct LinearSystem {
   Vector3 initial_displacement{0, 0, 0};  ///< of every translation at t = 0 [m]
   Vector3 initial_velocity{0, 0, 0};      ///< of every translation at t = 0 [m/s]
   Vector3 gravity{0, 0, 0};               ///< constant body acceleration [m/s2]
-  double total_mass = 0;                  ///< clamped nodes included [kg]
+  /// u_0 of the static equilibrium, of the owned dofs, or empty: added to initial_displacement.
+  std::vector<double> rest_displacement;
+  double total_mass = 0;  ///< clamped nodes included [kg]
   /// Upper bound of omega_max from single elements, and who holds it: the element with the largest
   /// omega of its own. Infinite if an element has stiffness but no mass (springs).
   double element_frequency_bound = 0;  ///< [rad/s]

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <mpi.h>
+
+#include "common/profile.h"
+#include "driver/model.h"
+#include "scene/scene.h"
+
+namespace pounding {
+
+/// Lets the systems of a model start from their static equilibrium, where the scene asks for it,
+/// and keeps what was found. Collective.
+void put_at_rest(MPI_Comm comm, const Scene& scene, Profile& profile, Model& model);
+
+/// Doubts about an equilibrium: settlements that small displacements do not describe, and forces
+/// that do not sum up to the weight.
+std::vector<std::string> rest_warnings(const Model& model);
+
+/// Prints what holds the scene at rest, nothing where it does not start there. Rank 0.
+void print_rest(const Scene& scene, const Model& model);
+
+}  // namespace pounding

@@ -1,0 +1,200 @@
+#include "statics/assembled_statics.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "common/error.h"
+#include "common/memory.h"
+#include "statics/bar_terms.h"
+
+namespace pounding {
+namespace {
+
+/// Share of the free memory that a factor may take: its size is an estimate.
+constexpr double usable_share = 0.8;
+
+constexpr double iteration_tolerance = 1e-10;
+/// PETSc options of the solvers begin with it.
+constexpr const char* prefix = "rest_";
+constexpr int most_iterations = 20000;
+
+/// Takes tension-only bars out of the stiffest matrix, which has them taut.
+void take_bars_out(const LinearSystem& system, PetscInt first_dof, Mat matrix) {
+  std::vector<PetscInt> places;
+  std::vector<double> values;
+  for (const BarTerms& bar : bar_terms(system)) {
+    places.clear();
+    values.clear();
+    for (std::size_t a = 0; a < bar.dofs.size(); ++a) {
+      places.push_back(first_dof + bar.dofs[a]);
+      for (std::size_t b = 0; b < bar.dofs.size(); ++b) {
+        values.push_back(-bar.stiffness * bar.coefficients[a] * bar.coefficients[b]);
+      }
+    }
+    const auto n = static_cast<PetscInt>(places.size());
+    POUNDING_PETSC(
+        MatSetValues(matrix, n, places.data(), n, places.data(), values.data(), ADD_VALUES));
+  }
+  POUNDING_PETSC(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+  POUNDING_PETSC(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+}
+
+/// Displacement of the free dofs in a rigid motion, along (0-2) or about (3-5) an axis through the
+/// origin.
+std::vector<double> rigid_motion(const Mesh& mesh, int motion) {
+  std::vector<double> field(mesh.owned_dofs, 0.0);
+  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
+    const Vector3 x = mesh.position(node);
+    std::array<double, 6> values{};
+    values[motion] = 1;
+    if (motion >= 3) {
+      const int next = (motion - 3 + 1) % 3;
+      const int last = (motion - 3 + 2) % 3;
+      values[next] = -x[last];
+      values[last] = x[next];
+    }
+    for (int c = 0; c < 6; ++c) {
+      const LocalIndex dof = mesh.dof(node, c);
+      if (dof >= 0) field[dof] = values[c];
+    }
+  }
+  return field;
+}
+
+}  // namespace
+
+AssembledStatics::AssembledStatics(const LinearSystem& system, const Mesh& mesh, double shift,
+                                   StaticSolver solver)
+    : system_(system) {
+  if (system.uniform_damping) at_rest_ = system.uniform_damping->at_rest();
+  POUNDING_PETSC(MatDuplicate(system.stiffest_matrix(), MAT_COPY_VALUES, matrix_.out()));
+  POUNDING_PETSC(MatSetOptionsPrefix(matrix_.get(), prefix));
+  PetscInt first = 0;
+  POUNDING_PETSC(MatGetOwnershipRange(matrix_.get(), &first, nullptr));
+  if (system.links) take_bars_out(system, first, matrix_.get());
+  POUNDING_PETSC(MatScale(matrix_.get(), at_rest_));
+  std::vector<double> added = system.lumped_mass;
+  for (double& value : added) value *= shift;
+  const VecHandle diagonal = wrap_vector(system, added);
+  POUNDING_PETSC(MatDiagonalSet(matrix_.get(), diagonal.get(), ADD_VALUES));
+  POUNDING_PETSC(MatSetOption(matrix_.get(), MAT_SYMMETRIC, PETSC_TRUE));
+  POUNDING_PETSC(MatSetOption(matrix_.get(), MAT_SPD, PETSC_TRUE));
+  if (solver == StaticSolver::iterative || !factorise(solver)) prepare_iteration(mesh);
+}
+
+bool AssembledStatics::factorise(StaticSolver solver) {
+  Mat matrix = matrix_.get();
+  POUNDING_PETSC(MatGetFactor(matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, factor_.out()));
+  constexpr PetscInt workspace = 14;  // per cent beyond the estimate
+  POUNDING_PETSC(MatMumpsSetIcntl(factor_.get(), workspace, 50));
+  MatFactorInfo info;
+  POUNDING_PETSC(MatFactorInfoInitialize(&info));
+  POUNDING_PETSC(MatCholeskyFactorSymbolic(factor_.get(), matrix, nullptr, &info));
+  constexpr PetscInt megabytes_of_all = 17;
+  PetscInt megabytes = 0;
+  POUNDING_PETSC(MatMumpsGetInfog(factor_.get(), megabytes_of_all, &megabytes));
+  factor_memory_ = 1e6 * static_cast<double>(megabytes);
+  double available = available_memory();
+  MPI_Allreduce(MPI_IN_PLACE, &available, 1, MPI_DOUBLE, MPI_MIN, system_.comm);
+  if (solver == StaticSolver::automatic && factor_memory_ > usable_share * available) {
+    factor_ = MatHandle();
+    return false;
+  }
+  POUNDING_PETSC(MatCholeskyFactorNumeric(factor_.get(), matrix, &info));
+  MatFactorError error = MAT_FACTOR_NOERROR;
+  POUNDING_PETSC(MatFactorGetError(factor_.get(), &error));
+  if (error != MAT_FACTOR_NOERROR) {
+    throw UserError("structure " + system_.name +
+                    ": MUMPS cannot factorise its stiffness for the static equilibrium; give "
+                    "-preload_solver iterative");
+  }
+  return true;
+}
+
+void AssembledStatics::prepare_iteration(const Mesh& mesh) {
+  std::array<VecHandle, 6> motions;
+  std::vector<Vec> kept;
+  for (int m = 0; m < 6; ++m) {
+    std::vector<double> field = rigid_motion(mesh, m);
+    const VecHandle wrapped = wrap_vector(system_, field);
+    POUNDING_PETSC(VecDuplicate(wrapped.get(), motions[m].out()));
+    POUNDING_PETSC(VecCopy(wrapped.get(), motions[m].get()));
+    // Orthonormal, as PETSc wants them.
+    for (int repeat = 0; repeat < 2; ++repeat) {
+      for (Vec other : kept) {
+        PetscScalar product = 0;
+        POUNDING_PETSC(VecDot(motions[m].get(), other, &product));
+        POUNDING_PETSC(VecAXPY(motions[m].get(), -product, other));
+      }
+    }
+    PetscReal length = 0;
+    PetscReal before = 0;
+    POUNDING_PETSC(VecNorm(wrapped.get(), NORM_2, &before));
+    POUNDING_PETSC(VecNorm(motions[m].get(), NORM_2, &length));
+    if (!(length > 1e-8 * before)) continue;  // a straight row of nodes: no motion of its own
+    POUNDING_PETSC(VecScale(motions[m].get(), 1 / length));
+    kept.push_back(motions[m].get());
+  }
+  PetscHandle<MatNullSpace, MatNullSpaceDestroy> rigid;
+  POUNDING_PETSC(MatNullSpaceCreate(system_.comm, PETSC_FALSE, static_cast<PetscInt>(kept.size()),
+                                    kept.data(), rigid.out()));
+  POUNDING_PETSC(MatSetNearNullSpace(matrix_.get(), rigid.get()));
+  POUNDING_PETSC(KSPCreate(system_.comm, iteration_.out()));
+  POUNDING_PETSC(KSPSetOptionsPrefix(iteration_.get(), prefix));
+  POUNDING_PETSC(KSPSetType(iteration_.get(), KSPCG));
+  PC preconditioner = nullptr;
+  POUNDING_PETSC(KSPGetPC(iteration_.get(), &preconditioner));
+  POUNDING_PETSC(PCSetType(preconditioner, PCGAMG));
+  POUNDING_PETSC(KSPSetTolerances(iteration_.get(), iteration_tolerance, PETSC_DEFAULT,
+                                  PETSC_DEFAULT, most_iterations));
+  POUNDING_PETSC(KSPSetOperators(iteration_.get(), matrix_.get(), matrix_.get()));
+  POUNDING_PETSC(KSPSetFromOptions(iteration_.get()));
+  POUNDING_PETSC(KSPSetUp(iteration_.get()));
+}
+
+void AssembledStatics::apply(const std::vector<double>& u, std::vector<double>& q) const {
+  q.resize(u.size());
+  StoredForces store(q.data());
+  system_.stiffness->apply({u.data(), u.data(), 0}, store);
+  for (double& value : q) value *= at_rest_;
+}
+
+void AssembledStatics::solve(std::vector<double>& x) const {
+  const VecHandle right = wrap_vector(system_, x);
+  VecHandle solution;
+  POUNDING_PETSC(VecDuplicate(right.get(), solution.out()));
+  ++solutions_;
+  if (factor_.get() != nullptr) {
+    POUNDING_PETSC(MatSolve(factor_.get(), right.get(), solution.get()));
+  } else {
+    POUNDING_PETSC(KSPSolve(iteration_.get(), right.get(), solution.get()));
+    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+    PetscInt count = 0;
+    POUNDING_PETSC(KSPGetConvergedReason(iteration_.get(), &reason));
+    POUNDING_PETSC(KSPGetIterationNumber(iteration_.get(), &count));
+    iterations_ += count;
+    if (reason < 0) {
+      throw UserError("structure " + system_.name + ": the iteration for the static equilibrium " +
+                      "does not converge after " + std::to_string(count) +
+                      " products (PETSc's reason " + std::to_string(reason) +
+                      "); give -preload_solver direct, or another -rest_ksp_max_it");
+    }
+  }
+  POUNDING_PETSC(VecCopy(solution.get(), right.get()));
+}
+
+std::string AssembledStatics::method() const {
+  char text[120];
+  if (factor_.get() != nullptr) {
+    std::snprintf(text, sizeof text, "factorised, %.3g MB", factor_memory_ / 1e6);
+  } else {
+    std::snprintf(text, sizeof text,
+                  "conjugate gradients with multigrid, %lld products for %lld "
+                  "solutions",
+                  static_cast<long long>(iterations_), static_cast<long long>(solutions_));
+  }
+  return text;
+}
+
+}  // namespace pounding

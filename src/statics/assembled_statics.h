@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+
+#include "common/petsc.h"
+#include "mesh/mesh.h"
+#include "scene/scene.h"
+#include "statics/static_stiffness.h"
+#include "system/linear_system.h"
+
+namespace pounding {
+
+/// Static stiffness of a structure at full order. Products are those of the step, so that what is
+/// at rest for them is at rest in the step; solutions come from one L D L^T factorisation (MUMPS)
+/// while it fits into the free memory, beyond from conjugate gradients with algebraic multigrid
+/// (GAMG) that knows the six rigid motions.
+class AssembledStatics final : public StaticStiffness {
+ public:
+  /// Collective. Needs the matrix of the system.
+  AssembledStatics(const LinearSystem& system, const Mesh& mesh, double shift, StaticSolver solver);
+  void apply(const std::vector<double>& u, std::vector<double>& q) const override;
+  void solve(std::vector<double>& x) const override;
+  std::string method() const override;
+
+ private:
+  /// False, and nothing kept, where the factor would not fit and may be left to the iteration.
+  bool factorise(StaticSolver solver);
+  void prepare_iteration(const Mesh& mesh);
+
+  const LinearSystem& system_;
+  double at_rest_ = 1;                   ///< s
+  MatHandle matrix_;                     ///< s K + shift M
+  MatHandle factor_;                     ///< of it; null with the iteration
+  KspHandle iteration_;                  ///< null with the factor
+  double factor_memory_ = 0;             ///< estimate, all ranks together [B]
+  mutable std::int64_t iterations_ = 0;  ///< of all solutions
+  mutable std::int64_t solutions_ = 0;
+};
+
+}  // namespace pounding

@@ -1,0 +1,44 @@
+#include "statics/bar_terms.h"
+
+#include "links/law_of.h"
+#include "system/links.h"
+
+namespace pounding {
+namespace {
+
+/// Largest force per elongation of a link, whether or not K holds it already [N/m].
+double tangent_of(const Link& link) {
+  LinkOrigin origin = link.origin;
+  origin.in_stiffness = false;
+  constexpr double any_step = 1;  // s: the tangent does not depend on it
+  return law_of(origin, any_step)->tangent();
+}
+
+}  // namespace
+
+std::vector<BarTerms> bar_terms(const LinearSystem& system) {
+  std::vector<BarTerms> bars;
+  if (!system.links) return bars;
+  std::vector<double> field(system.lumped_mass.size(), 0.0);
+  const Trace& trace = system.links->trace();
+  for (const Link& link : system.links->links()) {
+    const double stiffness = tangent_of(link);
+    if (!(stiffness > 0)) continue;
+    BarTerms& bar = bars.emplace_back();
+    bar.stiffness = stiffness;
+    for (std::size_t i = 0; i < link.place.size(); ++i) {
+      if (link.place[i] >= 0) {
+        trace.add_force(static_cast<std::size_t>(link.place[i]), link.weight[i], field);
+      }
+    }
+    for (const LocalIndex dof : trace.dofs()) {
+      if (field[dof] == 0) continue;
+      bar.dofs.push_back(dof);
+      bar.coefficients.push_back(field[dof]);
+      field[dof] = 0;
+    }
+  }
+  return bars;
+}
+
+}  // namespace pounding

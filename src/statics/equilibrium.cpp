@@ -1,0 +1,354 @@
+#include "statics/equilibrium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <sstream>
+
+#include "common/error.h"
+#include "contact/contact_problem.h"
+#include "contact/lcp.h"
+#include "mesh/location.h"
+#include "statics/make_static_stiffness.h"
+#include "statics/unilateral_rows.h"
+
+namespace pounding {
+namespace {
+
+constexpr double shift = 1;  // sigma [1/s2]
+constexpr int most_iterations = 500;
+/// Iterations in a row that gain nothing, after which nothing will.
+constexpr int most_idle_iterations = 20;
+/// Residual below which the iteration goes on only as long as it gains.
+constexpr double small_residual = 1e-8;
+/// Negative opening of a row that counts as violated, relative to the largest opening.
+constexpr double violation = 1e-13;
+
+using Fields = std::vector<std::vector<double>>;  // per structure, owned dofs
+
+std::vector<double> initial_gaps(const Interface& interface) {
+  std::vector<double> gaps;
+  for (const Constraint& constraint : interface.constraints) gaps.push_back(constraint.initial_gap);
+  return gaps;
+}
+
+std::unique_ptr<ContactProblem> contact_of(MPI_Comm comm, const Interface& interface,
+                                           std::span<const LinearSystem> systems,
+                                           std::span<const Mesh> meshes) {
+  if (interface.constraints.empty()) return nullptr;
+  return std::make_unique<ContactProblem>(comm, interface, systems, meshes, 0);
+}
+
+double largest_size(const Vector3& v) {
+  return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+}
+
+class Search {
+ public:
+  Search(MPI_Comm comm, std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
+         const Interface& interface, StaticSolver solver)
+      : comm_(comm),
+        systems_(systems),
+        meshes_(meshes),
+        interface_(interface),
+        contact_(contact_of(comm, interface, systems, meshes)),
+        rows_(comm, contact_.get(), initial_gaps(interface), systems),
+        force_(rows_.size(), 0.0),
+        is_tried_(rows_.size(), false) {
+    for (std::size_t s = 0; s < systems.size(); ++s) {
+      stiffness_.push_back(make_static_stiffness(systems[s], meshes[s], shift, solver));
+      const std::size_t dofs = systems[s].lumped_mass.size();
+      displacement_.emplace_back(dofs, 0.0);
+      weight_.emplace_back(dofs, 0.0);
+      for (std::size_t d = 0; d < 3; ++d) {
+        const std::vector<double> iota = systems[s].influence(static_cast<int>(d));
+        for (std::size_t i = 0; i < iota.size(); ++i) {
+          weight_[s][i] += systems[s].lumped_mass[i] * iota[i] * systems[s].gravity[d];
+        }
+      }
+    }
+  }
+
+  Equilibrium find() {
+    double before = std::numeric_limits<double>::infinity();
+    int idle = 0;
+    residual_ = weight_;
+    for (iterations_ = 1;; ++iterations_) {
+      iterate();
+      const double left = relative_residual();
+      if (left == 0 || (left < small_residual && left > before / 2)) break;
+      idle = left > 0.999 * before ? idle + 1 : 0;
+      if (iterations_ == most_iterations || idle == most_idle_iterations || !std::isfinite(left)) {
+        refuse(left);
+      }
+      before = left;
+    }
+    return describe();
+  }
+
+ private:
+  /// u + d of the residual and the forces in force, then the change of forces that the rows want.
+  void iterate() {
+    Fields trial = residual_;
+    for (std::size_t s = 0; s < trial.size(); ++s) {
+      stiffness_[s]->solve(trial[s]);
+      add(displacement_[s], trial[s]);
+    }
+    const std::vector<double> change = solve_rows(rows_.openings(trial));
+    if (std::ranges::any_of(change, [](double value) { return value != 0; })) {
+      Fields more = zeros();
+      for (int i = 0; i < rows_.size(); ++i) rows_.add_force(i, change[i], more);
+      for (std::size_t s = 0; s < trial.size(); ++s) {
+        stiffness_[s]->solve(more[s]);
+        add(more[s], trial[s]);
+      }
+    }
+    displacement_ = std::move(trial);
+    update_residual();
+  }
+
+  /// Brings the forces to where rows are fulfilled whose openings are given with the forces in
+  /// force; returns their change.
+  std::vector<double> solve_rows(std::vector<double> opening) {
+    const std::vector<double> before = force_;
+    double scale = 0;
+    for (int i = 0; i < rows_.size(); ++i) {
+      opening[i] += rows_.compliance(i) * force_[i];
+      scale = std::max(scale, std::abs(opening[i]));
+    }
+    std::vector<double> change(rows_.size(), 0.0);
+    do {
+      if (!tried_.empty()) solve_tried(opening, before);
+      for (int i = 0; i < rows_.size(); ++i) change[i] = force_[i] - before[i];
+    } while (try_violated(opening, change, -violation * scale));
+    return change;
+  }
+
+  /// Rows join the complementarity problem when they are violated; false if none was.
+  bool try_violated(std::vector<double> opening, const std::vector<double>& change, double limit) {
+    for (std::size_t j = 0; j < tried_.size(); ++j) {
+      for (int i = 0; i < rows_.size(); ++i) opening[i] += response_[j][i] * change[tried_[j]];
+    }
+    bool any = false;
+    for (int i = 0; i < rows_.size(); ++i) {
+      if (!is_tried_[i] && opening[i] < limit) {
+        try_row(i);
+        any = true;
+      }
+    }
+    return any;
+  }
+
+  void try_row(int row) {
+    Fields field = zeros();
+    rows_.add_force(row, 1, field);
+    for (std::size_t s = 0; s < field.size(); ++s) stiffness_[s]->solve(field[s]);
+    is_tried_[row] = true;
+    tried_.push_back(row);
+    response_.push_back(rows_.responses(field));
+    response_.back()[row] += rows_.compliance(row);
+  }
+
+  /// 0 <= f _|_ H f + opening - H before >= 0 on the rows tried.
+  void solve_tried(const std::vector<double>& opening, const std::vector<double>& before) {
+    const std::size_t n = tried_.size();
+    std::vector<double> matrix(n * n);
+    std::vector<double> free(n);
+    std::vector<double> force(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) {
+        matrix[i * n + j] = (response_[j][tried_[i]] + response_[i][tried_[j]]) / 2;
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      free[i] = opening[tried_[i]];
+      for (std::size_t j = 0; j < n; ++j) free[i] -= matrix[i * n + j] * before[tried_[j]];
+      force[i] = force_[tried_[i]];
+    }
+    LcpSolver(static_cast<int>(n)).solve(matrix, free, force);
+    for (std::size_t i = 0; i < n; ++i) force_[tried_[i]] = force[i];
+  }
+
+  void update_residual() {
+    const Fields forces = row_forces(0, rows_.size());
+    std::vector<double> product;
+    for (std::size_t s = 0; s < systems_.size(); ++s) {
+      stiffness_[s]->apply(displacement_[s], product);
+      for (std::size_t i = 0; i < product.size(); ++i) {
+        residual_[s][i] = weight_[s][i] + forces[s][i] - product[i];
+      }
+    }
+  }
+
+  /// Forces of rows [first, end) on the dofs.
+  Fields row_forces(int first, int end) const {
+    Fields forces = zeros();
+    for (int i = first; i < end; ++i) {
+      if (force_[i] != 0) rows_.add_force(i, force_[i], forces);
+    }
+    return forces;
+  }
+
+  /// Root of f^T M^-1 f over all dofs.
+  double size_of(const Fields& fields) const {
+    double sum = 0;
+    for (std::size_t s = 0; s < fields.size(); ++s) sum += square_of(s, fields[s]);
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, comm_);
+    return std::sqrt(sum);
+  }
+
+  /// This rank's part of f^T M^-1 f.
+  double square_of(std::size_t s, const std::vector<double>& field) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < field.size(); ++i) {
+      sum += field[i] * field[i] * systems_[s].inverse_mass[i];
+    }
+    return sum;
+  }
+
+  double relative_residual() const {
+    const double reference = size_of(weight_) + size_of(row_forces(0, rows_.size()));
+    return reference > 0 ? size_of(residual_) / reference : 0;
+  }
+
+  /// iota_d^T of a force on the dofs of a structure, all ranks together.
+  Vector3 total(std::size_t s, const std::vector<double>& force) const {
+    Vector3 sum{0, 0, 0};
+    for (std::size_t d = 0; d < 3; ++d) {
+      const std::vector<double> iota = systems_[s].influence(static_cast<int>(d));
+      sum[d] = std::inner_product(force.begin(), force.end(), iota.begin(), 0.0);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sum.data(), 3, MPI_DOUBLE, MPI_SUM, comm_);
+    return sum;
+  }
+
+  [[noreturn]] void refuse(double left) const {
+    std::size_t worst = 0;
+    double largest = -1;
+    for (std::size_t s = 0; s < systems_.size(); ++s) {
+      double square = square_of(s, residual_[s]);
+      MPI_Allreduce(MPI_IN_PLACE, &square, 1, MPI_DOUBLE, MPI_SUM, comm_);
+      if (square > largest) worst = s;
+      largest = std::max(largest, square);
+    }
+    std::ostringstream text;
+    text << "option -preload static: structure " << systems_[worst].name
+         << " finds no rest under its weight, " << left << " of it is left after " << iterations_
+         << " iterations: nothing holds it, or less than 0.1 Hz; clamp it, give it springs or a "
+            "contact below, or leave -preload out";
+    throw UserError(text.str());
+  }
+
+  Equilibrium describe() const {
+    Equilibrium result;
+    result.iterations = iterations_;
+    result.residual = relative_residual();
+    result.rows_tried = static_cast<int>(tried_.size());
+    result.displacement = displacement_;
+    result.contact_force.assign(force_.begin(), force_.begin() + rows_.contacts());
+    for (int i = rows_.contacts(); i < rows_.size(); ++i) {
+      ++(force_[i] > 0 ? result.taut_bars : result.slack_bars);
+    }
+    for (std::size_t s = 0; s < systems_.size(); ++s) {
+      result.gravity_potential -=
+          std::inner_product(weight_[s].begin(), weight_[s].end(), displacement_[s].begin(), 0.0);
+      result.structures.push_back(describe_structure(s));
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &result.gravity_potential, 1, MPI_DOUBLE, MPI_SUM, comm_);
+    return result;
+  }
+
+  StructureRest describe_structure(std::size_t s) const {
+    const LinearSystem& system = systems_[s];
+    StructureRest rest;
+    rest.method = stiffness_[s]->method();
+    for (std::size_t k = 0; k < interface_.constraints.size(); ++k) {
+      for (const ConstraintTerm& term : interface_.constraints[k].terms) {
+        if (term.structure != static_cast<int>(s)) continue;
+        rest.contact[term.component] += term.coefficient * force_[k];
+      }
+    }
+    std::vector<double> momentum(displacement_[s]);
+    for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] *= system.lumped_mass[i];
+    rest.settlement = total(s, momentum);
+    for (std::size_t d = 0; d < 3; ++d) {
+      rest.weight[d] = system.total_mass * system.gravity[d];
+      rest.settlement[d] /= system.total_mass;
+      rest.support[d] = -rest.weight[d] - rest.contact[d];
+    }
+    if (!system.generalised) {
+      find_support(s, rest);
+      find_largest(s, rest);
+    }
+    return rest;
+  }
+
+  /// Forces of the supports, summed up from those of the elements and bars.
+  void find_support(std::size_t s, StructureRest& rest) const {
+    std::vector<double> force;
+    stiffness_[s]->apply(displacement_[s], force);
+    const Fields bars = row_forces(rows_.contacts(), rows_.size());
+    for (std::size_t i = 0; i < force.size(); ++i) force[i] = bars[s][i] - force[i];
+    const Vector3 free_support = total(s, force);
+    const Vector3 free_weight = total(s, weight_[s]);
+    const Vector3 free_contact = total(s, row_forces(0, rows_.contacts())[s]);
+    Vector3 left{0, 0, 0};
+    for (std::size_t d = 0; d < 3; ++d) {
+      // Held nodes hand their own part on to the supports.
+      rest.support[d] =
+          free_support[d] - (rest.weight[d] - free_weight[d]) - (rest.contact[d] - free_contact[d]);
+      left[d] = rest.weight[d] + rest.contact[d] + rest.support[d];
+    }
+    const double scale = std::max(
+        {largest_size(rest.weight), largest_size(rest.contact), largest_size(rest.support)});
+    rest.imbalance = scale > 0 ? largest_size(left) / scale : 0;
+  }
+
+  void find_largest(std::size_t s, StructureRest& rest) const {
+    std::vector<double> values = displacement_[s];
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (systems_[s].direction[i] < 0) values[i] = 0;
+      rest.largest_displacement = std::max(rest.largest_displacement, std::abs(values[i]));
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &rest.largest_displacement, 1, MPI_DOUBLE, MPI_MAX, comm_);
+    rest.place = locate_largest(meshes_[s], values);
+  }
+
+  Fields zeros() const {
+    Fields fields;
+    for (const LinearSystem& system : systems_) fields.emplace_back(system.lumped_mass.size(), 0.0);
+    return fields;
+  }
+
+  static void add(const std::vector<double>& more, std::vector<double>& to) {
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] += more[i];
+  }
+
+  MPI_Comm comm_;
+  std::span<const LinearSystem> systems_;
+  std::span<const Mesh> meshes_;
+  const Interface& interface_;
+  std::unique_ptr<ContactProblem> contact_;  ///< null without contacts
+  UnilateralRows rows_;
+  std::vector<std::unique_ptr<StaticStiffness>> stiffness_;  ///< per structure
+  Fields weight_;
+  Fields displacement_;
+  Fields residual_;             ///< M g + R^T f - s K u
+  std::vector<double> force_;   ///< f per row [N]
+  std::vector<int> tried_;      ///< rows of the complementarity problem, in the order they joined
+  std::vector<char> is_tried_;  ///< per row
+  std::vector<std::vector<double>> response_;  ///< per row tried: w of all rows for a unit force
+  int iterations_ = 0;
+};
+
+}  // namespace
+
+Equilibrium find_equilibrium(MPI_Comm comm, std::span<const LinearSystem> systems,
+                             std::span<const Mesh> meshes, const Interface& interface,
+                             StaticSolver solver) {
+  return Search(comm, systems, meshes, interface, solver).find();
+}
+
+}  // namespace pounding

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <mpi.h>
+
+#include "contact/interface.h"
+#include "mesh/mesh.h"
+#include "scene/scene.h"
+#include "system/linear_system.h"
+
+namespace pounding {
+
+/// Forces that hold one structure at rest, and how far it settles.
+struct StructureRest {
+  Vector3 weight{0, 0, 0};      ///< total mass x its gravity [N]
+  Vector3 contact{0, 0, 0};     ///< of contact points on it [N]
+  Vector3 support{0, 0, 0};     ///< of clamps, grounded springs and bars to the ground on it [N]
+  Vector3 settlement{0, 0, 0};  ///< mean displacement over its mass, clamped nodes included [m]
+  double largest_displacement = 0;  ///< of a component; 0 of a reduced structure [m]
+  std::string place;                ///< where that is; empty of a reduced structure
+  /// |weight + contact + support| over the largest of them, the support summed up from K u; 0 of a
+  /// reduced structure, whose support follows from the other two [-].
+  double imbalance = 0;
+  std::string method;  ///< how its stiffness was solved
+};
+
+/// The scene at rest under its gravity.
+struct Equilibrium {
+  std::vector<std::vector<double>> displacement;  ///< u_0 per structure, owned dofs [m, rad]
+  std::vector<StructureRest> structures;
+  std::vector<double> contact_force;  ///< p_0 per row of the interface, the same on all ranks [N]
+  int taut_bars = 0;                  ///< tension-only bars that carry
+  int slack_bars = 0;
+  double gravity_potential = 0;  ///< -f_g^T u_0 [J]
+  int iterations = 0;
+  int rows_tried = 0;  ///< contact points and bars that a solution was made for
+  /// Root of the mean square acceleration, weighted by mass, that the start leaves, over that of
+  /// gravity [-].
+  double residual = 0;
+};
+
+/// Static equilibrium of all structures with their contacts and tension-only bars (see
+/// UnilateralRows):
+///
+///     s K u_0 = M g + R^T f,      0 <= f _|_ w0 + R u_0 + c f >= 0
+///
+/// by the proximal point method (Rockafellar, SIAM J. Control Optim. 14 (1976), 877), which needs
+/// no stiffness that holds by itself, so that blocks which only rest on each other pass:
+///
+///     (s K + sigma M) d = M g + R^T f - s K u,       u <- u + d,
+///     with f such that the rows are fulfilled by u + d
+///
+/// sigma = 1 / s2 shrinks what is left by 1 / (1 + omega^2 / sigma) at a held frequency omega, and
+/// refines the solution like any correction by its residual. Rows that no iterate violates are
+/// never solved for. A structure that nothing holds against its weight falls on for ever: UserError
+/// naming it. Systems need their matrix. Collective.
+Equilibrium find_equilibrium(MPI_Comm comm, std::span<const LinearSystem> systems,
+                             std::span<const Mesh> meshes, const Interface& interface,
+                             StaticSolver solver);
+
+}  // namespace pounding

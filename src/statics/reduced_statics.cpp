@@ -1,0 +1,63 @@
+#include "statics/reduced_statics.h"
+
+#include "common/dense_solver.h"
+#include "common/error.h"
+#include "common/parallel.h"
+#include "statics/bar_terms.h"
+
+namespace pounding {
+namespace {
+
+void multiply(const std::vector<double>& matrix, const std::vector<double>& x,
+              std::vector<double>& product) {
+  const std::size_t n = x.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    double sum = 0;
+    for (std::size_t j = 0; j < n; ++j) sum += matrix[i * n + j] * x[j];
+    product[i] = sum;
+  }
+}
+
+}  // namespace
+
+ReducedStatics::ReducedStatics(const LinearSystem& system, double shift) {
+  const std::size_t n = system.lumped_mass.size();
+  // K is diagonal: one product tells it.
+  const std::vector<double> ones(n, 1.0);
+  std::vector<double> diagonal(n, 0.0);
+  StoredForces store(diagonal.data());
+  system.stiffness->apply({ones.data(), ones.data(), 0}, store);
+  const double at_rest = system.uniform_damping ? system.uniform_damping->at_rest() : 1;
+  stiffness_.assign(n * n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) stiffness_[i * n + i] = at_rest * diagonal[i];
+  for (const BarTerms& bar : bar_terms(system)) {
+    for (std::size_t a = 0; a < bar.dofs.size(); ++a) {
+      for (std::size_t b = 0; b < bar.dofs.size(); ++b) {
+        const std::size_t i = bar.dofs[a];
+        const std::size_t j = bar.dofs[b];
+        stiffness_[i * n + j] -= bar.stiffness * bar.coefficients[a] * bar.coefficients[b];
+      }
+    }
+  }
+  inverse_ = stiffness_;
+  for (std::size_t i = 0; i < n; ++i) inverse_[i * n + i] += shift * system.lumped_mass[i];
+  on_every_rank(system.comm, [&] {
+    if (n > 0 && !invert_definite(inverse_)) {
+      throw UserError("structure " + system.name +
+                      ": its reduced stiffness is not positive without the tension-only bars, so "
+                      "it has no static equilibrium; leave -preload out");
+    }
+  });
+}
+
+void ReducedStatics::apply(const std::vector<double>& u, std::vector<double>& q) const {
+  q.resize(u.size());
+  multiply(stiffness_, u, q);
+}
+
+void ReducedStatics::solve(std::vector<double>& x) const {
+  const std::vector<double> right = x;
+  multiply(inverse_, right, x);
+}
+
+}  // namespace pounding

@@ -1,0 +1,75 @@
+#include "statics/unilateral_rows.h"
+
+#include "common/parallel.h"
+#include "statics/bar_terms.h"
+
+namespace pounding {
+
+UnilateralRows::UnilateralRows(MPI_Comm comm, const ContactProblem* contact,
+                               std::span<const double> gaps, std::span<const LinearSystem> systems)
+    : comm_(comm) {
+  if (contact != nullptr) add_contacts(*contact, gaps, systems);
+  contacts_ = size();
+  for (std::size_t s = 0; s < systems.size(); ++s) add_bars(s, systems[s]);
+}
+
+void UnilateralRows::add_contacts(const ContactProblem& contact, std::span<const double> gaps,
+                                  std::span<const LinearSystem> systems) {
+  for (int i = 0; i < contact.rows(); ++i) {
+    Row& row = rows_.emplace_back();
+    row.initial = gaps[i];
+    for (std::size_t s = 0; s < systems.size(); ++s) {
+      const std::vector<double> force = contact.row_force(i, s, systems[s].owned_dofs());
+      for (const LocalIndex dof : contact.trace(s).dofs()) {
+        if (force[dof] != 0) row.entries.push_back({s, dof, force[dof]});
+      }
+    }
+  }
+}
+
+void UnilateralRows::add_bars(std::size_t structure, const LinearSystem& system) {
+  const std::vector<BarTerms> bars = bar_terms(system);
+  std::vector<int> counts(size_of(comm_));
+  const int mine = static_cast<int>(bars.size());
+  MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);
+  for (int rank = 0; rank < size_of(comm_); ++rank) {
+    std::vector<double> compliances(counts[rank]);
+    const bool own = rank == rank_of(comm_);
+    for (int i = 0; own && i < mine; ++i) compliances[i] = 1 / bars[i].stiffness;
+    MPI_Bcast(compliances.data(), counts[rank], MPI_DOUBLE, rank, comm_);
+    for (int i = 0; i < counts[rank]; ++i) {
+      Row& row = rows_.emplace_back();
+      row.compliance = compliances[i];
+      for (std::size_t k = 0; own && k < bars[i].dofs.size(); ++k) {
+        row.entries.push_back({structure, bars[i].dofs[k], -bars[i].coefficients[k]});
+      }
+    }
+  }
+}
+
+std::vector<double> UnilateralRows::responses(
+    std::span<const std::vector<double>> displacement) const {
+  std::vector<double> sums(rows_.size(), 0.0);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    for (const Entry& entry : rows_[i].entries) {
+      sums[i] += entry.coefficient * displacement[entry.structure][entry.dof];
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), size(), MPI_DOUBLE, MPI_SUM, comm_);
+  return sums;
+}
+
+std::vector<double> UnilateralRows::openings(
+    std::span<const std::vector<double>> displacement) const {
+  std::vector<double> openings = responses(displacement);
+  for (std::size_t i = 0; i < rows_.size(); ++i) openings[i] += rows_[i].initial;
+  return openings;
+}
+
+void UnilateralRows::add_force(int row, double f, std::span<std::vector<double>> forces) const {
+  for (const Entry& entry : rows_[row].entries) {
+    forces[entry.structure][entry.dof] += f * entry.coefficient;
+  }
+}
+
+}  // namespace pounding

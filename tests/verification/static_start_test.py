@@ -1,0 +1,310 @@
+"""Runs that start from the static equilibrium under gravity, contacts and tension-only bars included.
+
+Closed forms: the sag rho g L^2 / (2 E) of a hung bar, and the force (sag - gap) E A / L of a wall
+that it would reach; weights above the joints of a stack; m g / k on springs and on a pair of taut
+bars. What starts at rest stays there, and small motions about it are those without gravity.
+"""
+import math
+import os
+import shutil
+import tempfile
+import unittest
+
+import numpy
+import scipy.io
+
+import program
+from recorded import Recorded, write_sine
+
+GRAVITY, YOUNG, DENSITY = 9.81, 30e9, 2400.0
+REST = ["-gravity", GRAVITY, "-preload", "static"]
+
+
+def box(name, sizes, *more, poisson=0.0):
+    return [f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set", sizes, f"-{name}_body_element", "hex8",
+            f"-{name}_body_material", "concrete", "-material_concrete_young", YOUNG,
+            "-material_concrete_poisson", poisson, "-material_concrete_density", DENSITY, *more]
+
+
+def largest_speed(run, mass):
+    """Bound of the speed of any dof of at least this mass, from the kinetic energy at the end."""
+    return math.sqrt(2 * abs(run.energy["kinetic"]) / mass)
+
+
+class HungBar(unittest.TestCase):
+    """Clamped at the top, of 10 bricks."""
+    LENGTH, AREA = 5.0, 0.25
+    SAG = DENSITY * GRAVITY * LENGTH**2 / (2 * YOUNG)
+    WEIGHT = DENSITY * GRAVITY * LENGTH * AREA
+    SIZES = "lx=0.5,ly=0.5,lz=5,nz=10"
+
+    def hang(self, *more, ranks=2, steps=50):
+        step = 5e-5
+        return Recorded(self, ["-structures", "bar", *box("bar", self.SIZES, "-bar_clamp", "z_max"), "-time_step",
+                               step, "-end_time", steps * step, "-output_interval", step, "-probes", "foot",
+                               "-foot_structure", "bar", "-foot_group", "z_min", *REST, *more], ranks)
+
+    def assert_hangs(self, run, tolerance=1e-12):
+        foot = run.displacement("foot.z")
+        self.assertLess(abs(foot / -self.SAG - 1).max(), tolerance)
+        rest = run.summary["equilibrium"]["structures"]["bar"]
+        self.assertAlmostEqual(rest["weight"][2] / -self.WEIGHT, 1, delta=1e-12)
+        self.assertAlmostEqual(rest["support"][2] / self.WEIGHT, 1, delta=1e-10)
+        self.assertLess(rest["imbalance"], 1e-10)
+
+    def test_sags_as_it_must_and_stays(self):
+        for ranks in (1, 2, 3):
+            run = self.hang(ranks=ranks)
+            self.assert_hangs(run)
+            rest = run.summary["equilibrium"]
+            self.assertAlmostEqual(rest["structures"]["bar"]["largest_displacement"] / self.SAG, 1, delta=1e-12)
+            self.assertIn("(0", rest["structures"]["bar"]["place"])
+            self.assertEqual([line for line in run.summary["warnings"] if "gravity" in line], [])
+
+    def test_iteration_finds_the_same(self):
+        run = self.hang("-preload_solver", "iterative")
+        self.assert_hangs(run, 1e-9)
+        self.assertIn("conjugate gradients", run.summary["equilibrium"]["structures"]["bar"]["method"])
+
+    def test_few_modes_find_the_same(self):
+        run = self.hang("-bar_model", "modal", "-bar_modal_vectors", 2)
+        self.assertLess(abs(run.displacement("foot.z") / -self.SAG - 1).max(), 1e-6)
+
+    def test_matrices_find_the_same(self):
+        folder = tempfile.mkdtemp()
+        try:
+            self.hang("-export_matrices", folder)
+            read = self.hang("-bar_matrices", os.path.join(folder, "bar"))
+            self.assertLess(abs(read.displacement("foot.z") / -self.SAG - 1).max(), 1e-12)
+            # The files know nothing of the mass of clamped nodes.
+            rest = read.summary["equilibrium"]["structures"]["bar"]
+            self.assertAlmostEqual(rest["support"][2] / (self.WEIGHT * 0.95), 1, delta=1e-10)
+        finally:
+            shutil.rmtree(folder)
+
+    def test_uniform_damping_settles_with_what_it_leaves_of_the_stiffness(self):
+        run = self.hang("-bar_damping_uniform", 0.05, "-bar_damping_reference", 100)
+        left = run.summary["structures"]["bar"]["damping"]["stiffness_at_rest"]
+        self.assertLess(left, 0.9)
+        self.assertLess(abs(run.displacement("foot.z") * left / -self.SAG - 1).max(), 1e-12)
+
+    def test_reaches_the_wall_below(self):
+        gap = 0.4 * self.SAG
+        force = (self.SAG - gap) * YOUNG * self.AREA / self.LENGTH
+        wall = ["-contacts", "stop", "-stop_secondary", "bar:z_min", "-stop_primary", "wall", "-stop_gap", repr(gap)]
+        for more in ([], ["-bar_model", "modal", "-bar_modal_vectors", 2]):
+            run = self.hang(*wall, *more)
+            self.assertLess(abs(run.displacement("foot.z") / -gap - 1).max(), 1e-9)
+            self.assertLess(abs(run.force("stop")[1:] / force - 1).max(), 1e-5 if more else 1e-10)
+            contact = run.summary["equilibrium"]["contacts"]["stop"]
+            self.assertEqual(contact["points"], 4)
+            self.assertAlmostEqual(contact["force"] / force, 1, delta=1e-5 if more else 1e-12)
+
+    def test_a_wall_out_of_reach_carries_nothing(self):
+        run = self.hang("-contacts", "stop", "-stop_secondary", "bar:z_min", "-stop_primary", "wall", "-stop_gap",
+                        repr(1.001 * self.SAG))
+        self.assert_hangs(run)
+        self.assertEqual(run.summary["equilibrium"]["contacts"]["stop"], {"points": 0, "force": 0})
+        self.assertEqual(run.summary["impacts"]["episodes"], 0)
+
+    def test_dropped_it_swings_to_twice_the_sag(self):
+        run = self.hang("-preload", "none", steps=150)
+        self.assertNotIn("equilibrium", run.summary)
+        self.assertAlmostEqual(run.displacement("foot.z").min() / -self.SAG, 2, delta=0.05)
+        self.assertEqual(run.energy["gravity"], run.energy["input"])
+        self.assertGreater(run.energy["gravity"], 0)
+
+
+class RestingColumn(unittest.TestCase):
+    """2 x 2 x 6 bricks with Poisson's ratio 0.2 on a wall, free otherwise."""
+    WEIGHT = DENSITY * GRAVITY * 0.4 * 0.4 * 1.2
+    CORNER = DENSITY * 0.4 * 0.4 * 1.2 / 24 / 8  # kg: the smallest mass of a node
+
+    def stand(self, steps, ranks, *more):
+        step = 4.5e-5
+        return Recorded(self, ["-structures", "body", *box("body", "lx=0.4,ly=0.4,lz=1.2,nx=2,ny=2,nz=6", poisson=0.2),
+                               "-contacts", "stop", "-stop_secondary", "body:z_min", "-stop_primary", "wall",
+                               "-stop_gap", 0, "-time_step", step, "-end_time", steps * step, "-output_interval",
+                               10 * step, "-energy_interval", 1000, "-probes", "top", "-top_structure", "body",
+                               "-top_group", "z_max", *REST, *more], ranks)
+
+    def assert_stands(self, run):
+        self.assertLess(abs(run.force("stop")[1:] / self.WEIGHT - 1).max(), 1e-10)
+        top = run.displacement("top.z")
+        self.assertLess(abs(top - top[0]).max(), 1e-15)
+        self.assertLess(largest_speed(run, self.CORNER), 1e-9)
+        self.assertEqual(len(run.column("start")), 1)
+        self.assertEqual(run.summary["equilibrium"]["contacts"]["stop"]["points"], 9)
+
+    def test_stands_for_a_hundred_thousand_steps(self):
+        self.assert_stands(self.stand(100000, 1))
+
+    def test_stands_on_more_ranks_and_in_modes(self):
+        self.assert_stands(self.stand(2000, 2))
+        self.assert_stands(self.stand(2000, 3))
+        self.assert_stands(self.stand(2000, 2, "-body_model", "modal", "-body_modal_vectors", 12))
+
+    def test_what_nothing_holds_is_refused(self):
+        for more, why in ((["-contacts", "none", "-body_allow_loose", "true"], "finds no rest under its weight"),
+                          (["-body_initial_displacement", "0,0,0.1"], "not with -preload static"),
+                          (["-preload", "dynamic"], "none static"), (["-gravity", -9.81], ">= 0")):
+            words = ["-structures", "body", *box("body", "nz=2"), "-contacts", "stop", "-stop_secondary",
+                     "body:z_min", "-stop_primary", "wall", "-stop_gap", 0, "-end_time", 0.01, *REST, *more]
+            result = program.run([*words, "-output", tempfile.mkdtemp()], 2)
+            self.assertEqual(result.returncode, 1)
+            lines = program.error_lines(result)
+            self.assertEqual(len(lines), 1, lines)
+            self.assertIn(why, lines[0])
+
+
+class Stack(unittest.TestCase):
+    """Three blocks of different sizes on a wall, nothing else holds them."""
+
+    def test_every_joint_carries_what_stands_on_it(self):
+        heights = (0.5, 0.3, 0.8)
+        words = ["-structures", "a,b,c", "-contacts", "ground,joint1,joint2", "-time_step", 2e-5, "-end_time", 0.1,
+                 "-output_interval", 2e-4, "-energy_interval", 500, *REST]
+        base = 0.0
+        for name, height, n in zip("abc", heights, (3, 2, 4)):
+            words += box(name, f"z0={base},lx=0.6,ly=0.6,lz={height},nx=3,ny=3,nz={n}", poisson=0.2)
+            base += height
+        for contact, upper, lower in (("ground", "a", "wall"), ("joint1", "b", "a:z_max"), ("joint2", "c", "b:z_max")):
+            words += [f"-{contact}_secondary", f"{upper}:z_min", f"-{contact}_primary", lower, f"-{contact}_gap", 0]
+        for ranks in (1, 2):
+            run = Recorded(self, words, ranks)
+            for contact, above in (("ground", 1.6), ("joint1", 1.1), ("joint2", 0.8)):
+                weight = DENSITY * GRAVITY * 0.36 * above
+                self.assertLess(abs(run.force(contact)[1:] / weight - 1).max(), 1e-10)
+            self.assertLess(largest_speed(run, DENSITY * 0.2**2 * 0.15 / 8), 1e-9)
+            self.assertEqual(len(run.column("start")), 3)
+
+
+class Cantilever(unittest.TestCase):
+    """A beam of bricks that bends down to a wall below, beside dense algebra on its exported matrices."""
+
+    def matrix(self, folder, name):
+        return scipy.io.mmread(os.path.join(folder, name)).toarray()
+
+    def solve(self, stiffness, load, rows, gaps):
+        """Displacement and forces of closed rows, by trying sets of rows until none pulls and none is violated."""
+        closed = numpy.zeros(len(gaps), dtype=bool)
+        flexible = numpy.linalg.solve(stiffness, numpy.column_stack([load, rows.T]))
+        compliance = rows @ flexible[:, 1:]
+        for _ in range(100):
+            force = numpy.zeros(len(gaps))
+            free = gaps + rows @ flexible[:, 0]
+            force[closed] = numpy.linalg.solve(compliance[numpy.ix_(closed, closed)], -free[closed])
+            wanted = numpy.where(closed, force > 0, free + compliance @ force < -1e-15)
+            if (wanted == closed).all():
+                return flexible[:, 0] + flexible[:, 1:] @ force, force
+            closed = wanted
+        self.fail("no set of rows found")
+
+    def test_lies_on_the_wall_where_dense_algebra_says(self):
+        folder = tempfile.mkdtemp()
+        gap = 5e-6
+        words = ["-structures", "arm", *box("arm", "lx=4,ly=0.5,lz=0.25,nx=8,ny=1,nz=1", "-arm_clamp", "x_min",
+                                            poisson=0.2), "-contacts", "floor", "-floor_secondary", "arm:z_min",
+                 "-floor_primary", "wall", "-floor_gap", gap, "-end_time", 0.002, "-probes", "tip", "-tip_structure",
+                 "arm", "-tip_group", "x_max", "-export_matrices", folder, *REST]
+        try:
+            for ranks in (1, 2, 3):
+                run = Recorded(self, words, ranks)
+                mass = self.matrix(folder, "arm/mass.mtx")[:, 0]
+                down = self.matrix(folder, "arm/influence.mtx")[:, 2]
+                rows = self.matrix(folder, "arm/contact.mtx")
+                displacement, force = self.solve(self.matrix(folder, "arm/stiffness.mtx"), -GRAVITY * mass * down,
+                                                 rows, numpy.full(len(rows), gap))
+                contact = run.summary["equilibrium"]["contacts"]["floor"]
+                self.assertGreater((force > 0).sum(), 1)
+                self.assertGreater((force == 0).sum(), 3)
+                self.assertEqual(contact["points"], (force > 0).sum())
+                self.assertAlmostEqual(contact["force"] / force.sum(), 1, delta=1e-9)
+                self.assertLess(abs(run.force("floor")[1:] / force.sum() - 1).max(), 1e-9)
+                tip = self.matrix(folder, "arm/probes.mtx")[2] @ displacement
+                self.assertLess(abs(run.displacement("tip.z") / tip - 1).max(), 1e-9)
+        finally:
+            shutil.rmtree(folder)
+
+
+class OnSprings(unittest.TestCase):
+    def test_settles_by_its_weight_over_the_springs(self):
+        stiffness, mass = 4e4, 100.0
+        words = ["-structures", "frame", "-frame_mesh", "tests/meshes/braces.geo", "-frame_ignore",
+                 "anchors,left,right", "-frame_mass_element", "point_mass", "-frame_mass_mass", mass,
+                 "-frame_support_element", "grounded_spring", "-frame_support_stiffness", f"1e4,1e4,{stiffness}",
+                 "-frame_support_dashpot", "0,0,50,0,0,0", "-probes", "hung", "-hung_structure", "frame", "-hung_at",
+                 "0,0,0", "-time_step", 1e-3, "-end_time", 1, "-frame_gravity", f"0.1,0,{-GRAVITY}", *REST]
+        for more in ([], ["-frame_model", "modal", "-frame_modal_vectors", 3]):
+            run = Recorded(self, words + more)
+            self.assertLess(abs(run.displacement("hung.z") / (-mass * GRAVITY / stiffness) - 1).max(), 1e-12)
+            self.assertLess(abs(run.displacement("hung.x") / (mass * 0.1 / 1e4) - 1).max(), 1e-12)
+            self.assertLess(largest_speed(run, mass), 1e-12)
+
+
+class HungOnBraces(unittest.TestCase):
+    """A mass between two pairs of bars that resist stretching only: one pair carries it."""
+    MASS, AREA = 100.0, 1e-4
+    PAIR = 2 * (2e9 * AREA / 5) * 0.8**2
+
+    def test_one_pair_is_taut(self):
+        words = ["-structures", "frame", "-frame_mesh", "tests/meshes/braces.geo", "-frame_clamp", "anchors",
+                 "-frame_ignore", "support", "-material_steel_young", 2e9, "-material_steel_poisson", 0.3,
+                 "-material_steel_density", 1e-9, "-frame_mass_element", "point_mass", "-frame_mass_mass", self.MASS,
+                 "-frame_gravity", f"{GRAVITY},0,0", "-probes", "hung", "-hung_structure", "frame", "-hung_at",
+                 "0,0,0", "-time_step", 1e-3, "-end_time", 2, "-preload", "static"]
+        for side in ("left", "right"):
+            words += [f"-frame_{side}_element", "bar", f"-frame_{side}_material", "steel", f"-frame_{side}_area",
+                      self.AREA, f"-frame_{side}_tension_only", "true"]
+        modal = ["-frame_model", "modal", "-frame_modal_vectors", 3]
+        for ranks, more in ((1, []), (2, []), (3, []), (2, modal)):
+            with self.subTest(ranks=ranks, more=more):
+                run = Recorded(self, words + more, ranks)
+                self.assertLess(abs(run.displacement("hung.x") / (self.MASS * GRAVITY / self.PAIR) - 1).max(), 1e-10)
+                self.assertLess(largest_speed(run, self.MASS), 1e-9)
+                rest = run.summary["equilibrium"]
+                self.assertEqual((rest["taut_bars"], rest["slack_bars"]), (2, 2))
+                self.assertAlmostEqual(rest["structures"]["frame"]["support"][0] / (self.MASS * GRAVITY), -1,
+                                       delta=1e-10)
+
+
+class Portal(unittest.TestCase):
+    """A frame of beams, shaken: without contact the motion about the rest is that without gravity."""
+
+    def shake(self, *more, ranks=2):
+        record = write_sine(2.0, 3.0, 0.3)
+        words = ["-structures", "frame", "-frame_mesh", "tests/meshes/portal.geo", "-frame_clamp", "base",
+                 "-material_steel_young", 210e9, "-material_steel_poisson", 0.3, "-material_steel_density", 7850,
+                 *(word for group in ("columns", "girder") for word in (
+                     f"-frame_{group}_element", "beam", f"-frame_{group}_material", "steel",
+                     f"-frame_{group}_section", "i")),
+                 "-section_i_area", 5e-3, "-section_i_inertia_y", 2e-5, "-section_i_inertia_z", 4e-5,
+                 "-section_i_torsion", 1e-6, "-section_i_z_axis", "0,0,1", "-motion_x_record", record,
+                 "-motion_x_unit", "m/s2", "-end_time", 0.3, "-time_step", 2e-5, "-output_interval", 1e-3,
+                 "-probes", "middle,corner", "-middle_structure", "frame", "-middle_at", "2,3,0",
+                 "-corner_structure", "frame", "-corner_at", "0,3,0", "-frame_damping_alpha", 1]
+        try:
+            return Recorded(self, words + list(more), ranks, identity=1e-11)
+        finally:
+            os.remove(record)
+
+    def assert_alike(self, still, moved, tolerance):
+        scale = abs(still.displacement("middle.x")).max()
+        self.assertGreater(scale, 1e-4)
+        for channel in ("middle.x", "middle.y", "corner.x", "corner.y"):
+            more = moved.displacement(channel) - moved.displacement(channel)[0]
+            self.assertLess(abs(more - still.displacement(channel)).max(), tolerance * scale)
+
+    def test_moves_about_its_rest_as_without_gravity(self):
+        weight = ["-frame_gravity", f"0,{-GRAVITY},0", "-preload", "static"]
+        still, moved = self.shake(), self.shake(*weight)
+        self.assertLess(moved.displacement("middle.y")[0], -1e-5)
+        self.assert_alike(still, moved, 1e-8)
+        modal = ["-frame_model", "modal", "-frame_modal_vectors", 8]
+        reduced = self.shake(*weight, *modal)
+        self.assertAlmostEqual(reduced.displacement("middle.y")[0] / moved.displacement("middle.y")[0], 1, delta=1e-6)
+        self.assert_alike(self.shake(*modal), reduced, 1e-3)
+
+
+if __name__ == "__main__":
+    unittest.main()
