@@ -10,6 +10,7 @@
 #include "io/csv_file.h"
 #include "io/matrix_market.h"
 #include "system/damping_matrix.h"
+#include "system/links.h"
 
 namespace pounding {
 namespace {
@@ -219,9 +220,9 @@ class Export {
 
 void export_matrices(MPI_Comm comm, const Scene& scene, const Model& model) {
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    if (model.systems[s].links) {
+    if (model.systems[s].links && model.systems[s].links->hold_energy()) {
       throw UserError("option -export_matrices: structure " + model.systems[s].name +
-                      " has tension-only bars, which no matrix holds");
+                      " has tension-only bars or compression-only springs, which no matrix holds");
     }
     Export(comm, scene, model, s).write();
   }

@@ -292,6 +292,17 @@ void print_slides(const Scene& scene, const RunStatistics& statistics) {
   }
 }
 
+void print_contact_ratios(const Scene& scene, const RunStatistics& statistics) {
+  for (std::size_t s = 0; s < statistics.contact_ratios.size(); ++s) {
+    const ContactRatio& ratio = statistics.contact_ratios[s];
+    std::printf(
+        "  %-12s contact ratio of its compression-only springs %.3f at the end, at least %.3f at "
+        "%.4g s, below %.0f %% for %.4g s\n",
+        scene.structures[s].name.c_str(), ratio.now, ratio.smallest, ratio.time,
+        100 * ContactRatio::low, ratio.low_duration);
+  }
+}
+
 void print_probes(const Recorder& recorder, const std::vector<ProbeSpectrum>& spectra,
                   double start) {
   if (recorder.channels().empty()) return;
@@ -393,6 +404,7 @@ void print_results(const Scene& scene, const RunStatistics& statistics,
   std::printf("\n");
   print_impacts(scene, statistics, impacts);
   print_slides(scene, statistics);
+  print_contact_ratios(scene, statistics);
   print_probes(recorder, spectra, scene.spectra.start);
   std::printf("\n");
   print_warnings(statistics.warnings);
@@ -406,7 +418,8 @@ void print_results(const Scene& scene, const RunStatistics& statistics,
   }
   if (std::abs(energy.device_work) > 1e-12 * std::abs(energy.energy())) {
     std::printf(
-        "  device work %.4g: of dashpots, tension-only bars, and what regions with damping of "
+        "  device work %.4g: of dashpots, one-way bars and springs, and what regions with damping "
+        "of "
         "their own\n  lose beside the damping of their structure\n",
         energy.device_work);
   }

@@ -15,6 +15,7 @@ namespace {
 constexpr double small_settlement = 0.01;
 
 constexpr double small_imbalance = 1e-8;
+constexpr double small_residual = 1e-8;
 
 double length(const Vector3& v) {
   return std::hypot(v[0], v[1], v[2]);
@@ -55,6 +56,14 @@ std::vector<std::string> rest_warnings(const Model& model) {
     }
     if (!text.str().empty()) warnings.push_back(text.str());
   }
+  if (model.equilibrium && model.equilibrium->residual > small_residual) {
+    std::ostringstream text;
+    text
+        << "the static equilibrium is found to " << model.equilibrium->residual
+        << " of the weight only, by mass: round-off of very stiff elements on light nodes; the run "
+           "starts as far from rest";
+    warnings.push_back(text.str());
+  }
   return warnings;
 }
 
@@ -94,8 +103,9 @@ void print_rest(const Scene& scene, const Model& model) {
     std::printf("  contact %s: %d of %d points carry %.6g N\n", scene.contacts[c].name.c_str(),
                 closed, points, force);
   }
-  if (rest.taut_bars + rest.slack_bars > 0) {
-    std::printf("  tension-only bars: %d taut, %d slack\n", rest.taut_bars, rest.slack_bars);
+  if (rest.acting_links + rest.idle_links > 0) {
+    std::printf("  tension-only bars and compression-only springs: %d act, %d do not\n",
+                rest.acting_links, rest.idle_links);
   }
 }
 

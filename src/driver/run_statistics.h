@@ -6,6 +6,7 @@
 
 #include "common/profile.h"
 #include "contact/slide_watch.h"
+#include "driver/uplift_watch.h"
 #include "dynamics/energy_balance.h"
 #include "output/impact_catalogue.h"
 #include "output/recorder.h"
@@ -27,9 +28,10 @@ struct RunStatistics {
   std::int64_t interface_looks = 0;   ///< steps that looked at the gaps
   std::vector<ImpactTotals> impacts;  ///< per contact
   ImpactTotals all_impacts;
-  std::vector<Slide> slides;          ///< per contact
-  std::vector<std::string> warnings;  ///< one line each: what the run came upon
-  std::vector<double> phase_seconds;  ///< largest over the ranks, per Phase
+  std::vector<Slide> slides;                 ///< per contact
+  std::vector<ContactRatio> contact_ratios;  ///< per structure; empty where nothing may lift off
+  std::vector<std::string> warnings;         ///< one line each: what the run came upon
+  std::vector<double> phase_seconds;         ///< largest over the ranks, per Phase
 };
 
 }  // namespace pounding

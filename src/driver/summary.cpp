@@ -161,8 +161,8 @@ Json describe_energy(const RunStatistics& statistics) {
 Json describe_equilibrium(const Scene& scene, const Model& model) {
   const Equilibrium& rest = *model.equilibrium;
   Json description{{"iterations", rest.iterations}, {"residual", rest.residual},
-                   {"rows_tried", rest.rows_tried}, {"taut_bars", rest.taut_bars},
-                   {"slack_bars", rest.slack_bars}, {"gravity_potential", rest.gravity_potential}};
+                   {"rows_tried", rest.rows_tried}, {"acting_links", rest.acting_links},
+                   {"idle_links", rest.idle_links}, {"gravity_potential", rest.gravity_potential}};
   for (std::size_t s = 0; s < rest.structures.size(); ++s) {
     const StructureRest& of = rest.structures[s];
     description["structures"][scene.structures[s].name] = {
@@ -247,6 +247,14 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
   summary["contact_rows"] = statistics.contact_rows;
   summary["coupled_rows"] = statistics.coupled_rows;
   summary["energy"] = describe_energy(statistics);
+  for (std::size_t s = 0; s < statistics.contact_ratios.size(); ++s) {
+    const ContactRatio& ratio = statistics.contact_ratios[s];
+    summary["contact_ratio"][scene.structures[s].name] = {
+        {"end", ratio.now},
+        {"smallest", ratio.smallest},
+        {"time_of_smallest", ratio.time},
+        {"time_below_80_percent", ratio.low_duration}};
+  }
   summary["impacts"] = describe_impacts(statistics.all_impacts);
   summary["impacts"]["complementarity_residual"] = statistics.complementarity_residual;
   summary["contacts"] = Json::object();

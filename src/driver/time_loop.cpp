@@ -31,6 +31,12 @@ std::vector<std::array<double, 2>> places_of(const Interface& interface) {
   return places;
 }
 
+bool may_lift_off(const Scene& scene) {
+  return std::ranges::any_of(scene.structures, [](const Structure& structure) {
+    return std::ranges::any_of(structure.regions, &Region::compression_only);
+  });
+}
+
 Solver::Parts solver_parts(MPI_Comm comm, const Scene& scene, const Model& model,
                            Profile& profile) {
   Solver::Parts parts{comm,
@@ -65,6 +71,8 @@ TimeLoop::TimeLoop(MPI_Comm comm, const Scene& scene, const Model& model, Profil
                  places_of(model.interface), scene.impact_merge_time),
       smallest_gaps_(scene.contacts.size(), 0.0),
       slide_stride_(static_cast<std::int64_t>(std::max(1.0, slide_interval / model.time_step))),
+      uplift_(may_lift_off(scene) ? std::make_unique<UpliftWatch>(comm, model.systems.size())
+                                  : nullptr),
       energies_(model.systems.size()),
       energy_round_off_(model.systems.size()),
       ledger_(model.steps / scene.energy_interval + 2) {}
@@ -193,6 +201,7 @@ void TimeLoop::close_ledger_line() {
   solver_.stepper().gap_watch().energies_known(energy.closed_steps() - 1, energies_,
                                                energy_round_off_);
   ledger_.add(line);
+  if (uplift_) uplift_->look(solver_.stepper(), scene_.energy_interval * model_.time_step);
 }
 
 void TimeLoop::write_checkpoint(const RunIdentity& identity) {
@@ -211,6 +220,7 @@ void TimeLoop::write_checkpoint(const RunIdentity& identity) {
   }
   if (slides_ && slides_->root() == rank_of(comm_)) slides_->save(saved);
   if (rank_of(comm_) == 0) ledger_.save(saved);
+  if (rank_of(comm_) == 0 && uplift_) uplift_->save(saved);
   pounding::write_checkpoint(comm_, scene_.output + "/checkpoint.h5", identity, model_.meshes,
                              model_.systems, saved);
 }
@@ -220,6 +230,7 @@ void TimeLoop::load(const SavedState& saved) {
   catalogue_.load(saved);
   if (slides_) slides_->load(saved);
   ledger_.load(saved);
+  if (uplift_) uplift_->load(saved);
   recorder_->load(saved);  // last: it replaces the history, which nothing refused may touch
   first_step_ = step() + 1;
 }
@@ -257,6 +268,7 @@ void TimeLoop::fill(RunStatistics& statistics) const {
     statistics.slides = slides_->slides();
     broadcast_array(comm_, statistics.slides, slides_->root());
   }
+  if (uplift_) statistics.contact_ratios = uplift_->ratios();
   statistics.peak_memory = peak_memory();
   MPI_Allreduce(MPI_IN_PLACE, &statistics.peak_memory, 1, MPI_DOUBLE, MPI_SUM, comm_);
   double residual = statistics.complementarity_residual;

@@ -7,6 +7,7 @@
 #include "driver/model.h"
 #include "driver/run_statistics.h"
 #include "driver/solver.h"
+#include "driver/uplift_watch.h"
 #include "output/checkpoint.h"
 #include "output/energy_ledger.h"
 #include "output/impact_catalogue.h"
@@ -54,9 +55,10 @@ class TimeLoop {
   std::unique_ptr<SlideWatch> slides_;  ///< null without contacts
   ImpactCatalogue catalogue_;
   std::unique_ptr<Recorder> recorder_;
-  std::vector<double> smallest_gaps_;  ///< per contact
-  std::int64_t gap_stride_ = 1;        ///< steps between two samples of the gaps
-  std::int64_t slide_stride_ = 1;      ///< steps between two looks at the slides
+  std::vector<double> smallest_gaps_;    ///< per contact
+  std::int64_t gap_stride_ = 1;          ///< steps between two samples of the gaps
+  std::int64_t slide_stride_ = 1;        ///< steps between two looks at the slides
+  std::unique_ptr<UpliftWatch> uplift_;  ///< null where nothing may lift off
   std::vector<StructureEnergy> energies_;
   std::vector<double> energy_round_off_;  ///< of each of them [J]
   EnergyLedger ledger_;

@@ -23,12 +23,24 @@ constexpr double product_round_off = 1e-14;
 /// Part of the kinetic energy by which round-off can make the positive part negative.
 constexpr double round_off = 1e-10;
 
-/// Complaint about the energies of a structure; empty if nothing is wrong.
-std::string complaint(const StructureEnergy& energy) {
+/// Frequency that bounds the round-off of K u of a structure [rad/s].
+double row_frequency(const Model& model, std::size_t structure) {
+  // K keeps its stiff entries whatever the mass is that they meet.
+  return std::max(model.buildings[structure].limits.largest.omega_max,
+                  model.systems[structure].mass_scaling.row_frequency);
+}
+
+/// Complaint about the energies of a structure; empty if nothing is wrong. `omega`: see
+/// row_frequency.
+std::string complaint(const StructureEnergy& energy, double omega) {
   std::ostringstream text;
+  // K v comes from two products K u, whose round-off stays when v is next to nothing.
+  const double allowed = round_off * std::abs(energy.kinetic) +
+                         product_round_off * omega *
+                             std::sqrt(2 * std::abs(energy.kinetic) * energy.displacement_mass);
   if (!std::isfinite(energy.energy()) || !std::isfinite(energy.positive_part)) {
     text << "its energy is not a number";
-  } else if (energy.positive_part < -round_off * std::abs(energy.kinetic)) {
+  } else if (energy.positive_part < -allowed) {
     text << "v^T (M + S - dt/2 C - dt^2/4 s K) v / 2 = " << energy.positive_part
          << " J is negative (kinetic " << energy.kinetic << " J, strain " << energy.strain << " J)";
   }
@@ -40,7 +52,7 @@ std::string complaint(const StructureEnergy& energy) {
 void watch_divergence(const Model& model, const State& state, const EnergyLine& line,
                       std::span<const StructureEnergy> structures) {
   for (std::size_t s = 0; s < structures.size(); ++s) {
-    const std::string wrong = complaint(structures[s]);
+    const std::string wrong = complaint(structures[s], row_frequency(model, s));
     if (wrong.empty()) continue;
     std::vector<double> motion = state.structures[s].velocity;
     for (std::size_t i = 0; i < motion.size(); ++i) {
@@ -56,9 +68,7 @@ void watch_divergence(const Model& model, const State& state, const EnergyLine& 
 }
 
 double energy_round_off(const Model& model, std::size_t structure, const StructureEnergy& energy) {
-  // K keeps its stiff entries whatever the mass is that they meet.
-  const double omega = std::max(model.buildings[structure].limits.largest.omega_max,
-                                model.systems[structure].mass_scaling.row_frequency);
+  const double omega = row_frequency(model, structure);
   return product_round_off * omega * omega * energy.displacement_mass;
 }
 

@@ -69,6 +69,10 @@ class CdLagrange {
   /// Steps so far in which the interface was looked at; members of the interface only.
   std::int64_t looks() const { return looks_; }
   const ContactProblem* contact() const { return contact_; }
+  /// Compression-only springs of a structure after the last step, those of this rank.
+  LinkStep::Bedding bedding(std::size_t structure) const {
+    return link_steps_[structure] ? link_steps_[structure]->bedding() : LinkStep::Bedding{};
+  }
   /// Ground acceleration of the current step [m/s2], and how long it acts [s].
   const std::array<double, 3>& ground_acceleration() const { return acceleration_; }
   double force_duration() const { return force_duration_; }

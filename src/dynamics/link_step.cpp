@@ -226,6 +226,17 @@ double LinkStep::largest_force() const {
   return largest;
 }
 
+LinkStep::Bedding LinkStep::bedding() const {
+  Bedding bedding;
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    if (!is_pressed(links_[b].origin)) continue;
+    const double stiffness = links_[b].origin.region->stiffness[2];
+    bedding.all += stiffness;
+    if (after_[b] > 0) bedding.pressed += stiffness;
+  }
+  return bedding;
+}
+
 void LinkStep::finish(StepSums& sums) {
   measure(state_.velocity, rate_);
   rates_known_ = true;

@@ -34,6 +34,14 @@ class LinkStep {
   /// After contact: adds the links' energy before the step and their loss in it; they remember it.
   void finish(StepSums& sums);
 
+  /// Stiffness of this rank's compression-only springs [N/m]: of those that are pressed at the end
+  /// of the step, and of all.
+  struct Bedding {
+    double pressed = 0;
+    double all = 0;
+  };
+  Bedding bedding() const;
+
   /// Saves what the links remember, link by link. `structure`: its number.
   void save(int structure, SavedState& saved) const;
   void load(int structure, const SavedState& saved);

@@ -57,6 +57,7 @@ constexpr std::string_view of_bar = "material area tension_only";
 constexpr std::string_view of_plate = "material thickness rotary_inertia_factor";
 constexpr std::string_view of_point = "mass rotary_inertia";
 constexpr std::string_view of_spring = "stiffness dashpot";
+constexpr std::string_view of_ground = "stiffness dashpot compression_only";
 
 // clang-format off
 constexpr std::array table{
@@ -81,9 +82,9 @@ constexpr std::array table{
     ElementTraits{Type::point_mass6, "point_mass", "point_mass", Family::point_mass, {1, 6}, 15, {}, {},
         of_point, nothing, point_mass, Kernel::sparse, measured_costs::small, true, false},
     ElementTraits{Type::grounded_spring, "grounded_spring", "grounded_spring", Family::grounded_spring, {1, 3}, 15, {}, {},
-        of_spring, spring_stiffness<1, 3>, nothing, Kernel::sparse, measured_costs::small, true, true},
+        of_ground, spring_stiffness<1, 3>, nothing, Kernel::sparse, measured_costs::small, true, true},
     ElementTraits{Type::grounded_spring6, "grounded_spring", "grounded_spring", Family::grounded_spring, {1, 6}, 15, {}, {},
-        of_spring, spring_stiffness<1, 6>, nothing, Kernel::sparse, measured_costs::small, true, true},
+        of_ground, spring_stiffness<1, 6>, nothing, Kernel::sparse, measured_costs::small, true, true},
     ElementTraits{Type::spring, "spring", "spring", Family::spring, {2, 3}, 1, {}, {},
         of_spring, spring_stiffness<2, 3>, nothing, Kernel::sparse, measured_costs::small, true, true},
     ElementTraits{Type::spring6, "spring", "spring", Family::spring, {2, 6}, 1, {}, {},

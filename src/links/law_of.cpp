@@ -10,18 +10,27 @@
 namespace pounding {
 
 bool has_links(const Region& region) {
-  return !is_linear(region.element) ||
+  return is_one_way(region) ||
          (is_spring(region.element) &&
           std::ranges::any_of(region.dashpot, [](double rate) { return rate > 0; }));
 }
 
+bool is_pressed(const LinkOrigin& origin) {
+  return is_spring(origin.region->element) && origin.region->compression_only &&
+         origin.component == 2;
+}
+
 std::unique_ptr<LinkLaw> law_of(const LinkOrigin& origin, double time_step) {
   const Region& region = *origin.region;
-  if (is_spring(region.element)) {
+  const bool pressed = is_pressed(origin);
+  if (is_spring(region.element) && !pressed) {
     return std::make_unique<DashpotLaw>(region.dashpot[origin.component] / (2 * time_step));
   }
-  const double stiffness = region.material.young * region.area / origin.length;
-  auto law = std::make_unique<TensionLaw>(stiffness, origin.beta * stiffness / (2 * time_step));
+  // The elongation of a compression-only spring is how far it is pressed down.
+  const double stiffness =
+      pressed ? region.stiffness[2] : region.material.young * region.area / origin.length;
+  const double damping = origin.beta * stiffness + (pressed ? region.dashpot[2] : 0);
+  auto law = std::make_unique<TensionLaw>(stiffness, damping / (2 * time_step));
   if (!origin.in_stiffness) return law;
   return std::make_unique<RelievingLaw>(std::move(law));
 }

@@ -7,8 +7,8 @@
 
 namespace pounding {
 
-/// Whether the elements of a region are links, or hold some: tension-only bars, springs with
-/// dashpots.
+/// Whether the elements of a region are links, or hold some: tension-only bars, compression-only
+/// springs, springs with dashpots.
 bool has_links(const Region& region);
 
 /// Origin of a link: what its law follows from.
@@ -19,6 +19,9 @@ struct LinkOrigin {
   double beta = 0;                 ///< stiffness damping of its structure [s]
   bool in_stiffness = false;       ///< K of its structure holds it at its tangent already
 };
+
+/// Whether a link is the part along z of a compression-only spring.
+bool is_pressed(const LinkOrigin& origin);
 
 /// Law of a link by what the options of its region say: the only place that chooses among laws.
 /// `time_step` [s].

@@ -45,7 +45,7 @@ std::string hash_of(const std::vector<Region>& regions) {
                             p.torsion, p.thickness, p.rotary_inertia_factor, p.mass});
     hash.add_all(p.z_axis);
     hash.add_all(p.rotary_inertia);
-    hash.add_all(p.stiffness);
+    hash.add_all(region.stiffness);
   }
   return hash.text();
 }

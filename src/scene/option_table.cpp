@@ -105,6 +105,7 @@ constexpr std::array table{
     OptionRow{Block::region, "<structure>_<group>_rotary_inertia", Kind::reals, "kg m2", value("0,0,0"), not_negative, "three numbers about x, y, z", "point_mass: its rotary inertia"},
     OptionRow{Block::region, "<structure>_<group>_stiffness", Kind::reals, "N/m, N m", absent("required for springs"), not_negative, "six numbers along and about x, y, z (three: no rotations)", "of grounded_spring and spring"},
     OptionRow{Block::region, "<structure>_<group>_dashpot", Kind::reals, "N s/m, N m s", value("0,0,0,0,0,0"), not_negative, "six numbers along and about x, y, z", "dashpot beside the spring"},
+    OptionRow{Block::region, "<structure>_<group>_compression_only", Kind::boolean, "flag", value("false"), any, "", "grounded_spring from which a mat may lift off: along z, spring and dashpot resist pressing down only"},
     OptionRow{Block::region, "<structure>_<group>_damping_alpha", Kind::real, "1/s", absent("left out: that of the structure"), not_negative, "", "Rayleigh damping of its elements, mass term"},
     OptionRow{Block::region, "<structure>_<group>_damping_beta", Kind::real, "s", absent("left out: that of the structure"), not_negative, "", "Rayleigh damping of its elements, stiffness term"},
     OptionRow{Block::region, "<structure>_<group>_damping_ratio", Kind::real, "-", absent("optional"), damping_ratio, "", "instead of alpha and beta: damping ratio at two frequencies"},

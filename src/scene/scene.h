@@ -51,8 +51,20 @@ struct Region {
   Vector3 rotary_inertia{0, 0, 0};    ///< point masses [kg m2]
   std::array<double, 6> stiffness{};  ///< springs: along and about x, y, z [N/m, N m]
   std::array<double, 6> dashpot{};    ///< springs [N s/m, N m s]
+  bool compression_only = false;      ///< grounded springs: along z they push up only
   std::optional<Rayleigh> damping;    ///< in place of the structure's
 };
+
+/// Elements whose force in one direction is none: tension-only bars, compression-only springs.
+inline bool is_one_way(const Region& region) {
+  return !is_linear(region.element) || region.compression_only;
+}
+
+/// The option that makes a region's elements act in one direction only.
+inline const char* one_way_option(const Region& region) {
+  return region.compression_only ? "<structure>_<group>_compression_only"
+                                 : "<structure>_<group>_tension_only";
+}
 
 /// A structure represented by its lowest modes and by attachment vectors.
 struct ModalModel {

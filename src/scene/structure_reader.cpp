@@ -24,7 +24,7 @@ using Names = OptionReader::Names;
 void forbid_others(const OptionReader& options, const std::string& element, const Names& names) {
   for (const std::string property :
        {"area", "dashpot", "mass", "material", "rotary_inertia", "rotary_inertia_factor", "section",
-        "stiffness", "tension_only", "thickness"}) {
+        "compression_only", "stiffness", "tension_only", "thickness"}) {
     if (!takes(traits_of(element_of_word(element)), property)) {
       options.forbid("<structure>_<group>_" + property, names,
                      "not for the element " + element + " of this group; leave it out");
@@ -126,6 +126,13 @@ std::array<double, 6> read_six(OptionReader& options, std::string_view pattern,
 void read_spring(OptionReader& options, const Names& names, Region& region) {
   region.stiffness = read_six(options, "<structure>_<group>_stiffness", names);
   region.dashpot = read_six(options, "<structure>_<group>_dashpot", names);
+  if (takes(traits_of(region.element), "compression_only")) {
+    region.compression_only = options.boolean("<structure>_<group>_compression_only", names);
+  }
+  if (region.compression_only && !(region.stiffness[2] > 0)) {
+    options.refuse("<structure>_<group>_compression_only", names,
+                   "its stiffness along z is 0; give one, or leave this out");
+  }
   bool rotations = false;
   for (std::size_t c = 3; c < 6; ++c) {
     rotations = rotations || region.stiffness[c] > 0 || region.dashpot[c] > 0;
@@ -211,11 +218,11 @@ void forbid_mass_scaling(const OptionReader& options, const Structure& structure
   }
 }
 
-/// Matrices do not know which of their rows buckle.
-void forbid_tension_bars(const OptionReader& options, const Structure& structure) {
+/// Matrices do not know which of their rows buckle or lift off.
+void forbid_one_way_elements(const OptionReader& options, const Structure& structure) {
   for (const Region& region : structure.regions) {
-    if (!structure.matrices.empty() && !is_linear(region.element)) {
-      options.refuse("<structure>_<group>_tension_only", {structure.name, region.group},
+    if (!structure.matrices.empty() && is_one_way(region)) {
+      options.refuse(one_way_option(region), {structure.name, region.group},
                      "not with -" + structure.name + "_matrices");
     }
   }
@@ -278,7 +285,7 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   for (const std::string& group : groups) {
     structure.regions.push_back(read_region(options, {name, group}, structure.damping));
   }
-  forbid_tension_bars(options, structure);
+  forbid_one_way_elements(options, structure);
   if (structure.uniform_damping) {
     forbid_damping_beside_uniform(options, structure);
   }

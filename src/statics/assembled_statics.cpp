@@ -6,7 +6,7 @@
 
 #include "common/error.h"
 #include "common/memory.h"
-#include "statics/bar_terms.h"
+#include "statics/link_terms.h"
 
 namespace pounding {
 namespace {
@@ -19,11 +19,11 @@ constexpr double iteration_tolerance = 1e-10;
 constexpr const char* prefix = "rest_";
 constexpr int most_iterations = 20000;
 
-/// Takes tension-only bars out of the stiffest matrix, which has them taut.
-void take_bars_out(const LinearSystem& system, PetscInt first_dof, Mat matrix) {
+/// Takes one-way links out of the stiffest matrix, which has them at their stiffest.
+void take_links_out(const LinearSystem& system, PetscInt first_dof, Mat matrix) {
   std::vector<PetscInt> places;
   std::vector<double> values;
-  for (const BarTerms& bar : bar_terms(system)) {
+  for (const LinkTerms& bar : link_terms(system)) {
     places.clear();
     values.clear();
     for (std::size_t a = 0; a < bar.dofs.size(); ++a) {
@@ -72,7 +72,7 @@ AssembledStatics::AssembledStatics(const LinearSystem& system, const Mesh& mesh,
   POUNDING_PETSC(MatSetOptionsPrefix(matrix_.get(), prefix));
   PetscInt first = 0;
   POUNDING_PETSC(MatGetOwnershipRange(matrix_.get(), &first, nullptr));
-  if (system.links) take_bars_out(system, first, matrix_.get());
+  if (system.links) take_links_out(system, first, matrix_.get());
   POUNDING_PETSC(MatScale(matrix_.get(), at_rest_));
   std::vector<double> added = system.lumped_mass;
   for (double& value : added) value *= shift;

@@ -19,6 +19,8 @@ namespace {
 
 constexpr double shift = 1;  // sigma [1/s2]
 constexpr int most_iterations = 500;
+/// Residual that round-off may leave, where light nodes hang on stiff elements.
+constexpr double largest_residual = 1e-4;
 /// Iterations in a row that gain nothing, after which nothing will.
 constexpr int most_idle_iterations = 20;
 /// Residual below which the iteration goes on only as long as it gains.
@@ -72,18 +74,19 @@ class Search {
   }
 
   Equilibrium find() {
-    double before = std::numeric_limits<double>::infinity();
+    double best = std::numeric_limits<double>::infinity();
     int idle = 0;
     residual_ = weight_;
     for (iterations_ = 1;; ++iterations_) {
       iterate();
       const double left = relative_residual();
-      if (left == 0 || (left < small_residual && left > before / 2)) break;
-      idle = left > 0.999 * before ? idle + 1 : 0;
+      if (left == 0 || (left < small_residual && left > best / 2)) break;
+      idle = left < 0.9 * best ? 0 : idle + 1;
+      best = std::min(best, left);
+      if (idle == most_idle_iterations && left < largest_residual) break;  // round-off
       if (iterations_ == most_iterations || idle == most_idle_iterations || !std::isfinite(left)) {
         refuse(left);
       }
-      before = left;
     }
     return describe();
   }
@@ -249,7 +252,7 @@ class Search {
     result.displacement = displacement_;
     result.contact_force.assign(force_.begin(), force_.begin() + rows_.contacts());
     for (int i = rows_.contacts(); i < rows_.size(); ++i) {
-      ++(force_[i] > 0 ? result.taut_bars : result.slack_bars);
+      ++(force_[i] > 0 ? result.acting_links : result.idle_links);
     }
     for (std::size_t s = 0; s < systems_.size(); ++s) {
       result.gravity_potential -=

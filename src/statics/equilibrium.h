@@ -32,18 +32,18 @@ struct Equilibrium {
   std::vector<std::vector<double>> displacement;  ///< u_0 per structure, owned dofs [m, rad]
   std::vector<StructureRest> structures;
   std::vector<double> contact_force;  ///< p_0 per row of the interface, the same on all ranks [N]
-  int taut_bars = 0;                  ///< tension-only bars that carry
-  int slack_bars = 0;
+  int acting_links = 0;               ///< tension-only bars and compression-only springs that carry
+  int idle_links = 0;
   double gravity_potential = 0;  ///< -f_g^T u_0 [J]
   int iterations = 0;
-  int rows_tried = 0;  ///< contact points and bars that a solution was made for
+  int rows_tried = 0;  ///< contact points and links that a solution was made for
   /// Root of the mean square acceleration, weighted by mass, that the start leaves, over that of
   /// gravity [-].
   double residual = 0;
 };
 
-/// Static equilibrium of all structures with their contacts and tension-only bars (see
-/// UnilateralRows):
+/// Static equilibrium of all structures with their contacts, tension-only bars and
+/// compression-only springs (see UnilateralRows):
 ///
 ///     s K u_0 = M g + R^T f,      0 <= f _|_ w0 + R u_0 + c f >= 0
 ///

@@ -3,7 +3,7 @@
 #include "common/dense_solver.h"
 #include "common/error.h"
 #include "common/parallel.h"
-#include "statics/bar_terms.h"
+#include "statics/link_terms.h"
 
 namespace pounding {
 namespace {
@@ -30,7 +30,7 @@ ReducedStatics::ReducedStatics(const LinearSystem& system, double shift) {
   const double at_rest = system.uniform_damping ? system.uniform_damping->at_rest() : 1;
   stiffness_.assign(n * n, 0.0);
   for (std::size_t i = 0; i < n; ++i) stiffness_[i * n + i] = at_rest * diagonal[i];
-  for (const BarTerms& bar : bar_terms(system)) {
+  for (const LinkTerms& bar : link_terms(system)) {
     for (std::size_t a = 0; a < bar.dofs.size(); ++a) {
       for (std::size_t b = 0; b < bar.dofs.size(); ++b) {
         const std::size_t i = bar.dofs[a];
@@ -44,7 +44,7 @@ ReducedStatics::ReducedStatics(const LinearSystem& system, double shift) {
   on_every_rank(system.comm, [&] {
     if (n > 0 && !invert_definite(inverse_)) {
       throw UserError("structure " + system.name +
-                      ": its reduced stiffness is not positive without the tension-only bars, so "
+                      ": its reduced stiffness is not positive without its one-way links, so "
                       "it has no static equilibrium; leave -preload out");
     }
   });

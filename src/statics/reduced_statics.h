@@ -6,7 +6,7 @@
 namespace pounding {
 
 /// Static stiffness of a structure in generalised coordinates, all on one rank: diagonal, but for
-/// the tension-only bars that its K counts as taut and that are taken out here.
+/// the one-way links that its K counts as acting and that are taken out here.
 class ReducedStatics final : public StaticStiffness {
  public:
   /// Throws UserError if the stiffness without bars is not positive with the shift.

@@ -5,7 +5,7 @@
 
 namespace pounding {
 
-/// Stiffness of a structure against forces that stay: s K without the tension-only bars, s what
+/// Stiffness of a structure against forces that stay: s K without one-way links, s what
 /// uniform damping leaves of K at rest (1 without). It may be singular, as that of a block which
 /// only rests on another; s K + shift M is not.
 class StaticStiffness {

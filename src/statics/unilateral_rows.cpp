@@ -1,7 +1,7 @@
 #include "statics/unilateral_rows.h"
 
 #include "common/parallel.h"
-#include "statics/bar_terms.h"
+#include "statics/link_terms.h"
 
 namespace pounding {
 
@@ -10,7 +10,7 @@ UnilateralRows::UnilateralRows(MPI_Comm comm, const ContactProblem* contact,
     : comm_(comm) {
   if (contact != nullptr) add_contacts(*contact, gaps, systems);
   contacts_ = size();
-  for (std::size_t s = 0; s < systems.size(); ++s) add_bars(s, systems[s]);
+  for (std::size_t s = 0; s < systems.size(); ++s) add_links(s, systems[s]);
 }
 
 void UnilateralRows::add_contacts(const ContactProblem& contact, std::span<const double> gaps,
@@ -27,8 +27,8 @@ void UnilateralRows::add_contacts(const ContactProblem& contact, std::span<const
   }
 }
 
-void UnilateralRows::add_bars(std::size_t structure, const LinearSystem& system) {
-  const std::vector<BarTerms> bars = bar_terms(system);
+void UnilateralRows::add_links(std::size_t structure, const LinearSystem& system) {
+  const std::vector<LinkTerms> bars = link_terms(system);
   std::vector<int> counts(size_of(comm_));
   const int mine = static_cast<int>(bars.size());
   MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);

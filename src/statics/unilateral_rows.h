@@ -12,13 +12,15 @@
 namespace pounding {
 
 /// Unilateral conditions of a scene at rest, a row each: contact points first, in the order of the
-/// interface, then tension-only bars. With forces f >= 0 [N] of the rows on the dofs,
+/// interface, then tension-only bars and compression-only springs. With forces f >= 0 [N] of the
+/// rows on the dofs,
 ///
 ///     0 <= f _|_ w >= 0,      w = w0 + R u + c f
 ///
-/// where w is the gap of a contact point (w0 its initial gap, R its row of L, c = 0) and, for a bar
-/// with the tension f and the elongation e, w = f / k - e (w0 = 0, R = -b, c = 1 / k). The force on
-/// the dofs is R^T f of both. Every rank knows every row, and of its dofs those that it owns.
+/// where w is the gap of a contact point (w0 its initial gap, R its row of L, c = 0) and, for a
+/// link with the force f and the elongation e (of a spring: how far it is pressed), w = f / k - e,
+/// that is w0 = 0, R = -b, c = 1 / k. The force on the dofs is R^T f of both. Every rank knows
+/// every row and, of its dofs, those that it owns.
 class UnilateralRows {
  public:
   /// `contact` may be null. Collective over `comm`.
@@ -30,7 +32,7 @@ class UnilateralRows {
   double compliance(int row) const { return rows_[row].compliance; }  ///< c [m/N]
   /// w0 + R u of all rows [m]; `displacement` per structure over the owned dofs. Collective.
   std::vector<double> openings(std::span<const std::vector<double>> displacement) const;
-  /// The same without w0.
+  /// Changes R u of w, all rows [m]. Collective.
   std::vector<double> responses(std::span<const std::vector<double>> displacement) const;
   /// Adds f R^T of a row to forces per structure over the owned dofs. Local.
   void add_force(int row, double f, std::span<std::vector<double>> forces) const;
@@ -49,8 +51,8 @@ class UnilateralRows {
   };
   void add_contacts(const ContactProblem& contact, std::span<const double> gaps,
                     std::span<const LinearSystem> systems);
-  /// Bars of one structure, those of rank 0 first.
-  void add_bars(std::size_t structure, const LinearSystem& system);
+  /// Links of one structure, those of rank 0 first.
+  void add_links(std::size_t structure, const LinearSystem& system);
 
   MPI_Comm comm_;
   int contacts_ = 0;

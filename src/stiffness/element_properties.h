@@ -5,7 +5,8 @@
 
 namespace pounding {
 
-/// Properties of a region's elements as the element functions want them.
+/// Properties of a region's elements as the element functions want them. What compression-only
+/// springs do along z is no part of them: a link does it.
 ElementProperties element_properties(const Region& region);
 
 }  // namespace pounding

@@ -52,7 +52,9 @@ class Assembly {
         added_mass_(structure, mesh) {
     if (with_matrix) matrix_ = create_matrix(mesh);
     for (const ElementBlock& block : mesh.blocks) {
-      if (!is_linear(block.type) && taut_.get() == nullptr) taut_ = create_matrix(mesh);
+      if (is_one_way(structure.regions[block.region]) && taut_.get() == nullptr) {
+        taut_ = create_matrix(mesh);
+      }
       if (has_extra_damping(block) && extra_damping_.get() == nullptr) {
         extra_damping_ = create_matrix(
             mesh, [this](const ElementBlock& other) { return has_extra_damping(other); });
@@ -66,7 +68,7 @@ class Assembly {
     on_every_rank(mesh_.comm, [&] {
       for_each_element(structure_, mesh_,
                        [&](const ElementBlock& block, std::size_t e, const ElementLayout& layout,
-                           const ElementWork& work) { add(block, e, layout, work); });
+                           ElementWork& work) { add(block, e, layout, work); });
       check_mass();
     });
     system_.stiffness = finished(std::move(matrix_));
@@ -80,7 +82,7 @@ class Assembly {
 
  private:
   void add(const ElementBlock& block, std::size_t element, const ElementLayout& layout,
-           const ElementWork& work) {
+           ElementWork& work) {
     const std::size_t size = layout.size();
     const auto dofs = element_dofs(mesh_, block, element, layout);
     std::array<PetscInt, max_element_size> rows{};
@@ -101,10 +103,11 @@ class Assembly {
           MatSetValues(matrix.get(), n, rows.data(), n, columns.data(), values, ADD_VALUES));
     };
     if (matrix_.get() != nullptr && is_linear(block.type)) insert(matrix_, work.stiffness.data());
+    const Region& region = structure_.regions[block.region];
+    if (region.compression_only) work.stiffness[2 * size + 2] += region.stiffness[2];
     if (taut_.get() != nullptr) insert(taut_, work.stiffness.data());
     const std::span<const double> stiffness(work.stiffness.data(), size * size);
     const std::span<const double> mass(work.mass.data(), size);
-    const Region& region = structure_.regions[block.region];
     const double scaling = added_mass_.add(block, element, region, stiffness, mass);
     bounds_.add(block, stiffness, mass, {dofs.data(), size}, scaling);
     if (has_extra_damping(block)) {
@@ -123,11 +126,11 @@ class Assembly {
     return std::make_unique<AssembledStiffness>(std::move(matrix));
   }
 
-  /// Damping of a block's region beside the structure's. Tension-only bars are damped
-  /// while they are taut, by themselves.
+  /// Damping of a block's region beside the structure's. One-way elements are damped while they
+  /// act, by themselves.
   Rayleigh extra_rayleigh(const ElementBlock& block) const {
     const Rayleigh own = structure_.damping_of(structure_.regions[block.region]);
-    const bool linear = is_linear(block.type);
+    const bool linear = !is_one_way(structure_.regions[block.region]);
     return {own.alpha - structure_.damping.alpha, linear ? own.beta - structure_.damping.beta : 0};
   }
 
@@ -156,7 +159,7 @@ class Assembly {
   const Mesh& mesh_;
   LinearSystem& system_;
   MatHandle matrix_;  ///< linear elements; these three are null if nobody wants them
-  MatHandle taut_;    ///< tension-only bars as well
+  MatHandle taut_;    ///< one-way elements as well
   MatHandle extra_damping_;
   std::vector<PetscInt> numbers_;
   ElementBounds bounds_;
@@ -191,9 +194,8 @@ LinearSystem build_finite_element_system(const Structure& structure, const Mesh&
   LinearSystem system = describe_system(structure, mesh);
   system.links = Links::build(structure, mesh);
   const bool by_element = multiplies_elements(mesh, method);
-  // Modes want every bar taut: the linear elements alone are of no use to them then.
-  const bool for_modes =
-      with_matrix && std::ranges::all_of(mesh.blocks, is_linear, &ElementBlock::type);
+  // Modes want every link at its stiffest: the linear elements alone are of no use to them then.
+  const bool for_modes = with_matrix && std::ranges::none_of(structure.regions, is_one_way);
   Assembly(structure, mesh, !by_element || for_modes, system).run();
   system.stiffness_method = "assembled";
   if (by_element) {

@@ -30,10 +30,10 @@ std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh
   for (const ElementBlock& block : mesh.blocks) {
     if (!has_links(structure.regions[block.region])) continue;
     count += block.global_count;
-    found->hold_energy_ = found->hold_energy_ || !is_spring(block.type);
+    found->hold_energy_ = found->hold_energy_ || is_one_way(structure.regions[block.region]);
     for (std::size_t e = 0; e < block.count(); ++e) {
       if (is_spring(block.type)) {
-        found->add_dashpots(structure, mesh, block, e);
+        found->add_springs(structure, mesh, block, e);
       } else {
         found->add_bar(structure, mesh, block, e);
       }
@@ -70,19 +70,25 @@ void Links::add_bar(const Structure& structure, const Mesh& mesh, const ElementB
   keep(mesh, block, element, link);
 }
 
-void Links::add_dashpots(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
-                         std::size_t element) {
+void Links::add_springs(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
+                        std::size_t element) {
   const Region& region = structure.regions[block.region];
   const std::size_t ends = element_layout(block.type).nodes;
   const LocalIndex* nodes = &block.connectivity[ends * element];
   for (std::size_t c = 0; c < region.dashpot.size(); ++c) {
-    if (region.dashpot[c] == 0) continue;
     Link link;
     link.number = block.tags[element];
     link.origin = {&region, static_cast<int>(c), 0, 0, false};
+    const bool pressed = is_pressed(link.origin);
+    if (region.dashpot[c] == 0 && !pressed) continue;
+    if (pressed) {
+      const bool reduced = structure.modal.has_value();
+      link.origin.beta = reduced ? 0 : structure.damping.beta;
+      link.origin.in_stiffness = reduced;
+    }
     for (std::size_t end = 0; end < ends; ++end) {
       link.place[end] = mesh.dof(nodes[end], static_cast<int>(c));
-      link.weight[end] = end + 1 == ends ? 1 : -1;
+      link.weight[end] = end + 1 == ends && !pressed ? 1 : -1;
     }
     keep(mesh, block, element, link);
   }
@@ -124,7 +130,9 @@ std::vector<TracePoint> link_points(const Structure& structure, const GlobalMesh
     if (!has_links(region)) continue;
     for (const GlobalIndex node : set.connectivity) {
       for (int c = 0; c < 6; ++c) {
-        const bool pulls = is_spring(set.type) ? region.dashpot[c] > 0 : c < 3;
+        const bool pulls = is_spring(set.type)
+                               ? region.dashpot[c] > 0 || (region.compression_only && c == 2)
+                               : c < 3;
         if (pulls) points.push_back({node, c});
       }
     }

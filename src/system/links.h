@@ -28,10 +28,10 @@ struct Link {
 };
 
 /// Links of a structure: what pulls between two nodes, or from one to the ground, by a law that is
-/// no part of K u. Today these are the bars that resist stretching only, and the dashpots of
-/// springs, one for each component. Links that share a node that can move live on one rank, with
-/// all that moves with their nodes (see `coupled_nodes`). Constant during a run; what evolves is
-/// with LinkStep.
+/// no part of K u. Today these are the bars that resist stretching only, compression-only springs
+/// along z, and the dashpots of springs, one for each component. Links that share a node that can
+/// move live on one rank, with all that moves with their nodes (see `coupled_nodes`). Constant
+/// during a run; what evolves is with LinkStep.
 class Links {
  public:
   /// Null if the structure has no link. Throws std::logic_error if the nodes of one live on several
@@ -43,15 +43,15 @@ class Links {
 
   const std::vector<Link>& links() const { return links_; }  ///< of this rank
   const Trace& trace() const { return *trace_; }
-  /// Some link of some rank holds energy, as bars do and dashpots do not.
+  /// Some link of some rank holds energy, as bars and springs do and dashpots do not.
   bool hold_energy() const { return hold_energy_; }
 
  private:
   Links() = default;
   void add_bar(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
                std::size_t element);
-  void add_dashpots(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
-                    std::size_t element);
+  void add_springs(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
+                   std::size_t element);
   /// Keeps a link whose places are local dofs as yet, if this rank owns those that can move.
   void keep(const Mesh& mesh, const ElementBlock& block, std::size_t element, const Link& link);
 

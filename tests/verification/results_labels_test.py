@@ -152,8 +152,8 @@ class Labels(unittest.TestCase):
                          ["contact", "start", "end", "duration", "impulse", "peak_force", "points", "energy_lost",
                           "max_penetration", "lateral", "vertical", "contact_time", "left", "bottom"])
         self.assertEqual(list(self.fine.csv["energy.csv"]),
-                         ["time", "kinetic", "strain", "damping_loss", "contact_work", "input_work", "device_work",
-                          "residual"])
+                         ["time", "kinetic", "strain", "damping_loss", "contact_work", "input_work", "gravity_work",
+                          "device_work", "residual"])
         self.assertEqual(list(self.fine.csv["spectra.csv"]),
                          ["probe", "direction", "damping", "frequency", "period", "displacement",
                           "pseudo_velocity", "pseudo_acceleration"])

@@ -263,7 +263,7 @@ class HungOnBraces(unittest.TestCase):
                 self.assertLess(abs(run.displacement("hung.x") / (self.MASS * GRAVITY / self.PAIR) - 1).max(), 1e-10)
                 self.assertLess(largest_speed(run, self.MASS), 1e-9)
                 rest = run.summary["equilibrium"]
-                self.assertEqual((rest["taut_bars"], rest["slack_bars"]), (2, 2))
+                self.assertEqual((rest["acting_links"], rest["idle_links"]), (2, 2))
                 self.assertAlmostEqual(rest["structures"]["frame"]["support"][0] / (self.MASS * GRAVITY), -1,
                                        delta=1e-10)
 

@@ -1,4 +1,4 @@
-#include "statics/bar_terms.h"
+#include "statics/link_terms.h"
 
 #include "links/law_of.h"
 #include "system/links.h"
@@ -16,15 +16,15 @@ double tangent_of(const Link& link) {
 
 }  // namespace
 
-std::vector<BarTerms> bar_terms(const LinearSystem& system) {
-  std::vector<BarTerms> bars;
+std::vector<LinkTerms> link_terms(const LinearSystem& system) {
+  std::vector<LinkTerms> bars;
   if (!system.links) return bars;
   std::vector<double> field(system.lumped_mass.size(), 0.0);
   const Trace& trace = system.links->trace();
   for (const Link& link : system.links->links()) {
     const double stiffness = tangent_of(link);
     if (!(stiffness > 0)) continue;
-    BarTerms& bar = bars.emplace_back();
+    LinkTerms& bar = bars.emplace_back();
     bar.stiffness = stiffness;
     for (std::size_t i = 0; i < link.place.size(); ++i) {
       if (link.place[i] >= 0) {

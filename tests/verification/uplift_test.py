@@ -1,0 +1,148 @@
+"""Springs that a mat may lift off from: they push up and never pull down.
+
+A mass on one of them, thrown up from its rest under gravity: half a vibration, a flight, and so on,
+in closed form. A stiff beam with a mast on a row of them under an inclined gravity: which springs
+carry, and how much, by the equilibrium of a rigid body.
+"""
+import math
+import os
+import tempfile
+import unittest
+
+import numpy
+
+import program
+from recorded import Recorded
+
+GRAVITY = 9.81
+
+
+class Thrown(unittest.TestCase):
+    MASS, STIFFNESS = 100.0, 4e4
+    OMEGA = math.sqrt(STIFFNESS / MASS)
+    SAG = GRAVITY / OMEGA**2
+    SPEED = 2.5 * SAG * OMEGA
+
+    def scene(self, *more):
+        return ["-structures", "body", "-body_mesh", "tests/meshes/braces.geo", "-body_ignore", "anchors,left,right",
+                "-body_mass_element", "point_mass", "-body_mass_mass", self.MASS, "-body_support_element",
+                "grounded_spring", "-body_support_stiffness", f"1e4,1e4,{self.STIFFNESS}",
+                "-body_support_compression_only", "true", "-probes", "body_at", "-body_at_structure", "body",
+                "-body_at_at", "0,0,0", "-time_step", 1e-5, "-output_interval", 1e-5, "-gravity", GRAVITY, "-preload",
+                "static", *more]
+
+    def test_flies_and_comes_back_as_it_must(self):
+        lift_off = math.asin(1 / 2.5) / self.OMEGA
+        speed = self.SPEED * math.cos(lift_off * self.OMEGA)
+        flight = 2 * speed / GRAVITY
+        period = flight + (math.pi + 2 * lift_off * self.OMEGA) / self.OMEGA
+        for more in ([], ["-body_model", "modal", "-body_modal_vectors", 3]):
+            run = Recorded(self, self.scene("-end_time", 2 * period + lift_off / 2, "-body_initial_velocity", f"0,0,{self.SPEED}",
+                                            "-energy_interval", 1, *more))
+            u, time = run.displacement("body_at.z"), run.time
+            self.assertAlmostEqual(u[0] / -self.SAG, 1, delta=1e-12)
+            self.assertAlmostEqual(u.max() / (speed**2 / (2 * GRAVITY)), 1, delta=1e-5)
+            self.assertAlmostEqual(u.min() / (-self.SAG - self.SPEED / self.OMEGA), 1, delta=1e-5)
+            level = u - u[0]
+            up = numpy.nonzero((level[1:-1] <= 0) & (level[2:] > 0))[0] + 1
+            passes = time[up] - level[up] / (level[up + 1] - level[up]) * (time[up + 1] - time[up])
+            self.assertGreaterEqual(len(passes), 2)
+            self.assertAlmostEqual(passes[-1] / ((len(passes)) * period), 1, delta=1e-5)
+            ratio = run.summary["contact_ratio"]["body"]
+            self.assertEqual(ratio["smallest"], 0)
+            self.assertAlmostEqual(ratio["time_below_80_percent"] / (2 * flight), 1, delta=1e-3)
+            self.assertAlmostEqual(ratio["time_of_smallest"], lift_off, delta=1e-4)
+
+    def test_dashpot_acts_while_pressed_and_never_pulls(self):
+        run = Recorded(self, self.scene("-end_time", 6, "-body_initial_velocity", f"0,0,{self.SPEED}",
+                                        "-body_support_dashpot", "0,0,400"))
+        u = run.displacement("body_at.z")
+        self.assertAlmostEqual(u[-1] / -self.SAG, 1, delta=1e-3)
+        # In flight nothing acts: the height is that of the speed at which it left.
+        flying = u > 1e-5
+        acceleration = numpy.diff(run.velocity("body_at.z"))[flying[1:]] / run.time_step
+        self.assertLess(abs(acceleration / -GRAVITY - 1).max(), 1e-6)
+        self.assertGreater(run.energy["devices"], 0)
+
+    def test_what_cannot_be_meant_is_refused(self):
+        for more, why in ((["-body_support_stiffness", "1e4,1e4,0"], "its stiffness along z is 0"),
+                          (["-body_support_element", "point_mass"], "compression_only"),
+                          (["-body_model", "modal", "-body_modal_vectors", 3, "-body_damping_uniform", 0.02],
+                           "leave one of the three out"),
+                          (["-body_support_damping_beta", 1e-4], "take the damping of their structure"),
+                          (["-export_matrices", tempfile.gettempdir() + "/none", "-dry_run"], "no matrix holds")):
+            result = program.run([*self.scene("-end_time", 0.01, *more), "-output", tempfile.mkdtemp()], 2)
+            self.assertEqual(result.returncode, 1, more)
+            self.assertEqual(len(program.error_lines(result)), 1)
+            self.assertIn(why, program.error_lines(result)[0])
+
+
+GEOMETRY = """
+// A beam of 8 m on nine points, with a mast of 4 m on its middle.
+For i In {0:8}
+  Point(i + 1) = {i - 4, 0, 0};
+EndFor
+For i In {1:8}
+  Line(i) = {i, i + 1};
+EndFor
+Point(10) = {0, 0, 4};
+Line(9) = {5, 10};
+Transfinite Curve {1:9} = 2;
+Physical Curve("beams") = {1:9};
+Physical Point("bed") = {1:9};
+Physical Point("load") = {10};
+Physical Point("foot") = {1:9};
+"""
+
+
+class Overturned(unittest.TestCase):
+    STIFFNESS, LOAD = 1e6, 1e4
+
+    def rest(self, slope):
+        """Settlement and rotation of a rigid beam, and the forces of the springs."""
+        x = numpy.arange(9) - 4.0
+        closed = numpy.ones(9, dtype=bool)
+        for _ in range(50):
+            k = self.STIFFNESS * closed
+            matrix = numpy.array([[k.sum(), (k * x).sum()], [(k * x).sum(), (k * x * x).sum()]])
+            down = numpy.linalg.solve(matrix, [self.LOAD * GRAVITY, self.LOAD * slope * GRAVITY * 4])
+            pressed = down[0] + down[1] * x
+            if ((pressed > 0) == closed).all():
+                return k * pressed
+            closed = pressed > 0
+        self.fail("no rest found")
+
+    def test_springs_that_carry_are_those_of_a_rigid_body(self):
+        handle, mesh = tempfile.mkstemp(suffix=".geo")
+        with os.fdopen(handle, "w") as file:
+            file.write(GEOMETRY)
+        try:
+            for slope, carrying, ranks in ((0.3, 9, 1), (0.55, None, 2), (0.7, None, 3)):
+                force = self.rest(slope)
+                words = ["-structures", "mat", "-mat_mesh", mesh, "-mat_ignore", "foot", "-mat_beams_element", "beam",
+                         "-mat_beams_material", "stiff", "-mat_beams_section", "s", "-material_stiff_young", 1e12,
+                         "-material_stiff_poisson", 0.3, "-material_stiff_density", 100, "-section_s_area", 1e-3,
+                         "-section_s_inertia_y", 1, "-section_s_inertia_z", 1, "-section_s_torsion", 1,
+                         "-section_s_z_axis", "0,1,0", "-mat_load_element", "point_mass", "-mat_load_mass", self.LOAD,
+                         "-mat_load_rotary_inertia", "1e4,1e4,1e4", "-mat_bed_element", "grounded_spring",
+                         "-mat_bed_stiffness", f"1e5,1e5,{self.STIFFNESS},1e3,0,1e3", "-mat_bed_compression_only",
+                         "true", "-mat_gravity", f"{slope * GRAVITY},0,{-GRAVITY}", "-preload", "static", "-end_time",
+                         1e-6, "-energy_interval", 1]
+                run = Recorded(self, words, ranks, identity=1e-6)
+                rest = run.summary["equilibrium"]
+                self.assertEqual(rest["acting_links"], (force > 0).sum())
+                self.assertEqual(rest["idle_links"], (force == 0).sum())
+                if carrying:
+                    self.assertEqual(rest["acting_links"], carrying)
+                else:
+                    self.assertLess(rest["acting_links"], 9)
+                self.assertAlmostEqual(run.summary["contact_ratio"]["mat"]["end"], (force > 0).mean(), delta=1e-12)
+                of = rest["structures"]["mat"]
+                self.assertAlmostEqual(of["support"][2] / -of["weight"][2], 1, delta=1e-7)
+                self.assertAlmostEqual(of["weight"][2] / -(self.LOAD * GRAVITY), 1, delta=0.01)
+        finally:
+            os.remove(mesh)
+
+
+if __name__ == "__main__":
+    unittest.main()
