@@ -1,6 +1,7 @@
 """Runs the program as a user does and reads what it leaves; shared by the tests in Python."""
 import json
 import os
+import pathlib
 import subprocess
 import tempfile
 
@@ -38,7 +39,7 @@ def run(arguments, ranks=2, timeout=900, folder=SOURCE, environment=None):
     with tempfile.TemporaryDirectory(prefix="pounding-ranks-") as notes:
         result = subprocess.run([*line[:at], "bash", "-c", NOTING, notes, *line[at:]], cwd=folder,
                                 env=environment or ENVIRONMENT, capture_output=True, text=True, timeout=timeout)
-        noted = [int(open(os.path.join(notes, name)).read()) for name in sorted(os.listdir(notes))]
+        noted = [int(pathlib.Path(notes, name).read_text()) for name in sorted(os.listdir(notes))]
     if result.returncode == 0:
         assert len(noted) == ranks and len(set(noted)) == 1, f"exit statuses {noted}: {result.stderr[-2000:]}"
         result.returncode = noted[0]
