@@ -21,6 +21,10 @@ double length(const Vector3& v) {
   return std::hypot(v[0], v[1], v[2]);
 }
 
+bool is_weightless(const StructureRest& rest) {
+  return length(rest.weight) == 0;
+}
+
 void print_force(const char* what, const Vector3& force) {
   std::printf("    %-22s (%.6g, %.6g, %.6g) N\n", what, force[0], force[1], force[2]);
 }
@@ -42,6 +46,11 @@ void put_at_rest(MPI_Comm comm, const Scene& scene, Profile& profile, Model& mod
 
 std::vector<std::string> rest_warnings(const Model& model) {
   std::vector<std::string> warnings;
+  if (model.equilibrium && std::ranges::all_of(model.equilibrium->structures, is_weightless)) {
+    warnings.emplace_back(
+        "-preload static, and no structure has a weight: the run starts undeformed; give -gravity "
+        "9.81");
+  }
   for (std::size_t s = 0; model.equilibrium && s < model.systems.size(); ++s) {
     const StructureRest& rest = model.equilibrium->structures[s];
     const double settlement = std::max(rest.largest_displacement, length(rest.settlement));
@@ -71,7 +80,7 @@ void print_rest(const Scene& scene, const Model& model) {
   if (!model.equilibrium) return;
   const Equilibrium& rest = *model.equilibrium;
   std::printf(
-      "\nstatic equilibrium: %d iterations, %.1e of the weight left, %d contact points and bars "
+      "\nstatic equilibrium: %d iterations, %.1e of the weight left, %d contact points and links "
       "tried\n",
       rest.iterations, rest.residual, rest.rows_tried);
   for (std::size_t s = 0; s < model.systems.size(); ++s) {

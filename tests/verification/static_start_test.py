@@ -61,6 +61,11 @@ class HungBar(unittest.TestCase):
             self.assertIn("(0", rest["structures"]["bar"]["place"])
             self.assertEqual([line for line in run.summary["warnings"] if "gravity" in line], [])
 
+    def test_nothing_without_weight_is_doubted(self):
+        run = self.hang("-gravity", 0)
+        self.assertEqual(abs(run.displacement("foot.z")).max(), 0)
+        self.assertEqual(len([line for line in run.summary["warnings"] if "no structure has a weight" in line]), 1)
+
     def test_iteration_finds_the_same(self):
         run = self.hang("-preload_solver", "iterative")
         self.assert_hangs(run, 1e-9)

@@ -144,5 +144,19 @@ class Overturned(unittest.TestCase):
             os.remove(mesh)
 
 
+class PlantPair(unittest.TestCase):
+    def test_stands_on_all_of_its_springs(self):
+        run = Recorded(self, ["-options_file", "petsc-options/plant/standing.yaml", "-block_mesh_set", "m=1",
+                              "-frame_mesh_set", "m=1,x0=24.801", "-end_time", 0.01])
+        rest = run.summary["equilibrium"]
+        self.assertEqual((rest["acting_links"], rest["idle_links"]), (116, 0))
+        for name, weight, settlement in (("block", 151.7e6, 3e-3), ("frame", 14.0e6, 1e-3)):
+            of = rest["structures"][name]
+            self.assertAlmostEqual(of["weight"][2] / -weight, 1, delta=2e-3)
+            self.assertLess(of["imbalance"], 1e-10)
+            self.assertAlmostEqual(of["settlement"][2] / -settlement, 1, delta=0.35)
+            self.assertEqual(run.summary["contact_ratio"][name]["smallest"], 1)
+
+
 if __name__ == "__main__":
     unittest.main()
