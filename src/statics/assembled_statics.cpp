@@ -69,7 +69,7 @@ AssembledStatics::AssembledStatics(const LinearSystem& system, const Mesh& mesh,
     : system_(system) {
   if (system.uniform_damping) at_rest_ = system.uniform_damping->at_rest();
   POUNDING_PETSC(MatDuplicate(system.stiffest_matrix(), MAT_COPY_VALUES, matrix_.out()));
-  POUNDING_PETSC(MatSetOptionsPrefix(matrix_.get(), prefix));
+  POUNDING_PETSC(MatSetOptionsPrefixFactor(matrix_.get(), prefix));
   PetscInt first = 0;
   POUNDING_PETSC(MatGetOwnershipRange(matrix_.get(), &first, nullptr));
   if (system.links) take_links_out(system, first, matrix_.get());

@@ -149,6 +149,14 @@ class RestingColumn(unittest.TestCase):
         self.assert_stands(self.stand(2000, 3))
         self.assert_stands(self.stand(2000, 2, "-body_model", "modal", "-body_modal_vectors", 12))
 
+    def test_options_reach_its_solvers(self):
+        words = ["-structures", "body", *box("body", "nz=2", "-body_clamp", "z_min"), "-end_time", 1e-4, *REST]
+        for more, said in ((["-rest_mat_mumps_icntl_4", 2], "MUMPS"),
+                           (["-preload_solver", "iterative", "-rest_ksp_converged_reason"], "solve converged"),
+                           (["-preload_solver", "iterative", "-rest_ksp_max_it", 1], "does not converge")):
+            result = program.run([*words, *more, "-output", tempfile.mkdtemp()], 2)
+            self.assertIn(said, result.stdout + result.stderr)
+
     def test_what_nothing_holds_is_refused(self):
         for more, why in ((["-contacts", "none", "-body_allow_loose", "true"], "finds no rest under its weight"),
                           (["-body_initial_displacement", "0,0,0.1"], "not with -preload static"),
