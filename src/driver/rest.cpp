@@ -76,6 +76,18 @@ std::vector<std::string> rest_warnings(const Model& model) {
   return warnings;
 }
 
+std::vector<ContactLoad> contact_loads(const Scene& scene, const Model& model) {
+  std::vector<ContactLoad> loads(scene.contacts.size());
+  for (std::size_t row = 0; row < model.equilibrium->contact_force.size(); ++row) {
+    const double force = model.equilibrium->contact_force[row];
+    ContactLoad& load = loads[model.interface.constraints[row].contact];
+    load.force += force;
+    load.closed += force > 0 ? 1 : 0;
+    ++load.points;
+  }
+  return loads;
+}
+
 void print_rest(const Scene& scene, const Model& model) {
   if (!model.equilibrium) return;
   const Equilibrium& rest = *model.equilibrium;
@@ -99,18 +111,10 @@ void print_rest(const Scene& scene, const Model& model) {
       std::printf("    their sum is zero within %.1e of the largest\n", of.imbalance);
     }
   }
-  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
-    double force = 0;
-    int closed = 0;
-    int points = 0;
-    for (std::size_t row = 0; row < rest.contact_force.size(); ++row) {
-      if (model.interface.constraints[row].contact != static_cast<int>(c)) continue;
-      force += rest.contact_force[row];
-      closed += rest.contact_force[row] > 0 ? 1 : 0;
-      ++points;
-    }
+  const std::vector<ContactLoad> loads = contact_loads(scene, model);
+  for (std::size_t c = 0; c < loads.size(); ++c) {
     std::printf("  contact %s: %d of %d points carry %.6g N\n", scene.contacts[c].name.c_str(),
-                closed, points, force);
+                loads[c].closed, loads[c].points, loads[c].force);
   }
   if (rest.acting_links + rest.idle_links > 0) {
     std::printf("  tension-only bars and compression-only springs: %d act, %d do not\n",

@@ -8,6 +8,7 @@
 
 #include "common/version.h"
 #include "driver/motion_report.h"
+#include "driver/rest.h"
 #include "output/result_folder.h"
 #include "scene/resolved_options.h"
 #include "stability/stable_time_step.h"
@@ -172,14 +173,10 @@ Json describe_equilibrium(const Scene& scene, const Model& model) {
         {"place", of.place},           {"imbalance", of.imbalance}};
   }
   description["contacts"] = Json::object();
-  for (const Contact& contact : scene.contacts) {
-    description["contacts"][contact.name] = {{"points", 0}, {"force", 0.0}};
-  }
-  for (std::size_t row = 0; row < rest.contact_force.size(); ++row) {
-    const int contact = model.interface.constraints[row].contact;
-    Json& of = description["contacts"][scene.contacts[contact].name];
-    of["points"] = of["points"].get<int>() + (rest.contact_force[row] > 0 ? 1 : 0);
-    of["force"] = of["force"].get<double>() + rest.contact_force[row];
+  const std::vector<ContactLoad> loads = contact_loads(scene, model);
+  for (std::size_t c = 0; c < loads.size(); ++c) {
+    description["contacts"][scene.contacts[c].name] = {{"points", loads[c].closed},
+                                                       {"force", loads[c].force}};
   }
   return description;
 }
