@@ -18,6 +18,7 @@
 #include "modal/reduced_system.h"
 #include "modal/reduction.h"
 #include "stability/stable_time_step.h"
+#include "stability/step_target.h"
 #include "stability/structure_limits.h"
 #include "system/build_system.h"
 #include "system/mass_scaling.h"
@@ -149,20 +150,25 @@ void find_energy_margins(MPI_Comm comm, const Scene& scene, Model& model) {
 /// System and modes of a structure whose mesh is distributed and whose basis is known.
 void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& profile,
                      Model& model) {
-  const Structure& structure = scene.structures[s];
+  const Structure& wanted = scene.structures[s];
   const Mesh& mesh = model.meshes[s];
   Building& building = model.buildings[s];
   LinearSystem& system = model.systems[s];
-  building.structure = &structure;
+  building.structure = &wanted;
   building.mesh = &mesh;
   building.system = &system;
   if (building.basis) {
-    system = build_reduced_system(comm, owners_of_reduced(comm, scene)[s], structure, mesh,
+    system = build_reduced_system(comm, owners_of_reduced(comm, scene)[s], wanted, mesh,
                                   *building.basis);
     building.modal = modes_of_basis(*building.basis, scene.modes);
-    building.limits = limits_of(structure, system, mesh, building.basis_or_null(), {});
+    building.limits = limits_of(wanted, system, mesh, building.basis_or_null(), {});
     return;
   }
+  if (wanted.step_target) {
+    Progress progress = begin(comm, scene, wanted, "time step target");
+    building.design = design_for_target(wanted, mesh, scene.stiffness, effort_of(scene, progress));
+  }
+  const Structure& structure = building.design ? building.design->structure : wanted;
   const bool exported = !scene.export_matrices.empty();
   const bool keeps_first = structure.uniform_damping && structure.uniform_damping->reference == 0;
   const int modes = std::max(scene.modes, keeps_first ? 1 : 0);

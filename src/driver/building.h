@@ -10,6 +10,7 @@
 #include "modal/modal_analysis.h"
 #include "modal/modal_basis.h"
 #include "scene/scene.h"
+#include "stability/step_target.h"
 #include "stability/structure_limits.h"
 #include "system/linear_system.h"
 
@@ -30,6 +31,7 @@ struct Building {
   MeshFindings findings;                 ///< on rank 0 only
   std::optional<ModalBasis> basis;       ///< if the structure is reduced; no rows
   ModalResult modal;
+  std::optional<StepDesign> design;  ///< if its time step has a target
   StructureLimits limits;
   double energy_margin = 0;  ///< of the time step in force [-]
 

@@ -97,18 +97,12 @@ void print_remedies(const Building& building) {
   const double omega = building.limits.largest.omega_max;
   const double undamped = 2 / omega;
   const double cost = undamped / building.limits.stable_time_step;
-  double first = 0;
-  for (const Mode& mode : building.modal.modes) {
-    if (first == 0 && mode.location.empty()) first = mode.frequency;
-  }
-  const double ratio = std::min(0.3, damping_ratio(system.damping, 2 * std::numbers::pi * first));
-  if (cost > worth_a_word && system.damping.beta > 0 && first > 0 && ratio > 0) {
-    UniformDamping uniform = fit_uniform_damping(ratio, std::min(1.0, first / 2), 400, 3);
-    uniform.reference = first;
+  const auto uniform = uniform_in_place_of(system.damping, building.modal.first_frequency());
+  if (cost > worth_a_word && uniform) {
     std::printf(
         "    Rayleigh damping costs %.3g times the steps that there would be without damping; "
         "uniform damping (-%s_damping_uniform %.2g) would cost %.3g\n",
-        cost, system.name.c_str(), ratio, std::sqrt(uniform.at_once()));
+        cost, system.name.c_str(), uniform->ratio, std::sqrt(uniform->at_once()));
   }
   const ScalingOffer& offer = system.scaling_offer;
   const double gain = offer.time_step / building.limits.stable_time_step;
@@ -125,8 +119,35 @@ void print_remedies(const Building& building) {
   }
 }
 
+/// The scaled mass that reaches the target of the time step, and what it costs.
+void print_step_design(const Structure& structure, const StepDesign& design,
+                       const RotaryScaling& scaling) {
+  const StepTarget& target = *structure.step_target;
+  if (design.structure.step_target->shells == 0) {
+    std::printf("  time step target %.4e s: %.4e s is stable without scaled mass\n",
+                target.time_step, design.before);
+    return;
+  }
+  std::printf("  time step target %.4e s: the stable step grew %.3g times from %.4e s\n",
+              target.time_step, design.after / design.before, design.before);
+  if (scaling.elements > 0) {
+    std::printf(
+        "    %lld shells got rotational inertia, at most %.3g times their own about the normal and "
+        "%.3g in bending\n",
+        static_cast<long long>(scaling.elements), scaling.drilling, scaling.bending);
+  }
+  std::printf(
+      "    no frequency up to %.4g Hz falls by more than %.2g of itself (%.2g is allowed): %.2g by "
+      "the rotations of shells alone, %.2g by stiff beams, bars and springs alone\n",
+      target.frequency, design.change.largest(), target.change, design.change.by_rotations(),
+      design.change.by_elements());
+}
+
 void print_time_step_limit(const Building& building) {
   const LinearSystem& system = *building.system;
+  if (building.design) {
+    print_step_design(*building.structure, *building.design, system.rotary_scaling);
+  }
   const MassScaling& scaling = system.mass_scaling;
   if (scaling.time_step > 0) {
     std::printf(
@@ -134,9 +155,13 @@ void print_time_step_limit(const Building& building) {
         "their stiffness\n",
         scaling.time_step, static_cast<long long>(scaling.elements),
         static_cast<long long>(scaling.dofs), scaling.largest_factor);
-    if (building.limits.stable_time_step < scaling.time_step) {
-      std::printf("    not reached: %s allows less, its mass is not scaled\n",
-                  system.limiting_element.c_str());
+    const bool reached = std::max(building.limits.stable_time_step,
+                                  system.element_time_step_bound) >= scaling.time_step;
+    if (!reached && !building.design) {
+      std::printf(
+          "    not reached: %s allows less, its mass is not scaled; the stable step is %.4g "
+          "of the wanted one\n",
+          system.limiting_element.c_str(), building.limits.stable_time_step / scaling.time_step);
     }
   }
   std::printf("  omega_max %.4e rad/s (bound from single elements %.4e)\n",

@@ -106,6 +106,15 @@ Json describe_structure(const Building& building) {
                                  {"coupled_dofs", scaling.dofs},
                                  {"largest_factor", scaling.largest_factor}};
   }
+  if (building.design) {
+    const StepTarget& target = *building.structure->step_target;
+    const RotaryScaling& rotary = building.system->rotary_scaling;
+    structure["time_step_target"] = {
+        {"time_step", target.time_step},     {"stable_time_step_before", building.design->before},
+        {"shells", rotary.elements},         {"largest_drilling", rotary.drilling},
+        {"largest_bending", rotary.bending}, {"frequency", target.frequency},
+        {"allowed_change", target.change},   {"largest_change", building.design->change.largest()}};
+  }
   for (const Sliver& sliver : building.system->slivers) {
     structure["slivers"].push_back({{"element", sliver.element},
                                     {"time_step", sliver.time_step},

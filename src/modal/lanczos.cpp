@@ -45,7 +45,7 @@ double norm(Vec x) {
 
 }  // namespace
 
-Lanczos::Lanczos(const LinearSystem& system, const Mesh& mesh, const ScaledOperator& scaled)
+Lanczos::Lanczos(const LinearSystem& system, const Mesh& mesh, const SymmetricOperator& scaled)
     : system_(system), mesh_(mesh), scaled_(scaled) {
   POUNDING_PETSC(MatCreateVecs(scaled.matrix(), current_.out(), previous_.out()));
   POUNDING_PETSC(VecDuplicate(current_.get(), next_.out()));
@@ -136,6 +136,7 @@ void Lanczos::run(const EigenvalueEffort& effort, const char* what) {
     next = k + 1 + k / 8;
     effort.report(static_cast<int>(k));
     RitzPair pair = largest_of(k);
+    const double theta = pair.value;
     if (vector_steps_ == 0 && (pair.residual <= shape_residual * std::abs(pair.value) ||
                                exhausted || k >= shape_products)) {
       vector_steps_ = k;
@@ -155,8 +156,9 @@ void Lanczos::run(const EigenvalueEffort& effort, const char* what) {
       return;
     }
     if (static_cast<double>(k) * static_cast<double>(system_.global_dofs) >= effort.work &&
-        converged.vector.empty() && excess_ <= 2 * effort.tolerance) {
-      bound_ = pair.value / (1 - excess_);
+        (converged.vector.empty() || effort.work == 0) && excess_ <= 2 * effort.tolerance) {
+      bound_ = theta / (1 - excess_);
+      if (vector_steps_ == 0) vector_steps_ = k;
       return;
     }
     if (k > most_products) fail();

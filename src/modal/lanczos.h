@@ -5,7 +5,7 @@
 
 #include "common/petsc.h"
 #include "mesh/mesh.h"
-#include "modal/scaled_operator.h"
+#include "modal/symmetric_operator.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -14,7 +14,7 @@ namespace pounding {
 struct EigenvalueEffort {
   /// Relative error of a circular frequency that is accepted where 1e-10 costs too much [-].
   double tolerance = 1e-3;
-  /// Products times dofs after which that is so.
+  /// Products times dofs after which that is so; 0: at once, however close it has come.
   double work = 1e8;
   /// Called with the number of products now and then, on all ranks.
   std::function<void(int)> report = [](int) {};
@@ -36,7 +36,7 @@ struct EigenvalueEffort {
 class Lanczos {
  public:
   /// All that is referred to must outlive it. Collective.
-  Lanczos(const LinearSystem& system, const Mesh& mesh, const ScaledOperator& scaled);
+  Lanczos(const LinearSystem& system, const Mesh& mesh, const SymmetricOperator& scaled);
 
   /// Iterates until r is 1e-10 of theta and no eigenvalue above (1 + 2e-3) theta can have been
   /// missed but with a probability of 1e-9 (or there are fewer than k / 2 dofs), or, if that takes
@@ -70,7 +70,7 @@ class Lanczos {
 
   const LinearSystem& system_;
   const Mesh& mesh_;
-  const ScaledOperator& scaled_;
+  const SymmetricOperator& scaled_;
   VecHandle previous_;
   VecHandle current_;
   VecHandle next_;

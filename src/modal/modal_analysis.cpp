@@ -63,6 +63,13 @@ Mode describe_mode(double eigenvalue, const std::array<double, 6>& participation
   return mode;
 }
 
+double ModalResult::first_frequency() const {
+  for (const Mode& mode : modes) {
+    if (mode.location.empty()) return mode.frequency;
+  }
+  return 0;
+}
+
 ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count,
                          bool keep_shapes) {
   const RigidMotions motions(system, mesh);

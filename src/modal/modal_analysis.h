@@ -24,6 +24,9 @@ struct ModalResult {
   std::vector<Mode> modes;  ///< increasing frequency
   double mass = 0;          ///< of the free dofs [kg]
   Vector3 centre_of_mass{0, 0, 0};
+
+  /// The lowest that vibrates [Hz]; 0: none is known.
+  double first_frequency() const;
 };
 
 /// A mode is near zero below this part of the largest frequency of a single element (of the bound

@@ -3,13 +3,14 @@
 #include <vector>
 
 #include "common/petsc.h"
+#include "modal/symmetric_operator.h"
 #include "system/linear_system.h"
 
 namespace pounding {
 
 /// A = G^-1 (sum of f_i B_i) G^-T + s I as an operator, from products with the B_i alone; G G^T is
 /// the mass: G = M^1/2 where it is diagonal.
-class ScaledOperator {
+class ScaledOperator final : public SymmetricOperator {
  public:
   struct Term {
     double factor = 1;                   ///< f_i
@@ -17,13 +18,11 @@ class ScaledOperator {
   };
   /// Collective.
   ScaledOperator(const LinearSystem& system, std::vector<Term> terms, double shift = 0);
-  ScaledOperator(const ScaledOperator&) = delete;
-  ScaledOperator& operator=(const ScaledOperator&) = delete;
 
   /// A as PETSc's shell: multiplies, has no entries. Borrowed.
-  Mat matrix() const { return shell_.get(); }
+  Mat matrix() const override { return shell_.get(); }
   /// y = A x. Collective.
-  void apply(Vec x, Vec y) const;
+  void apply(Vec x, Vec y) const override;
   /// G^-T y of a vector over the owned dofs: the motion that y stands for.
   void to_motion(std::vector<double>& y) const;
   /// G^-1 f of a force over the owned dofs.

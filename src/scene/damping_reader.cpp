@@ -51,6 +51,13 @@ Rayleigh read_damping(OptionReader& options, const DampingPatterns& patterns, co
   return {number(patterns.alpha, inherited.alpha), number(patterns.beta, inherited.beta)};
 }
 
+/// Whether a structure asks for Rayleigh damping that is not nothing.
+bool gives_rayleigh(OptionReader& options, const Names& names) {
+  return options.given(structure_damping.ratio, names) ||
+         options.real(structure_damping.alpha, names) != 0 ||
+         options.real(structure_damping.beta, names) != 0;
+}
+
 }  // namespace
 
 Rayleigh read_structure_damping(OptionReader& options, const std::string& structure) {
@@ -71,6 +78,7 @@ std::optional<UniformDamping> read_uniform_damping(OptionReader& options,
     }
     return std::nullopt;
   }
+  if (options.real(uniform, names) == 0 && gives_rayleigh(options, names)) return std::nullopt;
   const std::string why = "give either this or -" + option_name(uniform, names) + ", not both";
   for (const std::string_view pattern : {structure_damping.alpha, structure_damping.beta}) {
     if (options.real(pattern, names) != 0) {

@@ -83,6 +83,14 @@ struct Clamp {
   std::uint8_t components = 0x3f;  ///< one bit each: 0-2 translations, 3-5 rotations
 };
 
+/// A stable time step that is wanted, and what it may cost.
+struct StepTarget {
+  double time_step = 0;  ///< [s]
+  double change = 0;     ///< largest part by which a frequency may fall [-]
+  double frequency = 0;  ///< of those up to here, which count [Hz]
+  double shells = 0;     ///< step [s] that shells get rotational inertia for; 0: none
+};
+
 struct Structure {
   std::string name;
   std::string matrices;  ///< folder, see system/matrix_system.h; empty: of its elements
@@ -96,6 +104,7 @@ struct Structure {
   std::optional<UniformDamping> uniform_damping;  ///< in place of Rayleigh damping, which is 0 then
   std::optional<ModalModel> modal;                ///< nothing: the finite-element model itself
   double mass_scaling = 0;                ///< step [s] that what is stiff gets mass for; 0: none
+  std::optional<StepTarget> step_target;  ///< its step is `mass_scaling` until one is designed
   Vector3 initial_displacement{0, 0, 0};  ///< of every free node [m]
   Vector3 initial_velocity{0, 0, 0};      ///< of every free node [m/s]
   Vector3 gravity{0, 0, 0};               ///< constant body acceleration [m/s2]

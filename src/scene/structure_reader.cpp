@@ -218,6 +218,32 @@ void forbid_mass_scaling(const OptionReader& options, const Structure& structure
   }
 }
 
+/// The target of the time step is the wish of mass scaling as well.
+void read_step_target(OptionReader& options, Structure& structure) {
+  constexpr std::string_view target = "<structure>_time_step_target";
+  const Names names{structure.name};
+  const double step = options.real(target, names);
+  if (step == 0) {
+    for (const std::string_view pattern :
+         {"<structure>_target_change", "<structure>_target_frequency"}) {
+      options.forbid(pattern, names, "goes with -" + option_name(target, names));
+    }
+    return;
+  }
+  const auto refuse_beside = [&](bool given, const std::string& option) {
+    if (given) {
+      options.refuse(target, names, "not with -" + structure.name + "_" + option);
+    }
+  };
+  refuse_beside(structure.mass_scaling > 0, "mass_scaling, which it chooses");
+  refuse_beside(!structure.matrices.empty(), "matrices");
+  refuse_beside(structure.modal.has_value(),
+                "model modal, whose coordinates -" + structure.name + "_mass_scaling slows down");
+  structure.mass_scaling = step;
+  structure.step_target = StepTarget{step, options.real("<structure>_target_change", names),
+                                     options.real("<structure>_target_frequency", names), 0};
+}
+
 /// Matrices do not know which of their rows buckle or lift off.
 void forbid_one_way_elements(const OptionReader& options, const Structure& structure) {
   for (const Region& region : structure.regions) {
@@ -291,6 +317,7 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   }
   structure.modal = read_modal_model(options, structure);
   forbid_mass_scaling(options, structure);
+  read_step_target(options, structure);
   if (!structure.matrices.empty()) {
     forbid_damping_of_regions(options, structure);
   }

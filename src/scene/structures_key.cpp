@@ -15,8 +15,8 @@ namespace {
 
 using Options = std::vector<std::pair<std::string, std::string>>;
 
-constexpr std::array<std::string_view, 4> representation{"model", "modal_", "mass_scaling",
-                                                         "initial_"};
+constexpr std::array<std::string_view, 6> representation{
+    "model", "modal_", "mass_scaling", "initial_", "time_step_target", "target_"};
 
 std::vector<std::string> names_in(const Options& in_force, std::string_view list) {
   const auto found =

@@ -119,7 +119,9 @@ void ElementBounds::finish(LinearSystem& system) {
       system.slivers.push_back(std::move(*sliver));
     }
   }
-  if (structure_.mass_scaling == 0) system.scaling_offer = find_offer(all);
+  if (structure_.mass_scaling == 0 && !structure_.step_target) {
+    system.scaling_offer = find_offer(all);
+  }
   share_extreme(mesh_.comm, MPI_MAXLOC, system.element_frequency_bound, system.stiffest_element);
   share_extreme(mesh_.comm, MPI_MINLOC, system.element_time_step_bound, system.limiting_element);
 }

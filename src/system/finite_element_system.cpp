@@ -13,6 +13,7 @@
 #include "stiffness/sparse_matrix.h"
 #include "system/element_bounds.h"
 #include "system/links.h"
+#include "system/rotary_scaling.h"
 #include "system/scaled_mass.h"
 
 namespace pounding {
@@ -49,6 +50,7 @@ class Assembly {
         mesh_(mesh),
         system_(system),
         bounds_(structure, mesh),
+        added_inertia_(structure, mesh),
         added_mass_(structure, mesh) {
     if (with_matrix) matrix_ = create_matrix(mesh);
     for (const ElementBlock& block : mesh.blocks) {
@@ -78,12 +80,16 @@ class Assembly {
     MPI_Allreduce(MPI_IN_PLACE, &system_.total_mass, 1, MPI_DOUBLE, MPI_SUM, mesh_.comm);
     on_every_rank(mesh_.comm, [&] { added_mass_.finish(system_); });
     added_mass_.share(system_);
+    added_inertia_.share(system_.rotary_scaling);
   }
 
  private:
   void add(const ElementBlock& block, std::size_t element, const ElementLayout& layout,
            ElementWork& work) {
     const std::size_t size = layout.size();
+    const std::span<const double> stiffness(work.stiffness.data(), size * size);
+    const std::span<const double> mass(work.mass.data(), size);
+    added_inertia_.add(block, element, work);
     const auto dofs = element_dofs(mesh_, block, element, layout);
     std::array<PetscInt, max_element_size> rows{};
     std::array<PetscInt, max_element_size> columns{};
@@ -106,8 +112,6 @@ class Assembly {
     const Region& region = structure_.regions[block.region];
     if (region.compression_only) work.stiffness[2 * size + 2] += region.stiffness[2];
     if (taut_.get() != nullptr) insert(taut_, work.stiffness.data());
-    const std::span<const double> stiffness(work.stiffness.data(), size * size);
-    const std::span<const double> mass(work.mass.data(), size);
     const double scaling = added_mass_.add(block, element, region, stiffness, mass);
     bounds_.add(block, stiffness, mass, {dofs.data(), size}, scaling);
     if (has_extra_damping(block)) {
@@ -163,6 +167,7 @@ class Assembly {
   MatHandle extra_damping_;
   std::vector<PetscInt> numbers_;
   ElementBounds bounds_;
+  AddedInertia added_inertia_;
   ScaledMass added_mass_;
   std::array<double, max_element_size * max_element_size> damping_{};
 };

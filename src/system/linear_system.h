@@ -16,6 +16,7 @@
 #include "stiffness/stiffness.h"
 #include "system/coupled_mass.h"
 #include "system/mass_scaling.h"
+#include "system/rotary_scaling.h"
 #include "system/slivers.h"
 
 namespace pounding {
@@ -66,6 +67,7 @@ struct LinearSystem {
   std::shared_ptr<Links> links;          ///< null if there are none
   std::unique_ptr<Stiffness> extra_damping;  ///< D [N s/m, N m s]; null if there is none
   MassScaling mass_scaling;
+  RotaryScaling rotary_scaling;  ///< in `lumped_mass` already
   /// M + S of the dofs in S; null if this rank has none.
   std::unique_ptr<CoupledMass> coupled_mass;
   Vector3 initial_displacement{0, 0, 0};  ///< of every translation at t = 0 [m]

@@ -22,8 +22,9 @@ namespace {
 
 [[noreturn]] void refuse(const Structure& structure, const std::string& why) {
   std::ostringstream text;
-  text << "option -" << structure.name << "_mass_scaling " << structure.mass_scaling
-       << " s: " << why;
+  text << "option -" << structure.name
+       << (structure.step_target ? "_time_step_target " : "_mass_scaling ")
+       << structure.mass_scaling << " s: " << why;
   throw UserError(text.str());
 }
 

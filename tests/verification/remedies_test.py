@@ -49,6 +49,13 @@ class Remedies(unittest.TestCase):
             self.assertEqual(SCALING.findall(after), [])
             self.assertNotIn("not reached", after)
 
+    def test_a_step_that_scaled_mass_does_not_reach_names_what_holds_it(self):
+        text, steps = self.dry_run("-s1_mass_scaling", 1e-3, "-s2_mass_scaling", 1e-5)
+        (element, part), = re.findall(r"not reached: (element \d+ of group '\w+' at .*) allows less, its mass is not "
+                                      r"scaled; the stable step is (\S+) of the wanted one", text)
+        self.assertIn("slab", element)
+        self.assertAlmostEqual(float(part) * 1e-3 / steps[0][0], 1, delta=1e-3)
+
 
 if __name__ == "__main__":
     unittest.main()

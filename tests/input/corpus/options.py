@@ -21,6 +21,7 @@ NUMBERS = [
     refused("-checkpoint_interval", "-5", ">= 0"), refused("-checkpoint_steps", "1e3", "not an integer"),
     refused("-left_damping_alpha", "-0.1", ">= 0"), refused("-left_damping_beta", "-1e-5", ">= 0"),
     refused("-right_damping_ratio", "1", "[0, 1)"), refused("-left_mass_scaling", "-1e-4", ">= 0"),
+    refused("-left_time_step_target", "-1e-4", ">= 0"), refused("-left_time_step_target", "soon", "finite number"),
     refused("-left_gravity", "-9.81", "three numbers"), refused("-left_gravity", "0,0,down", "finite numbers"),
     refused("-left_initial_velocity", "1,2", "three numbers"),
     refused("-left_initial_displacement", "0;0;1", "finite numbers"),

@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "common/error.h"
 #include "scene_cases.h"
 
 namespace pounding::scene_cases {
@@ -110,6 +111,16 @@ TEST(SceneReader, ContactsMotionAndProbesOfThePair) {
   EXPECT_TRUE(scene.probes[0].average);
   EXPECT_EQ(scene.probes[1].group, "base");
   EXPECT_FALSE(scene.probes[1].average);
+}
+
+/// A uniform damping of 0 is none: it takes back what an included file says.
+TEST(SceneReader, UniformDampingOfZeroStandsBesideRayleighDamping) {
+  const auto tower = [](const char* uniform) {
+    return read_scene(with(pair(), {{"tower_damping_uniform", uniform}})).scene.structures[0];
+  };
+  EXPECT_FALSE(tower("0").uniform_damping);
+  EXPECT_EQ(tower("0").damping.beta, 1.2557e-5);
+  EXPECT_THROW(tower("0.02"), UserError);
 }
 
 /// Rayleigh damping has the damping ratio xi(w) = alpha / (2 w) + beta w / 2.
