@@ -11,7 +11,8 @@ SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "s
 MAY_INCLUDE = {
     "common": set(),
     "io": {"common"},
-    "scene": {"common", "elements"},
+    "scene": {"common", "elements", "soil"},
+    "soil": set(),
     "elements": {"common"},
     "mesh": {"common", "scene", "elements"},
     "motion": {"common", "scene"},
@@ -21,7 +22,7 @@ MAY_INCLUDE = {
     "stiffness/strains": {"common", "elements"},
     "stiffness": {"common", "scene", "elements", "mesh", "stiffness/rows", "stiffness/bricks",
                   "stiffness/shells", "stiffness/strains"},
-    "links": {"common", "scene"},
+    "links": {"common", "scene", "soil"},
     "system": {"common", "io", "scene", "elements", "mesh", "links", "stiffness"},
     "modal": {"common", "io", "scene", "elements", "mesh", "stiffness", "system", "contact"},
     "stability": {"common", "scene", "mesh", "system", "modal"},
@@ -29,7 +30,7 @@ MAY_INCLUDE = {
     "statics": {"common", "scene", "mesh", "links", "system", "contact"},
     "dynamics": {"common", "scene", "links", "system", "contact", "motion"},
     "output": {"common", "io", "scene", "mesh", "system", "motion", "dynamics"},
-    "driver": {"common", "io", "scene", "elements", "mesh", "system", "modal", "stability", "motion",
+    "driver": {"common", "io", "scene", "soil", "elements", "mesh", "system", "modal", "stability", "motion",
                "contact", "statics", "dynamics", "output"},
     "spectra": {"common", "io", "scene", "motion", "output"},
     "main.cpp": {"common", "scene", "driver"},
@@ -37,7 +38,8 @@ MAY_INCLUDE = {
     "mesh_main.cpp": {"mesh"},
 }
 
-PURE = {"elements": ("mpi.h", "petsc", "slepc"), "links": ("mpi.h", "petsc", "slepc"), "motion": ("mpi.h", "petsc", "slepc"),
+PURE = {"elements": ("mpi.h", "petsc", "slepc"), "links": ("mpi.h", "petsc", "slepc"), "soil": ("mpi.h", "petsc", "slepc"),
+        "motion": ("mpi.h", "petsc", "slepc"),
         "stiffness/rows": ("mpi.h", "petsc", "slepc"), "stiffness/bricks": ("mpi.h", "petsc", "slepc"),
         "stiffness/shells": ("mpi.h", "petsc", "slepc"),
         "stiffness/strains": ("mpi.h", "petsc", "slepc")}
