@@ -138,7 +138,7 @@ void LinkStep::form_inverses(double share) {
         block.inverse[i * count + j] =
             share * (block.compliance[i * count + j] + block.compliance[j * count + i]) / 2;
       }
-      block.inverse[i * count + i] += 1 / laws_[block.links[i]]->rate();
+      block.inverse[i * count + i] += 1 / laws_[block.links[i]]->rate(share);
     }
     if (!invert_definite(block.inverse)) {
       throw std::logic_error("the compliance of dashpots is not positive");
@@ -176,7 +176,9 @@ double LinkStep::left_over(std::size_t link) const {
 void LinkStep::solve(Block& block) {
   const std::size_t count = block.links.size();
   for (std::size_t i = 0; i < count; ++i) {
-    block.free[i] = left_over(block.links[i]) - before_[block.links[i]];
+    const std::size_t b = block.links[i];
+    const double offset = laws_[b]->offset(before_[b], now_[b], share_, memory_[b]);
+    block.free[i] = left_over(b) - before_[b] + offset / laws_[b]->rate(share_);
   }
   multiply_rows(block.inverse.data(), count, count, block.free.data(), block.force.data(), 1);
   for (std::size_t i = 0; i < count; ++i) force_[block.links[i]] = block.force[i];
@@ -244,7 +246,7 @@ void LinkStep::finish(StepSums& sums) {
   for (std::size_t b = 0; b < links_.size(); ++b) {
     const double held = laws_[b]->energy(before_[b], now_[b], memory_[b]);
     sums.link_energy_before += held;
-    laws_[b]->remember(before_[b], now_[b], after_[b], memory_[b]);
+    laws_[b]->remember(before_[b], now_[b], after_[b], share_, memory_[b]);
     sums.link_loss += force_[b] * (after_[b] - before_[b]) / 2 -
                       (laws_[b]->energy(now_[b], after_[b], memory_[b]) - held);
   }
@@ -252,8 +254,10 @@ void LinkStep::finish(StepSums& sums) {
 
 namespace {
 
+/// Name of what a link remembers; all links of an element but that along x say which one they are.
 std::string memory_name(int structure, const Link& link) {
-  return "link " + std::to_string(structure) + " " + std::to_string(link.number);
+  const std::string name = "link " + std::to_string(structure) + " " + std::to_string(link.number);
+  return link.origin.component == 0 ? name : name + " " + std::to_string(link.origin.component);
 }
 
 }  // namespace

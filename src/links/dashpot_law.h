@@ -28,7 +28,7 @@ class DashpotLaw final : public LinkLaw {
     return 0;
   }
   double tangent() const override { return 0; }
-  double rate() const override { return rate_; }
+  double rate(double /*share*/ = 1) const override { return rate_; }
   bool is_idle(double /*now*/, std::span<const double> /*memory*/ = {}) const override {
     return false;
   }

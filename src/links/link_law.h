@@ -32,14 +32,19 @@ class LinkLaw {
   /// Whether it pulls at no elongation that it can reach in this step: it need not be looked at.
   virtual bool is_idle(double now, std::span<const double> memory = {}) const = 0;
 
-  /// Rate r [N/m] of a law N_n = r (e_{n+1} - e_{n-1}) and nothing else, 0 of any other: such links
-  /// are solved for together, and their elongations are counted from e_n, so that these have no
-  /// round-off of a large one.
-  virtual double rate() const { return 0; }
+  /// Rate r [N/m] of a law N_n = r (e_{n+1} - e_{n-1}) + offset, 0 of any other: such links are
+  /// solved for together, and their elongations are counted from e_n, so that these have no
+  /// round-off of a large one. `share`: of a step, for which the force acts; half of the first one.
+  virtual double rate(double /*share*/ = 1) const { return 0; }
+  /// Its offset [N], which knows differences of elongations only.
+  virtual double offset(double /*before*/, double /*now*/, double /*share*/,
+                        std::span<const double> /*memory*/) const {
+    return 0;
+  }
   /// Number of values that the law remembers; they start at 0.
   virtual std::size_t memory_size() const { return 0; }
-  /// Brings the memory to the end of a step, after contact.
-  virtual void remember(double /*before*/, double /*now*/, double /*after*/,
+  /// Brings the memory to the end of a step, after contact. `share` as above.
+  virtual void remember(double /*before*/, double /*now*/, double /*after*/, double /*share*/,
                         std::span<double> /*memory*/) const {}
 };
 

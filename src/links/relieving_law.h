@@ -33,8 +33,9 @@ class RelievingLaw final : public LinkLaw {
     return false;
   }
   std::size_t memory_size() const override { return link_->memory_size(); }
-  void remember(double before, double now, double after, std::span<double> memory) const override {
-    link_->remember(before, now, after, memory);
+  void remember(double before, double now, double after, double share,
+                std::span<double> memory) const override {
+    link_->remember(before, now, after, share, memory);
   }
 
  private:
