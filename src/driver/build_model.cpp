@@ -14,9 +14,11 @@
 #include "driver/run_warnings.h"
 #include "driver/warnings.h"
 #include "mesh/gmsh_reader.h"
+#include "mesh/soil_node.h"
 #include "modal/definiteness.h"
 #include "modal/reduced_system.h"
 #include "modal/reduction.h"
+#include "scene/soil_reader.h"
 #include "stability/stable_time_step.h"
 #include "stability/step_target.h"
 #include "stability/structure_limits.h"
@@ -42,9 +44,23 @@ void check_mesh(const Scene& scene, std::size_t s, const GlobalMesh& mesh, Model
   model.buildings[s].findings = std::move(findings);
 }
 
+/// Tells every rank what rank 0 knows of the mat of a structure on soil. Collective.
+void share_foundation(MPI_Comm comm, Structure& structure, const GlobalMesh& mesh) {
+  if (!structure.soil) return;
+  MatPlace place;
+  if (rank_of(comm) == 0) place = mat_place(structure, mesh);
+  std::vector<double> numbers{place.node[0],   place.node[1],   place.node[2],  place.centre[0],
+                              place.centre[1], place.centre[2], place.sides[0], place.sides[1]};
+  broadcast_array(comm, numbers, 0);
+  place = {{numbers[0], numbers[1], numbers[2]},
+           {numbers[3], numbers[4], numbers[5]},
+           {numbers[6], numbers[7]}};
+  lay_foundation(place, structure);
+}
+
 /// Rank 0 reads the meshes and finds who faces whom; every rank gets its part. Bases of reduced
 /// structures come from the whole meshes.
-void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& model) {
+void build_meshes(MPI_Comm comm, Scene& scene, Profile& profile, Model& model) {
   std::vector<GlobalMesh> meshes(scene.structures.size());
   {
     const ScopedTimer timer(profile, Phase::mesh);
@@ -53,6 +69,9 @@ void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& mo
       for (std::size_t s = 0; s < meshes.size(); ++s) {
         const Progress progress = begin(comm, scene, scene.structures[s], "mesh");
         meshes[s] = read_mesh(scene.structures[s], limits);
+        if (scene.structures[s].soil) {
+          lay_foundation(mat_place(scene.structures[s], meshes[s]), scene.structures[s]);
+        }
         check_mesh(scene, s, meshes[s], model);
       }
       const Progress progress(comm, "faces in contact and probes", scene.progress_interval);
@@ -60,6 +79,9 @@ void build_meshes(MPI_Comm comm, const Scene& scene, Profile& profile, Model& mo
       model.probes = resolve_probes(scene, meshes);
       append(probe_warnings(model.probes, meshes, model.interface), model.warnings);
     });
+    for (std::size_t s = 0; s < meshes.size(); ++s) {
+      share_foundation(comm, scene.structures[s], meshes[s]);
+    }
     broadcast_interface(comm, model.interface);
     broadcast_probes(comm, model.probes);
   }
@@ -205,7 +227,7 @@ void add_warnings(MPI_Comm comm, const Scene& scene, Model& model) {
 
 }  // namespace
 
-Model build_model(MPI_Comm comm, const Scene& scene, Profile& profile) {
+Model build_model(MPI_Comm comm, Scene& scene, Profile& profile) {
   Model model;
   model.buildings.resize(scene.structures.size());
   model.systems.resize(scene.structures.size());

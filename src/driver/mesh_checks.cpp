@@ -27,10 +27,11 @@ std::string found_at(const Places& places, const char* what) {
   return std::to_string(places.count) + what + place_text(places.first);
 }
 
-/// Groups that clamps, contacts and probes name, and those that are left out on purpose.
+/// Groups that clamps, soil, contacts and probes name, and those that are left out on purpose.
 std::set<std::string> named_groups(const Scene& scene, const Structure& structure) {
   std::set<std::string> names(structure.ignored_groups.begin(), structure.ignored_groups.end());
   for (const Clamp& clamp : structure.clamps) names.insert(clamp.group);
+  if (structure.soil) names.insert(structure.soil->mat);
   for (const Contact& contact : scene.contacts) {
     for (const ContactSide& side : {contact.secondary, contact.primary}) {
       if (side.structure == structure.name) names.insert(side.group);
@@ -149,6 +150,14 @@ std::vector<std::string> mesh_warnings(const Structure& structure, const GlobalM
         "structure " + structure.name + ": " +
         found_at(connectivity.coincident_inside,
                  " pairs of nodes lie on each other and are not one, the first at "));
+  }
+  if (structure.soil) {
+    const std::size_t nodes = mesh.groups.at(structure.soil->mat).nodes.size();
+    if (nodes > 1) {
+      warnings.push_back("structure " + structure.name + ": one of the " + std::to_string(nodes) +
+                         " nodes of group " + structure.soil->mat +
+                         " carries its soil; a mat that is not stiff around it gives way there");
+    }
   }
   const double longest = bounding_box({&mesh, 1}).longest_side();
   if (longest > longest_structure) {

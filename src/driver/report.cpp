@@ -9,6 +9,7 @@
 #include "common/version.h"
 #include "driver/motion_report.h"
 #include "driver/rest.h"
+#include "driver/soil_report.h"
 #include "stability/stable_time_step.h"
 
 namespace pounding {
@@ -243,6 +244,7 @@ void print_structure(const Building& building) {
     print_reduction(*building.structure->modal, *building.basis, system.mass_scaling);
   }
   print_damping(building);
+  print_soil(*building.structure);
   std::printf("  mode  frequency  direction  effective mass, share of it\n");
   int number = 0;
   for (const Mode& mode : building.modal.modes) {

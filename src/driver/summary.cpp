@@ -9,6 +9,7 @@
 #include "common/version.h"
 #include "driver/motion_report.h"
 #include "driver/rest.h"
+#include "driver/soil_report.h"
 #include "output/result_folder.h"
 #include "scene/resolved_options.h"
 #include "stability/stable_time_step.h"
@@ -88,6 +89,7 @@ Json describe_structure(const Building& building) {
       structure["region_damping"][region.group] = describe_damping(*region.damping);
     }
   }
+  if (building.structure->soil) structure["soil"] = describe_soil(*building.structure);
   if (building.basis) {
     const ModalBasis& basis = *building.basis;
     structure["modal"] = {

@@ -46,7 +46,9 @@ void element_dashpots(ElementType type, const ElementProperties& properties,
                       std::span<double> damping) {
   const ElementLayout layout = element_layout(type);
   require_size(damping.size(), layout.size() * layout.size(), "damping");
-  if (is_spring(type)) {
+  if (type == ElementType::soil) {
+    offset_spring_matrix(properties.dashpot, properties.arm, damping);
+  } else if (is_spring(type)) {
     spring_matrix(layout, properties.dashpot, damping);
   } else {
     std::ranges::fill(damping, 0.0);

@@ -32,6 +32,7 @@ struct ElementProperties {
   Vector3 rotary_inertia{0, 0, 0};    ///< of a point, about x, y, z
   std::array<double, 6> stiffness{};  ///< of a spring: along x, y, z, about x, y, z
   std::array<double, 6> dashpot{};    ///< of its dashpot, likewise [N s/m, N m s]
+  Vector3 arm{0, 0, 0};               ///< of soil, from its node to the point that it acts on [m]
 };
 
 /// Number of nodes, and of components (3 or 6) at each of them.

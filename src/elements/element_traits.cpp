@@ -44,6 +44,10 @@ void spring_stiffness(Coordinates, const Properties& properties, Matrix stiffnes
   spring_matrix({nodes, components}, properties.stiffness, stiffness);
 }
 
+void soil_stiffness(Coordinates, const Properties& properties, Matrix stiffness) {
+  offset_spring_matrix(properties.stiffness, properties.arm, stiffness);
+}
+
 void point_mass(Coordinates, const Properties& properties, Matrix lumped_mass) {
   point_lumped_mass(properties, lumped_mass);
 }
@@ -93,7 +97,9 @@ constexpr std::array table{
         of_solid, wedge6_stiffness, wedge6_lumped_mass, Kernel::sparse, measured_costs::sparse_wedge6, true, false},
     ElementTraits{Type::tet4, "tet4", "tet4", Family::solid, {4, 3}, 4, {}, tet4_faces,
         of_solid, tet4_stiffness, tet4_lumped_mass, Kernel::sparse, measured_costs::sparse_tet4, true, false,
-        "linear tetrahedra are too stiff in bending and lock near poisson 0.5; prefer wedge6 or hex8"}};
+        "linear tetrahedra are too stiff in bending and lock near poisson 0.5; prefer wedge6 or hex8"},
+    ElementTraits{Type::soil, "soil", "grounded_spring", Family::grounded_spring, {1, 6}, 15, {}, {},
+        of_ground, soil_stiffness, nothing, Kernel::sparse, measured_costs::small, true, false}};
 // clang-format on
 
 /// Whether `list`, split at `separator`, has an entry `word`.

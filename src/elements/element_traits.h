@@ -12,7 +12,8 @@ namespace pounding {
 
 /// The elements a mesh can hold; `hex8` is the one with incompatible modes, `shell3` the triangle
 /// of shell meshes. A `tension_bar` resists stretching only. Springs act along and about the global
-/// axes; those named 6 also on rotations. In the order of the table.
+/// axes; those named 6 also on rotations. `soil` is no word of the option: it stands under a mat.
+/// In the order of the table.
 enum class ElementType {
   hex8,
   hex8_full,
@@ -28,7 +29,8 @@ enum class ElementType {
   spring,
   spring6,
   wedge6,
-  tet4
+  tet4,
+  soil
 };
 
 /// Words of the option, separated by '|'.

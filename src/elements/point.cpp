@@ -24,4 +24,28 @@ void spring_matrix(const ElementLayout& layout, const std::array<double, 6>& val
   }
 }
 
+std::array<std::array<double, 6>, 6> motion_at(const Vector3& arm) {
+  std::array<std::array<double, 6>, 6> motion{};
+  for (std::size_t c = 0; c < 6; ++c) motion[c][c] = 1;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::size_t next = (c + 1) % 3;
+    const std::size_t last = (c + 2) % 3;
+    motion[c][3 + next] = arm[last];
+    motion[c][3 + last] = -arm[next];
+  }
+  return motion;
+}
+
+void offset_spring_matrix(const std::array<double, 6>& values, const Vector3& arm,
+                          std::span<double> matrix) {
+  const auto motion = motion_at(arm);
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      double sum = 0;
+      for (std::size_t c = 0; c < 6; ++c) sum += motion[c][i] * values[c] * motion[c][j];
+      matrix[6 * i + j] = sum;
+    }
+  }
+}
+
 }  // namespace pounding

@@ -19,4 +19,13 @@ void point_lumped_mass(const ElementProperties& properties, std::span<double> lu
 void spring_matrix(const ElementLayout& layout, const std::array<double, 6>& values,
                    std::span<double> matrix);
 
+/// Motion of a point that an arm [m] joins rigidly to a node, from that of the node: shape (6, 6),
+/// u + theta x arm, and theta.
+std::array<std::array<double, 6>, 6> motion_at(const Vector3& arm);
+
+/// Matrix of six springs (or dashpots) `values` to the ground along and about x, y, z of a point at
+/// the end of a rigid arm [m] of a node: shape (6, 6), row-major, of the node's motion.
+void offset_spring_matrix(const std::array<double, 6>& values, const Vector3& arm,
+                          std::span<double> matrix);
+
 }  // namespace pounding

@@ -5,12 +5,13 @@
 
 #include "links/dashpot_law.h"
 #include "links/relieving_law.h"
+#include "links/soil_law.h"
 #include "links/tension_law.h"
 
 namespace pounding {
 
 bool has_links(const Region& region) {
-  return is_one_way(region) ||
+  return is_one_way(region) || region.foundation ||
          (is_spring(region.element) &&
           std::ranges::any_of(region.dashpot, [](double rate) { return rate > 0; }));
 }
@@ -22,6 +23,9 @@ bool is_pressed(const LinkOrigin& origin) {
 
 std::unique_ptr<LinkLaw> law_of(const LinkOrigin& origin, double time_step) {
   const Region& region = *origin.region;
+  if (region.foundation) {
+    return std::make_unique<SoilLaw>(region.foundation->impedances[origin.component], time_step);
+  }
   const bool pressed = is_pressed(origin);
   if (is_spring(region.element) && !pressed) {
     return std::make_unique<DashpotLaw>(region.dashpot[origin.component] / (2 * time_step));

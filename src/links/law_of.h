@@ -8,16 +8,16 @@
 namespace pounding {
 
 /// Whether the elements of a region are links, or hold some: tension-only bars, compression-only
-/// springs, springs with dashpots.
+/// springs, springs with dashpots, soil under a mat.
 bool has_links(const Region& region);
 
 /// Origin of a link: what its law follows from.
 struct LinkOrigin {
   const Region* region = nullptr;  ///< borrowed from the structure
-  int component = 0;               ///< along or about which a spring's dashpot acts; 0 of a bar
-  double length = 0;               ///< of a bar [m]
-  double beta = 0;                 ///< stiffness damping of its structure [s]
-  bool in_stiffness = false;       ///< K of its structure holds it at its tangent already
+  int component = 0;          ///< along or about which a spring's dashpot or soil acts; 0 of a bar
+  double length = 0;          ///< of a bar [m]
+  double beta = 0;            ///< stiffness damping of its structure [s]
+  bool in_stiffness = false;  ///< K of its structure holds it at its tangent already
 };
 
 /// Whether a link is the part along z of a compression-only spring.

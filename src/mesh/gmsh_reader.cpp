@@ -16,6 +16,7 @@
 #include "mesh/geometry_file.h"
 #include "mesh/gmsh_process.h"
 #include "mesh/repeated_elements.h"
+#include "mesh/soil_node.h"
 #include "mesh/unused_elements.h"
 
 namespace pounding {
@@ -123,10 +124,13 @@ class MeshBuilder {
   }
 
   GlobalMesh build() {
-    for (const Region& region : structure_.regions) read_region(region);
+    for (const Region& region : structure_.regions) {
+      if (!region.foundation) read_region(region);
+    }
     number_nodes();
     for (const auto& [name, parts] : groups_) read_group(name, parts);
     mark_components();
+    add_soil(structure_, mesh_);
     check_element_sizes(structure_.name, mesh_);
     check_repeated_elements(structure_.name, mesh_);
     mesh_.unused = find_unused(raw_, mesh_);

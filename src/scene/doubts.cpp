@@ -89,7 +89,7 @@ bool is_held(const Structure& structure, std::size_t direction) {
   const auto carries = [&](const Region& region) {
     return is_grounded(region.element) && region.stiffness[direction] > 0;
   };
-  return std::ranges::any_of(structure.clamps, clamps) ||
+  return structure.soil || std::ranges::any_of(structure.clamps, clamps) ||
          std::ranges::any_of(structure.regions, carries);
 }
 

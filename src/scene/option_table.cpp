@@ -23,6 +23,7 @@ constexpr Range uniform_ratio{0, 0.3, false, false};
 constexpr Range eigen_tolerance{1e-10, 0.1, false, false};
 constexpr Range filter_count{1, 8, false, false};
 constexpr Range poisson_ratio{-1, 0.5, true, true};
+constexpr Range soil_poisson{0, 0.5, false, true};
 
 constexpr Preset required{false, true, "required"};
 constexpr Preset value(std::string_view text) {
@@ -96,6 +97,14 @@ constexpr std::array table{
     OptionRow{Block::structure, "<structure>_damping_band", Kind::reals, "Hz", value("1,400"), positive, "two numbers f1,f2", "uniform damping: the band"},
     OptionRow{Block::structure, "<structure>_damping_filters", Kind::integer, "-", value("3"), filter_count, "", "uniform damping: number of filters that make it; more hold the ratio more closely, or over a wider band"},
     OptionRow{Block::structure, "<structure>_damping_reference", Kind::real, "Hz", absent("left out: the first mode"), positive, "", "uniform damping: frequency at which the stiffness is that of the materials; slower motions find less, faster ones more"},
+    OptionRow{Block::structure, "<structure>_soil_mat", Kind::text, "group", value("none"), any, "a physical group or none", "rigid mat on soil: its node nearest to the middle of the group carries springs, dashpots and internal masses of a half-space"},
+    OptionRow{Block::structure, "<structure>_soil_vs", Kind::real, "m/s", absent("required with soil_mat"), positive, "", "soil: speed of shear waves"},
+    OptionRow{Block::structure, "<structure>_soil_density", Kind::real, "kg/m3", absent("required with soil_mat"), positive, "", "soil: density"},
+    OptionRow{Block::structure, "<structure>_soil_poisson", Kind::real, "-", absent("required with soil_mat"), soil_poisson, "", "soil: Poisson's ratio"},
+    OptionRow{Block::structure, "<structure>_soil_shape", Kind::choice, "word", value("rectangle"), any, "rectangle|disk", "soil: shape of the mat's underside"},
+    OptionRow{Block::structure, "<structure>_soil_size", Kind::reals, "m", absent("left out: that of the group"), positive, "two sides along x and y, or a diameter", "soil: size of the mat's underside"},
+    OptionRow{Block::structure, "<structure>_soil_embedment", Kind::real, "m", value("0"), not_negative, "", "soil: depth of the underside of a rectangle below the surface"},
+    OptionRow{Block::structure, "<structure>_soil_frequency_dependence", Kind::boolean, "flag", value("true"), any, "", "soil: internal masses; without them static springs, and dashpots of a0 = 1"},
 
     OptionRow{Block::region, "<structure>_<group>_element", Kind::choice, "word", required, any, element_words, "element of the group (hex8: with incompatible modes)"},
     OptionRow{Block::region, "<structure>_<group>_material", Kind::text, "name", absent("required but for points and springs"), any, "the name of a material", "its material"},

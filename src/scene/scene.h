@@ -9,6 +9,7 @@
 
 #include "common/types.h"
 #include "elements/element_traits.h"
+#include "scene/soil.h"
 #include "scene/uniform_damping.h"
 
 /// Plain structs of what the user asked, in SI units, validated; made by scene/scene_reader and
@@ -43,16 +44,17 @@ struct Region {
   std::string group;
   ElementType element = ElementType::hex8;
   Material material;
-  std::optional<Section> section;     ///< beams
-  double area = 0;                    ///< bars [m2]
-  double thickness = 0;               ///< shells [m]
-  double rotary_inertia_factor = 0;   ///< shells [-], see elements/flat_shell.h
-  double mass = 0;                    ///< point masses, at each node of the group [kg]
-  Vector3 rotary_inertia{0, 0, 0};    ///< point masses [kg m2]
-  std::array<double, 6> stiffness{};  ///< springs: along and about x, y, z [N/m, N m]
-  std::array<double, 6> dashpot{};    ///< springs [N s/m, N m s]
-  bool compression_only = false;      ///< grounded springs: along z they push up only
-  std::optional<Rayleigh> damping;    ///< in place of the structure's
+  std::optional<Section> section;        ///< beams
+  double area = 0;                       ///< bars [m2]
+  double thickness = 0;                  ///< shells [m]
+  double rotary_inertia_factor = 0;      ///< shells [-], see elements/flat_shell.h
+  double mass = 0;                       ///< point masses, at each node of the group [kg]
+  Vector3 rotary_inertia{0, 0, 0};       ///< point masses [kg m2]
+  std::array<double, 6> stiffness{};     ///< springs: along and about x, y, z [N/m, N m]
+  std::array<double, 6> dashpot{};       ///< springs [N s/m, N m s]
+  bool compression_only = false;         ///< grounded springs: along z they push up only
+  std::optional<Rayleigh> damping;       ///< in place of the structure's
+  std::optional<Foundation> foundation;  ///< soil: empty until the mesh is read, see lay_foundation
 };
 
 /// Elements whose force in one direction is none: tension-only bars, compression-only springs.
@@ -103,6 +105,7 @@ struct Structure {
   Rayleigh damping;
   std::optional<UniformDamping> uniform_damping;  ///< in place of Rayleigh damping, which is 0 then
   std::optional<ModalModel> modal;                ///< nothing: the finite-element model itself
+  std::optional<Soil> soil;               ///< under its mat; one of the regions is its element
   double mass_scaling = 0;                ///< step [s] that what is stiff gets mass for; 0: none
   std::optional<StepTarget> step_target;  ///< its step is `mass_scaling` until one is designed
   Vector3 initial_displacement{0, 0, 0};  ///< of every free node [m]

@@ -14,6 +14,7 @@
 #include "scene/nearest_name.h"
 #include "scene/option_blocks.h"
 #include "scene/option_values.h"
+#include "scene/soil_reader.h"
 
 namespace pounding {
 namespace {
@@ -321,6 +322,8 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   if (!structure.matrices.empty()) {
     forbid_damping_of_regions(options, structure);
   }
+  structure.soil = read_soil(options, structure);
+  if (structure.soil) structure.regions.push_back(soil_region(*structure.soil));
   return structure;
 }
 

@@ -14,6 +14,7 @@ ElementProperties element_properties(const Region& region) {
   properties.rotary_inertia = region.rotary_inertia;
   properties.stiffness = region.stiffness;
   properties.dashpot = region.dashpot;
+  if (region.foundation) properties.arm = region.foundation->arm;
   if (region.compression_only) properties.stiffness[2] = properties.dashpot[2] = 0;
   if (region.section) {
     properties.area = region.section->area;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "elements/element.h"
+#include "elements/point.h"
 #include "mesh/location.h"
 
 namespace pounding {
@@ -30,9 +31,11 @@ std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh
   for (const ElementBlock& block : mesh.blocks) {
     if (!has_links(structure.regions[block.region])) continue;
     count += block.global_count;
-    found->hold_energy_ = found->hold_energy_ || is_one_way(structure.regions[block.region]);
+    found->note_kind(structure.regions[block.region]);
     for (std::size_t e = 0; e < block.count(); ++e) {
-      if (is_spring(block.type)) {
+      if (block.type == ElementType::soil) {
+        found->add_soil(structure, mesh, block, e);
+      } else if (is_spring(block.type)) {
         found->add_springs(structure, mesh, block, e);
       } else {
         found->add_bar(structure, mesh, block, e);
@@ -94,6 +97,30 @@ void Links::add_springs(const Structure& structure, const Mesh& mesh, const Elem
   }
 }
 
+void Links::add_soil(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
+                     std::size_t element) {
+  const Region& region = structure.regions[block.region];
+  const auto motion = motion_at(region.foundation->arm);
+  for (std::size_t c = 0; c < motion.size(); ++c) {
+    Link link;
+    link.number = block.tags[element];
+    link.origin = {&region, static_cast<int>(c), 0, 0, false};
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+      if (motion[c][i] == 0) continue;
+      link.place[i] = mesh.dof(block.connectivity[element], static_cast<int>(i));
+      link.weight[i] = motion[c][i];
+    }
+    keep(mesh, block, element, link);
+  }
+}
+
+void Links::note_kind(const Region& region) {
+  one_way_ = one_way_ || is_one_way(region);
+  hold_energy_ = hold_energy_ || one_way_ ||
+                 (region.foundation &&
+                  std::ranges::any_of(region.foundation->impedances, &Impedance::holds_energy));
+}
+
 void Links::keep(const Mesh& mesh, const ElementBlock& block, std::size_t element,
                  const Link& link) {
   const bool here =
@@ -130,7 +157,8 @@ std::vector<TracePoint> link_points(const Structure& structure, const GlobalMesh
     if (!has_links(region)) continue;
     for (const GlobalIndex node : set.connectivity) {
       for (int c = 0; c < 6; ++c) {
-        const bool pulls = is_spring(set.type)
+        const bool pulls = region.foundation.has_value() ? true
+                           : is_spring(set.type)
                                ? region.dashpot[c] > 0 || (region.compression_only && c == 2)
                                : c < 3;
         if (pulls) points.push_back({node, c});

@@ -17,7 +17,8 @@ namespace pounding {
 
 /// A link between two nodes, or from one to the ground. This rank owns those that can move.
 struct Link {
-  /// Places in the trace of all links, -1 where the end is held: a bar has three of each end.
+  /// Places in the trace of all links, -1 where the end is held: a bar has three of each end, soil
+  /// up to six of its node.
   std::array<int, 6> place{-1, -1, -1, -1, -1, -1};
   std::array<double, 6> weight{};  ///< b: of each place in the elongation
   LinkOrigin origin;
@@ -29,7 +30,8 @@ struct Link {
 
 /// Links of a structure: what pulls between two nodes, or from one to the ground, by a law that is
 /// no part of K u. Today these are the bars that resist stretching only, compression-only springs
-/// along z, and the dashpots of springs, one for each component. Links that share a node that can
+/// along z, the dashpots of springs, one for each component, and the dashpots and masses of soil in
+/// the six motions of a mat. Links that share a node that can
 /// move live on one rank, with all that moves with their nodes (see `coupled_nodes`). Constant
 /// during a run; what evolves is with LinkStep.
 class Links {
@@ -43,8 +45,11 @@ class Links {
 
   const std::vector<Link>& links() const { return links_; }  ///< of this rank
   const Trace& trace() const { return *trace_; }
-  /// Some link of some rank holds energy, as bars and springs do and dashpots do not.
+  /// Some link of some rank holds energy, as bars, springs and internal masses of soil do and
+  /// dashpots do not.
   bool hold_energy() const { return hold_energy_; }
+  /// Some link of some rank acts in one direction only.
+  bool one_way() const { return one_way_; }
 
  private:
   Links() = default;
@@ -52,10 +57,15 @@ class Links {
                std::size_t element);
   void add_springs(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
                    std::size_t element);
+  void add_soil(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
+                std::size_t element);
+  /// Notes what the links of a region are like.
+  void note_kind(const Region& region);
   /// Keeps a link whose places are local dofs as yet, if this rank owns those that can move.
   void keep(const Mesh& mesh, const ElementBlock& block, std::size_t element, const Link& link);
 
   bool hold_energy_ = false;
+  bool one_way_ = false;
   std::vector<Link> links_;
   std::vector<LocalIndex> dofs_;  ///< per place of the trace, increasing
   std::unique_ptr<Trace> trace_;

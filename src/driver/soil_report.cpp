@@ -1,0 +1,74 @@
+#include "driver/soil_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+
+#include "common/component_names.h"
+
+namespace pounding {
+namespace {
+
+const Foundation& foundation_under(const Structure& structure) {
+  return *std::ranges::find(structure.regions, ElementType::soil, &Region::element)->foundation;
+}
+
+}  // namespace
+
+double largest_soil_frequency(const Soil& soil, const Foundation& foundation) {
+  return largest_a0 * soil.ground.shear_velocity /
+         (2 * std::numbers::pi * foundation.footprint.half_width());
+}
+
+void print_soil(const Structure& structure) {
+  if (!structure.soil) return;
+  const Soil& soil = *structure.soil;
+  const Foundation& foundation = foundation_under(structure);
+  const Footprint& footprint = foundation.footprint;
+  std::printf("  soil under %s: ", soil.mat.c_str());
+  if (footprint.disk) {
+    std::printf("disk of %.4g m", footprint.sides[0]);
+  } else {
+    std::printf("rectangle of %.4g x %.4g m, %.4g m below the surface", footprint.sides[0],
+                footprint.sides[1], footprint.embedment);
+  }
+  const Vector3& x = foundation.centre;
+  std::printf(", its middle at (%.6g, %.6g, %.6g)\n", x[0], x[1], x[2]);
+  std::printf(
+      "    V_s %.4g m/s, %.4g kg/m3, Poisson's ratio %.4g; holds up to a0 = %.0f, %.3g Hz\n",
+      soil.ground.shear_velocity, soil.ground.density, soil.ground.poisson, largest_a0,
+      largest_soil_frequency(soil, foundation));
+  std::printf("    %-4s %12s %12s %14s %14s %12s\n", "", "stiffness", "dashpot", "inner dashpot",
+              "inner mass", "moving mass");
+  for (std::size_t c = 0; c < foundation.impedances.size(); ++c) {
+    const Impedance& mode = foundation.impedances[c];
+    std::printf("    %-4s %12.4e %12.4e %14.4e %14.4e %12.4e\n", motion_names[c].data(),
+                mode.stiffness, mode.dashpot, mode.inner_dashpot, mode.inner_mass, mode.mass);
+  }
+}
+
+nlohmann::ordered_json describe_soil(const Structure& structure) {
+  const Soil& soil = *structure.soil;
+  const Foundation& foundation = foundation_under(structure);
+  nlohmann::ordered_json description{
+      {"mat", soil.mat},
+      {"shape", foundation.footprint.disk ? "disk" : "rectangle"},
+      {"size", foundation.footprint.sides},
+      {"embedment", foundation.footprint.embedment},
+      {"centre", foundation.centre},
+      {"largest_frequency", largest_soil_frequency(soil, foundation)},
+      {"frequency_dependence", soil.frequency_dependence}};
+  for (const Impedance& mode : foundation.impedances) {
+    description["stiffness"].push_back(mode.stiffness);
+    description["dashpot"].push_back(mode.dashpot);
+    description["inner_dashpot"].push_back(mode.inner_dashpot);
+    description["inner_mass"].push_back(mode.inner_mass);
+    description["moving_mass"].push_back(mode.mass);
+  }
+  return description;
+}
+
+}  // namespace pounding

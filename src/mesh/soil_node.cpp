@@ -1,0 +1,103 @@
+#include "mesh/soil_node.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/error.h"
+#include "mesh/bounding_box.h"
+
+namespace pounding {
+namespace {
+
+constexpr std::uint8_t rotations = 0x38;
+
+[[noreturn]] void refuse(const Structure& structure, const std::string& why) {
+  throw UserError("option -" + structure.name + "_soil_mat " + structure.soil->mat + ": " + why);
+}
+
+BoundingBox box_around(const GlobalMesh& mesh, const std::vector<GlobalIndex>& nodes) {
+  BoundingBox box;
+  for (const GlobalIndex node : nodes) {
+    const Vector3 x = mesh.position(node);
+    for (std::size_t d = 0; d < 3; ++d) {
+      box.low[d] = std::min(box.low[d], x[d]);
+      box.high[d] = std::max(box.high[d], x[d]);
+    }
+  }
+  return box;
+}
+
+const ElementSet& soil_set(const GlobalMesh& mesh) {
+  return *std::ranges::find(mesh.regions, ElementType::soil, &ElementSet::type);
+}
+
+/// The node with rotations that is nearest to the middle in plan; of equally near ones the lowest,
+/// then the first.
+GlobalIndex carrying_node(const Structure& structure, const GlobalMesh& mesh,
+                          const std::vector<GlobalIndex>& nodes) {
+  const BoundingBox box = box_around(mesh, nodes);
+  const double same = 1e-9 * std::max(box.diagonal(), 1e-300);
+  GlobalIndex best = -1;
+  double distance = std::numeric_limits<double>::infinity();
+  for (const GlobalIndex node : nodes) {
+    const std::size_t n = node;
+    if (mesh.components[n] != mesh.free_components[n]) {
+      refuse(structure, "the group has clamped nodes; soil holds a mat that nothing else holds");
+    }
+    if ((mesh.components[n] & rotations) != rotations) continue;
+    const Vector3 x = mesh.position(node);
+    const double here =
+        std::hypot(x[0] - (box.low[0] + box.high[0]) / 2, x[1] - (box.low[1] + box.high[1]) / 2);
+    const bool lower =
+        best >= 0 && std::abs(here - distance) <= same && x[2] < mesh.position(best)[2] - same;
+    if (here < distance - same || lower) {
+      best = node;
+      distance = here;
+    }
+  }
+  if (best < 0) {
+    refuse(structure,
+           "no node of the group has rotations; give it a node of shells or beams, or a point mass "
+           "with rotary inertia");
+  }
+  return best;
+}
+
+}  // namespace
+
+void add_soil(const Structure& structure, GlobalMesh& mesh) {
+  if (!structure.soil) return;
+  const auto found = mesh.groups.find(structure.soil->mat);
+  if (found == mesh.groups.end() || found->second.nodes.empty()) {
+    refuse(structure, "no element of the scene uses a node of such a group of " + structure.mesh);
+  }
+  const auto region = std::ranges::find(structure.regions, ElementType::soil, &Region::element);
+  ElementSet set;
+  set.group = region->group;
+  set.region = static_cast<int>(region - structure.regions.begin());
+  set.type = ElementType::soil;
+  set.tags = {0};
+  set.connectivity = {carrying_node(structure, mesh, found->second.nodes)};
+  mesh.regions.push_back(std::move(set));
+  const MatPlace place = mat_place(structure, mesh);
+  const std::array<double, 2> sides = sides_of(*structure.soil, place);
+  if (!(sides[0] > 0) || !(sides[1] > 0)) {
+    refuse(structure,
+           "the nodes of the group span no area; give -" + structure.name + "_soil_size");
+  }
+}
+
+MatPlace mat_place(const Structure& structure, const GlobalMesh& mesh) {
+  const BoundingBox box = box_around(mesh, mesh.groups.at(structure.soil->mat).nodes);
+  MatPlace place;
+  place.node = mesh.position(soil_set(mesh).connectivity[0]);
+  for (std::size_t d = 0; d < 2; ++d) {
+    place.centre[d] = (box.low[d] + box.high[d]) / 2;
+    place.sides[d] = box.high[d] - box.low[d];
+  }
+  place.centre[2] = box.low[2];
+  return place;
+}
+
+}  // namespace pounding

@@ -1,0 +1,77 @@
+#include "scene/soil_reader.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace pounding {
+namespace {
+
+using Names = OptionReader::Names;
+
+/// A disk has one diameter, a rectangle two sides.
+std::optional<std::array<double, 2>> read_sides(OptionReader& options, const Names& names,
+                                                bool disk) {
+  constexpr std::string_view pattern = "<structure>_soil_size";
+  if (!options.given(pattern, names)) return std::nullopt;
+  const std::vector<double> values = options.reals(pattern, names);
+  if (values.size() != (disk ? 1 : 2)) {
+    options.refuse(pattern, names,
+                   disk ? "a disk has one diameter" : "a rectangle has two sides, along x and y");
+  }
+  return std::array{values.front(), values.back()};
+}
+
+}  // namespace
+
+std::optional<Soil> read_soil(OptionReader& options, const Structure& structure) {
+  const Names names{structure.name};
+  constexpr std::string_view mat = "<structure>_soil_mat";
+  if (!options.given(mat, names) || options.text(mat, names) == "none") {
+    for (const OptionRow& row : option_table()) {
+      if (row.pattern.starts_with("<structure>_soil_") && row.pattern != mat) {
+        options.forbid(row.pattern, names,
+                       "goes with -" + option_name(mat, names) + ", which is not given");
+      }
+    }
+    return std::nullopt;
+  }
+  if (!structure.matrices.empty()) {
+    options.refuse(mat, names,
+                   "not with -" + structure.name +
+                       "_matrices; write its springs into the matrices and leave it out");
+  }
+  Soil soil;
+  soil.mat = options.text(mat, names);
+  soil.ground.shear_velocity = options.real("<structure>_soil_vs", names);
+  soil.ground.density = options.real("<structure>_soil_density", names);
+  soil.ground.poisson = options.real("<structure>_soil_poisson", names);
+  soil.disk = options.choice("<structure>_soil_shape", names) == "disk";
+  soil.sides = read_sides(options, names, soil.disk);
+  soil.embedment = options.real("<structure>_soil_embedment", names);
+  if (soil.disk && soil.embedment > 0) {
+    options.refuse("<structure>_soil_embedment", names,
+                   "only rectangles have factors of embedment; give 0, or a rectangle of the same "
+                   "area");
+  }
+  soil.frequency_dependence = options.boolean("<structure>_soil_frequency_dependence", names);
+  return soil;
+}
+
+Region soil_region(const Soil& soil) {
+  Region region;
+  region.group = "soil under " + soil.mat;
+  region.element = ElementType::soil;
+  region.foundation.emplace();
+  return region;
+}
+
+void lay_foundation(const MatPlace& place, Structure& structure) {
+  const auto region = std::ranges::find(structure.regions, ElementType::soil, &Region::element);
+  region->foundation = foundation_of(*structure.soil, place);
+  for (std::size_t c = 0; c < 6; ++c) {
+    region->stiffness[c] = region->foundation->impedances[c].stiffness;
+    region->dashpot[c] = region->foundation->impedances[c].dashpot;
+  }
+}
+
+}  // namespace pounding

@@ -1,0 +1,231 @@
+"""Soil under a rigid mat: impedances that come back out of motions, rest under gravity, energy, limits.
+
+A body with rotary inertia on soil is shaken by one short pulse and left to itself until it rests. Sums
+over all steps, U = sum u_n exp(-i omega n h) and likewise A, then obey the scheme without any error of
+windows, and the impedance comes out of them: S = M (4 sin^2(omega h / 2) / h^2 - A / U) along an axis; about
+an axis by the coupling of an arm. References: the published functions of a disk of Veletsos and Verbic
+and of Wolf's cones, written here once more.
+"""
+import math
+import os
+import subprocess
+import tempfile
+import unittest
+
+import h5py
+import numpy
+
+import program
+from recorded import Recorded, write_samples
+
+VELOCITY, DENSITY, RADIUS = 200.0, 2000.0, 10.0
+MASS, INERTIA = 2e6, 1e8
+STEP, END = 1e-3, 12.0
+TESTED = (0.3, 0.6, 1.0, 1.5, 2.0)  # a0
+THIRD = 1 / 3
+
+
+def disk(mode, nu, a0):
+    """Impedance of a disk over G R or G R^3 at a0."""
+    spring = {"x": 8 / (2 - nu), "z": 4 / (1 - nu), "r": 8 / (3 * (1 - nu)), "t": 16 / 3}[mode]
+    if nu == THIRD and mode != "t":
+        if mode == "x":
+            return spring * (1 + 0.65j * a0)
+        first, second, ground = {"z": (0.35, 0.8, 0.75), "r": (0.8, 0.5, 0)}[mode]
+        turned = (second * a0)**2 / (1 + (second * a0)**2)
+        return spring * (1 - first * turned + 1j * a0 * (ground + first * second * turned))
+    speed = {"x": 1, "t": 1}.get(mode, 2 if nu > THIRD else math.sqrt(2 * (1 - nu) / (1 - 2 * nu)))
+    trapped = max(0, nu - THIRD)
+    if mode in "xz":
+        return spring + 1j * a0 * math.pi * speed - (2.4 * trapped * math.pi * a0**2 if mode == "z" else 0)
+    inertia = math.pi / 4 if mode == "r" else math.pi / 2
+    apex = 9 * math.pi / 32 * ((1 - nu) * speed**2 if mode == "r" else 1)
+    b0 = a0 * apex / speed
+    value = spring * (1 - (1 - 1j * b0) * b0**2 / (1 + b0**2) / 3)
+    return value - (1.2 * trapped * inertia * a0**2 if mode == "r" else 0)
+
+
+def impedance(mode, nu, a0):
+    return disk(mode, nu, a0) * DENSITY * VELOCITY**2 * RADIUS * (RADIUS**2 if mode in "rt" else 1)
+
+
+def pulse(steps=int(END / STEP)):
+    width = 0.03
+    times = STEP * numpy.arange(steps + 2)
+    return numpy.exp(-((times - 7 * width) / width)**2)
+
+
+def ground(nu, *more):
+    return ["-block_soil_vs", VELOCITY, "-block_soil_density", DENSITY, "-block_soil_poisson", repr(nu), *more]
+
+
+def body(*more):
+    return ["-structures", "block", "-block_mesh", "tests/meshes/mat.geo", "-block_body_element", "point_mass",
+            "-block_body_mass", MASS, "-block_body_rotary_inertia", f"{INERTIA!r},{INERTIA!r},{INERTIA!r}",
+            "-time_step", STEP, "-output_interval", STEP, "-end_time", END, "-energy_interval", 50, "-modes", 6,
+            "-probes", "it", "-it_structure", "block", "-it_group", "body", *more]
+
+
+def alone(nu, *more):
+    """The body is the mat: nothing couples its motions."""
+    return body("-block_mesh_set", "legs=0,height=0", "-block_soil_mat", "body", "-block_soil_shape", "disk",
+                "-block_soil_size", 2 * RADIUS, *ground(nu), *more)
+
+
+def on_arm(nu, height, offset, *more):
+    """The mat lies below the body or beside it: its corners weigh next to nothing."""
+    return body("-block_mesh_set", f"height={height},offset={offset},half={RADIUS}", "-block_soil_mat", "mat",
+                "-block_soil_shape", "disk", "-block_corners_element", "point_mass", "-block_corners_mass", 1,
+                "-block_legs_element", "spring", "-block_legs_stiffness", "400,400,400", "-block_legs_dashpot",
+                "40,40,40", *ground(nu), *more)
+
+
+class Harmonic:
+    """Sums of a run's motion and of its ground over all steps at some circular frequencies."""
+
+    def __init__(self, run, omega):
+        self.run, self.omega = run, omega
+        self.square = 4 * numpy.sin(omega * STEP / 2)**2 / STEP**2  # of the scheme, in place of omega^2
+
+    def sum(self, values):
+        steps = numpy.arange(len(values))
+        return numpy.exp(-1j * STEP * numpy.outer(self.omega, steps)) @ values
+
+    def motion(self, axis):
+        return self.sum(self.run.displacement(f"it.{axis}"))
+
+
+class Impedance(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.record = write_samples(pulse(), STEP)
+        cls.omega = numpy.array(TESTED) * VELOCITY / RADIUS
+
+    @classmethod
+    def tearDownClass(cls):
+        os.remove(cls.record)
+
+    def shaken(self, words, axes, ranks):
+        motion = [word for axis in axes
+                  for word in (f"-motion_{axis}_record", self.record, f"-motion_{axis}_unit", "m/s2")]
+        run = Recorded(self, words + motion, ranks)
+        self.assertLess(run.energy["relative_residual"], 1e-11)
+        self.assertGreater(run.energy["devices"], 0)
+        for axis in axes:
+            u = abs(run.displacement(f"it.{axis}"))
+            self.assertLess(u[-1], 1e-7 * u.max())  # it rests again
+        return Harmonic(run, self.omega)
+
+    def check(self, found, mode, nu):
+        for a0, value in zip(TESTED, found):
+            exact = impedance(mode, nu, a0)
+            self.assertLess(abs(value / exact - 1), 1e-3, (mode, nu, a0))
+
+    def of_translation(self, harmonic, axis):
+        return MASS * (harmonic.square - harmonic.sum(pulse()[:len(harmonic.run.time)]) / harmonic.motion(axis))
+
+    def test_along_the_axes(self):
+        for nu, ranks in ((THIRD, 1), (THIRD, 2), (0.2, 2), (0.45, 1)):
+            harmonic = self.shaken(alone(nu), "xyz", ranks)
+            for axis in "xyz":
+                self.check(self.of_translation(harmonic, axis), "z" if axis == "z" else "x", nu)
+
+    def of_rotation(self, harmonic, arm, nu):
+        """Shaken along x, the middle of the mat moves by w = u + arm theta."""
+        sliding = numpy.array([impedance("x", nu, a0) for a0 in TESTED])
+        u = harmonic.motion("x")
+        w = MASS * (harmonic.square * u - harmonic.sum(pulse()[:len(harmonic.run.time)])) / sliding
+        theta = (w - u) / arm
+        return harmonic.square * INERTIA - arm * sliding * w / theta
+
+    def test_rocking(self):
+        for nu, ranks in ((THIRD, 1), (THIRD, 2), (0.45, 2), (0.2, 1)):
+            harmonic = self.shaken(on_arm(nu, 8, 0), "x", ranks)
+            self.check(self.of_rotation(harmonic, -8, nu), "r", nu)
+
+    def test_torsion(self):
+        for nu, ranks in ((THIRD, 2), (0.45, 1)):
+            harmonic = self.shaken(on_arm(nu, 0, 5), "x", ranks)
+            self.check(self.of_rotation(harmonic, -5, nu), "t", nu)
+
+    def test_without_frequency_dependence(self):
+        """Static springs, and the dashpots of a0 = 1."""
+        harmonic = self.shaken(alone(0.45, "-block_soil_frequency_dependence", "no"), "z", 2)
+        for a0, value in zip(TESTED, self.of_translation(harmonic, "z")):
+            exact = impedance("z", 0.45, 0) + 1j * a0 * impedance("z", 0.45, 1).imag
+            self.assertLess(abs(value / exact - 1), 1e-3)
+
+    def test_in_all_modes(self):
+        full = self.shaken(on_arm(0.45, 8, 3), "xz", 1)
+        for ranks in (1, 2):
+            reduced = self.shaken(on_arm(0.45, 8, 3, "-block_model", "modal", "-block_modal_vectors", 18), "xz", ranks)
+            for axis in "xyz":
+                u, v = full.run.displacement(f"it.{axis}"), reduced.run.displacement(f"it.{axis}")
+                self.assertLess(abs(u - v).max() / abs(u).max(), 1e-9)
+
+    def test_a_continued_run_is_the_uninterrupted_one(self):
+        words = on_arm(0.45, 8, 3, "-motion_x_record", self.record, "-motion_x_unit", "m/s2", "-end_time", 1)
+        folder, _ = program.must_run(self, words, 2)
+        with tempfile.TemporaryDirectory() as cut:
+            for more in (["-end_time", 0.5, "-checkpoint_steps", 300],
+                         ["-restart", os.path.join(cut, "checkpoint.h5")]):
+                result = program.run(words + more + ["-output", cut], 2)
+                self.assertEqual(result.returncode, 0, result.stderr[-2000:])
+            with h5py.File(os.path.join(folder, "history.h5")) as whole, \
+                    h5py.File(os.path.join(cut, "history.h5")) as continued:
+                for name in ("displacement", "velocity", "acceleration"):
+                    self.assertTrue(numpy.array_equal(whole[name][()], continued[name][()]), name)
+
+
+class Limits(unittest.TestCase):
+    """Soils of one stiffness and far apart in everything else: K decides the step, and nothing blows up."""
+    FACTORS = (1, 1e-3, 30)  # on V_s; the density goes with its inverse square, K stays
+
+    def soil(self, factor, nu, *more):
+        return alone(nu, "-block_soil_vs", VELOCITY * factor, "-block_soil_density", repr(DENSITY / factor**2), *more)
+
+    def test_step_is_that_of_the_springs(self):
+        fastest = max(math.sqrt(abs(impedance(mode, THIRD, 0)) / mass)
+                      for mode, mass in (("x", MASS), ("z", MASS), ("r", INERTIA), ("t", INERTIA)))
+        for factor in self.FACTORS:
+            _, summary = program.must_run(self, self.soil(factor, THIRD, "-end_time", STEP), 1)
+            self.assertAlmostEqual(summary["structures"]["block"]["stable_time_step"] * fastest / 2, 1, delta=1e-9)
+
+    def test_energy_never_grows_at_the_limit(self):
+        """Thrown sideways and up at 0.999 of the limit, with a mass on the mat as well."""
+        for factor, ranks in zip(self.FACTORS, (1, 2, 1)):
+            words = self.soil(factor, 0.45, "-courant", 0.999, "-time_step", 0, "-block_initial_velocity", "1,2,3",
+                              "-energy_interval", 1, "-end_time", 20, "-output_interval", 0.1)
+            folder, summary = program.must_run(self, words, ranks)
+            self.assertLess(summary["energy"]["relative_residual"], 1e-11)
+            columns = program.read_csv(f"{folder}/energy.csv")
+            total = [float(a) + float(b) for a, b in zip(columns["kinetic"], columns["strain"])]
+            self.assertGreater(len(total), 500)
+            self.assertLess(max(b - a for a, b in zip(total, total[1:])) / total[0], 1e-11, factor)
+
+
+class Rest(unittest.TestCase):
+    def test_settles_by_its_weight_over_the_spring(self):
+        """The middle of the mat settles, and the body with it, which stands beside it: it tilts as well."""
+        for ranks in (1, 2):
+            run = Recorded(self, on_arm(THIRD, 0, 2, "-gravity", 9.81, "-preload", "static", "-end_time", 0.1), ranks)
+            sag = MASS * 9.81 * (1 / impedance("z", THIRD, 0) + 2**2 / impedance("r", THIRD, 0)).real
+            u = run.displacement("it.z")
+            self.assertAlmostEqual(u[0] / -sag, 1, delta=1e-5)
+            self.assertLess(abs(u - u[0]).max(), 1e-11 * sag)
+
+    def test_sizes_come_from_the_group(self):
+        """A rectangle of the corners' box; its impedances in the summary are those of the formulas."""
+        words = [word for word in on_arm(THIRD, 8, 3, "-end_time", STEP) if word not in ("disk", "-block_soil_shape")]
+        _, summary = program.must_run(self, words, 2)
+        soil = summary["structures"]["block"]["soil"]
+        self.assertEqual((soil["shape"], soil["size"], soil["centre"]), ("rectangle", [20, 20], [0, 3, 0]))
+        unit = DENSITY * VELOCITY**2 * RADIUS
+        for found, expected in zip(soil["stiffness"], (5.52, 5.52, 7.05, 600, 600, 831)):
+            self.assertAlmostEqual(found / unit, expected, delta=1e-3 * expected)
+        self.assertAlmostEqual(soil["dashpot"][0] / (DENSITY * VELOCITY * 400), 1, delta=1e-12)
+        self.assertAlmostEqual(soil["largest_frequency"], VELOCITY / (math.pi * RADIUS), delta=1e-12)
+
+
+if __name__ == "__main__":
+    unittest.main()
