@@ -67,8 +67,9 @@ std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSys
   std::vector<GapWatch::Bound> bounds(systems.size());
   for (std::size_t s = 0; contact != nullptr && s < bounds.size(); ++s) {
     const LinearSystem& system = systems[s];
-    // Tension-only bars and soil hold energy that no bound knows of.
-    if ((system.links && system.links->hold_energy()) || !(energy_margins[s] > 0)) {
+    // The energy of soil is in that of its structure; that of one-way links in modes may be
+    // negative.
+    if ((system.links && system.links->one_way()) || !(energy_margins[s] > 0)) {
       bounds[s].rate_norm = std::numeric_limits<double>::infinity();
       continue;
     }

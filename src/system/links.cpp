@@ -31,7 +31,7 @@ std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh
   for (const ElementBlock& block : mesh.blocks) {
     if (!has_links(structure.regions[block.region])) continue;
     count += block.global_count;
-    found->note_kind(structure.regions[block.region]);
+    found->one_way_ = found->one_way_ || is_one_way(structure.regions[block.region]);
     for (std::size_t e = 0; e < block.count(); ++e) {
       if (block.type == ElementType::soil) {
         found->add_soil(structure, mesh, block, e);
@@ -112,13 +112,6 @@ void Links::add_soil(const Structure& structure, const Mesh& mesh, const Element
     }
     keep(mesh, block, element, link);
   }
-}
-
-void Links::note_kind(const Region& region) {
-  one_way_ = one_way_ || is_one_way(region);
-  hold_energy_ = hold_energy_ || one_way_ ||
-                 (region.foundation &&
-                  std::ranges::any_of(region.foundation->impedances, &Impedance::holds_energy));
 }
 
 void Links::keep(const Mesh& mesh, const ElementBlock& block, std::size_t element,

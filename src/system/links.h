@@ -45,9 +45,6 @@ class Links {
 
   const std::vector<Link>& links() const { return links_; }  ///< of this rank
   const Trace& trace() const { return *trace_; }
-  /// Some link of some rank holds energy, as bars, springs and internal masses of soil do and
-  /// dashpots do not.
-  bool hold_energy() const { return hold_energy_; }
   /// Some link of some rank acts in one direction only.
   bool one_way() const { return one_way_; }
 
@@ -59,12 +56,9 @@ class Links {
                    std::size_t element);
   void add_soil(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
                 std::size_t element);
-  /// Notes what the links of a region are like.
-  void note_kind(const Region& region);
   /// Keeps a link whose places are local dofs as yet, if this rank owns those that can move.
   void keep(const Mesh& mesh, const ElementBlock& block, std::size_t element, const Link& link);
 
-  bool hold_energy_ = false;
   bool one_way_ = false;
   std::vector<Link> links_;
   std::vector<LocalIndex> dofs_;  ///< per place of the trace, increasing

@@ -8,7 +8,6 @@ and of Wolf's cones, written here once more.
 """
 import math
 import os
-import subprocess
 import tempfile
 import unittest
 
@@ -254,8 +253,9 @@ class Stick(unittest.TestCase):
 
     def on_soil(self, *more):
         velocity = math.sqrt(1.48e10 / (5.52 * self.SIDE / 2) / 2000)
-        return self.words("-stick_soil_mat", "foot", "-stick_soil_size", f"{self.SIDE!r},{self.SIDE!r}", "-stick_soil_vs",
-                          repr(velocity), "-stick_soil_density", 2000, "-stick_soil_poisson", repr(THIRD), *more)
+        return self.words("-stick_soil_mat", "foot", "-stick_soil_size", f"{self.SIDE!r},{self.SIDE!r}",
+                          "-stick_soil_vs", repr(velocity), "-stick_soil_density", 2000,
+                          "-stick_soil_poisson", repr(THIRD), *more)
 
     def test_frequency_and_amplification(self):
         record = write_samples(pulse(int(self.TIME / STEP)), STEP)
@@ -277,6 +277,33 @@ class Stick(unittest.TestCase):
             _, summary = program.must_run(self, words + ["-end_time", 1e-3], 2)
             steps.append(summary["structures"]["stick"]["stable_time_step"])
         self.assertGreater(steps[1], steps[0] * (1 - 1e-6))
+
+
+class AtAWall(unittest.TestCase):
+    """A slab on soil that is thrown against a wall: its soil holds energy between two looks at the gap."""
+
+    def test_gaps_looked_at_more_rarely_change_no_impact(self):
+        found = []
+        for interval, ranks in ((0, 1), (0.05, 1), (0.05, 2)):
+            run = Recorded(self, [
+                "-structures", "slab", "-slab_mesh", "tests/meshes/torsional_slab.geo", "-slab_body_element", "hex8",
+                "-slab_body_material", "c", "-material_c_young", 3e10, "-material_c_poisson", 0.2,
+                "-material_c_density", 2400, "-slab_middle_element", "point_mass", "-slab_middle_mass", 1e3,
+                "-slab_middle_rotary_inertia", "1e5,1e5,1e5", "-slab_soil_mat", "body", "-slab_soil_vs", 40,
+                "-slab_soil_density", 1800, "-slab_soil_poisson", 0.45, "-slab_soil_shape", "disk",
+                "-slab_initial_velocity", "0.2,0,0.1", "-contacts", "hit", "-hit_secondary", "slab:far_high",
+                "-hit_primary", "wall", "-hit_gap", 2e-3, "-end_time", 0.2, "-output_interval", 1e-3,
+                "-gap_interval", interval, "-probes", "it", "-it_structure", "slab", "-it_group", "middle"], ranks,
+                           identity=1e-11)
+            self.assertLess(run.energy["relative_residual"], 1e-11)
+            found.append(run)
+        often, rarely, two = found
+        self.assertGreater(often.summary["impacts"]["hit"]["episodes"], 0)
+        self.assertEqual(rarely.summary["impacts"], often.summary["impacts"])
+        self.assertTrue(numpy.array_equal(rarely.displacement("it.x"), often.displacement("it.x")))
+        self.assertLess(rarely.summary["interface_looks"], often.summary["steps"] / 3)
+        u = often.displacement("it.x")
+        self.assertLess(abs(two.displacement("it.x") - u).max(), 1e-6 * abs(u).max())
 
 
 if __name__ == "__main__":
