@@ -67,5 +67,55 @@ TEST(Spring, OtherElementsHaveNoDashpots) {
   EXPECT_EQ(damping, (std::array<double, 36>{}));
 }
 
+/// A quarter turn about z takes the end of an arm along x towards y, about x one along y towards z,
+/// about y one along z towards x; the other way round with the opposite sign.
+TEST(Soil, ArmTurnsWithItsNode) {
+  const auto motion = motion_at({2, 3, 5});
+  for (std::size_t c = 0; c < 6; ++c) EXPECT_EQ(motion[c][c], 1);
+  EXPECT_EQ(motion[1][5], 2);   // u_y by a turn about z
+  EXPECT_EQ(motion[2][4], -2);  // u_z by one about y
+  EXPECT_EQ(motion[2][3], 3);
+  EXPECT_EQ(motion[0][5], -3);
+  EXPECT_EQ(motion[0][4], 5);
+  EXPECT_EQ(motion[1][3], -5);
+  for (std::size_t c = 3; c < 6; ++c) {
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(motion[c][i], c == i ? 1 : 0);
+  }
+}
+
+/// Springs and dashpots of soil are those of the end of the arm: forces on the node that do the
+/// same work, for any motion of it.
+TEST(Soil, ActsAtTheEndOfItsArm) {
+  ElementProperties properties;
+  properties.stiffness = {7, 11, 13, 17, 19, 23};
+  properties.dashpot = {1, 2, 3, 4, 5, 6};
+  properties.arm = {2, 3, 5};
+  std::array<double, 36> stiffness{};
+  std::array<double, 36> damping{};
+  std::array<double, 6> mass{};
+  element_matrices(ElementType::soil, std::array{0., 0., 0.}, properties, stiffness, mass);
+  element_dashpots(ElementType::soil, properties, damping);
+  EXPECT_EQ(mass, (std::array<double, 6>{}));
+  const std::array node{0.5, -1., 2., 0.25, 3., -4.};
+  const std::array end{
+      0.5 + 3 * 5 + 4 * 3, -1 - 4 * 2 - 0.25 * 5, 2 + 0.25 * 3 - 3 * 2, 0.25, 3., -4.};
+  const auto work = [&](const std::array<double, 36>& matrix) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 36; ++i) {
+      EXPECT_EQ(matrix[i], matrix[6 * (i % 6) + i / 6]);
+      sum += node[i / 6] * matrix[i] * node[i % 6];
+    }
+    return sum;
+  };
+  double springs = 0;
+  double dashpots = 0;
+  for (std::size_t c = 0; c < 6; ++c) {
+    springs += properties.stiffness[c] * end[c] * end[c];
+    dashpots += properties.dashpot[c] * end[c] * end[c];
+  }
+  EXPECT_NEAR(work(stiffness), springs, 1e-12 * springs);
+  EXPECT_NEAR(work(damping), dashpots, 1e-12 * dashpots);
+}
+
 }  // namespace
 }  // namespace pounding
