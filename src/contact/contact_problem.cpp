@@ -1,6 +1,8 @@
 #include "contact/contact_problem.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 #include "contact/contact_components.h"
@@ -11,6 +13,9 @@ namespace {
 
 /// Round-off of H lambda, relative to the free gap rates, above which the impulse is corrected.
 constexpr double correction_threshold = 1e-12;
+
+/// Gap rates that are round-off, relative to the largest free one so far.
+constexpr double rate_roundoff = 1e-14;
 
 }  // namespace
 
@@ -201,10 +206,22 @@ void ContactProblem::solve_coupled(const Component& component) {
   }
   const LcpResult result =
       lcp_->solve({matrix_.data(), n * n}, {rate_.data(), n}, {solution_.data(), n});
-  largest_residual_ = std::max(largest_residual_, result.residual);
+  note_residual(result.residual);
   for (std::size_t i = 0; i < n; ++i) operator_.add_transposed(row(i), solution_[i], dof_impulse_);
   if (result.roundoff > correction_threshold) correct_component(component);
   for (std::size_t i = 0; i < n; ++i) impulse_[row(i)] = solution_[i];
+}
+
+void ContactProblem::note_residual(double residual) {
+  double rate = 0;
+  for (std::size_t i = 0; i < active_places_.size(); ++i) {
+    rate = std::max(rate, std::abs(rate_[i]));
+  }
+  largest_rate_ = std::max(largest_rate_, rate);
+  // Where all is at rest, rates are round-off of larger ones, which fits no rigid body.
+  if (residual * rate > rate_roundoff * largest_rate_) {
+    largest_residual_ = std::max(largest_residual_, residual);
+  }
 }
 
 void ContactProblem::correct_component(const Component& component) {
@@ -259,12 +276,15 @@ void ContactProblem::add_velocity_change(std::size_t structure, double* velocity
 
 void ContactProblem::save(SavedState& saved) const {
   saved.put("contact_impulse", impulse_);
-  saved.put("contact_largest_residual", {largest_residual_});
+  saved.put("contact_largest_residual", {largest_residual_, largest_rate_});
 }
 
 void ContactProblem::load(const SavedState& saved) {
   saved.get("contact_impulse", impulse_);
-  largest_residual_ = saved.number("contact_largest_residual");
+  std::array<double, 2> largest{};
+  saved.get("contact_largest_residual", largest);
+  largest_residual_ = largest[0];
+  largest_rate_ = largest[1];
 }
 
 double ContactProblem::total_work() const {

@@ -94,6 +94,8 @@ class ContactProblem {
   void solve_coupled(const Component& component);
   /// Second pass where masses differ so much that a double loses the gap rates.
   void correct_component(const Component& component);
+  /// Keeps the residual of the system just solved, if it is the largest.
+  void note_residual(double residual);
 
   ContactOperator operator_;
   std::vector<std::vector<int>> structure_dofs_;  ///< per structure: its interface dofs
@@ -120,6 +122,7 @@ class ContactProblem {
   std::vector<double> dof_increment_;  ///< L^T of the correction
   double smallest_gap_ = 0;
   double largest_residual_ = 0;
+  double largest_rate_ = 0;  ///< of the free gap rates so far [m/s]
   std::unique_ptr<LcpSolver> lcp_;
   std::vector<std::size_t> active_places_;  ///< of the component's active rows in it
   std::vector<double> matrix_;

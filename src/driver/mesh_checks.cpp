@@ -27,11 +27,15 @@ std::string found_at(const Places& places, const char* what) {
   return std::to_string(places.count) + what + place_text(places.first);
 }
 
-/// Groups that clamps, soil, contacts and probes name, and those that are left out on purpose.
+/// Groups that clamps, rigid groups, soil, contacts and probes name, and those left out.
 std::set<std::string> named_groups(const Scene& scene, const Structure& structure) {
   std::set<std::string> names(structure.ignored_groups.begin(), structure.ignored_groups.end());
   for (const Clamp& clamp : structure.clamps) names.insert(clamp.group);
   if (structure.soil) names.insert(structure.soil->mat);
+  for (const RigidGroup& rigid : structure.rigid_groups) {
+    names.insert(rigid.group);
+    names.insert(rigid.other);
+  }
   for (const Contact& contact : scene.contacts) {
     for (const ContactSide& side : {contact.secondary, contact.primary}) {
       if (side.structure == structure.name) names.insert(side.group);

@@ -227,6 +227,21 @@ void print_findings(const MeshFindings& findings) {
   if (!unused.empty()) std::printf("  groups without a use: %s\n", unused.c_str());
 }
 
+void print_rigid_bodies(const Building& building) {
+  constexpr std::array words{"rigid", "rigid in its plane", "joined", "pinned"};
+  for (const RigidGroup& rigid : building.structure->rigid_groups) {
+    std::printf("  %s: %s", words[static_cast<std::size_t>(rigid.kind)], rigid.name().c_str());
+    for (const RigidBodyReport& report : building.system->rigid_bodies) {
+      if (report.group != rigid.name()) continue;
+      std::printf(", %lld nodes of %.0f kg", static_cast<long long>(report.nodes), report.mass);
+      if (report.bodies > 1) std::printf(" in %lld", static_cast<long long>(report.bodies));
+      std::printf(", %lld dofs by %lld motions", static_cast<long long>(report.dofs),
+                  static_cast<long long>(report.motions));
+    }
+    std::printf("\n");
+  }
+}
+
 void print_structure(const Building& building) {
   const Mesh& mesh = *building.mesh;
   const LinearSystem& system = *building.system;
@@ -238,6 +253,7 @@ void print_structure(const Building& building) {
     std::printf("  %-14s %7lld %s\n", block.group.c_str(),
                 static_cast<long long>(block.global_count), element_name(block.type));
   }
+  print_rigid_bodies(building);
   print_findings(building.findings);
   std::printf("  stiffness: %s\n", system.stiffness_method.c_str());
   if (building.basis) {

@@ -90,6 +90,19 @@ Json describe_structure(const Building& building) {
     }
   }
   if (building.structure->soil) structure["soil"] = describe_soil(*building.structure);
+  for (const RigidGroup& rigid : building.structure->rigid_groups) {
+    const std::string option = rigid_option(rigid.kind);
+    Json& body = structure["rigid_groups"].emplace_back(
+        Json{{"group", rigid.name()}, {"kind", option.substr(option.find('_') + 1)}});
+    for (const RigidBodyReport& report : building.system->rigid_bodies) {
+      if (report.group != rigid.name()) continue;
+      body.update({{"bodies", report.bodies},
+                   {"nodes", report.nodes},
+                   {"mass", report.mass},
+                   {"dofs", report.dofs},
+                   {"motions", report.motions}});
+    }
+  }
   if (building.basis) {
     const ModalBasis& basis = *building.basis;
     structure["modal"] = {

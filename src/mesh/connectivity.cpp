@@ -33,6 +33,7 @@ class Examination {
     for (const ElementSet& set : mesh_.regions) {
       for (std::size_t e = 0; e < set.tags.size(); ++e) join(set, nodes_of(set, e));
     }
+    join_rigid_bodies();
     find_pieces();
     find_coincident();
     find_ends_inside();
@@ -59,6 +60,21 @@ class Examination {
       meeting.shells += is_shell(set.type) ? 1 : 0;
       meeting.solids += is_solid(set.type) ? 1 : 0;
     }
+  }
+
+  void join_rigid_bodies() {
+    rigid_of_.assign(mesh_.rigid.empty() ? 0 : size_of_mesh(), -1);
+    for (std::size_t r = 0; r < mesh_.rigid.size(); ++r) {
+      const std::vector<GlobalIndex>& nodes = mesh_.rigid[r].nodes;
+      for (const GlobalIndex node : nodes) {
+        pieces_.join(static_cast<std::size_t>(node), static_cast<std::size_t>(nodes.front()));
+        rigid_of_[node] = static_cast<int>(r);
+      }
+    }
+  }
+
+  bool in_one_body(GlobalIndex a, GlobalIndex b) const {
+    return !rigid_of_.empty() && rigid_of_[a] >= 0 && rigid_of_[a] == rigid_of_[b];
   }
 
   std::uint8_t clamped(GlobalIndex node) const {
@@ -121,7 +137,8 @@ class Examination {
     if (!(near > 0)) return;
     auto pairs = near_nodes(mesh_, near);
     std::erase_if(pairs, [this](const auto& pair) {
-      return mesh_.free_components[pair.first] == 0 && mesh_.free_components[pair.second] == 0;
+      return in_one_body(pair.first, pair.second) ||
+             (mesh_.free_components[pair.first] == 0 && mesh_.free_components[pair.second] == 0);
     });
     std::set<std::pair<GlobalIndex, GlobalIndex>> joined;
     for (const ElementSet& set : mesh_.regions) {
@@ -183,7 +200,9 @@ class Examination {
     const auto x_of = [this](GlobalIndex node) { return mesh_.position(node)[0]; };
     const auto first = std::ranges::lower_bound(ends, box.low[0] - reach, {}, x_of);
     for (auto end = first; end != ends.end() && x_of(*end) <= box.high[0] + reach; ++end) {
-      if (std::ranges::find(nodes, *end) == nodes.end() &&
+      const bool joined = std::ranges::any_of(
+          nodes, [&](GlobalIndex node) { return node == *end || in_one_body(node, *end); });
+      if (!joined &&
           is_in_element(set.type, {corners.data(), nodes.size()}, mesh_.position(*end), reach) &&
           !shares_line(*end, nodes)) {
         inside.insert(*end);
@@ -220,7 +239,8 @@ class Examination {
   const Structure& structure_;
   const GlobalMesh& mesh_;
   std::vector<Meeting> meeting_;
-  DisjointSets pieces_;  ///< of the nodes
+  DisjointSets pieces_;        ///< of the nodes
+  std::vector<int> rigid_of_;  ///< per node its rigid body, -1: none; empty without any
   Connectivity found_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "common/types.h"
 #include "elements/element_traits.h"
+#include "scene/scene.h"
 
 /// A whole mesh as it stands on rank 0 between reading and distribution. Nodes are numbered from 0
 /// in the order of their tags ("file order"); only nodes that an element of the scene uses exist.
@@ -46,11 +47,20 @@ struct UnusedElements {
   Vector3 place{0, 0, 0};  ///< of the first that is left out, or else of the first [m]
 };
 
+/// Nodes that move together.
+struct RigidNodes {
+  std::string group;  ///< as in the option; several may come of one
+  RigidKind kind = RigidKind::body;
+  std::uint8_t components = 0;     ///< that follow the motion, one bit each
+  std::vector<GlobalIndex> nodes;  ///< sorted
+};
+
 struct GlobalMesh {
   std::vector<double> coordinates;      ///< shape (n_nodes, 3) [m]
   std::vector<std::int64_t> node_tags;  ///< as in the file
   std::vector<ElementSet> regions;      ///< in the order of the structure's regions
   std::map<std::string, NodeGroup> groups;
+  std::vector<RigidNodes> rigid;       ///< no node is in two of them
   std::vector<UnusedElements> unused;  ///< points do not count
   /// One bit per free component of a node: 0-2 translations, 3-5 rotations. Rotations exist where
   /// an element asks for them; what is clamped is not free.

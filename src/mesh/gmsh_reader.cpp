@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "mesh/geometry_file.h"
 #include "mesh/gmsh_process.h"
 #include "mesh/repeated_elements.h"
+#include "mesh/rigid_nodes.h"
 #include "mesh/soil_node.h"
 #include "mesh/unused_elements.h"
 
@@ -131,6 +133,7 @@ class MeshBuilder {
     for (const auto& [name, parts] : groups_) read_group(name, parts);
     mark_components();
     add_soil(structure_, mesh_);
+    mark_rigid_groups();
     check_element_sizes(structure_.name, mesh_);
     check_repeated_elements(structure_.name, mesh_);
     mesh_.unused = find_unused(raw_, mesh_);
@@ -267,6 +270,27 @@ class MeshBuilder {
     }
   }
 
+  /// A group that an option of the structure names, with nodes of the scene.
+  const NodeGroup& used_group(const std::string& name, const char* end_of_option) const {
+    const auto found = mesh_.groups.find(name);
+    const std::string option = "-" + structure_.name + end_of_option;
+    if (found == mesh_.groups.end()) unknown_group(name, option);
+    if (found->second.nodes.empty()) {
+      throw UserError("option " + option + ": no element of the scene uses a node of group '" +
+                      name + "'");
+    }
+    return found->second;
+  }
+
+  void mark_rigid_groups() {
+    for (const RigidGroup& rigid : structure_.rigid_groups) {
+      const char* const end = std::strchr(rigid_option(rigid.kind), '_');
+      used_group(rigid.group, end);
+      if (!rigid.other.empty()) used_group(rigid.other, end);
+    }
+    mesh_.rigid = find_rigid_nodes(structure_, mesh_);
+  }
+
   void mark_components() {
     mesh_.components.assign(mesh_.node_tags.size(), 0);
     for (const ElementSet& set : mesh_.regions) {
@@ -275,15 +299,7 @@ class MeshBuilder {
     }
     mesh_.free_components = mesh_.components;
     for (const Clamp& clamp : structure_.clamps) {
-      const std::string& name = clamp.group;
-      const auto found = mesh_.groups.find(name);
-      const std::string option = "-" + structure_.name + "_clamp";
-      if (found == mesh_.groups.end()) unknown_group(name, option);
-      if (found->second.nodes.empty()) {
-        throw UserError("option " + option + ": no element of the scene uses a node of group '" +
-                        name + "'");
-      }
-      for (const GlobalIndex node : found->second.nodes) {
+      for (const GlobalIndex node : used_group(clamp.group, "_clamp").nodes) {
         mesh_.free_components[node] &= static_cast<std::uint8_t>(~clamp.components);
       }
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
 #include <tuple>
 #include <unordered_map>
 
@@ -236,7 +237,78 @@ Mesh unpack(MPI_Comm comm, const std::string& name, Parcel&& parcel) {
   return mesh;
 }
 
+/// Groups that move together, all in a few arrays.
+struct RigidParcel {
+  std::vector<char> names;          ///< zero-terminated
+  std::vector<std::uint8_t> kinds;  ///< kind and components of each
+  std::vector<GlobalIndex> counts;  ///< nodes of each
+  std::vector<GlobalIndex> nodes;
+
+  explicit RigidParcel(const std::vector<RigidNodes>& rigid) {
+    for (const RigidNodes& part : rigid) {
+      names.insert(names.end(), part.group.begin(), part.group.end());
+      names.push_back('\0');
+      kinds.push_back(static_cast<std::uint8_t>(part.kind));
+      kinds.push_back(part.components);
+      counts.push_back(static_cast<GlobalIndex>(part.nodes.size()));
+      nodes.insert(nodes.end(), part.nodes.begin(), part.nodes.end());
+    }
+  }
+};
+
+/// Tells every rank what moves together.
+void share_rigid_parts(MPI_Comm comm, const std::vector<RigidNodes>& rigid, Mesh& mesh) {
+  RigidParcel parcel(rigid);
+  broadcast_array(comm, parcel.names, 0);
+  broadcast_array(comm, parcel.kinds, 0);
+  broadcast_array(comm, parcel.counts, 0);
+  broadcast_array(comm, parcel.nodes, 0);
+  mesh.rigid_of.assign(mesh.file_node.size(), -1);
+  std::unordered_map<GlobalIndex, LocalIndex> local;
+  for (LocalIndex n = 0; !parcel.counts.empty() && n < mesh.node_count(); ++n) {
+    local[mesh.file_node[n]] = n;
+  }
+  const char* name = parcel.names.data();
+  auto node = parcel.nodes.begin();
+  for (std::size_t i = 0; i < parcel.counts.size(); ++i) {
+    RigidPart& part = mesh.rigid.emplace_back();
+    part.group = name;
+    name += part.group.size() + 1;
+    part.kind = static_cast<RigidKind>(parcel.kinds[2 * i]);
+    part.components = parcel.kinds[2 * i + 1];
+    part.global_nodes = parcel.counts[i];
+    for (const auto end = node + parcel.counts[i]; node != end; ++node) {
+      const auto found = local.find(*node);
+      if (found == local.end()) continue;
+      mesh.rigid_of[found->second] = static_cast<int>(i);
+      if (found->second < mesh.owned_nodes) part.nodes.push_back(found->second);
+    }
+    std::ranges::sort(part.nodes);
+    if (!part.nodes.empty() && static_cast<GlobalIndex>(part.nodes.size()) != part.global_nodes) {
+      throw std::logic_error("rigid group " + part.group + " lives on several ranks");
+    }
+  }
+}
+
 }  // namespace
+
+bool meets_rigid_body(const Mesh& mesh, const ElementBlock& block, std::size_t element) {
+  const std::size_t width = element_layout(block.type).nodes;
+  const LocalIndex* const nodes = &block.connectivity[element * width];
+  return !mesh.rigid.empty() && std::any_of(nodes, nodes + width, [&](LocalIndex node) {
+    return mesh.rigid_of[node] >= 0;
+  });
+}
+
+bool is_in_rigid_body(const Mesh& mesh, const ElementBlock& block, std::size_t element) {
+  const std::size_t width = element_layout(block.type).nodes;
+  const LocalIndex* const nodes = &block.connectivity[element * width];
+  if (mesh.rigid.empty() || width < 2) return false;
+  const int part = mesh.rigid_of[nodes[0]];
+  return part >= 0 && mesh.rigid[part].is_whole() &&
+         std::all_of(nodes, nodes + width,
+                     [&](LocalIndex node) { return mesh.rigid_of[node] == part; });
+}
 
 Mesh distribute_mesh(MPI_Comm comm, const std::string& name, const GlobalMesh& global,
                      const Partition& partition, int structure) {
@@ -251,7 +323,9 @@ Mesh distribute_mesh(MPI_Comm comm, const std::string& name, const GlobalMesh& g
   } else {
     mine.for_each_array([&](auto& array) { receive_array(comm, 0, array); });
   }
-  return unpack(comm, name, std::move(mine));
+  Mesh mesh = unpack(comm, name, std::move(mine));
+  share_rigid_parts(comm, global.rigid, mesh);
+  return mesh;
 }
 
 }  // namespace pounding

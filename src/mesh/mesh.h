@@ -23,6 +23,17 @@ struct ElementBlock {
   std::size_t count() const { return tags.size(); }
 };
 
+/// Nodes that move together. One rank owns them all.
+struct RigidPart {
+  std::string group;  ///< as in the option; several may come of one
+  RigidKind kind = RigidKind::body;
+  std::uint8_t components = 0;  ///< that follow the motion, one bit each
+  GlobalIndex global_nodes = 0;
+  std::vector<LocalIndex> nodes;  ///< increasing; none on the ranks that do not own them
+
+  bool is_whole() const { return components == 0x3f; }
+};
+
 /// One structure's mesh and dofs on this rank.
 ///
 ///   nodes:  [ owned 0 .. owned_nodes ) [ ghost .. node_count )     ghosts: of shared elements
@@ -46,6 +57,8 @@ struct Mesh {
   std::vector<LocalIndex> first_dof;          ///< per local node: local number of its first dof
   LocalIndex dof_count = 0;                   ///< owned and ghost
   std::vector<ElementBlock> blocks;
+  std::vector<RigidPart> rigid;          ///< in one order on all ranks
+  std::vector<int> rigid_of;             ///< per local node into `rigid`, -1: in none
   std::vector<LocalIndex> by_file_node;  ///< owned nodes in file order
 
   LocalIndex node_count() const { return static_cast<LocalIndex>(file_node.size()); }
@@ -76,6 +89,12 @@ struct Mesh {
     return found != by_file_node.end() && number(*found) == file_number ? *found : -1;
   }
 };
+
+/// Whether an element has a node of a rigid body.
+bool meets_rigid_body(const Mesh& mesh, const ElementBlock& block, std::size_t element);
+
+/// Whether a rigid body holds an element altogether, so that it never strains.
+bool is_in_rigid_body(const Mesh& mesh, const ElementBlock& block, std::size_t element);
 
 /// Sends each rank its part of a structure. `global` and `partition` are read on rank 0 only;
 /// `structure` is the index into the partition. Collective.

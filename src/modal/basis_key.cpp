@@ -33,6 +33,15 @@ std::string hash_of(const GlobalMesh& mesh) {
   return hash.text();
 }
 
+std::string hash_of(const std::vector<RigidNodes>& rigid) {
+  Hash hash;
+  for (const RigidNodes& nodes : rigid) {
+    hash.add(static_cast<double>(nodes.components));
+    hash.add_all(nodes.nodes);
+  }
+  return hash.text();
+}
+
 /// Formulations, materials, sections and whatever else makes element matrices.
 std::string hash_of(const std::vector<Region>& regions) {
   Hash hash;
@@ -88,6 +97,7 @@ BasisKey basis_key(const Structure& structure, const GlobalMesh& mesh,
           {"elements", hash_of(structure.regions)},
           {"matrices", hash_of_matrices(structure.matrices)},
           {"clamp", clamp.text()},
+          {"rigid groups", hash_of(mesh.rigid)},
           {"number of vectors", vectors.text()},
           {"contact points", hash_of(request.contact_points)},
           {"probe points", hash_of(request.other_points)}};

@@ -77,7 +77,7 @@ MatHandle mass_matrix(const LinearSystem& system) {
   std::vector<PetscInt> entries(n, 1);
   const auto for_each_block = [&](const auto& visit) {
     if (!system.coupled_mass) return;
-    const std::vector<NodeDofs>& nodes = system.coupled_mass->nodes();
+    const std::vector<NodeDofs>& nodes = system.coupled_mass->added().nodes;
     for (const auto& [pair, block] : system.coupled_mass->added().blocks) {
       visit(nodes[pair[0]], nodes[pair[1]], block);
     }
@@ -143,7 +143,7 @@ EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix,
                        Mat mass) {
   EpsHandle solver = create_eigen_solver(system, mesh, matrix, "lowest_", mass);
   // A Krylov space sees the second of two equal frequencies late: look past the last one wanted.
-  const int sought = static_cast<int>(std::min<GlobalIndex>(count + 8, system.global_dofs));
+  const int sought = static_cast<int>(std::min<GlobalIndex>(count + 8, system.independent_dofs()));
   // Many are found in portions: the projected problem stays small.
   constexpr int portion = 100;
   POUNDING_PETSC(EPSSetDimensions(solver.get(), sought, PETSC_DEFAULT,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <optional>
 
 #include "common/component_names.h"
 #include "common/error.h"
@@ -11,6 +12,7 @@
 #include "modal/eigen_solver.h"
 #include "modal/rigid_motions.h"
 #include "modal/scaled_operator.h"
+#include "system/admissible_motions.h"
 
 namespace pounding {
 namespace {
@@ -77,16 +79,22 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
   result.mass = motions.mass();
   result.centre_of_mass = motions.centre();
   if (count == 0) return result;
-  const bool diagonal_mass = system.mass_scaling.elements == 0;
+  const bool diagonal_mass = !system.mass_is_coupled();
+  std::optional<AdmissibleMotions> admissible;
   MatHandle matrix;
   MatHandle mass;
   if (diagonal_mass) {
     matrix = mass_scaled(system, system.stiffest_matrix());
-  } else {
+  } else if (system.rigid_bodies.empty()) {
     POUNDING_PETSC(MatDuplicate(system.stiffest_matrix(), MAT_COPY_VALUES, matrix.out()));
     mass = mass_matrix(system);
+  } else {
+    admissible.emplace(system, AdmissibleMotions::Alone::as_is);
+    const double above = std::pow(2 * frequency_bound(system), 2);
+    matrix = admissible->restrict_matrix(system.stiffest_matrix(), above);
+    mass = admissible->restrict_matrix(mass_matrix(system).get(), 1);
   }
-  const int wanted = static_cast<int>(std::min<GlobalIndex>(count, system.global_dofs));
+  const int wanted = static_cast<int>(std::min<GlobalIndex>(count, system.independent_dofs()));
   const EpsHandle solver = solve_lowest(system, mesh, matrix.get(), wanted, mass.get());
   PetscInt found = 0;
   POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
@@ -96,6 +104,7 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
   for (int i = 0; i < found; ++i) {
     double eigenvalue = 0;
     POUNDING_PETSC(EPSGetEigenpair(solver.get(), i, &eigenvalue, nullptr, vector.get(), nullptr));
+    if (admissible) admissible->to_motion(storage);
     std::vector<double> shape;
     if (keep_shapes) shape = storage;
     if (!diagonal_mass) {
@@ -131,7 +140,7 @@ LargestFrequency largest_frequency(const LinearSystem& system, const Mesh& mesh,
   const double elements = system.element_frequency_bound * (1 + 1e-6);
   if (lanczos.excess() > 0) square = std::min(square, elements * elements);
   std::vector<double> vector = lanczos.vector();
-  if (system.mass_scaling.elements > 0) {
+  if (system.mass_is_coupled()) {
     scaled.to_motion(vector);
     weigh(system, vector);
   }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <sstream>
 
 #include "common/error.h"
@@ -13,6 +14,7 @@
 #include "modal/eigen_solver.h"
 #include "modal/rigid_motions.h"
 #include "modal/shifted_solver.h"
+#include "system/admissible_motions.h"
 
 namespace pounding {
 namespace {
@@ -50,15 +52,22 @@ class BasisMaker {
         request_(request),
         matrix_(mass_scaled(system, system.stiffest_matrix())),
         dofs_(system.lumped_mass.size()),
-        space_(dofs_, 0) {}
+        independent_(static_cast<std::size_t>(system.independent_dofs())),
+        space_(dofs_, 0) {
+    if (system.rigid_bodies.empty()) return;
+    admissible_.emplace(system, AdmissibleMotions::Alone::mass_scaled);
+    restricted_ = admissible_->restrict_matrix(system.stiffest_matrix());
+    idle_ = idle_value();
+  }
 
   ModalBasis make() {
     ModalBasis basis;
     const std::size_t wanted = wanted_modes();
-    add_modes(std::max(wanted, std::min(static_cast<std::size_t>(request_.candidates), dofs_)));
+    add_modes(
+        std::max(wanted, std::min(static_cast<std::size_t>(request_.candidates), independent_)));
     if (request_.candidates > request_.modes) choose_modes(wanted);
     basis.modes = static_cast<int>(space_.columns);
-    if (space_.columns < dofs_) add_attachment_vectors();
+    if (space_.columns < independent_) add_attachment_vectors();
     basis.attachment_vectors = static_cast<int>(space_.columns) - basis.modes;
     basis.full_dofs = system_.global_dofs;
     basis.total_mass = system_.total_mass;
@@ -68,9 +77,9 @@ class BasisMaker {
 
  private:
   std::size_t wanted_modes() const {
-    if (request_.modes > 0) return std::min(static_cast<std::size_t>(request_.modes), dofs_);
+    if (request_.modes > 0) return std::min(static_cast<std::size_t>(request_.modes), independent_);
     const double omega = 2 * std::numbers::pi * request_.cutoff;
-    const int below = ShiftedSolver(system_, matrix_.get(), omega * omega).eigenvalues_below();
+    const int below = ShiftedSolver(system_, lowest_matrix(), omega * omega).eigenvalues_below();
     if (below == 0) {
       std::ostringstream text;
       text << "option -" << system_.name << "_modal_cutoff " << request_.cutoff
@@ -80,13 +89,43 @@ class BasisMaker {
     return static_cast<std::size_t>(below);
   }
 
-  /// A x.
+  /// Matrix that has the modes' frequencies, in y or in the coordinates z of rigid bodies.
+  Mat lowest_matrix() const { return admissible_ ? restricted_.get() : matrix_.get(); }
+
+  /// Beyond every frequency [1/s2].
+  double idle_value() const {
+    PetscReal norm = 0;
+    POUNDING_PETSC(MatNorm(matrix_.get(), NORM_INFINITY, &norm));
+    return 2 * norm;
+  }
+
+  /// y of z, and z of what acts on y: y = M^1/2 T z with orthonormal columns.
+  void from_coordinates(std::vector<double>& z) const {
+    if (!admissible_) return;
+    admissible_->to_motion(z);
+    for (std::size_t i = 0; i < dofs_; ++i) z[i] *= std::sqrt(system_.lumped_mass[i]);
+  }
+  void to_coordinates(std::vector<double>& y) const {
+    if (!admissible_) return;
+    for (std::size_t i = 0; i < dofs_; ++i) y[i] *= std::sqrt(system_.lumped_mass[i]);
+    admissible_->to_coordinates_of_force(y);
+  }
+  /// Takes out of y what no rigid body admits.
+  void admit(std::vector<double>& y) const {
+    to_coordinates(y);
+    from_coordinates(y);
+  }
+
+  /// A x; what rigid bodies do not admit has eigenvalues beyond all others.
   void multiply(const double* x, double* product) const {
     std::vector<double> from(x, x + dofs_);
+    admit(from);
     std::vector<double> to(dofs_);
     const VecHandle argument = wrap_vector(system_, from);
     const VecHandle result = wrap_vector(system_, to);
     POUNDING_PETSC(MatMult(matrix_.get(), argument.get(), result.get()));
+    admit(to);
+    for (std::size_t i = 0; admissible_ && i < dofs_; ++i) to[i] += idle_ * (x[i] - from[i]);
     std::copy(to.begin(), to.end(), product);
   }
 
@@ -158,7 +197,8 @@ class BasisMaker {
   }
 
   void find_modes(std::size_t wanted, std::vector<double>& values, DenseMatrix& vectors) const {
-    const EpsHandle solver = solve_lowest(system_, mesh_, matrix_.get(), static_cast<int>(wanted));
+    const EpsHandle solver =
+        solve_lowest(system_, mesh_, lowest_matrix(), static_cast<int>(wanted));
     PetscInt found = 0;
     POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
     std::vector<double> storage(dofs_);
@@ -167,7 +207,9 @@ class BasisMaker {
       double value = 0;
       POUNDING_PETSC(EPSGetEigenpair(solver.get(), i, &value, nullptr, vector.get(), nullptr));
       values.push_back(value);
-      vectors.append(storage);
+      std::vector<double> y = storage;
+      from_coordinates(y);
+      vectors.append(y);
     }
   }
 
@@ -197,13 +239,16 @@ class BasisMaker {
   void add_attachment_vectors() {
     std::vector<std::vector<double>> loads = static_loads();
     if (loads.empty()) return;
-    const ShiftedSolver solver(system_, matrix_.get(), lowest_shift);
+    const ShiftedSolver solver(system_, lowest_matrix(), lowest_shift);
     std::vector<std::vector<double>> vectors;
     for (std::vector<double>& z : loads) {
+      if (admissible_) admit(z);
       project(z);
       if (norm(z) <= inside_span) continue;
       project(z);
+      to_coordinates(z);
       solver.solve(z);
+      from_coordinates(z);
       project(z);
       scale(z, 1 / norm(z));
       project(z);
@@ -296,6 +341,10 @@ class BasisMaker {
   const ModalRequest& request_;
   MatHandle matrix_;
   std::size_t dofs_;
+  std::size_t independent_;                      ///< see LinearSystem::independent_dofs
+  std::optional<AdmissibleMotions> admissible_;  ///< of rigid bodies
+  MatHandle restricted_;                         ///< A in their coordinates
+  double idle_ = 0;                              ///< eigenvalue of what they do not admit [1/s2]
   DenseMatrix space_;
   std::vector<double> squared_frequency_;  ///< of the modes found [1/s2]
   std::vector<int> mode_numbers_;          ///< of the modes in the space, from 1

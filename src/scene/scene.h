@@ -93,6 +93,34 @@ struct StepTarget {
   double shells = 0;     ///< step [s] that shells get rotational inertia for; 0: none
 };
 
+/// How nodes move together.
+enum class RigidKind : std::uint8_t {
+  body,       ///< a physical group, as one rigid body
+  diaphragm,  ///< a level floor, rigid in its plane
+  join,       ///< each node of a group and the nearest one of another, as a rigid body
+  pin         ///< nodes of a group that lie on each other, in their displacements
+};
+
+/// A physical group that moves together.
+struct RigidGroup {
+  RigidKind kind = RigidKind::body;
+  std::string group;
+  std::string other;  ///< of a join: where the nearest node is looked for
+
+  std::string name() const { return other.empty() ? group : group + ":" + other; }
+  /// Components that follow, one bit each.
+  std::uint8_t components() const {
+    return kind == RigidKind::diaphragm ? 0x23 : kind == RigidKind::pin ? 0x07 : 0x3f;
+  }
+};
+
+/// The option that makes a group move together.
+inline const char* rigid_option(RigidKind kind) {
+  constexpr const char* options[] = {"<structure>_rigid", "<structure>_diaphragm",
+                                     "<structure>_join", "<structure>_pin"};
+  return options[static_cast<int>(kind)];
+}
+
 struct Structure {
   std::string name;
   std::string matrices;  ///< folder, see system/matrix_system.h; empty: of its elements
@@ -101,6 +129,7 @@ struct Structure {
   std::vector<std::string> ignored_groups;                    ///< of the mesh, left out on purpose
   bool allow_loose = false;  ///< pieces and coincident nodes that nothing joins
   std::vector<Clamp> clamps;
+  std::vector<RigidGroup> rigid_groups;
   std::vector<Region> regions;
   Rayleigh damping;
   std::optional<UniformDamping> uniform_damping;  ///< in place of Rayleigh damping, which is 0 then

@@ -14,6 +14,7 @@
 #include "scene/nearest_name.h"
 #include "scene/option_blocks.h"
 #include "scene/option_values.h"
+#include "scene/rigid_reader.h"
 #include "scene/soil_reader.h"
 
 namespace pounding {
@@ -245,6 +246,16 @@ void read_step_target(OptionReader& options, Structure& structure) {
                                      options.real("<structure>_target_frequency", names), 0};
 }
 
+/// Matrices do not know what moves together.
+void forbid_rigid_groups(const OptionReader& options, const Structure& structure) {
+  for (const RigidGroup& rigid : structure.rigid_groups) {
+    if (!structure.matrices.empty()) {
+      options.refuse(rigid_option(rigid.kind), {structure.name},
+                     "not with -" + structure.name + "_matrices");
+    }
+  }
+}
+
 /// Matrices do not know which of their rows buckle or lift off.
 void forbid_one_way_elements(const OptionReader& options, const Structure& structure) {
   for (const Region& region : structure.regions) {
@@ -296,6 +307,7 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   structure.mesh = options.text("<structure>_mesh", {name});
   structure.mesh_set = read_mesh_set(options, name);
   structure.clamps = read_clamps(options, name);
+  structure.rigid_groups = read_rigid_groups(options, name);
   structure.ignored_groups = options.list("<structure>_ignore", {name});
   structure.allow_loose = options.boolean("<structure>_allow_loose", {name});
   structure.matrices = read_matrices(options, name);
@@ -313,6 +325,7 @@ Structure read_structure(OptionReader& options, const std::string& name) {
     structure.regions.push_back(read_region(options, {name, group}, structure.damping));
   }
   forbid_one_way_elements(options, structure);
+  forbid_rigid_groups(options, structure);
   if (structure.uniform_damping) {
     forbid_damping_beside_uniform(options, structure);
   }

@@ -78,6 +78,11 @@ AssembledStatics::AssembledStatics(const LinearSystem& system, const Mesh& mesh,
   for (double& value : added) value *= shift;
   const VecHandle diagonal = wrap_vector(system, added);
   POUNDING_PETSC(MatDiagonalSet(matrix_.get(), diagonal.get(), ADD_VALUES));
+  if (!system.rigid_bodies.empty()) {
+    admissible_.emplace(system, AdmissibleMotions::Alone::as_is);
+    matrix_ = admissible_->restrict_matrix(matrix_.get());
+    POUNDING_PETSC(MatSetOptionsPrefixFactor(matrix_.get(), prefix));
+  }
   POUNDING_PETSC(MatSetOption(matrix_.get(), MAT_SYMMETRIC, PETSC_TRUE));
   POUNDING_PETSC(MatSetOption(matrix_.get(), MAT_SPD, PETSC_TRUE));
   if (solver == StaticSolver::iterative || !factorise(solver)) prepare_iteration(mesh);
@@ -117,6 +122,7 @@ void AssembledStatics::prepare_iteration(const Mesh& mesh) {
   std::vector<Vec> kept;
   for (int m = 0; m < 6; ++m) {
     std::vector<double> field = rigid_motion(mesh, m);
+    if (admissible_) admissible_->to_coordinates(field);
     const VecHandle wrapped = wrap_vector(system_, field);
     POUNDING_PETSC(VecDuplicate(wrapped.get(), motions[m].out()));
     POUNDING_PETSC(VecCopy(wrapped.get(), motions[m].get()));
@@ -161,6 +167,12 @@ void AssembledStatics::apply(const std::vector<double>& u, std::vector<double>& 
 }
 
 void AssembledStatics::solve(std::vector<double>& x) const {
+  if (admissible_) admissible_->to_coordinates_of_force(x);
+  solve_restricted(x);
+  if (admissible_) admissible_->to_motion(x);
+}
+
+void AssembledStatics::solve_restricted(std::vector<double>& x) const {
   const VecHandle right = wrap_vector(system_, x);
   VecHandle solution;
   POUNDING_PETSC(VecDuplicate(right.get(), solution.out()));

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "common/petsc.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
 #include "statics/static_stiffness.h"
+#include "system/admissible_motions.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -26,14 +28,17 @@ class AssembledStatics final : public StaticStiffness {
   /// False, and nothing kept, where the factor would not fit and may be left to the iteration.
   bool factorise(StaticSolver solver);
   void prepare_iteration(const Mesh& mesh);
+  /// x := (s K + shift M)^-1 x in the coordinates of rigid bodies, if there are any.
+  void solve_restricted(std::vector<double>& x) const;
 
   const LinearSystem& system_;
-  double at_rest_ = 1;                   ///< s
-  MatHandle matrix_;                     ///< s K + shift M
-  MatHandle factor_;                     ///< of it; null with the iteration
-  KspHandle iteration_;                  ///< null with the factor
-  double factor_memory_ = 0;             ///< estimate, all ranks together [B]
-  mutable std::int64_t iterations_ = 0;  ///< of all solutions
+  double at_rest_ = 1;                           ///< s
+  std::optional<AdmissibleMotions> admissible_;  ///< of rigid bodies
+  MatHandle matrix_;                             ///< s K + shift M
+  MatHandle factor_;                             ///< of it; null with the iteration
+  KspHandle iteration_;                          ///< null with the factor
+  double factor_memory_ = 0;                     ///< estimate, all ranks together [B]
+  mutable std::int64_t iterations_ = 0;          ///< of all solutions
   mutable std::int64_t solutions_ = 0;
 };
 

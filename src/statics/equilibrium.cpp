@@ -13,6 +13,7 @@
 #include "mesh/location.h"
 #include "statics/make_static_stiffness.h"
 #include "statics/unilateral_rows.h"
+#include "system/admissible_motions.h"
 
 namespace pounding {
 namespace {
@@ -182,6 +183,7 @@ class Search {
       for (std::size_t i = 0; i < product.size(); ++i) {
         residual_[s][i] = weight_[s][i] + forces[s][i] - product[i];
       }
+      take_up_by_bodies(systems_[s], residual_[s]);
     }
   }
 

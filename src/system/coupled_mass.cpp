@@ -100,9 +100,26 @@ NodeBlock inverse_cholesky(const NodeBlock& d) {
 
 }  // namespace
 
-CoupledMass::CoupledMass(std::span<const double> lumped_mass, NodeBlocks added)
-    : added_(std::move(added)) {
+CoupledMass::CoupledMass(std::span<const double> lumped_mass, NodeBlocks added,
+                         std::vector<RigidBody> bodies)
+    : added_(std::move(added)), bodies_(std::move(bodies)) {
   factorise(lumped_mass);
+  place_nodes();
+}
+
+void CoupledMass::place_nodes() {
+  std::map<LocalIndex, std::pair<NodeDofs, std::size_t>> places;  // by first dof
+  for (std::size_t n = 0; n < added_.nodes.size(); ++n) {
+    places[added_.nodes[n].begin] = {added_.nodes[n], order_[n]};
+  }
+  std::size_t next = added_.nodes.size();
+  for (const RigidBody& body : bodies_) {
+    for (const NodeDofs& node : body.nodes()) places[node.begin] = {node, next++};
+  }
+  for (const auto& [begin, entry] : places) {
+    nodes_.push_back(entry.first);
+    place_.push_back(entry.second);
+  }
 }
 
 int CoupledMass::node_of(LocalIndex dof) const {
@@ -114,7 +131,7 @@ int CoupledMass::node_of(LocalIndex dof) const {
 }
 
 void CoupledMass::factorise(std::span<const double> lumped_mass) {
-  const std::size_t count = nodes().size();
+  const std::size_t count = added_.nodes.size();
   std::vector<std::set<int>> neighbours(count);
   for (const auto& [pair, block] : added_.blocks) {
     if (pair[0] != pair[1]) {
@@ -124,22 +141,22 @@ void CoupledMass::factorise(std::span<const double> lumped_mass) {
   }
   const Elimination elimination =
       *eliminate(std::move(neighbours), std::numeric_limits<std::size_t>::max());
-  place_.resize(count);
-  for (std::size_t k = 0; k < count; ++k) place_[elimination.order[k]] = k;
+  order_.resize(count);
+  for (std::size_t k = 0; k < count; ++k) order_[elimination.order[k]] = k;
   // Remainder of M + S, columns and rows by their places, lower triangle.
   std::vector<std::map<std::size_t, NodeBlock>> columns(count);
   for (std::size_t n = 0; n < count; ++n) {
-    NodeBlock& diagonal = columns[place_[n]][place_[n]];
+    NodeBlock& diagonal = columns[order_[n]][order_[n]];
     diagonal = {};
     for (std::size_t i = 0; i < width; ++i) {
-      const auto dof = static_cast<std::size_t>(nodes()[n].begin) + i;
+      const auto dof = static_cast<std::size_t>(added_.nodes[n].begin) + i;
       diagonal[i * width + i] =
-          i < static_cast<std::size_t>(nodes()[n].count) ? lumped_mass[dof] : 1;
+          i < static_cast<std::size_t>(added_.nodes[n].count) ? lumped_mass[dof] : 1;
     }
   }
   for (const auto& [pair, block] : added_.blocks) {
-    const std::size_t row = place_[pair[0]];
-    const std::size_t column = place_[pair[1]];
+    const std::size_t row = order_[pair[0]];
+    const std::size_t column = order_[pair[1]];
     NodeBlock& entry = columns[std::min(row, column)][std::max(row, column)];
     const NodeBlock values = row >= column ? block : transposed(block);
     for (std::size_t i = 0; i < values.size(); ++i) entry[i] += values[i];
@@ -183,7 +200,7 @@ void CoupledMass::factorise(std::span<const double> lumped_mass) {
 }
 
 void CoupledMass::forward(double* x) const {
-  for (std::size_t k = 0; k < nodes().size(); ++k) {
+  for (std::size_t k = 0; k < added_.nodes.size(); ++k) {
     Six y[2];
     load_six(x + width * k, y[0]);
     for (std::size_t b = lower_begin_[k]; b < lower_begin_[k + 1]; ++b) {
@@ -194,7 +211,7 @@ void CoupledMass::forward(double* x) const {
 }
 
 void CoupledMass::backward(double* x) const {
-  const std::size_t count = nodes().size();
+  const std::size_t count = added_.nodes.size();
   for (std::size_t turn = 0; turn < count; ++turn) {
     double* const here = x + width * (count - 1 - turn);
     Six y[2];
@@ -206,22 +223,36 @@ void CoupledMass::backward(double* x) const {
   }
 }
 
+template <typename Function>
+void CoupledMass::for_each_body(double* x, Function&& function) const {
+  std::size_t first = width * added_.nodes.size();
+  for (const RigidBody& body : bodies_) {
+    function(body, x + first);
+    first += width * body.nodes().size();
+  }
+}
+
 void CoupledMass::solve(double* x) const {
   forward(x);
-  for (std::size_t k = 0; k < nodes().size(); ++k) multiply(inverse_diagonal_[k], x + width * k);
+  for (std::size_t k = 0; k < added_.nodes.size(); ++k) {
+    multiply(inverse_diagonal_[k], x + width * k);
+  }
   backward(x);
+  for_each_body(x, [](const RigidBody& body, double* part) { body.solve(part); });
 }
 
 void CoupledMass::solve_half(double* x) const {
   forward(x);
-  for (std::size_t k = 0; k < nodes().size(); ++k) multiply(inverse_root_[k], x + width * k);
+  for (std::size_t k = 0; k < added_.nodes.size(); ++k) multiply(inverse_root_[k], x + width * k);
+  for_each_body(x, [](const RigidBody& body, double* part) { body.solve_half(part); });
 }
 
 void CoupledMass::solve_transposed_half(double* x) const {
-  for (std::size_t k = 0; k < nodes().size(); ++k) {
+  for (std::size_t k = 0; k < added_.nodes.size(); ++k) {
     multiply(inverse_root_transposed_[k], x + width * k);
   }
   backward(x);
+  for_each_body(x, [](const RigidBody& body, double* part) { body.solve_transposed_half(part); });
 }
 
 void CoupledMass::take(const double* owned, double* x) const {
@@ -240,8 +271,8 @@ void CoupledMass::put(const double* x, double* owned) const {
 double CoupledMass::added_product(const double* v) const {
   double total = 0;
   for (const auto& [pair, block] : added_.blocks) {
-    const NodeDofs& row = nodes()[pair[0]];
-    const NodeDofs& column = nodes()[pair[1]];
+    const NodeDofs& row = added_.nodes[pair[0]];
+    const NodeDofs& column = added_.nodes[pair[1]];
     double product = 0;
     for (int i = 0; i < row.count; ++i) {
       for (int j = 0; j < column.count; ++j) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "system/node_blocks.h"
+#include "system/rigid_body.h"
 
 namespace pounding {
 
@@ -16,28 +17,32 @@ namespace pounding {
 /// nodes that are no neighbours, fewest neighbours first, so that a ring of beams fills in little
 /// and the processor can work at many nodes of a round at once.
 ///
-/// A field over the coupled dofs has shape (nodes, 6), nodes in the order of elimination; places
-/// that are no dofs hold 0. Local; products and solutions allocate nothing and are the same bits on
-/// every run.
+/// Rigid bodies couple the mass of their nodes too: there W W^T stands for (M + S)^-1.
+///
+/// A field over the coupled dofs has shape (nodes, 6), nodes in the order of elimination, then
+/// those of the rigid bodies one after the other; places that are no dofs hold 0. Local; products
+/// and solutions allocate nothing and are the same bits on every run.
 class CoupledMass {
  public:
   static constexpr std::size_t width = 6;  // values per node in a field
 
   /// `lumped_mass` of all owned dofs [kg, kg m2]; `added`: S. Throws std::runtime_error if M + S is
-  /// not positive definite.
-  CoupledMass(std::span<const double> lumped_mass, NodeBlocks added);
+  /// not positive definite. No node of a rigid body is one of S.
+  CoupledMass(std::span<const double> lumped_mass, NodeBlocks added,
+              std::vector<RigidBody> bodies = {});
 
   /// Nodes in the order of their dofs, and where in a field each of them is.
-  const std::vector<NodeDofs>& nodes() const { return added_.nodes; }
+  const std::vector<NodeDofs>& nodes() const { return nodes_; }
   std::size_t place(std::size_t node) const { return place_[node] * width; }
-  std::size_t field_size() const { return width * added_.nodes.size(); }
+  std::size_t field_size() const { return width * nodes_.size(); }
   /// Which node holds an owned dof; -1: the dof is not coupled.
   int node_of(LocalIndex dof) const;
-  const NodeBlocks& added() const { return added_; }
+  const NodeBlocks& added() const { return added_; }  ///< with nodes of its own
+  const std::vector<RigidBody>& bodies() const { return bodies_; }
 
   /// x = (M + S)^-1 x.
   void solve(double* x) const;
-  /// x = G^-1 x and x = G^-T x with M + S = G G^T.
+  /// x = G^-1 x and x = G^-T x with (M + S)^-1 = G^-T G^-1.
   void solve_half(double* x) const;
   void solve_transposed_half(double* x) const;
   /// A field out of a vector over the owned dofs, and back into it.
@@ -51,8 +56,16 @@ class CoupledMass {
   void forward(double* x) const;
   void backward(double* x) const;
 
+  void place_nodes();
+  /// Calls `function(body, its part of the field)`.
+  template <typename Function>
+  void for_each_body(double* x, Function&& function) const;
+
   NodeBlocks added_;
-  std::vector<std::size_t> place_;  ///< per node: when it is eliminated
+  std::vector<RigidBody> bodies_;
+  std::vector<NodeDofs> nodes_;     ///< of both
+  std::vector<std::size_t> order_;  ///< per node of S: when it is eliminated
+  std::vector<std::size_t> place_;  ///< per node: its number in a field
   /// Blocks of L row by row, and of L^T likewise, in the order in which they are read; each block
   /// column by column.
   std::vector<std::size_t> lower_begin_;

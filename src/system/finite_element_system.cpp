@@ -113,7 +113,10 @@ class Assembly {
     if (region.compression_only) work.stiffness[2 * size + 2] += region.stiffness[2];
     if (taut_.get() != nullptr) insert(taut_, work.stiffness.data());
     const double scaling = added_mass_.add(block, element, region, stiffness, mass);
-    bounds_.add(block, stiffness, mass, {dofs.data(), size}, scaling);
+    // Elements that a rigid body holds altogether never strain.
+    const bool strains = !is_in_rigid_body(mesh_, block, element);
+    bounds_.add(block, strains ? stiffness : std::span(unstrained_.data(), size * size), mass,
+                {dofs.data(), size}, scaling);
     if (has_extra_damping(block)) {
       const Rayleigh extra = extra_rayleigh(block);
       for (std::size_t i = 0; i < stiffness.size(); ++i) damping_[i] = extra.beta * stiffness[i];
@@ -170,6 +173,7 @@ class Assembly {
   AddedInertia added_inertia_;
   ScaledMass added_mass_;
   std::array<double, max_element_size * max_element_size> damping_{};
+  const std::array<double, max_element_size * max_element_size> unstrained_{};
 };
 
 /// Whether the element-wise product is asked for or pays.

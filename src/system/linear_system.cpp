@@ -11,6 +11,12 @@ std::vector<double> LinearSystem::influence(int d) const {
   return iota;
 }
 
+GlobalIndex LinearSystem::independent_dofs() const {
+  GlobalIndex count = global_dofs;
+  for (const RigidBodyReport& body : rigid_bodies) count -= body.dofs - body.motions;
+  return count;
+}
+
 LinearSystem describe_system(const Structure& structure, const Mesh& mesh) {
   LinearSystem system;
   system.name = structure.name;

@@ -16,6 +16,7 @@
 #include "stiffness/stiffness.h"
 #include "system/coupled_mass.h"
 #include "system/mass_scaling.h"
+#include "system/rigid_body.h"
 #include "system/rotary_scaling.h"
 #include "system/slivers.h"
 
@@ -45,6 +46,7 @@ struct GeneralisedCoordinates {
 ///     (M + S) u'' + C u' + K u = -M iota a_g(t) + L^T r,      C = alpha M + beta K + D
 ///
 /// or, with uniform damping over a band, s G K in place of K (see UniformDamping) and C = D,
+/// where the motions u are those that rigid bodies admit (see RigidBody),
 /// with M diagonal, D the damping that alpha and beta do not tell (dashpots, and regions damped
 /// otherwise), and S the mass that stiff elements are given for a longer time step, mostly none.
 /// Arrays hold this rank's owned dofs. Constant during a run.
@@ -67,8 +69,9 @@ struct LinearSystem {
   std::shared_ptr<Links> links;          ///< null if there are none
   std::unique_ptr<Stiffness> extra_damping;  ///< D [N s/m, N m s]; null if there is none
   MassScaling mass_scaling;
-  RotaryScaling rotary_scaling;  ///< in `lumped_mass` already
-  /// M + S of the dofs in S; null if this rank has none.
+  RotaryScaling rotary_scaling;               ///< in `lumped_mass` already
+  std::vector<RigidBodyReport> rigid_bodies;  ///< of all ranks
+  /// M + S of the dofs in S, and the rigid bodies; null if this rank has none of either.
   std::unique_ptr<CoupledMass> coupled_mass;
   Vector3 initial_displacement{0, 0, 0};  ///< of every translation at t = 0 [m]
   Vector3 initial_velocity{0, 0, 0};      ///< of every translation at t = 0 [m/s]
@@ -87,6 +90,10 @@ struct LinearSystem {
   ScalingOffer scaling_offer;   ///< where mass is not scaled
   std::vector<Sliver> slivers;  ///< the worst of every group that has any
 
+  /// M + S is not diagonal, or rigid bodies couple it, on some rank.
+  bool mass_is_coupled() const { return mass_scaling.elements > 0 || !rigid_bodies.empty(); }
+  /// Dofs over all ranks, of which rigid bodies count by their motions.
+  GlobalIndex independent_dofs() const;
   /// K for eigenvalues: every link at its stiffest.
   const Stiffness& stiffest() const { return taut ? *taut : *stiffness; }
   Mat stiffest_matrix() const { return stiffest().matrix(); }

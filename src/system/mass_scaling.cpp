@@ -164,13 +164,22 @@ std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalM
   Couplings couplings(mesh);
   Decision decision(structure, mesh);
   for (const Region& region : structure.regions) check_alpha(structure, region);
+  std::vector<char> rigid(static_cast<std::size_t>(mesh.node_count()), 0);
+  for (const RigidNodes& part : mesh.rigid) {
+    couplings.join(part.nodes, false);
+    for (const GlobalIndex node : part.nodes) rigid[node] = 1;
+  }
+  const auto meets_rigid = [&](std::span<const GlobalIndex> nodes) {
+    return std::ranges::any_of(nodes, [&](GlobalIndex node) { return rigid[node] != 0; });
+  };
   for (const ElementSet& set : mesh.regions) {
     const std::size_t width = element_layout(set.type).nodes;
     const bool links = width == 2 && has_links(structure.regions[set.region]);
     const bool looked_at = links || (scaling && traits_of(set.type).scalable);
     for (std::size_t e = 0; looked_at && e < set.tags.size(); ++e) {
       const std::span<const GlobalIndex> nodes(&set.connectivity[e * width], width);
-      const bool scaled = is_linear(set.type) && scaling && decision.scales(set, nodes);
+      const bool scaled =
+          is_linear(set.type) && scaling && !meets_rigid(nodes) && decision.scales(set, nodes);
       if (links || scaled) couplings.join(nodes, scaled);
     }
   }

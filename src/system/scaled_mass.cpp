@@ -13,6 +13,7 @@ namespace pounding {
 double ScaledMass::add(const ElementBlock& block, std::size_t element, const Region& region,
                        std::span<const double> stiffness, std::span<const double> mass) {
   if (structure_.mass_scaling == 0 || !traits_of(block.type).scalable) return 0;
+  if (meets_rigid_body(mesh_, block, element)) return 0;
   const std::span<double> added(added_.data(), stiffness.size());
   std::fill(added.begin(), added.end(), 0.0);
   const double factor = add_element_mass(structure_.mass_scaling, structure_.damping_of(region),
@@ -89,8 +90,23 @@ void ScaledMass::finish(LinearSystem& system) {
     report_.row_frequency =
         std::max(report_.row_frequency, std::sqrt(sum / system.lumped_mass[dof]));
   }
-  if (!added.nodes.empty()) {
-    system.coupled_mass = std::make_unique<CoupledMass>(system.lumped_mass, std::move(added));
+  std::vector<RigidBody> bodies;
+  for (const RigidPart& part : mesh_.rigid) {
+    if (bodies_.empty() || bodies_.back().group != part.group) {
+      bodies_.push_back({part.group, part.kind});
+    }
+    if (part.nodes.empty()) continue;
+    const RigidBody& body = bodies.emplace_back(mesh_, part, system.lumped_mass);
+    RigidBodyReport& report = bodies_.back();
+    ++report.bodies;
+    report.nodes += part.global_nodes;
+    report.motions += static_cast<GlobalIndex>(body.motions());
+    report.dofs += static_cast<GlobalIndex>(body.dofs().size());
+    for (const LocalIndex node : part.nodes) report.mass += system.lumped_mass[mesh_.dof(node, 0)];
+  }
+  if (!added.nodes.empty() || !bodies.empty()) {
+    system.coupled_mass =
+        std::make_unique<CoupledMass>(system.lumped_mass, std::move(added), std::move(bodies));
   }
 }
 
@@ -106,6 +122,16 @@ void ScaledMass::share(LinearSystem& system) const {
   report.dofs = counts[1];
   report.largest_factor = largest[0];
   report.row_frequency = largest[1];
+  system.rigid_bodies = bodies_;
+  for (RigidBodyReport& body : system.rigid_bodies) {
+    std::array<GlobalIndex, 4> sums{body.bodies, body.nodes, body.dofs, body.motions};
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), 4, MPI_INT64_T, MPI_SUM, mesh_.comm);
+    MPI_Allreduce(MPI_IN_PLACE, &body.mass, 1, MPI_DOUBLE, MPI_SUM, mesh_.comm);
+    body.bodies = sums[0];
+    body.nodes = sums[1];
+    body.dofs = sums[2];
+    body.motions = sums[3];
+  }
 }
 
 }  // namespace pounding

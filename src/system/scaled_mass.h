@@ -14,7 +14,8 @@
 namespace pounding {
 
 /// Collects the mass S that the stiff elements of a structure are given (see mass_scaling.h),
-/// element by element in the order of the mesh, and leaves M + S factorised.
+/// element by element in the order of the mesh, and leaves M + S factorised, with the structure's
+/// rigid bodies.
 class ScaledMass {
  public:
   ScaledMass(const Structure& structure, const Mesh& mesh) : structure_(structure), mesh_(mesh) {}
@@ -26,7 +27,7 @@ class ScaledMass {
              std::span<const double> stiffness, std::span<const double> mass);
   /// Fills in what `system` knows of this rank; its lumped mass is complete.
   void finish(LinearSystem& system);
-  /// The numbers of LinearSystem::mass_scaling over all ranks. Collective.
+  /// LinearSystem::mass_scaling and rigid_bodies over all ranks. Collective.
   void share(LinearSystem& system) const;
 
  private:
@@ -36,6 +37,7 @@ class ScaledMass {
   const Structure& structure_;
   const Mesh& mesh_;
   MassScaling report_;
+  std::vector<RigidBodyReport> bodies_;
   std::map<std::array<LocalIndex, 2>, NodeBlock> blocks_;  ///< by local nodes, row >= column
   std::map<LocalIndex, double> row_sums_;                  ///< of |K_e| per dof
   std::array<double, max_element_size * max_element_size> added_{};

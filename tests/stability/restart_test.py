@@ -123,13 +123,14 @@ class BitIdentity(RestartCase):
         self.assert_same_results(whole, cut)
 
     def test_start_at_rest(self):
-        case = BAR + ["-bar_gravity", "0,0,-10", "-preload", "static", "-bar_initial_velocity", "0,0,1",
-                      "-end_time", 2]
-        whole = self.complete(case)
-        step, time_step = self.middle_of_an_impact(whole, 1)
-        cut = self.cut(case, step, time_step)
-        self.complete([*case, "-restart", checkpoint(cut)], folder=cut)
-        self.assert_same_results(whole, cut)
+        for more in ([], ["-bar_rigid", "z_min"]):
+            case = BAR + ["-bar_gravity", "0,0,-10", "-preload", "static", "-bar_initial_velocity", "0,0,1",
+                          "-end_time", 2, *more]
+            whole = self.complete(case)
+            step, time_step = self.middle_of_an_impact(whole, 1)
+            cut = self.cut(case, step, time_step)
+            self.complete([*case, "-restart", checkpoint(cut)], folder=cut)
+            self.assert_same_results(whole, cut)
 
     def test_memories_of_uniform_damping(self):
         uniform = [f"-{name}_damping_{word}" for name in ("s1", "s2") for word in ("alpha", "beta", "uniform")]

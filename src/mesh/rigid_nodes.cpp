@@ -1,0 +1,148 @@
+#include "mesh/rigid_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <sstream>
+
+#include "common/disjoint_sets.h"
+#include "common/error.h"
+#include "mesh/bounding_box.h"
+#include "mesh/near_nodes.h"
+
+namespace pounding {
+namespace {
+
+/// Nodes nearer than this part of the mesh's diagonal lie on each other.
+constexpr double coincident = 1e-6;
+
+using Cluster = std::vector<GlobalIndex>;
+
+std::string option_text(const Structure& structure, const RigidGroup& rigid) {
+  const std::string option = rigid_option(rigid.kind);
+  return "option -" + structure.name + option.substr(option.find('_')) + " " + rigid.name();
+}
+
+[[noreturn]] void refuse(const Structure& structure, const RigidGroup& rigid,
+                         const std::string& what, const Vector3& x) {
+  std::ostringstream text;
+  text << option_text(structure, rigid) << ": its node at (" << x[0] << ", " << x[1] << ", " << x[2]
+       << ") " << what;
+  throw UserError(text.str());
+}
+
+/// Sets of two or more nodes, each sorted, in the order of their first nodes.
+std::vector<Cluster> clusters_of(DisjointSets& sets, const Cluster& nodes) {
+  std::map<std::size_t, Cluster> found;
+  for (const GlobalIndex node : nodes) {
+    found[sets.root(static_cast<std::size_t>(node))].push_back(node);
+  }
+  std::vector<Cluster> clusters;
+  for (auto& [root, cluster] : found) {
+    std::ranges::sort(cluster);
+    cluster.erase(std::ranges::unique(cluster).begin(), cluster.end());
+    if (cluster.size() > 1) clusters.push_back(std::move(cluster));
+  }
+  std::ranges::sort(clusters);
+  return clusters;
+}
+
+std::vector<Cluster> pinned(const GlobalMesh& mesh, const Cluster& nodes) {
+  DisjointSets sets(static_cast<std::size_t>(mesh.node_count()));
+  const double near = coincident * bounding_box({&mesh, 1}).diagonal();
+  if (!(near > 0)) return {};
+  for (const auto& [a, b] : near_nodes(mesh, near)) {
+    if (std::ranges::binary_search(nodes, a) && std::ranges::binary_search(nodes, b)) {
+      sets.join(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+    }
+  }
+  return clusters_of(sets, nodes);
+}
+
+double distance(const GlobalMesh& mesh, GlobalIndex a, GlobalIndex b) {
+  const Vector3 x = mesh.position(a);
+  const Vector3 y = mesh.position(b);
+  return std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
+}
+
+/// Each of `nodes` with the nearest of `others`, by their x coordinates.
+std::vector<Cluster> joined(const GlobalMesh& mesh, const Cluster& nodes, const Cluster& others) {
+  const auto x_of = [&](GlobalIndex node) { return mesh.position(node)[0]; };
+  Cluster sorted = others;
+  std::ranges::stable_sort(sorted, {}, x_of);
+  DisjointSets sets(static_cast<std::size_t>(mesh.node_count()));
+  Cluster all = nodes;
+  for (const GlobalIndex node : nodes) {
+    const double x = x_of(node);
+    double nearest = std::numeric_limits<double>::infinity();
+    GlobalIndex found = -1;
+    const auto look = [&](GlobalIndex other) {
+      const double apart = distance(mesh, node, other);
+      if (apart < nearest || (apart == nearest && other < found)) {
+        nearest = apart;
+        found = other;
+      }
+    };
+    const auto middle = std::ranges::lower_bound(sorted, x, {}, x_of);
+    for (auto up = middle; up != sorted.end() && x_of(*up) - x <= nearest; ++up) look(*up);
+    for (auto down = middle; down != sorted.begin() && x - x_of(*(down - 1)) <= nearest; --down) {
+      look(*(down - 1));
+    }
+    sets.join(static_cast<std::size_t>(node), static_cast<std::size_t>(found));
+    all.push_back(found);
+  }
+  return clusters_of(sets, all);
+}
+
+bool is_held(const GlobalMesh& mesh, const Cluster& cluster) {
+  return std::ranges::all_of(cluster,
+                             [&](GlobalIndex node) { return mesh.free_components[node] == 0; });
+}
+
+std::vector<Cluster> clusters_of(const RigidGroup& rigid, const GlobalMesh& mesh) {
+  const Cluster& nodes = mesh.groups.at(rigid.group).nodes;
+  switch (rigid.kind) {
+    case RigidKind::join:
+      return joined(mesh, nodes, mesh.groups.at(rigid.other).nodes);
+    case RigidKind::pin:
+      return pinned(mesh, nodes);
+    default:
+      return {nodes};
+  }
+}
+
+}  // namespace
+
+std::vector<RigidNodes> find_rigid_nodes(const Structure& structure, const GlobalMesh& mesh) {
+  std::vector<RigidNodes> found;
+  std::map<GlobalIndex, std::string> group_of;
+  for (const RigidGroup& rigid : structure.rigid_groups) {
+    const std::vector<Cluster> clusters = clusters_of(rigid, mesh);
+    if (clusters.empty()) {
+      throw UserError(option_text(structure, rigid) + ": no two nodes of it lie on each other");
+    }
+    for (const Cluster& cluster : clusters) {
+      if (is_held(mesh, cluster)) continue;  // clamped altogether: nothing follows anything
+      found.push_back({rigid.name(), rigid.kind, rigid.components(), cluster});
+      for (const GlobalIndex node : cluster) {
+        const std::size_t n = node;
+        const auto [other, is_new] = group_of.try_emplace(node, rigid.name());
+        if (!is_new) {
+          refuse(structure, rigid,
+                 "is in " + other->second + " as well; make them one group, or keep them apart",
+                 mesh.position(node));
+        }
+        const unsigned clamped = mesh.components[n] & ~mesh.free_components[n] & rigid.components();
+        if (clamped != 0) {
+          refuse(structure, rigid,
+                 "is clamped; clamp all that moves with it instead, or none of it",
+                 mesh.position(node));
+        }
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace pounding

@@ -1,0 +1,130 @@
+#include "system/admissible_motions.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pounding {
+namespace {
+
+const std::vector<RigidBody>& bodies_of(const LinearSystem& system) {
+  static const std::vector<RigidBody> none;
+  return system.coupled_mass ? system.coupled_mass->bodies() : none;
+}
+
+/// Size of what a matrix has on its diagonal. Collective.
+double largest_diagonal(Mat matrix) {
+  VecHandle diagonal;
+  PetscReal largest = 0;
+  POUNDING_PETSC(MatCreateVecs(matrix, diagonal.out(), nullptr));
+  POUNDING_PETSC(MatGetDiagonal(matrix, diagonal.get()));
+  POUNDING_PETSC(VecNorm(diagonal.get(), NORM_INFINITY, &largest));
+  return largest;
+}
+
+}  // namespace
+
+AdmissibleMotions::AdmissibleMotions(const LinearSystem& system, Alone alone)
+    : system_(system), alone_(alone), is_idle_(system.lumped_mass.size(), 0) {
+  const LocalIndex n = system.owned_dofs();
+  const auto width = static_cast<PetscInt>(RigidBody::width);
+  POUNDING_PETSC(MatCreateAIJ(system.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, width, nullptr,
+                              0, nullptr, matrix_.out()));
+  PetscInt first = 0;
+  POUNDING_PETSC(MatGetOwnershipRange(matrix_.get(), &first, nullptr));
+  std::vector<char> in_body(is_idle_.size(), 0);
+  for (const RigidBody& body : bodies_of(system)) {
+    std::array<PetscInt, RigidBody::width> columns{};
+    for (std::size_t k = 0; k < body.dofs().size(); ++k) {
+      in_body[body.dofs()[k]] = 1;
+      is_idle_[body.dofs()[k]] = k < body.motions() ? 0 : 1;
+      if (k < body.motions()) columns[k] = first + body.dofs()[k];
+    }
+    for (std::size_t k = 0; k < body.dofs().size(); ++k) {
+      const PetscInt row = first + body.dofs()[k];
+      POUNDING_PETSC(MatSetValues(matrix_.get(), 1, &row, static_cast<PetscInt>(body.motions()),
+                                  columns.data(), body.row(k).data(), INSERT_VALUES));
+    }
+  }
+  for (LocalIndex i = 0; i < n; ++i) {
+    if (in_body[i] != 0) continue;
+    const double value = alone == Alone::as_is ? 1 : std::sqrt(system.inverse_mass[i]);
+    POUNDING_PETSC(MatSetValue(matrix_.get(), first + i, first + i, value, INSERT_VALUES));
+  }
+  POUNDING_PETSC(MatAssemblyBegin(matrix_.get(), MAT_FINAL_ASSEMBLY));
+  POUNDING_PETSC(MatAssemblyEnd(matrix_.get(), MAT_FINAL_ASSEMBLY));
+}
+
+MatHandle AdmissibleMotions::restrict_matrix(Mat matrix, double idle) const {
+  MatHandle restricted;
+  POUNDING_PETSC(
+      MatPtAP(matrix, matrix_.get(), MAT_INITIAL_MATRIX, PETSC_DEFAULT, restricted.out()));
+  const double value = idle > 0 ? idle : 2 * largest_diagonal(restricted.get());
+  const LocalIndex n = system_.owned_dofs();
+  MatHandle diagonal;
+  POUNDING_PETSC(MatCreateAIJ(system_.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 1, nullptr, 0,
+                              nullptr, diagonal.out()));
+  PetscInt first = 0;
+  POUNDING_PETSC(MatGetOwnershipRange(diagonal.get(), &first, nullptr));
+  for (LocalIndex i = 0; i < n; ++i) {
+    POUNDING_PETSC(MatSetValue(diagonal.get(), first + i, first + i, is_idle_[i] != 0 ? value : 0,
+                               INSERT_VALUES));
+  }
+  POUNDING_PETSC(MatAssemblyBegin(diagonal.get(), MAT_FINAL_ASSEMBLY));
+  POUNDING_PETSC(MatAssemblyEnd(diagonal.get(), MAT_FINAL_ASSEMBLY));
+  POUNDING_PETSC(MatAXPY(restricted.get(), 1, diagonal.get(), DIFFERENT_NONZERO_PATTERN));
+  POUNDING_PETSC(MatSetOption(restricted.get(), MAT_SYMMETRIC, PETSC_TRUE));
+  return restricted;
+}
+
+void AdmissibleMotions::multiply(std::vector<double>& x, bool transposed) const {
+  std::vector<double> result(x.size());
+  const VecHandle from = wrap_vector(system_, x);
+  const VecHandle to = wrap_vector(system_, result);
+  POUNDING_PETSC(transposed ? MatMultTranspose(matrix_.get(), from.get(), to.get())
+                            : MatMult(matrix_.get(), from.get(), to.get()));
+  std::ranges::copy(result, x.begin());  // in place: vectors may stand on it
+}
+
+void AdmissibleMotions::to_motion(std::vector<double>& z) const {
+  multiply(z, false);
+}
+
+void AdmissibleMotions::to_coordinates_of_force(std::vector<double>& f) const {
+  multiply(f, true);
+}
+
+void AdmissibleMotions::to_coordinates(std::vector<double>& u) const {
+  const std::vector<double> motion = u;
+  if (alone_ == Alone::mass_scaled) {
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] *= std::sqrt(system_.lumped_mass[i]);
+  }
+  for (const RigidBody& body : bodies_of(system_)) {
+    std::array<double, RigidBody::width> q{};
+    for (std::size_t k = 0; k < body.dofs().size(); ++k) {
+      const LocalIndex dof = body.dofs()[k];
+      u[dof] = 0;
+      for (std::size_t m = 0; m < body.motions(); ++m) {
+        q[m] += body.row(k)[m] * system_.lumped_mass[dof] * motion[dof];
+      }
+    }
+    for (std::size_t m = 0; m < body.motions(); ++m) u[body.dofs()[m]] = q[m];
+  }
+}
+
+void take_up_by_bodies(const LinearSystem& system, std::vector<double>& f) {
+  for (const RigidBody& body : bodies_of(system)) {
+    std::array<double, RigidBody::width> q{};
+    for (std::size_t k = 0; k < body.dofs().size(); ++k) {
+      for (std::size_t m = 0; m < body.motions(); ++m) q[m] += body.row(k)[m] * f[body.dofs()[k]];
+    }
+    for (std::size_t k = 0; k < body.dofs().size(); ++k) {
+      const LocalIndex dof = body.dofs()[k];
+      double sum = 0;
+      for (std::size_t m = 0; m < body.motions(); ++m) sum += body.row(k)[m] * q[m];
+      f[dof] = system.lumped_mass[dof] * sum;
+    }
+  }
+}
+
+}  // namespace pounding

@@ -1,0 +1,146 @@
+#include "system/rigid_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace pounding {
+namespace {
+
+/// Part of a column that the others leave, at which it is one of them.
+constexpr double dependent = 1e-8;
+
+using Columns = std::vector<std::vector<double>>;
+
+/// Displacement of component c of a node at x - centre in motion m, along or about an axis.
+double rigid_displacement(int motion, int component, const Vector3& x) {
+  if (motion < 3 || component >= 3) return motion == component ? 1 : 0;
+  const int axis = motion - 3;
+  if (component == (axis + 1) % 3) return -x[(axis + 2) % 3];
+  if (component == (axis + 2) % 3) return x[(axis + 1) % 3];
+  return 0;
+}
+
+double norm(const std::vector<double>& a) {
+  return std::sqrt(std::inner_product(a.begin(), a.end(), a.begin(), 0.0));
+}
+
+/// Orthonormal columns of the same space; dependent ones are left out.
+Columns orthonormal(Columns columns) {
+  Columns kept;
+  for (std::vector<double>& column : columns) {
+    const double before = norm(column);
+    for (int repeat = 0; repeat < 2; ++repeat) {
+      for (const std::vector<double>& other : kept) {
+        const double part = std::inner_product(column.begin(), column.end(), other.begin(), 0.0);
+        for (std::size_t i = 0; i < column.size(); ++i) column[i] -= part * other[i];
+      }
+    }
+    const double length = norm(column);
+    if (!(length > dependent * before)) continue;
+    for (double& value : column) value /= length;
+    kept.push_back(std::move(column));
+  }
+  return kept;
+}
+
+}  // namespace
+
+RigidBody::RigidBody(const Mesh& mesh, const RigidPart& part, std::span<const double> lumped_mass) {
+  const std::size_t places = width * part.nodes.size();
+  root_mass_.assign(places, 0.0);
+  alone_.assign(places, 0.0);
+  rows_.assign(places, {});
+  for (const LocalIndex node : part.nodes) {
+    const std::size_t n = node;
+    const std::size_t begin = width * nodes_.size();
+    nodes_.push_back({mesh.first_dof[n], component_count(mesh.free_components[n])});
+    for (int i = 0; i < nodes_.back().count; ++i) {
+      const std::size_t place = begin + static_cast<std::size_t>(i);
+      root_mass_[place] = std::sqrt(lumped_mass[nodes_.back().begin + i]);
+      alone_[place] = 1;
+    }
+    for (int c = 0; c < 6; ++c) {
+      const LocalIndex dof = mesh.dof(node, c);
+      if (dof < 0 || (part.components >> c & 1) == 0) continue;
+      dofs_.push_back(dof);
+      slots_.push_back(begin + static_cast<std::size_t>(dof - nodes_.back().begin));
+      alone_[slots_.back()] = 0;
+    }
+  }
+  find_motions(mesh, part);
+}
+
+void RigidBody::find_motions(const Mesh& mesh, const RigidPart& part) {
+  Vector3 centre{0, 0, 0};
+  for (const LocalIndex node : part.nodes) {
+    const Vector3 x = mesh.position(node);
+    for (std::size_t d = 0; d < 3; ++d) {
+      centre[d] += x[d] / static_cast<double>(part.nodes.size());
+    }
+  }
+  Columns columns;
+  for (int motion = 0; motion < 6; ++motion) {
+    if ((part.components >> motion & 1) == 0) continue;
+    std::vector<double>& column = columns.emplace_back();
+    for (const LocalIndex node : part.nodes) {
+      Vector3 x = mesh.position(node);
+      for (std::size_t d = 0; d < 3; ++d) x[d] -= centre[d];
+      for (int c = 0; c < 6; ++c) {
+        if (mesh.dof(node, c) < 0 || (part.components >> c & 1) == 0) continue;
+        column.push_back(root_mass_[slots_[column.size()]] * rigid_displacement(motion, c, x));
+      }
+    }
+  }
+  columns = orthonormal(std::move(columns));
+  motions_ = columns.size();
+  for (std::size_t k = 0; k < slots_.size(); ++k) {
+    for (std::size_t m = 0; m < motions_; ++m) {
+      rows_[slots_[k]][m] = columns[m][k] / root_mass_[slots_[k]];
+    }
+  }
+}
+
+RigidBody::Motion RigidBody::coordinates(const double* x, bool weighted) const {
+  Motion q{};
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const double value = weighted ? root_mass_[i] * x[i] : x[i];
+    for (std::size_t m = 0; m < width; ++m) q[m] += rows_[i][m] * value;
+  }
+  return q;
+}
+
+void RigidBody::move(const Motion& q, bool weighted, double* x) const {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (alone_[i] != 0) continue;
+    double value = 0;
+    for (std::size_t m = 0; m < width; ++m) value += rows_[i][m] * q[m];
+    x[i] = weighted ? root_mass_[i] * value : value;
+  }
+}
+
+void RigidBody::solve(double* x) const {
+  const Motion q = coordinates(x, false);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (alone_[i] != 0) x[i] /= root_mass_[i] * root_mass_[i];
+  }
+  move(q, false, x);
+}
+
+void RigidBody::solve_half(double* x) const {
+  const Motion q = coordinates(x, false);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (alone_[i] != 0) x[i] /= root_mass_[i];
+  }
+  move(q, true, x);
+}
+
+void RigidBody::solve_transposed_half(double* x) const {
+  const Motion q = coordinates(x, true);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (alone_[i] != 0) x[i] /= root_mass_[i];
+  }
+  move(q, false, x);
+}
+
+}  // namespace pounding

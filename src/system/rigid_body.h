@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "system/node_blocks.h"
+
+namespace pounding {
+
+/// Rigid body: nodes of a structure whose dofs follow at most six motions R, as a mat or equipment
+/// feet do, or three, as a level floor that is rigid in its plane. What follows moves by
+///
+///     v = R (R^T M R)^-1 R^T M v* = W W^T M v*,      W^T M W = I
+///
+/// where v* is what the nodes would do alone: the projection that is orthogonal in M. It changes no
+/// momentum, the forces that it stands for do no work, and no frequency rises by it. W has a column
+/// for every motion that the nodes see: fewer than six for solids whose nodes stand in a line.
+///
+/// Fields have six places per node, in the order of the node's dofs; dofs that do not follow have
+/// their own mass. One rank owns all of it. Products allocate nothing.
+class RigidBody {
+ public:
+  static constexpr std::size_t width = 6;
+
+  /// `part` of the mesh, owned by this rank; `lumped_mass` of all owned dofs [kg, kg m2].
+  RigidBody(const Mesh& mesh, const RigidPart& part, std::span<const double> lumped_mass);
+
+  const std::vector<NodeDofs>& nodes() const { return nodes_; }  ///< by their dofs
+  std::size_t motions() const { return motions_; }               ///< columns of W
+  /// Owned dofs that follow, by increasing number, and their rows of W [kg^-1/2].
+  const std::vector<LocalIndex>& dofs() const { return dofs_; }
+  const std::array<double, width>& row(std::size_t k) const { return rows_[slots_[k]]; }
+
+  /// Forces to changes of velocity: x = W W^T x, and x = M^-1 x where nothing follows.
+  void solve(double* x) const;
+  /// x = M^1/2 W W^T x, and x = W W^T M^1/2 x, with M^-1/2 where nothing follows.
+  void solve_half(double* x) const;
+  void solve_transposed_half(double* x) const;
+
+ private:
+  using Motion = std::array<double, width>;
+
+  void find_motions(const Mesh& mesh, const RigidPart& part);
+  Motion coordinates(const double* x, bool weighted) const;
+  void move(const Motion& q, bool weighted, double* x) const;
+
+  std::size_t motions_ = 0;
+  std::vector<NodeDofs> nodes_;
+  std::vector<LocalIndex> dofs_;
+  std::vector<std::size_t> slots_;  ///< of dofs_ in a field
+  std::vector<Motion> rows_;        ///< of W, per place of a field; 0 where nothing follows
+  std::vector<double> root_mass_;   ///< M^1/2 per place of a field; 0 where there is no dof
+  std::vector<double> alone_;       ///< 1 where a dof does not follow
+};
+
+/// Rigid bodies of a structure that come of one group, for the report.
+struct RigidBodyReport {
+  std::string group;
+  RigidKind kind = RigidKind::body;
+  GlobalIndex bodies = 0;
+  GlobalIndex nodes = 0;
+  GlobalIndex dofs = 0;     ///< that follow
+  GlobalIndex motions = 0;  ///< of the bodies: 3 or 6 of each, fewer where its nodes see fewer
+  double mass = 0;          ///< of the nodes, along x [kg]
+};
+
+}  // namespace pounding

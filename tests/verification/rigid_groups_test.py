@@ -1,0 +1,340 @@
+"""Rigid groups and diaphragms beside dense algebra on the matrices of the same model without them.
+
+T has a column for every dof that follows nothing and for every motion of a group about its centre.
+Frequencies are those of T^T K T and T^T M T; so are the largest one, the stable step, static
+displacements, and the steps themselves: central differences of the projected model.
+"""
+import csv
+import os
+import shutil
+import tempfile
+import unittest
+
+import numpy
+import scipy.io
+import scipy.linalg
+
+import program
+from recorded import Recorded, write_sine
+
+GRAVITY = 9.81
+MATERIALS = ["-material_steel_young", 200e9, "-material_steel_poisson", 0.3, "-material_steel_density", 7800,
+             "-section_tube_area", 1e-2, "-section_tube_inertia_y", 1e-5, "-section_tube_inertia_z", 1e-5,
+             "-section_tube_torsion", 1e-5, "-section_tube_z_axis", "1,0,0"]
+TABLE = ["-structures", "t", "-t_mesh", "tests/meshes/table.geo", "-t_column_element", "beam", "-t_column_material",
+         "steel", "-t_column_section", "tube", "-t_slab_element", "shell", "-t_slab_material", "steel",
+         "-t_slab_thickness", 0.05, *MATERIALS]
+SOLID = [{"shell": "hex8"}.get(word, word) for word in TABLE if word not in ("-t_slab_thickness", 0.05)]
+HELD = ["-t_clamp", "base"]
+# Four feet on springs each, as one rigid mat.
+SPRUNG = ["-t_base_element", "grounded_spring", "-t_base_stiffness", "2e6,3e6,5e6,1e5,2e5,3e5"]
+
+
+class Dense:
+    """K and M of a scene without rigid groups, and T of those that it is to have."""
+
+    def __init__(self, case, arguments, groups):
+        folder = tempfile.mkdtemp()
+        try:
+            result = program.run([*arguments, "-end_time", 1e-4, "-dry_run", "-export_matrices", folder], 1)
+            case.assertEqual(result.returncode, 0, result.stderr)
+            place = os.path.join(folder, "t")
+            self.stiffness = scipy.io.mmread(os.path.join(place, "stiffness.mtx")).toarray()
+            self.mass = scipy.io.mmread(os.path.join(place, "mass.mtx")).toarray().ravel()
+            with open(os.path.join(place, "dofs.csv")) as file:
+                rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        finally:
+            shutil.rmtree(folder)
+        self.place = numpy.array([[float(row[key]) for key in rows[0] if key in ("x", "y", "z")] for row in rows])
+        self.component = [row["component"].removeprefix("u") for row in rows]
+        self.admit(groups)
+
+    def admit(self, groups):
+        """`groups`: pairs of a predicate of places and the components that follow."""
+        columns = []
+        follows = numpy.zeros(len(self.component), bool)
+        for is_in, components in groups:
+            inside = numpy.array([is_in(x) and c in components for x, c in zip(self.place, self.component)])
+            centre = self.place[inside].mean(axis=0)
+            follows |= inside
+            for motion in components:
+                column = numpy.zeros(len(inside))
+                for i in numpy.flatnonzero(inside):
+                    column[i] = self.displacement(motion, self.component[i], self.place[i] - centre)
+                columns.append(column)
+        alone = numpy.eye(len(follows))[:, ~follows]
+        self.motions = numpy.column_stack([alone, *columns]) if columns else alone
+        self.reduced_stiffness = self.motions.T @ self.stiffness @ self.motions
+        self.reduced_mass = self.motions.T @ (self.mass[:, None] * self.motions)
+
+    @staticmethod
+    def displacement(motion, component, x):
+        if motion == component:
+            return 1.0
+        if not motion.startswith("r") or component.startswith("r"):
+            return 0.0
+        axis = numpy.zeros(3)
+        axis["xyz".index(motion[1])] = 1
+        return numpy.cross(axis, x)["xyz".index(component)]
+
+    def squared_frequencies(self):
+        return scipy.linalg.eigh(self.reduced_stiffness, self.reduced_mass, eigvals_only=True)
+
+    def average(self, is_in, component):
+        """Row of the mean displacement of some nodes."""
+        row = numpy.array([float(is_in(x) and c == component) for x, c in zip(self.place, self.component)])
+        return row / row.sum() @ self.motions
+
+
+ALL = ("x", "y", "z", "rx", "ry", "rz")
+PLANE = ("x", "y", "rz")
+IN_SLAB = (lambda x: x[2] > 3 - 1e-6)
+IN_BASE = (lambda x: x[2] < 1e-6)
+CASES = {
+    "rigid slab": ([*TABLE, *HELD], [(IN_SLAB, ALL)], ["-t_rigid", "slab"]),
+    "diaphragm": ([*TABLE, *HELD], [(IN_SLAB, PLANE)], ["-t_diaphragm", "slab"]),
+    "rigid mat on springs below a diaphragm": ([*TABLE, *SPRUNG], [(IN_BASE, ALL), (IN_SLAB, PLANE)],
+                                               ["-t_rigid", "base", "-t_diaphragm", "slab"]),
+    "rigid slab of solids": ([*SOLID, "-t_mesh_set", "slab=0", *HELD], [(IN_SLAB, ALL)], ["-t_rigid", "slab"]),
+}
+
+
+class RigidGroups(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.known = {}
+
+    def dense(self, name):
+        if name not in self.known:
+            arguments, groups, _ = CASES[name]
+            self.known[name] = Dense(self, arguments, groups)
+        return self.known[name]
+
+    def test_frequencies_and_the_stable_step(self):
+        for name, (arguments, _, options) in CASES.items():
+            squares = self.dense(name).squared_frequencies()
+            for ranks in (1, 3):
+                with self.subTest(case=name, ranks=ranks):
+                    run = Recorded(self, [*arguments, *options, "-end_time", 1e-4, "-modes", 8], ranks)
+                    structure = run.summary["structures"]["t"]
+                    found = numpy.array([mode["frequency"] for mode in structure["frequencies"]])
+                    self.assertLess(abs(found * 2 * numpy.pi / numpy.sqrt(squares[:8]) - 1).max(), 1e-7)
+                    self.assertAlmostEqual(structure["omega_max"] / numpy.sqrt(squares[-1]), 1, delta=1e-7)
+                    share = sum(mode["effective_modal_mass"][0] for mode in structure["frequencies"])
+                    self.assertLessEqual(share, structure["mass"])
+                    self.assertEqual([body["motions"] for body in structure["rigid_groups"]],
+                                     [3 if body["kind"] == "diaphragm" else 6 for body in structure["rigid_groups"]])
+
+    def test_no_frequency_rises_and_the_step_grows(self):
+        """What a body holds altogether limits nothing: 54 dofs of a stiff slab let the step grow 22 times."""
+        arguments, _, options = CASES["rigid slab"]
+        steps = []
+        for more in ([], options):
+            run = Recorded(self, [*arguments, *more, "-end_time", 1e-4])
+            steps.append(run.summary["structures"]["t"]["stable_time_step"])
+        self.assertGreater(steps[1], 20 * steps[0])
+
+    def test_steps_are_those_of_the_projected_model(self):
+        record = write_sine(3.0, 5.0, 0.2)
+        try:
+            for name, (arguments, _, options) in CASES.items():
+                dense = self.dense(name)
+                step = 0.9 * 2 / numpy.sqrt(dense.squared_frequencies()[-1])
+                step = float(f"{min(step, 1e-3):.2g}")
+                count = 200
+                inverse = numpy.linalg.inv(dense.reduced_mass)
+                iota = numpy.array([float(c == "x") for c in dense.component])
+                load = dense.motions.T @ (dense.mass * iota)
+                row = dense.average(IN_SLAB, "x")
+                u = numpy.zeros(len(inverse))
+                v = u.copy()
+                expected = []
+                for n in range(count):
+                    expected.append(row @ u)
+                    ground = 3.0 * numpy.sin(2 * numpy.pi * 5.0 * n * step)
+                    v = v + (step if n else step / 2) * inverse @ (-dense.reduced_stiffness @ u - load * ground)
+                    u = u + step * v
+                for ranks in (1, 2):
+                    with self.subTest(case=name, ranks=ranks):
+                        run = Recorded(self, [*arguments, *options, "-time_step", step, "-end_time", count * step,
+                                              "-output_interval", step, "-probes", "p", "-p_structure", "t", "-p_group",
+                                              "slab", "-motion_x_record", record, "-motion_x_unit", "m/s2"], ranks)
+                        found = run.displacement("p.x")[:count]
+                        size = abs(numpy.array(expected)).max()
+                        self.assertGreater(size, 0)
+                        # The record is linear between its samples, 1e-4 s apart.
+                        self.assertLess(abs(found - expected).max() / size, 2e-6)
+        finally:
+            os.remove(record)
+
+    def test_rest_under_gravity(self):
+        for name, (arguments, _, options) in CASES.items():
+            dense = self.dense(name)
+            down = numpy.array([-GRAVITY * float(c == "z") for c in dense.component])
+            u = numpy.linalg.solve(dense.reduced_stiffness, dense.motions.T @ (dense.mass * down))
+            expected = dense.average(IN_SLAB, "z") @ u
+            for more in ([], ["-preload_solver", "iterative"]) if "mat" in name else ([],):
+                with self.subTest(case=name, more=more):
+                    run = Recorded(self, [*arguments, *options, "-gravity", GRAVITY, "-preload", "static", "-end_time",
+                                          0.02, "-output_interval", 1e-3, "-probes", "p", "-p_structure", "t",
+                                          "-p_group", "slab", *more], 2)
+                    found = run.displacement("p.z")
+                    self.assertLess(abs(found / expected - 1).max(), 1e-7)
+                    rest = run.summary["equilibrium"]["structures"]["t"]
+                    self.assertLess(rest["imbalance"], 1e-9)
+
+    def test_reduced_structures(self):
+        """As many coordinates as there are independent dofs are the whole model."""
+        for name, (arguments, _, options) in CASES.items():
+            squares = self.dense(name).squared_frequencies()
+            for count in (5, len(squares)) if "mat" in name else (5,):
+                with self.subTest(case=name, count=count):
+                    run = Recorded(self, [*arguments, *options, "-t_model", "modal", "-t_modal_vectors", count,
+                                          "-end_time", 1e-4, "-modes", count], 2)
+                    found = [mode["frequency"] for mode in run.summary["structures"]["t"]["frequencies"]]
+                    wanted = numpy.sqrt(squares[:len(found)]) / (2 * numpy.pi)
+                    self.assertGreaterEqual(len(found), min(count, 5))
+                    self.assertLess(abs(found[:count] / wanted[:count] - 1).max(), 1e-6)
+
+
+class StruckPlate(unittest.TestCase):
+    """A plate of one rigid group hits a wall with one edge, then with its face: J = m v / (1 + m e^2 / I)."""
+    SPEED, LENGTH, WIDTH, CELLS = 0.5, 1.0, 2.0, (2, 4)
+    MASS = 2400.0 * 1.0 * 2.0 * 0.5
+    # Of the lumped masses.
+    INERTIA = MASS * (LENGTH**2 * (1 + 2 / CELLS[0]**2) + WIDTH**2 * (1 + 2 / CELLS[1]**2)) / 12
+
+    def scene(self, gap, *more):
+        return ["-structures", "b", "-b_mesh", "tests/meshes/box.geo", "-b_mesh_set", "lx=1,ly=2,lz=0.5,nx=2,ny=4",
+                "-b_body_element", "hex8", "-b_body_material", "c", "-material_c_young", 30e9, "-material_c_poisson",
+                0.2, "-material_c_density", 2400, "-b_rigid", "body", "-b_initial_velocity", f"{self.SPEED},0,0",
+                "-contacts", "w", "-w_secondary", "b:x_max", "-w_primary", "wall", "-w_gap", gap, "-end_time", 0.02,
+                "-time_step", 1e-5, *more]
+
+    def test_impulses(self):
+        first = self.MASS * self.SPEED / (1 + self.MASS / self.INERTIA)
+        for ranks in (1, 2, 3):
+            run = Recorded(self, self.scene("0.001,0.002"), ranks)
+            impulses = run.column("impulse")
+            self.assertAlmostEqual(impulses[0] / first, 1, delta=1e-9)
+            # Plastic impacts without friction stop it in the end.
+            self.assertAlmostEqual(sum(impulses) / (self.MASS * self.SPEED), 1, delta=1e-9)
+            self.assertLess(run.summary["impacts"]["complementarity_residual"], 1e-9)
+            self.assertLess(run.energy["kinetic"], 1e-20)
+            # It never deforms: 30 GPa times round-off.
+            self.assertLess(abs(run.energy["strain"]), 1e-9)
+
+    def test_a_whole_face_at_once(self):
+        """Ten rows close on six motions: their impulses are not unique, their sum is."""
+        run = Recorded(self, self.scene("0.001"), 2)
+        self.assertAlmostEqual(run.summary["impacts"]["total_impulse"] / (self.MASS * self.SPEED), 1, delta=1e-12)
+        self.assertLess(run.summary["impacts"]["complementarity_residual"], 1e-9)
+
+
+class PlantedBeam(unittest.TestCase):
+    """A steel beam whose foot and the face of a concrete cube are one rigid group: a clamped cantilever."""
+    LENGTH, INERTIA, AREA = 2.0, 1e-5, 1e-2
+
+    def test_frequency_of_a_cantilever(self):
+        clamped = 1.8751040687**2 / (2 * numpy.pi * self.LENGTH**2) * numpy.sqrt(
+            200e9 * self.INERTIA / (7800 * self.AREA))
+        for ranks in (1, 2):
+            run = Recorded(self, ["-structures", "b", "-b_mesh", "tests/meshes/planted_beam.geo", "-b_clamp", "back",
+                                  "-b_body_element", "hex8", "-b_body_material", "c", "-material_c_young", 30e9,
+                                  "-material_c_poisson", 0.2, "-material_c_density", 2400, "-b_beam_element", "beam",
+                                  "-b_beam_material", "steel", "-b_beam_section", "tube", "-b_rigid", "joint",
+                                  *MATERIALS[:-2], "-section_tube_z_axis", "0,0,1", "-end_time", 1e-4, "-modes", 2],
+                           ranks)
+            structure = run.summary["structures"]["b"]
+            for mode in structure["frequencies"]:  # it bends in two planes
+                self.assertLess(abs(mode["frequency"] / clamped - 1), 0.01)
+            self.assertEqual(structure["connectivity"]["pieces"], 1)
+
+
+class JoinedAndPinned(unittest.TestCase):
+    """A strip of slab on a beam below it bends as one section; a beam with a hinge as two cantilevers."""
+    LENGTH, WIDTH, THICKNESS, OFFSET, YOUNG, DENSITY = 4.0, 0.4, 0.1, 0.3, 30e9, 2400.0
+    BEAM = ["-c_beam_element", "beam", "-c_beam_material", "c", "-c_beam_section", "rib", "-material_c_young", YOUNG,
+            "-material_c_poisson", 0, "-material_c_density", DENSITY, "-section_rib_area", 0.04,
+            "-section_rib_inertia_y", 1.2e-4, "-section_rib_inertia_z", 1.5e-4, "-section_rib_torsion", 1e-4,
+            "-section_rib_z_axis", "0,0,1", "-c_clamp", "end"]
+    SCENE = ["-structures", "c", "-c_mesh", "tests/meshes/composite.geo", *BEAM]
+    REST = ["-gravity", GRAVITY, "-preload", "static", "-end_time", 1e-3, "-probes", "p", "-p_structure", "c"]
+
+    def sag(self, inertia, weight, length):
+        return weight * length**4 / (8 * self.YOUNG * inertia)
+
+    def test_composite_section(self):
+        slab = self.WIDTH * self.THICKNESS
+        together = (self.WIDTH * self.THICKNESS**3 / 12 + 1.2e-4 +
+                    self.OFFSET**2 * slab * 0.04 / (slab + 0.04))
+        expected = self.sag(together, self.DENSITY * GRAVITY * (slab + 0.04), self.LENGTH)
+        scene = [*self.SCENE, "-c_slab_element", "shell", "-c_slab_material", "c", "-c_slab_thickness", self.THICKNESS,
+                 "-c_join", "beam:spine", *self.REST, "-p_group", "tip"]
+        errors = []
+        for ranks, cells in ((1, 40), (2, 80), (3, 80)):
+            run = Recorded(self, [*scene, "-c_mesh_set", f"n={cells}"], ranks, identity=1e-11)
+            errors.append(abs(-run.displacement("p.z")[0] / expected - 1))
+            group = run.summary["structures"]["c"]["rigid_groups"][0]
+            # One pair of each cross-section; the clamped one needs none.
+            self.assertEqual((group["kind"], group["bodies"], group["nodes"], group["motions"]),
+                             ("join", cells, 2 * cells, 6 * cells))
+        # Beams stretch in straight lines where they bend in cubic ones, and the slab lags at its edges.
+        self.assertLess(errors[1], 4e-3)
+        self.assertLess(errors[1], errors[0])
+
+    def test_hinge(self):
+        expected = self.sag(1.2e-4, self.DENSITY * GRAVITY * 0.04, self.LENGTH / 2)
+        scene = [*self.SCENE, "-c_mesh_set", "hinge=1", *self.REST, "-p_group", "middle"]
+        for ranks in (1, 2, 3):
+            run = Recorded(self, [*scene, "-c_pin", "middle"], ranks, identity=1e-11)
+            self.assertLess(abs(-run.displacement("p.z")[0] / expected - 1), 3e-3)
+            group = run.summary["structures"]["c"]["rigid_groups"][0]
+            self.assertEqual((group["bodies"], group["dofs"], group["motions"]), (1, 6, 3))
+        # Without the hinge, a beam clamped at both ends: w l^4 / (24 E I) of its half.
+        run = Recorded(self, [*scene, "-c_rigid", "middle"], 2, identity=1e-11)
+        self.assertLess(abs(-run.displacement("p.z")[0] / (expected / 3) - 1), 1e-2)
+
+
+class Diaphragm(unittest.TestCase):
+    def test_is_what_a_stiff_floor_tends_to(self):
+        """Shells stiffened a thousand times in their plane, by their modulus, and thinned so that they bend alike."""
+        arguments, _, options = CASES["diaphragm"]
+        found = []
+        for more in (options, []):
+            scene = list(arguments) + ["-modes", 3, "-end_time", 1e-4, *more]
+            if not more:
+                # E t^3 as before, E t a hundred times; the mass stays by the density.
+                for name, value in (("-t_slab_material", "stiff"), ("-t_slab_thickness", 0.005)):
+                    scene[scene.index(name) + 1] = value
+                scene += ["-material_stiff_young", 200e12, "-material_stiff_poisson", 0.3,
+                          "-material_stiff_density", 78000]
+            run = Recorded(self, scene)
+            structure = run.summary["structures"]["t"]
+            found.append(numpy.array([mode["frequency"] for mode in structure["frequencies"]] +
+                                     [structure["stable_time_step"]]))
+        self.assertLess(abs(found[0][:3] / found[1][:3] - 1).max(), 1e-3)
+        self.assertGreater(found[0][3], 5 * found[1][3])
+
+
+class AllTermsTogether(unittest.TestCase):
+    """A rigid mat on springs with dashpots below a diaphragm, under gravity and in motion: the ledger closes."""
+    SCENE = [*TABLE, *SPRUNG, "-t_base_dashpot", "2e4,2e4,5e4,1e3,1e3,1e3", "-t_rigid", "base", "-t_diaphragm", "slab",
+             "-gravity", GRAVITY, "-preload", "static", "-t_initial_velocity", "0.3,0.1,0", "-end_time", 0.1,
+             "-probes", "p", "-p_structure", "t", "-p_group", "slab"]
+
+    def test_ledger_with_rayleigh_and_uniform_damping(self):
+        for more in (["-t_damping_alpha", 0.3, "-t_damping_beta", 1e-5], ["-t_damping_uniform", 0.04],
+                     ["-t_column_damping_beta", 2e-5]):
+            values = []
+            for ranks in (1, 2, 3):
+                with self.subTest(more=more, ranks=ranks):
+                    run = Recorded(self, [*self.SCENE, *more], ranks, identity=1e-11)
+                    values.append(run.displacement("p.x"))
+                    self.assertGreater(abs(values[-1]).max(), 1e-3)
+                    self.assertLess(abs(values[-1] - values[0]).max(), 1e-10)
+                    self.assertGreater(run.energy["devices"], 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
