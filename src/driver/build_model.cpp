@@ -39,6 +39,7 @@ void check_mesh(const Scene& scene, std::size_t s, const GlobalMesh& mesh, Model
   const Structure& structure = scene.structures[s];
   MeshFindings findings{examine_connectivity(structure, mesh),
                         check_unused(scene, structure, mesh)};
+  check_export(scene, structure, mesh);
   if (structure.matrices.empty()) check_connectivity(scene, structure, findings.connectivity);
   append(mesh_warnings(structure, mesh, findings.connectivity), model.warnings);
   model.buildings[s].findings = std::move(findings);

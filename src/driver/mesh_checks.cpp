@@ -97,6 +97,14 @@ bool may_fly(const Scene& scene, const Structure& structure) {
 
 }  // namespace
 
+void check_export(const Scene& scene, const Structure& structure, const GlobalMesh& mesh) {
+  if (!mesh.rigid.empty() && !scene.export_matrices.empty()) {
+    throw UserError("option -export_matrices " + scene.export_matrices + ": structure " +
+                    structure.name + " has rigid group " + mesh.rigid.front().group +
+                    ", of which no matrix tells");
+  }
+}
+
 std::vector<UnusedElements> check_unused(const Scene& scene, const Structure& structure,
                                          const GlobalMesh& mesh) {
   for (const std::string& name : structure.ignored_groups) {
@@ -154,14 +162,6 @@ std::vector<std::string> mesh_warnings(const Structure& structure, const GlobalM
         "structure " + structure.name + ": " +
         found_at(connectivity.coincident_inside,
                  " pairs of nodes lie on each other and are not one, the first at "));
-  }
-  if (structure.soil) {
-    const std::size_t nodes = mesh.groups.at(structure.soil->mat).nodes.size();
-    if (nodes > 1) {
-      warnings.push_back("structure " + structure.name + ": one of the " + std::to_string(nodes) +
-                         " nodes of group " + structure.soil->mat +
-                         " carries its soil; a mat that is not stiff around it gives way there");
-    }
   }
   const double longest = bounding_box({&mesh, 1}).longest_side();
   if (longest > longest_structure) {

@@ -11,6 +11,9 @@
 /// thresholds are in docs/input-checks.md.
 namespace pounding {
 
+/// Throws UserError where matrices are to be written of a structure that no matrix tells wholly.
+void check_export(const Scene& scene, const Structure& structure, const GlobalMesh& mesh);
+
 /// The groups of places that no option of the scene names. Throws UserError where elements are left
 /// out: those of a group that no option names, or of no group, unless `<structure>_ignore` does.
 std::vector<UnusedElements> check_unused(const Scene& scene, const Structure& structure,

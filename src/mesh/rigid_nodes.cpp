@@ -100,6 +100,13 @@ bool is_held(const GlobalMesh& mesh, const Cluster& cluster) {
                              [&](GlobalIndex node) { return mesh.free_components[node] == 0; });
 }
 
+/// Whether one of the bodies found holds all of a cluster.
+bool is_in_body(const std::vector<RigidNodes>& found, const Cluster& cluster) {
+  return std::ranges::any_of(found, [&](const RigidNodes& body) {
+    return body.kind == RigidKind::body && std::ranges::includes(body.nodes, cluster);
+  });
+}
+
 std::vector<Cluster> clusters_of(const RigidGroup& rigid, const GlobalMesh& mesh) {
   const Cluster& nodes = mesh.groups.at(rigid.group).nodes;
   switch (rigid.kind) {
@@ -124,6 +131,7 @@ std::vector<RigidNodes> find_rigid_nodes(const Structure& structure, const Globa
     }
     for (const Cluster& cluster : clusters) {
       if (is_held(mesh, cluster)) continue;  // clamped altogether: nothing follows anything
+      if (rigid.implied && (cluster.size() == 1 || is_in_body(found, cluster))) continue;
       found.push_back({rigid.name(), rigid.kind, rigid.components(), cluster});
       for (const GlobalIndex node : cluster) {
         const std::size_t n = node;

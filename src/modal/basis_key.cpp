@@ -55,6 +55,7 @@ std::string hash_of(const std::vector<Region>& regions) {
     hash.add_all(p.z_axis);
     hash.add_all(p.rotary_inertia);
     hash.add_all(region.stiffness);
+    if (region.foundation) hash.add_all(region.foundation->arm);
   }
   return hash.text();
 }

@@ -30,4 +30,13 @@ std::vector<RigidGroup> read_rigid_groups(OptionReader& options, const std::stri
   return groups;
 }
 
+void make_mat_rigid(Structure& structure) {
+  if (!structure.soil) return;
+  const std::string& mat = structure.soil->mat;
+  const bool is_rigid = std::ranges::any_of(structure.rigid_groups, [&](const RigidGroup& rigid) {
+    return rigid.kind == RigidKind::body && rigid.group == mat;
+  });
+  if (!is_rigid) structure.rigid_groups.push_back({RigidKind::body, mat, "", true});
+}
+
 }  // namespace pounding

@@ -105,7 +105,8 @@ enum class RigidKind : std::uint8_t {
 struct RigidGroup {
   RigidKind kind = RigidKind::body;
   std::string group;
-  std::string other;  ///< of a join: where the nearest node is looked for
+  std::string other;     ///< of a join: where the nearest node is looked for
+  bool implied = false;  ///< a mat on soil: nobody asked, and it may be part of a larger body
 
   std::string name() const { return other.empty() ? group : group + ":" + other; }
   /// Components that follow, one bit each.

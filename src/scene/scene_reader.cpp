@@ -138,11 +138,6 @@ class SceneReader {
       options_.refuse("export_matrices", {},
                       "structure " + structure.name + " has scaled mass, which is not diagonal");
     }
-    if (!structure.rigid_groups.empty() && !scene_.export_matrices.empty()) {
-      options_.refuse(
-          "export_matrices", {},
-          "structure " + structure.name + " has rigid groups, of which no matrix tells");
-    }
   }
 
   /// tower_slab_element belongs to the group slab of tower: no structure may be tower_slab.

@@ -226,6 +226,40 @@ class Rest(unittest.TestCase):
         self.assertAlmostEqual(soil["largest_frequency"], VELOCITY / (math.pi * RADIUS), delta=1e-12)
 
 
+class MatOfShells(unittest.TestCase):
+    """A mat of shells alone on soil: its nodes move as one."""
+    SIDE, THICKNESS, HEAVY = 2.0, 0.05, 7800.0
+
+    def words(self, *more):
+        return ["-structures", "t", "-t_mesh", "tests/meshes/table.geo", "-t_ignore", "column", "-t_slab_element", "shell",
+                "-t_slab_material", "steel", "-t_slab_thickness", self.THICKNESS, "-material_steel_young", 200e9,
+                "-material_steel_poisson", 0.3, "-material_steel_density", self.HEAVY, "-t_soil_mat", "slab",
+                "-t_soil_vs", VELOCITY, "-t_soil_density", DENSITY, "-t_soil_poisson", repr(THIRD), "-end_time", 0.01,
+                "-modes", 6, *more]
+
+    def test_frequencies_are_those_of_a_rigid_mat(self):
+        unit = DENSITY * VELOCITY**2 * self.SIDE / 2
+        mass = self.SIDE**2 * self.THICKNESS * self.HEAVY
+        turn = mass / 2 * (self.SIDE / 2)**2  # lumped at 3 x 3 nodes: half of it stands at the edges
+        for ranks in (1, 2, 3):
+            run = Recorded(self, self.words("-gravity", 9.81, "-preload", "static", "-probes", "p", "-p_structure", "t",
+                                            "-p_group", "slab"), ranks, identity=1e-11)
+            structure = run.summary["structures"]["t"]
+            found = {mode["direction"]: mode["frequency"] for mode in structure["frequencies"]}
+            for direction, stiffness, inertia in (("x", 5.52, mass), ("z", 7.05, mass), ("rx", 6.0, turn),
+                                                  ("rz", 8.31, 2 * turn)):
+                expected = math.sqrt(stiffness * unit / inertia) / (2 * math.pi)
+                self.assertAlmostEqual(found[direction] / expected, 1, delta=2e-3, msg=direction)
+            self.assertAlmostEqual(run.displacement("p.z")[0] * 7.05 * unit / (-mass * 9.81), 1, delta=2e-3)
+            self.assertEqual(structure["rigid_groups"][0]["motions"], 6)
+            # The shells, which would hold the step at 1e-5 s, never strain.
+            self.assertGreater(structure["stable_time_step"], 1e-3)
+
+    def test_a_mat_may_be_part_of_a_larger_body(self):
+        _, summary = program.must_run(self, self.words("-t_rigid", "slab", "-output_interval", 1e-3), 2)
+        self.assertEqual(len(summary["structures"]["t"]["rigid_groups"]), 1)
+
+
 class Stick(unittest.TestCase):
     """Four floors of 2,200 kip every 16 ft on a square mat of 64 ft, 5 ft thick: of the published stick 4.97 Hz on
     fixed ground and, on a rigid mat on soil, 3.83 Hz with 12.7 times the ground's acceleration at the roof. The
