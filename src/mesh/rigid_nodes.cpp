@@ -17,6 +17,9 @@ namespace {
 /// Nodes nearer than this part of the mesh's diagonal lie on each other.
 constexpr double coincident = 1e-6;
 
+/// Least height between two floors [m].
+constexpr double storey = 1;
+
 using Cluster = std::vector<GlobalIndex>;
 
 std::string option_text(const Structure& structure, const RigidGroup& rigid) {
@@ -95,6 +98,27 @@ std::vector<Cluster> joined(const GlobalMesh& mesh, const Cluster& nodes, const 
   return clusters_of(sets, all);
 }
 
+/// Floors of a group: parted where no node is for `storey` in height.
+std::vector<Cluster> levels(const Structure& structure, const RigidGroup& rigid,
+                            const GlobalMesh& mesh, Cluster nodes) {
+  const auto height = [&](GlobalIndex node) { return mesh.position(node)[2]; };
+  std::ranges::stable_sort(nodes, {}, height);
+  std::vector<Cluster> floors;
+  for (const GlobalIndex node : nodes) {
+    if (floors.empty() || height(node) - height(floors.back().back()) > storey) {
+      floors.emplace_back();
+    }
+    floors.back().push_back(node);
+    if (height(node) - height(floors.back().front()) > storey) {
+      refuse(structure, rigid,
+             "lies more than 1 m above the lowest of its floor: that is not level",
+             mesh.position(node));
+    }
+  }
+  for (Cluster& floor : floors) std::ranges::sort(floor);
+  return floors;
+}
+
 bool is_held(const GlobalMesh& mesh, const Cluster& cluster) {
   return std::ranges::all_of(cluster,
                              [&](GlobalIndex node) { return mesh.free_components[node] == 0; });
@@ -107,11 +131,14 @@ bool is_in_body(const std::vector<RigidNodes>& found, const Cluster& cluster) {
   });
 }
 
-std::vector<Cluster> clusters_of(const RigidGroup& rigid, const GlobalMesh& mesh) {
+std::vector<Cluster> clusters_of(const Structure& structure, const RigidGroup& rigid,
+                                 const GlobalMesh& mesh) {
   const Cluster& nodes = mesh.groups.at(rigid.group).nodes;
   switch (rigid.kind) {
     case RigidKind::join:
       return joined(mesh, nodes, mesh.groups.at(rigid.other).nodes);
+    case RigidKind::diaphragm:
+      return levels(structure, rigid, mesh, nodes);
     case RigidKind::pin:
       return pinned(mesh, nodes);
     default:
@@ -125,7 +152,7 @@ std::vector<RigidNodes> find_rigid_nodes(const Structure& structure, const Globa
   std::vector<RigidNodes> found;
   std::map<GlobalIndex, std::string> group_of;
   for (const RigidGroup& rigid : structure.rigid_groups) {
-    const std::vector<Cluster> clusters = clusters_of(rigid, mesh);
+    const std::vector<Cluster> clusters = clusters_of(structure, rigid, mesh);
     if (clusters.empty()) {
       throw UserError(option_text(structure, rigid) + ": no two nodes of it lie on each other");
     }

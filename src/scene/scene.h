@@ -96,7 +96,7 @@ struct StepTarget {
 /// How nodes move together.
 enum class RigidKind : std::uint8_t {
   body,       ///< a physical group, as one rigid body
-  diaphragm,  ///< a level floor, rigid in its plane
+  diaphragm,  ///< level floors, each rigid in its plane
   join,       ///< each node of a group and the nearest one of another, as a rigid body
   pin         ///< nodes of a group that lie on each other, in their displacements
 };

@@ -4,7 +4,8 @@
 //          2: it ends inside a cell of the slab, 3: it is in no physical group, 4: it is in the
 //          group "fourth", 5: a second slab floats beside the first, 6: two braces in group "brace"
 // Groups: slab, column, base (points); fourth, brace where the fault says so.
-DefineConstant[ slab = 1, fault = 0, unit = 1 ];
+//   both   1: slab and feet are in the group "floors" as well
+DefineConstant[ slab = 1, fault = 0, unit = 1, both = 0 ];
 x[] = {0, 2, 2, 0};
 y[] = {0, 0, 2, 2};
 plates[] = {};
@@ -69,3 +70,7 @@ Else
 EndIf
 Physical Curve("column") = {columns[]};
 Physical Point("base") = {feet[]};
+If (both == 1)
+  Physical Surface("floors") = {plates[]};
+  Physical Point("floors") = {feet[]};
+EndIf

@@ -317,6 +317,19 @@ class Diaphragm(unittest.TestCase):
         self.assertGreater(found[0][3], 5 * found[1][3])
 
 
+    def test_every_floor_is_one_of_its_own(self):
+        """Feet and slab in one group: two levels 3 m apart, of four and of nine nodes."""
+        scene = [*TABLE, *SPRUNG, "-end_time", 1e-4, "-modes", 6]
+        found = []
+        for options in (["-t_diaphragm", "base,slab"], ["-t_mesh_set", "both=1", "-t_diaphragm", "floors"]):
+            run = Recorded(self, scene + options, 2)
+            structure = run.summary["structures"]["t"]
+            found.append([mode["frequency"] for mode in structure["frequencies"]])
+        body = structure["rigid_groups"][0]
+        self.assertEqual((body["bodies"], body["nodes"], body["motions"]), (2, 13, 6))
+        self.assertLess(abs(numpy.array(found[0]) / found[1] - 1).max(), 1e-9)
+
+
 class AllTermsTogether(unittest.TestCase):
     """A rigid mat on springs with dashpots below a diaphragm, under gravity and in motion: the ledger closes."""
     SCENE = [*TABLE, *SPRUNG, "-t_base_dashpot", "2e4,2e4,5e4,1e3,1e3,1e3", "-t_rigid", "base", "-t_diaphragm", "slab",

@@ -231,8 +231,8 @@ class MatOfShells(unittest.TestCase):
     SIDE, THICKNESS, HEAVY = 2.0, 0.05, 7800.0
 
     def words(self, *more):
-        return ["-structures", "t", "-t_mesh", "tests/meshes/table.geo", "-t_ignore", "column", "-t_slab_element", "shell",
-                "-t_slab_material", "steel", "-t_slab_thickness", self.THICKNESS, "-material_steel_young", 200e9,
+        return ["-structures", "t", "-t_mesh", "tests/meshes/table.geo", "-t_ignore", "column", "-t_slab_element",
+                "shell", "-t_slab_material", "steel", "-t_slab_thickness", self.THICKNESS, "-material_steel_young", 200e9,
                 "-material_steel_poisson", 0.3, "-material_steel_density", self.HEAVY, "-t_soil_mat", "slab",
                 "-t_soil_vs", VELOCITY, "-t_soil_density", DENSITY, "-t_soil_poisson", repr(THIRD), "-end_time", 0.01,
                 "-modes", 6, *more]
@@ -323,8 +323,8 @@ class AtAWall(unittest.TestCase):
                 "-structures", "slab", "-slab_mesh", "tests/meshes/torsional_slab.geo", "-slab_body_element", "hex8",
                 "-slab_body_material", "c", "-material_c_young", 3e10, "-material_c_poisson", 0.2,
                 "-material_c_density", 2400, "-slab_middle_element", "point_mass", "-slab_middle_mass", 1e3,
-                "-slab_middle_rotary_inertia", "1e5,1e5,1e5", "-slab_soil_mat", "body", "-slab_soil_vs", 40,
-                "-slab_soil_density", 1800, "-slab_soil_poisson", 0.45, "-slab_soil_shape", "disk",
+                "-slab_middle_rotary_inertia", "1e5,1e5,1e5", "-slab_soil_mat", "middle", "-slab_soil_size", 4,
+                "-slab_soil_vs", 40, "-slab_soil_density", 1800, "-slab_soil_poisson", 0.45, "-slab_soil_shape", "disk",
                 "-slab_initial_velocity", "0.2,0,0.1", "-contacts", "hit", "-hit_secondary", "slab:far_high",
                 "-hit_primary", "wall", "-hit_gap", 2e-3, "-end_time", 0.2, "-output_interval", 1e-3,
                 "-gap_interval", interval, "-probes", "it", "-it_structure", "slab", "-it_group", "middle"], ranks,
@@ -338,6 +338,26 @@ class AtAWall(unittest.TestCase):
         self.assertLess(rarely.summary["interface_looks"], often.summary["steps"] / 3)
         u = often.displacement("it.x")
         self.assertLess(abs(two.displacement("it.x") - u).max(), 1e-6 * abs(u).max())
+
+
+class PlantPair(unittest.TestCase):
+    def test_stands_on_soil_and_keeps_its_ledger(self):
+        """Rigid mats on a half-space, rigid floors, uniform damping, gravity and shaking in one scene."""
+        found = []
+        for ranks in (1, 2):
+            run = Recorded(self, ["-options_file", "petsc-options/plant/on_soil.yaml", "-block_mesh_set", "m=1",
+                                  "-frame_mesh_set", "m=1,x0=24.801", "-end_time", 0.05, "-output_interval", 1e-3,
+                                  "-modes", 2], ranks, identity=1e-11)
+            self.assertLess(run.energy["relative_residual"], 1e-11)
+            rest = run.summary["equilibrium"]["structures"]
+            for name, side in (("block", 24.384), ("frame", 15.24)):
+                self.assertLess(rest[name]["imbalance"], 1e-10)
+                soil = run.summary["structures"][name]["soil"]
+                self.assertAlmostEqual(min(soil["size"]) / side, 1, delta=1e-6)
+            kinds = [group["kind"] for group in run.summary["structures"]["frame"]["rigid_groups"]]
+            self.assertEqual(sorted(kinds), ["diaphragm", "diaphragm", "rigid"])
+            found.append(run.displacement("frame_roof.x"))
+        self.assertLess(abs(found[1] - found[0]).max(), 1e-9 * abs(found[0]).max())
 
 
 if __name__ == "__main__":
