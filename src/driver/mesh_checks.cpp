@@ -1,6 +1,7 @@
 #include "driver/mesh_checks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <sstream>
 
@@ -15,6 +16,9 @@ constexpr const char* ungrouped = "ungrouped";
 
 /// Longer structures are meshes in millimetres, or in feet.
 constexpr double longest_structure = 500;  // m
+
+/// Joins are beams and slabs that lie on each other.
+constexpr double longest_join = 1;  // m
 
 std::string place_text(const Vector3& place) {
   std::ostringstream text;
@@ -154,6 +158,35 @@ void check_connectivity(const Scene& scene, const Structure& structure,
   }
 }
 
+namespace {
+
+/// Doubt about joins whose nodes are far from each other: the nearest node may not be the one meant.
+void doubt_long_joins(const Structure& structure, const GlobalMesh& mesh,
+                      std::vector<std::string>& warnings) {
+  double longest = longest_join;
+  const RigidNodes* found = nullptr;
+  for (const RigidNodes& body : mesh.rigid) {
+    if (body.kind != RigidKind::join) continue;
+    const Vector3 x = mesh.position(body.nodes.front());
+    for (const GlobalIndex node : body.nodes) {
+      const Vector3 y = mesh.position(node);
+      const double apart = std::hypot(y[0] - x[0], y[1] - x[1], y[2] - x[2]);
+      if (apart > longest) {
+        longest = apart;
+        found = &body;
+      }
+    }
+  }
+  if (found == nullptr) return;
+  std::ostringstream text;
+  text << "structure " << structure.name << ": join " << found->group << " holds nodes " << longest
+       << " m apart together, one at " << place_text(mesh.position(found->nodes.front()))
+       << "; is the nearest node of the second group the one that is meant?";
+  warnings.push_back(text.str());
+}
+
+}  // namespace
+
 std::vector<std::string> mesh_warnings(const Structure& structure, const GlobalMesh& mesh,
                                        const Connectivity& connectivity) {
   std::vector<std::string> warnings;
@@ -163,6 +196,7 @@ std::vector<std::string> mesh_warnings(const Structure& structure, const GlobalM
         found_at(connectivity.coincident_inside,
                  " pairs of nodes lie on each other and are not one, the first at "));
   }
+  doubt_long_joins(structure, mesh, warnings);
   const double longest = bounding_box({&mesh, 1}).longest_side();
   if (longest > longest_structure) {
     std::ostringstream text;

@@ -282,6 +282,13 @@ class JoinedAndPinned(unittest.TestCase):
         # Beams stretch in straight lines where they bend in cubic ones, and the slab lags at its edges.
         self.assertLess(errors[1], 4e-3)
         self.assertLess(errors[1], errors[0])
+        self.assertEqual([line for line in run.summary["warnings"] if "join" in line], [])
+
+    def test_a_join_over_a_distance_is_doubted(self):
+        run = Recorded(self, [*self.SCENE, "-c_slab_element", "shell", "-c_slab_material", "c", "-c_slab_thickness",
+                              self.THICKNESS, "-c_join", "beam:spine", "-c_mesh_set", "offset=1.25,n=4", *self.REST,
+                              "-p_group", "tip"], 2, identity=1e-11)
+        self.assertTrue(any("join beam:spine holds nodes 1.25 m apart" in line for line in run.summary["warnings"]))
 
     def test_hinge(self):
         expected = self.sag(1.2e-4, self.DENSITY * GRAVITY * 0.04, self.LENGTH / 2)

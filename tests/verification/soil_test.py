@@ -213,6 +213,15 @@ class Rest(unittest.TestCase):
             self.assertAlmostEqual(u[0] / -sag, 1, delta=1e-5)
             self.assertLess(abs(u - u[0]).max(), 1e-11 * sag)
 
+    def test_stands_for_a_hundred_thousand_steps(self):
+        words = on_arm(THIRD, 0, 2, "-gravity", 9.81, "-preload", "static", "-end_time", 100, "-output_interval", 0.5,
+                       "-energy_interval", 10000)
+        run = Recorded(self, words, 2)
+        self.assertEqual(run.summary["steps"], 100000)
+        self.assertLess(abs(run.velocity("it.z")).max(), 1e-9)
+        # No node may move faster than all the energy would let it.
+        self.assertLess(math.sqrt(2 * abs(run.energy["kinetic"])), 1e-9)
+
     def test_sizes_come_from_the_group(self):
         """A rectangle of the corners' box; its impedances in the summary are those of the formulas."""
         words = [word for word in on_arm(THIRD, 8, 3, "-end_time", STEP) if word not in ("disk", "-block_soil_shape")]
