@@ -160,7 +160,7 @@ void check_connectivity(const Scene& scene, const Structure& structure,
 
 namespace {
 
-/// Doubt about joins whose nodes are far from each other: the nearest node may not be the one meant.
+/// Doubt about joins whose nodes are far apart: the nearest node may not be the one meant.
 void doubt_long_joins(const Structure& structure, const GlobalMesh& mesh,
                       std::vector<std::string>& warnings) {
   double longest = longest_join;

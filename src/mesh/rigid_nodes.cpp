@@ -44,7 +44,7 @@ std::vector<Cluster> clusters_of(DisjointSets& sets, const Cluster& nodes) {
   std::vector<Cluster> clusters;
   for (auto& [root, cluster] : found) {
     std::ranges::sort(cluster);
-    cluster.erase(std::ranges::unique(cluster).begin(), cluster.end());
+    cluster.erase(std::unique(cluster.begin(), cluster.end()), cluster.end());
     if (cluster.size() > 1) clusters.push_back(std::move(cluster));
   }
   std::ranges::sort(clusters);

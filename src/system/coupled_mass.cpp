@@ -6,45 +6,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/lanes.h"
 #include "system/elimination_order.h"
+#include "system/six_lanes.h"
 
 namespace pounding {
 namespace {
 
 constexpr std::size_t width = CoupledMass::width;
-
-/// Six values as four and two.
-struct Six {
-  Lanes low{};
-  HalfLanes high{};
-};
-
-void load_six(const double* from, Six& to) {
-  load(from, to.low);
-  load(from + lane_count, to.high);
-}
-void store_six(double* to, const Six& from) {
-  store(to, from.low);
-  store(to + lane_count, from.high);
-}
-
-/// y -= B x or y += B x, B column by column, in two chains of sums.
-template <bool subtract>
-inline __attribute__((always_inline)) void accumulate(const double* block, const double* x,
-                                                      Six (&y)[2]) {
-  for (std::size_t c = 0; c < width; ++c) {
-    Six column;
-    load_six(block + width * c, column);
-    const double value = subtract ? -x[c] : x[c];
-    add_product(column.low, Lanes{value, value, value, value}, y[c % 2].low);
-    add_product(column.high, HalfLanes{value, value}, y[c % 2].high);
-  }
-}
-
-Six sum(const Six (&y)[2]) {
-  return {y[0].low + y[1].low, y[0].high + y[1].high};
-}
 
 /// x[place] = B x[place].
 void multiply(const NodeBlock& block, double* x) {
@@ -114,12 +82,18 @@ void CoupledMass::place_nodes() {
   }
   std::size_t next = added_.nodes.size();
   for (const RigidBody& body : bodies_) {
+    first_node_.push_back(next);
     for (const NodeDofs& node : body.nodes()) places[node.begin] = {node, next++};
   }
   for (const auto& [begin, entry] : places) {
     nodes_.push_back(entry.first);
     place_.push_back(entry.second);
   }
+}
+
+int CoupledMass::body_of(std::size_t node) const {
+  const auto after = std::ranges::upper_bound(first_node_, place_[node]);
+  return static_cast<int>(after - first_node_.begin()) - 1;
 }
 
 int CoupledMass::node_of(LocalIndex dof) const {
@@ -225,20 +199,25 @@ void CoupledMass::backward(double* x) const {
 
 template <typename Function>
 void CoupledMass::for_each_body(double* x, Function&& function) const {
-  std::size_t first = width * added_.nodes.size();
-  for (const RigidBody& body : bodies_) {
-    function(body, x + first);
-    first += width * body.nodes().size();
-  }
+  for (std::size_t b = 0; b < bodies_.size(); ++b) function(bodies_[b], x + width * first_node_[b]);
 }
 
-void CoupledMass::solve(double* x) const {
+void CoupledMass::solve_added(double* x) const {
   forward(x);
   for (std::size_t k = 0; k < added_.nodes.size(); ++k) {
     multiply(inverse_diagonal_[k], x + width * k);
   }
   backward(x);
+}
+
+void CoupledMass::solve(double* x) const {
+  solve_added(x);
   for_each_body(x, [](const RigidBody& body, double* part) { body.solve(part); });
+}
+
+void CoupledMass::solve(double* x, const Parts& parts) const {
+  if (parts.added) solve_added(x);
+  for (const std::size_t b : parts.bodies) bodies_[b].solve(x + width * first_node_[b]);
 }
 
 void CoupledMass::solve_half(double* x) const {

@@ -40,8 +40,18 @@ class CoupledMass {
   const NodeBlocks& added() const { return added_; }  ///< with nodes of its own
   const std::vector<RigidBody>& bodies() const { return bodies_; }
 
+  /// Rigid body that holds a node; -1: it is one of S.
+  int body_of(std::size_t node) const;
+
   /// x = (M + S)^-1 x.
   void solve(double* x) const;
+  /// Parts that nothing couples with the others: all of S, and bodies by their numbers.
+  struct Parts {
+    bool added = false;
+    std::vector<std::size_t> bodies;
+  };
+  /// x = (M + S)^-1 x in some parts of it.
+  void solve(double* x, const Parts& parts) const;
   /// x = G^-1 x and x = G^-T x with (M + S)^-1 = G^-T G^-1.
   void solve_half(double* x) const;
   void solve_transposed_half(double* x) const;
@@ -57,15 +67,17 @@ class CoupledMass {
   void backward(double* x) const;
 
   void place_nodes();
+  void solve_added(double* x) const;
   /// Calls `function(body, its part of the field)`.
   template <typename Function>
   void for_each_body(double* x, Function&& function) const;
 
   NodeBlocks added_;
   std::vector<RigidBody> bodies_;
-  std::vector<NodeDofs> nodes_;     ///< of both
-  std::vector<std::size_t> order_;  ///< per node of S: when it is eliminated
-  std::vector<std::size_t> place_;  ///< per node: its number in a field
+  std::vector<std::size_t> first_node_;  ///< per body, in a field
+  std::vector<NodeDofs> nodes_;          ///< of both
+  std::vector<std::size_t> order_;       ///< per node of S: when it is eliminated
+  std::vector<std::size_t> place_;       ///< per node: its number in a field
   /// Blocks of L row by row, and of L^T likewise, in the order in which they are read; each block
   /// column by column.
   std::vector<std::size_t> lower_begin_;

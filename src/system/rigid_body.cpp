@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "system/six_lanes.h"
+
 namespace pounding {
 namespace {
 
@@ -50,7 +52,6 @@ RigidBody::RigidBody(const Mesh& mesh, const RigidPart& part, std::span<const do
   const std::size_t places = width * part.nodes.size();
   root_mass_.assign(places, 0.0);
   alone_.assign(places, 0.0);
-  rows_.assign(places, {});
   for (const LocalIndex node : part.nodes) {
     const std::size_t n = node;
     const std::size_t begin = width * nodes_.size();
@@ -58,7 +59,7 @@ RigidBody::RigidBody(const Mesh& mesh, const RigidPart& part, std::span<const do
     for (int i = 0; i < nodes_.back().count; ++i) {
       const std::size_t place = begin + static_cast<std::size_t>(i);
       root_mass_[place] = std::sqrt(lumped_mass[nodes_.back().begin + i]);
-      alone_[place] = 1;
+      alone_[place] = 1 / lumped_mass[nodes_.back().begin + i];
     }
     for (int c = 0; c < 6; ++c) {
       const LocalIndex dof = mesh.dof(node, c);
@@ -94,53 +95,63 @@ void RigidBody::find_motions(const Mesh& mesh, const RigidPart& part) {
   }
   columns = orthonormal(std::move(columns));
   motions_ = columns.size();
+  rows_.assign(nodes_.size(), {});
+  columns_.assign(nodes_.size(), {});
   for (std::size_t k = 0; k < slots_.size(); ++k) {
+    const std::size_t node = slots_[k] / width;
+    const std::size_t place = slots_[k] % width;
     for (std::size_t m = 0; m < motions_; ++m) {
-      rows_[slots_[k]][m] = columns[m][k] / root_mass_[slots_[k]];
+      const double value = columns[m][k] / root_mass_[slots_[k]];
+      rows_[node][width * place + m] = value;
+      columns_[node][width * m + place] = value;
     }
   }
 }
 
-RigidBody::Motion RigidBody::coordinates(const double* x, bool weighted) const {
-  Motion q{};
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const double value = weighted ? root_mass_[i] * x[i] : x[i];
-    for (std::size_t m = 0; m < width; ++m) q[m] += rows_[i][m] * value;
+RigidBody::Motion RigidBody::coordinates(const double* x) const {
+  Six sums[2];
+  for (const NodeBlock& rows : rows_) {
+    accumulate<false>(rows.data(), x, sums);
+    x += width;
   }
+  Motion q;
+  store_six(q.data(), sum(sums));
   return q;
 }
 
-void RigidBody::move(const Motion& q, bool weighted, double* x) const {
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (alone_[i] != 0) continue;
-    double value = 0;
-    for (std::size_t m = 0; m < width; ++m) value += rows_[i][m] * q[m];
-    x[i] = weighted ? root_mass_[i] * value : value;
+void RigidBody::move(const Motion& q, double* x) const {
+  const double* alone = alone_.data();
+  for (const NodeBlock& columns : columns_) {
+    Six y[2];
+    Six own;
+    Six inverse;
+    load_six(x, own);
+    load_six(alone, inverse);
+    y[0].low = inverse.low * own.low;
+    y[0].high = inverse.high * own.high;
+    accumulate<false>(columns.data(), q.data(), y);
+    store_six(x, sum(y));
+    x += width;
+    alone += width;
   }
 }
 
 void RigidBody::solve(double* x) const {
-  const Motion q = coordinates(x, false);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (alone_[i] != 0) x[i] /= root_mass_[i] * root_mass_[i];
-  }
-  move(q, false, x);
+  move(coordinates(x), x);
+}
+
+void RigidBody::scale(double* x) const {
+  for (std::size_t i = 0; i < root_mass_.size(); ++i) x[i] *= root_mass_[i];
 }
 
 void RigidBody::solve_half(double* x) const {
-  const Motion q = coordinates(x, false);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (alone_[i] != 0) x[i] /= root_mass_[i];
-  }
-  move(q, true, x);
+  solve(x);
+  scale(x);
 }
 
 void RigidBody::solve_transposed_half(double* x) const {
-  const Motion q = coordinates(x, true);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (alone_[i] != 0) x[i] /= root_mass_[i];
-  }
-  move(q, false, x);
+  scale(x);
+  solve(x);
 }
 
 }  // namespace pounding

@@ -32,7 +32,10 @@ class RigidBody {
   std::size_t motions() const { return motions_; }               ///< columns of W
   /// Owned dofs that follow, by increasing number, and their rows of W [kg^-1/2].
   const std::vector<LocalIndex>& dofs() const { return dofs_; }
-  const std::array<double, width>& row(std::size_t k) const { return rows_[slots_[k]]; }
+  std::span<const double, width> row(std::size_t k) const {
+    return std::span<const double, width>(&rows_[slots_[k] / width][slots_[k] % width * width],
+                                          width);
+  }
 
   /// Forces to changes of velocity: x = W W^T x, and x = M^-1 x where nothing follows.
   void solve(double* x) const;
@@ -44,16 +47,18 @@ class RigidBody {
   using Motion = std::array<double, width>;
 
   void find_motions(const Mesh& mesh, const RigidPart& part);
-  Motion coordinates(const double* x, bool weighted) const;
-  void move(const Motion& q, bool weighted, double* x) const;
+  Motion coordinates(const double* x) const;    ///< W^T x
+  void move(const Motion& q, double* x) const;  ///< x = W q, M^-1 x where nothing follows
+  void scale(double* x) const;                  ///< x = M^1/2 x
 
   std::size_t motions_ = 0;
   std::vector<NodeDofs> nodes_;
   std::vector<LocalIndex> dofs_;
   std::vector<std::size_t> slots_;  ///< of dofs_ in a field
-  std::vector<Motion> rows_;        ///< of W, per place of a field; 0 where nothing follows
+  std::vector<NodeBlock> rows_;     ///< of W, node by node; 0 where nothing follows
+  std::vector<NodeBlock> columns_;  ///< of W, likewise
   std::vector<double> root_mass_;   ///< M^1/2 per place of a field; 0 where there is no dof
-  std::vector<double> alone_;       ///< 1 where a dof does not follow
+  std::vector<double> alone_;       ///< M^-1 where a dof does not follow, else 0
 };
 
 /// Rigid bodies of a structure that come of one group, for the report.

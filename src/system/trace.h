@@ -65,6 +65,7 @@ class Trace {
   bool coupled_ = false;
   bool dense_ = false;
   const CoupledMass* coupled_mass_ = nullptr;  ///< null: force_ meets a diagonal mass only
+  CoupledMass::Parts coupled_parts_;           ///< that known places are in
   std::vector<int> known_;
   std::vector<LocalIndex> dofs_;
   std::vector<double> inverse_mass_;  ///< per dof of dofs_
