@@ -5,6 +5,17 @@
 #include "common/lanes.h"
 
 namespace pounding {
+namespace {
+
+/// Single values go like vectors.
+void load(const double* from, double& to) {
+  to = *from;
+}
+void store(double* to, double from) {
+  *to = from;
+}
+
+}  // namespace
 
 CoupledStep::CoupledStep(const LinearSystem& system, StructureState& state,
                          const Filters<double>& filters)
@@ -52,16 +63,28 @@ void CoupledStep::advance(const StepTerms<double>& terms, const std::array<doubl
 }
 
 void CoupledStep::filter_forces() {
+  if (filtered_.empty()) return;
+  const auto vectors = in_lanes<Lanes>(filters_);
+  const auto filter = [this]<typename Value>(const Node& node, std::size_t c,
+                                             const Filters<Value>& filters) {
+    const std::size_t i = node.begin + c;
+    Value q, before;
+    load(&force_[node.force + c], q);
+    load(&state_.stiffness_displacement[i], before);
+    const Value both = q + before;
+    Value f = filters.at_once * q;
+    for (std::size_t k = 0; k < filters.count; ++k) {
+      Value memory;
+      load(&state_.filtered[k][i], memory);
+      pass_filter(filters.filters[k], both, memory, f);
+      store(&state_.filtered[k][i], memory);
+    }
+    store(&filtered_[node.force + c], f);
+  };
   for (const Node& node : nodes_) {
-    for (std::size_t c = 0; !filtered_.empty() && c < node.count; ++c) {
-      const std::size_t i = node.begin + c;
-      const double q = force_[node.force + c];
-      const double both = q + state_.stiffness_displacement[i];
-      double f = filters_.at_once * q;
-      for (std::size_t k = 0; k < filters_.count; ++k) {
-        pass_filter(filters_.filters[k], both, state_.filtered[k][i], f);
-      }
-      filtered_[node.force + c] = f;
+    if (node.regular) filter(node, 0, vectors);
+    for (std::size_t c = node.regular ? lane_count : 0; c < node.count; ++c) {
+      filter(node, c, filters_);
     }
   }
 }
