@@ -219,9 +219,10 @@ void ContactProblem::note_residual(double residual) {
   }
   largest_rate_ = std::max(largest_rate_, rate);
   // Where all is at rest, rates are round-off of larger ones, which fits no rigid body.
-  if (residual * rate > rate_roundoff * largest_rate_) {
-    largest_residual_ = std::max(largest_residual_, residual);
-  }
+  const double left = residual * rate;
+  const bool is_roundoff = left <= rate_roundoff * largest_rate_;
+  const double noted = is_roundoff && largest_rate_ > 0 ? left / largest_rate_ : residual;
+  largest_residual_ = std::max(largest_residual_, noted);
 }
 
 void ContactProblem::correct_component(const Component& component) {
