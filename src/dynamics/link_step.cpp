@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <span>
 #include <stdexcept>
 
 #include "common/dense_solver.h"
@@ -15,6 +17,16 @@ namespace {
 
 constexpr int most_sweeps = 1000;
 constexpr double converged = 1e-15;  ///< change of a tension over the largest
+
+/// Links with a rate on one body from which on they are solved for by its motions, and how strong
+/// they may be all together, dt^2 B^T M^-1 B rate, for that to keep ten digits.
+constexpr std::size_t many = 2 * RigidBody::width;
+constexpr double strongest = 1e6;
+
+double product(const std::array<double, RigidBody::width>& a,
+               const std::array<double, RigidBody::width>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
 
 }  // namespace
 
@@ -38,8 +50,40 @@ LinkStep::LinkStep(const LinearSystem& system, const StructureState& state, Stru
     laws_.push_back(law_of(link.origin, time_step));
     memory_.emplace_back(laws_.back()->memory_size(), 0.0);
   }
+  find_bodies(system);
   find_couplings();
   find_blocks();
+}
+
+void LinkStep::find_bodies(const LinearSystem& system) {
+  on_body_.resize(links_.size());
+  if (!system.coupled_mass) return;
+  std::map<LocalIndex, std::pair<int, std::span<const double, RigidBody::width>>> rows;
+  int number = 0;
+  for (const RigidBody& body : system.coupled_mass->bodies()) {
+    for (std::size_t k = 0; k < body.dofs().size(); ++k) {
+      rows.emplace(body.dofs()[k], std::pair(number, body.row(k)));
+    }
+    ++number;
+  }
+  pull_.assign(static_cast<std::size_t>(number), {});
+  block_pull_ = pull_;
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    int body = -1;
+    bool alone = true;  // it moves one body and nothing else
+    Motion motion{};
+    for (std::size_t i = 0; i < links_[b].place.size(); ++i) {
+      if (links_[b].place[i] < 0) continue;
+      const auto found = rows.find(trace_.dofs()[static_cast<std::size_t>(links_[b].place[i])]);
+      alone = alone && found != rows.end() && (body < 0 || body == found->second.first);
+      if (!alone) break;
+      body = found->second.first;
+      for (std::size_t m = 0; m < motion.size(); ++m) {
+        motion[m] += links_[b].weight[i] * found->second.second[m];
+      }
+    }
+    if (alone && body >= 0) on_body_[b] = {body, motion};
+  }
 }
 
 void LinkStep::respond(const Link& link) {
@@ -62,8 +106,14 @@ void LinkStep::find_couplings() {
       if (place >= 0) at_place[place].push_back(b);
     }
   }
+  coupled_.resize(links_.size());
   for (std::size_t b = 0; b < links_.size(); ++b) {
-    std::vector<Coupling>& coupled = coupled_.emplace_back();
+    const Motion& motion = on_body_[b].motion;
+    if (on_body_[b].body >= 0) coupled_[b].push_back({b, square * product(motion, motion)});
+  }
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    if (on_body_[b].body >= 0) continue;
+    std::vector<Coupling>& coupled = coupled_[b];
     std::map<std::size_t, double> response;  // [1/kg]
     if (std::ranges::any_of(links_[b].place,
                             [&](int k) { return k >= 0 && trace_.moves_others(k); })) {
@@ -85,7 +135,9 @@ void LinkStep::find_couplings() {
     }
     coupled.push_back({b, square * std::max(0.0, response[b])});
     for (const auto& [other, moved] : response) {
-      if (other != b && moved != 0) coupled.push_back({other, square * moved});
+      if (other == b || moved == 0) continue;
+      coupled.push_back({other, square * moved});
+      if (on_body_[other].body >= 0) coupled_[other].push_back({b, square * moved});
     }
   }
 }
@@ -99,6 +151,11 @@ void LinkStep::find_blocks() {
       if (has_rate(b) && has_rate(coupling.link)) sets.join(b, coupling.link);
     }
   }
+  std::map<int, std::size_t> first_on;  // link with a rate, by body
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    if (!has_rate(b) || on_body_[b].body < 0) continue;
+    sets.join(first_on.try_emplace(on_body_[b].body, b).first->second, b);
+  }
   std::map<std::size_t, std::size_t> block_of;  // by root
   std::vector<std::size_t> place(links_.size(), 0);
   for (std::size_t b = 0; b < links_.size(); ++b) {
@@ -108,22 +165,37 @@ void LinkStep::find_blocks() {
     place[b] = blocks_[found->second].links.size();
     blocks_[found->second].links.push_back(b);
   }
-  for (Block& block : blocks_) {
-    const std::size_t count = block.links.size();
-    block.compliance.assign(count * count, 0.0);
-    block.free.assign(count, 0.0);
-    block.force.assign(count, 0.0);
-    for (const std::size_t b : block.links) {
-      std::vector<Coupling>& coupled = coupled_[b];
-      for (const Coupling& coupling : coupled) {
-        if (has_rate(coupling.link)) {
-          block.compliance[place[b] * count + place[coupling.link]] = coupling.compliance;
-        }
+  for (Block& block : blocks_) fill_block(block, place);
+}
+
+void LinkStep::fill_block(Block& block, const std::vector<std::size_t>& place) {
+  const std::size_t count = block.links.size();
+  block.free.assign(count, 0.0);
+  block.force.assign(count, 0.0);
+  block.body = on_body_[block.links.front()].body;
+  double strength = 0;
+  for (const std::size_t b : block.links) {
+    const Motion& motion = on_body_[b].motion;
+    strength += time_step_ * time_step_ * laws_[b]->rate() * product(motion, motion);
+    if (on_body_[b].body != block.body) block.body = -1;
+  }
+  if (count < many || !(strength < strongest)) block.body = -1;
+  if (block.body < 0) block.compliance.assign(count * count, 0.0);
+  for (const std::size_t b : block.links) {
+    std::vector<Coupling>& coupled = coupled_[b];
+    const auto has_rate = [&](const Coupling& c) { return laws_[c.link]->rate() > 0; };
+    for (const Coupling& coupling : coupled) {
+      if (block.body < 0 && has_rate(coupling)) {
+        block.compliance[place[b] * count + place[coupling.link]] = coupling.compliance;
       }
-      coupled.erase(std::remove_if(coupled.begin() + 1, coupled.end(),
-                                   [&](const Coupling& c) { return has_rate(c.link); }),
-                    coupled.end());
     }
+    for (const std::size_t other : block.links) {
+      if (block.body < 0 && on_body_[b].body >= 0 && on_body_[b].body == on_body_[other].body) {
+        block.compliance[place[b] * count + place[other]] =
+            time_step_ * time_step_ * product(on_body_[b].motion, on_body_[other].motion);
+      }
+    }
+    coupled.erase(std::remove_if(coupled.begin() + 1, coupled.end(), has_rate), coupled.end());
   }
 }
 
@@ -131,6 +203,23 @@ void LinkStep::form_inverses(double share) {
   share_ = share;
   for (Block& block : blocks_) {
     const std::size_t count = block.links.size();
+    if (block.body >= 0) {
+      constexpr std::size_t n = RigidBody::width;
+      block.inverse.assign(n * n, 0.0);
+      for (std::size_t i = 0; i < n; ++i) {
+        block.inverse[i * n + i] = 1 / (share * time_step_ * time_step_);
+        for (const std::size_t b : block.links) {
+          const Motion& motion = on_body_[b].motion;
+          for (std::size_t j = 0; j < n; ++j) {
+            block.inverse[i * n + j] += motion[i] * laws_[b]->rate(share) * motion[j];
+          }
+        }
+      }
+      if (!invert_definite(block.inverse)) {
+        throw std::logic_error("the compliance of dashpots on a rigid body is not positive");
+      }
+      continue;
+    }
     block.inverse.resize(count * count);
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t j = 0; j < count; ++j) {
@@ -170,6 +259,14 @@ double LinkStep::left_over(std::size_t link) const {
   for (std::size_t k = 1; k < coupled_[link].size(); ++k) {
     after -= share_ * coupled_[link][k].compliance * force_[coupled_[link][k].link];
   }
+  if (on_body_[link].body >= 0) {
+    const bool has_rate = laws_[link]->rate() > 0;
+    Motion others = pull_[on_body_[link].body];
+    for (std::size_t m = 0; !has_rate && m < others.size(); ++m) {
+      others[m] += block_pull_[on_body_[link].body][m] - force_[link] * on_body_[link].motion[m];
+    }
+    after -= share_ * time_step_ * time_step_ * product(on_body_[link].motion, others);
+  }
   return after;
 }
 
@@ -180,8 +277,42 @@ void LinkStep::solve(Block& block) {
     const double offset = laws_[b]->offset(before_[b], now_[b], share_, memory_[b]);
     block.free[i] = left_over(b) - before_[b] + offset / laws_[b]->rate(share_);
   }
-  multiply_rows(block.inverse.data(), count, count, block.free.data(), block.force.data(), 1);
+  if (block.body >= 0) {
+    solve_on_body(block);
+  } else {
+    multiply_rows(block.inverse.data(), count, count, block.free.data(), block.force.data(), 1);
+  }
   for (std::size_t i = 0; i < count; ++i) force_[block.links[i]] = block.force[i];
+  renew_pull(block);
+}
+
+void LinkStep::solve_on_body(Block& block) {
+  // (share dt^2 G G^T + 1/r)^-1 = r - r G (1 / (share dt^2) + G^T r G)^-1 G^T r
+  const std::size_t count = block.links.size();
+  Motion sum{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t b = block.links[i];
+    block.force[i] = laws_[b]->rate(share_) * block.free[i];
+    for (std::size_t m = 0; m < sum.size(); ++m) sum[m] += block.force[i] * on_body_[b].motion[m];
+  }
+  Motion common{};
+  multiply_rows(block.inverse.data(), sum.size(), sum.size(), sum.data(), common.data(), 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t b = block.links[i];
+    block.force[i] -= laws_[b]->rate(share_) * product(on_body_[b].motion, common);
+  }
+}
+
+void LinkStep::renew_pull(const Block& block) {
+  for (const std::size_t b : block.links) {
+    if (on_body_[b].body >= 0) block_pull_[on_body_[b].body] = {};
+  }
+  for (const std::size_t b : block.links) {
+    const auto& [body, motion] = on_body_[b];
+    for (std::size_t m = 0; body >= 0 && m < motion.size(); ++m) {
+      block_pull_[body][m] += force_[b] * motion[m];
+    }
+  }
 }
 
 double LinkStep::sweep() {
@@ -191,6 +322,10 @@ double LinkStep::sweep() {
     const double force = laws_[b]->solve(before_[b], now_[b], left_over(b),
                                          share_ * coupled_[b][0].compliance, memory_[b]);
     change = std::max(change, std::abs(force - force_[b]));
+    const auto& [body, motion] = on_body_[b];
+    for (std::size_t m = 0; body >= 0 && m < motion.size(); ++m) {
+      pull_[body][m] += (force - force_[b]) * motion[m];
+    }
     force_[b] = force;
   }
   return change;
@@ -198,6 +333,8 @@ double LinkStep::sweep() {
 
 void LinkStep::pull(bool first) {
   std::fill(force_.begin(), force_.end(), 0.0);
+  std::fill(pull_.begin(), pull_.end(), Motion{});
+  std::fill(block_pull_.begin(), block_pull_.end(), Motion{});
   bool idle = blocks_.empty();
   for (const std::size_t b : others_) idle = idle && laws_[b]->is_idle(now_[b], memory_[b]);
   if (idle) return;

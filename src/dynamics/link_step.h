@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -51,21 +52,35 @@ class LinkStep {
     std::size_t link = 0;
     double compliance = 0;  ///< dt^2 b_i^T M^-1 b_j [m/N]
   };
+  /// Part of a link in the motions of one rigid body that alone it moves: W^T b. Such links move
+  /// each other by products of these, so that many of them cost no more than a few each.
+  using Motion = std::array<double, RigidBody::width>;
+  struct OnBody {
+    int body = -1;  ///< -1: it moves something else
+    Motion motion{};
+  };
   /// Links with a rate that move each other, solved for together.
   struct Block {
+    int body = -1;  ///< all on this one: solved for by its motions
     std::vector<std::size_t> links;
     std::vector<double> compliance;  ///< dt^2 B^T M^-1 B, shape (links, links) [m/N]
-    std::vector<double> inverse;     ///< of that for `share_` of a step and 1 / rate [N/m]
+    std::vector<double> inverse;     ///< of that for `share_` of a step and 1 / rate [N/m]; on a
+                                     ///< body that of 1 / (share dt^2) + B^T W rate W^T B
     std::vector<double> free;        ///< e_{n+1} - e_{n-1} without them
     std::vector<double> force;
   };
+  void find_bodies(const LinearSystem& system);
   void find_couplings();
   void find_blocks();
+  void fill_block(Block& block, const std::vector<std::size_t>& place);
   void form_inverses(double share);
   /// Their forces from those of the other links.
   void solve(Block& block);
   /// e of all links that impulses [N s] of one of them cause in a second [m/N s2].
   void respond(const Link& link);
+  void solve_on_body(Block& block);
+  /// Brings block_pull_ to the forces of a block.
+  void renew_pull(const Block& block);
   /// Largest change of the force of a link without a rate [N].
   double sweep();
   /// e_{n+1} that forces of others than its block leave a link.
@@ -83,7 +98,11 @@ class LinkStep {
   StructureStep::Before held_;
   std::vector<std::unique_ptr<LinkLaw>> laws_;  ///< per link
   std::vector<std::vector<double>> memory_;     ///< per link; see LinkLaw
-  std::vector<std::vector<Coupling>> coupled_;  ///< per link: itself first, none of its block
+  std::vector<OnBody> on_body_;                 ///< per link
+  std::vector<Motion> pull_;        ///< per body: sum of W^T b N of links without a rate on it
+  std::vector<Motion> block_pull_;  ///< likewise of those with a rate
+  /// Per link: itself first, none of its block, none on the same body.
+  std::vector<std::vector<Coupling>> coupled_;
   std::vector<Block> blocks_;
   std::vector<std::size_t> others_;  ///< links without a rate
   double share_ = 0;                 ///< of a step, for which forces act

@@ -337,6 +337,32 @@ class Diaphragm(unittest.TestCase):
         self.assertLess(abs(numpy.array(found[0]) / found[1] - 1).max(), 1e-9)
 
 
+class LinksOnABody(unittest.TestCase):
+    """A rigid mat that rocks on springs which push only, each with dashpots: its links move each other, all of them.
+    They are solved for by the motions of the body; in a structure reduced to all of its modes pair by pair.
+    """
+    SCENE = ["-structures", "m", "-m_mesh", "tests/meshes/mast.geo", "-m_beams_element", "beam", "-m_beams_material",
+             "stiff", "-m_beams_section", "s", "-material_stiff_young", 1e10, "-material_stiff_poisson", 0.3,
+             "-material_stiff_density", 1000, "-section_s_area", 1e-2, "-section_s_inertia_y", 1e-3,
+             "-section_s_inertia_z", 1e-3, "-section_s_torsion", 1e-3, "-section_s_z_axis", "0,1,0", "-m_load_element",
+             "point_mass", "-m_load_mass", 2000, "-m_load_rotary_inertia", "1e3,1e3,1e3", "-m_bed_element",
+             "grounded_spring", "-m_bed_stiffness", "1e6,1e6,1e6,1e5,0,1e5", "-m_bed_compression_only", "true",
+             "-m_rigid", "bed", "-gravity", GRAVITY, "-preload", "static", "-m_initial_velocity", "1.5,0.2,0",
+             "-time_step", 2e-5, "-end_time", 0.8, "-output_interval", 1e-3, "-probes", "top", "-top_structure", "m",
+             "-top_group", "load"]
+
+    def test_same_pair_by_pair(self):
+        for dashpot in ("2e4,1e4,3e3,1e2,0,1e2", "1e9,1e9,3e3,0,0,0"):
+            scene = [*self.SCENE, "-m_bed_dashpot", dashpot]
+            pairs = Recorded(self, [*scene, "-m_model", "modal", "-m_modal_vectors", 12], 1, identity=1e-9)
+            for ranks in (1, 2, 3):
+                run = Recorded(self, scene, ranks, identity=1e-11)
+                self.assertLess(run.summary["contact_ratio"]["m"]["smallest"], 0.5)
+                for axis in "xyz":
+                    u, v = run.displacement(f"top.{axis}"), pairs.displacement(f"top.{axis}")
+                    self.assertLess(abs(u - v).max(), 1e-7 * abs(v).max())
+
+
 class AllTermsTogether(unittest.TestCase):
     """A rigid mat on springs with dashpots below a diaphragm, under gravity and in motion: the ledger closes."""
     SCENE = [*TABLE, *SPRUNG, "-t_base_dashpot", "2e4,2e4,5e4,1e3,1e3,1e3", "-t_rigid", "base", "-t_diaphragm", "slab",
