@@ -64,6 +64,10 @@ CASES = {
     "strip bent in its plane": (plate(0.1, CONCRETE, length=6, width_0=0.3, width_1=0.3, nx=24, ny=1), 1.1, 300, 0.5),
     "skew": (plate(0.1, CONCRETE, width_0=10, width_1=2, nx=10, ny=8), 2, 20, 0.5),
     "loose on springs": (plate(0.3, CONCRETE, clamped=False, length=3, width_0=1, width_1=2, nx=6, ny=3), 1.2, 100, 0.5),
+    "rigid in its plane": (plate(0.3, CONCRETE, clamped=False, length=3, width_0=1, width_1=2, nx=6, ny=3) +
+                           ["-@_diaphragm", "plate"], 1.2, 100, 0.5),
+    "with rigid corners": (plate(0.2, CONCRETE, clamped=False, length=3, width_0=1, width_1=2, nx=6, ny=4) +
+                           ["-@_rigid", "corners"], 1.1, 200, 0.5),
     "below 1 kHz": (plate(0.006, STEEL, length=0.3, width_0=0.1, width_1=0.1, nx=12, ny=4), 1.02, 1000, 1e-4),
 }
 MODES = 16
