@@ -65,7 +65,7 @@ void write_energy(const std::string& path, const std::vector<EnergyLine>& lines)
   CsvFile file(path);
   file.comment("energy ledger of all structures [J] at time + half a time step [s];");
   file.comment(
-      "kinetic = v^T (M - dt/2 C) v / 2, strain = u_{n+1}^T K u_n / 2 and tension-only bars; the "
+      "kinetic = v^T (M - dt/2 C) v / 2, strain = u_{n+1}^T K u_n / 2 and energy of links; the "
       "residual closes the "
       "identity; gravity_work is a part of input_work");
   file.header(
