@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/rigid_motion.h"
+
 namespace pounding {
 
 void point_lumped_mass(const ElementProperties& properties, std::span<double> lumped_mass) {
@@ -26,13 +28,7 @@ void spring_matrix(const ElementLayout& layout, const std::array<double, 6>& val
 
 std::array<std::array<double, 6>, 6> motion_at(const Vector3& arm) {
   std::array<std::array<double, 6>, 6> motion{};
-  for (std::size_t c = 0; c < 6; ++c) motion[c][c] = 1;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const std::size_t next = (c + 1) % 3;
-    const std::size_t last = (c + 2) % 3;
-    motion[c][3 + next] = arm[last];
-    motion[c][3 + last] = -arm[next];
-  }
+  for (std::size_t c = 0; c < 6; ++c) motion[c] = rigid_motion_row(c, arm);
   return motion;
 }
 

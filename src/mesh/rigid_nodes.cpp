@@ -9,13 +9,11 @@
 #include "common/disjoint_sets.h"
 #include "common/error.h"
 #include "mesh/bounding_box.h"
+#include "mesh/connectivity.h"
 #include "mesh/near_nodes.h"
 
 namespace pounding {
 namespace {
-
-/// Nodes nearer than this part of the mesh's diagonal lie on each other.
-constexpr double coincident = 1e-6;
 
 /// Least height between two floors [m].
 constexpr double storey = 1;
@@ -53,7 +51,7 @@ std::vector<Cluster> clusters_of(DisjointSets& sets, const Cluster& nodes) {
 
 std::vector<Cluster> pinned(const GlobalMesh& mesh, const Cluster& nodes) {
   DisjointSets sets(static_cast<std::size_t>(mesh.node_count()));
-  const double near = coincident * bounding_box({&mesh, 1}).diagonal();
+  const double near = coincidence * bounding_box({&mesh, 1}).diagonal();
   if (!(near > 0)) return {};
   for (const auto& [a, b] : near_nodes(mesh, near)) {
     if (std::ranges::binary_search(nodes, a) && std::ranges::binary_search(nodes, b)) {

@@ -3,21 +3,16 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/rigid_motion.h"
+
 namespace pounding {
 
 void RigidRank::add(const Vector3& node, int component) {
   constexpr double independent = 1e-6;  // of a row of about unit length
   if (basis_.size() == 6) return;
-  // The component's motion under unit translations and rotations: u = t + theta x r.
-  std::array<double, 6> row{};
-  row[component] = 1;
-  if (component < 3) {
-    const std::size_t c = component;
-    const std::size_t next = (c + 1) % 3;
-    const std::size_t last = (c + 2) % 3;
-    row[3 + next] = (node[last] - origin_[last]) / size_;
-    row[3 + last] = -(node[next] - origin_[next]) / size_;
-  }
+  Vector3 arm = node;
+  for (std::size_t d = 0; d < 3; ++d) arm[d] = (arm[d] - origin_[d]) / size_;
+  std::array<double, 6> row = rigid_motion_row(static_cast<std::size_t>(component), arm);
   for (int turn = 0; turn < 2; ++turn) {
     for (const std::array<double, 6>& known : basis_) {
       const double share = std::inner_product(row.begin(), row.end(), known.begin(), 0.0);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/rigid_motion.h"
+
 namespace pounding {
 namespace {
 
@@ -34,12 +36,9 @@ RigidMotions::RigidMotions(const LinearSystem& system, const Mesh& mesh) : syste
     motions_[d + 3].assign(system.lumped_mass.size(), 0.0);
   }
   for_each_translation(mesh, [&](std::size_t dof, int c, const Vector3& x) {
-    // u = e_axis x (x - centre)
-    const std::size_t component = c;
-    const std::size_t next = (component + 1) % 3;
-    const std::size_t last = (component + 2) % 3;
-    motions_[3 + next][dof] = x[last] - centre_[last];
-    motions_[3 + last][dof] = -(x[next] - centre_[next]);
+    const Vector3 arm{x[0] - centre_[0], x[1] - centre_[1], x[2] - centre_[2]};
+    const std::array<double, 6> row = rigid_motion_row(static_cast<std::size_t>(c), arm);
+    for (std::size_t k = 3; k < 6; ++k) motions_[k][dof] = row[k];
   });
   for (std::size_t k = 0; k < 6; ++k) inertia_[k] = weighted_square(motions_[k]);
   MPI_Allreduce(MPI_IN_PLACE, inertia_.data(), 6, MPI_DOUBLE, MPI_SUM, system.comm);

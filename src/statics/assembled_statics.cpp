@@ -6,6 +6,7 @@
 
 #include "common/error.h"
 #include "common/memory.h"
+#include "common/rigid_motion.h"
 #include "statics/link_terms.h"
 
 namespace pounding {
@@ -45,18 +46,10 @@ void take_links_out(const LinearSystem& system, PetscInt first_dof, Mat matrix) 
 std::vector<double> rigid_motion(const Mesh& mesh, int motion) {
   std::vector<double> field(mesh.owned_dofs, 0.0);
   for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    const Vector3 x = mesh.position(node);
-    std::array<double, 6> values{};
-    values[motion] = 1;
-    if (motion >= 3) {
-      const int next = (motion - 3 + 1) % 3;
-      const int last = (motion - 3 + 2) % 3;
-      values[next] = -x[last];
-      values[last] = x[next];
-    }
     for (int c = 0; c < 6; ++c) {
       const LocalIndex dof = mesh.dof(node, c);
-      if (dof >= 0) field[dof] = values[c];
+      if (dof < 0) continue;
+      field[dof] = rigid_motion_row(static_cast<std::size_t>(c), mesh.position(node))[motion];
     }
   }
   return field;

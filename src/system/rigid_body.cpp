@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/rigid_motion.h"
 #include "system/six_lanes.h"
 
 namespace pounding {
@@ -13,15 +14,6 @@ namespace {
 constexpr double dependent = 1e-8;
 
 using Columns = std::vector<std::vector<double>>;
-
-/// Displacement of component c of a node at x - centre in motion m, along or about an axis.
-double rigid_displacement(int motion, int component, const Vector3& x) {
-  if (motion < 3 || component >= 3) return motion == component ? 1 : 0;
-  const int axis = motion - 3;
-  if (component == (axis + 1) % 3) return -x[(axis + 2) % 3];
-  if (component == (axis + 2) % 3) return x[(axis + 1) % 3];
-  return 0;
-}
 
 double norm(const std::vector<double>& a) {
   return std::sqrt(std::inner_product(a.begin(), a.end(), a.begin(), 0.0));
@@ -89,7 +81,8 @@ void RigidBody::find_motions(const Mesh& mesh, const RigidPart& part) {
       for (std::size_t d = 0; d < 3; ++d) x[d] -= centre[d];
       for (int c = 0; c < 6; ++c) {
         if (mesh.dof(node, c) < 0 || (part.components >> c & 1) == 0) continue;
-        column.push_back(root_mass_[slots_[column.size()]] * rigid_displacement(motion, c, x));
+        column.push_back(root_mass_[slots_[column.size()]] *
+                         rigid_motion_row(static_cast<std::size_t>(c), x)[motion]);
       }
     }
   }
