@@ -128,8 +128,10 @@ std::vector<FacetBacking> elements_behind(const GlobalMesh& mesh, std::span<cons
       for (const auto& [f, count] : shared) {
         // An edge of a solid is no face.
         if (count != facets[f].count || (count == 2 && !is_shell(set.type))) continue;
-        behind[f].elements.push_back(
+        Backing& backing = behind[f].elements.emplace_back(
             make_backing(mesh, facets[f], nodes, is_shell(set.type), thickness));
+        backing.region = set.region;
+        backing.solid = !is_shell(set.type);
         if (is_shell(set.type)) {
           behind[f].shells.push_back({normalised(area_vector(mesh, nodes)), thickness});
         }

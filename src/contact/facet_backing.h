@@ -10,6 +10,8 @@ namespace pounding {
 
 /// A solid or shell that holds all nodes of a facet, and what the facet is as its border.
 struct Backing {
+  int region = 0;          ///< of the element, in its structure
+  bool solid = false;      ///< it is no shell
   Vector3 area{0, 0, 0};   ///< area (of an edge: length) along the normal away from the element
   double depth = 0;        ///< how far the element reaches behind the facet, of a face of shells
                            ///< their thickness [m]

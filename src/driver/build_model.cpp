@@ -7,6 +7,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "common/progress.h"
+#include "contact/absorbing_faces.h"
 #include "contact/find_interface.h"
 #include "driver/mesh_checks.h"
 #include "driver/probe_warnings.h"
@@ -73,6 +74,7 @@ void build_meshes(MPI_Comm comm, Scene& scene, Profile& profile, Model& model) {
         if (scene.structures[s].soil) {
           lay_foundation(mat_place(scene.structures[s], meshes[s]), scene.structures[s]);
         }
+        model.buildings[s].absorbing = find_absorbing_nodes(scene, scene.structures[s], meshes[s]);
         check_mesh(scene, s, meshes[s], model);
       }
       const Progress progress(comm, "faces in contact and probes", scene.progress_interval);
@@ -232,8 +234,10 @@ Model build_model(MPI_Comm comm, Scene& scene, Profile& profile) {
   Model model;
   model.buildings.resize(scene.structures.size());
   model.systems.resize(scene.structures.size());
-  on_every_rank(
-      comm, [&] { model.motion = std::make_unique<GroundMotion>(scene.motion, scene.resampling); });
+  on_every_rank(comm, [&] {
+    model.motion = std::make_unique<GroundMotion>(scene.motion, scene.resampling);
+    if (scene.motion_from_below) model.motion->enter_from_below();
+  });
   build_meshes(comm, scene, profile, model);
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     build_structure(comm, scene, s, profile, model);

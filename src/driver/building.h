@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/absorbing_faces.h"
 #include "mesh/connectivity.h"
 #include "mesh/mesh.h"
 #include "modal/modal_analysis.h"
@@ -29,6 +30,7 @@ struct Building {
   const Mesh* mesh = nullptr;            ///< this rank's part; borrowed from the model
   const LinearSystem* system = nullptr;  ///< likewise
   MeshFindings findings;                 ///< on rank 0 only
+  AbsorbingReport absorbing;             ///< likewise
   std::optional<ModalBasis> basis;       ///< if the structure is reduced; no rows
   ModalResult modal;
   std::optional<StepDesign> design;  ///< if its time step has a target

@@ -36,6 +36,7 @@ std::set<std::string> named_groups(const Scene& scene, const Structure& structur
   std::set<std::string> names(structure.ignored_groups.begin(), structure.ignored_groups.end());
   for (const Clamp& clamp : structure.clamps) names.insert(clamp.group);
   if (structure.soil) names.insert(structure.soil->mat);
+  for (const AbsorbingFace& face : structure.absorbing) names.insert(face.group);
   for (const RigidGroup& rigid : structure.rigid_groups) {
     names.insert(rigid.group);
     names.insert(rigid.other);

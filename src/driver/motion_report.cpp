@@ -18,6 +18,9 @@ void print_motion(const GroundMotion& motion) {
     std::printf("\n  scaled: %s; pga %.4g m/s2 (%.4g g)\n", d.scaling.c_str(), d.pga,
                 d.pga / standard_gravity);
   }
+  if (motion.from_below()) {
+    std::printf("the motion enters from below as a wave; displacements are absolute\n");
+  }
   if (motion.descriptions().empty()) std::printf("motion: none\n");
 }
 

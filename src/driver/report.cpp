@@ -228,7 +228,7 @@ void print_findings(const MeshFindings& findings) {
 }
 
 void print_rigid_bodies(const Building& building) {
-  constexpr std::array words{"rigid", "rigid in its plane", "joined", "pinned"};
+  constexpr std::array words{"rigid", "rigid in its plane", "joined", "pinned", "tied by height"};
   for (const RigidGroup& rigid : building.structure->rigid_groups) {
     std::printf("  %s: %s", words[static_cast<std::size_t>(rigid.kind)], rigid.name().c_str());
     for (const RigidBodyReport& report : building.system->rigid_bodies) {
@@ -261,6 +261,7 @@ void print_structure(const Building& building) {
   }
   print_damping(building);
   print_soil(*building.structure);
+  print_absorbing(*building.structure, building.absorbing);
   std::printf("  mode  frequency  direction  effective mass, share of it\n");
   int number = 0;
   for (const Mode& mode : building.modal.modes) {

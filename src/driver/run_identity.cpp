@@ -13,6 +13,11 @@ std::string hash_of(const GroundMotion& motion) {
     const Accelerogram& component = motion.component(direction);
     hash.add(component.time_step);
     hash.add_all(component.acceleration);
+    const Accelerogram& incident = motion.incident(direction);
+    if (!incident.acceleration.empty()) {
+      hash.add(incident.time_step);
+      hash.add_all(incident.acceleration);
+    }
   }
   return hash.text();
 }

@@ -21,10 +21,15 @@ bool stands_still(const Scene& scene) {
   });
 }
 
+const Accelerogram& samples(const Model& model, int direction) {
+  return model.motion->from_below() ? model.motion->incident(direction)
+                                    : model.motion->component(direction);
+}
+
 /// A record of its own that ends before the run. Synthetic motions are made as long as asked.
 void add_short_record(const Scene& scene, const Model& model, int direction,
                       std::vector<std::string>& warnings) {
-  const Accelerogram& component = model.motion->component(direction);
+  const Accelerogram& component = samples(model, direction);
   const auto& asked = scene.motion[direction];
   const double last = component.time_step * static_cast<double>(component.acceleration.size() - 1);
   if (std::holds_alternative<RecordedMotion>(asked->source) &&
@@ -57,10 +62,10 @@ std::vector<std::string> run_warnings(const Scene& scene, const Model& model) {
         "initial displacement or velocity, no gravity");
   }
   for (int direction = 0; direction < 3; ++direction) {
-    if (model.motion->active(direction)) {
+    if (!samples(model, direction).acceleration.empty()) {
       add_short_record(scene, model, direction, warnings);
       add_long_step("a sample of the motion along " + std::string(direction_names[direction]),
-                    model.motion->component(direction).time_step, model.time_step, warnings);
+                    samples(model, direction).time_step, model.time_step, warnings);
     }
   }
   // The interval that nobody asked for is as short as the step where that is longer.

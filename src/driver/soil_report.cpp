@@ -16,7 +16,36 @@ const Foundation& foundation_under(const Structure& structure) {
   return *std::ranges::find(structure.regions, ElementType::soil, &Region::element)->foundation;
 }
 
+/// Groups through which waves leave.
+std::vector<std::string> groups_of(const Structure& structure, bool base_only) {
+  std::vector<std::string> groups;
+  for (const AbsorbingFace& face : structure.absorbing) {
+    if (face.is_base || !base_only) groups.push_back(face.group);
+  }
+  return groups;
+}
+
 }  // namespace
+
+void print_absorbing(const Structure& structure, const AbsorbingReport& report) {
+  if (structure.absorbing.empty()) return;
+  std::printf("  absorbing faces:");
+  for (const std::string& group : groups_of(structure, false)) std::printf(" %s", group.c_str());
+  std::printf(", %lld nodes, %.6g m2\n", static_cast<long long>(report.nodes), report.area);
+  if (!structure.is_driven_from_below()) return;
+  std::printf("    the motion enters through");
+  for (const std::string& group : groups_of(structure, true)) std::printf(" %s", group.c_str());
+  std::printf(", %.6g m2\n", report.base_area);
+}
+
+nlohmann::ordered_json describe_absorbing(const Structure& structure,
+                                          const AbsorbingReport& report) {
+  return {{"groups", groups_of(structure, false)},
+          {"base", groups_of(structure, true)},
+          {"nodes", report.nodes},
+          {"area", report.area},
+          {"base_area", report.base_area}};
+}
 
 double largest_soil_frequency(const Soil& soil, const Foundation& foundation) {
   return largest_a0 * soil.ground.shear_velocity /

@@ -90,6 +90,9 @@ Json describe_structure(const Building& building) {
     }
   }
   if (building.structure->soil) structure["soil"] = describe_soil(*building.structure);
+  if (!building.structure->absorbing.empty()) {
+    structure["absorbing"] = describe_absorbing(*building.structure, building.absorbing);
+  }
   for (const RigidGroup& rigid : building.structure->rigid_groups) {
     const std::string option = rigid_option(rigid.kind);
     Json& body = structure["rigid_groups"].emplace_back(

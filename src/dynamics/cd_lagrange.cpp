@@ -48,7 +48,9 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
 
 void CdLagrange::step(bool look_at_gap, bool with_energies) {
   force_duration_ = state_.step == 0 ? time_step_ / 2 : time_step_;
-  motion_.evaluate(static_cast<double>(state_.step) * time_step_, acceleration_);
+  const double time = static_cast<double>(state_.step) * time_step_;
+  motion_.evaluate(time, acceleration_);
+  motion_.evaluate_incident(time, incident_);
 
   detect_contact(look_at_gap);   // A = { i : g_i(u_n) <= g_tol }
   free_velocity(with_energies);  // v_free = v- + dt (g - iota a_g - alpha v-) - dt M^-1 (K w + x)
@@ -91,7 +93,7 @@ void CdLagrange::free_velocity(bool with_energies) {
   for (std::size_t s = 0; s < systems_.size(); ++s) systems_[s].stiffness->start(argument(s));
   for (std::size_t s = 0; s < systems_.size(); ++s) {
     sums_[s].extra_damping_before = apply_extra_damping(s);
-    if (link_steps_[s]) link_steps_[s]->begin();
+    if (link_steps_[s]) link_steps_[s]->begin(incident_);
     structure_steps_[s].begin(force_duration_, acceleration_, first,
                               with_energies || energy_.needs_energies());
     systems_[s].stiffness->finish(argument(s), structure_steps_[s]);

@@ -121,6 +121,7 @@ class CdLagrange {
   std::vector<VecHandle> extra_forces_;  ///< as PETSc vectors; null without extra damping
   Events events_;
   std::array<double, 3> acceleration_{};
+  Vector3 incident_{};  ///< velocity of the wave from below [m/s]
   double force_duration_ = 0;
   bool interface_known_ = false;
   bool touching_ = false;

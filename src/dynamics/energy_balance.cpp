@@ -81,6 +81,7 @@ EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
     }
     result.device += time_step_ / 2 * sums[b].device;
     result.links += sums[b].link_loss;
+    result.input += sums[b].link_input;
   }
   return result;
 }

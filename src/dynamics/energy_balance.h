@@ -20,7 +20,7 @@ struct EnergyLine {
   double strain = 0;   ///< 1/2 u_{n+1}^T K u_n, and the energy of links
   double damping_loss = 0;
   double contact_work = 0;
-  double input_work = 0;  ///< of ground motion and gravity
+  double input_work = 0;  ///< of ground motion, a wave from below and gravity
   /// Taken up by dashpots, by what regions with damping of their own have beside the structure's,
   /// and by links.
   double device_work = 0;

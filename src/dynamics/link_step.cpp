@@ -43,6 +43,7 @@ LinkStep::LinkStep(const LinearSystem& system, const StructureState& state, Stru
       after_(links_.size(), 0.0),
       free_after_(links_.size(), 0.0),
       force_(links_.size(), 0.0),
+      push_(links_.size(), 0.0),
       field_(trace_.known().size(), 0.0),
       velocity_(trace_.dofs().size(), 0.0),
       rate_(links_.size(), 0.0) {
@@ -244,7 +245,11 @@ void LinkStep::add_rates(double duration, std::vector<double>& elongations) cons
   for (std::size_t b = 0; b < links_.size(); ++b) elongations[b] = now_[b] + duration * rate_[b];
 }
 
-void LinkStep::begin() {
+void LinkStep::begin(const Vector3& incident) {
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    const Vector3& along = links_[b].incident;
+    push_[b] = along[0] * incident[0] + along[1] * incident[1] + along[2] * incident[2];
+  }
   step_.remember(trace_.dofs(), held_);
   if (!others_.empty()) measure(state_.displacement, now_);
   for (const Block& block : blocks_) {
@@ -274,7 +279,7 @@ void LinkStep::solve(Block& block) {
   const std::size_t count = block.links.size();
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t b = block.links[i];
-    const double offset = laws_[b]->offset(before_[b], now_[b], share_, memory_[b]);
+    const double offset = laws_[b]->offset(before_[b], now_[b], share_, memory_[b]) - push_[b];
     block.free[i] = left_over(b) - before_[b] + offset / laws_[b]->rate(share_);
   }
   if (block.body >= 0) {
@@ -384,8 +389,10 @@ void LinkStep::finish(StepSums& sums) {
     const double held = laws_[b]->energy(before_[b], now_[b], memory_[b]);
     sums.link_energy_before += held;
     laws_[b]->remember(before_[b], now_[b], after_[b], share_, memory_[b]);
-    sums.link_loss += force_[b] * (after_[b] - before_[b]) / 2 -
-                      (laws_[b]->energy(now_[b], after_[b], memory_[b]) - held);
+    const double mean = (after_[b] - before_[b]) / 2;
+    sums.link_input += push_[b] * mean;
+    sums.link_loss +=
+        (force_[b] + push_[b]) * mean - (laws_[b]->energy(now_[b], after_[b], memory_[b]) - held);
   }
 }
 

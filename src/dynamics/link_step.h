@@ -28,8 +28,9 @@ class LinkStep {
   LinkStep(const LinearSystem& system, const StructureState& state, StructureStep& step,
            double time_step);
 
-  /// Before the structure's step to t_n: e_n, e_{n-1}, and what the dofs hold.
-  void begin();
+  /// Before the structure's step to t_n: e_n, e_{n-1}, and what the dofs hold. `incident`: velocity
+  /// of the wave from below at t_n [m/s].
+  void begin(const Vector3& incident);
   /// After it: forces, v+, u_{n+1}. `first`: they act for half a step, from v_0.
   void pull(bool first);
   /// After contact: adds the links' energy before the step and their loss in it; they remember it.
@@ -112,6 +113,7 @@ class LinkStep {
   std::vector<double> after_;        ///< e_{n+1}
   std::vector<double> free_after_;   ///< e_{n+1} without any link
   std::vector<double> force_;        ///< N_n [N]
+  std::vector<double> push_;         ///< of the wave from below, against N_n [N]
   std::vector<double> field_;        ///< per place of the trace
   std::vector<double> velocity_;     ///< per dof of the trace
   std::vector<double> rate_;         ///< b . v

@@ -17,11 +17,14 @@ bool has_links(const Region& region) {
 }
 
 bool is_pressed(const LinkOrigin& origin) {
-  return is_spring(origin.region->element) && origin.region->compression_only &&
-         origin.component == 2;
+  return origin.region != nullptr && is_spring(origin.region->element) &&
+         origin.region->compression_only && origin.component == 2;
 }
 
 std::unique_ptr<LinkLaw> law_of(const LinkOrigin& origin, double time_step) {
+  if (origin.region == nullptr) {
+    return std::make_unique<DashpotLaw>(origin.absorbing / (2 * time_step));
+  }
   const Region& region = *origin.region;
   if (region.foundation) {
     return std::make_unique<SoilLaw>(region.foundation->impedances[origin.component], time_step);

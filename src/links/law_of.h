@@ -13,11 +13,12 @@ bool has_links(const Region& region);
 
 /// Origin of a link: what its law follows from.
 struct LinkOrigin {
-  const Region* region = nullptr;  ///< borrowed from the structure
+  const Region* region = nullptr;  ///< borrowed from the structure; null of an absorbing face
   int component = 0;          ///< along or about which a spring's dashpot or soil acts; 0 of a bar
   double length = 0;          ///< of a bar [m]
   double beta = 0;            ///< stiffness damping of its structure [s]
   bool in_stiffness = false;  ///< K of its structure holds it at its tangent already
+  double absorbing = 0;       ///< dashpot of an absorbing face [N s/m]
 };
 
 /// Whether a link is the part along z of a compression-only spring.

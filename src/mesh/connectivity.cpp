@@ -113,6 +113,9 @@ class Examination {
       found_.pieces[p].held_motions = prevented[p].rank();
       found_.pieces[p].held = prevented[p].rank() > 0;
     }
+    for (const AbsorbingNode& absorbing : mesh_.absorbing) {
+      found_.pieces[number[piece_of(absorbing.node)]].held = true;
+    }
     std::ranges::stable_sort(found_.pieces, std::ranges::greater{}, &Piece::nodes);
   }
 

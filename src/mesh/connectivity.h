@@ -11,7 +11,8 @@ namespace pounding {
 /// Nodes that elements join, directly or through others.
 struct Piece {
   GlobalIndex nodes = 0;
-  bool held = false;       ///< a node of it is clamped in some component, or on a grounded spring
+  bool held = false;       ///< a node of it is clamped in some component, on a grounded spring, or
+                           ///< on an absorbing face
   Vector3 place{0, 0, 0};  ///< of its first node [m]
   int rigid_motions = 0;   ///< that it can make: 6, or fewer if its nodes see fewer
   int held_motions = 0;    ///< of them, those that clamps and grounded springs prevent

@@ -7,6 +7,7 @@
 
 #include "common/types.h"
 #include "elements/element_traits.h"
+#include "mesh/absorbing_node.h"
 #include "scene/scene.h"
 
 /// A whole mesh as it stands on rank 0 between reading and distribution. Nodes are numbered from 0
@@ -62,6 +63,8 @@ struct GlobalMesh {
   std::map<std::string, NodeGroup> groups;
   std::vector<RigidNodes> rigid;       ///< no node is in two of them
   std::vector<UnusedElements> unused;  ///< points do not count
+  /// Nodes of absorbing faces; found after reading, with the elements behind these faces.
+  std::vector<AbsorbingNode> absorbing;
   /// One bit per free component of a node: 0-2 translations, 3-5 rotations. Rotations exist where
   /// an element asks for them; what is clamped is not free.
   std::vector<std::uint8_t> free_components;

@@ -290,6 +290,14 @@ void share_rigid_parts(MPI_Comm comm, const std::vector<RigidNodes>& rigid, Mesh
   }
 }
 
+/// Tells every rank the nodes of absorbing faces; each keeps those that it owns.
+void share_absorbing_nodes(MPI_Comm comm, std::vector<AbsorbingNode> nodes, Mesh& mesh) {
+  broadcast_array(comm, nodes, 0);
+  std::ranges::copy_if(
+      nodes, std::back_inserter(mesh.absorbing),
+      [&](const AbsorbingNode& absorbing) { return mesh.owned_node(absorbing.node) >= 0; });
+}
+
 }  // namespace
 
 bool meets_rigid_body(const Mesh& mesh, const ElementBlock& block, std::size_t element) {
@@ -325,6 +333,7 @@ Mesh distribute_mesh(MPI_Comm comm, const std::string& name, const GlobalMesh& g
   }
   Mesh mesh = unpack(comm, name, std::move(mine));
   share_rigid_parts(comm, global.rigid, mesh);
+  share_absorbing_nodes(comm, global.absorbing, mesh);
   return mesh;
 }
 

@@ -60,6 +60,7 @@ struct Mesh {
   std::vector<RigidPart> rigid;          ///< in one order on all ranks
   std::vector<int> rigid_of;             ///< per local node into `rigid`, -1: in none
   std::vector<LocalIndex> by_file_node;  ///< owned nodes in file order
+  std::vector<AbsorbingNode> absorbing;  ///< at owned nodes, in file order
 
   LocalIndex node_count() const { return static_cast<LocalIndex>(file_node.size()); }
   /// Local dof of a component (0-5) at a local node, -1 if it is clamped or does not exist.

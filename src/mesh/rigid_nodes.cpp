@@ -117,9 +117,38 @@ std::vector<Cluster> levels(const Structure& structure, const RigidGroup& rigid,
   return floors;
 }
 
+/// Nodes of a group by their height.
+std::vector<Cluster> heights(const GlobalMesh& mesh, const Cluster& nodes) {
+  const auto height = [&](GlobalIndex node) { return mesh.position(node)[2]; };
+  const double near = coincidence * bounding_box({&mesh, 1}).diagonal();
+  Cluster sorted = nodes;
+  std::ranges::stable_sort(sorted, {}, height);
+  std::vector<Cluster> found;
+  for (const GlobalIndex node : sorted) {
+    if (found.empty() || height(node) - height(found.back().back()) > near) found.emplace_back();
+    found.back().push_back(node);
+  }
+  std::erase_if(found, [](const Cluster& cluster) { return cluster.size() < 2; });
+  for (Cluster& cluster : found) std::ranges::sort(cluster);
+  return found;
+}
+
 bool is_held(const GlobalMesh& mesh, const Cluster& cluster) {
   return std::ranges::all_of(cluster,
                              [&](GlobalIndex node) { return mesh.free_components[node] == 0; });
+}
+
+unsigned clamped_components(const GlobalMesh& mesh, GlobalIndex node) {
+  return static_cast<unsigned>(mesh.components[node] & ~mesh.free_components[node]);
+}
+
+/// Components that are clamped at every node of a level: nothing follows in them, and no rotation
+/// couples them to the others.
+unsigned left_out(const GlobalMesh& mesh, const RigidGroup& rigid, const Cluster& cluster) {
+  if (rigid.kind != RigidKind::level) return 0;
+  unsigned common = 0x07;
+  for (const GlobalIndex node : cluster) common &= clamped_components(mesh, node);
+  return common;
 }
 
 /// Whether one of the bodies found holds all of a cluster.
@@ -139,6 +168,8 @@ std::vector<Cluster> clusters_of(const Structure& structure, const RigidGroup& r
       return levels(structure, rigid, mesh, nodes);
     case RigidKind::pin:
       return pinned(mesh, nodes);
+    case RigidKind::level:
+      return heights(mesh, nodes);
     default:
       return {nodes};
   }
@@ -152,22 +183,22 @@ std::vector<RigidNodes> find_rigid_nodes(const Structure& structure, const Globa
   for (const RigidGroup& rigid : structure.rigid_groups) {
     const std::vector<Cluster> clusters = clusters_of(structure, rigid, mesh);
     if (clusters.empty()) {
-      throw UserError(option_text(structure, rigid) + ": no two nodes of it lie on each other");
+      throw UserError(option_text(structure, rigid) + ": no two nodes of it lie " +
+                      (rigid.kind == RigidKind::pin ? "on each other" : "at one height"));
     }
     for (const Cluster& cluster : clusters) {
       if (is_held(mesh, cluster)) continue;  // clamped altogether: nothing follows anything
       if (rigid.implied && (cluster.size() == 1 || is_in_body(found, cluster))) continue;
       found.push_back({rigid.name(), rigid.kind, rigid.components(), cluster});
+      const unsigned following = rigid.components() & ~left_out(mesh, rigid, cluster);
       for (const GlobalIndex node : cluster) {
-        const std::size_t n = node;
         const auto [other, is_new] = group_of.try_emplace(node, rigid.name());
         if (!is_new) {
           refuse(structure, rigid,
                  "is in " + other->second + " as well; make them one group, or keep them apart",
                  mesh.position(node));
         }
-        const unsigned clamped = mesh.components[n] & ~mesh.free_components[n] & rigid.components();
-        if (clamped != 0) {
+        if ((clamped_components(mesh, node) & following) != 0) {
           refuse(structure, rigid,
                  "is clamped; clamp all that moves with it instead, or none of it",
                  mesh.position(node));

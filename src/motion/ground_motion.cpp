@@ -18,6 +18,9 @@ constexpr double resampled_step = 5e-4;  // s
 constexpr double doubtful_pga = 3 * standard_gravity;  // m/s2
 constexpr double small_pga = 0.5;                      // m/s2: might be a number in g
 
+/// Part of the largest velocity of a wave that may be left at its end.
+constexpr double resting = 0.05;
+
 void check_scaling(const std::string& name, const MotionComponent& component) {
   const double pga = component.pga, scale = component.scale;
   if (!std::isfinite(pga) || pga < 0) {
@@ -145,6 +148,44 @@ GroundMotion::GroundMotion(const std::array<std::optional<MotionComponent>, 3>& 
     doubts_.push_back("motion: the largest peak is " + text_of(largest) +
                       " m/s2, not above 0.5 m/s2; are the files' numbers in g?");
   }
+}
+
+void GroundMotion::enter_from_below() {
+  from_below_ = true;
+  for (std::size_t d = 0; d < 3; ++d) {
+    std::swap(incident_[d], components_[d]);
+    const std::vector<double>& a = incident_[d].acceleration;
+    double velocity = 0;
+    double largest = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      if (i > 0) velocity += incident_[d].time_step * (a[i - 1] + a[i]) / 2;
+      incident_velocity_[d].push_back(velocity);
+      largest = std::max(largest, std::abs(velocity));
+    }
+    if (std::abs(velocity) > resting * largest) {
+      doubts_.push_back(std::string("motion ") + direction_names[d] +
+                        ": the wave from below ends at " + text_of(velocity) +
+                        " m/s, its largest is " + text_of(largest) +
+                        " m/s: the site drifts off; give a record that ends at rest");
+    }
+  }
+}
+
+void GroundMotion::evaluate_incident(double t, Vector3& velocity) const noexcept {
+  for (int direction = 0; direction < 3; ++direction) {
+    velocity[direction] = from_below_ ? incident_velocity(direction, t) : 0;
+  }
+}
+
+double GroundMotion::incident_velocity(int direction, double t) const noexcept {
+  const std::vector<double>& a = incident_[direction].acceleration;
+  const std::vector<double>& v = incident_velocity_[direction];
+  const double x = t / incident_[direction].time_step;
+  if (!(x > 0) || v.empty()) return 0;
+  if (x >= static_cast<double>(v.size() - 1)) return v.back();
+  const auto i = static_cast<std::size_t>(x);
+  const double part = x - static_cast<double>(i);
+  return v[i] + incident_[direction].time_step * part * (a[i] + part * (a[i + 1] - a[i]) / 2);
 }
 
 Vector3 GroundMotion::peaks() const {

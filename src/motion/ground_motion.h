@@ -57,6 +57,18 @@ class GroundMotion {
     }
   }
 
+  /// The components become a wave from below, and the ground itself rests: accelerations, peaks and
+  /// `active` are those of ground at rest from then on, descriptions and doubts stay. Once, before
+  /// a run.
+  void enter_from_below();
+  bool from_below() const { return from_below_; }
+  /// Velocity of the wave from below [m/s]: the exact integral of its acceleration, which is linear
+  /// between samples; it keeps its last value after the last sample. Zero for a motion of the
+  /// ground.
+  void evaluate_incident(double t, Vector3& velocity) const noexcept;
+  /// Samples of the acceleration of the wave from below [m/s2]; empty in a direction without.
+  const Accelerogram& incident(int direction) const { return incident_[direction]; }
+
   bool active(int direction) const { return !components_[direction].acceleration.empty(); }
 
   /// Samples applied in a direction; empty when it has no component.
@@ -75,10 +87,15 @@ class GroundMotion {
  private:
   void add(std::size_t direction, const MotionComponent& component);
 
+  double incident_velocity(int direction, double t) const noexcept;
+
   std::vector<MotionDescription> descriptions_;
   std::vector<std::string> doubts_;
   std::array<Accelerogram, 3> components_{Accelerogram{{}, 1}, Accelerogram{{}, 1},
                                           Accelerogram{{}, 1}};
+  bool from_below_ = false;
+  std::array<Accelerogram, 3> incident_{components_};
+  std::array<std::vector<double>, 3> incident_velocity_;  ///< at the samples [m/s]
 };
 
 }  // namespace pounding

@@ -83,16 +83,6 @@ void look_at_region(const std::string& structure, const Region& region, Doubts& 
   }
 }
 
-/// Whether clamps or grounded springs hold a structure along a direction.
-bool is_held(const Structure& structure, std::size_t direction) {
-  const auto clamps = [&](const Clamp& clamp) { return (clamp.components >> direction & 1) != 0; };
-  const auto carries = [&](const Region& region) {
-    return is_grounded(region.element) && region.stiffness[direction] > 0;
-  };
-  return structure.soil || std::ranges::any_of(structure.clamps, clamps) ||
-         std::ranges::any_of(structure.regions, carries);
-}
-
 /// Gravity without a static start: what is held and gets its weight at once swings about its sag.
 void look_at_gravity(const Structure& structure, Doubts& doubts) {
   bool dropped = false;
@@ -107,6 +97,15 @@ void look_at_gravity(const Structure& structure, Doubts& doubts) {
 }
 
 }  // namespace
+
+bool is_held(const Structure& structure, std::size_t direction) {
+  const auto clamps = [&](const Clamp& clamp) { return (clamp.components >> direction & 1) != 0; };
+  const auto carries = [&](const Region& region) {
+    return is_grounded(region.element) && region.stiffness[direction] > 0;
+  };
+  return structure.soil || std::ranges::any_of(structure.clamps, clamps) ||
+         std::ranges::any_of(structure.regions, carries);
+}
 
 std::vector<std::string> scene_doubts(const Scene& scene) {
   Doubts doubts;

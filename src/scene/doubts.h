@@ -12,4 +12,7 @@ namespace pounding {
 /// structure that is held. Nothing is refused: models without units are as good.
 std::vector<std::string> scene_doubts(const Scene& scene);
 
+/// Whether clamps or grounded springs hold a structure along a direction (0-2).
+bool is_held(const Structure& structure, std::size_t direction);
+
 }  // namespace pounding

@@ -67,6 +67,7 @@ constexpr std::array table{
     OptionRow{Block::run, "stiffness", Kind::choice, "word", value("auto"), any, "auto|assembled|element", "how K is applied: as a matrix, element by element, or by what the mesh is"},
     OptionRow{Block::run, "fidelity_target", Kind::real, "-", absent("optional"), positive, "", "rms error of the floor spectra that is accepted (0.05: 5 %); takes the fastest setting of the table within it"},
     OptionRow{Block::run, "fidelity_table", Kind::text, "file", value("petsc-options/azalee/fidelity.csv"), any, "a CSV file from run/tradeoff", "settings with their measured error and cost, and the structures that these were measured on"},
+    OptionRow{Block::run, "motion_input", Kind::choice, "word", value("base"), any, "base|below", "what the motion is: that of the ground under every support, or of a wave that enters from below through the faces of absorbing_base"},
     OptionRow{Block::run, "resampling", Kind::choice, "word", value("linear"), any, "linear|band_limited", "how records are upsampled to the time step"},
 
     OptionRow{Block::structure, "<structure>_mesh", Kind::text, "file", required, any, "a .geo or .msh file", "geometry to mesh (.geo) or mesh"},
@@ -76,6 +77,9 @@ constexpr std::array table{
     OptionRow{Block::structure, "<structure>_diaphragm", Kind::names, "names", value("none"), any, "", "physical groups of level floors, each rigid in its plane and free to bend out of it"},
     OptionRow{Block::structure, "<structure>_join", Kind::names, "pairs", value("none"), any, "group:group,group:group or none", "each node of the first group and the nearest one of the second become a rigid body: beams below the slabs that they carry"},
     OptionRow{Block::structure, "<structure>_pin", Kind::names, "names", value("none"), any, "", "physical groups whose nodes that lie on each other share their displacements, and turn on their own"},
+    OptionRow{Block::structure, "<structure>_levels", Kind::names, "names", value("none"), any, "", "physical groups whose nodes at one height share their displacements: sides of a block of soil that move as the free field"},
+    OptionRow{Block::structure, "<structure>_absorbing", Kind::names, "names", value("none"), any, "", "physical groups of faces of solids through which waves leave: dashpots density x speed x area"},
+    OptionRow{Block::structure, "<structure>_absorbing_base", Kind::names, "names", value("none"), any, "", "likewise, and the motion enters through them from below (motion_input below)"},
     OptionRow{Block::structure, "<structure>_ignore", Kind::names, "names", value("none"), any, "", "physical groups of the mesh that are left out on purpose"},
     OptionRow{Block::structure, "<structure>_allow_loose", Kind::boolean, "flag", value("false"), any, "", "pieces that nothing holds, and coincident nodes that nothing joins, are meant"},
     OptionRow{Block::structure, "<structure>_matrices", Kind::text, "folder", value("none"), any, "a folder with dofs.csv, stiffness.mtx, mass.mtx, or none", "its matrices, in place of its elements' own; the mesh says where faces and probes are"},

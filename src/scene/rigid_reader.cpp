@@ -9,7 +9,7 @@ namespace pounding {
 std::vector<RigidGroup> read_rigid_groups(OptionReader& options, const std::string& structure) {
   std::vector<RigidGroup> groups;
   for (const RigidKind kind :
-       {RigidKind::body, RigidKind::diaphragm, RigidKind::join, RigidKind::pin}) {
+       {RigidKind::body, RigidKind::diaphragm, RigidKind::join, RigidKind::pin, RigidKind::level}) {
     const char* const pattern = rigid_option(kind);
     for (const std::string& item : options.list(pattern, {structure})) {
       RigidGroup rigid{kind, item, ""};

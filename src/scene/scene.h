@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -98,7 +99,8 @@ enum class RigidKind : std::uint8_t {
   body,       ///< a physical group, as one rigid body
   diaphragm,  ///< level floors, each rigid in its plane
   join,       ///< each node of a group and the nearest one of another, as a rigid body
-  pin         ///< nodes of a group that lie on each other, in their displacements
+  pin,        ///< nodes of a group that lie on each other, in their displacements
+  level       ///< nodes of a group at one height, in their displacements
 };
 
 /// A physical group that moves together.
@@ -111,16 +113,23 @@ struct RigidGroup {
   std::string name() const { return other.empty() ? group : group + ":" + other; }
   /// Components that follow, one bit each.
   std::uint8_t components() const {
-    return kind == RigidKind::diaphragm ? 0x23 : kind == RigidKind::pin ? 0x07 : 0x3f;
+    if (kind == RigidKind::diaphragm) return 0x23;
+    return kind == RigidKind::pin || kind == RigidKind::level ? 0x07 : 0x3f;
   }
 };
 
 /// The option that makes a group move together.
 inline const char* rigid_option(RigidKind kind) {
   constexpr const char* options[] = {"<structure>_rigid", "<structure>_diaphragm",
-                                     "<structure>_join", "<structure>_pin"};
+                                     "<structure>_join", "<structure>_pin", "<structure>_levels"};
   return options[static_cast<int>(kind)];
 }
+
+/// Faces of solids through which waves leave a structure, see mesh/absorbing_node.h.
+struct AbsorbingFace {
+  std::string group;
+  bool is_base = false;  ///< the motion from below enters through it
+};
 
 struct Structure {
   std::string name;
@@ -131,6 +140,7 @@ struct Structure {
   bool allow_loose = false;  ///< pieces and coincident nodes that nothing joins
   std::vector<Clamp> clamps;
   std::vector<RigidGroup> rigid_groups;
+  std::vector<AbsorbingFace> absorbing;
   std::vector<Region> regions;
   Rayleigh damping;
   std::optional<UniformDamping> uniform_damping;  ///< in place of Rayleigh damping, which is 0 then
@@ -144,6 +154,10 @@ struct Structure {
 
   /// Bound of what the fastest motions find K multiplied by [-].
   double stiffening() const { return uniform_damping ? uniform_damping->at_once() : 1; }
+  /// The motion enters it as a wave from below.
+  bool is_driven_from_below() const {
+    return std::ranges::any_of(absorbing, &AbsorbingFace::is_base);
+  }
   /// The damping of a region's elements.
   Rayleigh damping_of(const Region& region) const { return region.damping.value_or(damping); }
 };
@@ -232,6 +246,7 @@ struct Scene {
   std::vector<Structure> structures;
   std::vector<Contact> contacts;
   std::array<std::optional<MotionComponent>, 3> motion;
+  bool motion_from_below = false;  ///< an incident wave; else the ground itself moves like that
   Resampling resampling = Resampling::linear;
   StiffnessMethod stiffness = StiffnessMethod::automatic;
   PartitionBy partition_by = PartitionBy::automatic;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "common/error.h"
+#include "scene/absorbing_reader.h"
 #include "scene/doubts.h"
 #include "scene/fidelity_target.h"
 #include "scene/motion_reader.h"
@@ -46,6 +47,7 @@ class SceneReader {
     for (std::size_t d = 0; d < 3; ++d) {
       scene_.motion[d] = read_motion(options_, direction_names[d]);
     }
+    check_absorbing(options_, scene_);
     for (const std::string& name : listed_.probes) scene_.probes.push_back(read_probe(name));
     read_spectra();
     const std::vector<std::string> doubts = scene_doubts(scene_);
@@ -97,6 +99,7 @@ class SceneReader {
     scene_.stiffness = method == "auto"        ? StiffnessMethod::automatic
                        : method == "assembled" ? StiffnessMethod::assembled
                                                : StiffnessMethod::element;
+    scene_.motion_from_below = options_.choice("motion_input") == "below";
     scene_.resampling =
         options_.choice("resampling") == "linear" ? Resampling::linear : Resampling::band_limited;
   }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "common/error.h"
+#include "scene/absorbing_reader.h"
 #include "scene/clamp_reader.h"
 #include "scene/damping_reader.h"
 #include "scene/modal_reader.h"
@@ -330,6 +331,7 @@ Structure read_structure(OptionReader& options, const std::string& name) {
     forbid_damping_beside_uniform(options, structure);
   }
   structure.modal = read_modal_model(options, structure);
+  structure.absorbing = read_absorbing(options, structure);
   forbid_mass_scaling(options, structure);
   read_step_target(options, structure);
   if (!structure.matrices.empty()) {

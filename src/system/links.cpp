@@ -42,7 +42,9 @@ std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh
       }
     }
   }
-  if (count == 0) return nullptr;
+  for (const AbsorbingNode& absorbing : mesh.absorbing) found->add_absorbing(mesh, absorbing);
+  if (count == 0 && structure.absorbing.empty()) return nullptr;
+  found->driven_ = structure.is_driven_from_below();
   std::vector<LocalIndex>& dofs = found->dofs_;
   std::sort(dofs.begin(), dofs.end());
   dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
@@ -111,6 +113,25 @@ void Links::add_soil(const Structure& structure, const Mesh& mesh, const Element
       link.weight[i] = motion[c][i];
     }
     keep(mesh, block, element, link);
+  }
+}
+
+void Links::add_absorbing(const Mesh& mesh, const AbsorbingNode& absorbing) {
+  const LocalIndex node = mesh.owned_node(absorbing.node);
+  for (std::size_t k = 0; k < absorbing.axis.size(); ++k) {
+    Link link;
+    link.number = absorbing.node;
+    link.incident = absorbing.incident[k];
+    link.origin.component = static_cast<int>(k);
+    link.origin.absorbing = absorbing.dashpot[k];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const LocalIndex dof = mesh.dof(node, static_cast<int>(c));
+      if (dof < 0 || absorbing.axis[k][c] == 0) continue;
+      link.place[c] = dof;
+      link.weight[c] = absorbing.axis[k][c];
+      dofs_.push_back(dof);
+    }
+    if (std::ranges::any_of(link.place, [](int dof) { return dof >= 0; })) links_.push_back(link);
   }
 }
 

@@ -21,6 +21,7 @@ struct Link {
   /// up to six of its node.
   std::array<int, 6> place{-1, -1, -1, -1, -1, -1};
   std::array<double, 6> weight{};  ///< b: of each place in the elongation
+  Vector3 incident{};  ///< force along it of a wave from below, per its velocity [N s/m]
   LinkOrigin origin;
   std::int64_t number = 0;  ///< among the elements of its structure's file; its name in checkpoints
 
@@ -30,8 +31,8 @@ struct Link {
 
 /// Links of a structure: what pulls between two nodes, or from one to the ground, by a law that is
 /// no part of K u. Today these are the bars that resist stretching only, compression-only springs
-/// along z, the dashpots of springs, one for each component, and the dashpots and masses of soil in
-/// the six motions of a mat. Links that share a node that can
+/// along z, the dashpots of springs, one for each component, the dashpots and masses of soil in the
+/// six motions of a mat, and three dashpots at every node of absorbing faces. Links that share a node that can
 /// move live on one rank, with all that moves with their nodes (see `coupled_nodes`). Constant
 /// during a run; what evolves is with LinkStep.
 class Links {
@@ -47,6 +48,8 @@ class Links {
   const Trace& trace() const { return *trace_; }
   /// Some link of some rank acts in one direction only.
   bool one_way() const { return one_way_; }
+  /// A wave enters through some link of some rank.
+  bool driven() const { return driven_; }
 
  private:
   Links() = default;
@@ -56,10 +59,12 @@ class Links {
                    std::size_t element);
   void add_soil(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
                 std::size_t element);
+  void add_absorbing(const Mesh& mesh, const AbsorbingNode& absorbing);
   /// Keeps a link whose places are local dofs as yet, if this rank owns those that can move.
   void keep(const Mesh& mesh, const ElementBlock& block, std::size_t element, const Link& link);
 
   bool one_way_ = false;
+  bool driven_ = false;
   std::vector<Link> links_;
   std::vector<LocalIndex> dofs_;  ///< per place of the trace, increasing
   std::unique_ptr<Trace> trace_;

@@ -46,6 +46,34 @@ TEST_F(GroundMotionTest, LinearBetweenSamplesAndZeroOutside) {
   static_assert(noexcept(motion.acceleration(0, 0.0)));
 }
 
+TEST_F(GroundMotionTest, WaveFromBelowIsTheExactIntegralAndTheGroundRests) {
+  GroundMotion motion(Components{record(shape, 0.5), std::nullopt, record("1\n-1\n", 0.1)},
+                      Resampling::linear);
+  Vector3 v{9, 9, 9};
+  motion.evaluate_incident(1, v);
+  EXPECT_EQ(v, (Vector3{0, 0, 0}));
+  motion.enter_from_below();
+  EXPECT_TRUE(motion.from_below());
+  EXPECT_EQ(motion.acceleration(0, 0.5), 0);
+  EXPECT_EQ(motion.peak_acceleration(), 0);
+  EXPECT_FALSE(motion.active(0));
+  EXPECT_EQ(motion.incident(0).acceleration.size(), 4U);
+  motion.evaluate_incident(0.25, v);
+  EXPECT_DOUBLE_EQ(v[0], 0.0625);  // t^2
+  EXPECT_EQ(v[1], 0);
+  EXPECT_NEAR(v[2], 0, 1e-15);
+  motion.evaluate_incident(0.75, v);
+  EXPECT_DOUBLE_EQ(v[0], 0.25 + 0.25 * (1 - 1.5) / 2);  // from 1 to -1.5
+  motion.evaluate_incident(0.05, v);
+  EXPECT_DOUBLE_EQ(v[2], 0.025);
+  motion.evaluate_incident(1e9, v);
+  EXPECT_DOUBLE_EQ(v[0], 0.25 - 0.75 - 0.5);  // keeps its last value
+  motion.evaluate_incident(-1, v);
+  EXPECT_EQ(v, (Vector3{0, 0, 0}));
+  ASSERT_FALSE(motion.doubts().empty());
+  EXPECT_THAT(motion.doubts().back(), HasSubstr("motion x: the wave from below ends at -1 m/s"));
+}
+
 TEST_F(GroundMotionTest, ThreeDirectionsOfTheirOwnLengthAndScale) {
   const GroundMotion motion(
       Components{record(shape, 0.5, 2), std::nullopt, record("1\n3\n", 0.1, 0, -0.5)},

@@ -1,0 +1,98 @@
+#include "scene/absorbing_reader.h"
+
+#include <algorithm>
+
+#include "scene/doubts.h"
+
+namespace pounding {
+namespace {
+
+constexpr std::string_view absorbing = "<structure>_absorbing";
+constexpr std::string_view base = "<structure>_absorbing_base";
+constexpr std::string_view input = "motion_input";
+
+/// A block that a wave moves does not stand on ground at rest, nor is it braked against it.
+void check_driven(const OptionReader& options, const Structure& structure) {
+  const auto refuse = [&](const std::string& why) {
+    options.refuse(input, {}, "structure " + structure.name + " " + why);
+  };
+  if (!structure.is_driven_from_below()) {
+    refuse("has no -" + structure.name +
+           "_absorbing_base: one that stands on the moving ground and one that a wave moves "
+           "cannot be in one scene");
+  }
+  for (const Region& region : structure.regions) {
+    if (is_grounded(region.element)) {
+      refuse("has springs to the ground (" + region.group +
+             "), which would stand still under the wave; clamp what must not move, or leave them "
+             "out");
+    }
+    if (structure.damping_of(region).alpha > 0) {
+      refuse(
+          "has damping alpha, which would brake it against ground at rest; give beta or "
+          "damping_uniform");
+    }
+  }
+}
+
+/// Dashpots carry nothing at rest.
+void check_weight(const OptionReader& options, const Structure& structure) {
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (structure.gravity[d] == 0 || is_held(structure, d)) continue;
+    const AbsorbingFace& face = structure.absorbing.front();
+    const std::string along = direction_names[d];
+    options.refuse(face.is_base ? base : absorbing, {structure.name},
+                   "gravity acts along " + along +
+                       ", where nothing but dashpots holds the structure; clamp its base there (-" +
+                       structure.name + "_clamp " + face.group + ":" + along +
+                       "), or leave gravity out");
+  }
+}
+
+}  // namespace
+
+std::vector<AbsorbingFace> read_absorbing(OptionReader& options, const Structure& structure) {
+  std::vector<AbsorbingFace> faces;
+  for (const std::string_view pattern : {base, absorbing}) {
+    for (const std::string& group : options.list(pattern, {structure.name})) {
+      if (std::ranges::count(faces, group, &AbsorbingFace::group) > 0) {
+        options.refuse(pattern, {structure.name},
+                       "'" + group + "' stands in absorbing and in absorbing_base");
+      }
+      faces.push_back({group, pattern == base});
+    }
+    const std::string where = "not with -" + structure.name;
+    if (!faces.empty() && !structure.matrices.empty()) {
+      options.refuse(pattern, {structure.name}, where + "_matrices");
+    }
+    if (!faces.empty() && structure.modal) {
+      options.refuse(pattern, {structure.name},
+                     where + "_model modal: waves leave a structure at full order only");
+    }
+  }
+  return faces;
+}
+
+void check_absorbing(const OptionReader& options, const Scene& scene) {
+  for (const Structure& structure : scene.structures) {
+    if (!structure.absorbing.empty() && !scene.export_matrices.empty()) {
+      options.refuse("export_matrices", {},
+                     "structure " + structure.name + " has absorbing faces, which no matrix holds");
+    }
+    if (!structure.absorbing.empty()) check_weight(options, structure);
+    if (scene.motion_from_below) check_driven(options, structure);
+    if (!scene.motion_from_below && structure.is_driven_from_below()) {
+      options.refuse(base, {structure.name},
+                     "goes with -motion_input below; without it, name the "
+                     "faces in -" +
+                         structure.name + "_absorbing");
+    }
+  }
+  const bool walls = std::ranges::any_of(
+      scene.contacts, [](const Contact& contact) { return contact.primary.is_wall(); });
+  if (scene.motion_from_below && walls) {
+    options.refuse(input, {}, "a wall follows ground that moves; model it as a structure");
+  }
+}
+
+}  // namespace pounding
