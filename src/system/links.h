@@ -32,9 +32,9 @@ struct Link {
 /// Links of a structure: what pulls between two nodes, or from one to the ground, by a law that is
 /// no part of K u. Today these are the bars that resist stretching only, compression-only springs
 /// along z, the dashpots of springs, one for each component, the dashpots and masses of soil in the
-/// six motions of a mat, and three dashpots at every node of absorbing faces. Links that share a node that can
-/// move live on one rank, with all that moves with their nodes (see `coupled_nodes`). Constant
-/// during a run; what evolves is with LinkStep.
+/// six motions of a mat, and three dashpots at every node of absorbing faces. Links that share a
+/// node that can move live on one rank, with all that moves with their nodes (see `coupled_nodes`).
+/// Constant during a run; what evolves is with LinkStep.
 class Links {
  public:
   /// Null if the structure has no link. Throws std::logic_error if the nodes of one live on several
