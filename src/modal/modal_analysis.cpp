@@ -127,6 +127,11 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
 
 LargestFrequency largest_frequency(const LinearSystem& system, const Mesh& mesh,
                                    const EigenvalueEffort& effort) {
+  if (system.element_frequency_bound == 0) {  // nothing strains: K is round-off, or zero
+    LargestFrequency none;
+    none.location = locate_largest(mesh, system.lumped_mass);
+    return none;
+  }
   const ScaledOperator scaled(system, {{1, &system.stiffest()}});
   Lanczos lanczos(system, mesh, scaled);
   lanczos.run(effort, "omega_max");

@@ -27,8 +27,8 @@ struct MassScaling {
   GlobalIndex elements = 0;   ///< scaled, over all ranks
   GlobalIndex dofs = 0;       ///< that S couples, over all ranks
   double largest_factor = 0;  ///< largest c_e [s2]
-  /// Root of the largest row sum of |K_e| over the lumped mass, scaled elements [rad/s]: what
-  /// omega_max would bound without S.
+  /// Root of the largest row sum of |K_e| over the lumped mass, scaled elements and those that meet
+  /// rigid bodies [rad/s]: what omega_max would bound without S and bodies.
   double row_frequency = 0;
 };
 

@@ -12,8 +12,11 @@ namespace pounding {
 
 double ScaledMass::add(const ElementBlock& block, std::size_t element, const Region& region,
                        std::span<const double> stiffness, std::span<const double> mass) {
+  if (meets_rigid_body(mesh_, block, element)) {
+    add_rows(block, element, stiffness);
+    return 0;
+  }
   if (structure_.mass_scaling == 0 || !traits_of(block.type).scalable) return 0;
-  if (meets_rigid_body(mesh_, block, element)) return 0;
   const std::span<double> added(added_.data(), stiffness.size());
   std::fill(added.begin(), added.end(), 0.0);
   const double factor = add_element_mass(structure_.mass_scaling, structure_.damping_of(region),
