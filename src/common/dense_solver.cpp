@@ -10,6 +10,11 @@
 namespace pounding {
 
 bool solve_dense(std::vector<double>& matrix, std::vector<double>& values) {
+  std::vector<int> pivots(values.size());
+  return solve_dense(matrix, values, pivots);
+}
+
+bool solve_dense(std::span<double> matrix, std::span<double> values, std::span<int> pivots) {
   const std::size_t n = values.size();
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j) std::swap(matrix[i * n + j], matrix[j * n + i]);
@@ -17,7 +22,7 @@ bool solve_dense(std::vector<double>& matrix, std::vector<double>& values) {
   auto order = static_cast<PetscBLASInt>(n);
   PetscBLASInt one = 1;
   PetscBLASInt info = 0;
-  std::vector<PetscBLASInt> pivots(n);
+  static_assert(sizeof(PetscBLASInt) == sizeof(int));
   LAPACKgesv_(&order, &one, matrix.data(), &order, pivots.data(), values.data(), &order, &info);
   return info == 0;
 }

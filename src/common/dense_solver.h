@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 namespace pounding {
@@ -7,6 +8,9 @@ namespace pounding {
 /// Solution of A x = b for a full matrix, shape (n, n) by rows, which is destroyed; `values`, shape
 /// (n), holds b and receives x. False, and b lost, if A is singular. LAPACK dgesv.
 bool solve_dense(std::vector<double>& matrix, std::vector<double>& values);
+
+/// Solution of A x = b likewise, without allocation: `pivots`, shape (n), is scratch.
+bool solve_dense(std::span<double> matrix, std::span<double> values, std::span<int> pivots);
 
 /// Inverse of a symmetric positive definite matrix, shape (n, n), in its place, symmetric to the
 /// last bit. False, and the matrix lost, if it is not definite. LAPACK dpotrf, dpotri.

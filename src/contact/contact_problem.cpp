@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "contact/contact_components.h"
+#include "contact/delassus.h"
 #include "contact/interface_traces.h"
 
 namespace pounding {
@@ -22,14 +23,15 @@ constexpr double rate_roundoff = 1e-14;
 ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
                                std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
                                double gap_tolerance)
-    : operator_(comm, interface.constraints, meshes),
+    : operator_(comm, with_friction_rows(interface.constraints), meshes),
       structure_dofs_(dofs_by_structure(operator_, systems.size())),
       traces_(make_traces(operator_, systems, meshes, true)),
       gather_(comm, known_dofs(structure_dofs_, traces_)),
       compliance_(comm, operator_.dof_list(), traces_),
+      friction_(operator_, compliance_, interface.constraints),
       gap_tolerance_(gap_tolerance) {
   const std::size_t dofs = operator_.dofs();
-  const std::size_t rows = operator_.rows();
+  const std::size_t rows = interface.constraints.size();
   for (const Constraint& constraint : interface.constraints) {
     initial_gap_.push_back(constraint.initial_gap);
   }
@@ -61,7 +63,9 @@ ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
 }
 
 void ContactProblem::build_delassus() {
-  for (int row = 0; row < operator_.rows(); ++row) diagonal_.push_back(delassus_entry(row, row));
+  for (int row = 0; row < rows(); ++row) {
+    diagonal_.push_back(delassus_entry(operator_, compliance_, row, row));
+  }
 }
 
 std::vector<double> ContactProblem::row_force(int row, std::size_t structure,
@@ -91,45 +95,39 @@ double ContactProblem::row_compliance(int row, std::size_t structure) const {
   return std::max(sum, 0.0);
 }
 
-double ContactProblem::delassus_entry(int row, int column) const {
-  double sum = 0;
-  const auto row_dofs = operator_.row_dofs(row);
-  const auto row_values = operator_.row_coefficients(row);
-  const auto column_dofs = operator_.row_dofs(column);
-  const auto column_values = operator_.row_coefficients(column);
-  for (std::size_t a = 0; a < row_dofs.size(); ++a) {
-    for (std::size_t b = 0; b < column_dofs.size(); ++b) {
-      sum += row_values[a] *
-             compliance_.entry(static_cast<std::size_t>(row_dofs[a]),
-                               static_cast<std::size_t>(column_dofs[b])) *
-             column_values[b];
-    }
-  }
-  return sum;
-}
-
 void ContactProblem::find_components() {
   std::vector<std::vector<int>> row_groups;
-  for (int row = 0; row < operator_.rows(); ++row) {
-    row_groups.emplace_back();
-    for (const int dof : operator_.row_dofs(row)) {
-      row_groups.back().push_back(compliance_.group_of(static_cast<std::size_t>(dof)));
-    }
+  for (int row = 0; row < rows(); ++row) {
+    std::vector<int>& groups = row_groups.emplace_back();
+    const auto add_groups = [&](int operator_row) {
+      for (const int dof : operator_.row_dofs(operator_row)) {
+        groups.push_back(compliance_.group_of(static_cast<std::size_t>(dof)));
+      }
+    };
+    add_groups(row);
+    if (!friction_.has_friction(row)) continue;
+    add_groups(friction_.tangent(row));
+    add_groups(friction_.tangent(row) + 1);
   }
   std::size_t largest = 1;
   for (std::vector<int>& rows : coupled_components(row_groups, operator_.dofs())) {
-    Component& component = components_.emplace_back(Component{std::move(rows), {}});
+    Component& component = components_.emplace_back(Component{std::move(rows), {}, -1});
     const std::size_t size = component.rows.size();
+    if (size > 1) coupled_rows_ += static_cast<int>(size);
+    if (std::ranges::any_of(component.rows, [&](int row) { return friction_.has_friction(row); })) {
+      component.frictional = static_cast<int>(friction_.add(component.rows));
+      continue;
+    }
     largest = std::max(largest, size);
     if (size > 1) {
-      coupled_rows_ += static_cast<int>(size);
       for (const int row : component.rows) {
         for (const int column : component.rows) {
-          component.delassus.push_back(delassus_entry(row, column));
+          component.delassus.push_back(delassus_entry(operator_, compliance_, row, column));
         }
       }
     }
   }
+  friction_.reserve();
   active_places_.reserve(largest);
   matrix_.resize(largest * largest);
   rate_.resize(largest);
@@ -145,7 +143,7 @@ void ContactProblem::set_displacement(std::size_t structure, const double* displ
 void ContactProblem::gather_displacements() {
   gather_.gather(1, {mine_.data(), mine_.size() / InterfaceGather::max_fields}, displacement_);
   smallest_gap_ = std::numeric_limits<double>::max();
-  for (int row = 0; row < operator_.rows(); ++row) {
+  for (int row = 0; row < rows(); ++row) {
     const std::size_t r = row;
     gap_[r] = initial_gap_[r] + operator_.apply(row, displacement_);
     smallest_gap_ = std::min(smallest_gap_, gap_[r]);
@@ -174,7 +172,19 @@ void ContactProblem::gather_velocities() {
   gather_.gather(2, mine_, velocities_);
 }
 
+void ContactProblem::solve_with_friction(const Component& component) {
+  const std::size_t dofs = displacement_.size();
+  const FrictionalContact::Solution solution = friction_.solve(
+      static_cast<std::size_t>(component.frictional), active_, {velocities_.data(), dofs},
+      {velocities_.data() + dofs, dofs}, impulse_, work_, dof_impulse_);
+  note_residual(solution.residual, solution.free_rate);
+}
+
 void ContactProblem::solve_component(const Component& component) {
+  if (component.frictional >= 0) {
+    solve_with_friction(component);
+    return;
+  }
   const std::size_t dofs = displacement_.size();
   const std::span<const double> free_velocity(velocities_.data() + dofs, dofs);
   active_places_.clear();
@@ -206,17 +216,15 @@ void ContactProblem::solve_coupled(const Component& component) {
   }
   const LcpResult result =
       lcp_->solve({matrix_.data(), n * n}, {rate_.data(), n}, {solution_.data(), n});
-  note_residual(result.residual);
+  double largest = 0;
+  for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, std::abs(rate_[i]));
+  note_residual(result.residual, largest);
   for (std::size_t i = 0; i < n; ++i) operator_.add_transposed(row(i), solution_[i], dof_impulse_);
   if (result.roundoff > correction_threshold) correct_component(component);
   for (std::size_t i = 0; i < n; ++i) impulse_[row(i)] = solution_[i];
 }
 
-void ContactProblem::note_residual(double residual) {
-  double rate = 0;
-  for (std::size_t i = 0; i < active_places_.size(); ++i) {
-    rate = std::max(rate, std::abs(rate_[i]));
-  }
+void ContactProblem::note_residual(double residual, double rate) {
   largest_rate_ = std::max(largest_rate_, rate);
   // Where all is at rest, rates are round-off of larger ones, which fits no rigid body.
   const double left = residual * rate;
@@ -249,6 +257,7 @@ void ContactProblem::clear_impulse() {
   previous_ = impulse_;
   std::fill(impulse_.begin(), impulse_.end(), 0.0);
   std::fill(work_.begin(), work_.end(), 0.0);
+  friction_.clear();
 }
 
 void ContactProblem::solve_impulse() {
@@ -257,9 +266,13 @@ void ContactProblem::solve_impulse() {
   std::fill(dof_increment_.begin(), dof_increment_.end(), 0.0);
   for (const Component& component : components_) solve_component(component);
   const std::span<const double> velocity_before(velocities_.data(), displacement_.size());
-  for (int row = 0; row < operator_.rows(); ++row) {
-    const double impulse = impulse_[row];
-    if (impulse > 0) work_[row] = 0.5 * impulse * operator_.apply(row, velocity_before);
+  for (const Component& component : components_) {
+    for (const int row : component.rows) {
+      const double impulse = impulse_[row];
+      if (impulse > 0 && component.frictional < 0) {
+        work_[row] = 0.5 * impulse * operator_.apply(row, velocity_before);
+      }
+    }
   }
 }
 
@@ -278,6 +291,7 @@ void ContactProblem::add_velocity_change(std::size_t structure, double* velocity
 void ContactProblem::save(SavedState& saved) const {
   saved.put("contact_impulse", impulse_);
   saved.put("contact_largest_residual", {largest_residual_, largest_rate_});
+  friction_.save(saved);
 }
 
 void ContactProblem::load(const SavedState& saved) {
@@ -286,6 +300,7 @@ void ContactProblem::load(const SavedState& saved) {
   saved.get("contact_largest_residual", largest);
   largest_residual_ = largest[0];
   largest_rate_ = largest[1];
+  friction_.load(saved);
 }
 
 double ContactProblem::total_work() const {

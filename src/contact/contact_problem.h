@@ -6,6 +6,7 @@
 
 #include "common/saved_state.h"
 #include "contact/contact_operator.h"
+#include "contact/frictional_contact.h"
 #include "contact/interface.h"
 #include "contact/interface_compliance.h"
 #include "contact/interface_gather.h"
@@ -23,7 +24,8 @@ namespace pounding {
 /// The columns of L are displacements of the interface, T u of the dofs of each structure (see
 /// system/trace.h), so that H = L T M^-1 T^T L^T [1/kg]; it is built once. Rows that share nothing
 /// that moves with another row are solved in closed form, lambda_i = max(0, -(L v_free)_i / H_ii);
-/// coupled rows by the LCP solver, component by component. Nothing allocates after construction.
+/// coupled rows by the LCP solver, component by component; components with friction have tangential
+/// impulses beside the normal ones (see FrictionalContact). Nothing allocates after construction.
 class ContactProblem {
  public:
   /// Collective over `comm`. `gap_tolerance` [m].
@@ -33,7 +35,8 @@ class ContactProblem {
   bool member() const { return gather_.member(); }
   int root() const { return gather_.root(); }
   int members() const { return gather_.members(); }
-  int rows() const { return operator_.rows(); }
+  /// Constraints, friction apart.
+  int rows() const { return static_cast<int>(initial_gap_.size()); }
   int coupled_rows() const { return coupled_rows_; }
 
   /// The interface of a structure, as far as this rank knows it.
@@ -62,8 +65,9 @@ class ContactProblem {
   const std::vector<double>& impulses() const { return impulse_; }  ///< [N s]
   const std::vector<double>& works() const { return work_; }        ///< 1/2 lambda L v- [J]
   double smallest_gap() const { return smallest_gap_; }
-  /// Contact work 1/2 lambda^T L v- of the last solve [J].
+  /// Contact work 1/2 lambda^T L v- of the last solve, that of friction apart [J].
   double total_work() const;
+  const FrictionalContact& friction() const { return friction_; }
   double largest_residual() const { return largest_residual_; }
   double gap_tolerance() const { return gap_tolerance_; }
   /// A structure's part of (row of L T)^T over the dofs that this rank owns.
@@ -81,21 +85,23 @@ class ContactProblem {
   /// Coupled rows, ascending, with their part of H.
   struct Component {
     std::vector<int> rows;
-    std::vector<double> delassus;  ///< shape (rows, rows); empty for a single row
+    std::vector<double> delassus;  ///< shape (rows, rows); empty for a single row, or with friction
+    int frictional = -1;           ///< its number there; -1: no row has friction
   };
 
   void build_delassus();
-  double delassus_entry(int row, int column) const;
   std::size_t structure_of(std::size_t dof) const {
     return static_cast<std::size_t>(operator_.dof_list()[dof].structure);
   }
   void find_components();
   void solve_component(const Component& component);
+  void solve_with_friction(const Component& component);
   void solve_coupled(const Component& component);
   /// Second pass where masses differ so much that a double loses the gap rates.
   void correct_component(const Component& component);
-  /// Keeps the residual of the system just solved, if it is the largest.
-  void note_residual(double residual);
+  /// Keeps the residual of the system just solved, if it is the largest; `rate`: its largest free
+  /// gap rate.
+  void note_residual(double residual, double rate);
 
   ContactOperator operator_;
   std::vector<std::vector<int>> structure_dofs_;  ///< per structure: its interface dofs
@@ -104,6 +110,7 @@ class ContactProblem {
   std::vector<int> known_place_;                  ///< per interface dof, in its trace; -1: none
   InterfaceGather gather_;
   InterfaceCompliance compliance_;
+  FrictionalContact friction_;
   double gap_tolerance_;
   std::vector<double> initial_gap_;
   std::vector<double> diagonal_;  ///< H_ii

@@ -140,6 +140,7 @@ class PairFinder {
   void finish(const FaceSide& nodes, std::size_t i, Constraint&& constraint, Interface& interface) {
     const GlobalIndex node = nodes.face.nodes[i];
     constraint.contact = number_;
+    constraint.friction = contact_.friction;
     add_terms(nodes.structure, node, -1, nodes.face.node_normals[i], constraint);
     const Vector3 x = nodes.mesh->position(node);
     for (std::size_t t = 0; t < 2; ++t) constraint.place[t] = x[report_.tangent_axes[t]];

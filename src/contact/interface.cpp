@@ -27,11 +27,12 @@ void broadcast_interface(MPI_Comm comm, Interface& interface) {
     double geometric_gap;
     double facet_size;
     std::array<double, 2> place;
+    double friction;
   };
   std::vector<Head> heads;
   for (const Constraint& c : interface.constraints) {
     heads.push_back({c.contact, static_cast<int>(c.terms.size()), c.matched ? 1 : 0, c.initial_gap,
-                     c.geometric_gap, c.facet_size, c.place});
+                     c.geometric_gap, c.facet_size, c.place, c.friction});
     terms.insert(terms.end(), c.terms.begin(), c.terms.end());
   }
   broadcast_array(comm, heads);
@@ -47,7 +48,8 @@ void broadcast_interface(MPI_Comm comm, Interface& interface) {
                                      head.geometric_gap,
                                      head.facet_size,
                                      head.place,
-                                     head.matched != 0});
+                                     head.matched != 0,
+                                     head.friction});
     next += head.terms;
   }
 }

@@ -34,6 +34,7 @@ struct Constraint {
   double facet_size = 0;          ///< of the facet that it faces; 0: a wall, endless [m]
   std::array<double, 2> place{};  ///< secondary node on the tangent axes [m]
   bool matched = false;           ///< faces one primary node exactly
+  double friction = 0;            ///< Coulomb's coefficient [-]
 };
 
 /// Report of the pairs found for one contact.

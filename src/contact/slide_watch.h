@@ -22,10 +22,6 @@ struct Slide {
   static constexpr double limit = 0.5;
 };
 
-/// Two rows per constraint: what L is for gap rates, for the displacements along two tangents, in
-/// the order of the constraints, with the same weights.
-std::vector<Constraint> tangential_rows(std::span<const Constraint> constraints);
-
 /// Pairs are found once, in the initial geometry. This keeps how far each node has moved along the
 /// facet that it faces, whether they touch or not. It reads displacements and changes nothing;
 /// nothing allocates after construction.

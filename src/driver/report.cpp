@@ -457,6 +457,9 @@ void print_results(const Scene& scene, const RunStatistics& statistics,
       "\nenergy at the end [J]: kinetic %.4g, strain %.4g, damping loss %.4g, contact work %.4g, "
       "input work %.4g\n",
       energy.kinetic, energy.strain, energy.damping_loss, energy.contact_work, energy.input_work);
+  if (energy.friction_loss != 0) {
+    std::printf("  friction of contacts took %.4g\n", energy.friction_loss);
+  }
   if (energy.gravity_work != 0) {
     std::printf("  of the input work that of gravity %.4g\n", energy.gravity_work);
   }

@@ -171,7 +171,8 @@ Json describe_impacts(const ImpactTotals& totals) {
           {"total_impulse", totals.total_impulse},
           {"largest_impulse", totals.largest_impulse},
           {"max_penetration", totals.max_penetration},
-          {"energy_lost", totals.energy_lost}};
+          {"energy_lost", totals.energy_lost},
+          {"friction_loss", totals.friction_loss}};
 }
 
 Json describe_energy(const RunStatistics& statistics) {
@@ -181,6 +182,7 @@ Json describe_energy(const RunStatistics& statistics) {
           {"strain", energy.strain},
           {"damping", energy.damping_loss},
           {"contact", energy.contact_work},
+          {"friction", energy.friction_loss},
           {"input", energy.input_work},
           {"gravity", energy.gravity_work},
           {"devices", energy.device_work}};

@@ -155,12 +155,16 @@ void TimeLoop::observe(std::int64_t step) {
   const bool reports =
       solver_.stepper().interface_known() && solver_.contact()->root() == rank_of(comm_);
   if (reports && solver_.stepper().touching()) {
-    catalogue_.add_step(solver_.stepper().time(), solver_.stepper().force_duration(),
-                        solver_.contact()->gaps(), solver_.contact()->impulses(),
-                        solver_.contact()->works());
-    for (std::size_t row = 0; row < solver_.contact()->impulses().size(); ++row) {
-      recorder_->add_impulse(model_.interface.constraints[row].contact,
-                             solver_.contact()->impulses()[row]);
+    const ContactProblem& contact = *solver_.contact();
+    ContactStep impulses{contact.gaps(), contact.impulses(), contact.works(), {}, {}, {}};
+    if (contact.friction().has_any()) {
+      impulses.tangential_impulses = contact.friction().tangential_impulses();
+      impulses.slip_rates = contact.friction().slip_rates();
+      impulses.friction_losses = contact.friction().losses();
+    }
+    catalogue_.add_step(solver_.stepper().time(), solver_.stepper().force_duration(), impulses);
+    for (std::size_t row = 0; row < contact.impulses().size(); ++row) {
+      recorder_->add_impulse(model_.interface.constraints[row].contact, contact.impulses()[row]);
     }
   }
   if (!recorder_->due(step)) return;

@@ -131,7 +131,11 @@ void CdLagrange::close_energy() {
     sums_[s].extra_damping_before = extra_damping;
     if (link_steps_[s]) link_steps_[s]->finish(sums_[s]);
   }
-  energy_.add_step(sums_, acceleration_, touching_ && counts_work_ ? contact_->total_work() : 0);
+  ContactWork work;
+  if (touching_ && counts_work_) {
+    work = {contact_->total_work(), contact_->friction().total_loss()};
+  }
+  energy_.add_step(sums_, acceleration_, work);
 }
 
 void CdLagrange::save(SavedState& saved) const {

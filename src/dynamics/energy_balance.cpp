@@ -31,7 +31,7 @@ EnergyBalance::EnergyBalance(MPI_Comm comm, std::span<const LinearSystem> system
 
 void EnergyBalance::add_step(std::span<const StepSums> sums,
                              const std::array<double, 3>& ground_acceleration,
-                             double contact_work) {
+                             const ContactWork& contact) {
   lagged_damping_ = 0;
   for (std::size_t b = 0; b < systems_.size(); ++b) {
     lagged_damping_ += time_step_ / 4 * sums[b].extra_damping_before;
@@ -41,8 +41,9 @@ void EnergyBalance::add_step(std::span<const StepSums> sums,
   }
   if (steps_ == 1) {
     initial_lagged_damping_ = lagged_damping_;
-    initial_ -= open_.contact;
+    initial_ -= open_.contact - open_.friction;
     contact_.add(open_.contact);
+    friction_.add(open_.friction);
   }
   if (steps_ > 1) {
     damping_.add(open_.damping);
@@ -51,6 +52,7 @@ void EnergyBalance::add_step(std::span<const StepSums> sums,
     device_.add(open_.device);
     links_.add(open_.links);
     gravity_.add(open_.gravity);
+    friction_.add(open_.friction);
     for (std::size_t b = 0; b < systems_.size(); ++b) {
       damping_.add(open_filtered_[b]);
       filtered_[b].add(open_filtered_[b]);
@@ -59,16 +61,17 @@ void EnergyBalance::add_step(std::span<const StepSums> sums,
   for (std::size_t b = 0; b < systems_.size(); ++b) {
     open_filtered_[b] = time_step_ / 2 * sums[b].filtered;
   }
-  open_ = works(sums, ground_acceleration, contact_work);
+  open_ = works(sums, ground_acceleration, contact);
   ++steps_;
 }
 
 /// Works of the step just made; the last quarter of its damping is known one step later.
 EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
                                           const std::array<double, 3>& ground_acceleration,
-                                          double contact_work) const {
+                                          const ContactWork& contact) const {
   Works result;
-  result.contact = contact_work;
+  result.contact = contact.normal;
+  result.friction = contact.friction_loss;
   for (std::size_t b = 0; b < systems_.size(); ++b) {
     const Rayleigh& damping = systems_[b].damping;
     result.damping += time_step_ / 4 *
@@ -109,14 +112,15 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   }
   MPI_Allreduce(MPI_IN_PLACE, structures.data(), static_cast<int>(values * structures.size()),
                 MPI_DOUBLE, MPI_SUM, comm_);
-  std::array<double, 7> sums{initial_,
+  std::array<double, 8> sums{initial_,
                              damping_.total(),
                              contact_.total(),
                              input_.total(),
                              device_.total() + lagged_damping_ - initial_lagged_damping_,
                              links_.total(),
-                             gravity_.total()};
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 7, MPI_DOUBLE, MPI_SUM, comm_);
+                             gravity_.total(),
+                             friction_.total()};
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 8, MPI_DOUBLE, MPI_SUM, comm_);
   EnergyLine line;
   line.time = static_cast<double>(closed_steps() - 1) * time_step_;
   for (const StructureEnergy& structure : structures) {
@@ -129,23 +133,25 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   line.input_work = sums[3];
   line.link_loss = sums[5];
   line.gravity_work = sums[6];
+  line.friction_loss = sums[7];
   line.device_work = sums[4] + line.link_loss;
   line.residual = line.energy() - sums[0] + line.damping_loss + line.device_work -
-                  line.contact_work - line.input_work;
+                  line.contact_work + line.friction_loss - line.input_work;
   return line;
 }
 
 template <typename Balance, typename Function>
 void EnergyBalance::for_each_sum(Balance& balance, Function&& function) {
   for (auto* sum : {&balance.damping_, &balance.input_, &balance.contact_, &balance.device_,
-                    &balance.links_, &balance.gravity_}) {
+                    &balance.links_, &balance.gravity_, &balance.friction_}) {
     function(sum->value);
     function(sum->correction);
   }
   function(balance.initial_);
   function(balance.initial_lagged_damping_);
-  for (auto* work : {&balance.open_.damping, &balance.open_.input, &balance.open_.contact,
-                     &balance.open_.device, &balance.open_.links, &balance.open_.gravity}) {
+  for (auto* work :
+       {&balance.open_.damping, &balance.open_.input, &balance.open_.contact, &balance.open_.device,
+        &balance.open_.links, &balance.open_.gravity, &balance.open_.friction}) {
     function(*work);
   }
   for (auto& sum : balance.filtered_) {
@@ -178,9 +184,10 @@ void EnergyBalance::load(const SavedState& saved) {
 
 void EnergyBalance::note(const EnergyLine& line) {
   largest_residual_ = std::max(largest_residual_, std::abs(line.residual));
-  largest_term_ = std::max({largest_term_, std::abs(line.kinetic), std::abs(line.strain),
-                            std::abs(line.device_work), line.damping_loss,
-                            std::abs(line.contact_work), std::abs(line.input_work)});
+  largest_term_ =
+      std::max({largest_term_, std::abs(line.kinetic), std::abs(line.strain),
+                std::abs(line.device_work), line.damping_loss, std::abs(line.contact_work),
+                std::abs(line.input_work), line.friction_loss});
 }
 
 }  // namespace pounding

@@ -24,11 +24,12 @@ struct EnergyLine {
   /// Taken up by dashpots, by what regions with damping of their own have beside the structure's,
   /// and by links.
   double device_work = 0;
-  double residual = 0;      ///< energy - initial energy + damping loss + device work - contact work
-                            ///< - input work
-  double link_loss = 0;     ///< of links alone: what they took and did not keep
-  double slow_relief = 0;   ///< see StructureEnergy
-  double gravity_work = 0;  ///< of gravity alone, a part of the input work
+  double residual = 0;       ///< energy - initial energy + damping loss + device work
+                             ///< + friction loss - contact work - input work
+  double link_loss = 0;      ///< of links alone: what they took and did not keep
+  double slow_relief = 0;    ///< see StructureEnergy
+  double gravity_work = 0;   ///< of gravity alone, a part of the input work
+  double friction_loss = 0;  ///< of Coulomb's friction in contacts, apart from the contact work
 
   double energy() const { return kinetic + strain; }
 };
@@ -52,6 +53,12 @@ struct StructureEnergy {
   double energy() const { return kinetic + strain; }
 };
 
+/// Work of contact in one step [J].
+struct ContactWork {
+  double normal = 0;         ///< 1/2 lambda^T L v-
+  double friction_loss = 0;  ///< -1/2 lambda_t^T L_t (v- + v+)
+};
+
 /// Exact energy identity of the scheme, with vbar = (v_{n+1/2} + v_{n-1/2}) / 2:
 ///
 ///     E_{n+1/2} - E_{n-1/2} = -dt vbar^T C vbar + dt vbar^T (f_n - x_n) + 1/2 lambda^T L v_{n-1/2}
@@ -68,6 +75,7 @@ struct StructureEnergy {
 ///
 ///     4 vbar^T K vbar = v+^T K v+ + 2 v+^T K v- + v-^T K v-
 ///
+/// A contact's work is that of its normal impulses; its friction loses -1/2 lambda_t L_t (v- + v+).
 /// Uniform damping replaces K u_n by a filtered force f_n; then C = D and the damping loss is
 /// dt vbar^T (f_n - K u_n): what branches keep for a while counts as lost until they give it back.
 ///
@@ -78,10 +86,10 @@ class EnergyBalance {
   EnergyBalance(MPI_Comm comm, std::span<const LinearSystem> systems, double time_step);
 
   /// Called at the end of every step: closes the one before, and opens this one with its sums per
-  /// structure, its ground acceleration, and the contact work if this rank counts it (0 on the
-  /// others).
+  /// structure, its ground acceleration, and what contact did if this rank counts it (nothing on
+  /// the others).
   void add_step(std::span<const StepSums> sums, const std::array<double, 3>& ground_acceleration,
-                double contact_work);
+                const ContactWork& contact);
   /// The energies are read from the sums of the next step.
   bool needs_energies() const { return steps_ == 1; }
 
@@ -117,6 +125,7 @@ class EnergyBalance {
     double device = 0;
     double links = 0;
     double gravity = 0;  ///< part of the input
+    double friction = 0;
   };
   /// Calls `function` with each number of this rank that adds up over ranks.
   template <typename Balance, typename Function>
@@ -126,7 +135,7 @@ class EnergyBalance {
   /// rounding it changes alpha by up to 1e-16 / (dt alpha) of itself.
   double mass_damping(const LinearSystem& system) const;
   Works works(std::span<const StepSums> sums, const std::array<double, 3>& ground_acceleration,
-              double contact_work) const;
+              const ContactWork& contact) const;
   StructureEnergy energy(std::size_t structure, const StepSums& sums) const;
 
   MPI_Comm comm_;
@@ -145,6 +154,7 @@ class EnergyBalance {
   Sum device_;
   Sum links_;
   Sum gravity_;
+  Sum friction_;
   /// Work of the uniform damping of each structure, closed and of the open step; a part of the
   /// damping loss.
   std::vector<Sum> filtered_;

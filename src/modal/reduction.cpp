@@ -8,7 +8,7 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
-#include "contact/slide_watch.h"
+#include "contact/tangential_rows.h"
 #include "mesh/mesh.h"
 #include "modal/basis_key.h"
 #include "modal/definiteness.h"
@@ -41,7 +41,11 @@ ModalRequest request_of(MPI_Comm comm, const Scene& scene, int s, const GlobalMe
     }
   };
   add(interface.constraints, request.contact_points);
-  add(tangential_rows(interface.constraints), request.other_points);
+  std::vector<Constraint> across = tangential_rows(interface.constraints);
+  const auto smooth =
+      std::ranges::stable_partition(across, [](const Constraint& row) { return row.friction > 0; });
+  add({across.begin(), smooth.begin()}, request.contact_points);
+  add(smooth, request.other_points);
   for (const ResolvedProbe& probe : probes) {
     for (std::size_t k = 0; probe.structure == s && k < probe.nodes.size(); ++k) {
       for (int d = 0; d < 3; ++d) request.other_points.push_back({probe.nodes[k], d});

@@ -12,17 +12,18 @@ namespace {
 constexpr std::int64_t capacity = 5000;
 
 /// A line as numbers, in the order of its members.
-constexpr std::size_t columns = 9;
+constexpr std::size_t columns = 10;
 
 void append_numbers(const EnergyLine& line, std::vector<double>& numbers) {
-  numbers.insert(numbers.end(),
-                 {line.time, line.kinetic, line.strain, line.damping_loss, line.contact_work,
-                  line.input_work, line.device_work, line.residual, line.gravity_work});
+  numbers.insert(numbers.end(), {line.time, line.kinetic, line.strain, line.damping_loss,
+                                 line.contact_work, line.input_work, line.device_work,
+                                 line.residual, line.gravity_work, line.friction_loss});
 }
 
 EnergyLine line_of_numbers(std::span<const double> v) {
   EnergyLine line{v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]};
   line.gravity_work = v[8];
+  line.friction_loss = v[9];
   return line;
 }
 
@@ -69,10 +70,13 @@ void write_energy(const std::string& path, const std::vector<EnergyLine>& lines)
       "residual closes the "
       "identity; gravity_work is a part of input_work");
   file.header(
-      "time,kinetic,strain,damping_loss,contact_work,input_work,gravity_work,device_work,residual");
+      "time,kinetic,strain,damping_loss,contact_work,friction_loss,input_work,gravity_work,device_"
+      "work,"
+      "residual");
   for (const EnergyLine& line : lines) {
     file.row("", {line.time, line.kinetic, line.strain, line.damping_loss, line.contact_work,
-                  line.input_work, line.gravity_work, line.device_work, line.residual});
+                  line.friction_loss, line.input_work, line.gravity_work, line.device_work,
+                  line.residual});
   }
   file.close();
 }

@@ -12,7 +12,7 @@
 namespace pounding {
 namespace {
 
-constexpr std::size_t impact_columns = 13;
+constexpr std::size_t impact_columns = 16;
 
 /// Impacts as rows of numbers.
 std::vector<double> to_table(std::span<const Impact> impacts) {
@@ -21,7 +21,8 @@ std::vector<double> to_table(std::span<const Impact> impacts) {
     table.insert(table.end(),
                  {static_cast<double>(i.contact), i.start, i.end, i.impulse, i.peak_force,
                   static_cast<double>(i.points), i.energy_lost, i.max_penetration, i.place[0],
-                  i.place[1], i.contact_time, i.low_share[0], i.low_share[1]});
+                  i.place[1], i.contact_time, i.low_share[0], i.low_share[1], i.tangential_impulse,
+                  i.slip, i.friction_loss});
   }
   return table;
 }
@@ -40,7 +41,10 @@ std::vector<Impact> from_table(const std::vector<double>& table) {
                        v[7],
                        {v[8], v[9]},
                        v[10],
-                       {v[11], v[12]}});
+                       {v[11], v[12]},
+                       v[13],
+                       v[14],
+                       v[15]});
   }
   return impacts;
 }
@@ -89,6 +93,7 @@ void ImpactTotals::add(const Impact& impact) {
   largest_impulse = std::max(largest_impulse, impact.impulse);
   max_penetration = std::max(max_penetration, impact.max_penetration);
   energy_lost += impact.energy_lost;
+  friction_loss += impact.friction_loss;
 }
 
 ImpactCatalogue::ImpactCatalogue(int contacts, std::vector<int> contact_of_row,
@@ -100,12 +105,22 @@ ImpactCatalogue::ImpactCatalogue(int contacts, std::vector<int> contact_of_row,
       open_(static_cast<std::size_t>(contacts)),
       is_open_(static_cast<std::size_t>(contacts), 0),
       step_impulse_(static_cast<std::size_t>(contacts), 0.0),
-      touched_(contact_of_row_.size(), 0) {
+      touched_(contact_of_row_.size(), 0),
+      slipped_(contact_of_row_.size(), 0.0) {
   impacts_.reserve(4096);
 }
 
-void ImpactCatalogue::add_step(double time, double duration, std::span<const double> gaps,
-                               std::span<const double> impulses, std::span<const double> works) {
+void ImpactCatalogue::add_friction(Impact& impact, std::size_t row, double duration,
+                                   const ContactStep& step) {
+  if (step.slip_rates.empty()) return;
+  impact.tangential_impulse += step.tangential_impulses[row];
+  impact.friction_loss += step.friction_losses[row];
+  slipped_[row] += duration * step.slip_rates[row];
+  impact.slip = std::max(impact.slip, slipped_[row]);
+}
+
+void ImpactCatalogue::add_step(double time, double duration, const ContactStep& step) {
+  const std::span<const double> impulses = step.impulses;
   std::fill(step_impulse_.begin(), step_impulse_.end(), 0.0);
   for (std::size_t row = 0; row < impulses.size(); ++row) {
     step_impulse_[contact_of_row_[row]] += impulses[row];
@@ -129,8 +144,9 @@ void ImpactCatalogue::add_step(double time, double duration, std::span<const dou
     if (impulses[row] > 0) {
       impact.points += touched_[row] != 0 ? 0 : 1;
       touched_[row] = 1;
-      impact.energy_lost -= works[row];
-      impact.max_penetration = std::max(impact.max_penetration, -gaps[row]);
+      impact.energy_lost -= step.works[row];
+      impact.max_penetration = std::max(impact.max_penetration, -step.gaps[row]);
+      add_friction(impact, row, duration, step);
       for (std::size_t axis = 0; axis < 2; ++axis) {
         impact.place[axis] += impulses[row] * places_[row][axis];
         impact.low_share[axis] += impulses[row] * low_[row][axis];
@@ -152,7 +168,9 @@ void ImpactCatalogue::close(std::size_t contact) {
   impacts_.push_back(impact);
   is_open_[contact] = 0;
   for (std::size_t row = 0; row < touched_.size(); ++row) {
-    if (contact_of_row_[row] == static_cast<int>(contact)) touched_[row] = 0;
+    if (contact_of_row_[row] != static_cast<int>(contact)) continue;
+    touched_[row] = 0;
+    slipped_[row] = 0;
   }
 }
 
@@ -170,6 +188,7 @@ void ImpactCatalogue::save(SavedState& saved) const {
   saved.put("impacts_open", to_table(open_), impact_columns);
   saved.put("impacts_is_open", std::vector<double>(is_open_.begin(), is_open_.end()));
   saved.put("impacts_touched_rows", std::vector<double>(touched_.begin(), touched_.end()));
+  saved.put("impacts_slipped_rows", slipped_);
 }
 
 void ImpactCatalogue::load(const SavedState& saved) {
@@ -179,6 +198,7 @@ void ImpactCatalogue::load(const SavedState& saved) {
   saved.get("impacts_open", open);
   saved.get("impacts_is_open", is_open);
   saved.get("impacts_touched_rows", touched);
+  saved.get("impacts_slipped_rows", slipped_);
   const std::vector<double>& closed = saved.table("impacts", impact_columns);
   if (!names_contacts(closed, open_.size())) saved.refuse_values("impacts");
   if (!names_contacts(open, open_.size())) saved.refuse_values("impacts_open");
@@ -211,16 +231,19 @@ void write_impacts(const std::string& path, const std::vector<std::string>& cont
       "lateral, vertical: where on the face, tangent axes of the contact in the order x, y, z;");
   file.comment("contact_time: sum of the steps with an impulse;");
   file.comment(
-      "left, bottom: share of the impulse below the middle of the face, along lateral, vertical");
+      "left, bottom: share of the impulse below the middle of the face, along lateral, vertical;");
+  file.comment(
+      "tangential_impulse: of friction, sum of magnitudes; slip: longest path of a point in "
+      "contact");
   file.header(
       "contact,start,end,duration,impulse,peak_force,points,energy_lost,max_penetration,lateral,"
-      "vertical,contact_time,left,bottom");
+      "vertical,contact_time,left,bottom,tangential_impulse,slip,friction_loss");
   for (const Impact& impact : impacts) {
     file.row(contacts[impact.contact],
              {impact.start, impact.end, impact.duration(), impact.impulse, impact.peak_force,
               static_cast<double>(impact.points), impact.energy_lost, impact.max_penetration,
               impact.place[0], impact.place[1], impact.contact_time, impact.low_share[0],
-              impact.low_share[1]});
+              impact.low_share[1], impact.tangential_impulse, impact.slip, impact.friction_loss});
   }
   file.close();
 }

@@ -27,7 +27,20 @@ struct Impact {
   /// Share of the impulse at points below the middle of the face along each tangent axis; what acts
   /// at the middle counts half: 0 is one end of the face, 1 the other, 0.5 a centred impact.
   std::array<double, 2> low_share{};
+  double tangential_impulse = 0;  ///< of friction: sum of its magnitudes [N s]
+  double slip = 0;                ///< path of the point that slid farthest while it touched [m]
+  double friction_loss = 0;       ///< [J]
   double duration() const { return end - start; }
+};
+
+/// Contact of one step, per row; the last three are empty without friction.
+struct ContactStep {
+  std::span<const double> gaps;                 ///< [m]
+  std::span<const double> impulses;             ///< [N s]
+  std::span<const double> works;                ///< contact work [J]
+  std::span<const double> tangential_impulses;  ///< magnitude [N s]
+  std::span<const double> slip_rates;           ///< [m/s]
+  std::span<const double> friction_losses;      ///< [J]
 };
 
 /// Totals of a contact, or of all.
@@ -37,6 +50,7 @@ struct ImpactTotals {
   double largest_impulse = 0;  ///< of an episode [N s]
   double max_penetration = 0;  ///< [m]
   double energy_lost = 0;      ///< [J]
+  double friction_loss = 0;    ///< [J]
   void add(const Impact& impact);
 };
 
@@ -47,9 +61,8 @@ class ImpactCatalogue {
   ImpactCatalogue(int contacts, std::vector<int> contact_of_row,
                   std::vector<std::array<double, 2>> places, double merge_time);
 
-  /// One step of length `duration` at `time`, per row: gap [m], impulse [N s], contact work [J].
-  void add_step(double time, double duration, std::span<const double> gaps,
-                std::span<const double> impulses, std::span<const double> works);
+  /// One step of length `duration` at `time` [s].
+  void add_step(double time, double duration, const ContactStep& step);
   /// Closes open episodes, and brings the list from rank `root` to every rank, sorted by start.
   /// Collective.
   void finish(MPI_Comm comm, int root);
@@ -66,6 +79,7 @@ class ImpactCatalogue {
  private:
   int open_count() const;
   void close(std::size_t contact);
+  void add_friction(Impact& impact, std::size_t row, double duration, const ContactStep& step);
 
   double merge_time_;
   std::vector<int> contact_of_row_;
@@ -75,6 +89,7 @@ class ImpactCatalogue {
   std::vector<char> is_open_;               ///< per contact
   std::vector<double> step_impulse_;        ///< per contact, of the current step
   std::vector<char> touched_;               ///< per row, in the open episode
+  std::vector<double> slipped_;             ///< per row, path in the open episode [m]
   std::vector<Impact> impacts_;
 };
 

@@ -145,6 +145,7 @@ constexpr std::array table{
     OptionRow{Block::contact, "<contact>_primary", Kind::text, "group", required, any, "structure:group, or wall", "primary side, the surface that it faces; wall: rigid, parallel to the secondary"},
     OptionRow{Block::contact, "<contact>_gap", Kind::text, "m", value("geometry"), any, "geometry, or one, two or four numbers g1,g2,...", "initial gap: uniform, linear, or at the four corners"},
     OptionRow{Block::contact, "<contact>_passes", Kind::integer, "-", value("1"), Range{1, 2, false, false}, "", "2: nodes of the primary side are kept out of the secondary as well"},
+    OptionRow{Block::contact, "<contact>_friction", Kind::real, "-", value("0"), Range{0, 10, false, false}, "", "Coulomb's coefficient of friction; 0: smooth"},
 
     OptionRow{Block::motion, "motion_<x|y|z>_record", Kind::text, "file", value("none"), any, "a file or none", "recorded accelerogram; none: no motion; wins over a target"},
     OptionRow{Block::motion, "motion_<x|y|z>_unit", Kind::choice, "word", value("auto"), any, "auto|g|m/s2|cm/s2", "unit of the record; auto: from the header of the file"},

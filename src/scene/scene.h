@@ -183,7 +183,8 @@ struct Contact {
   ContactSide secondary;
   ContactSide primary;
   InitialGap gap;
-  int passes = 1;  ///< 2: the nodes of the primary side are constrained as well
+  int passes = 1;       ///< 2: the nodes of the primary side are constrained as well
+  double friction = 0;  ///< Coulomb's coefficient [-]
 };
 
 /// A recorded accelerogram in a file.

@@ -194,6 +194,7 @@ class SceneReader {
                           : read_side("<contact>_primary", name);
     const bool from_geometry = options_.text("<contact>_gap", {name}) == "geometry";
     contact.passes = options_.integer("<contact>_passes", {name});
+    contact.friction = options_.real("<contact>_friction", {name});
     if (contact.primary.is_wall() && from_geometry) {
       options_.refuse("<contact>_gap", {name}, "a wall has no geometry, give its distance");
     }

@@ -150,10 +150,11 @@ class Labels(unittest.TestCase):
         self.assertEqual(self.fine.files, FILES)
         self.assertEqual(list(self.fine.csv["impacts.csv"]),
                          ["contact", "start", "end", "duration", "impulse", "peak_force", "points", "energy_lost",
-                          "max_penetration", "lateral", "vertical", "contact_time", "left", "bottom"])
+                          "max_penetration", "lateral", "vertical", "contact_time", "left", "bottom",
+                          "tangential_impulse", "slip", "friction_loss"])
         self.assertEqual(list(self.fine.csv["energy.csv"]),
-                         ["time", "kinetic", "strain", "damping_loss", "contact_work", "input_work", "gravity_work",
-                          "device_work", "residual"])
+                         ["time", "kinetic", "strain", "damping_loss", "contact_work", "friction_loss", "input_work",
+                          "gravity_work", "device_work", "residual"])
         self.assertEqual(list(self.fine.csv["spectra.csv"]),
                          ["probe", "direction", "damping", "frequency", "period", "displacement",
                           "pseudo_velocity", "pseudo_acceleration"])
@@ -246,9 +247,9 @@ class Labels(unittest.TestCase):
         """Up to the energy at the start the residual is what the other columns leave; the summary has its largest."""
         column = {name: self.fine.column("energy.csv", name) for name in self.fine.csv["energy.csv"]}
         residual = column["residual"]
-        terms = [column[name] for name in ("kinetic", "strain", "damping_loss", "device_work", "contact_work",
-                                           "input_work")]
-        left = terms[0] + terms[1] + terms[2] + terms[3] - terms[4] - terms[5] - residual
+        terms = [column[name] for name in ("kinetic", "strain", "damping_loss", "device_work", "friction_loss",
+                                           "contact_work", "input_work")]
+        left = sum(terms[:5]) - terms[5] - terms[6] - residual
         largest = abs(numpy.array(terms)).max()
         self.assertLess(abs(left - left[0]).max(), 1e-12 * largest)
         self.assertLess(abs(residual).max(), 1e-10 * largest)
@@ -259,7 +260,7 @@ class Labels(unittest.TestCase):
         for results in (self.fine, self.coarse):
             summary = results.summary
             for key, column in (("kinetic", "kinetic"), ("strain", "strain"), ("damping", "damping_loss"),
-                                ("contact", "contact_work"), ("input", "input_work"), ("devices", "device_work")):
+                                ("contact", "contact_work"), ("friction", "friction_loss"), ("input", "input_work"), ("devices", "device_work")):
                 last = results.column("energy.csv", column)[-1]
                 self.assertAlmostEqual(summary["energy"][key], last, delta=1e-9 * abs(last) + 1e-12, msg=key)
             column = {name: results.column("impacts.csv", name)

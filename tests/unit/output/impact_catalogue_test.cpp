@@ -16,7 +16,7 @@ TEST(ImpactCatalogue, MergesContactsWithinTheMergeTimeAndSeparatesOthers) {
     const std::vector<double> gaps{-1e-6, -2e-6};
     const std::vector<double> impulses{first, second};
     const std::vector<double> works{-0.5 * first, 0};
-    catalogue.add_step(time, 0.001, gaps, impulses, works);
+    catalogue.add_step(time, 0.001, {gaps, impulses, works});
   };
   add(1.000, 3, 0);
   add(1.005, 0, 1);
@@ -45,8 +45,8 @@ TEST(ImpactCatalogue, MergesAcrossSilencesUpToTheMergeTimeAndNoLonger) {
     ImpactCatalogue catalogue(1, {0}, {{0.0, 0.0}}, 0.01);
     const std::vector<double> none{0.0};
     const std::vector<double> one{1.0};
-    catalogue.add_step(1, 0.001, none, one, none);
-    catalogue.add_step(1.001 + silence, 0.001, none, one, none);
+    catalogue.add_step(1, 0.001, {none, one, none});
+    catalogue.add_step(1.001 + silence, 0.001, {none, one, none});
     catalogue.finish(MPI_COMM_SELF, 0);
     return catalogue.impacts().size();
   };
@@ -62,7 +62,7 @@ TEST(ImpactCatalogue, ContinuesAnOpenEpisode) {
     const std::vector<double> gaps{-1e-6, -2e-6, -3e-6};
     const std::vector<double> impulses{first, 1, third};
     const std::vector<double> works{-0.5 * first, -0.25, 0.1};
-    catalogue.add_step(time, 0.001, gaps, impulses, works);
+    catalogue.add_step(time, 0.001, {gaps, impulses, works});
   };
   ImpactCatalogue whole = make();
   ImpactCatalogue before = make();
@@ -113,8 +113,8 @@ TEST(ImpactCatalogue, TellsTheHalvesOfEachFaceApart) {
   contact_of_row.push_back(0);
   ImpactCatalogue catalogue(2, contact_of_row, places, 0.01);
   const std::vector<double> none(7, 0.0);
-  catalogue.add_step(1, 1e-3, none, std::vector<double>{1, 0, 2, 4, 0, 1, 0}, none);
-  catalogue.add_step(3, 1e-3, none, std::vector<double>{0, 0, 0, 0, 0, 0, 5}, none);
+  catalogue.add_step(1, 1e-3, {none, std::vector<double>{1, 0, 2, 4, 0, 1, 0}, none});
+  catalogue.add_step(3, 1e-3, {none, std::vector<double>{0, 0, 0, 0, 0, 0, 5}, none});
   catalogue.finish(MPI_COMM_SELF, 0);
   ASSERT_EQ(catalogue.impacts().size(), 2u);
   EXPECT_DOUBLE_EQ(catalogue.impacts()[0].low_share[0], (1 + 0.5 * 6) / 8);
@@ -139,8 +139,31 @@ TEST_F(ImpactFile, IsReadBackAsItWasWritten) {
   EXPECT_EQ(windows[1].end, impact.end);
 }
 
+TEST(ImpactCatalogue, AddsFrictionUpAndForgetsPathsOfEarlierEpisodes) {
+  ImpactCatalogue catalogue(1, {0, 0}, {{0, 0}, {1, 0}}, 0.01);
+  const std::vector<double> none{0, 0};
+  const std::vector<double> impulses{2, 0};
+  const std::vector<double> tangential{1, 0};
+  const std::vector<double> slips{3, 5};  // the second point does not touch
+  const std::vector<double> losses{7, 0};
+  for (const double time : {0.0, 0.5, 2.0}) {  // the last two are episodes of their own
+    for (int step = 0; step < 2; ++step) {
+      catalogue.add_step(time + 1e-3 * step, 1e-3,
+                         {none, impulses, none, tangential, slips, losses});
+    }
+  }
+  catalogue.finish(MPI_COMM_SELF, 0);
+  ASSERT_EQ(catalogue.impacts().size(), 3u);
+  for (const Impact& impact : catalogue.impacts()) {
+    EXPECT_EQ(impact.tangential_impulse, 2);
+    EXPECT_NEAR(impact.slip, 6e-3, 1e-17);
+    EXPECT_EQ(impact.friction_loss, 14);
+  }
+  EXPECT_EQ(catalogue.totals().friction_loss, 42);
+}
+
 TEST_F(ImpactFile, EveryNumberStandsUnderItsName) {
-  Impact impact{0, 1, 3, 5, 7, 11, 13, 17, {19, 23}, 29, {31, 37}};
+  Impact impact{0, 1, 3, 5, 7, 11, 13, 17, {19, 23}, 29, {31, 37}, 41, 43, 47};
   const std::string path = (folder_ / "impacts.csv").string();
   write_impacts(path, {"floor"}, std::vector<Impact>{impact});
   std::ifstream file(path);
@@ -151,8 +174,8 @@ TEST_F(ImpactFile, EveryNumberStandsUnderItsName) {
   std::getline(file, numbers);
   EXPECT_EQ(names,
             "contact,start,end,duration,impulse,peak_force,points,energy_lost,max_penetration,"
-            "lateral,vertical,contact_time,left,bottom");
-  EXPECT_EQ(numbers, "floor,1,3,2,5,7,11,13,17,19,23,29,31,37");
+            "lateral,vertical,contact_time,left,bottom,tangential_impulse,slip,friction_loss");
+  EXPECT_EQ(numbers, "floor,1,3,2,5,7,11,13,17,19,23,29,31,37,41,43,47");
 }
 
 TEST_F(ImpactFile, RefusesWhatIsNoCatalogue) {

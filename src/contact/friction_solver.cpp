@@ -1,0 +1,350 @@
+#include "contact/friction_solver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "common/dense_solver.h"
+
+namespace pounding {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Coupling of a point's normal and tangents below which it is round-off.
+constexpr double no_coupling = 1e-14;
+/// Residual that is wanted, and how far above the round-off of v it may end.
+constexpr double wanted_residual = 1e-14;
+constexpr double above_noise = 4;
+constexpr int most_rounds = 40;
+constexpr int first_sweeps = 10;
+constexpr int most_sweeps = 200;
+constexpr std::array<double, 4> relaxations{1, 1, 0.5, 0.2};
+constexpr int most_newton = 20;
+/// Shortest part of a Newton step that is tried.
+constexpr double least_part = 1.0 / 16;
+/// Points above which Newton's matrix would cost more than sweeps.
+constexpr std::size_t most_newton_points = 256;
+/// Share of H_nn, h_t that keeps Newton's matrix regular where H is not.
+constexpr double regular = 1e-10;
+
+using Pair = std::array<double, 2>;
+
+double size(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
+
+/// The nearest point of a disk.
+Pair onto_disk(double x, double y, double radius) {
+  const double length = size(x, y);
+  if (length <= radius) return {x, y};
+  return {x * (radius / length), y * (radius / length)};
+}
+
+/// Numbers of one point within the problem.
+struct Point {
+  Point(const FrictionProblem& problem, std::size_t i)
+      : first(3 * i),
+        width(problem.free_rate.size()),
+        block(problem.delassus.data() + first * width + first) {}
+  double h(std::size_t a, std::size_t b) const { return block[a * width + b]; }
+  double normal() const { return h(0, 0); }
+  double tangential() const { return (h(1, 1) + h(2, 2)) / 2; }
+  bool isotropic() const {
+    const double small = no_coupling * tangential();
+    return std::abs(h(1, 2)) <= small && std::abs(h(1, 1) - h(2, 2)) <= small;
+  }
+  bool uncoupled() const {
+    const double small = no_coupling * std::sqrt(normal() * tangential());
+    return std::abs(h(0, 1)) <= small && std::abs(h(0, 2)) <= small;
+  }
+
+  std::size_t first;
+  std::size_t width;
+  const double* block;
+};
+
+/// Tangential impulse of a point whose rate without it is c.
+Pair slide(const Point& point, const Pair& c, double radius) {
+  const double h = point.tangential();
+  if (!(h > 0) || !(radius > 0)) return {0, 0};
+  if (point.isotropic()) return onto_disk(-c[0] / h, -c[1] / h, radius);
+  double impulse[2];
+  solve_on_disk({point.h(1, 1), (point.h(1, 2) + point.h(2, 1)) / 2, point.h(2, 2)}, {c[0], c[1]},
+                radius, impulse);
+  return {impulse[0], impulse[1]};
+}
+
+/// One point alone without coupling of its normal and tangents.
+void solve_alone(const FrictionProblem& problem, const Point& point, std::span<double> impulse) {
+  const std::span<const double> b = problem.free_rate;
+  impulse[0] = point.normal() > 0 ? std::max(0.0, -b[0]) / point.normal() : 0;
+  const Pair tangential = slide(point, {b[1], b[2]}, problem.coefficient[0] * impulse[0]);
+  impulse[1] = tangential[0];
+  impulse[2] = tangential[1];
+}
+
+template <typename Real>
+Real row_rate(const FrictionProblem& problem, std::size_t row, std::span<const double> impulse) {
+  const std::size_t n = impulse.size();
+  const double* const h = problem.delassus.data() + row * n;
+  Real rate = problem.free_rate[row];
+  for (std::size_t j = 0; j < n; ++j) rate += Real(h[j]) * Real(impulse[j]);
+  return rate;
+}
+
+/// Natural map of one point [m/s] from its rates and impulses.
+double natural_map(const Point& point, double coefficient, const double* v, const double* lambda) {
+  double worst = 0;
+  const double h = point.normal();
+  if (h > 0) {
+    worst = std::abs(std::min(lambda[0] * h, v[0]));
+  }
+  const double t = point.tangential();
+  const double radius = coefficient * std::max(0.0, lambda[0]);
+  if (t > 0) {
+    const Pair on = onto_disk(lambda[1] - v[1] / t, lambda[2] - v[2] / t, radius);
+    worst = std::max(worst, t * size(lambda[1] - on[0], lambda[2] - on[1]));
+  }
+  return worst;
+}
+
+double largest_magnitude(std::span<const double> values) {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+bool all_finite(std::span<const double> values) {
+  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+}
+
+}  // namespace
+
+double friction_residual(const FrictionProblem& problem, std::span<const double> impulse) {
+  double worst = 0;
+  for (std::size_t i = 0; 3 * i < impulse.size(); ++i) {
+    const Point point(problem, i);
+    std::array<double, 3> rate{};
+    for (std::size_t d = 0; d < 3; ++d) {
+      rate[d] = static_cast<double>(row_rate<long double>(problem, 3 * i + d, impulse));
+    }
+    const double map = natural_map(point, problem.coefficient[i], rate.data(), &impulse[3 * i]);
+    if (!std::isfinite(map)) return infinity;
+    worst = std::max(worst, map);
+  }
+  const double scale = largest_magnitude(problem.free_rate);
+  return worst > 0 ? worst / scale : 0;
+}
+
+void solve_on_disk(const double (&matrix)[3], const double (&rate)[2], double radius,
+                   double (&impulse)[2]) {
+  // Principal axes of A.
+  const double mean = (matrix[0] + matrix[2]) / 2;
+  const double half = (matrix[0] - matrix[2]) / 2;
+  const double spread = size(half, matrix[1]);
+  const double angle = std::atan2(matrix[1], half) / 2;
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  const Pair stiffness{mean + spread, mean - spread};
+  const Pair turned{c * rate[0] + s * rate[1], c * rate[1] - s * rate[0]};
+  const double least = 8 * epsilon * stiffness[0];
+  Pair x{0, 0};
+  const auto at = [&](double shift) {
+    for (std::size_t d = 0; d < 2; ++d) {
+      x[d] = stiffness[d] > least ? -turned[d] / (stiffness[d] + shift) : 0;
+    }
+    return size(x[0], x[1]);
+  };
+  double length = at(0);
+  double shift = 0;
+  for (int i = 0; i < 60 && length > radius * (1 + 2 * epsilon); ++i) {
+    double slope = 0;
+    for (std::size_t d = 0; d < 2; ++d) {
+      if (stiffness[d] > least) slope += x[d] * x[d] / (stiffness[d] + shift);
+    }
+    shift += (length * length / slope) * ((length - radius) / radius);
+    length = at(shift);
+  }
+  if (length > radius) x = onto_disk(x[0], x[1], radius);
+  impulse[0] = c * x[0] - s * x[1];
+  impulse[1] = s * x[0] + c * x[1];
+}
+
+FrictionSolver::FrictionSolver(std::size_t max_points)
+    : max_newton_(std::min(max_points, most_newton_points)),
+      rate_(3 * max_points),
+      trial_(3 * max_points),
+      jacobian_(9 * max_newton_ * max_newton_),
+      step_(3 * max_newton_),
+      pivots_(3 * max_newton_) {}
+
+double FrictionSolver::measure(const FrictionProblem& problem, std::span<const double> impulse) {
+  const std::size_t n = impulse.size();
+  double worst = 0;
+  noise_ = 0;
+  for (std::size_t row = 0; row < n; ++row) {
+    rate_[row] = row_rate<double>(problem, row, impulse);
+    const double* const h = problem.delassus.data() + row * n;
+    double terms = std::abs(problem.free_rate[row]);
+    for (std::size_t j = 0; j < n; ++j) terms += std::abs(h[j] * impulse[j]);
+    noise_ = std::max(noise_, epsilon * terms / largest_free_rate_);
+  }
+  for (std::size_t i = 0; 3 * i < n; ++i) {
+    const double map =
+        natural_map(Point(problem, i), problem.coefficient[i], &rate_[3 * i], &impulse[3 * i]);
+    worst = std::max(worst, map);
+  }
+  return worst / largest_free_rate_;
+}
+
+double FrictionSolver::sweep(const FrictionProblem& problem, double relaxation,
+                             std::span<double> impulse) {
+  double change = 0;
+  for (std::size_t i = 0; 3 * i < impulse.size(); ++i) {
+    const Point point(problem, i);
+    double* const lambda = &impulse[point.first];
+    const std::array<double, 3> before{lambda[0], lambda[1], lambda[2]};
+    const double h = point.normal();
+    if (h > 0) {
+      const double rate = row_rate<double>(problem, point.first, impulse);
+      lambda[0] = std::max(0.0, lambda[0] - rate / h);
+    }
+    Pair free{};
+    for (std::size_t a = 0; a < 2; ++a) {
+      free[a] = row_rate<double>(problem, point.first + 1 + a, impulse) -
+                point.h(1 + a, 1) * lambda[1] - point.h(1 + a, 2) * lambda[2];
+    }
+    const Pair tangential = slide(point, free, problem.coefficient[i] * lambda[0]);
+    lambda[1] = tangential[0];
+    lambda[2] = tangential[1];
+    for (std::size_t d = 0; d < 3; ++d) {
+      lambda[d] = before[d] + relaxation * (lambda[d] - before[d]);
+    }
+    change = std::max({change, h * std::abs(lambda[0] - before[0]),
+                       point.tangential() * size(lambda[1] - before[1], lambda[2] - before[2])});
+  }
+  return change;
+}
+
+void FrictionSolver::linearise(const FrictionProblem& problem, std::span<const double> impulse,
+                               std::size_t i) {
+  const std::size_t n = impulse.size();
+  const Point point(problem, i);
+  const double* const lambda = &impulse[point.first];
+  const double* const v = &rate_[point.first];
+  const auto row = [&](std::size_t d) { return jacobian_.data() + (point.first + d) * n; };
+  const auto wants_rate = [&](std::size_t d, double h) {  // v_d = 0
+    const double* const from = problem.delassus.data() + (point.first + d) * n;
+    std::copy(from, from + n, row(d));
+    row(d)[point.first + d] += regular * h;
+    step_[point.first + d] = -v[d];
+  };
+  const auto wants_no_impulse = [&](std::size_t d, double h) {
+    row(d)[point.first + d] = h;
+    step_[point.first + d] = -h * lambda[d];
+  };
+  const double h = point.normal() > 0 ? point.normal() : 1;
+  const double t = point.tangential() > 0 ? point.tangential() : 1;
+  for (std::size_t d = 0; d < 3; ++d) std::fill(row(d), row(d) + n, 0.0);
+  const bool closed = point.normal() > 0 && lambda[0] - v[0] / h > 0;
+  const double radius = problem.coefficient[i] * std::max(0.0, lambda[0]);
+  if (!closed || !(point.tangential() > 0) || !(radius > 0)) {
+    closed ? wants_rate(0, h) : wants_no_impulse(0, h);
+    wants_no_impulse(1, t);
+    wants_no_impulse(2, t);
+    return;
+  }
+  wants_rate(0, h);
+  const Pair d{lambda[1] - v[1] / t, lambda[2] - v[2] / t};
+  const double length = size(d[0], d[1]);
+  if (length <= radius) {
+    wants_rate(1, t);
+    wants_rate(2, t);
+    return;
+  }
+  // t (lambda_t - radius e) = 0 with e = d / |d|, d = lambda_t - v_t / t.
+  const Pair e{d[0] / length, d[1] / length};
+  for (std::size_t a = 0; a < 2; ++a) {
+    const double across[2] = {(a == 0 ? 1.0 : 0.0) - e[a] * e[0],
+                              (a == 1 ? 1.0 : 0.0) - e[a] * e[1]};
+    double* const out = row(1 + a);
+    for (std::size_t b = 0; b < 2; ++b) {
+      const double part = radius / length * across[b];
+      const double* const from = problem.delassus.data() + (point.first + 1 + b) * n;
+      for (std::size_t j = 0; j < n; ++j) out[j] += part * from[j];
+      out[point.first + 1 + b] -= t * part;
+    }
+    out[point.first + 1 + a] += t;
+    out[point.first] -= t * problem.coefficient[i] * e[a];
+    step_[point.first + 1 + a] = -t * (lambda[1 + a] - radius * e[a]);
+  }
+}
+
+bool FrictionSolver::try_newton(const FrictionProblem& problem, std::span<const double> impulse) {
+  const std::size_t n = impulse.size();
+  for (std::size_t i = 0; 3 * i < n; ++i) linearise(problem, impulse, i);
+  if (!solve_dense({jacobian_.data(), n * n}, {step_.data(), n}, {pivots_.data(), n})) return false;
+  return all_finite({step_.data(), n});
+}
+
+double FrictionSolver::iterate(const FrictionProblem& problem, std::span<double> impulse,
+                               double residual, FrictionResult& result) {
+  const std::size_t n = impulse.size();
+  for (int i = 0; i < most_newton && try_newton(problem, impulse); ++i) {
+    ++result.iterations;
+    double reached = infinity;
+    for (double part = 1; part >= least_part && !(reached < residual); part /= 2) {
+      for (std::size_t row = 0; row < n; ++row) trial_[row] = impulse[row] + part * step_[row];
+      for (std::size_t row = 0; row < n; row += 3) trial_[row] = std::max(0.0, trial_[row]);
+      reached = measure(problem, {trial_.data(), n});
+    }
+    if (!(reached < residual)) break;
+    std::copy_n(trial_.begin(), n, impulse.begin());
+    residual = reached;
+    if (residual <= wanted_residual) break;
+  }
+  return residual;
+}
+
+FrictionResult FrictionSolver::solve(const FrictionProblem& problem, std::span<double> impulse) {
+  const std::size_t n = impulse.size();
+  FrictionResult result;
+  largest_free_rate_ = largest_magnitude(problem.free_rate);
+  if (!all_finite(problem.free_rate) || !all_finite(problem.delassus) || !all_finite(impulse)) {
+    std::ranges::fill(impulse, 0.0);
+    return {0, 0, false, infinity};
+  }
+  if (largest_free_rate_ == 0) {
+    std::ranges::fill(impulse, 0.0);
+    return result;
+  }
+  const Point first(problem, 0);
+  if (n == 3 && first.uncoupled()) {
+    solve_alone(problem, first, impulse);
+  } else {
+    int sweeps = first_sweeps;
+    for (int round = 0; round < most_rounds; ++round) {
+      // Sweeps that go round in circles are led out of them by shorter steps.
+      const double relaxation = relaxations[static_cast<std::size_t>(round) % relaxations.size()];
+      for (int i = 0; i < sweeps; ++i) {
+        ++result.sweeps;
+        if (sweep(problem, relaxation, impulse) <= epsilon * largest_free_rate_) break;
+      }
+      double residual = measure(problem, impulse);
+      const double enough = std::max(wanted_residual, above_noise * noise_);
+      if (residual <= enough) break;
+      if (n <= 3 * max_newton_) residual = iterate(problem, impulse, residual, result);
+      if (residual <= enough) break;
+      sweeps = std::min(2 * sweeps, most_sweeps);
+    }
+  }
+  result.residual = friction_residual(problem, impulse);
+  result.finite = all_finite(impulse);
+  if (!result.finite) std::ranges::fill(impulse, 0.0);
+  return result;
+}
+
+}  // namespace pounding

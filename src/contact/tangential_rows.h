@@ -1,0 +1,14 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "contact/interface.h"
+
+namespace pounding {
+
+/// Two rows per constraint: what L is for gap rates, for the displacements along two tangents, in
+/// the order of the constraints, with the same weights.
+std::vector<Constraint> tangential_rows(std::span<const Constraint> constraints);
+
+}  // namespace pounding

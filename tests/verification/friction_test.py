@@ -1,0 +1,209 @@
+"""Coulomb's friction in contacts: a mass on a spring that comes to rest, a block on a shaken ground, on a slope,
+one that strikes the ground at an angle.
+
+References: the turning points and the wear of Code_Aster's problems SDND100 and SDND104, in closed form where there
+is one; g (sin - mu cos) on a slope; the least of mu times the normal impulse and the momentum across it.
+"""
+import math
+import os
+import shutil
+import tempfile
+import unittest
+
+import h5py
+import numpy
+
+import program
+from recorded import Recorded, write_sine
+
+GRAVITY = 10.0
+LONG = 1e-11  # energy identity of runs of many steps
+
+
+def block(time_step, end_time, friction, *more, name="block", sample=None, mesh=""):
+    """A stiff brick of 1 kg that stands on the ground, free to slide."""
+    return ["-structures", name, f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set",
+            f"x0=-0.5,y0=-0.5,lz=0.1{mesh}", f"-{name}_body_element", "hex8", f"-{name}_body_material", "stone",
+            "-material_stone_young", 1e6, "-material_stone_poisson", 0.2, "-material_stone_density", 10,
+            "-gravity", GRAVITY, "-contacts", "ground", "-ground_secondary", f"{name}:z_min", "-ground_primary",
+            "wall", "-ground_gap", 0, "-ground_friction", friction, "-time_step", repr(time_step), "-end_time",
+            repr(end_time), "-output_interval", repr(sample or time_step), "-energy_interval", 100,
+            "-probes", "one", "-one_structure", name, "-one_at", "-0.5,0.5,0", *more]
+
+
+RIGID = ["-block_rigid", "body", "-material_stone_young", 1e3]
+
+
+class MassOnASpring(unittest.TestCase):
+    """k / m = 1e4: half a period pi / 100 s lasts each swing, which friction shortens by 2 mu g / omega^2 = .2 mm."""
+    START, STIFFNESS = 0.85e-3, 1e4
+
+    def run_(self, ranks, time_step=1e-5, *more):
+        return Recorded(self, block(time_step, 0.16, 0.1, *RIGID, "-block_initial_displacement",
+                                    f"{self.START},0,0", "-block_corners_element", "grounded_spring",
+                                    "-block_corners_stiffness", f"{self.STIFFNESS / 4},0,0", *more), ranks, LONG)
+
+    def test_turning_points(self):
+        for ranks in (1, 2, 3):
+            run = self.run_(ranks)
+            x = run.displacement("one.x")
+            for turn, expected in enumerate((0.85e-3, -0.65e-3, 0.45e-3, -0.25e-3, 0.05e-3)):
+                at = turn * math.pi / 100
+                self.assertAlmostEqual(x[round(at / 1e-5)], expected, delta=1e-9)
+            rest = x[run.time > 0.1257]
+            self.assertLess(abs(rest - rest[0]).max(), 1e-15)
+            self.assertLess(abs(run.velocity("one.x")[run.time > 0.1257]).max(), 1e-15)
+            self.assertAlmostEqual(run.energy["friction"], 0.1 * GRAVITY * 3.6e-3, delta=1e-8)
+            self.assertAlmostEqual(sum(run.column("slip")), 3.6e-3, delta=1e-8)
+            self.assertAlmostEqual(sum(run.column("friction_loss")) / run.energy["friction"], 1, delta=1e-9)
+
+    def test_reduced_block_is_the_same(self):
+        full = self.run_(2)
+        reduced = self.run_(2, 1e-5, "-block_model", "modal", "-block_modal_vectors", 6)
+        self.assertLess(abs(reduced.displacement("one.x") - full.displacement("one.x")).max(), 1e-10)
+
+
+class ShakenBlock(unittest.TestCase):
+    """Wear power N |v| of 1 kg on a ground shaken by A sin(2 pi t), mean of 4 to 12 s."""
+
+    def wear(self, amplitude, ranks, time_step=5e-4):
+        record = write_sine(amplitude, 1, 12)
+        run = Recorded(self, block(time_step, 12, 0.1, *RIGID, "-motion_x_record", record, "-motion_x_unit", "m/s2",
+                                   "-motion_y_record", "none", "-motion_z_record", "none"), ranks, LONG)
+        os.remove(record)
+        rate = abs(run.velocity("one.x")[(run.time >= 4) & (run.time < 12)])
+        return GRAVITY * rate.mean()
+
+    def test_wear(self):
+        for amplitude, expected, time_step, ranks, error in (
+                (15, 15.2671, 1e-4, 1, 5e-5), (1.5, 0.409062, 5e-4, 2, 5e-5), (1.01, 2.26164e-4, 5e-4, 2, 5e-5)):
+            self.assertAlmostEqual(self.wear(amplitude, ranks, time_step) / expected, 1, delta=error)
+        self.assertLess(self.wear(0.99, 2), 1e-14)
+
+
+class Slope(unittest.TestCase):
+    def test_acceleration_down_a_slope(self):
+        angle = 0.4
+        for friction, ranks in ((0.2, 2), (0.5, 2)):
+            run = Recorded(self, block(1e-4, 0.3, friction, *RIGID, mesh=f",tilt={angle}"), ranks)
+            expected = GRAVITY * max(0, math.sin(angle) - friction * math.cos(angle))
+            path = numpy.hypot(run.displacement("one.x"), run.displacement("one.z"))
+            self.assertAlmostEqual(path[-1], expected * run.time[-1]**2 / 2, delta=1e-9)
+            self.assertLessEqual(run.displacement("one.x")[-1] * run.displacement("one.z")[-1], 0)
+
+
+class Impact(unittest.TestCase):
+    """The four nodes of the base take an eighth of the mass each, to rest across the ground."""
+
+    def test_first_step_of_an_oblique_impact(self):
+        fall = 2.0
+        for across, friction, ranks in ((0.3, 0.5, 1), (3.0, 0.5, 2), (3.0, 0, 2)):
+            run = Recorded(self, block(1e-12, 1e-12, friction, "-block_initial_velocity",
+                                       f"{across * 0.6},{across * 0.8},{-fall}", "-gravity", 0), ranks)
+            self.assertAlmostEqual(run.column("impulse")[0], fall / 2, delta=1e-12)
+            self.assertAlmostEqual(run.column("tangential_impulse")[0], min(friction * fall, across) / 2,
+                                   delta=1e-12)
+
+
+class Stack(unittest.TestCase):
+    """A soft block on a soft deck, both of bricks, that slides, sticks and hops on it while the ground shakes."""
+    RECORD = None
+
+    @classmethod
+    def setUpClass(cls):
+        cls.RECORD = write_sine(9.0, 3, 1)
+
+    @classmethod
+    def tearDownClass(cls):
+        os.remove(cls.RECORD)
+
+    def words(self, *more, cells=3, friction=0.4):
+        words = ["-structures", "deck,block", "-deck_mesh", "tests/meshes/box.geo", "-deck_mesh_set",
+                 "x0=-0.2,y0=-0.2,z0=-0.4,lz=0.4,nx=5,ny=5,nz=2", "-deck_clamp", "z_min", "-block_mesh",
+                 "tests/meshes/box.geo", "-block_mesh_set",
+                 f"lx=0.6,ly=0.6,lz=0.6,nx={cells},ny={cells},nz=3", "-gravity", GRAVITY, "-preload", "static",
+                 "-contacts", "joint", "-joint_secondary", "block:z_min", "-joint_primary", "deck:z_max",
+                 "-joint_friction", friction, "-motion_x_record", self.RECORD, "-motion_x_unit", "m/s2",
+                 "-motion_y_record", self.RECORD, "-motion_y_unit", "m/s2", "-motion_y_scale", 0.5,
+                 "-time_step", 5e-4, "-end_time", 0.4, "-output_interval", 5e-4, "-energy_interval", 10, "-probes",
+                 "top,seat", "-top_structure", "block", "-top_at", "0.6,0.6,0.6", "-seat_structure", "deck",
+                 "-seat_at", "0.4,0.4,0"]
+        for name in ("deck", "block"):
+            words += [f"-{name}_body_element", "hex8", f"-{name}_body_material", "rubber", f"-{name}_damping_alpha",
+                      1]
+        return [*words, "-material_rubber_young", 5e6, "-material_rubber_poisson", 0.2, "-material_rubber_density",
+                1500, *more]
+
+    def stack(self, ranks, *more, identity=1e-12, **values):
+        return Recorded(self, self.words(*more, **values), ranks, identity)
+
+    @staticmethod
+    def history(run):
+        return numpy.array([run.displacement(f"{probe}.{d}") for probe in ("top", "seat") for d in "xyz"])
+
+    def assert_alike(self, one, other, tolerance):
+        a, b = self.history(one), self.history(other)
+        self.assertLess(abs(a - b).max(), tolerance * abs(a).max())
+
+    def test_ranks_and_what_slides(self):
+        run = self.stack(1)
+        for ranks in (2, 3, 4):
+            self.assert_alike(run, self.stack(ranks), 1e-8)
+        self.assertGreater(run.energy["friction"], 10)
+        slip = run.column("slip").sum()
+        self.assertGreater(slip, 5e-3)
+        smooth = self.stack(2, friction=0)
+        self.assertEqual(smooth.energy["friction"], 0)
+        self.assertGreater(abs(self.history(smooth) - self.history(run)).max(), 1e-2)
+        glued = self.stack(2, friction=5)
+        self.assertLess(glued.column("slip").sum(), slip / 5)
+        # The block weighs 324 kg: friction took mu N times the path, more or less as N hops.
+        weight = 324 * GRAVITY
+        self.assertAlmostEqual(run.energy["friction"] / (0.4 * weight * slip), 1, delta=0.5)
+
+    def test_faces_that_do_not_match(self):
+        matched, unmatched = self.stack(2), self.stack(2, cells=4)
+        self.assertLess(unmatched.summary["impacts"]["complementarity_residual"], 1e-9)
+        self.assertAlmostEqual(unmatched.energy["friction"] / matched.energy["friction"], 1, delta=0.1)
+        for ranks in (1, 3):
+            self.assert_alike(unmatched, self.stack(ranks, cells=4), 1e-7)
+
+    def test_all_modes_are_the_finite_elements(self):
+        full = self.stack(2)
+        words = []
+        for name, dofs in (("block", 3 * 4**3), ("deck", 3 * 6 * 6 * 2)):
+            words += [f"-{name}_model", "modal", f"-{name}_modal_vectors", dofs]
+        self.assert_alike(full, self.stack(2, *words, identity=1e-11), 1e-6)
+
+    def test_few_modes_with_attachment_along_the_face(self):
+        full = self.stack(2)
+        reduced = self.stack(2, "-block_model", "modal", "-block_modal_vectors", 30, "-deck_model", "modal",
+                             "-deck_modal_vectors", 30)
+        self.assertAlmostEqual(reduced.energy["friction"] / full.energy["friction"], 1, delta=0.05)
+
+    def test_a_continued_run_is_the_uninterrupted_one(self):
+        """Stopped while points of faces that do not match slide: Gauss-Seidel starts from the last impulses."""
+        words = self.words("-modes", 1, "-spectra_frequencies", 10, cells=4)
+        folder, _ = program.must_run(self, words, 2)
+        with tempfile.TemporaryDirectory() as cut:
+            for more in (["-end_time", 0.2, "-checkpoint_steps", 317],
+                         ["-restart", os.path.join(cut, "checkpoint.h5")]):
+                result = program.run([*words, *more, "-output", cut], 2)
+                self.assertEqual(result.returncode, 0, result.stderr[-2000:])
+            for name in ("impacts.csv", "energy.csv"):
+                with open(os.path.join(folder, name)) as whole, open(os.path.join(cut, name)) as continued:
+                    self.assertEqual(whole.read(), continued.read())
+            with h5py.File(os.path.join(folder, "history.h5")) as whole, \
+                    h5py.File(os.path.join(cut, "history.h5")) as continued:
+                for name in ("displacement", "velocity", "acceleration", "contact_force"):
+                    self.assertTrue(numpy.array_equal(whole[name][()], continued[name][()]), name)
+        shutil.rmtree(folder)
+
+    def test_rigid_block(self):
+        run = self.stack(2, "-block_rigid", "body")
+        self.assert_alike(run, self.stack(3, "-block_rigid", "body"), 1e-7)
+        self.assertGreater(run.energy["friction"], 10)
+
+
+if __name__ == "__main__":
+    unittest.main()
