@@ -16,6 +16,7 @@
 #include "driver/warnings.h"
 #include "mesh/gmsh_reader.h"
 #include "mesh/soil_node.h"
+#include "modal/buckling.h"
 #include "modal/definiteness.h"
 #include "modal/reduced_system.h"
 #include "modal/reduction.h"
@@ -23,6 +24,7 @@
 #include "stability/stable_time_step.h"
 #include "stability/step_target.h"
 #include "stability/structure_limits.h"
+#include "system/axial_forces.h"
 #include "system/build_system.h"
 #include "system/mass_scaling.h"
 
@@ -172,9 +174,16 @@ void find_energy_margins(MPI_Comm comm, const Scene& scene, Model& model) {
   }
 }
 
+/// Whether a structure at full order gets stiffness from its weight at rest; a reduced one has it
+/// in its basis.
+bool leans(const Structure& structure) {
+  return structure.p_delta && !structure.modal;
+}
+
 /// System and modes of a structure whose mesh is distributed and whose basis is known.
+/// `for_weight`: only what the equilibrium under its weight needs.
 void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& profile,
-                     Model& model) {
+                     Model& model, bool for_weight = false) {
   const Structure& wanted = scene.structures[s];
   const Mesh& mesh = model.meshes[s];
   Building& building = model.buildings[s];
@@ -196,7 +205,7 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
   const Structure& structure = building.design ? building.design->structure : wanted;
   const bool exported = !scene.export_matrices.empty();
   const bool keeps_first = structure.uniform_damping && structure.uniform_damping->reference == 0;
-  const int modes = std::max(scene.modes, keeps_first ? 1 : 0);
+  const int modes = std::max(for_weight ? 0 : scene.modes, keeps_first ? 1 : 0);
   {
     const ScopedTimer timer(profile, Phase::assembly);
     const Progress progress = begin(comm, scene, structure, "assembly");
@@ -204,6 +213,7 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
   }
   const ScopedTimer timer(profile, Phase::modes);
   require_passive_matrices(structure, system);
+  if (building.compression) require_no_buckling(structure, mesh, system, *building.compression);
   {
     const Progress progress = begin(comm, scene, structure, "lowest modes");
     building.modal = lowest_modes(system, mesh, modes, scene.write_modes);
@@ -211,10 +221,31 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
   if (keeps_first) {
     system.uniform_damping->reference = reference_frequency(structure, building.modal);
   }
+  if (for_weight) return;
   building.modal.modes.resize(std::min<std::size_t>(building.modal.modes.size(), scene.modes));
   if (!exported && !scene.preload) system.stiffness->release_matrix();
   Progress progress = begin(comm, scene, structure, "largest frequency and stable time step");
   building.limits = limits_of(structure, system, mesh, nullptr, effort_of(scene, progress));
+}
+
+/// Axial forces of the weight at rest, and the structures built anew with them.
+void turn_weight_with_columns(MPI_Comm comm, const Scene& scene, Profile& profile, Model& model) {
+  if (std::ranges::none_of(scene.structures, leans)) return;
+  std::vector<std::vector<double>> displacement;
+  {
+    const ScopedTimer timer(profile, Phase::assembly);
+    const Progress progress(comm, "static equilibrium for P-Delta", scene.progress_interval);
+    displacement =
+        find_equilibrium(comm, model.systems, model.meshes, model.interface, scene.preload_solver)
+            .displacement;
+  }
+  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+    if (!leans(scene.structures[s])) continue;
+    const std::optional<UniformDamping>& uniform = model.systems[s].uniform_damping;
+    model.buildings[s].compression = set_axial_forces(
+        scene.structures[s], displacement[s], uniform ? uniform->at_rest() : 1, model.meshes[s]);
+    build_structure(comm, scene, s, profile, model);
+  }
 }
 
 void add_warnings(MPI_Comm comm, const Scene& scene, Model& model) {
@@ -240,8 +271,9 @@ Model build_model(MPI_Comm comm, Scene& scene, Profile& profile) {
   });
   build_meshes(comm, scene, profile, model);
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
-    build_structure(comm, scene, s, profile, model);
+    build_structure(comm, scene, s, profile, model, leans(scene.structures[s]));
   }
+  turn_weight_with_columns(comm, scene, profile, model);
   put_at_rest(comm, scene, profile, model);
   add_warnings(comm, scene, model);
   choose_time_step(scene, model);

@@ -13,6 +13,7 @@
 #include "scene/scene.h"
 #include "stability/step_target.h"
 #include "stability/structure_limits.h"
+#include "system/axial_forces.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -33,7 +34,8 @@ struct Building {
   AbsorbingReport absorbing;             ///< likewise
   std::optional<ModalBasis> basis;       ///< if the structure is reduced; no rows
   ModalResult modal;
-  std::optional<StepDesign> design;  ///< if its time step has a target
+  std::optional<StepDesign> design;               ///< if its time step has a target
+  std::optional<LargestCompression> compression;  ///< under its weight, with P-Delta at full order
   StructureLimits limits;
   double energy_margin = 0;  ///< of the time step in force [-]
 

@@ -260,6 +260,10 @@ void print_structure(const Building& building) {
     print_reduction(*building.structure->modal, *building.basis, system.mass_scaling);
   }
   print_damping(building);
+  if (building.compression) {
+    std::printf("  P-Delta: at rest up to %.6g N press %s\n", building.compression->force,
+                building.compression->place.c_str());
+  }
   print_soil(*building.structure);
   print_absorbing(*building.structure, building.absorbing);
   std::printf("  mode  frequency  direction  effective mass, share of it\n");

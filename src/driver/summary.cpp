@@ -89,6 +89,10 @@ Json describe_structure(const Building& building) {
       structure["region_damping"][region.group] = describe_damping(*region.damping);
     }
   }
+  if (building.compression) {
+    structure["p_delta"] = {{"largest_compression", building.compression->force},
+                            {"place", building.compression->place}};
+  }
   if (building.structure->soil) structure["soil"] = describe_soil(*building.structure);
   if (!building.structure->absorbing.empty()) {
     structure["absorbing"] = describe_absorbing(*building.structure, building.absorbing);

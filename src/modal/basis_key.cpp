@@ -94,6 +94,7 @@ BasisKey basis_key(const Structure& structure, const GlobalMesh& mesh,
       std::array{static_cast<double>(request.modes), request.cutoff, request.attachment ? 1. : 0.});
   if (request.candidates > request.modes) vectors.add(static_cast<double>(request.candidates));
   if (request.gravity != Vector3{0, 0, 0}) vectors.add_all(request.gravity);
+  if (structure.p_delta) vectors.add("p_delta");
   return {{"mesh", hash_of(mesh)},
           {"elements", hash_of(structure.regions)},
           {"matrices", hash_of_matrices(structure.matrices)},

@@ -11,8 +11,11 @@
 #include "contact/tangential_rows.h"
 #include "mesh/mesh.h"
 #include "modal/basis_key.h"
+#include "modal/buckling.h"
 #include "modal/definiteness.h"
 #include "modal/modal_basis_file.h"
+#include "statics/equilibrium.h"
+#include "system/axial_forces.h"
 #include "system/build_system.h"
 #include "system/links.h"
 #include "system/matrix_system.h"
@@ -114,6 +117,14 @@ struct Reduction {
   ModalBasis basis;
 };
 
+/// Gives the elements of a whole mesh their axial forces under the weight alone, without contacts.
+LargestCompression turn_weight_with_columns(const Structure& structure, const LinearSystem& system,
+                                            Mesh& mesh) {
+  const Equilibrium rest =
+      find_equilibrium(mesh.comm, {&system, 1}, {&mesh, 1}, Interface{}, StaticSolver::automatic);
+  return set_axial_forces(structure, rest.displacement[0], 1, mesh);
+}
+
 void compute(const Structure& structure, Profile& profile, Reduction& reduction) {
   reduction.mesh.comm = MPI_COMM_SELF;
   std::optional<LinearSystem> system;
@@ -122,6 +133,13 @@ void compute(const Structure& structure, Profile& profile, Reduction& reduction)
     Structure unscaled = structure;
     unscaled.mass_scaling = 0;  // the coordinates are scaled, not the elements
     system = build_system(unscaled, reduction.mesh);
+    if (structure.p_delta) {
+      system->uniform_damping.reset();  // forces at rest do not depend on it
+      const LargestCompression largest =
+          turn_weight_with_columns(unscaled, *system, reduction.mesh);
+      system = build_system(unscaled, reduction.mesh);
+      require_no_buckling(structure, reduction.mesh, *system, largest);
+    }
   }
   const ScopedTimer timer(profile, Phase::modes);
   require_passive_matrices(structure, *system);

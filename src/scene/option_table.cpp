@@ -97,6 +97,7 @@ constexpr std::array table{
     OptionRow{Block::structure, "<structure>_initial_displacement", Kind::reals, "m", value("0,0,0"), any, "three numbers x,y,z", "of every free node at t = 0"},
     OptionRow{Block::structure, "<structure>_initial_velocity", Kind::reals, "m/s", value("0,0,0"), any, "three numbers x,y,z", "of every free node at t = 0"},
     OptionRow{Block::structure, "<structure>_gravity", Kind::reals, "m/s2", absent("left out: 0,0,-gravity"), any, "three numbers x,y,z", "constant body acceleration; without preload it is applied at once at t = 0"},
+    OptionRow{Block::structure, "<structure>_p_delta", Kind::boolean, "flag", value("false"), any, "", "the axial forces of beams and bars at rest turn with them: weight on columns that lean; needs gravity and preload static"},
     OptionRow{Block::structure, "<structure>_damping_alpha", Kind::real, "1/s", value("0"), not_negative, "", "Rayleigh damping, mass term: C = alpha M + beta K"},
     OptionRow{Block::structure, "<structure>_damping_beta", Kind::real, "s", value("0"), not_negative, "", "Rayleigh damping, stiffness term"},
     OptionRow{Block::structure, "<structure>_damping_ratio", Kind::real, "-", absent("optional"), damping_ratio, "", "instead of alpha and beta: damping ratio at two frequencies"},

@@ -146,6 +146,7 @@ struct Structure {
   std::optional<UniformDamping> uniform_damping;  ///< in place of Rayleigh damping, which is 0 then
   std::optional<ModalModel> modal;                ///< nothing: the finite-element model itself
   std::optional<Soil> soil;               ///< under its mat; one of the regions is its element
+  bool p_delta = false;                   ///< weight at rest turns with the columns
   double mass_scaling = 0;                ///< step [s] that what is stiff gets mass for; 0: none
   std::optional<StepTarget> step_target;  ///< its step is `mass_scaling` until one is designed
   Vector3 initial_displacement{0, 0, 0};  ///< of every free node [m]

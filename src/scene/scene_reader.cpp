@@ -40,6 +40,7 @@ class SceneReader {
         scene_.structures.back().gravity = {0, 0, -gravity_};
       }
       require_one_start(scene_.structures.back());
+      require_weight(scene_.structures.back());
       require_own_basis(scene_.structures.back());
       require_full_order(scene_.structures.back());
     }
@@ -126,6 +127,15 @@ class SceneReader {
     if (scene_.preload && structure.initial_displacement != Vector3{0, 0, 0}) {
       options_.refuse("<structure>_initial_displacement", {structure.name},
                       "the run starts from the static equilibrium; not with -preload static");
+    }
+  }
+
+  /// P-Delta is about the forces of the weight at rest.
+  void require_weight(const Structure& structure) const {
+    if (!structure.p_delta) return;
+    if (!scene_.preload || structure.gravity == Vector3{0, 0, 0}) {
+      options_.refuse("<structure>_p_delta", {structure.name},
+                      "it is about the weight at rest: give -gravity and -preload static as well");
     }
   }
 

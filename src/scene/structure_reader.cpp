@@ -247,6 +247,27 @@ void read_step_target(OptionReader& options, Structure& structure) {
                                      options.real("<structure>_target_frequency", names), 0};
 }
 
+/// The axial forces at rest belong to beams and bars whose mass nobody scales by their stiffness.
+bool read_p_delta(OptionReader& options, const Structure& structure) {
+  constexpr std::string_view pattern = "<structure>_p_delta";
+  if (!options.boolean(pattern, {structure.name})) return false;
+  const std::string option = "not with -" + structure.name;
+  if (!structure.matrices.empty()) {
+    options.refuse(pattern, {structure.name}, option + "_matrices, which hold it or not");
+  }
+  if (structure.mass_scaling > 0) {
+    options.refuse(pattern, {structure.name}, option + "_mass_scaling or _time_step_target");
+  }
+  const bool has_any = std::ranges::any_of(structure.regions, [](const Region& region) {
+    return is_beam(region.element) || region.element == ElementType::bar;
+  });
+  if (!has_any) {
+    options.refuse(pattern, {structure.name},
+                   "the structure has no beams or bars, whose axial forces it is about");
+  }
+  return true;
+}
+
 /// Matrices do not know what moves together.
 void forbid_rigid_groups(const OptionReader& options, const Structure& structure) {
   for (const RigidGroup& rigid : structure.rigid_groups) {
@@ -337,6 +358,7 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   if (!structure.matrices.empty()) {
     forbid_damping_of_regions(options, structure);
   }
+  structure.p_delta = read_p_delta(options, structure);
   structure.soil = read_soil(options, structure);
   if (structure.soil) structure.regions.push_back(soil_region(*structure.soil));
   make_mat_rigid(structure);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "elements/geometric_stiffness.h"
 #include "stiffness/element_properties.h"
 
 namespace pounding {
@@ -113,7 +114,8 @@ bool ElementSorter::add_rectangle(const Element& element, const ElementPropertie
 }
 
 bool ElementSorter::add_beam(const Element& element) {
-  if (!forms_.beams || !is_beam(mesh_.blocks[element.first].type)) return false;
+  const ElementBlock& block = mesh_.blocks[element.first];
+  if (!forms_.beams || !is_beam(block.type) || !block.axial_force.empty()) return false;
   const auto place = places(element);
   for (std::size_t i = 1; i < 12; ++i) {
     // Six dofs in a row, or none.
@@ -233,6 +235,11 @@ SparseRows ElementSorter::sparse_rows() const {
     element_matrices(block.type, {work_.coordinates.data(), 3 * nodes},
                      element_properties(structure_.regions[block.region]), stiffness,
                      {work_.mass.data(), size});
+    if (!block.axial_force.empty()) {
+      add_geometric_stiffness(block.type, {work_.coordinates.data(), 3 * nodes},
+                              element_properties(structure_.regions[block.region]),
+                              block.axial_force[e], stiffness);
+    }
     rows.add({places(element).data(), size}, stiffness);
   }
   return rows;

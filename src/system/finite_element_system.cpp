@@ -5,6 +5,7 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "elements/geometric_stiffness.h"
 #include "elements/measured_costs.h"
 #include "mesh/location.h"
 #include "stiffness/element_loop.h"
@@ -32,6 +33,10 @@ void for_each_element(const Structure& structure, const Mesh& mesh, Visit&& visi
       try {
         element_matrices(block.type, gather_coordinates(mesh, block, e, work), properties,
                          {work.stiffness.data(), size * size}, {work.mass.data(), size});
+        if (!block.axial_force.empty()) {
+          add_geometric_stiffness(block.type, gather_coordinates(mesh, block, e, work), properties,
+                                  block.axial_force[e], {work.stiffness.data(), size * size});
+        }
       } catch (const ElementError& error) {
         throw UserError("structure " + structure.name + ": " + describe_element(mesh, block, e) +
                         ": " + error.what());
@@ -119,6 +124,12 @@ class Assembly {
                 {dofs.data(), size}, scaling);
     if (has_extra_damping(block)) {
       const Rayleigh extra = extra_rayleigh(block);
+      if (!block.axial_force.empty()) {
+        // The part that the weight adds may be negative in a rotation: it damps nothing.
+        add_geometric_stiffness(block.type, gather_coordinates(mesh_, block, element, work),
+                                element_properties(region), -block.axial_force[element],
+                                {work.stiffness.data(), size * size});
+      }
       for (std::size_t i = 0; i < stiffness.size(); ++i) damping_[i] = extra.beta * stiffness[i];
       for (std::size_t i = 0; i < size; ++i) damping_[i * size + i] += extra.alpha * mass[i];
       insert(extra_damping_, damping_.data());

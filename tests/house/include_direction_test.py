@@ -24,7 +24,7 @@ MAY_INCLUDE = {
                   "stiffness/shells", "stiffness/strains"},
     "links": {"common", "scene", "soil"},
     "system": {"common", "io", "scene", "elements", "mesh", "links", "stiffness"},
-    "modal": {"common", "io", "scene", "elements", "mesh", "stiffness", "system", "contact"},
+    "modal": {"common", "io", "scene", "elements", "mesh", "stiffness", "system", "contact", "statics"},
     "stability": {"common", "scene", "mesh", "system", "modal"},
     "contact": {"common", "scene", "elements", "mesh", "system"},
     "statics": {"common", "scene", "mesh", "links", "system", "contact"},
