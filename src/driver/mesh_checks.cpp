@@ -105,8 +105,9 @@ bool may_fly(const Scene& scene, const Structure& structure) {
 void check_export(const Scene& scene, const Structure& structure, const GlobalMesh& mesh) {
   if (!mesh.rigid.empty() && !scene.export_matrices.empty()) {
     throw UserError("option -export_matrices " + scene.export_matrices + ": structure " +
-                    structure.name + " has rigid group " + mesh.rigid.front().group +
-                    ", of which no matrix tells");
+                    structure.name + " has " +
+                    (mesh.rigid.front().kind == RigidKind::tie ? "tie " : "rigid group ") +
+                    mesh.rigid.front().group + ", of which no matrix tells");
   }
 }
 
@@ -198,6 +199,7 @@ std::vector<std::string> mesh_warnings(const Structure& structure, const GlobalM
                  " pairs of nodes lie on each other and are not one, the first at "));
   }
   doubt_long_joins(structure, mesh, warnings);
+  warnings.insert(warnings.end(), mesh.doubts.begin(), mesh.doubts.end());
   const double longest = bounding_box({&mesh, 1}).longest_side();
   if (longest > longest_structure) {
     std::ostringstream text;

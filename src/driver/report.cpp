@@ -228,13 +228,18 @@ void print_findings(const MeshFindings& findings) {
 }
 
 void print_rigid_bodies(const Building& building) {
-  constexpr std::array words{"rigid", "rigid in its plane", "joined", "pinned", "tied by height"};
+  constexpr std::array words{"rigid",  "rigid in its plane", "joined",
+                             "pinned", "tied by height",     "tied"};
   for (const RigidGroup& rigid : building.structure->rigid_groups) {
     std::printf("  %s: %s", words[static_cast<std::size_t>(rigid.kind)], rigid.name().c_str());
     for (const RigidBodyReport& report : building.system->rigid_bodies) {
       if (report.group != rigid.name()) continue;
       std::printf(", %lld nodes of %.0f kg", static_cast<long long>(report.nodes), report.mass);
       if (report.bodies > 1) std::printf(" in %lld", static_cast<long long>(report.bodies));
+      if (rigid.kind == RigidKind::tie) {
+        std::printf(", %lld dofs that follow", static_cast<long long>(report.dofs));
+        continue;
+      }
       std::printf(", %lld dofs by %lld motions", static_cast<long long>(report.dofs),
                   static_cast<long long>(report.motions));
     }

@@ -70,6 +70,12 @@ class Examination {
         pieces_.join(static_cast<std::size_t>(node), static_cast<std::size_t>(nodes.front()));
         rigid_of_[node] = static_cast<int>(r);
       }
+      for (const TiedNode& tied : mesh_.rigid[r].tied) {
+        for (const Carrier& carrier : tied.carriers) {  // clamped ones as well
+          pieces_.join(static_cast<std::size_t>(tied.node), static_cast<std::size_t>(carrier.node));
+          rigid_of_[carrier.node] = static_cast<int>(r);
+        }
+      }
     }
   }
 

@@ -8,6 +8,7 @@
 #include "common/types.h"
 #include "elements/element_traits.h"
 #include "mesh/absorbing_node.h"
+#include "mesh/tied_node.h"
 #include "scene/scene.h"
 
 /// A whole mesh as it stands on rank 0 between reading and distribution. Nodes are numbered from 0
@@ -52,8 +53,9 @@ struct UnusedElements {
 struct RigidNodes {
   std::string group;  ///< as in the option; several may come of one
   RigidKind kind = RigidKind::body;
-  std::uint8_t components = 0;     ///< that follow the motion, one bit each
-  std::vector<GlobalIndex> nodes;  ///< sorted
+  std::uint8_t components = 0;     ///< that follow one rigid motion, one bit each
+  std::vector<GlobalIndex> nodes;  ///< sorted; of ties the carriers as well
+  std::vector<TiedNode> tied;      ///< of ties
 };
 
 struct GlobalMesh {
@@ -61,7 +63,8 @@ struct GlobalMesh {
   std::vector<std::int64_t> node_tags;  ///< as in the file
   std::vector<ElementSet> regions;      ///< in the order of the structure's regions
   std::map<std::string, NodeGroup> groups;
-  std::vector<RigidNodes> rigid;       ///< no node is in two of them
+  std::vector<RigidNodes> rigid;       ///< no node is in two of them; ties are the last
+  std::vector<std::string> doubts;     ///< of ties, one line each
   std::vector<UnusedElements> unused;  ///< points do not count
   /// Nodes of absorbing faces; found after reading, with the elements behind these faces.
   std::vector<AbsorbingNode> absorbing;

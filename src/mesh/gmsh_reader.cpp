@@ -19,6 +19,7 @@
 #include "mesh/repeated_elements.h"
 #include "mesh/rigid_nodes.h"
 #include "mesh/soil_node.h"
+#include "mesh/tied_nodes.h"
 #include "mesh/unused_elements.h"
 
 namespace pounding {
@@ -289,6 +290,7 @@ class MeshBuilder {
       if (!rigid.other.empty()) used_group(rigid.other, end);
     }
     mesh_.rigid = find_rigid_nodes(structure_, mesh_);
+    add_tied_nodes(structure_, mesh_);
   }
 
   void mark_components() {

@@ -243,6 +243,9 @@ struct RigidParcel {
   std::vector<std::uint8_t> kinds;  ///< kind and components of each
   std::vector<GlobalIndex> counts;  ///< nodes of each
   std::vector<GlobalIndex> nodes;
+  std::vector<GlobalIndex> ties;      ///< of each: tied nodes; of these: node, group, carriers
+  std::vector<GlobalIndex> carriers;  ///< their nodes
+  std::vector<double> blocks;         ///< theirs
 
   explicit RigidParcel(const std::vector<RigidNodes>& rigid) {
     for (const RigidNodes& part : rigid) {
@@ -252,17 +255,63 @@ struct RigidParcel {
       kinds.push_back(part.components);
       counts.push_back(static_cast<GlobalIndex>(part.nodes.size()));
       nodes.insert(nodes.end(), part.nodes.begin(), part.nodes.end());
+      ties.push_back(static_cast<GlobalIndex>(part.tied.size()));
+      for (const TiedNode& tied : part.tied) add(tied);
     }
   }
+
+  void add(const TiedNode& tied) {
+    ties.insert(ties.end(),
+                {tied.node, tied.group, static_cast<GlobalIndex>(tied.carriers.size())});
+    for (const Carrier& carrier : tied.carriers) {
+      carriers.push_back(carrier.node);
+      blocks.insert(blocks.end(), carrier.block.begin(), carrier.block.end());
+    }
+  }
+
+  template <typename Function>
+  void for_each_array(Function&& function) {
+    function(names);
+    function(kinds);
+    function(counts);
+    function(nodes);
+    function(ties);
+    function(carriers);
+    function(blocks);
+  }
+};
+
+/// Reads the tied nodes of one part after the other.
+class TiedReader {
+ public:
+  explicit TiedReader(const RigidParcel& parcel)
+      : parcel_(parcel), place_(parcel.ties.begin()), first_(0) {}
+
+  std::vector<TiedNode> next() {
+    std::vector<TiedNode> found(static_cast<std::size_t>(*place_++));
+    for (TiedNode& tied : found) {
+      tied.node = *place_++;
+      tied.group = static_cast<int>(*place_++);
+      tied.carriers.resize(static_cast<std::size_t>(*place_++));
+      for (Carrier& carrier : tied.carriers) {
+        carrier.node = parcel_.carriers[first_];
+        std::copy_n(&parcel_.blocks[carrier.block.size() * first_++], carrier.block.size(),
+                    carrier.block.begin());
+      }
+    }
+    return found;
+  }
+
+ private:
+  const RigidParcel& parcel_;
+  std::vector<GlobalIndex>::const_iterator place_;
+  std::size_t first_;  ///< carrier that is next
 };
 
 /// Tells every rank what moves together.
 void share_rigid_parts(MPI_Comm comm, const std::vector<RigidNodes>& rigid, Mesh& mesh) {
   RigidParcel parcel(rigid);
-  broadcast_array(comm, parcel.names, 0);
-  broadcast_array(comm, parcel.kinds, 0);
-  broadcast_array(comm, parcel.counts, 0);
-  broadcast_array(comm, parcel.nodes, 0);
+  parcel.for_each_array([&](auto& array) { broadcast_array(comm, array, 0); });
   mesh.rigid_of.assign(mesh.file_node.size(), -1);
   std::unordered_map<GlobalIndex, LocalIndex> local;
   for (LocalIndex n = 0; !parcel.counts.empty() && n < mesh.node_count(); ++n) {
@@ -270,6 +319,7 @@ void share_rigid_parts(MPI_Comm comm, const std::vector<RigidNodes>& rigid, Mesh
   }
   const char* name = parcel.names.data();
   auto node = parcel.nodes.begin();
+  TiedReader ties(parcel);
   for (std::size_t i = 0; i < parcel.counts.size(); ++i) {
     RigidPart& part = mesh.rigid.emplace_back();
     part.group = name;
@@ -284,6 +334,8 @@ void share_rigid_parts(MPI_Comm comm, const std::vector<RigidNodes>& rigid, Mesh
       if (found->second < mesh.owned_nodes) part.nodes.push_back(found->second);
     }
     std::ranges::sort(part.nodes);
+    part.tied = ties.next();
+    if (part.nodes.empty()) part.tied.clear();
     if (!part.nodes.empty() && static_cast<GlobalIndex>(part.nodes.size()) != part.global_nodes) {
       throw std::logic_error("rigid group " + part.group + " lives on several ranks");
     }

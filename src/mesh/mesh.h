@@ -29,9 +29,10 @@ struct ElementBlock {
 struct RigidPart {
   std::string group;  ///< as in the option; several may come of one
   RigidKind kind = RigidKind::body;
-  std::uint8_t components = 0;  ///< that follow the motion, one bit each
+  std::uint8_t components = 0;  ///< that follow one rigid motion, one bit each
   GlobalIndex global_nodes = 0;
   std::vector<LocalIndex> nodes;  ///< increasing; none on the ranks that do not own them
+  std::vector<TiedNode> tied;     ///< of ties, on the rank that owns the nodes
 
   bool is_whole() const { return components == 0x3f; }
 };

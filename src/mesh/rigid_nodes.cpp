@@ -181,6 +181,7 @@ std::vector<RigidNodes> find_rigid_nodes(const Structure& structure, const Globa
   std::vector<RigidNodes> found;
   std::map<GlobalIndex, std::string> group_of;
   for (const RigidGroup& rigid : structure.rigid_groups) {
+    if (rigid.kind == RigidKind::tie) continue;
     const std::vector<Cluster> clusters = clusters_of(structure, rigid, mesh);
     if (clusters.empty()) {
       throw UserError(option_text(structure, rigid) + ": no two nodes of it lie " +
@@ -189,7 +190,7 @@ std::vector<RigidNodes> find_rigid_nodes(const Structure& structure, const Globa
     for (const Cluster& cluster : clusters) {
       if (is_held(mesh, cluster)) continue;  // clamped altogether: nothing follows anything
       if (rigid.implied && (cluster.size() == 1 || is_in_body(found, cluster))) continue;
-      found.push_back({rigid.name(), rigid.kind, rigid.components(), cluster});
+      found.push_back({rigid.name(), rigid.kind, rigid.components(), cluster, {}});
       const unsigned following = rigid.components() & ~left_out(mesh, rigid, cluster);
       for (const GlobalIndex node : cluster) {
         const auto [other, is_new] = group_of.try_emplace(node, rigid.name());

@@ -38,6 +38,13 @@ std::string hash_of(const std::vector<RigidNodes>& rigid) {
   for (const RigidNodes& nodes : rigid) {
     hash.add(static_cast<double>(nodes.components));
     hash.add_all(nodes.nodes);
+    for (const TiedNode& tied : nodes.tied) {
+      hash.add(static_cast<double>(tied.node));
+      for (const Carrier& carrier : tied.carriers) {
+        hash.add(static_cast<double>(carrier.node));
+        hash.add_all(carrier.block);
+      }
+    }
   }
   return hash.text();
 }

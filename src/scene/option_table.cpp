@@ -80,6 +80,7 @@ constexpr std::array table{
     OptionRow{Block::structure, "<structure>_levels", Kind::names, "names", value("none"), any, "", "physical groups whose nodes at one height share their displacements: sides of a block of soil that move as the free field"},
     OptionRow{Block::structure, "<structure>_absorbing", Kind::names, "names", value("none"), any, "", "physical groups of faces of solids through which waves leave: dashpots density x speed x area"},
     OptionRow{Block::structure, "<structure>_absorbing_base", Kind::names, "names", value("none"), any, "", "likewise, and the motion enters through them from below (motion_input below)"},
+    OptionRow{Block::structure, "<structure>_tie", Kind::names, "pairs", value("none"), any, "group:group,group:group or none", "each node of the first group follows the nearest facet of the second, or edge: parts whose meshes do not match"},
     OptionRow{Block::structure, "<structure>_ignore", Kind::names, "names", value("none"), any, "", "physical groups of the mesh that are left out on purpose"},
     OptionRow{Block::structure, "<structure>_allow_loose", Kind::boolean, "flag", value("false"), any, "", "pieces that nothing holds, and coincident nodes that nothing joins, are meant"},
     OptionRow{Block::structure, "<structure>_matrices", Kind::text, "folder", value("none"), any, "a folder with dofs.csv, stiffness.mtx, mass.mtx, or none", "its matrices, in place of its elements' own; the mesh says where faces and probes are"},

@@ -8,12 +8,12 @@ namespace pounding {
 
 std::vector<RigidGroup> read_rigid_groups(OptionReader& options, const std::string& structure) {
   std::vector<RigidGroup> groups;
-  for (const RigidKind kind :
-       {RigidKind::body, RigidKind::diaphragm, RigidKind::join, RigidKind::pin, RigidKind::level}) {
+  for (const RigidKind kind : {RigidKind::body, RigidKind::diaphragm, RigidKind::join,
+                               RigidKind::pin, RigidKind::level, RigidKind::tie}) {
     const char* const pattern = rigid_option(kind);
     for (const std::string& item : options.list(pattern, {structure})) {
       RigidGroup rigid{kind, item, ""};
-      if (kind == RigidKind::join) {
+      if (kind == RigidKind::join || kind == RigidKind::tie) {
         const std::vector<std::string> sides = split(item, ':');
         if (sides.size() != 2 || sides[0].empty() || sides[1].empty() || sides[0] == sides[1]) {
           options.refuse(pattern, {structure}, "'" + item + "' does not name two groups");

@@ -100,18 +100,19 @@ enum class RigidKind : std::uint8_t {
   diaphragm,  ///< level floors, each rigid in its plane
   join,       ///< each node of a group and the nearest one of another, as a rigid body
   pin,        ///< nodes of a group that lie on each other, in their displacements
-  level       ///< nodes of a group at one height, in their displacements
+  level,      ///< nodes of a group at one height, in their displacements
+  tie         ///< nodes of a group follow the nearest facet of another
 };
 
 /// A physical group that moves together.
 struct RigidGroup {
   RigidKind kind = RigidKind::body;
   std::string group;
-  std::string other;     ///< of a join: where the nearest node is looked for
+  std::string other;     ///< of a join or tie: where the nearest node or facet is looked for
   bool implied = false;  ///< a mat on soil: nobody asked, and it may be part of a larger body
 
   std::string name() const { return other.empty() ? group : group + ":" + other; }
-  /// Components that follow, one bit each.
+  /// Components that follow one rigid motion, one bit each; not told of ties.
   std::uint8_t components() const {
     if (kind == RigidKind::diaphragm) return 0x23;
     return kind == RigidKind::pin || kind == RigidKind::level ? 0x07 : 0x3f;
@@ -120,8 +121,9 @@ struct RigidGroup {
 
 /// The option that makes a group move together.
 inline const char* rigid_option(RigidKind kind) {
-  constexpr const char* options[] = {"<structure>_rigid", "<structure>_diaphragm",
-                                     "<structure>_join", "<structure>_pin", "<structure>_levels"};
+  constexpr const char* options[] = {"<structure>_rigid",  "<structure>_diaphragm",
+                                     "<structure>_join",   "<structure>_pin",
+                                     "<structure>_levels", "<structure>_tie"};
   return options[static_cast<int>(kind)];
 }
 

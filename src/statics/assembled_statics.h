@@ -33,7 +33,7 @@ class AssembledStatics final : public StaticStiffness {
 
   const LinearSystem& system_;
   double at_rest_ = 1;                           ///< s
-  std::optional<AdmissibleMotions> admissible_;  ///< of rigid bodies
+  std::optional<AdmissibleMotions> admissible_;  ///< of rigid bodies and ties
   MatHandle matrix_;                             ///< s K + shift M
   MatHandle factor_;                             ///< of it; null with the iteration
   KspHandle iteration_;                          ///< null with the factor

@@ -183,7 +183,7 @@ class Search {
       for (std::size_t i = 0; i < product.size(); ++i) {
         residual_[s][i] = weight_[s][i] + forces[s][i] - product[i];
       }
-      take_up_by_bodies(systems_[s], residual_[s]);
+      take_up_by_constraints(systems_[s], residual_[s]);
     }
   }
 
@@ -296,14 +296,18 @@ class Search {
     stiffness_[s]->apply(displacement_[s], force);
     const Fields bars = row_forces(rows_.contacts(), rows_.size());
     for (std::size_t i = 0; i < force.size(); ++i) force[i] = bars[s][i] - force[i];
+    const std::vector<double> contact = row_forces(0, rows_.contacts())[s];
     const Vector3 free_support = total(s, force);
     const Vector3 free_weight = total(s, weight_[s]);
-    const Vector3 free_contact = total(s, row_forces(0, rows_.contacts())[s]);
+    const Vector3 free_contact = total(s, contact);
+    for (std::size_t i = 0; i < force.size(); ++i) force[i] += weight_[s][i] + contact[i];
+    Vector3 handed = handed_to_clamps(systems_[s], force);
+    MPI_Allreduce(MPI_IN_PLACE, handed.data(), 3, MPI_DOUBLE, MPI_SUM, comm_);
     Vector3 left{0, 0, 0};
     for (std::size_t d = 0; d < 3; ++d) {
       // Held nodes hand their own part on to the supports.
-      rest.support[d] =
-          free_support[d] - (rest.weight[d] - free_weight[d]) - (rest.contact[d] - free_contact[d]);
+      rest.support[d] = free_support[d] - (rest.weight[d] - free_weight[d]) -
+                        (rest.contact[d] - free_contact[d]) - handed[d];
       left[d] = rest.weight[d] + rest.contact[d] + rest.support[d];
     }
     const double scale = std::max(

@@ -12,6 +12,27 @@ const std::vector<RigidBody>& bodies_of(const LinearSystem& system) {
   return system.coupled_mass ? system.coupled_mass->bodies() : none;
 }
 
+const std::vector<TiedPart>& ties_of(const LinearSystem& system) {
+  static const std::vector<TiedPart> none;
+  return system.coupled_mass ? system.coupled_mass->ties() : none;
+}
+
+/// Takes the values of a tie's dofs out of a vector over the owned dofs, and puts them back.
+std::vector<double> field_of(const TiedPart& tie, const std::vector<double>& owned) {
+  std::vector<double> field(TiedPart::width * tie.nodes().size(), 0.0);
+  for (std::size_t n = 0; n < tie.nodes().size(); ++n) {
+    const NodeDofs& node = tie.nodes()[n];
+    std::copy_n(owned.data() + node.begin, node.count, field.data() + TiedPart::width * n);
+  }
+  return field;
+}
+void put_field(const TiedPart& tie, const std::vector<double>& field, std::vector<double>& owned) {
+  for (std::size_t n = 0; n < tie.nodes().size(); ++n) {
+    const NodeDofs& node = tie.nodes()[n];
+    std::copy_n(field.data() + TiedPart::width * n, node.count, owned.data() + node.begin);
+  }
+}
+
 /// Size of what a matrix has on its diagonal. Collective.
 double largest_diagonal(Mat matrix) {
   VecHandle diagonal;
@@ -27,12 +48,14 @@ double largest_diagonal(Mat matrix) {
 AdmissibleMotions::AdmissibleMotions(const LinearSystem& system, Alone alone)
     : system_(system), alone_(alone), is_idle_(system.lumped_mass.size(), 0) {
   const LocalIndex n = system.owned_dofs();
-  const auto width = static_cast<PetscInt>(RigidBody::width);
-  POUNDING_PETSC(MatCreateAIJ(system.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, width, nullptr,
+  std::vector<char> in_body(is_idle_.size(), 0);
+  const std::vector<Entry> entries = tie_entries(in_body);
+  std::vector<PetscInt> counts(is_idle_.size(), RigidBody::width);
+  for (const Entry& entry : entries) ++counts[entry.row];
+  POUNDING_PETSC(MatCreateAIJ(system.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 0, counts.data(),
                               0, nullptr, matrix_.out()));
   PetscInt first = 0;
   POUNDING_PETSC(MatGetOwnershipRange(matrix_.get(), &first, nullptr));
-  std::vector<char> in_body(is_idle_.size(), 0);
   for (const RigidBody& body : bodies_of(system)) {
     std::array<PetscInt, RigidBody::width> columns{};
     for (std::size_t k = 0; k < body.dofs().size(); ++k) {
@@ -46,6 +69,9 @@ AdmissibleMotions::AdmissibleMotions(const LinearSystem& system, Alone alone)
                                   columns.data(), body.row(k).data(), INSERT_VALUES));
     }
   }
+  for (const auto& [row, column, value] : entries) {
+    POUNDING_PETSC(MatSetValue(matrix_.get(), first + row, first + column, value, INSERT_VALUES));
+  }
   for (LocalIndex i = 0; i < n; ++i) {
     if (in_body[i] != 0) continue;
     const double value = alone == Alone::as_is ? 1 : std::sqrt(system.inverse_mass[i]);
@@ -53,6 +79,37 @@ AdmissibleMotions::AdmissibleMotions(const LinearSystem& system, Alone alone)
   }
   POUNDING_PETSC(MatAssemblyBegin(matrix_.get(), MAT_FINAL_ASSEMBLY));
   POUNDING_PETSC(MatAssemblyEnd(matrix_.get(), MAT_FINAL_ASSEMBLY));
+}
+
+std::vector<AdmissibleMotions::Entry> AdmissibleMotions::tie_entries(std::vector<char>& coupled) {
+  std::vector<Entry> entries;
+  for (const TiedPart& tie : ties_of(system_)) {
+    std::vector<double> field(TiedPart::width * tie.nodes().size());
+    const auto for_each_dof = [&](std::size_t first, std::size_t end, const auto& visit) {
+      for (std::size_t n = first; n < end; ++n) {
+        const NodeDofs& node = tie.nodes()[n];
+        for (int i = 0; i < node.count; ++i) {
+          visit(node.begin + i, TiedPart::width * n + static_cast<std::size_t>(i));
+        }
+      }
+    };
+    for_each_dof(0, tie.nodes().size(), [&](LocalIndex dof, std::size_t) { coupled[dof] = 1; });
+    for_each_dof(tie.carriers(), tie.nodes().size(),
+                 [&](LocalIndex dof, std::size_t) { is_idle_[dof] = 1; });
+    for_each_dof(0, tie.carriers(), [&](LocalIndex column, std::size_t place) {
+      std::ranges::fill(field, 0.0);
+      field[place] = 1;
+      if (alone_ == Alone::as_is) {
+        tie.spread(field.data());
+      } else {
+        tie.solve_transposed_half(field.data());
+      }
+      for_each_dof(0, tie.nodes().size(), [&](LocalIndex row, std::size_t from) {
+        if (field[from] != 0) entries.push_back({row, column, field[from]});
+      });
+    });
+  }
+  return entries;
 }
 
 MatHandle AdmissibleMotions::restrict_matrix(Mat matrix, double idle) const {
@@ -110,9 +167,31 @@ void AdmissibleMotions::to_coordinates(std::vector<double>& u) const {
     }
     for (std::size_t m = 0; m < body.motions(); ++m) u[body.dofs()[m]] = q[m];
   }
+  for (const TiedPart& tie : ties_of(system_)) {
+    std::vector<double> field = field_of(tie, motion);
+    if (alone_ == Alone::mass_scaled) {  // T^T M T = I
+      std::vector<double> force = motion;
+      for (std::size_t i = 0; i < force.size(); ++i) force[i] *= system_.lumped_mass[i];
+      field = field_of(tie, force);
+      tie.solve_half(field.data());
+    }
+    std::fill(field.begin() + static_cast<std::ptrdiff_t>(TiedPart::width * tie.carriers()),
+              field.end(), 0.0);
+    put_field(tie, field, u);
+  }
 }
 
-void take_up_by_bodies(const LinearSystem& system, std::vector<double>& f) {
+void take_up_by_constraints(const LinearSystem& system, std::vector<double>& f) {
+  for (const TiedPart& tie : ties_of(system)) {
+    std::vector<double> field = field_of(tie, f);
+    tie.solve(field.data());
+    put_field(tie, field, f);
+    for (const NodeDofs& node : tie.nodes()) {
+      for (int i = 0; i < node.count; ++i) {
+        f[node.begin + i] *= system.lumped_mass[node.begin + i];
+      }
+    }
+  }
   for (const RigidBody& body : bodies_of(system)) {
     std::array<double, RigidBody::width> q{};
     for (std::size_t k = 0; k < body.dofs().size(); ++k) {
@@ -125,6 +204,27 @@ void take_up_by_bodies(const LinearSystem& system, std::vector<double>& f) {
       f[dof] = system.lumped_mass[dof] * sum;
     }
   }
+}
+
+Vector3 handed_to_clamps(const LinearSystem& system, const std::vector<double>& f) {
+  Vector3 total{0, 0, 0};
+  for (const TiedPart& tie : ties_of(system)) {
+    std::vector<double> field = field_of(tie, f);
+    std::fill_n(field.begin(), TiedPart::width * tie.carriers(), 0.0);
+    const auto add = [&](double sign) {
+      for (std::size_t n = 0; n < tie.nodes().size(); ++n) {
+        for (int i = 0; i < tie.nodes()[n].count; ++i) {
+          const int direction = system.direction[tie.nodes()[n].begin + i];
+          const std::size_t place = TiedPart::width * n + static_cast<std::size_t>(i);
+          if (direction >= 0) total[direction] += sign * field[place];
+        }
+      }
+    };
+    add(1);
+    tie.collect(field.data());
+    add(-1);
+  }
+  return total;
 }
 
 }  // namespace pounding

@@ -7,17 +7,19 @@
 
 namespace pounding {
 
-/// Motions u = T z that the rigid bodies of a structure admit, for what is solved with a matrix
-/// rather than advanced step by step. T is square: z has a value for every dof, those of the first
-/// dofs of a body are the coordinates of its motions (W of RigidBody), those of the others stand
-/// idle and move nothing. So z is distributed as u is. The mass of a body's coordinates is 1.
+/// Motions u = T z that the rigid bodies and ties of a structure admit, for what is solved with a
+/// matrix rather than advanced step by step. T is square: z has a value for every dof, those of the
+/// first dofs of a body are the coordinates of its motions (W of RigidBody), those of the others,
+/// and of what follows in a tie, stand idle and move nothing. So z is distributed as u is. The mass
+/// of a body's coordinates is 1.
 class AdmissibleMotions {
  public:
   enum class Alone {
-    as_is,       ///< T is 1 for dofs of no body
-    mass_scaled  ///< M^-1/2, so that T^T M T = I
+    as_is,  ///< T is 1 for dofs of no body, and B of a tie (see TiedPart)
+    /// M^-1/2, and B G^-T of a tie: T^T M T = I, with full blocks for the carriers of a tie.
+    mass_scaled
   };
-  /// `system` must outlive this object and have rigid bodies. Collective.
+  /// `system` must outlive this object and have rigid bodies or ties. Collective.
   AdmissibleMotions(const LinearSystem& system, Alone alone);
 
   /// T^T A T, a new matrix, with `idle` on the diagonal of what stands idle; by default more than
@@ -31,6 +33,14 @@ class AdmissibleMotions {
   void to_coordinates(std::vector<double>& u) const;
 
  private:
+  /// An entry of T, by owned dofs.
+  struct Entry {
+    LocalIndex row = 0;
+    LocalIndex column = 0;
+    double value = 0;
+  };
+  /// T of all ties; marks what follows as idle, and the dofs of both in `coupled`.
+  std::vector<Entry> tie_entries(std::vector<char>& coupled);
   void multiply(std::vector<double>& x, bool transposed) const;
 
   const LinearSystem& system_;
@@ -39,8 +49,13 @@ class AdmissibleMotions {
   MatHandle matrix_;           ///< T
 };
 
-/// f := M W W^T f of forces on the rigid bodies of this rank, over all owned dofs: what is left of
-/// them once the body has taken up what it can. Local.
-void take_up_by_bodies(const LinearSystem& system, std::vector<double>& f);
+/// f := M W W^T f of forces on the rigid bodies of a rank, M B (B^T M B)^-1 B^T f of those on its
+/// ties, over all owned dofs: what is left of them once the constraints have taken up what they
+/// can. Local.
+void take_up_by_constraints(const LinearSystem& system, std::vector<double>& f);
+
+/// Sum of the forces f that nodes of this rank hand on to clamped components by ties [N]: what is
+/// left of those on what follows once B^T has brought them to the carriers. Local.
+Vector3 handed_to_clamps(const LinearSystem& system, const std::vector<double>& f);
 
 }  // namespace pounding

@@ -1,97 +1,44 @@
 #include "system/coupled_mass.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <stdexcept>
+#include <map>
 #include <utility>
-
-#include "system/elimination_order.h"
-#include "system/six_lanes.h"
 
 namespace pounding {
 namespace {
 
 constexpr std::size_t width = CoupledMass::width;
 
-/// x[place] = B x[place].
-void multiply(const NodeBlock& block, double* x) {
-  Six y[2];
-  accumulate<false>(block.data(), x, y);
-  store_six(x, sum(y));
-}
-
-NodeBlock transposed(const NodeBlock& a) {
-  NodeBlock result;
-  for (std::size_t i = 0; i < width; ++i) {
-    for (std::size_t j = 0; j < width; ++j) result[j * width + i] = a[i * width + j];
-  }
-  return result;
-}
-
-/// A B^T, all row by row.
-NodeBlock product_with_transposed(const NodeBlock& a, const NodeBlock& b) {
-  NodeBlock result{};
-  for (std::size_t i = 0; i < width; ++i) {
-    for (std::size_t j = 0; j < width; ++j) {
-      for (std::size_t k = 0; k < width; ++k) {
-        result[i * width + j] += a[i * width + k] * b[j * width + k];
-      }
-    }
-  }
-  return result;
-}
-
-/// R^-1 row by row, D = R R^T.
-NodeBlock inverse_cholesky(const NodeBlock& d) {
-  NodeBlock root{};
-  NodeBlock inverse{};
-  for (std::size_t i = 0; i < width; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      double value = d[i * width + j];
-      for (std::size_t k = 0; k < j; ++k) value -= root[i * width + k] * root[j * width + k];
-      if (i == j && !(value > 0)) {
-        throw std::runtime_error("a mass matrix is not positive definite");
-      }
-      root[i * width + j] = i == j ? std::sqrt(value) : value / root[j * width + j];
-    }
-  }
-  for (std::size_t j = 0; j < width; ++j) {
-    for (std::size_t i = j; i < width; ++i) {
-      double value = i == j ? 1 : 0;
-      for (std::size_t k = j; k < i; ++k) value -= root[i * width + k] * inverse[k * width + j];
-      inverse[i * width + j] = value / root[i * width + i];
-    }
-  }
-  return inverse;
-}
-
 }  // namespace
 
 CoupledMass::CoupledMass(std::span<const double> lumped_mass, NodeBlocks added,
-                         std::vector<RigidBody> bodies)
-    : added_(std::move(added)), bodies_(std::move(bodies)) {
-  factorise(lumped_mass);
+                         std::vector<RigidBody> bodies, std::vector<TiedPart> ties)
+    : added_(std::move(added)),
+      factor_(lumped_mass, added_),
+      bodies_(std::move(bodies)),
+      ties_(std::move(ties)) {
   place_nodes();
 }
 
 void CoupledMass::place_nodes() {
   std::map<LocalIndex, std::pair<NodeDofs, std::size_t>> places;  // by first dof
   for (std::size_t n = 0; n < added_.nodes.size(); ++n) {
-    places[added_.nodes[n].begin] = {added_.nodes[n], order_[n]};
+    places[added_.nodes[n].begin] = {added_.nodes[n], factor_.order(n)};
   }
   std::size_t next = added_.nodes.size();
-  for (const RigidBody& body : bodies_) {
+  const auto place_part = [&](const std::vector<NodeDofs>& part) {
     first_node_.push_back(next);
-    for (const NodeDofs& node : body.nodes()) places[node.begin] = {node, next++};
-  }
+    for (const NodeDofs& node : part) places[node.begin] = {node, next++};
+  };
+  for (const RigidBody& body : bodies_) place_part(body.nodes());
+  for (const TiedPart& tie : ties_) place_part(tie.nodes());
   for (const auto& [begin, entry] : places) {
     nodes_.push_back(entry.first);
     place_.push_back(entry.second);
   }
 }
 
-int CoupledMass::body_of(std::size_t node) const {
+int CoupledMass::part_of(std::size_t node) const {
   const auto after = std::ranges::upper_bound(first_node_, place_[node]);
   return static_cast<int>(after - first_node_.begin()) - 1;
 }
@@ -104,134 +51,38 @@ int CoupledMass::node_of(LocalIndex dof) const {
   return static_cast<int>(after - 1 - nodes().begin());
 }
 
-void CoupledMass::factorise(std::span<const double> lumped_mass) {
-  const std::size_t count = added_.nodes.size();
-  std::vector<std::set<int>> neighbours(count);
-  for (const auto& [pair, block] : added_.blocks) {
-    if (pair[0] != pair[1]) {
-      neighbours[pair[0]].insert(pair[1]);
-      neighbours[pair[1]].insert(pair[0]);
-    }
-  }
-  const Elimination elimination =
-      *eliminate(std::move(neighbours), std::numeric_limits<std::size_t>::max());
-  order_.resize(count);
-  for (std::size_t k = 0; k < count; ++k) order_[elimination.order[k]] = k;
-  // Remainder of M + S, columns and rows by their places, lower triangle.
-  std::vector<std::map<std::size_t, NodeBlock>> columns(count);
-  for (std::size_t n = 0; n < count; ++n) {
-    NodeBlock& diagonal = columns[order_[n]][order_[n]];
-    diagonal = {};
-    for (std::size_t i = 0; i < width; ++i) {
-      const auto dof = static_cast<std::size_t>(added_.nodes[n].begin) + i;
-      diagonal[i * width + i] =
-          i < static_cast<std::size_t>(added_.nodes[n].count) ? lumped_mass[dof] : 1;
-    }
-  }
-  for (const auto& [pair, block] : added_.blocks) {
-    const std::size_t row = order_[pair[0]];
-    const std::size_t column = order_[pair[1]];
-    NodeBlock& entry = columns[std::min(row, column)][std::max(row, column)];
-    const NodeBlock values = row >= column ? block : transposed(block);
-    for (std::size_t i = 0; i < values.size(); ++i) entry[i] += values[i];
-  }
-  std::vector<std::map<std::size_t, NodeBlock>> rows(count);  // of L
-  for (std::size_t k = 0; k < count; ++k) {
-    const NodeBlock root = inverse_cholesky(columns[k].at(k));
-    const NodeBlock root_transposed = transposed(root);
-    inverse_root_.push_back(root_transposed);
-    inverse_root_transposed_.push_back(root);
-    inverse_diagonal_.push_back(product_with_transposed(root_transposed, root_transposed));
-    columns[k].erase(k);
-    for (const auto& [i, block] : columns[k]) {
-      rows[i][k] = product_with_transposed(block, inverse_diagonal_[k]);
-    }
-    for (const auto& [i, block] : columns[k]) {
-      for (auto j = columns[k].begin(); j->first <= i; ++j) {
-        const NodeBlock update = product_with_transposed(block, rows[j->first].at(k));
-        NodeBlock& entry = columns[j->first][i];
-        for (std::size_t e = 0; e < update.size(); ++e) entry[e] -= update[e];
-        if (j->first == i) break;
-      }
-    }
-  }
-  lower_begin_.push_back(0);
-  for (std::size_t k = 0; k < count; ++k) {
-    for (const auto& [column, block] : rows[k]) {
-      lower_column_.push_back(column);
-      lower_.push_back(transposed(block));
-    }
-    lower_begin_.push_back(lower_.size());
-  }
-  upper_begin_.assign(1, 0);
-  for (std::size_t k = count; k-- > 0;) {
-    for (const auto& [row, block] : columns[k]) {
-      upper_column_.push_back(row);
-      upper_.push_back(rows[row].at(k));
-    }
-    upper_begin_.push_back(upper_.size());
-  }
-}
-
-void CoupledMass::forward(double* x) const {
-  for (std::size_t k = 0; k < added_.nodes.size(); ++k) {
-    Six y[2];
-    load_six(x + width * k, y[0]);
-    for (std::size_t b = lower_begin_[k]; b < lower_begin_[k + 1]; ++b) {
-      accumulate<true>(lower_[b].data(), x + width * lower_column_[b], y);
-    }
-    store_six(x + width * k, sum(y));
-  }
-}
-
-void CoupledMass::backward(double* x) const {
-  const std::size_t count = added_.nodes.size();
-  for (std::size_t turn = 0; turn < count; ++turn) {
-    double* const here = x + width * (count - 1 - turn);
-    Six y[2];
-    load_six(here, y[0]);
-    for (std::size_t b = upper_begin_[turn]; b < upper_begin_[turn + 1]; ++b) {
-      accumulate<true>(upper_[b].data(), x + width * upper_column_[b], y);
-    }
-    store_six(here, sum(y));
-  }
-}
-
 template <typename Function>
-void CoupledMass::for_each_body(double* x, Function&& function) const {
-  for (std::size_t b = 0; b < bodies_.size(); ++b) function(bodies_[b], x + width * first_node_[b]);
-}
-
-void CoupledMass::solve_added(double* x) const {
-  forward(x);
-  for (std::size_t k = 0; k < added_.nodes.size(); ++k) {
-    multiply(inverse_diagonal_[k], x + width * k);
-  }
-  backward(x);
+void CoupledMass::for_each_part(double* x, Function&& function) const {
+  auto first = first_node_.begin();
+  for (const RigidBody& body : bodies_) function(body, x + width * *first++);
+  for (const TiedPart& tie : ties_) function(tie, x + width * *first++);
 }
 
 void CoupledMass::solve(double* x) const {
-  solve_added(x);
-  for_each_body(x, [](const RigidBody& body, double* part) { body.solve(part); });
+  factor_.solve(x);
+  for_each_part(x, [](const auto& part, double* place) { part.solve(place); });
 }
 
 void CoupledMass::solve(double* x, const Parts& parts) const {
-  if (parts.added) solve_added(x);
-  for (const std::size_t b : parts.bodies) bodies_[b].solve(x + width * first_node_[b]);
+  if (parts.added) factor_.solve(x);
+  for (const std::size_t p : parts.others) {
+    double* const place = x + width * first_node_[p];
+    if (p < bodies_.size()) {
+      bodies_[p].solve(place);
+    } else {
+      ties_[p - bodies_.size()].solve(place);
+    }
+  }
 }
 
 void CoupledMass::solve_half(double* x) const {
-  forward(x);
-  for (std::size_t k = 0; k < added_.nodes.size(); ++k) multiply(inverse_root_[k], x + width * k);
-  for_each_body(x, [](const RigidBody& body, double* part) { body.solve_half(part); });
+  factor_.solve_half(x);
+  for_each_part(x, [](const auto& part, double* place) { part.solve_half(place); });
 }
 
 void CoupledMass::solve_transposed_half(double* x) const {
-  for (std::size_t k = 0; k < added_.nodes.size(); ++k) {
-    multiply(inverse_root_transposed_[k], x + width * k);
-  }
-  backward(x);
-  for_each_body(x, [](const RigidBody& body, double* part) { body.solve_transposed_half(part); });
+  factor_.solve_transposed_half(x);
+  for_each_part(x, [](const auto& part, double* place) { part.solve_transposed_half(place); });
 }
 
 void CoupledMass::take(const double* owned, double* x) const {

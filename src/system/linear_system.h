@@ -46,7 +46,7 @@ struct GeneralisedCoordinates {
 ///     (M + S) u'' + C u' + K u = -M iota a_g(t) + L^T r,      C = alpha M + beta K + D
 ///
 /// or, with uniform damping over a band, s G K in place of K (see UniformDamping) and C = D,
-/// where the motions u are those that rigid bodies admit (see RigidBody),
+/// where the motions u are those that rigid bodies and ties admit (see RigidBody, TiedPart),
 /// with M diagonal, D the damping that alpha and beta do not tell (dashpots, and regions damped
 /// otherwise), and S the mass that stiff elements are given for a longer time step, mostly none.
 /// Arrays hold this rank's owned dofs. Constant during a run.
@@ -70,8 +70,8 @@ struct LinearSystem {
   std::unique_ptr<Stiffness> extra_damping;  ///< D [N s/m, N m s]; null if there is none
   MassScaling mass_scaling;
   RotaryScaling rotary_scaling;               ///< in `lumped_mass` already
-  std::vector<RigidBodyReport> rigid_bodies;  ///< of all ranks
-  /// M + S of the dofs in S, and the rigid bodies; null if this rank has none of either.
+  std::vector<RigidBodyReport> rigid_bodies;  ///< and ties, of all ranks
+  /// M + S of the dofs in S, the rigid bodies and ties; null if this rank has none of them.
   std::unique_ptr<CoupledMass> coupled_mass;
   Vector3 initial_displacement{0, 0, 0};  ///< of every translation at t = 0 [m]
   Vector3 initial_velocity{0, 0, 0};      ///< of every translation at t = 0 [m/s]
@@ -90,9 +90,9 @@ struct LinearSystem {
   ScalingOffer scaling_offer;   ///< where mass is not scaled
   std::vector<Sliver> slivers;  ///< the worst of every group that has any
 
-  /// M + S is not diagonal, or rigid bodies couple it, on some rank.
+  /// M + S is not diagonal, or rigid bodies or ties couple it, on some rank.
   bool mass_is_coupled() const { return mass_scaling.elements > 0 || !rigid_bodies.empty(); }
-  /// Dofs over all ranks, of which rigid bodies count by their motions.
+  /// Dofs over all ranks; rigid bodies count by their motions, what follows a tie does not count.
   GlobalIndex independent_dofs() const;
   /// K for eigenvalues: every link at its stiffest.
   const Stiffness& stiffest() const { return taut ? *taut : *stiffness; }

@@ -61,15 +61,17 @@ class RigidBody {
   std::vector<double> alone_;       ///< M^-1 where a dof does not follow, else 0
 };
 
-/// Rigid bodies of a structure that come of one group, for the report.
+/// Rigid bodies of a structure that come of one group, or the nodes that follow by one tie, for the
+/// report.
 struct RigidBodyReport {
   std::string group;
   RigidKind kind = RigidKind::body;
   GlobalIndex bodies = 0;
   GlobalIndex nodes = 0;
-  GlobalIndex dofs = 0;     ///< that follow
-  GlobalIndex motions = 0;  ///< of the bodies: 3 or 6 of each, fewer where its nodes see fewer
-  double mass = 0;          ///< of the nodes, along x [kg]
+  GlobalIndex dofs = 0;  ///< that follow
+  /// Motions of the bodies: 3 or 6 of each, fewer where its nodes see fewer; 0 of a tie.
+  GlobalIndex motions = 0;
+  double mass = 0;  ///< of the nodes, along x [kg]
 };
 
 }  // namespace pounding

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -95,6 +96,7 @@ void ScaledMass::finish(LinearSystem& system) {
   }
   std::vector<RigidBody> bodies;
   for (const RigidPart& part : mesh_.rigid) {
+    if (part.kind == RigidKind::tie) continue;
     if (bodies_.empty() || bodies_.back().group != part.group) {
       bodies_.push_back({part.group, part.kind});
     }
@@ -107,10 +109,37 @@ void ScaledMass::finish(LinearSystem& system) {
     report.dofs += static_cast<GlobalIndex>(body.dofs().size());
     for (const LocalIndex node : part.nodes) report.mass += system.lumped_mass[mesh_.dof(node, 0)];
   }
-  if (!added.nodes.empty() || !bodies.empty()) {
-    system.coupled_mass =
-        std::make_unique<CoupledMass>(system.lumped_mass, std::move(added), std::move(bodies));
+  std::vector<TiedPart> ties = make_ties(system.lumped_mass);
+  if (!added.nodes.empty() || !bodies.empty() || !ties.empty()) {
+    system.coupled_mass = std::make_unique<CoupledMass>(system.lumped_mass, std::move(added),
+                                                        std::move(bodies), std::move(ties));
   }
+}
+
+std::vector<TiedPart> ScaledMass::make_ties(std::span<const double> lumped_mass) {
+  std::map<int, std::size_t> report_of;  // by rigid group
+  for (std::size_t r = 0; r < structure_.rigid_groups.size(); ++r) {
+    const RigidGroup& group = structure_.rigid_groups[r];
+    if (group.kind != RigidKind::tie) continue;
+    report_of[static_cast<int>(r)] = bodies_.size();
+    bodies_.push_back({group.name(), group.kind});
+  }
+  std::vector<TiedPart> ties;
+  for (const RigidPart& part : mesh_.rigid) {
+    if (part.kind != RigidKind::tie || part.nodes.empty()) continue;
+    ties.emplace_back(mesh_, part, lumped_mass);
+    std::set<int> groups;
+    for (const TiedNode& tied : part.tied) {
+      const LocalIndex node = mesh_.owned_node(tied.node);
+      RigidBodyReport& report = bodies_[report_of.at(tied.group)];
+      report.bodies += groups.insert(tied.group).second ? 1 : 0;
+      ++report.nodes;
+      report.dofs += component_count(mesh_.free_components[node]);
+      const LocalIndex dof = mesh_.dof(node, 0);
+      report.mass += dof < 0 ? 0 : lumped_mass[dof];
+    }
+  }
+  return ties;
 }
 
 void ScaledMass::share(LinearSystem& system) const {

@@ -15,7 +15,7 @@ namespace pounding {
 
 /// Collects the mass S that the stiff elements of a structure are given (see mass_scaling.h),
 /// element by element in the order of the mesh, and leaves M + S factorised, with the structure's
-/// rigid bodies.
+/// rigid bodies and ties.
 class ScaledMass {
  public:
   ScaledMass(const Structure& structure, const Mesh& mesh) : structure_(structure), mesh_(mesh) {}
@@ -31,6 +31,8 @@ class ScaledMass {
   void share(LinearSystem& system) const;
 
  private:
+  /// The ties of this rank; adds a report of every tie of the structure.
+  std::vector<TiedPart> make_ties(std::span<const double> lumped_mass);
   void add_blocks(const ElementBlock& block, std::size_t element);
   void add_rows(const ElementBlock& block, std::size_t element, std::span<const double> stiffness);
 

@@ -46,25 +46,25 @@ void Trace::take_unit_rows(const Mesh& mesh, std::span<const TracePoint> places)
 }
 
 void Trace::take_coupled_dofs(const CoupledMass& mass) {
-  std::set<int> parts;  // bodies, and -1 for S
+  std::set<int> parts;  // rigid bodies and ties, and -1 for S
   for (const LocalIndex dof : dofs_) {
     const int node = mass.node_of(dof);
     field_place_.push_back(node < 0 ? -1 : place_in_field(mass, node, dof));
     if (node < 0) continue;
     coupled_mass_ = &mass;
-    parts.insert(mass.body_of(static_cast<std::size_t>(node)));
+    parts.insert(mass.part_of(static_cast<std::size_t>(node)));
   }
   if (coupled_mass_ == nullptr) return;
   for (const int part : parts) {
     if (part < 0) {
       coupled_parts_.added = true;
     } else {
-      coupled_parts_.bodies.push_back(static_cast<std::size_t>(part));
+      coupled_parts_.others.push_back(static_cast<std::size_t>(part));
     }
   }
   const std::set<LocalIndex> own(dofs_.begin(), dofs_.end());
   for (std::size_t n = 0; n < mass.nodes().size(); ++n) {
-    if (!parts.contains(mass.body_of(n))) continue;
+    if (!parts.contains(mass.part_of(n))) continue;
     const NodeDofs& node = mass.nodes()[n];
     for (LocalIndex dof = node.begin; dof < node.begin + node.count; ++dof) {
       if (!own.contains(dof)) {

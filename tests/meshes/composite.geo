@@ -1,7 +1,8 @@
 // A strip of slab along x on a beam that lies below it, without common nodes; or two beams end to end with a node each.
-//   offset: of the beam's axis below the middle of the slab;  n: elements along x;  hinge 1: the two beams alone.
+//   offset: of the beam's axis below the middle of the slab;  n: elements along x, nb of the beam if not 0;  hinge 1: the
+//   two beams alone.
 // Groups: slab, spine (its middle line), beam, end (x = 0), tip (x = length); with hinge: beam, middle, end (both ends).
-DefineConstant[ length = 4, width = 0.4, offset = 0.3, n = 40, hinge = 0 ];
+DefineConstant[ length = 4, width = 0.4, offset = 0.3, n = 40, nb = 0, hinge = 0 ];
 If (hinge == 0)
   Point(1) = {0, -width / 2, 0};
   Point(2) = {0, 0, 0};
@@ -13,7 +14,7 @@ If (hinge == 0)
   left[] = Extrude {length, 0, 0} { Curve{2}; Layers{n}; Recombine; };
   foot = newp;
   Point(foot) = {0, 0, -offset};
-  beam[] = Extrude {length, 0, 0} { Point{foot}; Layers{n}; };
+  beam[] = Extrude {length, 0, 0} { Point{foot}; Layers{(nb == 0) ? n : nb}; };
   Physical Surface("slab") = {right[1], left[1]};
   Physical Curve("spine") = {Abs(left[3])};
   Physical Curve("beam") = {beam[1]};

@@ -1,6 +1,6 @@
 // A beam of the given length along x, planted in the middle of the face x = 0 of a cube of hexahedra of 1 m, without a
 // common node.  n: elements of the beam;  m: cells along an edge of the cube (even or odd).
-// Groups: body, back (the face x = -1), beam, joint (the face x = 0 and the foot of the beam), tip.
+// Groups: body, back (the face x = -1), beam, joint (the face x = 0 and the foot of the beam), face and foot apart, tip.
 DefineConstant[ length = 2, n = 20, m = 3 ];
 Point(1) = {-1, -0.5, -0.5};
 Point(2) = {-1, 0.5, -0.5};
@@ -26,5 +26,7 @@ Physical Volume("body") = {made[1]};
 Physical Surface("back") = {1};
 Physical Surface("joint") = {made[0]};
 Physical Point("joint") = {foot};
+Physical Surface("face") = {made[0]};
+Physical Point("foot") = {foot};
 Physical Curve("beam") = {beam};
 Physical Point("tip") = {foot + 1};

@@ -1,0 +1,192 @@
+#include "mesh/facet_place.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "common/matrix3.h"
+
+namespace pounding {
+namespace {
+
+/// Coordinates of a facet, -1 to 1 of a quadrangle, 0 to 1 of a triangle.
+using Local = std::array<double, 2>;
+
+/// Closer to a border than this, in such coordinates, is on it.
+constexpr double on_border = 1e-9;
+
+struct Shape {
+  std::array<double, 4> value{};
+  std::array<Local, 4> slope{};
+};
+
+Shape shape_at(std::size_t corners, const Local& s) {
+  if (corners == 3) return {{1 - s[0] - s[1], s[0], s[1]}, {{{-1, -1}, {1, 0}, {0, 1}}}};
+  Shape shape;
+  constexpr std::array<Local, 4> at{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double a = 1 + at[i][0] * s[0];
+    const double b = 1 + at[i][1] * s[1];
+    shape.value[i] = a * b / 4;
+    shape.slope[i] = {at[i][0] * b / 4, a * at[i][1] / 4};
+  }
+  return shape;
+}
+
+Local corner_at(std::size_t corners, std::size_t i) {
+  constexpr std::array<Local, 3> triangle{{{0, 0}, {1, 0}, {0, 1}}};
+  constexpr std::array<Local, 4> quadrangle{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  return corners == 3 ? triangle[i] : quadrangle[i];
+}
+
+/// See FacetPlace::bulges.
+std::array<double, 4> bulges_at(std::size_t corners, const Local& s) {
+  const Shape shape = shape_at(corners, s);
+  std::array<double, 4> bulges{};
+  for (std::size_t i = 0; i < corners && corners == 3; ++i) {
+    bulges[i] = 4 * shape.value[i] * shape.value[(i + 1) % 3];
+  }
+  if (corners == 4) {
+    const double x = 1 - s[0] * s[0];
+    const double y = 1 - s[1] * s[1];
+    bulges = {x * (1 - s[1]) / 2, y * (1 + s[0]) / 2, x * (1 + s[1]) / 2, y * (1 - s[0]) / 2};
+  }
+  return bulges;
+}
+
+template <typename Weight>
+Vector3 combine(std::span<const Vector3> corners, const Weight& weight) {
+  Vector3 sum{0, 0, 0};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    for (std::size_t d = 0; d < 3; ++d) sum[d] += weight(i) * corners[i][d];
+  }
+  return sum;
+}
+
+Vector3 place_of(std::span<const Vector3> corners, const Shape& shape) {
+  return combine(corners, [&](std::size_t i) { return shape.value[i]; });
+}
+
+Vector3 tangent(std::span<const Vector3> corners, const Shape& shape, std::size_t direction) {
+  return combine(corners, [&](std::size_t i) { return shape.slope[i][direction]; });
+}
+
+/// Part of the way from a to b at which a line is nearest to x.
+double share_along(const Vector3& a, const Vector3& b, const Vector3& x) {
+  const Vector3 line = minus(b, a);
+  const double square = dot(line, line);
+  const double t = square > 0 ? std::clamp(dot(minus(x, a), line) / square, 0.0, 1.0) : 0;
+  if (t < on_border) return 0;
+  return t > 1 - on_border ? 1 : t;
+}
+
+/// Whether coordinates are those of a place on the facet; what is nearly on a border is put there.
+bool settle_inside(std::size_t corners, Local& s) {
+  const double low = corners == 3 ? 0 : -1;
+  for (double& value : s) {
+    if (!(value >= low - on_border && value <= 1 + on_border)) return false;
+    if (value < low + on_border) value = low;
+    if (value > 1 - on_border) value = 1;
+  }
+  if (corners == 3 && s[0] + s[1] > 1 - on_border) {
+    if (s[0] + s[1] > 1 + on_border) return false;
+    s[1] = 1 - s[0];
+  }
+  return true;
+}
+
+/// Newton's iteration for the place where x - place is normal to the facet; whether there is one.
+bool find_foot(std::span<const Vector3> corners, const Vector3& x, Local& s) {
+  s = corners.size() == 3 ? Local{1.0 / 3, 1.0 / 3} : Local{0, 0};
+  const Vector3 twist =
+      corners.size() == 3
+          ? Vector3{0, 0, 0}
+          : combine(corners, [](std::size_t i) { return i % 2 == 0 ? 0.25 : -0.25; });
+  for (int turn = 0; turn < 50; ++turn) {
+    const Shape shape = shape_at(corners.size(), s);
+    const Vector3 left = minus(x, place_of(corners, shape));
+    const Vector3 a = tangent(corners, shape, 0);
+    const Vector3 b = tangent(corners, shape, 1);
+    const double aa = dot(a, a);
+    const double bb = dot(b, b);
+    double ab = dot(a, b) - dot(left, twist);
+    if (!(aa * bb > ab * ab)) ab = dot(a, b);
+    const double area = aa * bb - ab * ab;
+    if (!(area > 0)) return false;
+    const Local step{(bb * dot(left, a) - ab * dot(left, b)) / area,
+                     (aa * dot(left, b) - ab * dot(left, a)) / area};
+    for (std::size_t d = 0; d < 2; ++d) s[d] = std::clamp(s[d] + step[d], -3.0, 3.0);
+    if (std::abs(step[0]) + std::abs(step[1]) < 1e-15) break;
+  }
+  return settle_inside(corners.size(), s);
+}
+
+/// Coordinates of the nearest place of the border.
+Local nearest_on_border(std::span<const Vector3> corners, const Vector3& x) {
+  Local best{};
+  double nearest = HUGE_VAL;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const std::size_t j = (i + 1) % corners.size();
+    const double t = share_along(corners[i], corners[j], x);
+    const Vector3 place{(1 - t) * corners[i][0] + t * corners[j][0],
+                        (1 - t) * corners[i][1] + t * corners[j][1],
+                        (1 - t) * corners[i][2] + t * corners[j][2]};
+    const double distance = norm(minus(x, place));
+    if (distance >= nearest) continue;
+    nearest = distance;
+    const Local from = corner_at(corners.size(), i);
+    const Local to = corner_at(corners.size(), j);
+    best = {(1 - t) * from[0] + t * to[0], (1 - t) * from[1] + t * to[1]};
+  }
+  return best;
+}
+
+FacetPlace on_line(std::span<const Vector3> corners, const Vector3& x) {
+  FacetPlace result;
+  const double t = share_along(corners[0], corners[1], x);
+  result.shares = {1 - t, t};
+  result.bulges = {4 * t * (1 - t)};
+  result.place = combine(corners, [&](std::size_t i) { return result.shares[i]; });
+  result.distance = norm(minus(x, result.place));
+  result.size = norm(minus(corners[1], corners[0]));
+  return result;
+}
+
+FacetPlace describe(std::span<const Vector3> corners, const Vector3& x, const Local& s) {
+  FacetPlace result;
+  const Shape shape = shape_at(corners.size(), s);
+  result.shares = shape.value;
+  result.bulges = bulges_at(corners.size(), s);
+  result.place = place_of(corners, shape);
+  result.distance = norm(minus(x, result.place));
+  const Vector3 a = tangent(corners, shape, 0);
+  const Vector3 b = tangent(corners, shape, 1);
+  const Vector3 both = cross(a, b);
+  const double area = norm(both);
+  result.size = area * (corners.size() == 3 ? 0.5 : 4);
+  if (!(area > 1e-10 * norm(a) * norm(b))) return result;
+  result.normal = normalised(both);
+  // Dual to the tangents: grad N = a* dN/ds + b* dN/dt.
+  const Vector3 a_dual = cross(b, result.normal);
+  const Vector3 b_dual = cross(result.normal, a);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    for (std::size_t d = 0; d < 3; ++d) {
+      result.gradients[i][d] =
+          (shape.slope[i][0] * a_dual[d] + shape.slope[i][1] * b_dual[d]) / area;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+FacetPlace nearest_place(std::span<const Vector3> corners, const Vector3& x) {
+  if (corners.size() == 2) return on_line(corners, x);
+  const FacetPlace border = describe(corners, x, nearest_on_border(corners, x));
+  Local foot{};
+  if (!find_foot(corners, x, foot)) return border;
+  const FacetPlace inside = describe(corners, x, foot);
+  return inside.distance <= border.distance ? inside : border;
+}
+
+}  // namespace pounding

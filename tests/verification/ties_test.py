@@ -1,0 +1,453 @@
+"""Ties of parts whose meshes do not match, beside dense algebra, closed forms and meshes that match.
+
+What follows is u_s = B u of the face, B written here by hand for a grid of squares: shares of the corners, the turn of
+the face where there is a distance or the node turns, the bulge of edges that turn. T has B in the rows of what follows.
+"""
+import os
+import shutil
+import tempfile
+import unittest
+
+import h5py
+import numpy
+import scipy.sparse
+import scipy.sparse.csgraph
+
+import program
+from recorded import Recorded, all_nodes, write_sine
+from rigid_groups_test import Dense
+
+GRAVITY = 9.81
+YOUNG, POISSON, DENSITY = 30e9, 0.2, 2400.0
+CONCRETE = ["-material_c_young", YOUNG, "-material_c_density", DENSITY]
+BRICKS = ["-structures", "t", "-t_mesh", "tests/meshes/tied_blocks.geo", "-t_first_element", "hex8",
+          "-t_first_material", "c", "-t_second_element", "hex8", "-t_second_material", "c", *CONCRETE,
+          "-material_c_poisson", POISSON]
+THICKNESS = ["-t_first_thickness", 0.2, "-t_second_thickness", 0.3]
+PLATES = [{"hex8": "shell"}.get(word, word) for word in BRICKS] + THICKNESS
+MIXED = BRICKS[:8] + [{"hex8": "shell"}.get(word, word) for word in BRICKS[8:]] + THICKNESS[2:]
+HELD = ["-t_clamp", "x_min"]
+TIE = ["-t_tie", "edge:face"]
+STEEL = ["-material_steel_young", 200e9, "-material_steel_poisson", 0.3, "-material_steel_density", 7800,
+         "-section_tube_area", 1e-2, "-section_tube_inertia_y", 1e-5, "-section_tube_inertia_z", 1e-5,
+         "-section_tube_torsion", 1e-5, "-section_tube_z_axis", "0,0,1"]
+
+
+def mesh(**parameters):
+    return ["-t_mesh_set", ",".join(f"{name}={value}" for name, value in parameters.items())]
+
+
+def along(x, cells):
+    """Cells of the unit interval that hold x, or the nearest to it, with the shares of their ends and their slopes."""
+    x = min(max(x, 0.0), 1.0)
+    found = []
+    for cell in range(cells):
+        s = x * cells - cell
+        if -1e-9 <= s <= 1 + 1e-9:
+            found.append((cell, (1 - s, s), (-cells, cells)))
+    return found
+
+
+class Tied(Dense):
+    """T of two parts that lie behind each other, see tied_blocks.geo; `face` is that of solids, or an edge of shells."""
+
+    def __init__(self, case, arguments, cells, solid):
+        self.cells, self.solid = cells, solid
+        super().__init__(case, [*arguments, "-t_allow_loose", "true"], None)
+
+    def admit(self, _):
+        first = self.in_first()
+        places = numpy.round(self.place, 9)
+        face, edge = places[first][:, 0].max(), places[~first][:, 0].min()
+        index = {(*places[i], self.component[i]): i for i in numpy.flatnonzero(first)}
+        self.followers = numpy.flatnonzero(~first & (places[:, 0] == edge))
+        alone = numpy.setdiff1d(numpy.arange(len(first)), self.followers)
+        column = {i: k for k, i in enumerate(alone)}
+        self.motions = numpy.zeros((len(first), len(alone)))
+        self.motions[alone, numpy.arange(len(alone))] = 1
+        for i in self.followers:
+            x = self.place[i]
+            arm = x - [face, *numpy.clip(x[1:], 0, 1)] if self.solid else x - [face, min(max(x[1], 0), 1), x[2]]
+            for j, value in self.row(x, self.component[i], face, index, arm).items():
+                self.motions[i, column[j]] += value
+        self.reduced_stiffness = self.motions.T @ self.stiffness @ self.motions
+        self.reduced_mass = self.motions.T @ (self.mass[:, None] * self.motions)
+
+    def in_first(self):
+        """Dofs of the part that K joins with those next to the clamped end."""
+        order = [("x", "y", "z", "rx", "ry", "rz").index(c) for c in self.component]
+        node = numpy.cumsum([i == 0 or order[i] <= order[i - 1] for i in range(len(order))]) - 1
+        joined = scipy.sparse.coo_matrix(self.stiffness)
+        graph = scipy.sparse.coo_matrix((numpy.ones(joined.nnz), (node[joined.row], node[joined.col])))
+        _, part = scipy.sparse.csgraph.connected_components(graph)
+        return part[node] == part[node[numpy.argmin(self.place[:, 0])]]
+
+    def row(self, x, component, face, index, arm):
+        """What a node at x follows, for its distance `arm` from the face."""
+        across = along(x[1], self.cells)
+        up = along(x[2], self.cells) if self.solid else [(0, (1, 0), (0, 0))]
+        result = {}
+
+        def add(y, z, name, value):
+            if value == 0:
+                return
+            place = index.get((face, round(y / self.cells, 9), round(z / self.cells, 9), name))
+            result[place] = result.get(place, 0.0) + value / (len(across) * len(up))
+
+        for j, shares, _ in across if not self.solid else []:
+            # The edge bends out of its plane: its bulge is that of its ends' turns.
+            bulge = 4 * shares[0] * shares[1] / 8 / self.cells
+            if component == "z":
+                add(j, x[2], "rx", bulge)
+                add(j + 1, x[2], "rx", -bulge)
+        for j, shares_y, slopes_y in across:
+            for k, shares_z, slopes_z in up:
+                for a in (0, 1):
+                    for b in (0, 1):
+                        n = shares_y[a] * shares_z[b]
+                        dy, dz = slopes_y[a] * shares_z[b], shares_y[a] * slopes_z[b]
+                        for name, value in self.terms(component, n, dy, dz, arm):
+                            add(j + a, k + b, name, value)
+        return result
+
+    def terms(self, component, n, dy, dz, arm):
+        """Components of one corner of the face that a component gets, with their factors."""
+        if not self.solid:
+            turn = {axis: [("r" + axis, n)] for axis in "xyz"}
+        else:  # omega x r: its gradient along the face has them all
+            turn = {"x": [("z", dy / 2), ("y", -dz / 2)], "y": [("x", dz)], "z": [("x", -dy)]}
+        if component.startswith("r"):
+            return turn[component[1]]
+        d = dict(zip("xyz", arm))
+        first, second = {"x": ("y", "z"), "y": ("z", "x"), "z": ("x", "y")}[component]
+        return ([(component, n)] + [(name, value * d[second]) for name, value in turn[first]] +
+                [(name, -value * d[first]) for name, value in turn[second]])
+
+
+# Arguments, cells across the first part, whether it is of solids.
+CASES = {
+    "bricks": ([*BRICKS, *HELD, *mesh(m1=2, m2=3)], 2, True),
+    "bricks apart and displaced": ([*BRICKS, *HELD, *mesh(m1=2, m2=3, gap=0.05, shift=0.1)], 2, True),
+    "plates apart": ([*PLATES, *HELD, *mesh(m1=3, m2=5, plates=1, gap=0.02)], 3, False),
+    "plate on brick": ([*MIXED, *HELD, *mesh(m1=2, m2=3, plates=2)], 2, True),
+}
+
+
+class BesideDenseAlgebra(unittest.TestCase):
+    known = {}
+
+    def dense(self, name):
+        if name not in self.known:
+            arguments, cells, solid = CASES[name]
+            self.known[name] = Tied(self, arguments, cells, solid)
+        return self.known[name]
+
+    def nodes(self, name):
+        dense = self.dense(name)
+        return sum(dense.component[i] == "x" for i in dense.followers)
+
+    def test_frequencies_and_the_stable_step(self):
+        for name, (arguments, *_) in CASES.items():
+            squares = self.dense(name).squared_frequencies()
+            for ranks in (1, 3):
+                with self.subTest(case=name, ranks=ranks):
+                    run = Recorded(self, [*arguments, *TIE, "-end_time", 1e-4, "-modes", 8], ranks)
+                    structure = run.summary["structures"]["t"]
+                    found = numpy.array([mode["frequency"] for mode in structure["frequencies"]])
+                    self.assertLess(abs(found * 2 * numpy.pi / numpy.sqrt(squares[:8]) - 1).max(), 1e-9)
+                    self.assertAlmostEqual(structure["omega_max"] / numpy.sqrt(squares[-1]), 1, delta=1e-9)
+                    self.assertEqual(structure["connectivity"]["pieces"], 1)
+                    group = structure["rigid_groups"][0]
+                    self.assertEqual((group["kind"], group["nodes"], group["dofs"]),
+                                     ("tie", self.nodes(name), len(self.dense(name).followers)))
+
+    def test_omega_max_never_grows(self):
+        for name, (arguments, *_) in CASES.items():
+            alone = Recorded(self, [*arguments, "-t_allow_loose", "true", "-end_time", 1e-4]).summary
+            tied = numpy.sqrt(self.dense(name).squared_frequencies()[-1])
+            self.assertLess(tied, alone["structures"]["t"]["omega_max"] * (1 + 1e-9), name)
+
+    def test_steps(self):
+        record = write_sine(3.0, 40.0, 0.1)
+        try:
+            for name, (arguments, *_) in CASES.items():
+                dense = self.dense(name)
+                step = float(f"{min(0.9 * 2 / numpy.sqrt(dense.squared_frequencies()[-1]), 1e-4):.2g}")
+                count = 100
+                inverse = numpy.linalg.inv(dense.reduced_mass)
+                load = dense.motions.T @ (dense.mass * numpy.array([float(c == "y") for c in dense.component]))
+                place = numpy.zeros(len(dense.place))
+                place[dense.followers] = [dense.component[i] == "y" for i in dense.followers]
+                row = place / place.sum() @ dense.motions
+                u = numpy.zeros(len(inverse))
+                v = u.copy()
+                expected = []
+                for n in range(count):
+                    expected.append(row @ u)
+                    ground = numpy.interp(n * step, 1e-4 * numpy.arange(1001),
+                                          3.0 * numpy.sin(80e-4 * numpy.pi * numpy.arange(1001)))
+                    v = v + (step if n else step / 2) * inverse @ (-dense.reduced_stiffness @ u - load * ground)
+                    u = u + step * v
+                for ranks in (1, 2):
+                    with self.subTest(case=name, ranks=ranks):
+                        run = Recorded(self, [*arguments, *TIE, "-time_step", step, "-end_time", count * step,
+                                              "-output_interval", step, "-probes", "p", "-p_structure", "t", "-p_group",
+                                              "edge", "-motion_y_record", record, "-motion_y_unit", "m/s2"], ranks)
+                        found = run.displacement("p.y")[:count]
+                        size = abs(numpy.array(expected)).max()
+                        self.assertGreater(size, 0)
+                        self.assertLess(abs(found - expected).max() / size, 1e-9)
+        finally:
+            os.remove(record)
+
+    def test_rest_under_gravity(self):
+        for name, (arguments, *_) in CASES.items():
+            dense = self.dense(name)
+            down = numpy.array([-GRAVITY * float(c == "z") for c in dense.component])
+            u = dense.motions @ numpy.linalg.solve(dense.reduced_stiffness, dense.motions.T @ (dense.mass * down))
+            last = [i for i in range(len(u)) if dense.component[i] == "z" and dense.place[i][0] > 1.9]
+            for ranks, more in ((2, []), (3, ["-preload_solver", "iterative"])):
+                with self.subTest(case=name, ranks=ranks, more=more):
+                    run = Recorded(self, [*arguments, *TIE, "-gravity", GRAVITY, "-preload", "static", "-end_time",
+                                          1e-3, "-output_interval", 1e-4, "-probes", "p", "-p_structure", "t",
+                                          "-p_group", "x_max", *more], ranks, identity=1e-10)
+                    found = run.displacement("p.z")
+                    self.assertLess(abs(found / numpy.mean(u[last]) - 1).max(), 1e-9)
+                    self.assertLess(run.summary["equilibrium"]["structures"]["t"]["imbalance"], 1e-9)
+
+    def test_reduced_structures(self):
+        """The lowest modes, and as many as there are independent dofs."""
+        for name, (arguments, *_) in CASES.items():
+            squares = self.dense(name).squared_frequencies()
+            for count in (5, len(squares)) if "bricks" not in name else (5,):
+                with self.subTest(case=name, count=count):
+                    run = Recorded(self, [*arguments, *TIE, "-t_model", "modal", "-t_modal_vectors", count,
+                                          "-end_time", 1e-5, "-modes", count], 2)
+                    found = [mode["frequency"] for mode in run.summary["structures"]["t"]["frequencies"]]
+                    wanted = numpy.sqrt(squares[:count]) / (2 * numpy.pi)
+                    self.assertGreaterEqual(len(found), count)
+                    self.assertLess(abs(found[:count] / wanted - 1).max(), 1e-9)
+
+
+class PatchTest(unittest.TestCase):
+    """A constant stress passes where every facet followed holds whole facets of what follows, and not otherwise."""
+    # Cells across both sides: the finer mesh follows.
+    NESTED = ((1, 1), (1, 4), (2, 4), (2, 6))
+    # The same where it does not pass, and the largest force left on a node of bricks and of plates, over a facet's.
+    APART = {(2, 3): (0.22, 0.12), (4, 5): (0.08, 0.07), (2, 5): (0.08, 0.05)}
+
+    def hung(self, m1, m2, tie, ranks=2):
+        """Error of the displacements of bricks that hang from x_min without lateral strain, over the largest one."""
+        scene = [*BRICKS[:-2], "-material_c_poisson", 0, *HELD, "-t_tie", tie, *mesh(m1=m1, m2=m2), "-t_gravity",
+                 f"{GRAVITY},0,0", "-preload", "static", "-end_time", 1e-4, "-output_interval", 1e-4, "-probes", "p,q",
+                 *all_nodes("p", "t", "first"), *all_nodes("q", "t", "second")]
+        run = Recorded(self, scene, ranks, identity=1e-9)
+        positions, names = run.nodes("p")
+        more = run.nodes("q")
+        x = numpy.concatenate([positions, more[0]])[:, 0]
+        wanted = DENSITY * GRAVITY / YOUNG * (2 * x - x**2 / 2)
+        found = numpy.array([run.displacement(f"{name}.x")[0] for name in [*names, *more[1]]])
+        return abs(found - wanted).max() / wanted.max(), run.summary["warnings"]
+
+    def test_hung_bricks(self):
+        for m1, m2, tie, ranks in ((2, 4, "edge:face", 1), (2, 6, "edge:face", 2), (4, 2, "face:edge", 3)):
+            error, warnings = self.hung(m1, m2, tie, ranks)
+            self.assertLess(error, 1e-10)
+            self.assertEqual([line for line in warnings if "tie" in line], [])
+
+    def test_meshes_that_are_not_nested(self):
+        """Displacements beside such a joint are wrong by some per cent."""
+        for m1, m2, allowed in ((2, 3, 0.05), (4, 5, 0.025)):
+            error, _ = self.hung(m1, m2, "edge:face")
+            self.assertLess(error, allowed)
+            self.assertGreater(error, 0.01)
+
+    def test_a_coarse_mesh_that_follows_a_fine_one_is_doubted(self):
+        error, warnings = self.hung(4, 2, "edge:face")
+        self.assertGreater(error, 0.1)
+        self.assertTrue(any("let the finer mesh follow the coarser one" in line for line in warnings), warnings)
+
+    def imbalance(self, m1, m2, plates):
+        """Largest force left on a node of the face under a constant tension of the lot, over that of a facet."""
+        scene = [*(PLATES if plates else BRICKS), *HELD, *mesh(m1=m1, m2=m2, plates=plates)]
+        if plates:
+            scene[scene.index("-t_second_thickness") + 1] = 0.2
+        dense = Tied(self, scene, m1, not plates)
+        strain = {"x": 1.0, "y": -POISSON, "z": -POISSON}
+        u = numpy.array([strain.get(c, 0.0) * x["xyz".index(c[-1])] for x, c in zip(dense.place, dense.component)])
+        left = dense.motions.T @ (dense.stiffness @ u)
+        alone = numpy.setdiff1d(numpy.arange(len(u)), dense.followers)
+        at_face = abs(dense.place[alone, 0] - 1) < 1e-9
+        return abs(left[at_face]).max() / (YOUNG * (0.2 / m1 if plates else 1 / m1**2))
+
+    def test_constant_stress(self):
+        for plates in (0, 1):
+            for m1, m2 in self.NESTED:
+                self.assertLess(self.imbalance(m1, m2, plates), 1e-11, (m1, m2, plates))
+            for (m1, m2), allowed in self.APART.items():
+                left = self.imbalance(m1, m2, plates)
+                self.assertLess(left, allowed[plates])
+                self.assertGreater(left, 0.01)
+
+
+class BesideMatchedMeshes(unittest.TestCase):
+    """A cantilever of two parts whose meshes do not match, and of one mesh: frequencies, and the sag of its end."""
+
+    def measured(self, scene, ranks=2):
+        more = [*TIE, *scene, "-gravity", GRAVITY, "-preload", "static", "-end_time", 1e-4, "-output_interval", 1e-4,
+                "-modes", 3, "-probes", "p", "-p_structure", "t", "-p_group", "x_max"]
+        run = Recorded(self, more, ranks, identity=1e-9)
+        frequencies = [mode["frequency"] for mode in run.summary["structures"]["t"]["frequencies"]]
+        return numpy.array([*frequencies, -run.displacement("p.z")[0]])
+
+    def test_bricks(self):
+        scene = [*BRICKS, *HELD]
+        matched = self.measured([*scene, *mesh(m1=6, m2=6, n1=6, n2=6)])
+        for m1, ranks in ((4, 3), (5, 2)):
+            found = self.measured([*scene, *mesh(m1=m1, m2=6, n1=6, n2=6)], ranks)
+            self.assertLess(abs(found / matched - 1).max(), 5e-3)
+
+    def test_plates(self):
+        scene = [*PLATES, *HELD]
+        matched = self.measured([*scene, *mesh(m1=12, m2=12, n1=12, n2=12, plates=1)])
+        for m1, m2, ranks in ((8, 12, 1), (8, 11, 2)):
+            found = self.measured([*scene, *mesh(m1=m1, m2=m2, n1=12, n2=12, plates=1)], ranks)
+            self.assertLess(abs(found / matched - 1).max(), 1.5e-3)
+
+
+class PlantedBeam(unittest.TestCase):
+    """A steel beam whose foot follows the face of a concrete cube: nearly a clamped cantilever, if the facets are not
+    much narrower than 0.3 m, three times the width of the beam."""
+    LENGTH, INERTIA, AREA = 2.0, 1e-5, 1e-2
+
+    def test_frequency_of_a_cantilever(self):
+        clamped = 1.8751040687**2 / (2 * numpy.pi * self.LENGTH**2) * numpy.sqrt(
+            200e9 * self.INERTIA / (7800 * self.AREA))
+        for cells, ranks in ((1, 1), (2, 3), (3, 2)):
+            run = Recorded(self, ["-structures", "b", "-b_mesh", "tests/meshes/planted_beam.geo", "-b_mesh_set",
+                                  f"m={cells}", "-b_clamp", "back", "-b_body_element", "hex8", "-b_body_material", "c",
+                                  *CONCRETE, "-material_c_poisson", POISSON, "-b_beam_element", "beam",
+                                  "-b_beam_material", "steel", "-b_beam_section", "tube", "-b_tie", "foot:face",
+                                  *STEEL, "-end_time", 1e-4, "-modes", 2], ranks)
+            structure = run.summary["structures"]["b"]
+            for mode in structure["frequencies"]:  # it bends in two planes
+                self.assertLess(abs(mode["frequency"] / clamped - 1), 0.01)
+            self.assertEqual(structure["connectivity"]["pieces"], 1)
+
+
+class CompositeBeam(unittest.TestCase):
+    """A strip of slab and the beam below it bend as one section, whichever follows and whatever their meshes."""
+    LENGTH, WIDTH, THICKNESS, OFFSET, YOUNG = 4.0, 0.4, 0.1, 0.3, 30e9
+    SCENE = ["-structures", "c", "-c_mesh", "tests/meshes/composite.geo", "-c_beam_element", "beam",
+             "-c_beam_material", "c", "-c_beam_section", "rib", "-material_c_young", YOUNG, "-material_c_poisson", 0,
+             "-material_c_density", DENSITY, "-section_rib_area", 0.04, "-section_rib_inertia_y", 1.2e-4,
+             "-section_rib_inertia_z", 1.5e-4, "-section_rib_torsion", 1e-4, "-section_rib_z_axis", "0,0,1",
+             "-c_slab_element", "shell", "-c_slab_material", "c", "-c_slab_thickness", THICKNESS, "-c_clamp", "end",
+             "-gravity", GRAVITY, "-preload", "static", "-end_time", 1e-3, "-probes", "p", "-p_structure", "c",
+             "-p_group", "tip"]
+
+    def test_bends_as_one_section(self):
+        slab = self.WIDTH * self.THICKNESS
+        together = (self.WIDTH * self.THICKNESS**3 / 12 + 1.2e-4 + self.OFFSET**2 * slab * 0.04 / (slab + 0.04))
+        expected = DENSITY * GRAVITY * (slab + 0.04) * self.LENGTH**4 / (8 * self.YOUNG * together)
+        for tie, n, nb, ranks in (("beam:slab", 40, 60, 1), ("beam:slab", 40, 47, 2), ("beam:spine", 80, 93, 3),
+                                  ("slab:beam", 47, 40, 2)):
+            run = Recorded(self, [*self.SCENE, "-c_tie", tie, "-c_mesh_set", f"n={n},nb={nb}"], ranks, identity=1e-10)
+            self.assertLess(abs(-run.displacement("p.z")[0] / expected - 1), 8e-3, (tie, n, nb))
+            # What goes to clamped nodes of the facets is part of what the clamps hold.
+            self.assertEqual(run.summary["warnings"], [])
+            self.assertLess(run.summary["equilibrium"]["structures"]["c"]["imbalance"], 1e-8)
+
+
+class Struck(unittest.TestCase):
+    """Bricks tied to each other fly against a wall with sides that both have: nodes that follow, and followed ones."""
+    SPEED = 0.5
+    SCENE = [*BRICKS, *TIE, "-t_initial_velocity", f"0.1,{-SPEED},0", "-contacts", "w", "-w_secondary", "t:y_min",
+             "-w_primary", "wall", "-w_gap", "1e-3", "-time_step", 2e-5, "-output_interval", 2e-5, "-end_time", 0.01,
+             "-probes", "p", "-p_structure", "t", "-p_group", "edge"]
+
+    def test_ledger_and_ranks(self):
+        for parameters in (mesh(m1=2, m2=3), mesh(m1=2, m2=3, gap=0.05)):
+            values, impulses = [], []
+            for ranks in (1, 2, 3):
+                run = Recorded(self, [*self.SCENE, *parameters], ranks)
+                values.append(run.displacement("p.y"))
+                impulses.append(run.summary["impacts"]["total_impulse"])
+                self.assertLess(run.summary["impacts"]["complementarity_residual"], 1e-9)
+                self.assertGreater(run.energy["strain"], 0)
+                self.assertLess(abs(values[-1] - values[0]).max(), 1e-12)
+                self.assertLess(abs(impulses[-1] / impulses[0] - 1), 1e-10)
+            self.assertGreater(impulses[0], 4800 * self.SPEED)
+
+    def test_another_structure_with_damping_under_gravity(self):
+        """A block flies against bricks that hang by a tie and are damped: the ledger with all of its terms."""
+        scene = [*BRICKS, *TIE, *HELD, *mesh(m1=2, m2=3, gap=0.02), "-b_mesh",
+                 "tests/meshes/box.geo", "-b_mesh_set", "x0=0.3,y0=-1.001,z0=0.1,lx=1.2,nx=2,ny=1,nz=2",
+                 "-b_body_element", "hex8", "-b_body_material", "c", "-b_initial_velocity", "0,1,0", "-contacts", "w",
+                 "-w_secondary", "b:y_max", "-w_primary", "t:y_min", "-end_time", 0.01, "-output_interval", 1e-4,
+                 "-gravity", GRAVITY, "-probes", "p", "-p_structure", "t", "-p_group", "edge"]
+        scene[scene.index("-structures") + 1] = "t,b"
+        for more in (["-t_damping_alpha", 0.3, "-t_damping_beta", 1e-6], ["-t_damping_uniform", 0.04]):
+            values = []
+            for ranks in (1, 3):
+                run = Recorded(self, [*scene, *more], ranks)
+                values.append(run.displacement("p.y"))
+                self.assertGreater(run.summary["impacts"]["total_impulse"], 0)
+                self.assertLess(run.summary["impacts"]["complementarity_residual"], 1e-9)
+                self.assertLess(abs(values[-1] - values[0]).max() / abs(values[0]).max(), 1e-9)
+
+    def test_the_same_run_twice(self):
+        a, b = (Recorded(self, [*self.SCENE, *mesh(m1=2, m2=3)], 2).displacement("p.y") for _ in range(2))
+        self.assertTrue(numpy.array_equal(a, b))
+
+    def test_reduced_to_all_of_its_modes(self):
+        scene = [*self.SCENE, *HELD, *mesh(m1=2, m2=3), "-w_gap", "1e-4"]
+        full = Recorded(self, scene, 2)
+        reduced = Recorded(self, [*scene, "-t_model", "modal", "-t_modal_vectors", 10000], 2)
+        u, v = full.displacement("p.y"), reduced.displacement("p.y")
+        self.assertGreater(full.summary["impacts"]["total_impulse"], 0)
+        self.assertLess(abs(u - v).max() / abs(u).max(), 1e-9)
+
+    def test_continued(self):
+        words = [*self.SCENE, *mesh(m1=2, m2=3), "-modes", 1]
+        folder, _ = program.must_run(self, words, 2)
+        with tempfile.TemporaryDirectory() as cut:
+            for more in (["-end_time", 0.005, "-checkpoint_steps", 100],
+                         ["-restart", os.path.join(cut, "checkpoint.h5")]):
+                result = program.run([*words, *more, "-output", cut], 2)
+                self.assertEqual(result.returncode, 0, result.stderr[-2000:])
+            with h5py.File(os.path.join(folder, "history.h5")) as whole, \
+                    h5py.File(os.path.join(cut, "history.h5")) as continued:
+                for name in ("displacement", "velocity", "acceleration", "contact_force"):
+                    self.assertTrue(numpy.array_equal(whole[name][()], continued[name][()]), name)
+        shutil.rmtree(folder)
+
+    def test_it_flies_and_turns_freely(self):
+        """Six motions without stiffness, across a gap as well."""
+        for scene in ([*BRICKS, *mesh(m1=2, m2=3, gap=0.05, shift=0.1)], [*MIXED, *mesh(m1=2, m2=3, plates=2)],
+                      [*PLATES, *mesh(m1=3, m2=4, plates=1, gap=0.3)]):
+            run = Recorded(self, [*scene, *TIE, "-t_initial_velocity", "1,0,0", "-end_time", 1e-4, "-modes", 7], 2)
+            found = [mode["frequency"] for mode in run.summary["structures"]["t"]["frequencies"]]
+            self.assertLess(found[5], 1e-6 * found[6])
+
+
+class LinksOnATie(unittest.TestCase):
+    """A spring with dashpots, which pushes only, below a corner that follows: solved for with the tie, or by modes."""
+
+    def test_same_by_modes(self):
+        for more in (["-t_corner_compression_only", "true"], []):
+            scene = [*PLATES, *HELD, *TIE, *mesh(m1=2, m2=3, plates=1), "-t_corner_element", "grounded_spring",
+                     "-t_corner_stiffness", "1e6,1e6,1e7", "-t_corner_dashpot", "1e3,1e4,1e5", *more,
+                     "-t_initial_velocity", "0.1,0.2,0.5", "-time_step", 1e-5, "-output_interval", 1e-4, "-end_time",
+                     0.02, "-probes", "p", "-p_structure", "t", "-p_group", "corner"]
+            modes = Recorded(self, [*scene, "-t_model", "modal", "-t_modal_vectors", 10000], 1, identity=1e-9)
+            for ranks in (1, 2, 3):
+                run = Recorded(self, scene, ranks, identity=1e-11)
+                self.assertGreater(run.energy["devices"], 1)
+                for axis in "xyz":
+                    u, v = run.displacement(f"p.{axis}"), modes.displacement(f"p.{axis}")
+                    self.assertLess(abs(u - v).max(), 1e-8 * abs(v).max())
+
+
+if __name__ == "__main__":
+    unittest.main()
