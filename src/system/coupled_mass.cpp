@@ -5,11 +5,6 @@
 #include <utility>
 
 namespace pounding {
-namespace {
-
-constexpr std::size_t width = CoupledMass::width;
-
-}  // namespace
 
 CoupledMass::CoupledMass(std::span<const double> lumped_mass, NodeBlocks added,
                          std::vector<RigidBody> bodies, std::vector<TiedPart> ties)

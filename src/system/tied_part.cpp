@@ -8,8 +8,6 @@
 namespace pounding {
 namespace {
 
-constexpr std::size_t width = TiedPart::width;
-
 NodeDofs dofs_of(const Mesh& mesh, LocalIndex node) {
   return {mesh.first_dof[node], component_count(mesh.free_components[node])};
 }
@@ -63,7 +61,8 @@ void TiedPart::add_terms(const Mesh& mesh, const TiedNode& tied) {
         const int row = place_of(mesh, follower, i);
         const int column = place_of(mesh, node, j);
         if (row < 0 || column < 0) continue;
-        const double value = carrier.block[static_cast<std::size_t>(6 * i + j)];
+        const double value =
+            carrier.block[6 * static_cast<std::size_t>(i) + static_cast<std::size_t>(j)];
         term.block[width * static_cast<std::size_t>(column) + static_cast<std::size_t>(row)] =
             value;
         term.transposed[width * static_cast<std::size_t>(row) + static_cast<std::size_t>(column)] =
