@@ -69,7 +69,7 @@ std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSys
     const LinearSystem& system = systems[s];
     // The energy of soil is in that of its structure; that of one-way links in modes may be
     // negative, and nothing bounds what a wave from below brings.
-    if ((system.links && (system.links->one_way() || system.links->driven())) ||
+    if ((system.links && (system.links->hold_stiffness() || system.links->driven())) ||
         !(energy_margins[s] > 0)) {
       bounds[s].rate_norm = std::numeric_limits<double>::infinity();
       continue;

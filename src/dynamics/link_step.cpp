@@ -54,6 +54,48 @@ LinkStep::LinkStep(const LinearSystem& system, const StructureState& state, Stru
   find_bodies(system);
   find_couplings();
   find_blocks();
+  find_yielding();
+}
+
+void LinkStep::find_yielding() {
+  std::map<std::int64_t, std::size_t> circles;  // by element
+  std::map<std::int64_t, int> gauges;
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    const LinkOrigin& origin = links_[b].origin;
+    if (origin.part == SpringPart::gauge) gauges[links_[b].number] = static_cast<int>(b);
+    if (origin.part != SpringPart::stiffness || origin.region == nullptr ||
+        !origin.region->nonlinear.yields(static_cast<std::size_t>(origin.component))) {
+      continue;
+    }
+    const NonlinearSpring& spring = origin.region->nonlinear;
+    std::size_t place = yielding_.size();
+    if (spring.is_in_circle(static_cast<std::size_t>(origin.component))) {
+      place = circles.try_emplace(links_[b].number, place).first->second;
+    }
+    if (place == yielding_.size()) yielding_.emplace_back();
+    yielding_[place].links.push_back(b);
+    yielding_[place].friction =
+        spring.friction * (1 - spring.hardening) * origin.region->stiffness[spring.circle[2]];
+  }
+  for (const auto& [number, place] : circles) {
+    const auto gauge = gauges.find(number);
+    if (gauge != gauges.end()) yielding_[place].gauge = gauge->second;
+  }
+}
+
+void LinkStep::yield() {
+  for (const Yielding& together : yielding_) {
+    double square = 0;
+    for (const std::size_t b : together.links) {
+      square += std::pow(laws_[b]->trial(now_[b], memory_[b]), 2);
+    }
+    const double size = std::sqrt(square);
+    const double capacity = together.gauge < 0
+                                ? laws_[together.links.front()]->capacity()
+                                : together.friction * std::max(0.0, -now_[together.gauge]);
+    const double kept = size > capacity ? capacity / size : 1;
+    for (const std::size_t b : together.links) laws_[b]->yield(now_[b], kept, memory_[b]);
+  }
 }
 
 void LinkStep::find_bodies(const LinearSystem& system) {
@@ -343,6 +385,7 @@ void LinkStep::pull(bool first) {
   bool idle = blocks_.empty();
   for (const std::size_t b : others_) idle = idle && laws_[b]->is_idle(now_[b], memory_[b]);
   if (idle) return;
+  yield();
   const double share = first ? 0.5 : 1;
   if (share != share_) form_inverses(share);
   measure(state_.velocity, rate_);

@@ -70,6 +70,15 @@ class LinkStep {
     std::vector<double> free;        ///< e_{n+1} - e_{n-1} without them
     std::vector<double> force;
   };
+  /// Links that yield together, mostly one.
+  struct Yielding {
+    std::vector<std::size_t> links;
+    int gauge = -1;       ///< link that tells what presses on a sliding bearing; -1: none
+    double friction = 0;  ///< of such a bearing: capacity over minus the gauge's elongation [N/m]
+  };
+  void find_yielding();
+  /// Yields from e_n, before any force of the step is known.
+  void yield();
   void find_bodies(const LinearSystem& system);
   void find_couplings();
   void find_blocks();
@@ -106,17 +115,18 @@ class LinkStep {
   std::vector<std::vector<Coupling>> coupled_;
   std::vector<Block> blocks_;
   std::vector<std::size_t> others_;  ///< links without a rate
-  double share_ = 0;                 ///< of a step, for which forces act
-  bool rates_known_ = false;         ///< rate_ is that of v-
-  std::vector<double> before_;       ///< e_{n-1} [m]
-  std::vector<double> now_;          ///< e_n; 0 of laws with a rate
-  std::vector<double> after_;        ///< e_{n+1}
-  std::vector<double> free_after_;   ///< e_{n+1} without any link
-  std::vector<double> force_;        ///< N_n [N]
-  std::vector<double> push_;         ///< of the wave from below, against N_n [N]
-  std::vector<double> field_;        ///< per place of the trace
-  std::vector<double> velocity_;     ///< per dof of the trace
-  std::vector<double> rate_;         ///< b . v
+  std::vector<Yielding> yielding_;
+  double share_ = 0;                ///< of a step, for which forces act
+  bool rates_known_ = false;        ///< rate_ is that of v-
+  std::vector<double> before_;      ///< e_{n-1} [m]
+  std::vector<double> now_;         ///< e_n; 0 of laws with a rate
+  std::vector<double> after_;       ///< e_{n+1}
+  std::vector<double> free_after_;  ///< e_{n+1} without any link
+  std::vector<double> force_;       ///< N_n [N]
+  std::vector<double> push_;        ///< of the wave from below, against N_n [N]
+  std::vector<double> field_;       ///< per place of the trace
+  std::vector<double> velocity_;    ///< per dof of the trace
+  std::vector<double> rate_;        ///< b . v
 };
 
 }  // namespace pounding

@@ -57,11 +57,14 @@ void nothing(Coordinates, const Properties&, Matrix result) {
 }
 
 constexpr std::string_view of_solid = "material";
-constexpr std::string_view of_bar = "material area tension_only";
+constexpr std::string_view of_bar = "material area tension_only slack yield_force hardening";
 constexpr std::string_view of_plate = "material thickness rotary_inertia_factor";
 constexpr std::string_view of_point = "mass rotary_inertia";
-constexpr std::string_view of_spring = "stiffness dashpot";
-constexpr std::string_view of_ground = "stiffness dashpot compression_only";
+constexpr std::string_view of_spring =
+    "stiffness dashpot dashpot_exponent yield_force hardening yield_circle sliding_friction";
+constexpr std::string_view of_ground =
+    "stiffness dashpot dashpot_exponent yield_force hardening yield_circle sliding_friction "
+    "compression_only";
 
 // clang-format off
 constexpr std::array table{
@@ -99,7 +102,9 @@ constexpr std::array table{
         of_solid, tet4_stiffness, tet4_lumped_mass, Kernel::sparse, measured_costs::sparse_tet4, true, false,
         "linear tetrahedra are too stiff in bending and lock near poisson 0.5; prefer wedge6 or hex8"},
     ElementTraits{Type::soil, "soil", "grounded_spring", Family::grounded_spring, {1, 6}, 15, {}, {},
-        of_ground, soil_stiffness, nothing, Kernel::sparse, measured_costs::small, true, false}};
+        of_ground, soil_stiffness, nothing, Kernel::sparse, measured_costs::small, true, false},
+    ElementTraits{Type::yielding_bar, "bar (yields)", "bar", Family::line, {2, 3}, 1, {}, {},
+        of_bar, bar2_stiffness, bar2_lumped_mass, Kernel::sparse, measured_costs::small, false, false}};
 // clang-format on
 
 /// Whether `list`, split at `separator`, has an entry `word`.

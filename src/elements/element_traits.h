@@ -11,8 +11,9 @@
 namespace pounding {
 
 /// The elements a mesh can hold; `hex8` is the one with incompatible modes, `shell3` the triangle
-/// of shell meshes. A `tension_bar` resists stretching only. Springs act along and about the global
-/// axes; those named 6 also on rotations. `soil` is no word of the option: it stands under a mat.
+/// of shell meshes. A `tension_bar` resists stretching only, a `yielding_bar` yields both ways.
+/// Springs act along and about the global axes; those named 6 also on rotations. `soil` is no word
+/// of the option: it stands under a mat.
 /// In the order of the table.
 enum class ElementType {
   hex8,
@@ -30,7 +31,8 @@ enum class ElementType {
   spring6,
   wedge6,
   tet4,
-  soil
+  soil,
+  yielding_bar
 };
 
 /// Words of the option, separated by '|'.

@@ -3,23 +3,53 @@
 #include <algorithm>
 #include <utility>
 
+#include "links/damper_law.h"
 #include "links/dashpot_law.h"
+#include "links/gauge_law.h"
 #include "links/relieving_law.h"
 #include "links/soil_law.h"
 #include "links/tension_law.h"
+#include "links/yield_law.h"
 
 namespace pounding {
 
 bool has_links(const Region& region) {
-  return is_one_way(region) || region.foundation ||
+  return follows_law(region) || region.foundation ||
          (is_spring(region.element) &&
           std::ranges::any_of(region.dashpot, [](double rate) { return rate > 0; }));
 }
 
 bool is_pressed(const LinkOrigin& origin) {
   return origin.region != nullptr && is_spring(origin.region->element) &&
-         origin.region->compression_only && origin.component == 2;
+         origin.region->compression_only && origin.component == 2 &&
+         origin.part == SpringPart::stiffness;
 }
+
+namespace {
+
+std::unique_ptr<LinkLaw> dashpot_of(const Region& region, int component, double time_step) {
+  const double strength = region.dashpot[component];
+  const double exponent = region.nonlinear.dashpot_exponent;
+  if (exponent != 1) return std::make_unique<DamperLaw>(strength, exponent, time_step);
+  return std::make_unique<DashpotLaw>(strength / (2 * time_step));
+}
+
+/// Law of a bar, or of a component of a spring, whose stiffness is no part of K.
+std::unique_ptr<LinkLaw> stiff_law(const LinkOrigin& origin, double time_step) {
+  const Region& region = *origin.region;
+  const bool spring = is_spring(region.element);
+  const double stiffness = spring ? region.stiffness[origin.component]
+                                  : region.material.young * region.area / origin.length;
+  if (region.nonlinear.yields(origin.component)) {
+    return std::make_unique<YieldLaw>(stiffness, region.nonlinear.hardening,
+                                      region.nonlinear.yield_force[origin.component]);
+  }
+  // The elongation of a compression-only spring is how far it is pressed down.
+  const double damping = origin.beta * stiffness + (spring ? region.dashpot[2] : 0);
+  return std::make_unique<TensionLaw>(stiffness, damping / (2 * time_step), region.nonlinear.slack);
+}
+
+}  // namespace
 
 std::unique_ptr<LinkLaw> law_of(const LinkOrigin& origin, double time_step) {
   if (origin.region == nullptr) {
@@ -29,15 +59,11 @@ std::unique_ptr<LinkLaw> law_of(const LinkOrigin& origin, double time_step) {
   if (region.foundation) {
     return std::make_unique<SoilLaw>(region.foundation->impedances[origin.component], time_step);
   }
-  const bool pressed = is_pressed(origin);
-  if (is_spring(region.element) && !pressed) {
-    return std::make_unique<DashpotLaw>(region.dashpot[origin.component] / (2 * time_step));
+  if (origin.part == SpringPart::gauge) return std::make_unique<GaugeLaw>();
+  if (is_spring(region.element) && origin.part == SpringPart::dashpot) {
+    return dashpot_of(region, origin.component, time_step);
   }
-  // The elongation of a compression-only spring is how far it is pressed down.
-  const double stiffness =
-      pressed ? region.stiffness[2] : region.material.young * region.area / origin.length;
-  const double damping = origin.beta * stiffness + (pressed ? region.dashpot[2] : 0);
-  auto law = std::make_unique<TensionLaw>(stiffness, damping / (2 * time_step));
+  auto law = stiff_law(origin, time_step);
   if (!origin.in_stiffness) return law;
   return std::make_unique<RelievingLaw>(std::move(law));
 }

@@ -8,8 +8,12 @@
 namespace pounding {
 
 /// Whether the elements of a region are links, or hold some: tension-only bars, compression-only
-/// springs, springs with dashpots, soil under a mat.
+/// springs, what yields, springs with dashpots, soil under a mat.
 bool has_links(const Region& region);
+
+/// Part of a spring that a link is: its dashpot, what it does along its stiffness by a law, or a
+/// gauge of its elongation.
+enum class SpringPart { dashpot, stiffness, gauge };
 
 /// Origin of a link: what its law follows from.
 struct LinkOrigin {
@@ -18,7 +22,8 @@ struct LinkOrigin {
   double length = 0;          ///< of a bar [m]
   double beta = 0;            ///< stiffness damping of its structure [s]
   bool in_stiffness = false;  ///< K of its structure holds it at its tangent already
-  double absorbing = 0;       ///< dashpot of an absorbing face [N s/m]
+  SpringPart part = SpringPart::dashpot;
+  double absorbing = 0;  ///< dashpot of an absorbing face [N s/m]
 };
 
 /// Whether a link is the part along z of a compression-only spring.

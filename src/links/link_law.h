@@ -41,6 +41,14 @@ class LinkLaw {
                         std::span<const double> /*memory*/) const {
     return 0;
   }
+  /// Force that a law would carry in a step from e_n if it did not yield in it [N]; 0 of a law that
+  /// never yields.
+  virtual double trial(double /*now*/, std::span<const double> /*memory*/) const { return 0; }
+  /// Most of its trial that it carries [N]; 0 of a law that never yields.
+  virtual double capacity() const { return 0; }
+  /// Yields in a step from e_n, before any force of it is asked for, until `kept` of its trial is
+  /// left; 1: it does not yield.
+  virtual void yield(double /*now*/, double /*kept*/, std::span<double> /*memory*/) const {}
   /// Number of values that the law remembers; they start at 0.
   virtual std::size_t memory_size() const { return 0; }
   /// Brings the memory to the end of a step, after contact. `share` as above.

@@ -32,6 +32,13 @@ class RelievingLaw final : public LinkLaw {
   bool is_idle(double /*now*/, std::span<const double> /*memory*/ = {}) const override {
     return false;
   }
+  double trial(double now, std::span<const double> memory) const override {
+    return link_->trial(now, memory);
+  }
+  double capacity() const override { return link_->capacity(); }
+  void yield(double now, double kept, std::span<double> memory) const override {
+    link_->yield(now, kept, memory);
+  }
   std::size_t memory_size() const override { return link_->memory_size(); }
   void remember(double before, double now, double after, double share,
                 std::span<double> memory) const override {

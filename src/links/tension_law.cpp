@@ -15,10 +15,19 @@ double positive_root(double a, double b, double c) {
 }  // namespace
 
 double TensionLaw::energy(double now, double after, std::span<const double>) const {
-  return stiffness_ * std::max(0.0, now) * std::max(0.0, after) / 2;
+  return stiffness_ * std::max(0.0, now - slack_) * std::max(0.0, after - slack_) / 2;
 }
 
 double TensionLaw::force(double before, double now, double after, std::span<const double>) const {
+  return stretched_force(before - slack_, now - slack_, after - slack_);
+}
+
+double TensionLaw::solve(double before, double now, double free_after, double compliance,
+                         std::span<const double>) const {
+  return solve_stretched(before - slack_, now - slack_, free_after - slack_, compliance);
+}
+
+double TensionLaw::stretched_force(double before, double now, double after) const {
   if (now <= 0) return 0;
   double share = before > 0 ? 1 : 0;
   if ((before > 0) != (after > 0) && before != after) {
@@ -27,9 +36,9 @@ double TensionLaw::force(double before, double now, double after, std::span<cons
   return std::max(0.0, stiffness_ * now * share + damping_rate_ * (after - before));
 }
 
-double TensionLaw::solve(double before, double now, double free_after, double compliance,
-                         std::span<const double>) const {
-  if (now <= 0 || compliance <= 0) return force(before, now, free_after);
+double TensionLaw::solve_stretched(double before, double now, double free_after,
+                                   double compliance) const {
+  if (now <= 0 || compliance <= 0) return stretched_force(before, now, free_after);
   const double pull = stiffness_ * now;
   const double r = compliance;
   const double a = 1 + r * damping_rate_;

@@ -102,10 +102,11 @@ std::optional<Rayleigh> read_region_damping(OptionReader& options, const Names& 
   bool given = false;
   for (const std::string_view pattern : {region_damping.alpha, region_damping.beta,
                                          region_damping.ratio, region_damping.frequencies}) {
-    if (is_one_way(region)) {
-      options.forbid(pattern, names,
-                     "elements with tension_only or compression_only take the damping of their "
-                     "structure; leave it out");
+    if (follows_law(region)) {
+      options.forbid(
+          pattern, names,
+          "elements with tension_only or compression_only take the damping of their structure, "
+          "those that yield none; leave it out");
     }
     given = given || options.given(pattern, names);
   }

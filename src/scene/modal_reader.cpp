@@ -23,11 +23,12 @@ void refuse_couplings(const OptionReader& options, const Structure& structure) {
     const std::string remedy = "not in a structure with -" + option_name(model, {structure.name}) +
                                " modal; leave it out, or give -" +
                                option_name(model, {structure.name}) + " full";
-    if (is_one_way(region) && structure.uniform_damping) {
-      options.forbid(
-          one_way_option(region), names,
-          "not with -" + option_name(model, {structure.name}) + " modal and -" + structure.name +
-              "_damping_uniform, which would damp what is slack; leave " + "one of the three out");
+    if (follows_law(region) && structure.uniform_damping) {
+      options.forbid(law_option(region), names,
+                     "not with -" + option_name(model, {structure.name}) + " modal and -" +
+                         structure.name +
+                         "_damping_uniform, which would damp what is slack or yields; leave one of "
+                         "the three out");
     }
     if (region.damping) {
       for (const char* option : {"alpha", "beta", "ratio"}) {

@@ -22,6 +22,8 @@ constexpr Range damping_ratio{0, 1, false, true};
 constexpr Range uniform_ratio{0, 0.3, false, false};
 constexpr Range eigen_tolerance{1e-10, 0.1, false, false};
 constexpr Range filter_count{1, 8, false, false};
+constexpr Range dashpot_power{0.05, 2, false, false};
+constexpr Range below_1{0, 1, false, true};
 constexpr Range poisson_ratio{-1, 0.5, true, true};
 constexpr Range soil_poisson{0, 0.5, false, true};
 
@@ -128,6 +130,12 @@ constexpr std::array table{
     OptionRow{Block::region, "<structure>_<group>_stiffness", Kind::reals, "N/m, N m", absent("required for springs"), not_negative, "six numbers along and about x, y, z (three: no rotations)", "of grounded_spring and spring"},
     OptionRow{Block::region, "<structure>_<group>_dashpot", Kind::reals, "N s/m, N m s", value("0,0,0,0,0,0"), not_negative, "six numbers along and about x, y, z", "dashpot beside the spring"},
     OptionRow{Block::region, "<structure>_<group>_compression_only", Kind::boolean, "flag", value("false"), any, "", "grounded_spring from which a mat may lift off: along z, spring and dashpot resist pressing down only"},
+    OptionRow{Block::region, "<structure>_<group>_dashpot_exponent", Kind::real, "-", value("1"), dashpot_power, "", "power of the rate to which its dashpots go; their unit is N (s/m)^it"},
+    OptionRow{Block::region, "<structure>_<group>_yield_force", Kind::reals, "N, N m", value("0"), not_negative, "one number (bar), or three or six along and about x, y, z", "force at which it yields; 0: never"},
+    OptionRow{Block::region, "<structure>_<group>_hardening", Kind::real, "-", value("0"), below_1, "", "stiffness after yield over that before"},
+    OptionRow{Block::region, "<structure>_<group>_yield_circle", Kind::choice, "word", value("none"), any, "none|x+y|y+z|x+z", "translations that yield together: a bearing's shear"},
+    OptionRow{Block::region, "<structure>_<group>_sliding_friction", Kind::real, "-", value("0"), Range{0, 10, false, false}, "", "sliding bearing: the circle yields at this times the compression across it"},
+    OptionRow{Block::region, "<structure>_<group>_slack", Kind::real, "m", value("0"), not_negative, "", "tension_only bar: stretched so far before it pulls (a hook, a cable that sags)"},
     OptionRow{Block::region, "<structure>_<group>_damping_alpha", Kind::real, "1/s", absent("left out: that of the structure"), not_negative, "", "Rayleigh damping of its elements, mass term"},
     OptionRow{Block::region, "<structure>_<group>_damping_beta", Kind::real, "s", absent("left out: that of the structure"), not_negative, "", "Rayleigh damping of its elements, stiffness term"},
     OptionRow{Block::region, "<structure>_<group>_damping_ratio", Kind::real, "-", absent("optional"), damping_ratio, "", "instead of alpha and beta: damping ratio at two frequencies"},

@@ -10,6 +10,7 @@
 
 #include "common/types.h"
 #include "elements/element_traits.h"
+#include "scene/nonlinear_spring.h"
 #include "scene/soil.h"
 #include "scene/uniform_damping.h"
 
@@ -54,19 +55,27 @@ struct Region {
   std::array<double, 6> stiffness{};     ///< springs: along and about x, y, z [N/m, N m]
   std::array<double, 6> dashpot{};       ///< springs [N s/m, N m s]
   bool compression_only = false;         ///< grounded springs: along z they push up only
+  NonlinearSpring nonlinear;             ///< springs and bars
   std::optional<Rayleigh> damping;       ///< in place of the structure's
   std::optional<Foundation> foundation;  ///< soil: empty until the mesh is read, see lay_foundation
 };
 
 /// Elements whose force in one direction is none: tension-only bars, compression-only springs.
 inline bool is_one_way(const Region& region) {
-  return !is_linear(region.element) || region.compression_only;
+  return region.element == ElementType::tension_bar || region.compression_only;
 }
 
-/// The option that makes a region's elements act in one direction only.
-inline const char* one_way_option(const Region& region) {
-  return region.compression_only ? "<structure>_<group>_compression_only"
-                                 : "<structure>_<group>_tension_only";
+/// Elements whose stiffness, or some of it, is no part of K: one-way ones and those that yield.
+inline bool follows_law(const Region& region) {
+  return is_one_way(region) || region.nonlinear.yields();
+}
+
+/// The option that takes the stiffness of a region's elements out of K.
+inline const char* law_option(const Region& region) {
+  if (region.compression_only) return "<structure>_<group>_compression_only";
+  if (region.nonlinear.friction > 0) return "<structure>_<group>_sliding_friction";
+  return region.nonlinear.yields() ? "<structure>_<group>_yield_force"
+                                   : "<structure>_<group>_tension_only";
 }
 
 /// A structure represented by its lowest modes and by attachment vectors.

@@ -13,6 +13,7 @@
 #include "scene/damping_reader.h"
 #include "scene/modal_reader.h"
 #include "scene/nearest_name.h"
+#include "scene/nonlinear_reader.h"
 #include "scene/option_blocks.h"
 #include "scene/option_values.h"
 #include "scene/rigid_reader.h"
@@ -26,8 +27,9 @@ using Names = OptionReader::Names;
 /// Options that belong to some elements only: refused beside the others.
 void forbid_others(const OptionReader& options, const std::string& element, const Names& names) {
   for (const std::string property :
-       {"area", "dashpot", "mass", "material", "rotary_inertia", "rotary_inertia_factor", "section",
-        "compression_only", "stiffness", "tension_only", "thickness"}) {
+       {"area", "dashpot", "dashpot_exponent", "hardening", "mass", "material", "rotary_inertia",
+        "rotary_inertia_factor", "section", "compression_only", "slack", "sliding_friction",
+        "stiffness", "tension_only", "thickness", "yield_circle", "yield_force"}) {
     if (!takes(traits_of(element_of_word(element)), property)) {
       options.forbid("<structure>_<group>_" + property, names,
                      "not for the element " + element + " of this group; leave it out");
@@ -114,21 +116,10 @@ Section read_section(OptionReader& options, const Names& region) {
   return section;
 }
 
-/// Three numbers along x, y, z, or six, also about them.
-std::array<double, 6> read_six(OptionReader& options, std::string_view pattern,
-                               const Names& names) {
-  const std::vector<double> values = options.reals(pattern, names);
-  if (values.size() != 3 && values.size() != 6) {
-    options.refuse(pattern, names, "wrong count of numbers");
-  }
-  std::array<double, 6> result{};
-  std::ranges::copy(values, result.begin());
-  return result;
-}
-
 void read_spring(OptionReader& options, const Names& names, Region& region) {
   region.stiffness = read_six(options, "<structure>_<group>_stiffness", names);
   region.dashpot = read_six(options, "<structure>_<group>_dashpot", names);
+  read_nonlinear_spring(options, names, region);
   if (takes(traits_of(region.element), "compression_only")) {
     region.compression_only = options.boolean("<structure>_<group>_compression_only", names);
   }
@@ -162,6 +153,7 @@ void read_solid(OptionReader& options, const Names& names, Region& region) {
     if (options.boolean("<structure>_<group>_tension_only", names)) {
       region.element = ElementType::tension_bar;
     }
+    read_nonlinear_bar(options, names, region);
   }
   if (takes(element, "thickness")) {
     region.thickness = options.real("<structure>_<group>_thickness", names);
@@ -278,11 +270,11 @@ void forbid_rigid_groups(const OptionReader& options, const Structure& structure
   }
 }
 
-/// Matrices do not know which of their rows buckle or lift off.
-void forbid_one_way_elements(const OptionReader& options, const Structure& structure) {
+/// Matrices do not know which of their rows buckle, lift off or yield.
+void forbid_laws(const OptionReader& options, const Structure& structure) {
   for (const Region& region : structure.regions) {
-    if (!structure.matrices.empty() && is_one_way(region)) {
-      options.refuse(one_way_option(region), {structure.name, region.group},
+    if (!structure.matrices.empty() && follows_law(region)) {
+      options.refuse(law_option(region), {structure.name, region.group},
                      "not with -" + structure.name + "_matrices");
     }
   }
@@ -346,7 +338,7 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   for (const std::string& group : groups) {
     structure.regions.push_back(read_region(options, {name, group}, structure.damping));
   }
-  forbid_one_way_elements(options, structure);
+  forbid_laws(options, structure);
   forbid_rigid_groups(options, structure);
   if (structure.uniform_damping) {
     forbid_damping_beside_uniform(options, structure);

@@ -20,17 +20,17 @@ constexpr double iteration_tolerance = 1e-10;
 constexpr const char* prefix = "rest_";
 constexpr int most_iterations = 20000;
 
-/// Takes one-way links out of the stiffest matrix, which has them at their stiffest.
-void take_links_out(const LinearSystem& system, PetscInt first_dof, Mat matrix) {
+/// Adds links to a matrix, `sign` times each.
+void add_links(std::span<const LinkTerms> links, double sign, PetscInt first_dof, Mat matrix) {
   std::vector<PetscInt> places;
   std::vector<double> values;
-  for (const LinkTerms& bar : link_terms(system)) {
+  for (const LinkTerms& bar : links) {
     places.clear();
     values.clear();
     for (std::size_t a = 0; a < bar.dofs.size(); ++a) {
       places.push_back(first_dof + bar.dofs[a]);
       for (std::size_t b = 0; b < bar.dofs.size(); ++b) {
-        values.push_back(-bar.stiffness * bar.coefficients[a] * bar.coefficients[b]);
+        values.push_back(sign * bar.stiffness * bar.coefficients[a] * bar.coefficients[b]);
       }
     }
     const auto n = static_cast<PetscInt>(places.size());
@@ -65,8 +65,14 @@ AssembledStatics::AssembledStatics(const LinearSystem& system, const Mesh& mesh,
   POUNDING_PETSC(MatSetOptionsPrefixFactor(matrix_.get(), prefix));
   PetscInt first = 0;
   POUNDING_PETSC(MatGetOwnershipRange(matrix_.get(), &first, nullptr));
-  if (system.links) take_links_out(system, first, matrix_.get());
+  if (system.links) {
+    // The stiffest matrix has them at their stiffest, and uniform damping leaves them alone.
+    linear_links_ = link_terms(system);
+    add_links(linear_links_, -1, first, matrix_.get());
+    std::erase_if(linear_links_, [](const LinkTerms& link) { return link.one_way; });
+  }
   POUNDING_PETSC(MatScale(matrix_.get(), at_rest_));
+  if (system.links) add_links(linear_links_, 1, first, matrix_.get());
   std::vector<double> added = system.lumped_mass;
   for (double& value : added) value *= shift;
   const VecHandle diagonal = wrap_vector(system, added);
@@ -157,6 +163,15 @@ void AssembledStatics::apply(const std::vector<double>& u, std::vector<double>& 
   StoredForces store(q.data());
   system_.stiffness->apply({u.data(), u.data(), 0}, store);
   for (double& value : q) value *= at_rest_;
+  for (const LinkTerms& link : linear_links_) {
+    double elongation = 0;
+    for (std::size_t k = 0; k < link.dofs.size(); ++k) {
+      elongation += link.coefficients[k] * u[link.dofs[k]];
+    }
+    for (std::size_t k = 0; k < link.dofs.size(); ++k) {
+      q[link.dofs[k]] += link.stiffness * elongation * link.coefficients[k];
+    }
+  }
 }
 
 void AssembledStatics::solve(std::vector<double>& x) const {

@@ -6,6 +6,7 @@
 #include "common/petsc.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
+#include "statics/link_terms.h"
 #include "statics/static_stiffness.h"
 #include "system/admissible_motions.h"
 #include "system/linear_system.h"
@@ -34,6 +35,7 @@ class AssembledStatics final : public StaticStiffness {
   const LinearSystem& system_;
   double at_rest_ = 1;                           ///< s
   std::optional<AdmissibleMotions> admissible_;  ///< of rigid bodies and ties
+  std::vector<LinkTerms> linear_links_;          ///< what yields, not at rest
   MatHandle matrix_;                             ///< s K + shift M
   MatHandle factor_;                             ///< of it; null with the iteration
   KspHandle iteration_;                          ///< null with the factor

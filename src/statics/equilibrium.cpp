@@ -8,9 +8,11 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "common/parallel.h"
 #include "contact/contact_problem.h"
 #include "contact/lcp.h"
 #include "mesh/location.h"
+#include "statics/link_terms.h"
 #include "statics/make_static_stiffness.h"
 #include "statics/unilateral_rows.h"
 #include "system/admissible_motions.h"
@@ -89,10 +91,33 @@ class Search {
         refuse(left);
       }
     }
+    refuse_yielded();
     return describe();
   }
 
  private:
+  /// A link beyond its yield force would jump as soon as the run begins.
+  void refuse_yielded() const {
+    on_every_rank(comm_, [&] {
+      for (std::size_t s = 0; s < systems_.size(); ++s) {
+        for (const LinkTerms& link : link_terms(systems_[s])) {
+          if (!(link.yield_force > 0)) continue;
+          double elongation = 0;
+          for (std::size_t k = 0; k < link.dofs.size(); ++k) {
+            elongation += link.coefficients[k] * displacement_[s][link.dofs[k]];
+          }
+          const double force = std::abs(link.stiffness * elongation);
+          if (force <= link.yield_force) continue;
+          std::ostringstream text;
+          text << "option -preload static: " << link.place << " of structure " << systems_[s].name
+               << " holds " << force << " N at rest, more than its yield force of "
+               << link.yield_force << " N; give a larger one, or leave -preload out";
+          throw UserError(text.str());
+        }
+      }
+    });
+  }
+
   /// u + d of the residual and the forces in force, then the change of forces that the rows want.
   void iterate() {
     Fields trial = residual_;

@@ -14,6 +14,11 @@ double tangent_of(const Link& link) {
   return law_of(origin, any_step)->tangent();
 }
 
+bool is_one_way_link(const Link& link) {
+  return link.origin.region != nullptr && is_one_way(*link.origin.region) &&
+         !link.origin.region->nonlinear.yields(static_cast<std::size_t>(link.origin.component));
+}
+
 }  // namespace
 
 std::vector<LinkTerms> link_terms(const LinearSystem& system) {
@@ -26,6 +31,14 @@ std::vector<LinkTerms> link_terms(const LinearSystem& system) {
     if (!(stiffness > 0)) continue;
     LinkTerms& bar = bars.emplace_back();
     bar.stiffness = stiffness;
+    bar.one_way = is_one_way_link(link);
+    const NonlinearSpring& nonlinear = link.origin.region->nonlinear;
+    bar.slack = nonlinear.slack;
+    if (!bar.one_way) {
+      bar.yield_force = nonlinear.yield_force[link.origin.component];
+      bar.place = "element " + std::to_string(link.number) + " of group '" +
+                  link.origin.region->group + "'";
+    }
     for (std::size_t i = 0; i < link.place.size(); ++i) {
       if (link.place[i] >= 0) {
         trace.add_force(static_cast<std::size_t>(link.place[i]), link.weight[i], field);

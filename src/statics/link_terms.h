@@ -1,21 +1,26 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "system/linear_system.h"
 
 namespace pounding {
 
-/// A one-way link over the owned dofs of its structure, or its generalised coordinates: its
-/// elongation is sum of coefficient x dof.
+/// A link that holds a force at rest, over the owned dofs of its structure, or its generalised
+/// coordinates: its elongation is sum of coefficient x dof.
 struct LinkTerms {
   double stiffness = 0;  ///< k [N/m]
+  bool one_way = false;
+  double slack = 0;        ///< elongation at which it begins to hold [m]
+  double yield_force = 0;  ///< beyond which it is no rest [N]; 0: it does not yield
+  std::string place;       ///< of one that yields, for messages
   std::vector<LocalIndex> dofs;
   std::vector<double> coefficients;  ///< b, not zero [-]
 };
 
-/// Tension-only bars and compression-only springs of this rank: links that hold a force at rest,
-/// which dashpots do not. Local.
+/// Tension-only bars, compression-only springs and what yields of this rank: links that hold a
+/// force at rest, which dashpots do not. Local.
 std::vector<LinkTerms> link_terms(const LinearSystem& system);
 
 }  // namespace pounding

@@ -31,6 +31,7 @@ ReducedStatics::ReducedStatics(const LinearSystem& system, double shift) {
   stiffness_.assign(n * n, 0.0);
   for (std::size_t i = 0; i < n; ++i) stiffness_[i * n + i] = at_rest * diagonal[i];
   for (const LinkTerms& bar : link_terms(system)) {
+    if (!bar.one_way) continue;  // K holds it, and it does not yield at rest
     for (std::size_t a = 0; a < bar.dofs.size(); ++a) {
       for (std::size_t b = 0; b < bar.dofs.size(); ++b) {
         const std::size_t i = bar.dofs[a];

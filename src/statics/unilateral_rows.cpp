@@ -28,18 +28,23 @@ void UnilateralRows::add_contacts(const ContactProblem& contact, std::span<const
 }
 
 void UnilateralRows::add_links(std::size_t structure, const LinearSystem& system) {
-  const std::vector<LinkTerms> bars = link_terms(system);
+  std::vector<LinkTerms> bars = link_terms(system);
+  std::erase_if(bars, [](const LinkTerms& bar) { return !bar.one_way; });
   std::vector<int> counts(size_of(comm_));
   const int mine = static_cast<int>(bars.size());
   MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);
   for (int rank = 0; rank < size_of(comm_); ++rank) {
-    std::vector<double> compliances(counts[rank]);
+    std::vector<double> numbers(2 * static_cast<std::size_t>(counts[rank]));
     const bool own = rank == rank_of(comm_);
-    for (int i = 0; own && i < mine; ++i) compliances[i] = 1 / bars[i].stiffness;
-    MPI_Bcast(compliances.data(), counts[rank], MPI_DOUBLE, rank, comm_);
-    for (int i = 0; i < counts[rank]; ++i) {
+    for (std::size_t i = 0; own && i < bars.size(); ++i) {
+      numbers[2 * i] = 1 / bars[i].stiffness;
+      numbers[2 * i + 1] = bars[i].slack;
+    }
+    MPI_Bcast(numbers.data(), 2 * counts[rank], MPI_DOUBLE, rank, comm_);
+    for (std::size_t i = 0; 2 * i < numbers.size(); ++i) {
       Row& row = rows_.emplace_back();
-      row.compliance = compliances[i];
+      row.compliance = numbers[2 * i];
+      row.initial = numbers[2 * i + 1];
       for (std::size_t k = 0; own && k < bars[i].dofs.size(); ++k) {
         row.entries.push_back({structure, bars[i].dofs[k], -bars[i].coefficients[k]});
       }

@@ -15,6 +15,9 @@ ElementProperties element_properties(const Region& region) {
   properties.stiffness = region.stiffness;
   properties.dashpot = region.dashpot;
   if (region.foundation) properties.arm = region.foundation->arm;
+  for (std::size_t c = 0; is_spring(region.element) && c < properties.stiffness.size(); ++c) {
+    if (region.nonlinear.yields(c)) properties.stiffness[c] = 0;  // a law holds it
+  }
   if (region.compression_only) properties.stiffness[2] = properties.dashpot[2] = 0;
   if (region.section) {
     properties.area = region.section->area;

@@ -59,7 +59,7 @@ class Assembly {
         added_mass_(structure, mesh) {
     if (with_matrix) matrix_ = create_matrix(mesh);
     for (const ElementBlock& block : mesh.blocks) {
-      if (is_one_way(structure.regions[block.region]) && taut_.get() == nullptr) {
+      if (follows_law(structure.regions[block.region]) && taut_.get() == nullptr) {
         taut_ = create_matrix(mesh);
       }
       if (has_extra_damping(block) && extra_damping_.get() == nullptr) {
@@ -115,7 +115,7 @@ class Assembly {
     };
     if (matrix_.get() != nullptr && is_linear(block.type)) insert(matrix_, work.stiffness.data());
     const Region& region = structure_.regions[block.region];
-    if (region.compression_only) work.stiffness[2 * size + 2] += region.stiffness[2];
+    add_law_stiffness(region, layout, work);
     if (taut_.get() != nullptr) insert(taut_, work.stiffness.data());
     const double scaling = added_mass_.add(block, element, region, stiffness, mass);
     // Elements that a rigid body holds altogether never strain.
@@ -136,6 +136,23 @@ class Assembly {
     }
   }
 
+  /// Adds the stiffness that laws of springs hold, at its largest.
+  static void add_law_stiffness(const Region& region, const ElementLayout& layout,
+                                ElementWork& work) {
+    if (!is_spring(region.element)) return;
+    const std::size_t size = layout.size();
+    const std::size_t components = layout.components;
+    for (std::size_t c = 0; c < components; ++c) {
+      const bool pressed = region.compression_only && c == 2;
+      if (!pressed && !region.nonlinear.yields(c)) continue;
+      for (std::size_t i = c; i < size; i += components) {
+        for (std::size_t j = c; j < size; j += components) {
+          work.stiffness[i * size + j] += (i == j ? 1 : -1) * region.stiffness[c];
+        }
+      }
+    }
+  }
+
   /// Null if there is no matrix.
   static std::unique_ptr<Stiffness> finished(MatHandle matrix) {
     if (matrix.get() == nullptr) return nullptr;
@@ -148,7 +165,7 @@ class Assembly {
   /// act, by themselves.
   Rayleigh extra_rayleigh(const ElementBlock& block) const {
     const Rayleigh own = structure_.damping_of(structure_.regions[block.region]);
-    const bool linear = !is_one_way(structure_.regions[block.region]);
+    const bool linear = !follows_law(structure_.regions[block.region]);
     return {own.alpha - structure_.damping.alpha, linear ? own.beta - structure_.damping.beta : 0};
   }
 
@@ -215,7 +232,7 @@ LinearSystem build_finite_element_system(const Structure& structure, const Mesh&
   system.links = Links::build(structure, mesh);
   const bool by_element = multiplies_elements(mesh, method);
   // Modes want every link at its stiffest: the linear elements alone are of no use to them then.
-  const bool for_modes = with_matrix && std::ranges::none_of(structure.regions, is_one_way);
+  const bool for_modes = with_matrix && std::ranges::none_of(structure.regions, follows_law);
   Assembly(structure, mesh, !by_element || for_modes, system).run();
   system.stiffness_method = "assembled";
   if (by_element) {

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
+#include "common/error.h"
+#include "common/parallel.h"
 #include "elements/element.h"
 #include "elements/point.h"
 #include "mesh/location.h"
@@ -31,7 +34,7 @@ std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh
   for (const ElementBlock& block : mesh.blocks) {
     if (!has_links(structure.regions[block.region])) continue;
     count += block.global_count;
-    found->one_way_ = found->one_way_ || is_one_way(structure.regions[block.region]);
+    found->hold_stiffness_ = found->hold_stiffness_ || follows_law(structure.regions[block.region]);
     for (std::size_t e = 0; e < block.count(); ++e) {
       if (block.type == ElementType::soil) {
         found->add_soil(structure, mesh, block, e);
@@ -44,6 +47,7 @@ std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh
   }
   for (const AbsorbingNode& absorbing : mesh.absorbing) found->add_absorbing(mesh, absorbing);
   if (count == 0 && structure.absorbing.empty()) return nullptr;
+  on_every_rank(mesh.comm, [&] { found->refuse_unpressed(structure); });
   found->driven_ = structure.is_driven_from_below();
   std::vector<LocalIndex>& dofs = found->dofs_;
   std::sort(dofs.begin(), dofs.end());
@@ -52,6 +56,23 @@ std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh
     for (int& place : link.place) place = place < 0 ? -1 : place_of(dofs, place);
   }
   return found;
+}
+
+void Links::refuse_unpressed(const Structure& structure) const {
+  std::set<std::int64_t> pressed;
+  for (const Link& link : links_) {
+    if (link.origin.part == SpringPart::gauge) pressed.insert(link.number);
+  }
+  for (const Link& link : links_) {
+    if (link.origin.region == nullptr || !(link.origin.region->nonlinear.friction > 0) ||
+        link.origin.part != SpringPart::stiffness || pressed.contains(link.number)) {
+      continue;
+    }
+    throw UserError("structure " + structure.name + ": element " + std::to_string(link.number) +
+                    " of group '" + link.origin.region->group +
+                    "' slides, but its ends are clamped across the plane in which it does, so "
+                    "nothing presses on it");
+  }
 }
 
 void Links::add_bar(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
@@ -65,7 +86,9 @@ void Links::add_bar(const Structure& structure, const Mesh& mesh, const ElementB
   const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
   // The modes of a reduced structure have every bar taut, and their damping is the bars' as well.
   const bool reduced = structure.modal.has_value();
-  link.origin = {&region, 0, length, reduced ? 0 : structure.damping_of(region).beta, reduced};
+  link.origin = {&region, 0,
+                 length,  reduced ? 0 : structure.damping_of(region).beta,
+                 reduced, SpringPart::stiffness};
   for (std::size_t d = 0; d < 3; ++d) {
     for (std::size_t end = 0; end < 2; ++end) {
       link.place[3 * end + d] = mesh.dof(nodes[end], static_cast<int>(d));
@@ -80,22 +103,31 @@ void Links::add_springs(const Structure& structure, const Mesh& mesh, const Elem
   const Region& region = structure.regions[block.region];
   const std::size_t ends = element_layout(block.type).nodes;
   const LocalIndex* nodes = &block.connectivity[ends * element];
-  for (std::size_t c = 0; c < region.dashpot.size(); ++c) {
+  const bool reduced = structure.modal.has_value();
+  const auto add = [&](std::size_t c, SpringPart part) {
     Link link;
     link.number = block.tags[element];
-    link.origin = {&region, static_cast<int>(c), 0, 0, false};
+    link.origin = {&region, static_cast<int>(c), 0, 0, false, part};
     const bool pressed = is_pressed(link.origin);
-    if (region.dashpot[c] == 0 && !pressed) continue;
-    if (pressed) {
-      const bool reduced = structure.modal.has_value();
-      link.origin.beta = reduced ? 0 : structure.damping.beta;
-      link.origin.in_stiffness = reduced;
-    }
+    if (pressed) link.origin.beta = reduced ? 0 : structure.damping.beta;
+    link.origin.in_stiffness = reduced && part == SpringPart::stiffness;
     for (std::size_t end = 0; end < ends; ++end) {
       link.place[end] = mesh.dof(nodes[end], static_cast<int>(c));
       link.weight[end] = end + 1 == ends && !pressed ? 1 : -1;
     }
+    if (part == SpringPart::gauge && ends == 2 &&
+        mesh.position(nodes[1])[c] < mesh.position(nodes[0])[c]) {
+      for (double& weight : link.weight) weight = -weight;  // told as if the second one lay above
+    }
     keep(mesh, block, element, link);
+  };
+  for (std::size_t c = 0; c < region.dashpot.size(); ++c) {
+    const bool pressed = region.compression_only && c == 2;
+    if (region.dashpot[c] > 0 && !pressed) add(c, SpringPart::dashpot);
+    if (region.nonlinear.yields(c) || pressed) add(c, SpringPart::stiffness);
+  }
+  if (region.nonlinear.friction > 0) {
+    add(static_cast<std::size_t>(region.nonlinear.circle[2]), SpringPart::gauge);
   }
 }
 
@@ -173,7 +205,10 @@ std::vector<TracePoint> link_points(const Structure& structure, const GlobalMesh
       for (int c = 0; c < 6; ++c) {
         const bool pulls = region.foundation.has_value() ? true
                            : is_spring(set.type)
-                               ? region.dashpot[c] > 0 || (region.compression_only && c == 2)
+                               ? region.dashpot[c] > 0 || region.nonlinear.yields(c) ||
+                                     (region.compression_only && c == 2) ||
+                                     (region.nonlinear.friction > 0 &&
+                                      region.nonlinear.circle[2] == static_cast<int>(c))
                                : c < 3;
         if (pulls) points.push_back({node, c});
       }

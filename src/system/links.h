@@ -30,11 +30,11 @@ struct Link {
 };
 
 /// Links of a structure: what pulls between two nodes, or from one to the ground, by a law that is
-/// no part of K u. Today these are the bars that resist stretching only, compression-only springs
-/// along z, the dashpots of springs, one for each component, the dashpots and masses of soil in the
-/// six motions of a mat, and three dashpots at every node of absorbing faces. Links that share a
-/// node that can move live on one rank, with all that moves with their nodes (see `coupled_nodes`).
-/// Constant during a run; what evolves is with LinkStep.
+/// no part of K u. Today these are the bars that resist stretching only or yield, compression-only
+/// springs along z, springs that yield, the dashpots of springs, one for each component, the
+/// dashpots and masses of soil in the six motions of a mat, and three dashpots at every node of
+/// absorbing faces. Links that share a node that can move live on one rank, with all that moves
+/// with their nodes (see `coupled_nodes`). Constant during a run; what evolves is with LinkStep.
 class Links {
  public:
   /// Null if the structure has no link. Throws std::logic_error if the nodes of one live on several
@@ -46,13 +46,16 @@ class Links {
 
   const std::vector<Link>& links() const { return links_; }  ///< of this rank
   const Trace& trace() const { return *trace_; }
-  /// Some link of some rank acts in one direction only.
-  bool one_way() const { return one_way_; }
+  /// Some link of some rank holds stiffness that is no part of K: it acts in one direction only, or
+  /// yields.
+  bool hold_stiffness() const { return hold_stiffness_; }
   /// A wave enters through some link of some rank.
   bool driven() const { return driven_; }
 
  private:
   Links() = default;
+  /// Throws UserError where nothing tells what presses on a sliding bearing.
+  void refuse_unpressed(const Structure& structure) const;
   void add_bar(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
                std::size_t element);
   void add_springs(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
@@ -63,7 +66,7 @@ class Links {
   /// Keeps a link whose places are local dofs as yet, if this rank owns those that can move.
   void keep(const Mesh& mesh, const ElementBlock& block, std::size_t element, const Link& link);
 
-  bool one_way_ = false;
+  bool hold_stiffness_ = false;
   bool driven_ = false;
   std::vector<Link> links_;
   std::vector<LocalIndex> dofs_;  ///< per place of the trace, increasing

@@ -1,0 +1,108 @@
+#include "scene/nonlinear_reader.h"
+
+#include <algorithm>
+
+#include "scene/option_table.h"
+
+namespace pounding {
+namespace {
+
+using Names = OptionReader::Names;
+
+constexpr std::string_view yield_force = "<structure>_<group>_yield_force";
+constexpr std::string_view hardening = "<structure>_<group>_hardening";
+constexpr std::string_view yield_circle = "<structure>_<group>_yield_circle";
+constexpr std::string_view sliding_friction = "<structure>_<group>_sliding_friction";
+constexpr std::string_view exponent = "<structure>_<group>_dashpot_exponent";
+constexpr std::string_view slack = "<structure>_<group>_slack";
+
+std::array<int, 3> circle_of(const std::string& word) {
+  if (word == "x+y") return {0, 1, 2};
+  if (word == "y+z") return {1, 2, 0};
+  if (word == "x+z") return {0, 2, 1};
+  return {0, 0, 0};
+}
+
+void check_sliding(const OptionReader& options, const Names& names, const Region& region) {
+  const NonlinearSpring& spring = region.nonlinear;
+  if (!spring.has_circle()) {
+    options.refuse(sliding_friction, names,
+                   "give -" + option_name(yield_circle, names) + ", the plane in which it slides");
+  }
+  const auto [a, b, across] = spring.circle;
+  if (spring.yield_force[a] > 0 || spring.yield_force[b] > 0) {
+    options.refuse(sliding_friction, names,
+                   "not beside -" + option_name(yield_force, names) +
+                       " in the same plane: the compression across it decides");
+  }
+  if (!(region.stiffness[across] > 0)) {
+    options.refuse(sliding_friction, names,
+                   "its stiffness across the plane is 0, so nothing presses on it");
+  }
+}
+
+void check_circle(const OptionReader& options, const Names& names, const Region& region) {
+  const NonlinearSpring& spring = region.nonlinear;
+  const auto [a, b, across] = spring.circle;
+  if (spring.friction == 0 && !(spring.yield_force[a] > 0)) {
+    options.refuse(yield_circle, names,
+                   "give -" + option_name(yield_force, names) + " or -" +
+                       option_name(sliding_friction, names));
+  }
+  if (spring.yield_force[a] != spring.yield_force[b] ||
+      region.stiffness[a] != region.stiffness[b]) {
+    options.refuse(yield_circle, names,
+                   "stiffness and yield force must be the same in both directions");
+  }
+}
+
+}  // namespace
+
+std::array<double, 6> read_six(OptionReader& options, std::string_view pattern,
+                               const Names& names) {
+  const std::vector<double> values = options.reals(pattern, names);
+  if (values.size() != 3 && values.size() != 6) {
+    options.refuse(pattern, names, "wrong count of numbers");
+  }
+  std::array<double, 6> result{};
+  std::ranges::copy(values, result.begin());
+  return result;
+}
+
+void read_nonlinear_spring(OptionReader& options, const Names& names, Region& region) {
+  NonlinearSpring& spring = region.nonlinear;
+  if (options.given(yield_force, names)) {
+    spring.yield_force = read_six(options, yield_force, names);
+  }
+  spring.hardening = options.real(hardening, names);
+  spring.circle = circle_of(options.choice(yield_circle, names));
+  spring.friction = options.real(sliding_friction, names);
+  spring.dashpot_exponent = options.real(exponent, names);
+  if (spring.friction > 0) check_sliding(options, names, region);
+  if (spring.has_circle()) check_circle(options, names, region);
+  for (std::size_t c = 0; c < region.stiffness.size(); ++c) {
+    if (spring.yields(c) && !(region.stiffness[c] > 0)) {
+      options.refuse(spring.friction > 0 ? sliding_friction : yield_force, names,
+                     std::string("its stiffness ") + (c < 3 ? "along " : "about ") + "xyz"[c % 3] +
+                         " is 0; give the one before it yields");
+    }
+  }
+}
+
+void read_nonlinear_bar(OptionReader& options, const Names& names, Region& region) {
+  NonlinearSpring& bar = region.nonlinear;
+  const std::vector<double> force = options.reals(yield_force, names);
+  if (force.size() != 1) options.refuse(yield_force, names, "a bar takes one number");
+  bar.yield_force[0] = force[0];
+  bar.hardening = options.real(hardening, names);
+  bar.slack = options.real(slack, names);
+  if (bar.slack > 0 && region.element != ElementType::tension_bar) {
+    options.refuse(slack, names, "for a bar that is tension_only");
+  }
+  if (force[0] > 0 && region.element == ElementType::tension_bar) {
+    options.refuse(yield_force, names, "not for a bar that is tension_only");
+  }
+  if (force[0] > 0) region.element = ElementType::yielding_bar;
+}
+
+}  // namespace pounding

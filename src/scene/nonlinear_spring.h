@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace pounding {
+
+/// Nonlinear behaviour of springs and bars, beyond their stiffness, as the user tells it.
+struct NonlinearSpring {
+  /// Force or moment at which each component yields, along and about x, y, z, of a bar the first
+  /// one [N, N m]; 0: never.
+  std::array<double, 6> yield_force{};
+  double hardening = 0;  ///< stiffness after yield over that before [-]
+  /// The two translations that yield together, on a circle, and the third one; equal: none do.
+  std::array<int, 3> circle{0, 0, 0};
+  /// Coefficient of a sliding bearing, which yields at this times the compression along the third
+  /// [-]; 0: none.
+  double friction = 0;
+  double dashpot_exponent = 1;  ///< power of the rate to which its dashpots go [-]
+  double slack = 0;             ///< of a tension-only bar, stretched so far before it pulls [m]
+
+  bool has_circle() const { return circle[0] != circle[1]; }
+  bool is_in_circle(std::size_t component) const {
+    return has_circle() &&
+           (circle[0] == static_cast<int>(component) || circle[1] == static_cast<int>(component));
+  }
+  /// Whether a component may leave its straight line.
+  bool yields(std::size_t component) const {
+    return yield_force[component] > 0 || (friction > 0 && is_in_circle(component));
+  }
+  bool yields() const {
+    for (std::size_t c = 0; c < yield_force.size(); ++c) {
+      if (yields(c)) return true;
+    }
+    return false;
+  }
+};
+
+}  // namespace pounding

@@ -1,0 +1,232 @@
+"""Springs, bars and dampers beyond a straight line: what yields, slides, goes by a power of the rate, or hangs slack.
+
+A mass on one of them, in closed form: the scheme is of second order, so all of it holds to 1e-6 at a small step.
+"""
+import math
+import os
+import shutil
+import tempfile
+import unittest
+
+import h5py
+import numpy
+
+import program
+from recorded import Recorded
+
+MASS, STIFFNESS = 50.0, 2e5
+OMEGA = math.sqrt(STIFFNESS / MASS)
+
+
+def mass(time_step, end_time, *more, links=0):
+    """A mass at x = 1; the other point of the mesh is a mass that stays."""
+    return ["-structures", "chain", "-chain_mesh", "tests/meshes/chain.geo", "-chain_mesh_set", f"links={links}",
+            "-chain_first_element", "point_mass", "-chain_first_mass", MASS, "-chain_second_element", "point_mass",
+            "-chain_second_mass", 1, "-time_step", repr(time_step), "-end_time", repr(end_time), "-output_interval",
+            repr(time_step), "-energy_interval", 10, "-probes", "one", "-one_structure", "chain", "-one_at", "1,0,0",
+            *more]
+
+
+def spring(stiffness, **options):
+    words = ["-chain_support_element", "grounded_spring", "-chain_support_stiffness", stiffness]
+    for name, value in options.items():
+        words += [f"-chain_support_{name}", value]
+    return words
+
+
+class Bilinear(unittest.TestCase):
+    SPEED, YIELD = 1.0, 2000.0  # it would stretch by 15.8 mm, and yields at 10 mm
+
+    def run_(self, hardening, ranks=2, *more, time_step=2e-5):
+        return Recorded(self, mass(time_step, 0.2, "-chain_initial_velocity", f"{self.SPEED},0,0",
+                                   *spring(f"{STIFFNESS},0,0", yield_force=f"{self.YIELD},0,0", hardening=hardening),
+                                   *more), ranks)
+
+    def largest(self, hardening):
+        """Where the kinetic energy is spent."""
+        at_yield = self.YIELD / STIFFNESS
+        left = MASS * self.SPEED**2 / 2 - STIFFNESS * at_yield**2 / 2
+        after = hardening * STIFFNESS
+        if after == 0:
+            return at_yield + left / self.YIELD
+        return at_yield + (math.sqrt(self.YIELD**2 + 2 * after * left) - self.YIELD) / after
+
+    def test_first_turn_and_what_is_lost(self):
+        for hardening, ranks in ((0, 1), (0, 2), (0.1, 2)):
+            run = self.run_(hardening, ranks)
+            x = run.displacement("one.x")
+            top = self.largest(hardening)
+            self.assertAlmostEqual(x.max() / top, 1, delta=1e-6)
+            if hardening == 0:
+                # From there it swings about its plastic elongation for ever.
+                plastic = top - self.YIELD / STIFFNESS
+                self.assertAlmostEqual(x[run.time > 0.1].min() / (plastic - self.YIELD / STIFFNESS), 1, delta=1e-5)
+                self.assertAlmostEqual(run.energy["devices"] / (self.YIELD * plastic), 1, delta=1e-5)
+
+    def test_second_order(self):
+        errors = [abs(self.run_(0.1, 1, time_step=dt).displacement("one.x").max() / self.largest(0.1) - 1)
+                  for dt in (8e-4, 2e-4)]
+        self.assertLess(errors[1], errors[0] / 6)
+
+    def test_step_of_the_spring_is_stable_whatever_yields(self):
+        """Two thirds of a second at .999 of the stable step, yielding all the time: bounded, nothing gained."""
+        limit = 2 / OMEGA
+        run = self.run_(0.3, 2, "-chain_initial_velocity", "30,0,0", time_step=0.999 * limit)
+        self.assertLess(abs(run.displacement("one.x")).max(), 30 / OMEGA / math.sqrt(0.3) * 1.5)
+        self.assertGreater(run.energy["devices"], 0)
+
+    def test_reduced_is_the_same(self):
+        full = self.run_(0.1)
+        reduced = self.run_(0.1, 2, "-chain_model", "modal", "-chain_modal_vectors", 6)
+        self.assertLess(abs(full.displacement("one.x") - reduced.displacement("one.x")).max(), 1e-10)
+
+    def test_two_directions_on_a_circle(self):
+        straight = self.run_(0.1)
+        angle = 0.6
+        run = Recorded(self, mass(2e-5, 0.2, "-chain_initial_velocity",
+                                  f"{self.SPEED * math.cos(angle)},{self.SPEED * math.sin(angle)},0",
+                                  *spring(f"{STIFFNESS},{STIFFNESS},0", yield_force=f"{self.YIELD},{self.YIELD},0",
+                                          hardening=0.1, yield_circle="x+y")))
+        x, y = run.displacement("one.x"), run.displacement("one.y")
+        along = x * math.cos(angle) + y * math.sin(angle)
+        self.assertLess(abs(along - straight.displacement("one.x")).max(), 1e-12)
+        self.assertLess(abs(y * math.cos(angle) - x * math.sin(angle)).max(), 1e-12)
+
+    def test_a_continued_run_is_the_uninterrupted_one(self):
+        words = mass(2e-5, 0.05, "-chain_initial_velocity", "1,0.4,0", "-modes", 1, "-spectra_frequencies", 10,
+                     *spring(f"{STIFFNESS},{STIFFNESS},0", yield_force="2000,2000,0", yield_circle="x+y"))
+        folder, _ = program.must_run(self, words, 2)
+        with tempfile.TemporaryDirectory() as cut:
+            for more in (["-end_time", 0.03, "-checkpoint_steps", 1000],
+                         ["-restart", os.path.join(cut, "checkpoint.h5")]):
+                result = program.run([*words, *more, "-output", cut], 2)
+                self.assertEqual(result.returncode, 0, result.stderr[-2000:])
+            with h5py.File(os.path.join(folder, "history.h5")) as whole, \
+                    h5py.File(os.path.join(cut, "history.h5")) as continued:
+                for name in ("displacement", "velocity"):
+                    self.assertTrue(numpy.array_equal(whole[name][()], continued[name][()]), name)
+        shutil.rmtree(folder)
+
+    def test_brace_that_yields(self):
+        """A bar between the ground and the mass: E A / L = k."""
+        run = Recorded(self, mass(2e-5, 0.2, "-chain_initial_velocity", f"{self.SPEED},0,0", "-chain_clamp", "ground",
+                                  "-chain_link1_element", "bar", "-chain_link1_material", "light",
+                                  "-chain_link1_area", 1e-4, "-material_light_young", STIFFNESS / 1e-4,
+                                  "-material_light_poisson", 0.3, "-material_light_density", 1e-3,
+                                  "-chain_link1_yield_force", self.YIELD, links=1))
+        self.assertAlmostEqual(run.displacement("one.x").max() / self.largest(0), 1, delta=1e-6)
+
+    def test_at_rest(self):
+        """Its weight is held by a spring that does not yield, and by none that does."""
+        words = mass(1e-4, 0.01, *spring(f"{STIFFNESS},{STIFFNESS},{STIFFNESS}", yield_force="0,0,600"), "-gravity",
+                     9.81, "-preload", "static", "-chain_clamp", "second")
+        run = Recorded(self, words)
+        self.assertAlmostEqual(run.displacement("one.z")[-1] / (-MASS * 9.81 / STIFFNESS), 1, delta=1e-10)
+        result = program.run([*words, "-chain_support_yield_force", "0,0,400"], 2)
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(len(program.error_lines(result)), 1, result.stderr)
+        self.assertIn("yield force of 400 N", result.stderr)
+
+
+class SlidingBearing(unittest.TestCase):
+    """Friction mu N on a pendulum's spring N / R: a mass that sets out comes to its turning points in closed form."""
+    FRICTION, RADIUS, BEFORE = 0.08, 2.0, 2e6
+
+    def test_turns(self):
+        weight = MASS * 9.81
+        capacity = self.FRICTION * weight
+        after = weight / self.RADIUS
+        elastic = self.BEFORE - after
+        hardening = after / self.BEFORE
+        speed = 1.5
+        for ranks in (1, 2):
+            run = Recorded(self, mass(1e-5, 1.2, "-chain_initial_velocity", f"{0.8 * speed},{0.6 * speed},0",
+                                      *spring(f"{self.BEFORE},{self.BEFORE},1e6", hardening=hardening,
+                                              yield_circle="x+y", sliding_friction=self.FRICTION),
+                                      "-gravity", 9.81, "-preload", "static", "-chain_clamp", "second"), ranks)
+            along = 0.8 * run.displacement("one.x") + 0.6 * run.displacement("one.y")
+            # m v^2 / 2 = k x^2 / 2 + q x - q^2 / (2 k_e), q less by the part that hardening takes
+            q = capacity * (1 - hardening)
+            left = MASS * speed**2 / 2 + q**2 / (2 * elastic)
+            top = (math.sqrt(q**2 + 2 * after * left) - q) / after
+            self.assertAlmostEqual(along.max() / top, 1, delta=1e-6)
+            self.assertLess(abs(run.displacement("one.z") - run.displacement("one.z")[0]).max(), 1e-12)
+
+    def test_lifted_off_it_does_not_hold(self):
+        """Thrown up from a spring that presses only, the mass keeps its speed across."""
+        run = Recorded(self, mass(1e-5, 0.3, "-chain_initial_velocity", "1.5,0,2",
+                                  *spring(f"{self.BEFORE},{self.BEFORE},1e6", yield_circle="x+y",
+                                          sliding_friction=self.FRICTION, compression_only="true"),
+                                  "-gravity", 9.81, "-preload", "static", "-chain_clamp", "second"))
+        flight = (run.time > 0.05) & (run.time < 0.3)
+        speed = run.velocity("one.x")[flight]
+        self.assertLess(abs(speed - speed[0]).max(), 1e-9)
+        self.assertGreater(speed[0], 1.2)
+
+
+class Dampers(unittest.TestCase):
+    def test_power_of_the_rate(self):
+        """m v' = -c v^a: v^(1 - a) falls at (1 - a) c / m, for a < 1 until it stops."""
+        for exponent, strength, ranks in ((0.5, 300.0, 1), (0.5, 300.0, 2), (0.15, 100.0, 2), (1.7, 300.0, 2)):
+            speed = 1.0
+            run = Recorded(self, mass(2e-5, 0.5, "-chain_initial_velocity", f"0,{speed},0",
+                                      *spring("0,1e-9,0", dashpot=f"0,{strength},0", dashpot_exponent=exponent)),
+                           ranks)
+            time = run.time + 1e-5  # of the velocity
+            power = 1 - exponent
+            raised = numpy.maximum(speed**power - power * strength / MASS * time, 0)
+            expected = raised**(1 / power)
+            self.assertLess(abs(run.velocity("one.y") - expected).max(), 2e-5)
+            self.assertAlmostEqual(run.energy["devices"] / ((MASS + 1) * speed**2 / 2 - run.energy["kinetic"]), 1,
+                                   delta=1e-3)
+
+    def test_however_strong(self):
+        """The mass rings about the place where it stands, and nothing grows, at a step that the spring decides."""
+        run = Recorded(self, mass(1e-3, 0.5, "-chain_initial_velocity", "0,1,0",
+                                  *spring("0,1000,0", dashpot="0,1e9,0", dashpot_exponent=0.3)))
+        self.assertLessEqual(abs(run.velocity("one.y")).max(), 1)
+        self.assertLess(abs(run.displacement("one.y")).max(), 1.001e-3)
+        self.assertGreaterEqual(run.energy["devices"], 0)
+
+
+class SlackCable(unittest.TestCase):
+    def test_hook(self):
+        slack, speed = 0.02, 2.0
+        for ranks in (1, 2):
+            run = Recorded(self, mass(1e-6, 0.05, "-chain_initial_velocity", f"{speed},0,0", "-chain_clamp", "ground",
+                                      "-chain_link1_element", "bar", "-chain_link1_material", "light",
+                                      "-chain_link1_area", 1e-4, "-material_light_young", STIFFNESS / 1e-4,
+                                      "-material_light_poisson", 0.3, "-material_light_density", 1e-6,
+                                      "-chain_link1_tension_only", "true", "-chain_link1_slack", slack,
+                                      "-output_interval", 1e-5, links=1), ranks)
+            x = run.displacement("one.x")
+            self.assertAlmostEqual(x.max() / (slack + speed / OMEGA), 1, delta=1e-6)
+            turn = run.time[x.argmax()]
+            self.assertAlmostEqual(turn, slack / speed + math.pi / 2 / OMEGA, delta=2e-5)
+            self.assertAlmostEqual(run.velocity("one.x")[-1] / -speed if run.time[-1] > 2 * turn else 1, 1,
+                                   delta=1e-6)
+
+
+class Refused(unittest.TestCase):
+    def test_what_cannot_be_meant(self):
+        cases = (
+            (spring("1000,0,0", yield_force="0,10,0"), "its stiffness along y is 0"),
+            (spring("1000,900,0", yield_force="10,10,0", yield_circle="x+y"), "the same in both directions"),
+            (spring("1000,1000,0", yield_circle="x+y"), "yield_force"),
+            (spring("1000,1000,0", sliding_friction=0.1), "yield_circle"),
+            (spring("1000,1000,0", sliding_friction=0.1, yield_circle="x+y"), "nothing presses on it"),
+            (spring("1000,1000,1000", sliding_friction=0.1, yield_circle="x+y") + ["-chain_clamp", "first:z,second"],
+             "clamped across the plane"),
+            (spring("1000,0,0", yield_force="10,0,0", hardening=1), "hardening"),
+            (spring("1000,0,0", dashpot_exponent=3), "dashpot_exponent"),
+        )
+        for words, text in cases:
+            for ranks in (1, 2):
+                result = program.run(mass(1e-3, 0.01, *words), ranks)
+                self.assertEqual(result.returncode, 1, text)
+                self.assertEqual(len(program.error_lines(result)), 1, result.stderr)
+                self.assertIn(text, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
