@@ -103,12 +103,55 @@ std::optional<FacetPoint> meet_edge(const GlobalMesh& mesh, const Facet& facet,
 
 }  // namespace
 
+namespace {
+
+/// The part of a vector across a facet of two nodes, of unit length; zero where it lies along it.
+Vector3 across_axis(const GlobalMesh& mesh, const Facet& facet, const Vector3& v) {
+  const Vector3 axis =
+      normalised(minus(mesh.position(facet.nodes[1]), mesh.position(facet.nodes[0])));
+  const double part = dot(v, axis);
+  const Vector3 across{v[0] - part * axis[0], v[1] - part * axis[1], v[2] - part * axis[2]};
+  return dot(across, across) > 1e-6 ? normalised(across) : Vector3{0, 0, 0};
+}
+
+/// Adds the axis of a beam as a facet that looks against nothing yet, or `towards`.
+void add_axis(const GlobalMesh& mesh, const Facet& facet, const std::optional<Vector3>& towards,
+              ContactFace& face) {
+  if (!towards) {
+    for (const double sign : {1.0, -1.0}) {
+      for (std::size_t d = 0; d < 3; ++d) {
+        Vector3 axis{0, 0, 0};
+        axis[d] = sign;
+        const Vector3 normal = across_axis(mesh, facet, axis);
+        if (dot(normal, axis) > 0.9) face.undecided.push_back(normal);
+      }
+    }
+    return;
+  }
+  const Vector3 normal = across_axis(mesh, facet, *towards);
+  if (dot(normal, normal) == 0) return;  // it points at the other side
+  const Vector3 axis = minus(mesh.position(facet.nodes[1]), mesh.position(facet.nodes[0]));
+  const double length = std::sqrt(dot(axis, axis));
+  face.facets.push_back(facet);
+  face.facet_areas.push_back({length * normal[0], length * normal[1], length * normal[2]});
+  face.two_sided.push_back(0);
+  face.facet_half_thickness.push_back(0);
+  face.facet_depth.push_back(length);
+  ++face.beams;
+}
+
+}  // namespace
+
 ContactFace build_contact_face(const GlobalMesh& mesh, std::span<const Region> regions,
                                const NodeGroup& group, const std::optional<Vector3>& towards) {
   ContactFace face;
   const std::vector<FacetBacking> behind = elements_behind(mesh, regions, group.facets);
   for (std::size_t f = 0; f < group.facets.size(); ++f) {
     if (behind[f].elements.empty()) continue;
+    if (behind[f].elements.front().beam) {
+      add_axis(mesh, group.facets[f], towards, face);
+      continue;
+    }
     const Backing* const element = element_towards(behind[f], towards);
     if (element == nullptr) {
       for (const std::size_t i : behind[f].outer()) {

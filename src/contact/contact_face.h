@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,8 +11,9 @@
 
 namespace pounding {
 
-/// A physical group seen as one side of a contact: faces of solids, faces of shells, or edges of
-/// shells, whose normal lies in the plane of the shell.
+/// A physical group seen as one side of a contact: faces of solids, faces of shells, edges of
+/// shells, whose normal lies in the plane of the shell, or axes of beams, which look wherever they
+/// are asked to.
 struct ContactFace {
   std::vector<GlobalIndex> nodes;     ///< file order
   std::vector<Vector3> node_normals;  ///< outward, unit, area-weighted mean of the facets around
@@ -25,7 +27,12 @@ struct ContactFace {
   std::vector<double> facet_depth;           ///< as of the nodes [m]
   Vector3 mean_normal{0, 0, 0};
   Vector3 centroid{0, 0, 0};  ///< mean of the nodes
-  int inner_facets = 0;       ///< with elements on both of their sides
+  /// Every facet is an edge of a shell or the axis of a beam.
+  bool is_line() const {
+    return std::ranges::all_of(facets, [](const Facet& facet) { return facet.count == 2; });
+  }
+  int beams = 0;         ///< facets that are axes of beams
+  int inner_facets = 0;  ///< with elements on both of their sides
   /// Unit normals among which nothing chose, of facets that are left out: see build_contact_face.
   std::vector<Vector3> undecided;
 };
@@ -33,7 +40,8 @@ struct ContactFace {
 /// Builds a face from the facets of a group that solids or shells hold; outward is away from those
 /// elements. Empty if there are none. A facet may hold to several elements, as the edge of a floor
 /// that ends at a wall: then that one lies behind it whose normal is closest to `towards`; without
-/// that direction such facets are left out, and their normals listed. `regions` of the structure.
+/// that direction such facets are left out, and their normals listed; axes of beams likewise, with
+/// the global axes across them. `regions` of the structure.
 ContactFace build_contact_face(const GlobalMesh& mesh, std::span<const Region> regions,
                                const NodeGroup& group,
                                const std::optional<Vector3>& towards = std::nullopt);

@@ -41,6 +41,7 @@ class SideFinder {
     decide(sides);
     turn_towards(sides.secondary.face, centre(contact_.primary));
     turn_towards(sides.primary.face, centre(contact_.secondary));
+    check_beams(sides);
     check_facing(sides);
     return sides;
   }
@@ -66,7 +67,7 @@ class SideFinder {
                   shell_thickness(structure)};
     if (side.face.facets.empty() && side.face.undecided.empty()) {
       throw UserError(side_option(contact_, name) + ": group '" + s.group +
-                      "' has no faces of solids or shells and no edges of shells");
+                      "' has no faces of solids or shells, no edges of shells and no beams");
     }
     const bool decided = side.face.undecided.empty();
     if (std::ranges::all_of(decided ? side.face.nodes : group(s).nodes,
@@ -102,7 +103,8 @@ class SideFinder {
   void decide_beside_wall(FaceSide& side) const {
     if (side.face.facets.empty()) {
       throw UserError(side_option(contact_, "secondary") +
-                      ": shells in several planes end at the edges of this group, so that nothing "
+                      ": beams look in no direction, or shells in several planes end at the edges "
+                      "of this group, so that nothing "
                       "says on which side the wall is; give a face of shells, or an edge of one "
                       "floor alone");
     }
@@ -152,6 +154,20 @@ class SideFinder {
       return farthest;
     };
     return -extent(contact_.primary, -1) - extent(contact_.secondary, 1);
+  }
+
+  /// A beam's line says nothing of its surface, and a face has no place for where it is met.
+  void check_beams(const ContactSides& sides) const {
+    if (sides.secondary.face.beams == 0 && sides.primary.face.beams == 0) return;
+    if (contact_.gap.values.empty()) {
+      throw UserError("option -" + contact_.name +
+                      "_gap geometry: one side is beams, whose lines say nothing of their surface; "
+                      "give the gap as a number");
+    }
+    if (sides.primary.face.beams > 0 && !sides.secondary.face.is_line()) {
+      throw UserError(side_option(contact_, "primary") +
+                      ": beams before a face are its secondary side; swap the two");
+    }
   }
 
   void check_facing(const ContactSides& sides) const {

@@ -58,6 +58,25 @@ Backing make_backing(const GlobalMesh& mesh, const Facet& facet,
   return backing;
 }
 
+/// A beam whose axis the facet is.
+Backing axis_of(int region) {
+  Backing backing;
+  backing.region = region;
+  backing.beam = true;
+  return backing;
+}
+
+/// Beams along the edge of a shell leave the edge to it; of several on one line the first stays.
+void prefer_faces(FacetBacking& behind) {
+  std::vector<Backing>& elements = behind.elements;
+  const auto is_beam = [](const Backing& b) { return b.beam; };
+  if (!std::ranges::all_of(elements, is_beam)) {
+    std::erase_if(elements, is_beam);
+  } else if (!elements.empty()) {
+    elements.resize(1);
+  }
+}
+
 /// A solid tells which side of a facet is outside; a shell that lies on it does not.
 void prefer_solids(FacetBacking& behind) {
   std::vector<Backing>& elements = behind.elements;
@@ -67,6 +86,7 @@ void prefer_solids(FacetBacking& behind) {
 }
 
 bool lies_ahead(const Backing& other, const Backing& element) {
+  if (other.beam || element.beam) return false;
   return dot(normalised(other.area), normalised(element.area)) < opposed;
 }
 
@@ -80,7 +100,7 @@ std::vector<std::size_t> FacetBacking::outer() const {
       const bool blocked = std::ranges::any_of(
           elements, [&](const Backing& other) { return lies_ahead(other, element); });
       const bool again = std::ranges::any_of(found, [&](std::size_t k) {
-        return dot(normalised(elements[k].area), normalised(element.area)) > alike;
+        return !element.beam && dot(normalised(elements[k].area), normalised(element.area)) > alike;
       });
       if ((all || !blocked) && !again) found.push_back(i);
     }
@@ -113,7 +133,8 @@ std::vector<FacetBacking> elements_behind(const GlobalMesh& mesh, std::span<cons
   }
   std::vector<FacetBacking> behind(facets.size());
   for (const ElementSet& set : mesh.regions) {
-    if (!carries_faces(set.type)) continue;
+    const bool beam = set.type == ElementType::beam;
+    if (!carries_faces(set.type) && !beam) continue;
     const double thickness = regions[set.region].thickness;
     const std::size_t width = element_layout(set.type).nodes;
     for (std::size_t e = 0; e < set.tags.size(); ++e) {
@@ -126,6 +147,10 @@ std::vector<FacetBacking> elements_behind(const GlobalMesh& mesh, std::span<cons
         }
       }
       for (const auto& [f, count] : shared) {
+        if (beam) {
+          if (count == 2 && facets[f].count == 2) behind[f].elements.push_back(axis_of(set.region));
+          continue;
+        }
         // An edge of a solid is no face.
         if (count != facets[f].count || (count == 2 && !is_shell(set.type))) continue;
         Backing& backing = behind[f].elements.emplace_back(
@@ -138,6 +163,7 @@ std::vector<FacetBacking> elements_behind(const GlobalMesh& mesh, std::span<cons
       }
     }
   }
+  std::ranges::for_each(behind, prefer_faces);
   std::ranges::for_each(behind, prefer_solids);
   return behind;
 }

@@ -8,10 +8,11 @@
 
 namespace pounding {
 
-/// A solid or shell that holds all nodes of a facet, and what the facet is as its border.
+/// A solid, shell or beam that holds all nodes of a facet, and what the facet is as its border.
 struct Backing {
   int region = 0;          ///< of the element, in its structure
   bool solid = false;      ///< it is no shell
+  bool beam = false;       ///< the facet is its axis, whose normal is open: `area` is zero
   Vector3 area{0, 0, 0};   ///< area (of an edge: length) along the normal away from the element
   double depth = 0;        ///< how far the element reaches behind the facet, of a face of shells
                            ///< their thickness [m]
@@ -25,7 +26,7 @@ struct ShellThere {
   double thickness = 0;     ///< [m]
 };
 
-/// All elements that hold all nodes of a facet.
+/// All elements that hold all nodes of a facet; a beam only where it is the only one.
 struct FacetBacking {
   std::vector<Backing> elements;  ///< shells whose whole is the facet only where no solid holds it
   std::vector<ShellThere> shells;

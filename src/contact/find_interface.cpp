@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <sstream>
+#include <utility>
 
 #include "common/error.h"
 #include "contact/contact_checks.h"
 #include "contact/contact_sides.h"
+#include "contact/crossing.h"
 #include "contact/facet_finder.h"
 #include "mesh/bounding_box.h"
 
@@ -34,6 +37,8 @@ class PairFinder {
     const std::size_t first = interface.constraints.size();
     if (contact_.primary.is_wall()) {
       pair_with_wall(interface);
+    } else if (has_crossing_lines()) {
+      pair_crossings(interface);
     } else {
       pair(sides_.secondary, sides_.primary, interface);
       if (contact_.passes == 2) pair(sides_.primary, sides_.secondary, interface);
@@ -67,6 +72,62 @@ class PairFinder {
       if (std::abs(normal[d]) > std::abs(normal[normal_axis]) + 1e-9) normal_axis = d;
     }
     report_.tangent_axes = {normal_axis == 0 ? 1 : 0, normal_axis == 2 ? 1 : 2};
+  }
+
+  /// Lines, beams among them: they meet where they cross, mostly between nodes of both.
+  bool has_crossing_lines() const {
+    return sides_.secondary.face.beams + sides_.primary.face.beams > 0 &&
+           sides_.secondary.face.is_line() && sides_.primary.face.is_line();
+  }
+
+  /// A pair for each place where an edge of one side crosses one of the other; a place at a node is
+  /// met by several edges and counts once.
+  void pair_crossings(Interface& interface) {
+    const FaceSide& secondary = sides_.secondary;
+    const FaceSide& primary = sides_.primary;
+    const Vector3& normal = secondary.face.mean_normal;
+    std::set<std::pair<std::set<GlobalIndex>, std::set<GlobalIndex>>> known;
+    for (std::size_t f = 0; f < secondary.face.facets.size(); ++f) {
+      for (std::size_t g = 0; g < primary.face.facets.size(); ++g) {
+        const Facet& edge = secondary.face.facets[f];
+        const Facet& other = primary.face.facets[g];
+        const auto crossing = cross_edges(*secondary.mesh, edge, *primary.mesh, other, normal);
+        if (!crossing) continue;
+        if (crossing->gap < -std::max(secondary.face.facet_depth[f], primary.face.facet_depth[g])) {
+          ++report_.left_behind;
+          report_.farthest_behind = std::max(report_.farthest_behind, -crossing->gap);
+          continue;
+        }
+        Constraint constraint;
+        const auto held = add_edge(primary.structure, other, crossing->second, 1, constraint);
+        const auto holds = add_edge(secondary.structure, edge, crossing->first, -1, constraint);
+        if (!known.insert({held, holds}).second) continue;
+        constraint.matched = held.size() == 1 && holds.size() == 1;
+        constraint.geometric_gap = crossing->gap;
+        const Vector3& along = primary.face.facet_areas[g];
+        constraint.facet_size = std::sqrt(dot(along, along));
+        note_half_thickness(secondary, secondary.face.facet_half_thickness[f]);
+        note_half_thickness(primary, primary.face.facet_half_thickness[g]);
+        const Vector3 x = secondary.mesh->position(edge.nodes[0]);
+        const Vector3 y = secondary.mesh->position(edge.nodes[1]);
+        Vector3 place{};
+        for (std::size_t d = 0; d < 3; ++d) place[d] = x[d] + crossing->first * (y[d] - x[d]);
+        keep(place, std::move(constraint), interface);
+      }
+    }
+  }
+
+  /// Terms of a place on an edge, and the nodes that have a part in it.
+  std::set<GlobalIndex> add_edge(int structure, const Facet& edge, double place, double sign,
+                                 Constraint& constraint) const {
+    std::set<GlobalIndex> nodes;
+    for (const auto& [node, weight] :
+         {std::pair(edge.nodes[0], 1 - place), std::pair(edge.nodes[1], place)}) {
+      if (weight == 0) continue;
+      add_terms(structure, node, sign * weight, sides_.secondary.face.mean_normal, constraint);
+      nodes.insert(node);
+    }
+    return nodes;
   }
 
   /// Keeps the nodes of one side out of the facets of the other.
@@ -136,13 +197,17 @@ class PairFinder {
     largest = std::max(largest, half_thickness);
   }
 
-  /// Adds the node's own terms and the place, and keeps the constraint.
+  /// Adds the node's own terms, and keeps the constraint.
   void finish(const FaceSide& nodes, std::size_t i, Constraint&& constraint, Interface& interface) {
     const GlobalIndex node = nodes.face.nodes[i];
+    add_terms(nodes.structure, node, -1, nodes.face.node_normals[i], constraint);
+    keep(nodes.mesh->position(node), std::move(constraint), interface);
+  }
+
+  /// Keeps a constraint with its terms, which acts at a place.
+  void keep(const Vector3& x, Constraint&& constraint, Interface& interface) {
     constraint.contact = number_;
     constraint.friction = contact_.friction;
-    add_terms(nodes.structure, node, -1, nodes.face.node_normals[i], constraint);
-    const Vector3 x = nodes.mesh->position(node);
     for (std::size_t t = 0; t < 2; ++t) constraint.place[t] = x[report_.tangent_axes[t]];
     ++report_.pairs;
     report_.matched += constraint.matched ? 1 : 0;

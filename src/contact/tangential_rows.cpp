@@ -18,7 +18,7 @@ Vector3 normal_of(const Constraint& constraint) {
       normal[term.component] = -term.coefficient;
     }
   }
-  return normal;
+  return normalised(normal);  // where edges cross, the secondary node has a part only
 }
 
 /// Two unit vectors across a unit vector and each other; axes for an axis.
@@ -31,7 +31,7 @@ std::array<Vector3, 2> tangents_of(const Vector3& normal) {
   return {first, cross(normal, first)};
 }
 
-/// The weight of every node of a constraint, -1 for the secondary.
+/// The weight of every node of a constraint, -1 for the secondary altogether.
 std::vector<ConstraintTerm> weights_of(const Constraint& constraint, const Vector3& normal) {
   std::vector<ConstraintTerm> nodes;
   for (const ConstraintTerm& term : constraint.terms) {

@@ -1,0 +1,137 @@
+"""Contacts of different levels: the edge of a slab meets a column between its nodes, columns meet girders and faces.
+
+A slab of shells, 1 m square, moves along x alone; a column 5 cm beyond its edge is fixed at both ends.
+References: rest and beam theory; the impulse that stops two lumped masses at a place between nodes.
+"""
+import math
+import unittest
+
+import numpy
+
+import program
+from recorded import Recorded
+
+YOUNG, DENSITY, THICKNESS, HEIGHT, INERTIA, AREA = 30e9, 2500.0, 0.2, 4.0, 2.1e-4, 0.05
+COLUMN = ["-c_stem_element", "beam", "-c_stem_material", "concrete", "-c_stem_section", "square", "-section_square_area",
+          AREA, "-section_square_inertia_y", INERTIA, "-section_square_inertia_z", INERTIA, "-section_square_torsion",
+          2 * INERTIA, "-section_square_z_axis", "1,0,0", "-material_concrete_young", YOUNG,
+          "-material_concrete_poisson", 0.2, "-material_concrete_density", DENSITY]
+
+
+def scene(cells, level, elements, *more, y0=-0.5, gap=0.0):
+    """A slab of cells x cells at a level of a column of so many elements."""
+    return ["-structures", "s,c", "-s_mesh", "tests/meshes/floor.geo", "-s_mesh_set",
+            f"z={level},n={cells},x0=-1.05,y0={y0}", "-s_plate_element", "shell", "-s_plate_material", "concrete",
+            "-s_plate_thickness", THICKNESS, "-s_clamp", "plate:y+z+rx+ry+rz", "-c_mesh",
+            "tests/meshes/cantilever.geo", "-c_mesh_set", f"height={HEIGHT},n={elements}", "-c_clamp", "base,top",
+            *COLUMN, "-contacts", "joint", "-joint_secondary", "s:edge", "-joint_primary", "c:stem", "-joint_gap", gap,
+            "-probes", "mid,edge", "-mid_structure", "c", "-mid_at", f"0,0,{HEIGHT * (elements // 2) / elements!r}", "-edge_structure", "s",
+            "-edge_at", f"-0.05,{y0},{level}", *more]
+
+
+class AtRest(unittest.TestCase):
+    PUSH = 50.0  # m/s2 along x
+
+    def deflection(self, cells, elements, ranks, **place):
+        """Of the column's middle over that of beam theory."""
+        run = Recorded(self, scene(cells, HEIGHT / 2, elements, "-s_gravity", f"{self.PUSH},0,0", "-preload", "static",
+                                   "-time_step", 1e-6, "-end_time", 2e-6, "-output_interval", 1e-6,
+                                   **place), ranks, identity=1e-9)
+        weight = DENSITY * THICKNESS * self.PUSH
+        force = run.force("joint")[run.time > 0]
+        self.assertLess(abs(force / weight - 1).max(), 1e-6)
+        return run.displacement("mid.x")[0] / (weight * HEIGHT**3 / (192 * YOUNG * INERTIA)), run
+
+    def test_column_is_bent_as_by_a_force(self):
+        for cells, ranks in ((3, 1), (4, 2), (3, 2), (3, 3)):  # mid-edge, and a node of both
+            share, run = self.deflection(cells, 4, ranks)
+            self.assertAlmostEqual(share, 1, delta=1e-6)
+            self.assertEqual(run.summary["impacts"]["joint"]["episodes"], 1)
+
+    def test_between_nodes_of_the_column(self):
+        """Half of the force at each of the two nodes around: what beam theory says of two forces."""
+        _, run = self.deflection(3, 5, 2)
+        a, b = 0.4 * HEIGHT, 0.6 * HEIGHT
+        under = a**3 * b**3 / 3 + a**4 * (3 * b * HEIGHT - a * (3 * b + a)) / 6
+        expected = DENSITY * THICKNESS * self.PUSH / 2 * under / (YOUNG * INERTIA * HEIGHT**3)
+        self.assertAlmostEqual(run.displacement("mid.x")[0] / expected, 1, delta=1e-6)
+
+
+class Impacts(unittest.TestCase):
+    SPEED = 1.0
+
+    def impact(self, cells, elements, ranks, *more, **place):
+        return Recorded(self, scene(cells, HEIGHT / 2, elements, "-s_initial_velocity", f"{self.SPEED},0,0",
+                                    "-time_step", 1e-5, "-output_interval", 1e-5, *more, **place), ranks,
+                        identity=1e-11)
+
+    def test_first_step_stops_the_places_that_meet(self):
+        """Nodes of the edge carry h^2 t rho / 2, those of the column the mass of an element."""
+        for cells, elements, edge, column in ((3, 4, (0.5, 0.5), (1,)), (4, 4, (1,), (1,)), (3, 5, (0.5, 0.5), (0.5, 0.5)),
+                                              (4, 5, (1,), (0.5, 0.5))):
+            run = self.impact(cells, elements, 2, "-time_step", 1e-9, "-end_time", 1e-9, "-output_interval", 1e-9)
+            node = DENSITY * THICKNESS / cells**2 / 2
+            bit = DENSITY * AREA * HEIGHT / elements
+            compliance = sum(w**2 for w in edge) / node + sum(w**2 for w in column) / bit
+            self.assertAlmostEqual(run.column("impulse")[0] * compliance / self.SPEED, 1, delta=1e-7)
+            self.assertEqual(run.column("points")[0], 1)
+
+    def test_off_the_middle_and_on_any_number_of_ranks(self):
+        runs = [self.impact(3, 7, ranks, "-end_time", 0.02, "-joint_friction", 0.3, y0=-0.37, gap=1e-3)
+                for ranks in (1, 2, 3)]
+        for run in runs[1:]:
+            for channel in ("mid.x", "mid.y", "mid.z", "edge.x"):
+                scale = abs(runs[0].displacement("mid.x")).max()
+                self.assertLess(abs(run.displacement(channel) - runs[0].displacement(channel)).max(), 1e-9 * scale)
+        self.assertGreater(runs[0].column("impulse").sum(), 100)
+        self.assertLess(max(runs[0].column("max_penetration")), 1.1 * self.SPEED * 1e-5)
+
+    def bricks(self, secondary, primary):
+        return ["-structures", "b,c", "-b_mesh", "tests/meshes/box.geo", "-b_mesh_set",
+                 "x0=0.1,y0=-0.5,z0=0.9,lz=2.2,nz=2", "-b_body_element", "hex8", "-b_body_material", "concrete",
+                 "-b_initial_velocity", "-1,0,0", "-c_mesh", "tests/meshes/cantilever.geo", "-c_mesh_set",
+                 f"height={HEIGHT},n=8", "-c_clamp", "base,top", *COLUMN, "-contacts", "joint", "-joint_secondary",
+                 secondary, "-joint_primary", primary, "-joint_gap", 0.001, "-time_step", 1e-5, "-output_interval",
+                 1e-5, "-end_time", 0.02, "-probes", "mid", "-mid_structure", "c", "-mid_at", f"0,0,{HEIGHT / 2}"]
+
+    def test_column_before_a_face_of_bricks(self):
+        """Its nodes are kept out of the face, those that face it: between 1 and 3 m there are five of nine."""
+        result = program.run(self.bricks("b:x_min", "c:stem"), 2)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("swap the two", result.stderr)
+        for ranks in (1, 2):
+            run = Recorded(self, self.bricks("c:stem", "b:x_min"), ranks, identity=1e-10)
+            self.assertEqual(run.column("points").max(), 5)
+            self.assertGreater(run.column("impulse").sum(), 100)
+
+    def test_girder_before_a_column(self):
+        words = ["-structures", "g,c", "-g_mesh", "tests/meshes/cantilever.geo", "-g_mesh_set",
+                 "height=0,run=3,x0=-0.2,y0=-1.2,z0=1.7,n=4", "-g_clamp", "base,top", "-g_initial_velocity", "2,0,0",
+                 "-c_mesh", "tests/meshes/cantilever.geo", "-c_mesh_set", f"height={HEIGHT},n=7", "-c_clamp",
+                 "base,top", *COLUMN, *[word.replace("-c_", "-g_") if isinstance(word, str) else word
+                                        for word in COLUMN[:6]], "-section_square_z_axis", "1,0,0", "-contacts", "joint",
+                 "-joint_secondary", "g:stem", "-joint_primary", "c:stem", "-joint_gap", 0.002, "-time_step", 1e-5,
+                 "-output_interval", 1e-5, "-end_time", 0.02, "-probes", "mid", "-mid_structure", "c", "-mid_at",
+                 f"0,0,{HEIGHT * 3 / 7!r}"]
+        run = Recorded(self, words, 2, identity=1e-11)
+        self.assertEqual(run.column("points").max(), 1)
+        self.assertGreater(run.displacement("mid.x").max(), 1e-4)
+
+
+class Refused(unittest.TestCase):
+    def test_what_cannot_be_meant(self):
+        good = scene(3, HEIGHT / 2, 4, "-time_step", 1e-5, "-end_time", 1e-5)
+        cases = ((["-joint_gap", "geometry"], "give the gap as a number"),
+                 (["-joint_primary", "wall", "-joint_secondary", "c:stem"], "look in no direction"),
+                 (["-s_mesh_set", "z=2,n=3,x0=-1.05,y0=0.5"], "face"),
+                 (["-s_mesh_set", "z=5,n=3,x0=-1.05,y0=-0.5"], "face"))
+        for words, text in cases:
+            for ranks in (1, 2):
+                result = program.run([*good, *words], ranks)
+                self.assertEqual(result.returncode, 1, text)
+                self.assertEqual(len(program.error_lines(result)), 1, result.stderr)
+                self.assertIn(text, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
