@@ -6,6 +6,7 @@
 
 #include "common/error.h"
 #include "common/memory.h"
+#include "common/parallel.h"
 #include "common/rigid_motion.h"
 #include "statics/link_terms.h"
 
@@ -87,8 +88,60 @@ AssembledStatics::AssembledStatics(const LinearSystem& system, const Mesh& mesh,
   if (solver == StaticSolver::iterative || !factorise(solver)) prepare_iteration(mesh);
 }
 
+/// Copies the matrix to rank 0. Collective.
+void AssembledStatics::gather() {
+  const bool here = rank_of(system_.comm) == 0;
+  PetscInt rows = 0;
+  POUNDING_PETSC(MatGetSize(matrix_.get(), &rows, nullptr));
+  PetscHandle<IS, ISDestroy> all;
+  POUNDING_PETSC(ISCreateStride(PETSC_COMM_SELF, here ? rows : 0, 0, 1, all.out()));
+  IS set = all.get();
+  Mat* copies = nullptr;
+  POUNDING_PETSC(
+      MatCreateSubMatrices(matrix_.get(), here ? 1 : 0, &set, &set, MAT_INITIAL_MATRIX, &copies));
+  if (here) {
+    POUNDING_PETSC(PetscObjectReference(reinterpret_cast<PetscObject>(copies[0])));
+    *gathered_.out() = copies[0];
+    POUNDING_PETSC(MatSetOptionsPrefixFactor(gathered_.get(), prefix));
+    POUNDING_PETSC(MatSetOption(gathered_.get(), MAT_SYMMETRIC, PETSC_TRUE));
+    POUNDING_PETSC(MatSetOption(gathered_.get(), MAT_SPD, PETSC_TRUE));
+  }
+  POUNDING_PETSC(MatDestroySubMatrices(here ? 1 : 0, &copies));
+  VecHandle example;
+  POUNDING_PETSC(MatCreateVecs(matrix_.get(), example.out(), nullptr));
+  POUNDING_PETSC(VecScatterCreateToZero(example.get(), to_zero_.out(), at_zero_.out()));
+  POUNDING_PETSC(VecDuplicate(at_zero_.get(), solved_.out()));
+}
+
 bool AssembledStatics::factorise(StaticSolver solver) {
-  Mat matrix = matrix_.get();
+  gather();
+  enum class Outcome { done, too_large, failed };
+  auto outcome = Outcome::done;
+  on_every_rank(system_.comm, [&] {
+    if (gathered_.get() == nullptr) return;
+    if (!plan_factor(solver)) {
+      outcome = Outcome::too_large;
+    } else if (!fill_factor()) {
+      outcome = Outcome::failed;
+    }
+  });
+  MPI_Bcast(&outcome, 1, MPI_INT, 0, system_.comm);
+  MPI_Bcast(&factor_memory_, 1, MPI_DOUBLE, 0, system_.comm);
+  if (outcome == Outcome::failed) {
+    throw UserError("structure " + system_.name +
+                    ": MUMPS cannot factorise its stiffness for the static equilibrium; give "
+                    "-preload_solver iterative");
+  }
+  if (outcome == Outcome::too_large) {
+    factor_ = MatHandle();
+    gathered_ = MatHandle();
+  }
+  factorised_ = outcome == Outcome::done;
+  return factorised_;
+}
+
+bool AssembledStatics::plan_factor(StaticSolver solver) {
+  Mat matrix = gathered_.get();
   POUNDING_PETSC(MatGetFactor(matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, factor_.out()));
   constexpr PetscInt workspace = 14;  // per cent beyond the estimate
   POUNDING_PETSC(MatMumpsSetIcntl(factor_.get(), workspace, 50));
@@ -99,21 +152,16 @@ bool AssembledStatics::factorise(StaticSolver solver) {
   PetscInt megabytes = 0;
   POUNDING_PETSC(MatMumpsGetInfog(factor_.get(), megabytes_of_all, &megabytes));
   factor_memory_ = 1e6 * static_cast<double>(megabytes);
-  double available = available_memory();
-  MPI_Allreduce(MPI_IN_PLACE, &available, 1, MPI_DOUBLE, MPI_MIN, system_.comm);
-  if (solver == StaticSolver::automatic && factor_memory_ > usable_share * available) {
-    factor_ = MatHandle();
-    return false;
-  }
-  POUNDING_PETSC(MatCholeskyFactorNumeric(factor_.get(), matrix, &info));
+  return solver != StaticSolver::automatic || factor_memory_ <= usable_share * available_memory();
+}
+
+bool AssembledStatics::fill_factor() {
+  MatFactorInfo info;
+  POUNDING_PETSC(MatFactorInfoInitialize(&info));
+  POUNDING_PETSC(MatCholeskyFactorNumeric(factor_.get(), gathered_.get(), &info));
   MatFactorError error = MAT_FACTOR_NOERROR;
   POUNDING_PETSC(MatFactorGetError(factor_.get(), &error));
-  if (error != MAT_FACTOR_NOERROR) {
-    throw UserError("structure " + system_.name +
-                    ": MUMPS cannot factorise its stiffness for the static equilibrium; give "
-                    "-preload_solver iterative");
-  }
-  return true;
+  return error == MAT_FACTOR_NOERROR;
 }
 
 void AssembledStatics::prepare_iteration(const Mesh& mesh) {
@@ -185,8 +233,16 @@ void AssembledStatics::solve_restricted(std::vector<double>& x) const {
   VecHandle solution;
   POUNDING_PETSC(VecDuplicate(right.get(), solution.out()));
   ++solutions_;
-  if (factor_.get() != nullptr) {
-    POUNDING_PETSC(MatSolve(factor_.get(), right.get(), solution.get()));
+  if (factorised_) {
+    const auto carry = [&](Vec from, Vec to, ScatterMode mode) {
+      POUNDING_PETSC(VecScatterBegin(to_zero_.get(), from, to, INSERT_VALUES, mode));
+      POUNDING_PETSC(VecScatterEnd(to_zero_.get(), from, to, INSERT_VALUES, mode));
+    };
+    carry(right.get(), at_zero_.get(), SCATTER_FORWARD);
+    if (factor_.get() != nullptr) {
+      POUNDING_PETSC(MatSolve(factor_.get(), at_zero_.get(), solved_.get()));
+    }
+    carry(solved_.get(), solution.get(), SCATTER_REVERSE);
   } else {
     POUNDING_PETSC(KSPSolve(iteration_.get(), right.get(), solution.get()));
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
@@ -206,7 +262,7 @@ void AssembledStatics::solve_restricted(std::vector<double>& x) const {
 
 std::string AssembledStatics::method() const {
   char text[120];
-  if (factor_.get() != nullptr) {
+  if (factorised_) {
     std::snprintf(text, sizeof text, "factorised, %.3g MB", factor_memory_ / 1e6);
   } else {
     std::snprintf(text, sizeof text,

@@ -26,8 +26,13 @@ class AssembledStatics final : public StaticStiffness {
   std::string method() const override;
 
  private:
-  /// False, and nothing kept, where the factor would not fit and may be left to the iteration.
+  /// False, and nothing kept, where the factor would not fit and may be left to the iteration. By
+  /// rank 0 alone: a factor that ranks share has other last bits in every run.
   bool factorise(StaticSolver solver);
+  void gather();
+  /// Rank 0 alone: whether the factor fits, and whether it could be made.
+  bool plan_factor(StaticSolver solver);
+  bool fill_factor();
   void prepare_iteration(const Mesh& mesh);
   /// x := (s K + shift M)^-1 x in the coordinates of rigid bodies, if there are any.
   void solve_restricted(std::vector<double>& x) const;
@@ -37,10 +42,15 @@ class AssembledStatics final : public StaticStiffness {
   std::optional<AdmissibleMotions> admissible_;  ///< of rigid bodies and ties
   std::vector<LinkTerms> linear_links_;          ///< what yields, not at rest
   MatHandle matrix_;                             ///< s K + shift M
-  MatHandle factor_;                             ///< of it; null with the iteration
-  KspHandle iteration_;                          ///< null with the factor
-  double factor_memory_ = 0;                     ///< estimate, all ranks together [B]
-  mutable std::int64_t iterations_ = 0;          ///< of all solutions
+  MatHandle gathered_;                           ///< all of it on rank 0, null elsewhere
+  MatHandle factor_;                             ///< of that; null with the iteration
+  bool factorised_ = false;                      ///< there is one, on rank 0
+  PetscHandle<VecScatter, VecScatterDestroy> to_zero_;
+  VecHandle at_zero_;  ///< whole vectors, of no length elsewhere
+  VecHandle solved_;
+  KspHandle iteration_;                  ///< null with the factor
+  double factor_memory_ = 0;             ///< estimate, all ranks together [B]
+  mutable std::int64_t iterations_ = 0;  ///< of all solutions
   mutable std::int64_t solutions_ = 0;
 };
 
