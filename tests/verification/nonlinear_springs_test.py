@@ -3,16 +3,12 @@
 A mass on one of them, in closed form: the scheme is of second order, so all of it holds to 1e-6 at a small step.
 """
 import math
-import os
-import shutil
-import tempfile
 import unittest
 
-import h5py
 import numpy
 
 import program
-from recorded import Recorded
+from recorded import Recorded, assert_continues
 
 MASS, STIFFNESS = 50.0, 2e5
 OMEGA = math.sqrt(STIFFNESS / MASS)
@@ -95,17 +91,7 @@ class Bilinear(unittest.TestCase):
     def test_a_continued_run_is_the_uninterrupted_one(self):
         words = mass(2e-5, 0.05, "-chain_initial_velocity", "1,0.4,0", "-modes", 1, "-spectra_frequencies", 10,
                      *spring(f"{STIFFNESS},{STIFFNESS},0", yield_force="2000,2000,0", yield_circle="x+y"))
-        folder, _ = program.must_run(self, words, 2)
-        with tempfile.TemporaryDirectory() as cut:
-            for more in (["-end_time", 0.03, "-checkpoint_steps", 1000],
-                         ["-restart", os.path.join(cut, "checkpoint.h5")]):
-                result = program.run([*words, *more, "-output", cut], 2)
-                self.assertEqual(result.returncode, 0, result.stderr[-2000:])
-            with h5py.File(os.path.join(folder, "history.h5")) as whole, \
-                    h5py.File(os.path.join(cut, "history.h5")) as continued:
-                for name in ("displacement", "velocity"):
-                    self.assertTrue(numpy.array_equal(whole[name][()], continued[name][()]), name)
-        shutil.rmtree(folder)
+        assert_continues(self, words, 0.03, 1000)
 
     def test_brace_that_yields(self):
         """A bar between the ground and the mass: E A / L = k."""

@@ -10,12 +10,11 @@ import os
 import tempfile
 import unittest
 
-import h5py
 import numpy
 import scipy.io
 
 import program
-from recorded import Recorded
+from recorded import Recorded, assert_continues
 
 GRAVITY = 9.81
 YOUNG, INERTIA, AREA, HEIGHT = 3e10, 1e-4, 0.09, 5.0
@@ -224,16 +223,8 @@ class SameRun(unittest.TestCase):
 
     def test_a_continued_run_is_the_uninterrupted_one(self):
         for ranks in (1, 2):
-            folder, _ = program.must_run(self, self.words("-end_time", 0.1), ranks)
-            with tempfile.TemporaryDirectory() as cut:
-                for more in (["-end_time", 0.05, "-checkpoint_steps", 2000],
-                             ["-end_time", 0.1, "-restart", os.path.join(cut, "checkpoint.h5")]):
-                    result = program.run(self.words(*more) + ["-output", cut], ranks)
-                    self.assertEqual(result.returncode, 0, result.stderr[-2000:])
-                with h5py.File(os.path.join(folder, "history.h5")) as whole, \
-                        h5py.File(os.path.join(cut, "history.h5")) as continued:
-                    for name in ("displacement", "velocity"):
-                        self.assertTrue(numpy.array_equal(whole[name][()], continued[name][()]), name)
+            assert_continues(self, self.words("-end_time", 0.1), 0.05, 2000, ranks)
+
 
 
 class Refused(unittest.TestCase):

@@ -138,3 +138,27 @@ def assert_follows(test, found, reference, tolerance, label):
     scale = abs(reference).max()
     test.assertGreater(scale, 0, label)
     test.assertLessEqual(abs(found[:len(reference)] - reference).max() / scale, tolerance, label)
+
+
+def assert_continues(test, arguments, stop, checkpoint, ranks=2):
+    """A run that stops at a time, with its last checkpoint at a step, and is continued from there leaves what the
+    uninterrupted one leaves: every field of the history to the last bit, impacts and the end of the ledger."""
+    folder, _ = program.must_run(test, arguments, ranks)
+    test.addCleanup(shutil.rmtree, folder)
+    with tempfile.TemporaryDirectory() as cut:
+        for more in (["-end_time", stop, "-checkpoint_steps", checkpoint],
+                     ["-restart", os.path.join(cut, "checkpoint.h5")]):
+            result = program.run([*arguments, *more, "-output", cut], ranks)
+            test.assertEqual(result.returncode, 0, result.stderr[-2000:])
+        with h5py.File(os.path.join(folder, "history.h5")) as whole, \
+                h5py.File(os.path.join(cut, "history.h5")) as continued:
+            for name in ("displacement", "velocity", "acceleration", "contact_force"):
+                if name in whole:
+                    test.assertTrue(numpy.array_equal(whole[name][()], continued[name][()]), name)
+        lines = {}
+        for name in ("impacts.csv", "energy.csv"):
+            for place in (folder, cut):
+                with open(os.path.join(place, name)) as file:
+                    lines[place, name] = [line for line in file if not line.startswith("#")]
+        test.assertEqual(lines[folder, "impacts.csv"], lines[cut, "impacts.csv"])
+        test.assertEqual(lines[folder, "energy.csv"][-3:], lines[cut, "energy.csv"][-3:])

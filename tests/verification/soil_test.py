@@ -8,14 +8,12 @@ and of Wolf's cones, written here once more.
 """
 import math
 import os
-import tempfile
 import unittest
 
-import h5py
 import numpy
 
 import program
-from recorded import Recorded, write_samples
+from recorded import Recorded, assert_continues, write_samples
 
 VELOCITY, DENSITY, RADIUS = 200.0, 2000.0, 10.0
 MASS, INERTIA = 2e6, 1e8
@@ -164,16 +162,8 @@ class Impedance(unittest.TestCase):
 
     def test_a_continued_run_is_the_uninterrupted_one(self):
         words = on_arm(0.45, 8, 3, "-motion_x_record", self.record, "-motion_x_unit", "m/s2", "-end_time", 1)
-        folder, _ = program.must_run(self, words, 2)
-        with tempfile.TemporaryDirectory() as cut:
-            for more in (["-end_time", 0.5, "-checkpoint_steps", 300],
-                         ["-restart", os.path.join(cut, "checkpoint.h5")]):
-                result = program.run(words + more + ["-output", cut], 2)
-                self.assertEqual(result.returncode, 0, result.stderr[-2000:])
-            with h5py.File(os.path.join(folder, "history.h5")) as whole, \
-                    h5py.File(os.path.join(cut, "history.h5")) as continued:
-                for name in ("displacement", "velocity", "acceleration"):
-                    self.assertTrue(numpy.array_equal(whole[name][()], continued[name][()]), name)
+        assert_continues(self, words, 0.5, 300)
+
 
 
 class Limits(unittest.TestCase):

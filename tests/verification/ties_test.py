@@ -4,17 +4,13 @@ What follows is u_s = B u of the face, B written here by hand for a grid of squa
 the face where there is a distance or the node turns, the bulge of edges that turn. T has B in the rows of what follows.
 """
 import os
-import shutil
-import tempfile
 import unittest
 
-import h5py
 import numpy
 import scipy.sparse
 import scipy.sparse.csgraph
 
-import program
-from recorded import Recorded, all_nodes, write_sine
+from recorded import Recorded, all_nodes, assert_continues, write_sine
 from rigid_groups_test import Dense
 
 GRAVITY = 9.81
@@ -409,18 +405,7 @@ class Struck(unittest.TestCase):
         self.assertLess(abs(u - v).max() / abs(u).max(), 1e-9)
 
     def test_continued(self):
-        words = [*self.SCENE, *mesh(m1=2, m2=3), "-modes", 1]
-        folder, _ = program.must_run(self, words, 2)
-        with tempfile.TemporaryDirectory() as cut:
-            for more in (["-end_time", 0.005, "-checkpoint_steps", 100],
-                         ["-restart", os.path.join(cut, "checkpoint.h5")]):
-                result = program.run([*words, *more, "-output", cut], 2)
-                self.assertEqual(result.returncode, 0, result.stderr[-2000:])
-            with h5py.File(os.path.join(folder, "history.h5")) as whole, \
-                    h5py.File(os.path.join(cut, "history.h5")) as continued:
-                for name in ("displacement", "velocity", "acceleration", "contact_force"):
-                    self.assertTrue(numpy.array_equal(whole[name][()], continued[name][()]), name)
-        shutil.rmtree(folder)
+        assert_continues(self, [*self.SCENE, *mesh(m1=2, m2=3), "-modes", 1], 0.005, 100)
 
     def test_it_flies_and_turns_freely(self):
         """Six motions without stiffness, across a gap as well."""
