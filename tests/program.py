@@ -84,3 +84,12 @@ def read_csv(path):
 COARSE_PAIR = ["-options_file", "petsc-options/azalee/gap2.yaml",
                "-s1_mesh_set", "cells_x=7,cells_y=5,column_elements=2",
                "-s2_mesh_set", "cells_x=5,cells_y=5,column_elements=2"]
+
+
+def write_samples(values, step):
+    """A record [m/s2] in a file of its own, which is returned."""
+    handle, path = tempfile.mkstemp(suffix=".txt")
+    with os.fdopen(handle, "w") as file:
+        for i, value in enumerate(values):
+            file.write(f"{i * step:.9f} {value:.17g}\n")
+    return path

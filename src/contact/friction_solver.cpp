@@ -230,9 +230,9 @@ double FrictionSolver::sweep(const FrictionProblem& problem, double relaxation,
 }
 
 void FrictionSolver::linearise(const FrictionProblem& problem, std::span<const double> impulse,
-                               std::size_t i) {
+                               std::size_t number) {
   const std::size_t n = impulse.size();
-  const Point point(problem, i);
+  const Point point(problem, number);
   const double* const lambda = &impulse[point.first];
   const double* const v = &rate_[point.first];
   const auto row = [&](std::size_t d) { return jacobian_.data() + (point.first + d) * n; };
@@ -250,7 +250,7 @@ void FrictionSolver::linearise(const FrictionProblem& problem, std::span<const d
   const double t = point.tangential() > 0 ? point.tangential() : 1;
   for (std::size_t d = 0; d < 3; ++d) std::fill(row(d), row(d) + n, 0.0);
   const bool closed = point.normal() > 0 && lambda[0] - v[0] / h > 0;
-  const double radius = problem.coefficient[i] * std::max(0.0, lambda[0]);
+  const double radius = problem.coefficient[number] * std::max(0.0, lambda[0]);
   if (!closed || !(point.tangential() > 0) || !(radius > 0)) {
     closed ? wants_rate(0, h) : wants_no_impulse(0, h);
     wants_no_impulse(1, t);
@@ -278,7 +278,7 @@ void FrictionSolver::linearise(const FrictionProblem& problem, std::span<const d
       out[point.first + 1 + b] -= t * part;
     }
     out[point.first + 1 + a] += t;
-    out[point.first] -= t * problem.coefficient[i] * e[a];
+    out[point.first] -= t * problem.coefficient[number] * e[a];
     step_[point.first + 1 + a] = -t * (lambda[1 + a] - radius * e[a]);
   }
 }

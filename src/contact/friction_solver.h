@@ -65,7 +65,7 @@ class FrictionSolver {
   /// The impulses of one Newton step into trial_; false if there is none.
   bool try_newton(const FrictionProblem& problem, std::span<const double> impulse);
   void linearise(const FrictionProblem& problem, std::span<const double> impulse,
-                 std::size_t point);
+                 std::size_t number);
   double iterate(const FrictionProblem& problem, std::span<double> impulse, double residual,
                  FrictionResult& result);
 

@@ -45,9 +45,9 @@ class FrictionalContact {
   /// Impulses and contact works of the active rows of a component: adds L^T lambda to
   /// `dof_impulse`, writes `impulse` and `work` of its active rows. `before`, `free`: velocities
   /// v-, v_free over the interface's dofs.
-  Solution solve(std::size_t component, std::span<const char> active,
-                 std::span<const double> before, std::span<const double> free,
-                 std::span<double> impulse, std::span<double> work, std::span<double> dof_impulse);
+  Solution solve(std::size_t number, std::span<const char> active, std::span<const double> before,
+                 std::span<const double> free, std::span<double> impulse, std::span<double> work,
+                 std::span<double> dof_impulse);
 
   /// Results of the last solve, per row.
   const std::vector<double>& tangential_impulses() const { return size_; }  ///< magnitude [N s]

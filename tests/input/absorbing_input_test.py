@@ -4,7 +4,7 @@ import tempfile
 import unittest
 
 import program
-from recorded import write_samples
+from program import write_samples
 
 SITE = ["-structures", "site", "-site_mesh", "tests/meshes/column.geo", "-site_rock_element", "hex8",
         "-site_rock_material", "ground", "-site_soil_element", "hex8", "-site_soil_material", "ground",

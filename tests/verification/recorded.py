@@ -9,6 +9,8 @@ import h5py
 import numpy
 
 import program
+from program import write_samples
+
 
 def reference(name):
     """Columns of a CSV file of tests/references: numbers where every value is one, else text."""
@@ -21,15 +23,6 @@ def reference(name):
         except ValueError:
             columns[key] = numpy.array([row[key] for row in rows])
     return columns
-
-
-def write_samples(values, step):
-    """A record [m/s2] in a file of its own, which is returned."""
-    handle, path = tempfile.mkstemp(suffix=".txt")
-    with os.fdopen(handle, "w") as file:
-        for i, value in enumerate(values):
-            file.write(f"{i * step:.9f} {value:.17g}\n")
-    return path
 
 
 def write_sine(amplitude, frequency, end, step=1e-4):
