@@ -1,6 +1,7 @@
 #include "contact/contact_sides.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -9,6 +10,9 @@
 
 namespace pounding {
 namespace {
+
+/// Share of its distance by which a structure lies on one side of a face.
+constexpr double off_the_plane = 1e-6;
 
 std::size_t structure_index(const Scene& scene, const std::string& name) {
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
@@ -109,6 +113,13 @@ class SideFinder {
                       "floor alone");
     }
     decide(side, contact_.secondary, side.face.mean_normal);
+    // Shells have two sides: a mat stands on the wall, what it carries is on the other one.
+    std::vector<GlobalIndex> all(side.mesh->node_count());
+    std::iota(all.begin(), all.end(), 0);
+    const Vector3 rest = minus(centroid(*side.mesh, all), side.face.centroid);
+    if (std::abs(dot(rest, side.face.mean_normal)) > off_the_plane * std::sqrt(dot(rest, rest))) {
+      turn_towards(side.face, minus(side.face.centroid, rest));
+    }
   }
 
   /// Facets that several elements hold: they look where the rest of their own face looks, else

@@ -77,6 +77,32 @@ class ShakenBlock(unittest.TestCase):
         self.assertLess(self.wear(0.99, 2), 1e-14)
 
 
+class MatOfShells(unittest.TestCase):
+    """A slab with four columns on it, or below it, beside a wall: that lies where the columns are not."""
+
+    def table(self, up, push, ranks):
+        return Recorded(self, [
+            "-structures", "t", "-t_mesh", "tests/meshes/table.geo", "-t_mesh_set", f"slab=1,unit={-up}",
+            "-t_column_element", "beam", "-t_column_material", "steel", "-t_column_section", "tube",
+            "-section_tube_area", 0.01, "-section_tube_inertia_y", 1e-4, "-section_tube_inertia_z", 1e-4,
+            "-section_tube_torsion", 2e-4, "-section_tube_z_axis", "1,0,0", "-t_slab_element", "shell",
+            "-t_slab_material", "steel", "-t_slab_thickness", 0.2, "-material_steel_young", 200e9,
+            "-material_steel_poisson", 0.3, "-material_steel_density", 7800, "-t_gravity",
+            f"{push * GRAVITY},0,{-up * GRAVITY}", "-contacts", "ground", "-ground_secondary", "t:slab",
+            "-ground_primary", "wall", "-ground_gap", 0, "-ground_friction", 0.3, "-end_time", 0.2, "-output_interval",
+            1e-4, "-probes", "one", "-one_structure", "t", "-one_at", f"0,0,{-3 * up}"], ranks, LONG)
+
+    def test_stands_sticks_and_slides(self):
+        weight = GRAVITY * 7800 * (4 * 0.2 + 4 * 3 * 0.01)
+        for up, ranks in ((1, 1), (1, 2), (-1, 2)):
+            run = self.table(up, 0.2, ranks)
+            self.assertAlmostEqual(run.column("impulse").sum() / (weight * 0.2), 1, delta=0.02)
+            self.assertLess(abs(run.displacement("one.x")).max(), 1e-4)
+            slides = self.table(up, 0.5, ranks)
+            path = 0.2 * GRAVITY * 0.2**2 / 2
+            self.assertAlmostEqual(slides.displacement("one.x")[-1] / path, 1, delta=0.05)
+
+
 class Slope(unittest.TestCase):
     def test_acceleration_down_a_slope(self):
         angle = 0.4
