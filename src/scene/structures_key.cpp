@@ -50,16 +50,30 @@ bool belongs(const std::string& name, const std::vector<std::string>& structures
   return !of_structure.empty() && !is_representation(of_structure);
 }
 
-/// Whether it is an option of a structure that says what holds in silence: options that are new to
-/// the program leave the key of a scene that does not use them.
+/// Whether an option is a row of the table for one of these structures or contacts.
+bool is_of(const std::string& name, const OptionRow& row,
+           const std::vector<std::string>& structures, const std::vector<std::string>& contacts) {
+  const auto named = [&](const std::string& owner) {
+    return name == option_name(row.pattern, {owner});
+  };
+  if (row.block == OptionBlock::structure) return std::ranges::any_of(structures, named);
+  if (row.block == OptionBlock::contact) return std::ranges::any_of(contacts, named);
+  if (row.block != OptionBlock::region) return false;
+  constexpr std::string_view group = "<group>";
+  const std::string_view end = row.pattern.substr(row.pattern.find(group) + group.size());
+  return name.ends_with(end) && std::ranges::any_of(structures, [&](const std::string& structure) {
+           return name.starts_with(structure + "_");
+         });
+}
+
+/// Whether it says what holds in silence: options that are new to the program leave the key of a
+/// scene that does not use them.
 bool is_preset(const std::string& name, const std::string& value,
-               const std::vector<std::string>& structures) {
+               const std::vector<std::string>& structures,
+               const std::vector<std::string>& contacts) {
   return std::ranges::any_of(option_table(), [&](const OptionRow& row) {
-    return row.block == OptionBlock::structure && row.preset.has_value &&
-           row.preset.text == value &&
-           std::ranges::any_of(structures, [&](const std::string& structure) {
-             return name == option_name(row.pattern, {structure});
-           });
+    return row.preset.has_value && row.preset.text == value &&
+           is_of(name, row, structures, contacts);
   });
 }
 
@@ -101,7 +115,9 @@ std::string structures_key(const Options& in_force) {
   std::ranges::sort(sorted);
   Hash hash;
   for (const auto& [name, value] : sorted) {
-    if (!belongs(name, structures, contacts) || is_preset(name, value, structures)) continue;
+    if (!belongs(name, structures, contacts) || is_preset(name, value, structures, contacts)) {
+      continue;
+    }
     hash.add(name);
     if (is_mesh(name, structures)) {
       add_file(value, hash);

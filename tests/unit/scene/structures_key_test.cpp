@@ -1,5 +1,6 @@
 #include "scene/structures_key.h"
 
+#include <array>
 #include <cstdio>
 #include <fstream>
 #include <string>
@@ -46,8 +47,14 @@ TEST(StructuresKey, KnowsTheStructuresAndNothingElse) {
                                     {"floor1_passes", "2"}}) {
     EXPECT_NE(key_with(name, value), key) << name;
   }
-  EXPECT_EQ(key_with("tower_allow_loose", "false"), key);
-  EXPECT_NE(key_with("tower_allow_loose", "true"), key);
+  for (const auto& [name, silent, other] : {std::array{"tower_allow_loose", "false", "true"},
+                                            {"floor1_friction", "0", "0.3"},
+                                            {"floor1_passes", "1", "2"},
+                                            {"tower_brace_yield_force", "0", "1e5"},
+                                            {"tower_brace_tension_only", "false", "true"}}) {
+    EXPECT_EQ(key_with(name, silent), key) << name;
+    EXPECT_NE(key_with(name, other), key) << name;
+  }
   OptionsDatabase reduced = pair();
   reduced["tower_model"] = "modal";
   reduced["tower_modal_vectors"] = "40";
