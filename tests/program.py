@@ -71,6 +71,17 @@ def must_run(test, arguments, ranks=2, timeout=900):
     return folder, summary(folder)
 
 
+def must_refuse(test, arguments, *parts, ranks=2, timeout=900):
+    """A run that ends with exit status 1 and one line that holds all the parts; returns the line."""
+    result = run(arguments, ranks, timeout)
+    test.assertEqual(result.returncode, 1, result.stdout[-2000:] + result.stderr[-2000:])
+    lines = error_lines(result)
+    test.assertEqual(len(lines), 1, result.stderr)
+    for part in parts:
+        test.assertIn(part, lines[0])
+    return lines[0]
+
+
 def read_csv(path):
     """Columns of one of the program's CSV files, as lists of text."""
     with open(path) as file:

@@ -28,12 +28,7 @@ class Refused(unittest.TestCase):
 
     def refused(self, words, *parts, on=(2,)):
         for ranks in on:
-            result = program.run(SITE + self.along("x") + words + ["-dry_run"], ranks)
-            self.assertEqual(result.returncode, 1, result.stdout[-500:])
-            lines = program.error_lines(result)
-            self.assertEqual(len(lines), 1, lines)
-            for part in parts:
-                self.assertIn(part, lines[0])
+            program.must_refuse(self, SITE + self.along("x") + words + ["-dry_run"], *parts, ranks=ranks)
 
     def test_faces(self):
         self.refused(["-site_absorbing", "bottmo"], "-site_absorbing bottmo", "no surface", on=(1, 2))

@@ -14,12 +14,7 @@ MAT = ["-block_soil_mat", "mat"]
 class Refused(unittest.TestCase):
     def refused(self, words, *parts, on=(2,)):
         for ranks in on:
-            result = program.run(BODY + words + ["-dry_run"], ranks)
-            self.assertEqual(result.returncode, 1, result.stdout[-500:])
-            lines = program.error_lines(result)
-            self.assertEqual(len(lines), 1, lines)
-            for part in parts:
-                self.assertIn(part, lines[0])
+            program.must_refuse(self, BODY + words + ["-dry_run"], *parts, ranks=ranks)
 
     def test_what_is_missing(self):
         for name in ("vs", "density", "poisson"):

@@ -12,12 +12,7 @@ HELD = ["-t_clamp", "x_min"]
 class Refused(unittest.TestCase):
     def refused(self, words, *parts, parameters="m2=3", on=(2,)):
         for ranks in on:
-            result = program.run(BLOCKS + ["-t_mesh_set", parameters] + words + ["-dry_run"], ranks)
-            self.assertEqual(result.returncode, 1, result.stdout[-500:])
-            lines = program.error_lines(result)
-            self.assertEqual(len(lines), 1, lines)
-            for part in parts:
-                self.assertIn(part, lines[0])
+            program.must_refuse(self, BLOCKS + ["-t_mesh_set", parameters] + words + ["-dry_run"], *parts, ranks=ranks)
 
     def test_groups(self):
         self.refused(HELD + ["-t_tie", "edge"], "-t_tie", "does not name two groups", on=(1, 2))
