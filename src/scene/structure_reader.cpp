@@ -13,11 +13,11 @@
 #include "scene/damping_reader.h"
 #include "scene/modal_reader.h"
 #include "scene/nearest_name.h"
-#include "scene/nonlinear_reader.h"
 #include "scene/option_blocks.h"
 #include "scene/option_values.h"
 #include "scene/rigid_reader.h"
 #include "scene/soil_reader.h"
+#include "scene/spring_reader.h"
 
 namespace pounding {
 namespace {
@@ -114,27 +114,6 @@ Section read_section(OptionReader& options, const Names& region) {
     options.refuse("section_<section>_z_axis", names, "no direction");
   }
   return section;
-}
-
-void read_spring(OptionReader& options, const Names& names, Region& region) {
-  region.stiffness = read_six(options, "<structure>_<group>_stiffness", names);
-  region.dashpot = read_six(options, "<structure>_<group>_dashpot", names);
-  read_nonlinear_spring(options, names, region);
-  if (takes(traits_of(region.element), "compression_only")) {
-    region.compression_only = options.boolean("<structure>_<group>_compression_only", names);
-  }
-  if (region.compression_only && !(region.stiffness[2] > 0)) {
-    options.refuse("<structure>_<group>_compression_only", names,
-                   "its stiffness along z is 0; give one, or leave this out");
-  }
-  bool rotations = false;
-  for (std::size_t c = 3; c < 6; ++c) {
-    rotations = rotations || region.stiffness[c] > 0 || region.dashpot[c] > 0;
-  }
-  if (rotations) {
-    region.element = region.element == ElementType::spring ? ElementType::spring6
-                                                           : ElementType::grounded_spring6;
-  }
 }
 
 void read_point_mass(OptionReader& options, const Names& names, Region& region) {

@@ -1,4 +1,4 @@
-#include "scene/nonlinear_reader.h"
+#include "scene/spring_reader.h"
 
 #include <algorithm>
 
@@ -56,8 +56,7 @@ void check_circle(const OptionReader& options, const Names& names, const Region&
   }
 }
 
-}  // namespace
-
+/// Three numbers along x, y, z, or six, also about them.
 std::array<double, 6> read_six(OptionReader& options, std::string_view pattern,
                                const Names& names) {
   const std::vector<double> values = options.reals(pattern, names);
@@ -69,6 +68,7 @@ std::array<double, 6> read_six(OptionReader& options, std::string_view pattern,
   return result;
 }
 
+/// Where a spring yields and how its dashpots go, beside stiffness and dashpots read already.
 void read_nonlinear_spring(OptionReader& options, const Names& names, Region& region) {
   NonlinearSpring& spring = region.nonlinear;
   if (options.given(yield_force, names)) {
@@ -86,6 +86,29 @@ void read_nonlinear_spring(OptionReader& options, const Names& names, Region& re
                      std::string("its stiffness ") + (c < 3 ? "along " : "about ") + "xyz"[c % 3] +
                          " is 0; give the one before it yields");
     }
+  }
+}
+
+}  // namespace
+
+void read_spring(OptionReader& options, const Names& names, Region& region) {
+  region.stiffness = read_six(options, "<structure>_<group>_stiffness", names);
+  region.dashpot = read_six(options, "<structure>_<group>_dashpot", names);
+  read_nonlinear_spring(options, names, region);
+  if (takes(traits_of(region.element), "compression_only")) {
+    region.compression_only = options.boolean("<structure>_<group>_compression_only", names);
+  }
+  if (region.compression_only && !(region.stiffness[2] > 0)) {
+    options.refuse("<structure>_<group>_compression_only", names,
+                   "its stiffness along z is 0; give one, or leave this out");
+  }
+  bool rotations = false;
+  for (std::size_t c = 3; c < 6; ++c) {
+    rotations = rotations || region.stiffness[c] > 0 || region.dashpot[c] > 0;
+  }
+  if (rotations) {
+    region.element = region.element == ElementType::spring ? ElementType::spring6
+                                                           : ElementType::grounded_spring6;
   }
 }
 
