@@ -101,10 +101,6 @@ std::optional<FacetPoint> meet_edge(const GlobalMesh& mesh, const Facet& facet,
   return FacetPoint{{1 - s, s, 0, 0}, dot(start, direction) + s * dot(edge, direction)};
 }
 
-}  // namespace
-
-namespace {
-
 /// The part of a vector across a facet of two nodes, of unit length; zero where it lies along it.
 Vector3 across_axis(const GlobalMesh& mesh, const Facet& facet, const Vector3& v) {
   const Vector3 axis =
@@ -131,7 +127,7 @@ void add_axis(const GlobalMesh& mesh, const Facet& facet, const std::optional<Ve
   const Vector3 normal = across_axis(mesh, facet, *towards);
   if (dot(normal, normal) == 0) return;  // it points at the other side
   const Vector3 axis = minus(mesh.position(facet.nodes[1]), mesh.position(facet.nodes[0]));
-  const double length = std::sqrt(dot(axis, axis));
+  const double length = norm(axis);
   face.facets.push_back(facet);
   face.facet_areas.push_back({length * normal[0], length * normal[1], length * normal[2]});
   face.two_sided.push_back(0);

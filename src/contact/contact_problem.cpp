@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/magnitude.h"
 #include "contact/contact_components.h"
 #include "contact/delassus.h"
 #include "contact/interface_traces.h"
@@ -216,9 +217,7 @@ void ContactProblem::solve_coupled(const Component& component) {
   }
   const LcpResult result =
       lcp_->solve({matrix_.data(), n * n}, {rate_.data(), n}, {solution_.data(), n});
-  double largest = 0;
-  for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, std::abs(rate_[i]));
-  note_residual(result.residual, largest);
+  note_residual(result.residual, largest_magnitude({rate_.data(), n}));
   for (std::size_t i = 0; i < n; ++i) operator_.add_transposed(row(i), solution_[i], dof_impulse_);
   if (result.roundoff > correction_threshold) correct_component(component);
   for (std::size_t i = 0; i < n; ++i) impulse_[row(i)] = solution_[i];

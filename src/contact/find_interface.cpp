@@ -104,8 +104,7 @@ class PairFinder {
         if (!known.insert({held, holds}).second) continue;
         constraint.matched = held.size() == 1 && holds.size() == 1;
         constraint.geometric_gap = crossing->gap;
-        const Vector3& along = primary.face.facet_areas[g];
-        constraint.facet_size = std::sqrt(dot(along, along));
+        constraint.facet_size = norm(primary.face.facet_areas[g]);
         note_half_thickness(secondary, secondary.face.facet_half_thickness[f]);
         note_half_thickness(primary, primary.face.facet_half_thickness[g]);
         const Vector3 x = secondary.mesh->position(edge.nodes[0]);

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "common/dense_solver.h"
+#include "common/magnitude.h"
 
 namespace pounding {
 namespace {
@@ -109,16 +109,6 @@ double natural_map(const Point& point, double coefficient, const double* v, cons
     worst = std::max(worst, t * size(lambda[1] - on[0], lambda[2] - on[1]));
   }
   return worst;
-}
-
-double largest_magnitude(std::span<const double> values) {
-  double largest = 0;
-  for (const double value : values) largest = std::max(largest, std::abs(value));
-  return largest;
-}
-
-bool all_finite(std::span<const double> values) {
-  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "common/magnitude.h"
 #include "contact/delassus.h"
 #include "contact/tangential_rows.h"
 
@@ -134,9 +135,7 @@ FrictionalContact::Solution FrictionalContact::solve(
     slip_[row] = std::hypot(after[1], after[2]);
     loss_[row] = -twice / 2;
   }
-  double largest = 0;
-  for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, std::abs(rate_[i]));
-  return {result.residual, largest};
+  return {result.residual, largest_magnitude({rate_.data(), n})};
 }
 
 double FrictionalContact::total_loss() const {

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/magnitude.h"
+
 namespace pounding {
 namespace {
 
@@ -29,16 +31,6 @@ double dot(const double* a, const double* b, std::size_t n) {
   }
   for (; i < n; ++i) sum0 += a[i] * b[i];
   return (sum0 + sum1) + (sum2 + sum3);
-}
-
-double largest_magnitude(std::span<const double> values) {
-  double largest = 0;
-  for (double value : values) largest = std::max(largest, std::abs(value));
-  return largest;
-}
-
-bool all_finite(std::span<const double> values) {
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
 bool is_diagonal(std::span<const double> matrix, std::size_t n) {

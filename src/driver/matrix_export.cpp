@@ -221,8 +221,10 @@ class Export {
 void export_matrices(MPI_Comm comm, const Scene& scene, const Model& model) {
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
     if (model.systems[s].links && model.systems[s].links->hold_stiffness()) {
-      throw UserError("option -export_matrices: structure " + model.systems[s].name +
-                      " has tension-only bars or compression-only springs, which no matrix holds");
+      throw UserError(
+          "option -export_matrices: structure " + model.systems[s].name +
+          " has tension-only bars, compression-only springs or elements that yield, which no "
+          "matrix holds");
     }
     Export(comm, scene, model, s).write();
   }

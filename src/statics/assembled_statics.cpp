@@ -212,12 +212,9 @@ void AssembledStatics::apply(const std::vector<double>& u, std::vector<double>& 
   system_.stiffness->apply({u.data(), u.data(), 0}, store);
   for (double& value : q) value *= at_rest_;
   for (const LinkTerms& link : linear_links_) {
-    double elongation = 0;
+    const double force = link.stiffness * link.elongation(u);
     for (std::size_t k = 0; k < link.dofs.size(); ++k) {
-      elongation += link.coefficients[k] * u[link.dofs[k]];
-    }
-    for (std::size_t k = 0; k < link.dofs.size(); ++k) {
-      q[link.dofs[k]] += link.stiffness * elongation * link.coefficients[k];
+      q[link.dofs[k]] += force * link.coefficients[k];
     }
   }
 }

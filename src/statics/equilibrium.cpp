@@ -102,11 +102,7 @@ class Search {
       for (std::size_t s = 0; s < systems_.size(); ++s) {
         for (const LinkTerms& link : link_terms(systems_[s])) {
           if (!(link.yield_force > 0)) continue;
-          double elongation = 0;
-          for (std::size_t k = 0; k < link.dofs.size(); ++k) {
-            elongation += link.coefficients[k] * displacement_[s][link.dofs[k]];
-          }
-          const double force = std::abs(link.stiffness * elongation);
+          const double force = std::abs(link.stiffness * link.elongation(displacement_[s]));
           if (force <= link.yield_force) continue;
           std::ostringstream text;
           text << "option -preload static: " << link.place << " of structure " << systems_[s].name

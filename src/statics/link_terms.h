@@ -17,6 +17,13 @@ struct LinkTerms {
   std::string place;       ///< of one that yields, for messages
   std::vector<LocalIndex> dofs;
   std::vector<double> coefficients;  ///< b, not zero [-]
+
+  /// b . u of the owned dofs [m].
+  double elongation(const std::vector<double>& u) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < dofs.size(); ++k) sum += coefficients[k] * u[dofs[k]];
+    return sum;
+  }
 };
 
 /// Tension-only bars, compression-only springs and what yields of this rank: links that hold a
