@@ -102,6 +102,10 @@ void read_spring(OptionReader& options, const Names& names, Region& region) {
     options.refuse("<structure>_<group>_compression_only", names,
                    "its stiffness along z is 0; give one, or leave this out");
   }
+  if (region.compression_only && region.nonlinear.yields(2)) {
+    options.refuse("<structure>_<group>_compression_only", names,
+                   "a spring that yields along z cannot press only; leave one of the two out");
+  }
   bool rotations = false;
   for (std::size_t c = 3; c < 6; ++c) {
     rotations = rotations || region.stiffness[c] > 0 || region.dashpot[c] > 0;

@@ -215,6 +215,7 @@ class Refused(unittest.TestCase):
             (spring("1000,1000,0", sliding_friction=0.1, yield_circle="x+y"), "nothing presses on it"),
             (spring("1000,1000,1000", sliding_friction=0.1, yield_circle="x+y") + ["-chain_clamp", "first:z,second"],
              "clamped across the plane"),
+            (spring("0,0,1000", yield_force="0,0,10", compression_only="true"), "cannot press only"),
             (spring("1000,0,0", yield_force="10,0,0", hardening=1), "hardening"),
             (spring("1000,0,0", dashpot_exponent=3), "dashpot_exponent"),
         )
