@@ -31,6 +31,10 @@ struct ContactFace {
   bool is_line() const {
     return std::ranges::all_of(facets, [](const Facet& facet) { return facet.count == 2; });
   }
+  /// Some facet is.
+  bool has_lines() const {
+    return std::ranges::any_of(facets, [](const Facet& facet) { return facet.count == 2; });
+  }
   int beams = 0;         ///< facets that are axes of beams
   int inner_facets = 0;  ///< with elements on both of their sides
   /// Unit normals among which nothing chose, of facets that are left out: see build_contact_face.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "contact/contact_sides.h"
 #include "contact/crossing.h"
 #include "contact/facet_finder.h"
+#include "contact/filler_parts.h"
 #include "mesh/bounding_box.h"
 
 namespace pounding {
@@ -44,7 +46,12 @@ class PairFinder {
       if (contact_.passes == 2) pair(sides_.primary, sides_.secondary, interface);
     }
     if (interface.constraints.size() == first) refuse_without_pairs();
-    set_gaps({&interface.constraints[first], interface.constraints.size() - first});
+    const std::span<Constraint> found(&interface.constraints[first],
+                                      interface.constraints.size() - first);
+    set_gaps(found);
+    if (contact_.filler) {
+      lay_filler(contact_, sides_.secondary.face.has_lines(), found, report_);
+    }
     interface.reports.push_back(report_);
   }
 
@@ -105,6 +112,7 @@ class PairFinder {
         constraint.matched = held.size() == 1 && holds.size() == 1;
         constraint.geometric_gap = crossing->gap;
         constraint.facet_size = norm(primary.face.facet_areas[g]);
+        if (contact_.filler) constraint.filler.area = 1;  // all places alike
         note_half_thickness(secondary, secondary.face.facet_half_thickness[f]);
         note_half_thickness(primary, primary.face.facet_half_thickness[g]);
         const Vector3 x = secondary.mesh->position(edge.nodes[0]);
@@ -199,6 +207,11 @@ class PairFinder {
   /// Adds the node's own terms, and keeps the constraint.
   void finish(const FaceSide& nodes, std::size_t i, Constraint&& constraint, Interface& interface) {
     const GlobalIndex node = nodes.face.nodes[i];
+    if (contact_.filler) {
+      std::vector<double>& areas = areas_[&nodes];
+      if (areas.empty()) areas = node_areas(nodes.face);
+      constraint.filler.area = areas[i];
+    }
     add_terms(nodes.structure, node, -1, nodes.face.node_normals[i], constraint);
     keep(nodes.mesh->position(node), std::move(constraint), interface);
   }
@@ -266,6 +279,7 @@ class PairFinder {
   int number_;
   ContactSides sides_;
   InterfaceReport report_;
+  std::map<const FaceSide*, std::vector<double>> areas_;  ///< of the nodes of a side
 };
 
 }  // namespace

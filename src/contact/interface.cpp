@@ -1,8 +1,15 @@
 #include "contact/interface.h"
 
+#include <algorithm>
+
 #include "common/parallel.h"
 
 namespace pounding {
+
+bool has_fillers(const Interface& interface) {
+  return std::ranges::any_of(interface.constraints,
+                             [](const Constraint& c) { return c.filler.area > 0; });
+}
 
 std::vector<NodeLink> facing_nodes(const Interface& interface) {
   std::vector<NodeLink> links;
@@ -28,11 +35,12 @@ void broadcast_interface(MPI_Comm comm, Interface& interface) {
     double facet_size;
     std::array<double, 2> place;
     double friction;
+    FillerPart filler;
   };
   std::vector<Head> heads;
   for (const Constraint& c : interface.constraints) {
     heads.push_back({c.contact, static_cast<int>(c.terms.size()), c.matched ? 1 : 0, c.initial_gap,
-                     c.geometric_gap, c.facet_size, c.place, c.friction});
+                     c.geometric_gap, c.facet_size, c.place, c.friction, c.filler});
     terms.insert(terms.end(), c.terms.begin(), c.terms.end());
   }
   broadcast_array(comm, heads);
@@ -49,7 +57,8 @@ void broadcast_interface(MPI_Comm comm, Interface& interface) {
                                      head.facet_size,
                                      head.place,
                                      head.matched != 0,
-                                     head.friction});
+                                     head.friction,
+                                     head.filler});
     next += head.terms;
   }
 }

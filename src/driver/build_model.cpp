@@ -9,6 +9,7 @@
 #include "common/progress.h"
 #include "contact/absorbing_faces.h"
 #include "contact/find_interface.h"
+#include "driver/filler_limit.h"
 #include "driver/mesh_checks.h"
 #include "driver/probe_warnings.h"
 #include "driver/rest.h"
@@ -276,6 +277,7 @@ Model build_model(MPI_Comm comm, Scene& scene, Profile& profile) {
   turn_weight_with_columns(comm, scene, profile, model);
   put_at_rest(comm, scene, profile, model);
   add_warnings(comm, scene, model);
+  model.filler_time_step = filler_limit(comm, scene, model);
   choose_time_step(scene, model);
   append(run_warnings(scene, model), model.warnings);
   const ScopedTimer timer(profile, Phase::modes);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,14 +30,15 @@ struct Model {
   std::optional<Equilibrium> equilibrium;  ///< that the run starts from
   double partition_imbalance = 1;
   long partition_edge_cut = 0;
-  double time_step = 0;               ///< in force [s]
-  std::int64_t steps = 0;             ///< until the end time
+  double filler_time_step = std::numeric_limits<double>::infinity();  ///< see filler_limit [s]
+  double time_step = 0;                                               ///< in force [s]
+  std::int64_t steps = 0;                                             ///< until the end time
   std::vector<std::string> warnings;  ///< one line each, on rank 0: what may not be meant
   double smallest_stable_time_step() const {
-    return std::ranges::min_element(
-               buildings, {},
-               [](const Building& building) { return building.limits.stable_time_step; })
-        ->limits.stable_time_step;
+    const double smallest = std::ranges::min_element(buildings, {}, [](const Building& building) {
+                              return building.limits.stable_time_step;
+                            })->limits.stable_time_step;
+    return std::min(smallest, filler_time_step);
   }
 };
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "common/version.h"
+#include "driver/contact_report.h"
 #include "driver/motion_report.h"
 #include "driver/rest.h"
 #include "driver/soil_report.h"
@@ -295,67 +296,6 @@ void print_structure(const Building& building) {
   }
 }
 
-void print_contact(const InterfaceReport& report) {
-  std::printf(
-      "\ncontact %s: %d pairs (%d node to node), %d secondary nodes face nothing, initial gap "
-      "%.4g to %.4g mm, normal (%.3g, %.3g, %.3g)\n",
-      report.contact.c_str(), report.pairs, report.matched, report.unmatched_nodes,
-      1000 * report.smallest_gap, 1000 * report.largest_gap, report.normal[0], report.normal[1],
-      report.normal[2]);
-  const auto [secondary, primary] = report.half_thickness;
-  if (secondary > 0 || primary > 0) {
-    std::printf(
-        "  of the meshes %.4g to %.4g mm between surfaces, half a thickness off: %.4g and "
-        "%.4g mm\n",
-        1000 * report.geometric_gap[0], 1000 * report.geometric_gap[1], 1000 * secondary,
-        1000 * primary);
-  }
-}
-
-void print_impacts(const Scene& scene, const RunStatistics& statistics,
-                   const ImpactCatalogue& impacts) {
-  if (scene.contacts.empty()) return;
-  std::printf(
-      "\nimpacts: %d episodes, total impulse %.1f N s, largest %.1f N s, penetration at most "
-      "%.2e m\n",
-      statistics.all_impacts.episodes, statistics.all_impacts.total_impulse,
-      statistics.all_impacts.largest_impulse, statistics.all_impacts.max_penetration);
-  constexpr std::size_t shown = 20;
-  if (!impacts.impacts().empty()) {
-    std::printf("  contact         start s  duration ms  impulse N s   peak kN  points  lost J\n");
-  }
-  for (std::size_t i = 0; i < std::min(shown, impacts.impacts().size()); ++i) {
-    const Impact& impact = impacts.impacts()[i];
-    std::printf("  %-12s %10.5f %12.3f %12.2f %9.1f %7d %7.2f\n",
-                scene.contacts[impact.contact].name.c_str(), impact.start, 1000 * impact.duration(),
-                impact.impulse, impact.peak_force / 1000, impact.points, impact.energy_lost);
-  }
-  if (impacts.impacts().size() > shown) {
-    std::printf("  ... and %zu more in impacts.csv\n", impacts.impacts().size() - shown);
-  }
-}
-
-void print_slides(const Scene& scene, const RunStatistics& statistics) {
-  for (std::size_t c = 0; c < statistics.slides.size(); ++c) {
-    const Slide& slide = statistics.slides[c];
-    std::printf("  %-12s slid along itself by at most %.4g mm", scene.contacts[c].name.c_str(),
-                1000 * slide.distance);
-    if (slide.facet_size > 0) std::printf(", on a facet of %.4g mm", 1000 * slide.facet_size);
-    std::printf("\n");
-  }
-}
-
-void print_contact_ratios(const Scene& scene, const RunStatistics& statistics) {
-  for (std::size_t s = 0; s < statistics.contact_ratios.size(); ++s) {
-    const ContactRatio& ratio = statistics.contact_ratios[s];
-    std::printf(
-        "  %-12s contact ratio of its compression-only springs %.3f at the end, at least %.3f at "
-        "%.4g s, below %.0f %% for %.4g s\n",
-        scene.structures[s].name.c_str(), ratio.now, ratio.smallest, ratio.time,
-        100 * ContactRatio::low, ratio.low_duration);
-  }
-}
-
 void print_probes(const Recorder& recorder, const std::vector<ProbeSpectrum>& spectra,
                   double start) {
   if (recorder.channels().empty()) return;
@@ -429,6 +369,9 @@ void print_model(const Scene& scene, const Model& model) {
 }
 
 void print_time_step(const Scene& scene, const Model& model, double seconds_per_step) {
+  if (std::isfinite(model.filler_time_step)) {
+    std::printf("fillers allow a time step of %.4e s\n", model.filler_time_step);
+  }
   std::printf("time step %.6g s (%.3f of the stable one), %lld steps to %.6g s\n", model.time_step,
               model.time_step / model.smallest_stable_time_step(),
               static_cast<long long>(model.steps), scene.end_time);
@@ -456,6 +399,7 @@ void print_results(const Scene& scene, const RunStatistics& statistics,
                    const std::vector<ProbeSpectrum>& spectra) {
   std::printf("\n");
   print_impacts(scene, statistics, impacts);
+  print_fillers(scene, statistics);
   print_slides(scene, statistics);
   print_contact_ratios(scene, statistics);
   print_probes(recorder, spectra, scene.spectra.start);

@@ -8,6 +8,7 @@
 #include "contact/slide_watch.h"
 #include "driver/uplift_watch.h"
 #include "dynamics/energy_balance.h"
+#include "dynamics/filler_step.h"
 #include "output/impact_catalogue.h"
 #include "output/recorder.h"
 
@@ -28,6 +29,7 @@ struct RunStatistics {
   std::int64_t interface_looks = 0;   ///< steps that looked at the gaps
   std::vector<ImpactTotals> impacts;  ///< per contact
   ImpactTotals all_impacts;
+  std::vector<FillerTotals> fillers;         ///< per contact; empty without fillers
   std::vector<Slide> slides;                 ///< per contact
   std::vector<ContactRatio> contact_ratios;  ///< per structure; empty where nothing may lift off
   std::vector<std::string> warnings;         ///< one line each: what the run came upon

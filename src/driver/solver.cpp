@@ -16,7 +16,13 @@ std::unique_ptr<ContactProblem> make_contact(const Solver::Parts& parts) {
 }  // namespace
 
 Solver::Solver(Parts parts) : parts_(std::move(parts)), contact_(make_contact(parts_)) {
-  {
+  if (has_fillers(*parts_.interface)) {
+    // Energy that a filler holds is no structure's: gaps are looked at in every step.
+    bounds_.resize(parts_.systems.size());
+    for (GapWatch::Bound& bound : bounds_) {
+      bound.rate_norm = std::numeric_limits<double>::infinity();
+    }
+  } else {
     const ScopedTimer timer(*parts_.profile, Phase::assembly);
     bounds_ = gap_bounds(parts_.comm, parts_.systems, parts_.energy_margins, parts_.time_step,
                          contact_.get(), parts_.progress_interval);
@@ -31,8 +37,12 @@ void Solver::restart() {
 }
 
 void Solver::make_stepper() {
+  if (has_fillers(*parts_.interface)) {
+    fillers_ = std::make_unique<FillerStep>(parts_.comm, *parts_.interface, parts_.contacts,
+                                            parts_.systems, parts_.meshes, parts_.time_step);
+  }
   stepper_ = std::make_unique<CdLagrange>(
-      parts_.comm, parts_.systems, *parts_.motion, contact_.get(),
+      parts_.comm, parts_.systems, *parts_.motion, contact_.get(), fillers_.get(),
       GapWatch(parts_.systems, bounds_, parts_.motion->peaks(), parts_.time_step), parts_.time_step,
       *parts_.profile);
 }

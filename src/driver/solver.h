@@ -9,6 +9,7 @@
 #include "contact/contact_problem.h"
 #include "contact/interface.h"
 #include "dynamics/cd_lagrange.h"
+#include "dynamics/filler_step.h"
 #include "dynamics/gap_watch.h"
 #include "mesh/mesh.h"
 #include "motion/ground_motion.h"
@@ -32,6 +33,7 @@ class Solver {
     std::vector<double> energy_margins;  ///< per structure, at the time step [-]
     Profile* profile = nullptr;
     double progress_interval = std::numeric_limits<double>::infinity();  ///< [s], see Progress
+    std::span<const Contact> contacts;  ///< of the scene, needed where joints have fillers
   };
 
   /// Puts contact and scheme together, at t_0. Collective.
@@ -42,15 +44,18 @@ class Solver {
 
   ContactProblem* contact() { return contact_.get(); }  ///< null without contacts
   const ContactProblem* contact() const { return contact_.get(); }
+  const FillerStep* fillers() const { return fillers_.get(); }  ///< null without fillers
   CdLagrange& stepper() { return *stepper_; }
   const CdLagrange& stepper() const { return *stepper_; }
 
  private:
+  /// Fillers and stepper.
   void make_stepper();
 
   Parts parts_;
   std::vector<GapWatch::Bound> bounds_;
   std::unique_ptr<ContactProblem> contact_;
+  std::unique_ptr<FillerStep> fillers_;
   std::unique_ptr<CdLagrange> stepper_;
 };
 

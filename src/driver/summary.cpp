@@ -229,6 +229,15 @@ Json describe_probe(const Scene& scene, const Recorder& recorder, std::size_t p)
   return description;
 }
 
+Json describe_filler(const InterfaceReport& report, const FillerTotals& totals) {
+  return {{"area", report.filler_area},
+          {"thickness", report.filler_thickness},
+          {"peak_pressure", totals.peak_pressure},
+          {"peak_force", totals.peak_force},
+          {"crushed_strain", totals.crushed_strain},
+          {"energy_lost", totals.loss}};
+}
+
 Json describe_contact(const InterfaceReport& report, const Slide& slide) {
   return {{"pairs", report.pairs},
           {"matched", report.matched},
@@ -259,6 +268,7 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
   summary["motion"] = describe_motion(*model.motion);
   summary["time_step"] = model.time_step;
   summary["stable_time_step"] = model.smallest_stable_time_step();
+  if (std::isfinite(model.filler_time_step)) summary["filler_time_step"] = model.filler_time_step;
   summary["steps"] = model.steps;
   summary["end_time"] = scene.end_time;
   summary["output_interval"] = recorder.interval();
@@ -292,6 +302,10 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
     const InterfaceReport& report = model.interface.reports[c];
     summary["impacts"][scene.contacts[c].name] = describe_impacts(statistics.impacts[c]);
     summary["contacts"][scene.contacts[c].name] = describe_contact(report, statistics.slides[c]);
+    if (scene.contacts[c].filler) {
+      summary["contacts"][scene.contacts[c].name]["filler"] =
+          describe_filler(report, statistics.fillers[c]);
+    }
   }
   summary["probes"] = Json::object();
   for (std::size_t p = 0; p < recorder.probes().size(); ++p) {

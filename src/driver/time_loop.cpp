@@ -48,7 +48,8 @@ Solver::Parts solver_parts(MPI_Comm comm, const Scene& scene, const Model& model
                       model.time_step,
                       {},
                       &profile,
-                      scene.progress_interval};
+                      scene.progress_interval,
+                      scene.contacts};
   for (const Building& building : model.buildings) {
     parts.energy_margins.push_back(building.energy_margin);
   }
@@ -271,6 +272,10 @@ void TimeLoop::fill(RunStatistics& statistics) const {
     statistics.complementarity_residual = solver_.contact()->largest_residual();
     statistics.slides = slides_->slides();
     broadcast_array(comm_, statistics.slides, slides_->root());
+  }
+  if (solver_.fillers() != nullptr) {
+    statistics.fillers = solver_.fillers()->totals();
+    broadcast_array(comm_, statistics.fillers, solver_.fillers()->root());
   }
   if (uplift_) statistics.contact_ratios = uplift_->ratios();
   statistics.peak_memory = peak_memory();

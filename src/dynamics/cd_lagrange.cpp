@@ -9,11 +9,12 @@
 namespace pounding {
 
 CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
-                       const GroundMotion& motion, ContactProblem* contact, GapWatch watch,
-                       double time_step, Profile& profile)
+                       const GroundMotion& motion, ContactProblem* contact, FillerStep* fillers,
+                       GapWatch watch, double time_step, Profile& profile)
     : systems_(systems),
       motion_(motion),
       contact_(contact),
+      fillers_(fillers),
       watch_(std::move(watch)),
       time_step_(time_step),
       profile_(profile),
@@ -52,8 +53,10 @@ void CdLagrange::step(bool look_at_gap, bool with_energies) {
   motion_.evaluate(time, acceleration_);
   motion_.evaluate_incident(time, incident_);
 
-  detect_contact(look_at_gap);   // A = { i : g_i(u_n) <= g_tol }
+  detect_contact(look_at_gap);  // A = { i : g_i(u_n) <= g_tol }
+  if (fillers_ != nullptr) measure_fillers();
   free_velocity(with_energies);  // v_free = v- + dt (g - iota a_g - alpha v-) - dt M^-1 (K w + x)
+  if (fillers_ != nullptr) press_fillers();
   if (touching_) {
     solve_impulse();     // 0 <= lambda _|_ H lambda + L v_free >= 0   on A
     correct_velocity();  // v+ = v_free + M^-1 L^T lambda,   u_{n+1} = u_n + dt v+
@@ -102,6 +105,16 @@ void CdLagrange::free_velocity(bool with_energies) {
   }
 }
 
+void CdLagrange::measure_fillers() {
+  const ScopedTimer timer(profile_, Phase::contact);
+  fillers_->begin(state_.structures, structure_steps_);
+}
+
+void CdLagrange::press_fillers() {
+  const ScopedTimer timer(profile_, Phase::contact);
+  fillers_->press(state_.step == 0, state_.structures, structure_steps_);
+}
+
 void CdLagrange::solve_impulse() {
   const ScopedEvent event(events_.solve_impulse);
   const ScopedTimer timer(profile_, Phase::contact);
@@ -131,6 +144,7 @@ void CdLagrange::close_energy() {
     sums_[s].extra_damping_before = extra_damping;
     if (link_steps_[s]) link_steps_[s]->finish(sums_[s]);
   }
+  if (fillers_ != nullptr) fillers_->finish(sums_[0]);
   ContactWork work;
   if (touching_ && counts_work_) {
     work = {contact_->total_work(), contact_->friction().total_loss()};
@@ -144,6 +158,7 @@ void CdLagrange::save(SavedState& saved) const {
   for (std::size_t s = 0; s < link_steps_.size(); ++s) {
     if (link_steps_[s]) link_steps_[s]->save(static_cast<int>(s), saved);
   }
+  if (fillers_ != nullptr) fillers_->save(saved);
   if (counts_work_) {
     watch_.save(saved);
     contact_->save(saved);
@@ -156,6 +171,7 @@ void CdLagrange::load(const SavedState& saved) {
   for (std::size_t s = 0; s < link_steps_.size(); ++s) {
     if (link_steps_[s]) link_steps_[s]->load(static_cast<int>(s), saved);
   }
+  if (fillers_ != nullptr) fillers_->load(saved);
   if (contact_ != nullptr) {
     watch_.load(saved);
     contact_->load(saved);

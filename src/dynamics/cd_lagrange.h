@@ -8,6 +8,7 @@
 #include "common/profile.h"
 #include "contact/contact_problem.h"
 #include "dynamics/energy_balance.h"
+#include "dynamics/filler_step.h"
 #include "dynamics/gap_watch.h"
 #include "dynamics/link_step.h"
 #include "dynamics/state.h"
@@ -29,7 +30,8 @@ namespace pounding {
 ///     u_{n+1}   = u_n + dt v_{n+1/2}
 ///
 /// with uniform damping in place of Rayleigh's the force K u_n goes through filters (update.h), and
-/// x the force of the extra damping D and of links (LinkStep), if there are any.
+/// x the force of the extra damping D, of links (LinkStep) and of fillers of joints (FillerStep), if
+/// there are any.
 /// `step` has a line for each of these; they are events of -log_view under the same names. The
 /// stiffness hands its forces over range by range, and StructureStep updates velocity and
 /// displacement there while they are in the nearest cache; contact then corrects the few dofs of
@@ -40,9 +42,10 @@ namespace pounding {
 /// contact does not lower it. A step allocates nothing, opens nothing, prints nothing.
 class CdLagrange {
  public:
-  /// All references must outlive this object. `contact` may be null. Collective.
+  /// All references must outlive this object. `contact` and `fillers` may be null. Collective.
   CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems, const GroundMotion& motion,
-             ContactProblem* contact, GapWatch watch, double time_step, Profile& profile);
+             ContactProblem* contact, FillerStep* fillers, GapWatch watch, double time_step,
+             Profile& profile);
 
   /// The step to t_n, n = state().step; the start at t_0 on the first call. `look_at_gap` makes the
   /// interface gather whatever its distance; `with_energies`: the ledger's line before this step
@@ -80,6 +83,10 @@ class CdLagrange {
  private:
   /// A of u_n, where the interface is looked at; keeps what contact will change.
   void detect_contact(bool look_at_gap);
+  /// d_n of fillers, and what contact and they will change.
+  void measure_fillers();
+  /// Adds what fillers press to v_free.
+  void press_fillers();
   /// v_free and the u_{n+1} that it leads to; sums for the ledger.
   void free_velocity(bool with_energies);
   /// lambda on A.
@@ -104,6 +111,7 @@ class CdLagrange {
   std::span<const LinearSystem> systems_;
   const GroundMotion& motion_;
   ContactProblem* contact_;
+  FillerStep* fillers_;
   GapWatch watch_;
   double time_step_;
   Profile& profile_;

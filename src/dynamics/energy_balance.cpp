@@ -38,6 +38,7 @@ void EnergyBalance::add_step(std::span<const StepSums> sums,
     energies_[b] = energy(b, sums[b]);
     if (steps_ == 1) initial_ += energies_[b].energy();
     open_.damping += time_step_ * systems_[b].damping.beta / 4 * sums[b].stiffness_before;
+    open_.links += sums[b].link_loss_before;
   }
   if (steps_ == 1) {
     initial_lagged_damping_ = lagged_damping_;

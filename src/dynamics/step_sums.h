@@ -17,6 +17,7 @@ struct StepSums {
   double device = 0;                 ///< x^T s, x the force of the extra damping [W]
   double link_energy_before = 0;     ///< of links, between u_{n-1} and u_n [J]
   double link_loss = 0;              ///< what the step made them take and not keep [J]
+  double link_loss_before = 0;       ///< likewise of fillers, in the step before [J]
   double link_input = 0;             ///< work of a wave from below on them [J]
   double kinetic_before = 0;         ///< v-^T M v- [J], if energies are asked for
   double added_kinetic_before = 0;   ///< v-^T S v- [J] likewise

@@ -10,6 +10,7 @@
 
 #include "common/types.h"
 #include "elements/element_traits.h"
+#include "scene/filler.h"
 #include "scene/nonlinear_spring.h"
 #include "scene/soil.h"
 #include "scene/uniform_damping.h"
@@ -195,8 +196,9 @@ struct Contact {
   ContactSide secondary;
   ContactSide primary;
   InitialGap gap;
-  int passes = 1;       ///< 2: the nodes of the primary side are constrained as well
-  double friction = 0;  ///< Coulomb's coefficient [-]
+  int passes = 1;                ///< 2: the nodes of the primary side are constrained as well
+  double friction = 0;           ///< Coulomb's coefficient [-]
+  std::optional<Filler> filler;  ///< between the faces until they meet
 };
 
 /// A recorded accelerogram in a file.

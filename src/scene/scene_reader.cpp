@@ -8,6 +8,7 @@
 #include "scene/absorbing_reader.h"
 #include "scene/doubts.h"
 #include "scene/fidelity_target.h"
+#include "scene/filler_reader.h"
 #include "scene/motion_reader.h"
 #include "scene/nearest_name.h"
 #include "scene/option_blocks.h"
@@ -217,6 +218,12 @@ class SceneReader {
       if (count != 1 && count != 2 && count != 4) {
         options_.refuse("<contact>_gap", {name}, "wrong count of numbers");
       }
+    }
+    contact.filler = read_filler(options_, name);
+    if (contact.filler && !scene_.export_matrices.empty()) {
+      options_.refuse(
+          "export_matrices", {},
+          "contact " + name + " has a filler, which is no matrix; not with -" + name + "_filler");
     }
     return contact;
   }

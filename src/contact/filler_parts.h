@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "contact/contact_face.h"
+#include "contact/interface.h"
+#include "scene/scene.h"
+
+namespace pounding {
+
+/// Part of a face that is nearest to each of its nodes: an equal share of the area of every facet
+/// around it [m2], of a line of its length [m].
+std::vector<double> node_areas(const ContactFace& face);
+
+/// Lays the filler of a contact into the joint between its pairs, whose initial gap is the joint's
+/// width until then and that of hard contact afterwards, and whose filler has the area of the
+/// secondary node. `lines`: the secondary face holds lines, which have no area. Throws UserError
+/// where that is not told, where a joint is closed, and where it is thinner than its filler.
+void lay_filler(const Contact& contact, bool lines, std::span<Constraint> constraints,
+                InterfaceReport& report);
+
+}  // namespace pounding

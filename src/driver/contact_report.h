@@ -1,0 +1,19 @@
+#pragma once
+
+#include "contact/interface.h"
+#include "driver/run_statistics.h"
+#include "output/impact_catalogue.h"
+#include "scene/scene.h"
+
+namespace pounding {
+
+/// Parts of the report that tell of contacts, for rank 0: how each was found, its impacts, its
+/// filler, how far it slid, and how long springs that press only were pressed.
+void print_contact(const InterfaceReport& report);
+void print_impacts(const Scene& scene, const RunStatistics& statistics,
+                   const ImpactCatalogue& impacts);
+void print_fillers(const Scene& scene, const RunStatistics& statistics);
+void print_slides(const Scene& scene, const RunStatistics& statistics);
+void print_contact_ratios(const Scene& scene, const RunStatistics& statistics);
+
+}  // namespace pounding

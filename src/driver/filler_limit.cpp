@@ -1,0 +1,68 @@
+#include "driver/filler_limit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "contact/filler_rows.h"
+#include "stability/stable_time_step.h"
+#include "stability/structure_limits.h"
+
+namespace pounding {
+namespace {
+
+constexpr int halvings = 200;
+
+/// mu_s of a structure.
+double margin_of(const Building& building, double time_step) {
+  if (building.system->has_extra_damping()) {
+    return 1 - time_step / building.limits.stable_time_step;
+  }
+  return energy_margin_of(*building.structure, *building.system, *building.mesh,
+                          building.basis_or_null(), building.limits, time_step, {});
+}
+
+/// Whether the fillers leave the step stable.
+bool is_stable(const Model& model, const std::vector<double>& eta, double time_step) {
+  double sum = 0;
+  for (std::size_t s = 0; s < eta.size(); ++s) {
+    if (eta[s] == 0) continue;
+    const double margin = margin_of(model.buildings[s], time_step);
+    if (!(margin > 0)) return false;
+    sum += time_step * time_step / 4 * eta[s] / margin;
+  }
+  return sum <= 1;
+}
+
+}  // namespace
+
+double filler_limit(MPI_Comm comm, const Scene& scene, const Model& model) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (!has_fillers(model.interface)) return infinity;
+  const FillerRows rows(comm, model.interface, model.systems, model.meshes);
+  std::vector<double> stiffness;
+  for (const FillerRows::Row& row : rows.rows()) {
+    stiffness.push_back(
+        scene.contacts[row.contact].filler->stiffness(row.part.thickness, row.part.area));
+  }
+  std::vector<double> eta;
+  double together = 0;
+  double low = infinity;
+  for (std::size_t s = 0; s < model.buildings.size(); ++s) {
+    eta.push_back(rows.largest_eigenvalue(s, stiffness));
+    together += eta.back();
+    if (eta.back() > 0) low = std::min(low, model.buildings[s].limits.stable_time_step);
+  }
+  if (!(together > 0)) return infinity;
+  double high = std::min(low, 2 / std::sqrt(together));  // no margin is above 1
+  if (is_stable(model, eta, high)) return high;
+  low = 0;
+  for (int i = 0; i < halvings && high - low > 1e-12 * high; ++i) {
+    const double middle = (low + high) / 2;
+    (is_stable(model, eta, middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace pounding
