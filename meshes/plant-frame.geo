@@ -1,7 +1,8 @@
 // Steel frame of a plant: bays of 6.1 m, three along x and two along y, three floors on girders, braces in
 // the outer bays, on a mat that is wider than the frame. Shells in the middle of mat and slabs, beams
-// between their nodes. m: elements along half a bay. x0: where the frame's first column line stands.
-DefineConstant[ m = 6, x0 = 0, y0 = 6.096 ];
+// between their nodes. m: elements along half a bay. x0: where the frame's first column line stands. moat: 1
+// names the two edges of the mat across x as groups, moat_low and moat_high.
+DefineConstant[ m = 6, x0 = 0, y0 = 6.096, moat = 0 ];
 
 module = 3.048;
 nx = 6; ny = 4;          // half bays
@@ -62,6 +63,7 @@ EndFor
 
 // The rim of the mat, by extrusion of its edges.
 half = Ceil(m / 2);
+rims() = {};
 For side In {0:1}
   edges() = {};
   For i In {0:nx-1}
@@ -80,6 +82,7 @@ For side In {0:1}
   out() = Extrude {(2 * side - 1) * rim, 0, 0} { Line{edges()}; Layers{half}; Recombine; };
   For e In {0:ny-1}
     mat() += out(4 * e + 1);
+    rims() += out(4 * e);
   EndFor
 EndFor
 
@@ -115,6 +118,10 @@ Physical Line("braces_x") = diagonals_x();
 Physical Line("braces_y") = diagonals_y();
 Physical Line("edge_1") = edge_1();
 Physical Line("edge_2") = edge_2();
+If (moat)
+  Physical Line("moat_low") = rims({0:ny-1});
+  Physical Line("moat_high") = rims({ny:2*ny-1});
+EndIf
 soil() = {};
 For n In {0:level-1}
   soil() += p(n);

@@ -8,11 +8,13 @@
 namespace pounding {
 
 /// Parts of the report that tell of contacts, for rank 0: how each was found, its impacts, its
-/// filler, how far it slid, and how long springs that press only were pressed.
+/// filler, the links that were recorded, how far it slid, and how long springs that press only were
+/// pressed.
 void print_contact(const InterfaceReport& report);
 void print_impacts(const Scene& scene, const RunStatistics& statistics,
                    const ImpactCatalogue& impacts);
 void print_fillers(const Scene& scene, const RunStatistics& statistics);
+void print_loops(const RunStatistics& statistics);
 void print_slides(const Scene& scene, const RunStatistics& statistics);
 void print_contact_ratios(const Scene& scene, const RunStatistics& statistics);
 

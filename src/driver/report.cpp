@@ -401,6 +401,7 @@ void print_results(const Scene& scene, const RunStatistics& statistics,
   print_impacts(scene, statistics, impacts);
   print_fillers(scene, statistics);
   print_slides(scene, statistics);
+  print_loops(statistics);
   print_contact_ratios(scene, statistics);
   print_probes(recorder, spectra, scene.spectra.start);
   std::printf("\n");

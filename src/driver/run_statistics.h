@@ -6,6 +6,7 @@
 
 #include "common/profile.h"
 #include "contact/slide_watch.h"
+#include "driver/loops.h"
 #include "driver/uplift_watch.h"
 #include "dynamics/energy_balance.h"
 #include "dynamics/filler_step.h"
@@ -30,6 +31,7 @@ struct RunStatistics {
   std::vector<ImpactTotals> impacts;  ///< per contact
   ImpactTotals all_impacts;
   std::vector<FillerTotals> fillers;         ///< per contact; empty without fillers
+  std::vector<LoopReport> loops;             ///< per item of the option
   std::vector<Slide> slides;                 ///< per contact
   std::vector<ContactRatio> contact_ratios;  ///< per structure; empty where nothing may lift off
   std::vector<std::string> warnings;         ///< one line each: what the run came upon

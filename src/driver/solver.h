@@ -44,6 +44,7 @@ class Solver {
 
   ContactProblem* contact() { return contact_.get(); }  ///< null without contacts
   const ContactProblem* contact() const { return contact_.get(); }
+  FillerStep* fillers() { return fillers_.get(); }
   const FillerStep* fillers() const { return fillers_.get(); }  ///< null without fillers
   CdLagrange& stepper() { return *stepper_; }
   const CdLagrange& stepper() const { return *stepper_; }

@@ -229,6 +229,23 @@ Json describe_probe(const Scene& scene, const Recorder& recorder, std::size_t p)
   return description;
 }
 
+Json describe_loop(const LoopReport& loop) {
+  LinkTotals most;
+  Json yielded = Json::array();
+  for (std::size_t i = 0; i < loop.links.size(); ++i) {
+    const LinkTotals& link = loop.totals[i];
+    most.largest_elongation = std::max(most.largest_elongation, link.largest_elongation);
+    most.largest_force = std::max(most.largest_force, link.largest_force);
+    most.work += link.work;
+    if (link.yielded > 0) yielded.push_back(loop.links[i]);
+  }
+  return {{"links", loop.links.size()},
+          {"yielded", yielded},
+          {"largest_elongation", most.largest_elongation},
+          {"largest_force", most.largest_force},
+          {"energy_taken", most.work}};
+}
+
 Json describe_filler(const InterfaceReport& report, const FillerTotals& totals) {
   return {{"area", report.filler_area},
           {"thickness", report.filler_thickness},
@@ -307,6 +324,7 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
           describe_filler(report, statistics.fillers[c]);
     }
   }
+  for (const LoopReport& loop : statistics.loops) summary["loops"][loop.name] = describe_loop(loop);
   summary["probes"] = Json::object();
   for (std::size_t p = 0; p < recorder.probes().size(); ++p) {
     summary["probes"][recorder.probes()[p].name] = describe_probe(scene, recorder, p);

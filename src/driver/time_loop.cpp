@@ -98,6 +98,10 @@ void TimeLoop::create_recorder(bool continued) {
   layout.title = scene_.title;
   layout.probes = model_.probes;
   for (const Contact& contact : scene_.contacts) layout.contacts.push_back(contact.name);
+  if (loops_) {
+    layout.links = loops_->names();
+    layout.my_links = loops_->mine();
+  }
   layout.interface_root = solver_.contact() != nullptr ? solver_.contact()->root() : -1;
   const auto whole = [&](double count) {  // never more than the run has, nor than an int holds
     constexpr double most = std::numeric_limits<int>::max();
@@ -117,6 +121,7 @@ void TimeLoop::create_recorder(bool continued) {
 int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
   const StopSignal stop_signal;
   watched_ = is_watched();
+  if (!scene_.loops.empty()) loops_ = std::make_unique<Loops>(comm_, scene_, model_, solver_);
   create_recorder(restart != nullptr);
   if (restart != nullptr) load(*restart);
   CheckpointSchedule schedule(comm_, scene_.checkpoint_interval, scene_.checkpoint_steps,
@@ -178,7 +183,8 @@ void TimeLoop::observe(std::int64_t step) {
       gap = std::min(gap, solver_.contact()->gaps()[row]);
     }
   }
-  recorder_->record(solver_.stepper().state(), smallest_gaps_);
+  recorder_->record(solver_.stepper().state(), smallest_gaps_,
+                    loops_ ? loops_->values() : std::span<const double>());
 }
 
 void TimeLoop::watch_slides(std::int64_t step) {
@@ -277,6 +283,7 @@ void TimeLoop::fill(RunStatistics& statistics) const {
     statistics.fillers = solver_.fillers()->totals();
     broadcast_array(comm_, statistics.fillers, solver_.fillers()->root());
   }
+  if (loops_) statistics.loops = loops_->report();
   if (uplift_) statistics.contact_ratios = uplift_->ratios();
   statistics.peak_memory = peak_memory();
   MPI_Allreduce(MPI_IN_PLACE, &statistics.peak_memory, 1, MPI_DOUBLE, MPI_SUM, comm_);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "contact/slide_watch.h"
+#include "driver/loops.h"
 #include "driver/model.h"
 #include "driver/run_statistics.h"
 #include "driver/solver.h"
@@ -54,6 +55,7 @@ class TimeLoop {
   Solver solver_;
   std::unique_ptr<SlideWatch> slides_;  ///< null without contacts
   ImpactCatalogue catalogue_;
+  std::unique_ptr<Loops> loops_;  ///< null if no link is recorded
   std::unique_ptr<Recorder> recorder_;
   std::vector<double> smallest_gaps_;    ///< per contact
   std::int64_t gap_stride_ = 1;          ///< steps between two samples of the gaps

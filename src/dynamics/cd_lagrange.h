@@ -76,6 +76,9 @@ class CdLagrange {
   LinkStep::Bedding bedding(std::size_t structure) const {
     return link_steps_[structure] ? link_steps_[structure]->bedding() : LinkStep::Bedding{};
   }
+  /// The links of a structure on this rank; null if it has none.
+  LinkStep* link_step(std::size_t structure) { return link_steps_[structure].get(); }
+  const LinkStep* link_step(std::size_t structure) const { return link_steps_[structure].get(); }
   /// Ground acceleration of the current step [m/s2], and how long it acts [s].
   const std::array<double, 3>& ground_acceleration() const { return acceleration_; }
   double force_duration() const { return force_duration_; }

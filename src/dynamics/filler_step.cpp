@@ -63,6 +63,10 @@ void FillerStep::begin(std::span<const StructureState> structures, std::span<Str
     held_[r] = held;
     laws_[r].yield(now_[r], 0, memory);
   }
+  for (std::size_t k = 0; made_ && k < records_.links().size(); ++k) {
+    const std::size_t r = records_.links()[k];
+    records_.add_work(k, force_before_[r] * time_step_ * (rate_[r] + rate_before_[r]) / 2);
+  }
   made_ = true;
 }
 
@@ -138,7 +142,19 @@ void FillerStep::finish(StepSums& sums) {
     laws_[r].remember(0, now_[r], 0, 1, {&memory_[remembered * r], remembered});
     if (counts_) sums.link_energy_before += held_[r];
   }
+  for (std::size_t k = 0; k < records_.links().size(); ++k) {
+    const std::size_t r = records_.links()[k];
+    records_.note(k, now_[r], force_[r], memory_[remembered * r] > 0);
+  }
   if (counts_) sums.link_loss_before += loss_;
+}
+
+std::vector<std::string> FillerStep::record_names() const {
+  std::vector<std::string> names;
+  for (const std::size_t r : records_.links()) {
+    names.push_back("record of filler row " + std::to_string(r));
+  }
+  return names;
 }
 
 void FillerStep::save(SavedState& saved) const {
@@ -154,6 +170,7 @@ void FillerStep::save(SavedState& saved) const {
                   {totals.peak_pressure, totals.peak_force, totals.crushed_strain, totals.loss});
   }
   saved.put("filler_totals", values, saved_totals);
+  records_.save(record_names(), saved);
 }
 
 void FillerStep::load(const SavedState& saved) {
@@ -172,6 +189,7 @@ void FillerStep::load(const SavedState& saved) {
     const double* const v = &values[saved_totals * c];
     totals_[c] = {v[0], v[1], v[2], v[3]};
   }
+  if (rows_.member()) records_.load(record_names(), saved);
   made_ = true;
 }
 

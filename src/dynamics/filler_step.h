@@ -1,10 +1,13 @@
 #pragma once
 
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "common/saved_state.h"
 #include "contact/filler_rows.h"
+#include "dynamics/link_records.h"
 #include "dynamics/state.h"
 #include "dynamics/step_sums.h"
 #include "dynamics/structure_step.h"
@@ -45,9 +48,9 @@ class FillerStep {
   const std::vector<FillerTotals>& totals() const { return totals_; }
   int root() const { return rows_.root(); }
   const FillerRows& rows() const { return rows_; }
-  /// State of each row in the step just made; members only.
-  const std::vector<double>& compressions() const { return now_; }  ///< d_n [m]
-  const std::vector<double>& forces() const { return force_; }      ///< N_n [N]
+  /// Records some rows from now on, on members. Their work comes with the step after.
+  void record(std::vector<std::size_t> rows) { records_.watch(std::move(rows), true); }
+  const LinkRecords& records() const { return records_; }
 
   void save(SavedState& saved) const;
   void load(const SavedState& saved);
@@ -55,6 +58,7 @@ class FillerStep {
  private:
   void solve(double share);
   void note_peaks();
+  std::vector<std::string> record_names() const;
 
   FillerRows rows_;
   bool counts_;  ///< this rank adds to the ledger
@@ -76,6 +80,7 @@ class FillerStep {
   std::vector<std::vector<double>> velocity_;       ///< per structure, of the trace's dofs
   std::vector<FillerTotals> totals_;
   std::vector<double> contact_force_;  ///< per contact
+  LinkRecords records_;
 };
 
 }  // namespace pounding

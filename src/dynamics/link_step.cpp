@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "common/dense_solver.h"
 #include "common/disjoint_sets.h"
@@ -294,6 +295,7 @@ void LinkStep::begin(const Vector3& incident) {
   }
   step_.remember(trace_.dofs(), held_);
   if (!others_.empty()) measure(state_.displacement, now_);
+  if (!records_.empty()) measure(state_.displacement, recorded_);
   for (const Block& block : blocks_) {
     for (const std::size_t b : block.links) now_[b] = 0;
   }
@@ -437,6 +439,21 @@ void LinkStep::finish(StepSums& sums) {
     sums.link_loss +=
         (force_[b] + push_[b]) * mean - (laws_[b]->energy(now_[b], after_[b], memory_[b]) - held);
   }
+  note_records();
+}
+
+void LinkStep::record(std::vector<std::size_t> links) {
+  records_.watch(std::move(links));
+  if (!records_.empty()) recorded_.assign(links_.size(), 0.0);
+}
+
+void LinkStep::note_records() {
+  for (std::size_t k = 0; k < records_.links().size(); ++k) {
+    const std::size_t b = records_.links()[k];
+    const double force = force_[b] + laws_[b]->counted(now_[b]);
+    records_.note(k, recorded_[b], force, laws_[b]->has_yielded(memory_[b]));
+    records_.add_work(k, force * (after_[b] - before_[b]) / 2);
+  }
 }
 
 namespace {
@@ -447,12 +464,23 @@ std::string memory_name(int structure, const Link& link) {
   return link.origin.component == 0 ? name : name + " " + std::to_string(link.origin.component);
 }
 
+std::vector<std::string> record_names(int structure, const std::vector<Link>& links,
+                                      const LinkRecords& records) {
+  std::vector<std::string> names;
+  for (const std::size_t b : records.links()) {
+    names.push_back("record of part " + std::to_string(static_cast<int>(links[b].origin.part)) +
+                    " of " + memory_name(structure, links[b]));
+  }
+  return names;
+}
+
 }  // namespace
 
 void LinkStep::save(int structure, SavedState& saved) const {
   for (std::size_t b = 0; b < links_.size(); ++b) {
     if (!memory_[b].empty()) saved.put(memory_name(structure, links_[b]), memory_[b]);
   }
+  records_.save(record_names(structure, links_, records_), saved);
 }
 
 void LinkStep::load(int structure, const SavedState& saved) {
@@ -460,6 +488,7 @@ void LinkStep::load(int structure, const SavedState& saved) {
   for (std::size_t b = 0; b < links_.size(); ++b) {
     if (!memory_[b].empty()) saved.get(memory_name(structure, links_[b]), memory_[b]);
   }
+  records_.load(record_names(structure, links_, records_), saved);
 }
 
 }  // namespace pounding

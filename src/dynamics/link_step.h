@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/saved_state.h"
+#include "dynamics/link_records.h"
 #include "dynamics/state.h"
 #include "dynamics/step_sums.h"
 #include "dynamics/structure_step.h"
@@ -43,6 +44,10 @@ class LinkStep {
     double all = 0;
   };
   Bedding bedding() const;
+
+  /// Records some of this rank's links from now on, numbers into `links()` of the system.
+  void record(std::vector<std::size_t> links);
+  const LinkRecords& records() const { return records_; }
 
   /// Saves what the links remember, link by link. `structure`: its number.
   void save(int structure, SavedState& saved) const;
@@ -96,6 +101,7 @@ class LinkStep {
   /// e_{n+1} that forces of others than its block leave a link.
   double left_over(std::size_t link) const;
   double largest_force() const;
+  void note_records();
   void measure(const std::vector<double>& owned, std::vector<double>& elongations);
   /// e_n + duration b . v.
   void add_rates(double duration, std::vector<double>& elongations) const;
@@ -127,6 +133,8 @@ class LinkStep {
   std::vector<double> field_;       ///< per place of the trace
   std::vector<double> velocity_;    ///< per dof of the trace
   std::vector<double> rate_;        ///< b . v
+  LinkRecords records_;
+  std::vector<double> recorded_;  ///< e_n of all links; empty if none is recorded
 };
 
 }  // namespace pounding

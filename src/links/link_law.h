@@ -32,6 +32,11 @@ class LinkLaw {
   /// Whether it pulls at no elongation that it can reach in this step: it need not be looked at.
   virtual bool is_idle(double now, std::span<const double> memory = {}) const = 0;
 
+  /// Force at e_n [N] that K of its structure holds already: what it pulls in all is N_n and this.
+  virtual double counted(double /*now*/) const { return 0; }
+  /// Whether it has left its straight line for good.
+  virtual bool has_yielded(std::span<const double> /*memory*/) const { return false; }
+
   /// Rate r [N/m] of a law N_n = r (e_{n+1} - e_{n-1}) + offset, 0 of any other: such links are
   /// solved for together, and their elongations are counted from e_n, so that these have no
   /// round-off of a large one. `share`: of a step, for which the force acts; half of the first one.

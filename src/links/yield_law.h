@@ -38,6 +38,7 @@ class YieldLaw final : public LinkLaw {
     return elastic_ * (now - memory[0]);
   }
   double capacity() const override { return capacity_; }
+  bool has_yielded(std::span<const double> memory) const override { return memory[0] != 0; }
   void yield(double now, double kept, std::span<double> memory) const override;
   /// p of the end of the last step, and of the step that is being made.
   std::size_t memory_size() const override { return 2; }

@@ -14,6 +14,9 @@ constexpr std::size_t buffer_records = 4096;
 /// Displacement and velocity, three components each.
 constexpr std::size_t values_per_node = 6;
 
+/// Elongation and force.
+constexpr std::size_t values_per_link = 2;
+
 }  // namespace
 
 Recorder::Recorder(Layout layout, std::span<const LinearSystem> systems,
@@ -29,20 +32,24 @@ Recorder::Recorder(Layout layout, std::span<const LinearSystem> systems,
     nodes_ += structures_.back().values.size() / 3;
   }
   const bool root = rank_of(layout_.comm) == layout_.interface_root;
-  width_ = values_per_node * nodes_ + (root ? 2 * layout_.contacts.size() : 0);
+  width_ = values_per_node * nodes_ + (root ? 2 * layout_.contacts.size() : 0) +
+           values_per_link * layout_.my_links.size();
   buffer_.resize(buffer_records * width_);
   ground_.resize(3 * buffer_records);
   impulse_.assign(layout_.contacts.size(), 0.0);
   if (rank_of(layout_.comm) != 0) {
     send_array(layout_.comm, 0, mine);
     send_array(layout_.comm, 0, std::vector<int>{static_cast<int>(width_)});
+    send_array(layout_.comm, 0, layout_.my_links);
     return;
   }
   for (int rank = 0; rank < size_of(layout_.comm); ++rank) {
     std::vector<int> width{static_cast<int>(width_)};
+    rank_links_.push_back(layout_.my_links);
     if (rank > 0) {
       receive_array(layout_.comm, rank, mine);
       receive_array(layout_.comm, rank, width);
+      receive_array(layout_.comm, rank, rank_links_.back());
     }
     widths_.push_back(width[0]);
     for (std::size_t i = 0; i < mine.size(); i += 2) {
@@ -110,6 +117,10 @@ std::vector<Recorder::Quantity> Recorder::quantities() const {
     list.push_back({"gap", layout_.contacts.size(), "m"});
     list.push_back({"contact_force", layout_.contacts.size(), "N"});
   }
+  if (!layout_.links.empty()) {
+    list.push_back({"link_elongation", layout_.links.size(), "m, rad"});
+    list.push_back({"link_force", layout_.links.size(), "N, N m"});
+  }
   return list;
 }
 
@@ -118,6 +129,7 @@ void Recorder::create_file(const std::string& path) {
   file_->write_attribute("/", "title", layout_.title);
   file_->write_strings("channels", channels_);
   file_->write_strings("contacts", layout_.contacts);
+  if (!layout_.links.empty()) file_->write_strings("links", layout_.links);
   for (const Quantity& quantity : quantities()) {
     file_->create_dataset(quantity.name, quantity.columns, quantity.unit);
   }
@@ -160,7 +172,8 @@ void Recorder::take_displacements(const State& state) {
   put(state, &StructureState::displacement, 0);
 }
 
-void Recorder::record(const State& state, std::span<const double> gaps) {
+void Recorder::record(const State& state, std::span<const double> gaps,
+                      std::span<const double> links) {
   put(state, &StructureState::velocity, 3);
   double* out = buffer_.data() + buffered_ * width_ + values_per_node * nodes_;
   if (rank_of(layout_.comm) == layout_.interface_root) {
@@ -170,6 +183,7 @@ void Recorder::record(const State& state, std::span<const double> gaps) {
       impulse_[c] = 0;
     }
   }
+  std::copy(links.begin(), links.end(), out);
   std::copy(ground_sum_.begin(), ground_sum_.end(), &ground_[3 * buffered_]);
   ground_sum_ = {0, 0, 0};
   if (++buffered_ == buffer_records) flush();
@@ -206,6 +220,9 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
   std::vector<double> velocity;
   std::vector<double> gap;
   std::vector<double> force;
+  const std::size_t links = layout_.links.size();
+  std::vector<double> link_elongation(rows * links);
+  std::vector<double> link_force(rows * links);
   // Node values of one record by probe and position: means are taken in the probe's own order.
   std::vector<std::vector<const double*>> values;
   for (const std::size_t count : recorded_nodes_) values.emplace_back(count, nullptr);
@@ -216,13 +233,20 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
       const std::size_t width = widths_[rank];
       const double* from = gathered.data() + offsets[rank] + row * width;
       const bool root = static_cast<int>(rank) == layout_.interface_root;
-      const std::size_t nodes = (width - (root ? 2 * contacts : 0)) / values_per_node;
+      const std::vector<int>& own_links = rank_links_[rank];
+      const std::size_t beside = (root ? 2 * contacts : 0) + values_per_link * own_links.size();
+      const std::size_t nodes = (width - beside) / values_per_node;
       for (std::size_t k = 0; k < nodes; ++k, ++node, from += values_per_node) {
         values[order_[node][0]][order_[node][1]] = from;
       }
       for (std::size_t c = 0; root && c < contacts; ++c) {
         gap.push_back(from[2 * c]);
         force.push_back(from[2 * c + 1]);
+      }
+      from += beside - values_per_link * own_links.size();
+      for (const int link : own_links) {
+        link_elongation[row * links + static_cast<std::size_t>(link)] = *from++;
+        link_force[row * links + static_cast<std::size_t>(link)] = *from++;
       }
     }
     time.push_back(static_cast<double>(records_++ * layout_.stride) * layout_.time_step);
@@ -259,6 +283,10 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
   if (contacts > 0) {
     file_->append("gap", gap);
     file_->append("contact_force", force);
+  }
+  if (links > 0) {
+    file_->append("link_elongation", link_elongation);
+    file_->append("link_force", link_force);
   }
   count_rows();
 }

@@ -25,7 +25,7 @@ struct ChannelPeaks {
 /// Writes `history.h5`. A record is made every `stride` steps: displacement at t_n, velocity at
 /// t_n + dt/2, and as absolute acceleration the change of velocity since the last record over the
 /// interval (so that no impulse is lost between samples), ground included. Contacts: smallest gap
-/// at t_n and mean force over the interval.
+/// at t_n and mean force over the interval. Links: elongation and force at t_n.
 ///
 /// Values wait in a buffer on the rank that owns them and travel to rank 0 a few thousand records
 /// at a time, or when they are told to; a record itself neither allocates nor communicates. The
@@ -41,7 +41,9 @@ class Recorder {
     std::string title;
     std::vector<ResolvedProbe> probes;
     std::vector<std::string> contacts;
-    int interface_root = -1;  ///< rank that passes gaps and impulses, -1: none
+    std::vector<std::string> links;  ///< recorded ones, of all ranks
+    std::vector<int> my_links;       ///< those that this rank passes, numbers among them
+    int interface_root = -1;         ///< rank that passes gaps and impulses, -1: none
     int stride = 1;
     double time_step = 0;
     double peaks_start = 0;                 ///< records before do not count as peaks [s]
@@ -59,9 +61,10 @@ class Recorder {
   void add_impulse(int contact, double impulse) { impulse_[contact] += impulse; }
   /// Before the step to be recorded: takes the displacements.
   void take_displacements(const State& state);
-  /// After it: makes the record; `gaps` per contact are read on the interface root. Collective only
-  /// when the buffer is full.
-  void record(const State& state, std::span<const double> gaps);
+  /// After it: makes the record; `gaps` per contact are read on the interface root, `links`,
+  /// elongation and force of each of this rank, on every one. Collective only when the buffer is
+  /// full.
+  void record(const State& state, std::span<const double> gaps, std::span<const double> links);
   /// Brings all records made to the file and to the operating system. Throws UserError on every
   /// rank alike (no space). Collective.
   void flush();
@@ -133,6 +136,7 @@ class Recorder {
   std::unique_ptr<Hdf5File> file_;
   std::vector<std::string> channels_;
   std::vector<int> widths_;                        ///< per rank
+  std::vector<std::vector<int>> rank_links_;       ///< per rank, as my_links
   std::vector<std::array<std::size_t, 2>> order_;  ///< probe and position of the gathered nodes
   std::vector<std::size_t> recorded_nodes_;        ///< per probe
   std::vector<double> last_velocity_;

@@ -41,6 +41,8 @@ constexpr std::array table{
     OptionRow{Block::run, "structures", Kind::names, "names", required, any, "", "the buildings"},
     OptionRow{Block::run, "contacts", Kind::names, "names", value("none"), any, "", "the places where they may hit"},
     OptionRow{Block::run, "probes", Kind::names, "names", value("none"), any, "", "where the motion is recorded"},
+    OptionRow{Block::run, "loops", Kind::names, "names", value("none"), any, "", "links whose force is recorded over their elongation: structure:group of what yields or damps, or a contact with a filler"},
+    OptionRow{Block::run, "loops_at", Kind::text, "m", absent("left out: all of them"), any, "points x,y,z; x,y,z", "of each group in loops, the element nearest to each point only"},
     OptionRow{Block::run, "end_time", Kind::real, "s", required, positive, "", "duration of the run"},
     OptionRow{Block::run, "courant", Kind::real, "-", value("0.9"), fraction, "", "fraction of the stable time step that is used"},
     OptionRow{Block::run, "time_step", Kind::real, "s", value("0"), not_negative, "", "time step; 0: courant x the stable one"},

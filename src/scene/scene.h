@@ -247,6 +247,16 @@ struct Probe {
   bool average = true;          ///< one averaged channel set, or one per node
 };
 
+/// Links whose force is recorded over their elongation: those of a region, or the filler of a
+/// contact.
+struct Loop {
+  std::string name;             ///< structure:group, or that of the contact
+  std::string structure;        ///< of the region
+  std::string group;            ///< of the region
+  std::string contact;          ///< or the contact
+  std::vector<Vector3> points;  ///< the element nearest to each; empty: all of them [m]
+};
+
 struct SpectraRequest {
   std::vector<double> damping_ratios;  ///< [-]
   std::vector<double> frequencies;     ///< [Hz], increasing
@@ -266,6 +276,7 @@ struct Scene {
   StiffnessMethod stiffness = StiffnessMethod::automatic;
   PartitionBy partition_by = PartitionBy::automatic;
   std::vector<Probe> probes;
+  std::vector<Loop> loops;
   SpectraRequest spectra;
   double end_time = 0;             ///< [s]
   double courant = 0;              ///< fraction of the stable time step [-]

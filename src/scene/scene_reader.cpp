@@ -51,6 +51,7 @@ class SceneReader {
     }
     check_absorbing(options_, scene_);
     for (const std::string& name : listed_.probes) scene_.probes.push_back(read_probe(name));
+    read_loops();
     read_spectra();
     const std::vector<std::string> doubts = scene_doubts(scene_);
     scene_.warnings.insert(scene_.warnings.end(), doubts.begin(), doubts.end());
@@ -239,7 +240,7 @@ class SceneReader {
                       "_at and -" + name + "_group");
     }
     if (at) {
-      probe.points = read_points(name);
+      probe.points = read_points("<probe>_at", {name});
     } else {
       probe.group = options_.text("<probe>_group", {name});
     }
@@ -247,16 +248,35 @@ class SceneReader {
     return probe;
   }
 
-  std::vector<Vector3> read_points(const std::string& probe) {
+  std::vector<Vector3> read_points(std::string_view pattern, const Names& names) {
     std::vector<Vector3> points;
-    for (const std::string& item : split(options_.text("<probe>_at", {probe}), ';')) {
+    for (const std::string& item : split(options_.text(pattern, names), ';')) {
       const auto numbers = parse_reals(item);
       if (!numbers || numbers->size() != 3) {
-        options_.refuse("<probe>_at", {probe}, "'" + item + "' is not a point");
+        options_.refuse(pattern, names, "'" + item + "' is not a point");
       }
       points.push_back({(*numbers)[0], (*numbers)[1], (*numbers)[2]});
     }
     return points;
+  }
+
+  void read_loops() {
+    std::vector<Vector3> points;
+    if (options_.given("loops_at")) points = read_points("loops_at", {});
+    for (const std::string& item : options_.list("loops")) {
+      const std::vector<std::string> words = split(item, ':');
+      if (words.size() == 2 && !words[0].empty() && !words[1].empty()) {
+        require_structure("loops", {}, words[0]);
+        scene_.loops.push_back({item, words[0], words[1], "", points});
+        continue;
+      }
+      const auto contact = std::ranges::find(scene_.contacts, item, &Contact::name);
+      if (contact == scene_.contacts.end()) {
+        options_.refuse("loops", {}, "'" + item + "' is neither structure:group nor a contact");
+      }
+      if (!contact->filler) options_.refuse("loops", {}, "contact " + item + " has no filler");
+      scene_.loops.push_back({item, "", "", item, points});
+    }
   }
 
   void read_spectra() {

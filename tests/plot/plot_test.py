@@ -22,7 +22,7 @@ PROBES = {"s1_floor1": ("s1", 2.72), "s1_floor2": ("s1", 5.22), "s2_floor1": ("s
 CONTACTS = ("floor1", "floor2")
 FIGURES = {"spectra.png", "drifts.png", "accelerations_x.png", "accelerations_y.png",
            "accelerations_z.png", "ground_motion.png", "gap.png", "strongest_impact.png",
-           "impacts.png", "energy.png"}
+           "impacts.png", "energy.png", "loops.png"}
 IMPACTS = ((0, 1.0, 4e-3, 30.0), (1, 1.5, 9e-3, 900.0), (1, 2.25, 6e-3, 260.0))
 
 
@@ -69,6 +69,10 @@ def make_history(path: Path, samples: int) -> None:
         file["contacts"] = np.array(CONTACTS, dtype="S32")
         file["gap"] = gap
         file["contact_force"] = force
+        turn = 2 * np.pi * time
+        file["links"] = np.array(["s1:pads.7.x", "s1:pads.7.rz", "floor1.1"], dtype="S32")
+        file["link_elongation"] = 0.01 * np.stack([np.sin(turn), np.cos(turn), np.sin(3 * turn)], 1)
+        file["link_force"] = 1e4 * np.stack([np.cos(turn), np.sin(turn), np.clip(np.sin(3 * turn), 0, 1)], 1)
 
 
 def make_summary(path: Path) -> None:
@@ -159,7 +163,7 @@ class PlotTest(unittest.TestCase):
         self.assertIn("impact_catalogue skipped: no impacts.csv", done.stdout)
         made = {file.name for file in self.folder.glob("*.png")}
         self.assertEqual(made, {"gap.png", "ground_motion.png", "accelerations_x.png",
-                                "accelerations_y.png", "accelerations_z.png"})
+                                "accelerations_y.png", "accelerations_z.png", "loops.png"})
 
     def test_a_run_without_impacts_nor_contacts_is_drawn(self):
         make_folder(self.folder)

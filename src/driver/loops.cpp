@@ -1,0 +1,203 @@
+#include "driver/loops.h"
+
+#include <algorithm>
+#include <array>
+#include <compare>
+#include <limits>
+#include <set>
+#include <tuple>
+
+#include "common/component_names.h"
+#include "common/error.h"
+#include "common/matrix3.h"
+#include "common/parallel.h"
+#include "system/links.h"
+
+namespace pounding {
+namespace {
+
+/// A link that an item of the option may mean, as it travels between ranks.
+struct Candidate {
+  int item = 0;
+  int component = 0;
+  int part = 0;             ///< of SpringPart; -1: a pair with filler
+  int bar = 0;              ///< 1: a bar, which has one component
+  std::int64_t number = 0;  ///< of its element or pair
+  Vector3 place{};          ///< middle of the element [m]
+  int rank = 0;
+  int index = 0;  ///< among the links or rows there
+
+  bool is_dashpot() const { return part == static_cast<int>(SpringPart::dashpot); }
+  auto key() const { return std::tuple(item, number, component, is_dashpot()); }
+};
+
+Vector3 middle_of(const Mesh& mesh, const std::string& group, std::int64_t tag) {
+  for (const ElementBlock& block : mesh.blocks) {
+    const auto found = std::ranges::find(block.tags, tag);
+    if (block.group != group || found == block.tags.end()) continue;
+    const auto element = static_cast<std::size_t>(found - block.tags.begin());
+    const std::size_t nodes = block.connectivity.size() / block.count();
+    Vector3 middle{};
+    for (std::size_t a = 0; a < nodes; ++a) {
+      const Vector3 x = mesh.position(block.connectivity[nodes * element + a]);
+      for (std::size_t d = 0; d < 3; ++d) middle[d] += x[d] / static_cast<double>(nodes);
+    }
+    return middle;
+  }
+  return {};
+}
+
+/// Links of this rank that an item means, wherever they are.
+void add_links(const Model& model, const Loop& loop, int item, int rank,
+               std::vector<Candidate>& found) {
+  for (std::size_t s = 0; s < model.systems.size(); ++s) {
+    if (model.systems[s].name != loop.structure || !model.systems[s].links) continue;
+    const std::vector<Link>& links = model.systems[s].links->links();
+    for (std::size_t b = 0; b < links.size(); ++b) {
+      const LinkOrigin& origin = links[b].origin;
+      if (origin.region == nullptr || origin.region->group != loop.group ||
+          origin.part == SpringPart::gauge) {
+        continue;
+      }
+      found.push_back({item, origin.component, static_cast<int>(origin.part),
+                       origin.length > 0 ? 1 : 0, links[b].number,
+                       middle_of(model.meshes[s], loop.group, links[b].number), rank,
+                       static_cast<int>(b)});
+    }
+  }
+}
+
+void add_rows(const Scene& scene, const FillerStep& fillers, const Loop& loop, int item, int rank,
+              std::vector<Candidate>& found) {
+  std::int64_t number = 0;
+  const std::vector<FillerRows::Row>& rows = fillers.rows().rows();
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (scene.contacts[rows[r].contact].name != loop.contact) continue;
+    found.push_back({item, 0, -1, 0, ++number, {}, rank, static_cast<int>(r)});
+  }
+}
+
+/// Candidates of all ranks, on all of them, in an order that does not depend on them.
+std::vector<Candidate> of_all_ranks(MPI_Comm comm, const std::vector<Candidate>& mine) {
+  const int bytes = static_cast<int>(mine.size() * sizeof(Candidate));
+  std::vector<int> counts(size_of(comm));
+  MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+  std::vector<int> offsets;
+  int total = 0;
+  for (const int count : counts) {
+    offsets.push_back(total);
+    total += count;
+  }
+  std::vector<Candidate> all(static_cast<std::size_t>(total) / sizeof(Candidate));
+  MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(), offsets.data(), MPI_BYTE,
+                 comm);
+  std::ranges::sort(all, {}, &Candidate::key);
+  return all;
+}
+
+/// Leaves the elements nearest to the points, if there are any points.
+void keep_nearest(const Loop& loop, int item, std::vector<Candidate>& all) {
+  if (loop.points.empty() || loop.group.empty()) return;
+  std::set<std::int64_t> kept;
+  for (const Vector3& point : loop.points) {
+    double least = std::numeric_limits<double>::infinity();
+    std::int64_t nearest = -1;
+    for (const Candidate& link : all) {
+      const double away = norm(minus(link.place, point));
+      if (link.item != item || !(away < least * (1 - 1e-9))) continue;
+      least = away;
+      nearest = link.number;
+    }
+    kept.insert(nearest);
+  }
+  std::erase_if(
+      all, [&](const Candidate& link) { return link.item == item && !kept.contains(link.number); });
+}
+
+std::string name_of(const std::string& item, const Candidate& link) {
+  const std::string name = item + "." + std::to_string(link.number);
+  if (link.part < 0) return name;
+  if (link.bar != 0) return name + ".axial";
+  const std::string component(motion_names[static_cast<std::size_t>(link.component)]);
+  return name + "." + component + (link.is_dashpot() ? ".dashpot" : "");
+}
+
+}  // namespace
+
+Loops::Loops(MPI_Comm comm, const Scene& scene, const Model& model, Solver& solver) : comm_(comm) {
+  const int rank = rank_of(comm);
+  std::vector<Candidate> all;
+  for (std::size_t i = 0; i < scene.loops.size(); ++i) {
+    const Loop& loop = scene.loops[i];
+    const int item = static_cast<int>(i);
+    items_.push_back(loop.name);
+    if (loop.contact.empty()) {
+      add_links(model, loop, item, rank, all);
+    } else if (solver.fillers() != nullptr && solver.fillers()->root() == rank) {
+      add_rows(scene, *solver.fillers(), loop, item, rank, all);
+    }
+  }
+  all = of_all_ranks(comm, all);
+  for (std::size_t i = 0; i < scene.loops.size(); ++i) {
+    const int item = static_cast<int>(i);
+    if (std::ranges::find(all, item, &Candidate::item) == all.end()) {
+      throw UserError(
+          "option -loops: nothing in " + scene.loops[i].name +
+          " yields, slides, damps or acts in one direction only; name a group that does");
+    }
+    keep_nearest(scene.loops[i], item, all);
+  }
+  std::vector<std::vector<std::size_t>> chosen(model.systems.size() + 1);  // the last: fillers
+  for (const Candidate& link : all) {
+    const Loop& loop = scene.loops[static_cast<std::size_t>(link.item)];
+    if (link.rank == rank) {
+      std::size_t s = 0;
+      while (s < model.systems.size() && model.systems[s].name != loop.structure) ++s;
+      mine_.push_back(static_cast<int>(names_.size()));
+      own_.push_back({s < model.systems.size() ? &solver.stepper().link_step(s)->records()
+                                               : &solver.fillers()->records(),
+                      chosen[s].size()});
+      chosen[s].push_back(static_cast<std::size_t>(link.index));
+    }
+    item_of_.push_back(link.item);
+    names_.push_back(name_of(loop.name, link));
+  }
+  for (std::size_t s = 0; s < model.systems.size(); ++s) {
+    if (!chosen[s].empty()) solver.stepper().link_step(s)->record(chosen[s]);
+  }
+  if (!chosen.back().empty()) solver.fillers()->record(chosen.back());
+  values_.assign(2 * own_.size(), 0.0);
+}
+
+std::span<const double> Loops::values() {
+  for (std::size_t k = 0; k < own_.size(); ++k) {
+    values_[2 * k] = own_[k].records->elongation(own_[k].number);
+    values_[2 * k + 1] = own_[k].records->force(own_[k].number);
+  }
+  return values_;
+}
+
+std::vector<LoopReport> Loops::report() const {
+  constexpr std::size_t width = 4;
+  std::vector<double> all(width * names_.size(), 0.0);
+  for (std::size_t k = 0; k < own_.size(); ++k) {
+    const LinkTotals& t = own_[k].records->totals(own_[k].number);
+    double* const to = &all[width * static_cast<std::size_t>(mine_[k])];
+    to[0] = t.largest_elongation;
+    to[1] = t.largest_force;
+    to[2] = t.work;
+    to[3] = t.yielded;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, comm_);
+  std::vector<LoopReport> reports;
+  for (const std::string& item : items_) reports.push_back({item, {}, {}});
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    LoopReport& report = reports[static_cast<std::size_t>(item_of_[i])];
+    const double* const from = &all[width * i];
+    report.links.push_back(names_[i]);
+    report.totals.push_back({from[0], from[1], from[2], from[3]});
+  }
+  return reports;
+}
+
+}  // namespace pounding
