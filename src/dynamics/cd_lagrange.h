@@ -30,8 +30,7 @@ namespace pounding {
 ///     u_{n+1}   = u_n + dt v_{n+1/2}
 ///
 /// with uniform damping in place of Rayleigh's the force K u_n goes through filters (update.h), and
-/// x the force of the extra damping D, of links (LinkStep) and of fillers of joints (FillerStep), if
-/// there are any.
+/// x the force of the extra damping D, of links (LinkStep) and of fillers (FillerStep), if any.
 /// `step` has a line for each of these; they are events of -log_view under the same names. The
 /// stiffness hands its forces over range by range, and StructureStep updates velocity and
 /// displacement there while they are in the nearest cache; contact then corrects the few dofs of

@@ -17,8 +17,8 @@ namespace pounding {
 ///
 /// it holds the energy of a spring k which presses once d exceeds p_n, W_{n+1/2} = 1/2 k
 /// max(0, d_n - p_n) max(0, d_{n+1} - p_n), as TensionLaw does. It presses by N_n = k (d_n - p_n),
-/// which is F(d_n) while it crushes; where it lets go in the step N_n is less, that of TensionLaw,
-/// so that it gives no more than it holds; and where it was not pressed at d_{n-1} it does not throw
+/// which is F(d_n) while it crushes. Where it lets go in the step N_n is less, that of TensionLaw,
+/// so that it gives no more than it holds; where it was not pressed at d_{n-1} it does not throw
 /// back beyond d_{n-1}. Its loss is never less than nothing, for any compressions: a filler that
 /// crushes or lets go does not move the stable step of k.
 class FillerLaw final : public LinkLaw {
