@@ -132,6 +132,7 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
         displacement_warnings(loop.recorder().largest_displacement(), model.interface.model_size);
     append(contact_warnings(statistics.complementarity_residual), statistics.warnings);
     append(slide_warnings(scene, statistics), statistics.warnings);
+    append(pendulum_warnings(statistics), statistics.warnings);
     statistics.wall_time = MPI_Wtime() - start;
     write_summary(scene.output + "/summary.json", scene, resolved, model, statistics,
                   loop.recorder(), size_of(comm));

@@ -34,6 +34,7 @@ struct RunStatistics {
   std::vector<LoopReport> loops;             ///< per item of the option
   std::vector<Slide> slides;                 ///< per contact
   std::vector<ContactRatio> contact_ratios;  ///< per structure; empty where nothing may lift off
+  std::vector<std::string> overpressed;      ///< structures with a pendulum whose slope was cut
   std::vector<std::string> warnings;         ///< one line each: what the run came upon
   std::vector<double> phase_seconds;         ///< largest over the ranks, per Phase
 };

@@ -283,6 +283,12 @@ void TimeLoop::fill(RunStatistics& statistics) const {
     statistics.fillers = solver_.fillers()->totals();
     broadcast_array(comm_, statistics.fillers, solver_.fillers()->root());
   }
+  for (std::size_t s = 0; s < model_.systems.size(); ++s) {
+    const LinkStep* const links = solver_.stepper().link_step(s);
+    int overpressed = links != nullptr && links->overpressed() ? 1 : 0;
+    MPI_Allreduce(MPI_IN_PLACE, &overpressed, 1, MPI_INT, MPI_MAX, comm_);
+    if (overpressed != 0) statistics.overpressed.push_back(model_.systems[s].name);
+  }
   if (loops_) statistics.loops = loops_->report();
   if (uplift_) statistics.contact_ratios = uplift_->ratios();
   statistics.peak_memory = peak_memory();

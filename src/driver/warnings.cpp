@@ -139,4 +139,14 @@ std::vector<std::string> slide_warnings(const Scene& scene, const RunStatistics&
   return warnings;
 }
 
+std::vector<std::string> pendulum_warnings(const RunStatistics& statistics) {
+  std::vector<std::string> warnings;
+  for (const std::string& structure : statistics.overpressed) {
+    warnings.push_back("structure " + structure +
+                       ": more pressed on a friction pendulum than hardening times stiffness times "
+                       "its radius, and its slope was cut there; give a larger hardening");
+  }
+  return warnings;
+}
+
 }  // namespace pounding

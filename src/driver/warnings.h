@@ -37,4 +37,7 @@ std::vector<std::string> contact_warnings(double residual);
 /// Contacts whose faces slid so far that nodes may have left the facets that they are paired with.
 std::vector<std::string> slide_warnings(const Scene& scene, const RunStatistics& statistics);
 
+/// Names pendulums that were pressed so hard that their slope was cut.
+std::vector<std::string> pendulum_warnings(const RunStatistics& statistics);
+
 }  // namespace pounding

@@ -6,7 +6,6 @@
 #include <numeric>
 #include <span>
 #include <stdexcept>
-#include <utility>
 
 #include "common/dense_solver.h"
 #include "common/disjoint_sets.h"
@@ -75,8 +74,10 @@ void LinkStep::find_yielding() {
     }
     if (place == yielding_.size()) yielding_.emplace_back();
     yielding_[place].links.push_back(b);
-    yielding_[place].friction =
-        spring.friction * (1 - spring.hardening) * origin.region->stiffness[spring.circle[2]];
+    yielding_[place].pressing = origin.region->stiffness[spring.circle[2]];
+    // Hardening carries its part without friction; a pendulum's slope is apart from it.
+    const double part = spring.radius > 0 ? 1 : 1 - spring.hardening;
+    yielding_[place].friction = spring.friction * part * yielding_[place].pressing;
   }
   for (const auto& [number, place] : circles) {
     const auto gauge = gauges.find(number);
@@ -86,16 +87,19 @@ void LinkStep::find_yielding() {
 
 void LinkStep::yield() {
   for (const Yielding& together : yielding_) {
+    const double pressed = together.gauge < 0 ? 0 : std::max(0.0, -now_[together.gauge]);
     double square = 0;
     for (const std::size_t b : together.links) {
       square += std::pow(laws_[b]->trial(now_[b], memory_[b]), 2);
     }
     const double size = std::sqrt(square);
-    const double capacity = together.gauge < 0
-                                ? laws_[together.links.front()]->capacity()
-                                : together.friction * std::max(0.0, -now_[together.gauge]);
+    const double capacity = together.gauge < 0 ? laws_[together.links.front()]->capacity()
+                                               : together.friction * pressed;
     const double kept = size > capacity ? capacity / size : 1;
-    for (const std::size_t b : together.links) laws_[b]->yield(now_[b], kept, memory_[b]);
+    for (const std::size_t b : together.links) {
+      laws_[b]->yield(now_[b], kept, memory_[b]);
+      laws_[b]->press(together.pressing * pressed, memory_[b]);
+    }
   }
 }
 
@@ -415,6 +419,14 @@ double LinkStep::largest_force() const {
   return largest;
 }
 
+bool LinkStep::overpressed() const {
+  bool any = false;
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    any = any || laws_[b]->was_overpressed(memory_[b]);
+  }
+  return any;
+}
+
 LinkStep::Bedding LinkStep::bedding() const {
   Bedding bedding;
   for (std::size_t b = 0; b < links_.size(); ++b) {
@@ -432,63 +444,15 @@ void LinkStep::finish(StepSums& sums) {
   add_rates(time_step_, after_);
   for (std::size_t b = 0; b < links_.size(); ++b) {
     const double held = laws_[b]->energy(before_[b], now_[b], memory_[b]);
+    const double given = laws_[b]->given(before_[b], now_[b], memory_[b]);
     sums.link_energy_before += held;
     laws_[b]->remember(before_[b], now_[b], after_[b], share_, memory_[b]);
     const double mean = (after_[b] - before_[b]) / 2;
-    sums.link_input += push_[b] * mean;
-    sums.link_loss +=
-        (force_[b] + push_[b]) * mean - (laws_[b]->energy(now_[b], after_[b], memory_[b]) - held);
+    sums.link_input += push_[b] * mean + given;
+    sums.link_loss += (force_[b] + push_[b]) * mean -
+                      (laws_[b]->energy(now_[b], after_[b], memory_[b]) - held) + given;
   }
   note_records();
-}
-
-void LinkStep::record(std::vector<std::size_t> links) {
-  records_.watch(std::move(links));
-  if (!records_.empty()) recorded_.assign(links_.size(), 0.0);
-}
-
-void LinkStep::note_records() {
-  for (std::size_t k = 0; k < records_.links().size(); ++k) {
-    const std::size_t b = records_.links()[k];
-    const double force = force_[b] + laws_[b]->counted(now_[b]);
-    records_.note(k, recorded_[b], force, laws_[b]->has_yielded(memory_[b]));
-    records_.add_work(k, force * (after_[b] - before_[b]) / 2);
-  }
-}
-
-namespace {
-
-/// Name of what a link remembers; all links of an element but that along x say which one they are.
-std::string memory_name(int structure, const Link& link) {
-  const std::string name = "link " + std::to_string(structure) + " " + std::to_string(link.number);
-  return link.origin.component == 0 ? name : name + " " + std::to_string(link.origin.component);
-}
-
-std::vector<std::string> record_names(int structure, const std::vector<Link>& links,
-                                      const LinkRecords& records) {
-  std::vector<std::string> names;
-  for (const std::size_t b : records.links()) {
-    names.push_back("record of part " + std::to_string(static_cast<int>(links[b].origin.part)) +
-                    " of " + memory_name(structure, links[b]));
-  }
-  return names;
-}
-
-}  // namespace
-
-void LinkStep::save(int structure, SavedState& saved) const {
-  for (std::size_t b = 0; b < links_.size(); ++b) {
-    if (!memory_[b].empty()) saved.put(memory_name(structure, links_[b]), memory_[b]);
-  }
-  records_.save(record_names(structure, links_, records_), saved);
-}
-
-void LinkStep::load(int structure, const SavedState& saved) {
-  rates_known_ = false;
-  for (std::size_t b = 0; b < links_.size(); ++b) {
-    if (!memory_[b].empty()) saved.get(memory_name(structure, links_[b]), memory_[b]);
-  }
-  records_.load(record_names(structure, links_, records_), saved);
 }
 
 }  // namespace pounding

@@ -47,6 +47,8 @@ class LinkStep {
 
   /// Records some of this rank's links from now on, numbers into `links()` of the system.
   void record(std::vector<std::size_t> links);
+  /// A pendulum of this rank was pressed beyond the slope that its stiffness allows.
+  bool overpressed() const;
   const LinkRecords& records() const { return records_; }
 
   /// Saves what the links remember, link by link. `structure`: its number.
@@ -80,6 +82,7 @@ class LinkStep {
     std::vector<std::size_t> links;
     int gauge = -1;       ///< link that tells what presses on a sliding bearing; -1: none
     double friction = 0;  ///< of such a bearing: capacity over minus the gauge's elongation [N/m]
+    double pressing = 0;  ///< likewise what presses on it [N/m]
   };
   void find_yielding();
   /// Yields from e_n, before any force of the step is known.

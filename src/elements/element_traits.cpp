@@ -61,10 +61,11 @@ constexpr std::string_view of_bar = "material area tension_only slack yield_forc
 constexpr std::string_view of_plate = "material thickness rotary_inertia_factor";
 constexpr std::string_view of_point = "mass rotary_inertia";
 constexpr std::string_view of_spring =
-    "stiffness dashpot dashpot_exponent yield_force hardening yield_circle sliding_friction";
+    "stiffness dashpot dashpot_exponent yield_force hardening yield_circle sliding_friction "
+    "pendulum_radius";
 constexpr std::string_view of_ground =
     "stiffness dashpot dashpot_exponent yield_force hardening yield_circle sliding_friction "
-    "compression_only";
+    "pendulum_radius compression_only";
 
 // clang-format off
 constexpr std::array table{

@@ -6,6 +6,7 @@
 #include "links/damper_law.h"
 #include "links/dashpot_law.h"
 #include "links/gauge_law.h"
+#include "links/pendulum_law.h"
 #include "links/relieving_law.h"
 #include "links/soil_law.h"
 #include "links/tension_law.h"
@@ -40,6 +41,10 @@ std::unique_ptr<LinkLaw> stiff_law(const LinkOrigin& origin, double time_step) {
   const bool spring = is_spring(region.element);
   const double stiffness = spring ? region.stiffness[origin.component]
                                   : region.material.young * region.area / origin.length;
+  if (region.nonlinear.radius > 0 && region.nonlinear.is_in_circle(origin.component)) {
+    return std::make_unique<PendulumLaw>(stiffness, region.nonlinear.hardening,
+                                         region.nonlinear.radius);
+  }
   if (region.nonlinear.yields(origin.component)) {
     return std::make_unique<YieldLaw>(stiffness, region.nonlinear.hardening,
                                       region.nonlinear.yield_force[origin.component]);

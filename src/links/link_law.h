@@ -51,6 +51,16 @@ class LinkLaw {
   virtual double trial(double /*now*/, std::span<const double> /*memory*/) const { return 0; }
   /// Most of its trial that it carries [N]; 0 of a law that never yields.
   virtual double capacity() const { return 0; }
+  /// Takes the force that presses on it in a step from t_n [N], before any force of its own is
+  /// asked for.
+  virtual void press(double /*force*/, std::span<double> /*memory*/) const {}
+  /// Whether it was ever pressed harder than the law goes.
+  virtual bool was_overpressed(std::span<const double> /*memory*/) const { return false; }
+  /// Energy that the change of this force since the last step gives it from outside [J].
+  virtual double given(double /*before*/, double /*now*/,
+                       std::span<const double> /*memory*/) const {
+    return 0;
+  }
   /// Yields in a step from e_n, before any force of it is asked for, until `kept` of its trial is
   /// left; 1: it does not yield.
   virtual void yield(double /*now*/, double /*kept*/, std::span<double> /*memory*/) const {}

@@ -40,6 +40,13 @@ class RelievingLaw final : public LinkLaw {
     return link_->trial(now, memory);
   }
   double capacity() const override { return link_->capacity(); }
+  void press(double force, std::span<double> memory) const override { link_->press(force, memory); }
+  bool was_overpressed(std::span<const double> memory) const override {
+    return link_->was_overpressed(memory);
+  }
+  double given(double before, double now, std::span<const double> memory) const override {
+    return link_->given(before, now, memory);
+  }
   void yield(double now, double kept, std::span<double> memory) const override {
     link_->yield(now, kept, memory);
   }

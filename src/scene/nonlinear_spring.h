@@ -16,6 +16,7 @@ struct NonlinearSpring {
   /// Coefficient of a sliding bearing, which yields at this times the compression along the third
   /// [-]; 0: none.
   double friction = 0;
+  double radius = 0;            ///< of a friction pendulum [m]; 0: none
   double dashpot_exponent = 1;  ///< power of the rate to which its dashpots go [-]
   double slack = 0;             ///< of a tension-only bar, stretched so far before it pulls [m]
 

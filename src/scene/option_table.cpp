@@ -137,6 +137,7 @@ constexpr std::array table{
     OptionRow{Block::region, "<structure>_<group>_hardening", Kind::real, "-", value("0"), below_1, "", "stiffness after yield over that before"},
     OptionRow{Block::region, "<structure>_<group>_yield_circle", Kind::choice, "word", value("none"), any, "none|x+y|y+z|x+z", "translations that yield together: a bearing's shear"},
     OptionRow{Block::region, "<structure>_<group>_sliding_friction", Kind::real, "-", value("0"), Range{0, 10, false, false}, "", "sliding bearing: the circle yields at this times the compression across it"},
+    OptionRow{Block::region, "<structure>_<group>_pendulum_radius", Kind::real, "m", value("0"), not_negative, "", "friction pendulum: radius of its dish, whose slope follows the compression; hardening bounds it; 0: hardening is the slope"},
     OptionRow{Block::region, "<structure>_<group>_slack", Kind::real, "m", value("0"), not_negative, "", "tension_only bar: stretched so far before it pulls (a hook, a cable that sags)"},
     OptionRow{Block::region, "<structure>_<group>_damping_alpha", Kind::real, "1/s", absent("left out: that of the structure"), not_negative, "", "Rayleigh damping of its elements, mass term"},
     OptionRow{Block::region, "<structure>_<group>_damping_beta", Kind::real, "s", absent("left out: that of the structure"), not_negative, "", "Rayleigh damping of its elements, stiffness term"},

@@ -13,6 +13,7 @@ constexpr std::string_view yield_force = "<structure>_<group>_yield_force";
 constexpr std::string_view hardening = "<structure>_<group>_hardening";
 constexpr std::string_view yield_circle = "<structure>_<group>_yield_circle";
 constexpr std::string_view sliding_friction = "<structure>_<group>_sliding_friction";
+constexpr std::string_view radius = "<structure>_<group>_pendulum_radius";
 constexpr std::string_view exponent = "<structure>_<group>_dashpot_exponent";
 constexpr std::string_view slack = "<structure>_<group>_slack";
 
@@ -38,6 +39,19 @@ void check_sliding(const OptionReader& options, const Names& names, const Region
   if (!(region.stiffness[across] > 0)) {
     options.refuse(sliding_friction, names,
                    "its stiffness across the plane is 0, so nothing presses on it");
+  }
+}
+
+void check_pendulum(const OptionReader& options, const Names& names,
+                    const NonlinearSpring& spring) {
+  if (!(spring.friction > 0)) {
+    options.refuse(radius, names,
+                   "give -" + option_name(sliding_friction, names) + ", and the plane of its dish");
+  }
+  if (!(spring.hardening > 0)) {
+    options.refuse(radius, names,
+                   "give -" + option_name(hardening, names) +
+                       ", the most that what presses on it over the radius may be, over stiffness");
   }
 }
 
@@ -77,7 +91,9 @@ void read_nonlinear_spring(OptionReader& options, const Names& names, Region& re
   spring.hardening = options.real(hardening, names);
   spring.circle = circle_of(options.choice(yield_circle, names));
   spring.friction = options.real(sliding_friction, names);
+  spring.radius = options.real(radius, names);
   spring.dashpot_exponent = options.real(exponent, names);
+  if (spring.radius > 0) check_pendulum(options, names, spring);
   if (spring.friction > 0) check_sliding(options, names, region);
   if (spring.has_circle()) check_circle(options, names, region);
   for (std::size_t c = 0; c < region.stiffness.size(); ++c) {

@@ -29,7 +29,8 @@ void forbid_others(const OptionReader& options, const std::string& element, cons
   for (const std::string property :
        {"area", "dashpot", "dashpot_exponent", "hardening", "mass", "material", "rotary_inertia",
         "rotary_inertia_factor", "section", "compression_only", "slack", "sliding_friction",
-        "stiffness", "tension_only", "thickness", "yield_circle", "yield_force"}) {
+        "pendulum_radius", "stiffness", "tension_only", "thickness", "yield_circle",
+        "yield_force"}) {
     if (!takes(traits_of(element_of_word(element)), property)) {
       options.forbid("<structure>_<group>_" + property, names,
                      "not for the element " + element + " of this group; leave it out");

@@ -147,6 +147,109 @@ class SlidingBearing(unittest.TestCase):
         self.assertGreater(speed[0], 1.2)
 
 
+class Pendulum(unittest.TestCase):
+    """Friction pendulum whose weight bounces: f = N(t) / R u + q, |q| <= mu N(t), beside an integration of its own."""
+    FRICTION, RADIUS, BEFORE, HARDENING = 0.08, 2.0, 2e5, 0.01
+    PRESSED, BOUNCE, SPEED = 2e4, 0.25, 1.5  # stiffness across [N/m], speeds up and along [m/s]
+
+    def words(self, end, *more, step=2e-5):
+        return mass(step, end, "-chain_initial_velocity", f"{0.8 * self.SPEED},{0.6 * self.SPEED},{self.BOUNCE}",
+                    *spring(f"{self.BEFORE},{self.BEFORE},{self.PRESSED}", hardening=self.HARDENING, yield_circle="x+y",
+                            sliding_friction=self.FRICTION, pendulum_radius=self.RADIUS), "-gravity", 9.81, "-preload",
+                    "static", "-chain_clamp", "second", "-output_interval", 1e-4, *more)
+
+    def integrate(self, times):
+        """Displacement along the motion at equal times, and what friction takes: Runge and Kutta's steps between the
+        instants at which it sets out to slide or sticks, which are halved for."""
+        elastic = (1 - self.HARDENING) * self.BEFORE
+        turn = math.sqrt(self.PRESSED / MASS)
+
+        def pressed(t):
+            return MASS * (9.81 - turn * self.BOUNCE * math.sin(turn * t))
+
+        def growth(t):  # of mu N over the elastic stiffness
+            return -self.FRICTION * MASS * turn**2 * self.BOUNCE * math.cos(turn * t) / elastic
+
+        def friction(t, x, slides, plastic):
+            return slides * self.FRICTION * pressed(t) if slides else elastic * (x - plastic)
+
+        def step(t, state, h, slides, plastic):
+            def rate(t, y):
+                q = friction(t, y[0], slides, plastic)
+                lost = q * (y[1] - slides * growth(t)) if slides else 0
+                return numpy.array([y[1], -(pressed(t) / self.RADIUS * y[0] + q) / MASS, lost])
+            a = rate(t, state)
+            b = rate(t + h / 2, state + h / 2 * a)
+            c = rate(t + h / 2, state + h / 2 * b)
+            d = rate(t + h, state + h * c)
+            return state + h / 6 * (a + 2 * b + 2 * c + d)
+
+        def over(t, state, slides, plastic):
+            if slides:
+                return slides * (state[1] - slides * growth(t)) < 0
+            return abs(elastic * (state[0] - plastic)) > self.FRICTION * pressed(t)
+        state, slides, plastic, t, found = numpy.array([0.0, self.SPEED, 0.0]), 0, 0.0, 0.0, [0.0]
+        for end in times[1:]:
+            while t < end:
+                h = end - t
+                after = step(t, state, h, slides, plastic)
+                if not over(t + h, after, slides, plastic):
+                    t, state = end, after
+                    continue
+                low, high = 0.0, h
+                for _ in range(60):
+                    middle = (low + high) / 2
+                    if over(t + middle, step(t, state, middle, slides, plastic), slides, plastic):
+                        high = middle
+                    else:
+                        low = middle
+                state, t = step(t, state, high, slides, plastic), t + high
+                if slides:
+                    plastic, slides = state[0] - friction(t, state[0], slides, plastic) / elastic, 0
+                else:
+                    slides = 1 if state[0] > plastic else -1
+            found.append(state[0])
+        return numpy.array(found), state[2]
+
+    def test_bouncing_weight(self):
+        exact, lost = self.integrate(numpy.arange(12001) * 1e-4)
+        for ranks in (1, 2):
+            run = Recorded(self, self.words(1.2), ranks)
+            along = 0.8 * run.displacement("one.x") + 0.6 * run.displacement("one.y")
+            self.assertLess(abs(along - exact[:len(along)]).max(), 1e-6 * exact.max())
+            # The ledger ends a step or two before the run does, in which it slides on.
+            self.assertAlmostEqual(run.energy["devices"] / lost, 1, delta=1e-4)
+            self.assertEqual([text for text in run.summary["warnings"] if "pendulum" in text], [])
+        # The slope of the weight alone is far from it.
+        slope = MASS * 9.81 / self.RADIUS / self.BEFORE
+        fixed = Recorded(self, self.words(1.2, "-chain_support_pendulum_radius", 0, "-chain_support_hardening", slope))
+        along = 0.8 * fixed.displacement("one.x") + 0.6 * fixed.displacement("one.y")
+        self.assertGreater(abs(along - exact[:len(along)]).max(), 1e-3 * exact.max())
+
+    def test_in_modes_and_continued(self):
+        full = Recorded(self, self.words(0.4))
+        reduced = Recorded(self, self.words(0.4, "-chain_model", "modal", "-chain_modal_vectors", 3))
+        for axis in "xyz":
+            u = full.displacement(f"one.{axis}")
+            self.assertLess(abs(reduced.displacement(f"one.{axis}") - u).max(), 1e-9 * abs(u).max())
+        assert_continues(self, [*self.words(0.4), "-spectra_frequencies", 10], 0.2, 777)
+
+    def test_nothing_holds_it_where_it_lifts_off(self):
+        run = Recorded(self, self.words(0.3, "-chain_initial_velocity", "1.5,0,3", "-chain_support_compression_only",
+                                        "true"))
+        speed = run.velocity("one.x")[(run.time > 0.1) & (run.time < 0.3)]
+        self.assertLess(abs(speed - speed[0]).max(), 1e-9)
+        self.assertGreater(abs(run.displacement("one.x"))[-1], 0.3)
+
+    def test_slope_that_is_cut_is_told(self):
+        run = Recorded(self, self.words(0.2, "-chain_support_hardening", 5e-4))
+        self.assertEqual(len([text for text in run.summary["warnings"] if "pendulum" in text]), 1)
+        for more, part in ((("-chain_support_hardening", 0), "-chain_support_hardening"),
+                           (("-chain_support_sliding_friction", 0, "-chain_support_yield_force", "9,9,0"),
+                            "-chain_support_sliding_friction")):
+            program.must_refuse(self, [*self.words(0.2), *more], "-chain_support_pendulum_radius", part)
+
+
 class IsolatedFrame(unittest.TestCase):
     def test_worked_scene(self):
         """35 isolators of 4 MN/m below 1,426 t: 1.6 Hz before they yield, less for the frame above; the weight rests."""
