@@ -110,31 +110,37 @@ void ContactProblem::find_components() {
     add_groups(friction_.tangent(row));
     add_groups(friction_.tangent(row) + 1);
   }
+  DelassusPattern pattern(operator_, compliance_);
+  std::vector<int> place(operator_.rows(), -1);
   std::size_t largest = 1;
+  std::size_t most_entries = 0;
   for (std::vector<int>& rows : coupled_components(row_groups, operator_.dofs())) {
     Component& component = components_.emplace_back(Component{std::move(rows), {}, -1});
     const std::size_t size = component.rows.size();
     if (size > 1) coupled_rows_ += static_cast<int>(size);
     if (std::ranges::any_of(component.rows, [&](int row) { return friction_.has_friction(row); })) {
-      component.frictional = static_cast<int>(friction_.add(component.rows));
+      component.frictional = static_cast<int>(friction_.add(component.rows, pattern));
       continue;
     }
-    largest = std::max(largest, size);
-    if (size > 1) {
-      for (const int row : component.rows) {
-        for (const int column : component.rows) {
-          component.delassus.push_back(delassus_entry(operator_, compliance_, row, column));
-        }
+    if (size == 1) continue;
+    for (std::size_t i = 0; i < size; ++i) place[component.rows[i]] = static_cast<int>(i);
+    for (const int row : component.rows) {
+      for (const int column : pattern.coupled_with({&row, 1})) {
+        component.delassus.add(place[column], delassus_entry(operator_, compliance_, row, column));
       }
+      component.delassus.end_row();
     }
+    largest = std::max(largest, size);
+    most_entries = std::max(most_entries, component.delassus.entries());
   }
   friction_.reserve();
   active_places_.reserve(largest);
-  matrix_.resize(largest * largest);
+  active_number_.reserve(largest);
+  matrix_.reserve(largest, most_entries);
   rate_.resize(largest);
   solution_.resize(largest);
   increment_.resize(largest);
-  if (largest > 1) lcp_ = std::make_unique<LcpSolver>(static_cast<int>(largest));
+  if (largest > 1) lcp_ = std::make_unique<CoupledLcp>(largest, most_entries);
 }
 
 void ContactProblem::set_displacement(std::size_t structure, const double* displacement) {
@@ -206,17 +212,15 @@ void ContactProblem::solve_coupled(const Component& component) {
   const std::size_t dofs = displacement_.size();
   const std::span<const double> free_velocity(velocities_.data() + dofs, dofs);
   const std::size_t n = active_places_.size();
-  const std::size_t all = component.rows.size();
   const auto row = [&](std::size_t i) { return component.rows[active_places_[i]]; };
+  active_number_.assign(component.rows.size(), -1);
   for (std::size_t i = 0; i < n; ++i) {
     rate_[i] = operator_.apply(row(i), free_velocity);
     solution_[i] = previous_[row(i)];
-    for (std::size_t j = 0; j < n; ++j) {
-      matrix_[i * n + j] = component.delassus[active_places_[i] * all + active_places_[j]];
-    }
+    active_number_[active_places_[i]] = static_cast<int>(i);
   }
-  const LcpResult result =
-      lcp_->solve({matrix_.data(), n * n}, {rate_.data(), n}, {solution_.data(), n});
+  take_principal_part(component.delassus, active_number_, matrix_);
+  const LcpResult result = lcp_->solve(matrix_, {rate_.data(), n}, {solution_.data(), n});
   note_residual(result.residual, largest_magnitude({rate_.data(), n}));
   for (std::size_t i = 0; i < n; ++i) operator_.add_transposed(row(i), solution_[i], dof_impulse_);
   if (result.roundoff > correction_threshold) correct_component(component);

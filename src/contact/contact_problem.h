@@ -6,11 +6,12 @@
 
 #include "common/saved_state.h"
 #include "contact/contact_operator.h"
+#include "contact/coupled_lcp.h"
 #include "contact/frictional_contact.h"
 #include "contact/interface.h"
 #include "contact/interface_compliance.h"
 #include "contact/interface_gather.h"
-#include "contact/lcp.h"
+#include "contact/sparse_rows.h"
 #include "system/linear_system.h"
 #include "system/trace.h"
 
@@ -24,7 +25,7 @@ namespace pounding {
 /// The columns of L are displacements of the interface, T u of the dofs of each structure (see
 /// system/trace.h), so that H = L T M^-1 T^T L^T [1/kg]; it is built once. Rows that share nothing
 /// that moves with another row are solved in closed form, lambda_i = max(0, -(L v_free)_i / H_ii);
-/// coupled rows by the LCP solver, component by component; components with friction have tangential
+/// coupled rows by CoupledLcp, component by component; components with friction have tangential
 /// impulses beside the normal ones (see FrictionalContact). Nothing allocates after construction.
 class ContactProblem {
  public:
@@ -85,8 +86,8 @@ class ContactProblem {
   /// Coupled rows, ascending, with their part of H.
   struct Component {
     std::vector<int> rows;
-    std::vector<double> delassus;  ///< shape (rows, rows); empty for a single row, or with friction
-    int frictional = -1;           ///< its number there; -1: no row has friction
+    SparseRows delassus;  ///< without rows for a single row, or with friction
+    int frictional = -1;  ///< its number there; -1: no row has friction
   };
 
   void build_delassus();
@@ -130,9 +131,10 @@ class ContactProblem {
   double smallest_gap_ = 0;
   double largest_residual_ = 0;
   double largest_rate_ = 0;  ///< of the free gap rates so far [m/s]
-  std::unique_ptr<LcpSolver> lcp_;
+  std::unique_ptr<CoupledLcp> lcp_;
   std::vector<std::size_t> active_places_;  ///< of the component's active rows in it
-  std::vector<double> matrix_;
+  std::vector<int> active_number_;          ///< per row of the component; -1: not active
+  SparseRows matrix_;                       ///< H of the active rows
   std::vector<double> rate_;
   std::vector<double> solution_;
   std::vector<double> increment_;

@@ -1,5 +1,6 @@
 #include "contact/delassus.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace pounding {
@@ -20,6 +21,39 @@ double delassus_entry(const ContactOperator& contact, const InterfaceCompliance&
     }
   }
   return sum;
+}
+
+DelassusPattern::DelassusPattern(const ContactOperator& contact,
+                                 const InterfaceCompliance& compliance)
+    : contact_(contact),
+      compliance_(compliance),
+      rows_of_(contact.dofs()),
+      seen_(static_cast<std::size_t>(contact.dofs()), 0) {
+  for (int row = 0; row < contact.rows(); ++row) {
+    for (const int dof : contact.row_dofs(row)) rows_of_[dof].push_back(row);
+  }
+}
+
+std::vector<int> DelassusPattern::coupled_with(std::span<const int> rows) {
+  std::vector<int> dofs;
+  const auto see = [&](int dof) {
+    if (seen_[dof] == 0) dofs.push_back(dof);
+    seen_[dof] = 1;
+  };
+  for (const int row : rows) {
+    for (const int dof : contact_.row_dofs(row)) {
+      see(dof);
+      for (const int moved : compliance_.moved_by(static_cast<std::size_t>(dof))) see(moved);
+    }
+  }
+  std::vector<int> coupled(rows.begin(), rows.end());
+  for (const int dof : dofs) {
+    coupled.insert(coupled.end(), rows_of_[dof].begin(), rows_of_[dof].end());
+    seen_[dof] = 0;
+  }
+  std::ranges::sort(coupled);
+  coupled.erase(std::unique(coupled.begin(), coupled.end()), coupled.end());
+  return coupled;
 }
 
 }  // namespace pounding

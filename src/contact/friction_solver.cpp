@@ -20,7 +20,10 @@ constexpr double wanted_residual = 1e-14;
 constexpr double above_noise = 4;
 constexpr int most_rounds = 40;
 constexpr int first_sweeps = 10;
+constexpr int most_cheap_sweeps = 500;
 constexpr int most_sweeps = 200;
+/// Cost of an entry of H in a sweep, in multiply-adds of an elimination.
+constexpr double sweep_cost = 4;
 constexpr std::array<double, 4> relaxations{1, 1, 0.5, 0.2};
 constexpr int most_newton = 20;
 /// Shortest part of a Newton step that is tried.
@@ -45,11 +48,14 @@ Pair onto_disk(double x, double y, double radius) {
 
 /// Numbers of one point within the problem.
 struct Point {
-  Point(const FrictionProblem& problem, std::size_t i)
-      : first(3 * i),
-        width(problem.free_rate.size()),
-        block(problem.delassus.data() + first * width + first) {}
-  double h(std::size_t a, std::size_t b) const { return block[a * width + b]; }
+  Point(const FrictionProblem& problem, std::size_t i) : first(3 * i) {
+    for (std::size_t d = 0; d < 3; ++d) {
+      const std::span<const int> columns = problem.delassus.columns(first + d);
+      const auto own = std::ranges::lower_bound(columns, static_cast<int>(first));
+      std::copy_n(&problem.delassus.values(first + d)[own - columns.begin()], 3, &block[3 * d]);
+    }
+  }
+  double h(std::size_t a, std::size_t b) const { return block[3 * a + b]; }
   double normal() const { return h(0, 0); }
   double tangential() const { return (h(1, 1) + h(2, 2)) / 2; }
   bool isotropic() const {
@@ -62,8 +68,7 @@ struct Point {
   }
 
   std::size_t first;
-  std::size_t width;
-  const double* block;
+  std::array<double, 9> block{};
 };
 
 /// Tangential impulse of a point whose rate without it is c.
@@ -86,12 +91,21 @@ void solve_alone(const FrictionProblem& problem, const Point& point, std::span<d
   impulse[2] = tangential[1];
 }
 
+/// Sweeps that take about as long as one iteration of Newton.
+int sweeps_for_one_newton(const FrictionProblem& problem) {
+  const auto n = static_cast<double>(problem.delassus.rows());
+  const double elimination = n * n * n / 3;
+  const double sweep = sweep_cost * static_cast<double>(problem.delassus.entries());
+  return static_cast<int>(std::min(elimination / sweep, 1.0 * most_cheap_sweeps));
+}
+
 template <typename Real>
 Real row_rate(const FrictionProblem& problem, std::size_t row, std::span<const double> impulse) {
-  const std::size_t n = impulse.size();
-  const double* const h = problem.delassus.data() + row * n;
+  const SparseRows& h = problem.delassus;
   Real rate = problem.free_rate[row];
-  for (std::size_t j = 0; j < n; ++j) rate += Real(h[j]) * Real(impulse[j]);
+  for (std::size_t k = h.begin[row]; k < h.begin[row + 1]; ++k) {
+    rate += Real(h.value[k]) * Real(impulse[static_cast<std::size_t>(h.column[k])]);
+  }
   return rate;
 }
 
@@ -177,9 +191,11 @@ double FrictionSolver::measure(const FrictionProblem& problem, std::span<const d
   noise_ = 0;
   for (std::size_t row = 0; row < n; ++row) {
     rate_[row] = row_rate<double>(problem, row, impulse);
-    const double* const h = problem.delassus.data() + row * n;
+    const SparseRows& h = problem.delassus;
     double terms = std::abs(problem.free_rate[row]);
-    for (std::size_t j = 0; j < n; ++j) terms += std::abs(h[j] * impulse[j]);
+    for (std::size_t k = h.begin[row]; k < h.begin[row + 1]; ++k) {
+      terms += std::abs(h.value[k] * impulse[h.column[k]]);
+    }
     noise_ = std::max(noise_, epsilon * terms / largest_free_rate_);
   }
   for (std::size_t i = 0; 3 * i < n; ++i) {
@@ -226,9 +242,14 @@ void FrictionSolver::linearise(const FrictionProblem& problem, std::span<const d
   const double* const lambda = &impulse[point.first];
   const double* const v = &rate_[point.first];
   const auto row = [&](std::size_t d) { return jacobian_.data() + (point.first + d) * n; };
+  const auto add_delassus = [&](std::size_t d, double factor, double* out) {
+    const SparseRows& h = problem.delassus;
+    for (std::size_t k = h.begin[point.first + d]; k < h.begin[point.first + d + 1]; ++k) {
+      out[h.column[k]] += factor * h.value[k];
+    }
+  };
   const auto wants_rate = [&](std::size_t d, double h) {  // v_d = 0
-    const double* const from = problem.delassus.data() + (point.first + d) * n;
-    std::copy(from, from + n, row(d));
+    add_delassus(d, 1, row(d));
     row(d)[point.first + d] += regular * h;
     step_[point.first + d] = -v[d];
   };
@@ -263,8 +284,7 @@ void FrictionSolver::linearise(const FrictionProblem& problem, std::span<const d
     double* const out = row(1 + a);
     for (std::size_t b = 0; b < 2; ++b) {
       const double part = radius / length * across[b];
-      const double* const from = problem.delassus.data() + (point.first + 1 + b) * n;
-      for (std::size_t j = 0; j < n; ++j) out[j] += part * from[j];
+      add_delassus(1 + b, part, out);
       out[point.first + 1 + b] -= t * part;
     }
     out[point.first + 1 + a] += t;
@@ -303,7 +323,8 @@ FrictionResult FrictionSolver::solve(const FrictionProblem& problem, std::span<d
   const std::size_t n = impulse.size();
   FrictionResult result;
   largest_free_rate_ = largest_magnitude(problem.free_rate);
-  if (!all_finite(problem.free_rate) || !all_finite(problem.delassus) || !all_finite(impulse)) {
+  if (!all_finite(problem.free_rate) || !all_finite(problem.delassus.value) ||
+      !all_finite(impulse)) {
     std::ranges::fill(impulse, 0.0);
     return {0, 0, false, infinity};
   }
@@ -316,7 +337,9 @@ FrictionResult FrictionSolver::solve(const FrictionProblem& problem, std::span<d
     solve_alone(problem, first, impulse);
   } else {
     int sweeps = first_sweeps;
-    for (int round = 0; round < most_rounds; ++round) {
+    double last = infinity;
+    const int cheap = sweeps_for_one_newton(problem);
+    for (int round = 0; round < most_rounds;) {
       // Sweeps that go round in circles are led out of them by shorter steps.
       const double relaxation = relaxations[static_cast<std::size_t>(round) % relaxations.size()];
       for (int i = 0; i < sweeps; ++i) {
@@ -326,8 +349,12 @@ FrictionResult FrictionSolver::solve(const FrictionProblem& problem, std::span<d
       double residual = measure(problem, impulse);
       const double enough = std::max(wanted_residual, above_noise * noise_);
       if (residual <= enough) break;
+      const bool falls = residual < last / 2;
+      last = residual;
+      if (falls && result.sweeps < cheap) continue;
       if (n <= 3 * max_newton_) residual = iterate(problem, impulse, residual, result);
       if (residual <= enough) break;
+      ++round;
       sweeps = std::min(2 * sweeps, most_sweeps);
     }
   }

@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "contact/sparse_rows.h"
+
 namespace pounding {
 
 /// How a frictional contact problem was solved.
@@ -14,14 +16,15 @@ struct FrictionResult {
   double residual = 0;  ///< friction_residual of the answer [-]
 };
 
-/// Frictional contact problem of one step over n points, three unknowns each, normal first and then
-/// two tangents at right angles: delassus H [1/kg], shape (3 n, 3 n) row-major, free rates b [m/s]
-/// and impulses lambda [N s], shape (3 n), friction coefficients mu >= 0, shape (n).
+/// Frictional contact problem of one step over n points, three unknowns each, normal first and
+/// then two tangents at right angles: delassus H [1/kg], three rows per point, of which every one
+/// has the columns of its own point, free rates b [m/s] and impulses lambda [N s], shape (3 n),
+/// friction coefficients mu >= 0, shape (n).
 ///
 ///     v = b + H lambda,   0 <= lambda_n _|_ v_n >= 0,   |lambda_t| <= mu lambda_n,
 ///     v_t = -kappa lambda_t,  kappa >= 0,  kappa = 0 where |lambda_t| < mu lambda_n
 struct FrictionProblem {
-  std::span<const double> delassus;
+  const SparseRows& delassus;
   std::span<const double> free_rate;
   std::span<const double> coefficient;
 };

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "common/magnitude.h"
-#include "contact/delassus.h"
 #include "contact/tangential_rows.h"
 
 namespace pounding {
@@ -24,6 +23,7 @@ FrictionalContact::FrictionalContact(const ContactOperator& contact,
                                      std::span<const Constraint> constraints)
     : operator_(contact),
       compliance_(compliance),
+      place_(contact.rows(), -1),
       impulse_(constraints.size()),
       previous_(constraints.size()),
       size_(constraints.size(), 0.0),
@@ -44,19 +44,34 @@ int FrictionalContact::operator_row(int row, std::size_t direction) const {
   return tangent < 0 ? -1 : tangent + static_cast<int>(direction) - 1;
 }
 
-std::size_t FrictionalContact::add(std::vector<int> rows) {
+std::size_t FrictionalContact::add(std::vector<int> rows, DelassusPattern& pattern) {
   Component& component = components_.emplace_back();
   component.rows = std::move(rows);
-  for (const int row : component.rows) {
+  for (std::size_t i = 0; i < component.rows.size(); ++i) {
     for (std::size_t d = 0; d < 3; ++d) {
-      for (const int column : component.rows) {
+      const int at = operator_row(component.rows[i], d);
+      if (at >= 0) place_[at] = static_cast<int>(i);
+    }
+  }
+  for (const int row : component.rows) {
+    std::vector<int> own;
+    for (std::size_t d = 0; d < 3; ++d) {
+      if (operator_row(row, d) >= 0) own.push_back(operator_row(row, d));
+    }
+    std::vector<int> neighbours;
+    for (const int coupled : pattern.coupled_with(own)) neighbours.push_back(place_[coupled]);
+    std::ranges::sort(neighbours);
+    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+    for (std::size_t d = 0; d < 3; ++d) {
+      for (const int neighbour : neighbours) {
         for (std::size_t e = 0; e < 3; ++e) {
           const int i = operator_row(row, d);
-          const int j = operator_row(column, e);
-          component.delassus.push_back(
-              i < 0 || j < 0 ? 0 : delassus_entry(operator_, compliance_, i, j));
+          const int j = operator_row(component.rows[neighbour], e);
+          component.delassus.add(3 * neighbour + static_cast<int>(e),
+                                 i < 0 || j < 0 ? 0 : delassus_entry(operator_, compliance_, i, j));
         }
       }
+      component.delassus.end_row();
     }
   }
   return components_.size() - 1;
@@ -64,13 +79,16 @@ std::size_t FrictionalContact::add(std::vector<int> rows) {
 
 void FrictionalContact::reserve() {
   std::size_t largest = 0;
+  std::size_t most_entries = 0;
   for (const Component& component : components_) {
     largest = std::max(largest, component.rows.size());
+    most_entries = std::max(most_entries, component.delassus.entries());
   }
   if (largest == 0) return;
   solver_.emplace(largest);
   places_.reserve(largest);
-  matrix_.resize(9 * largest * largest);
+  numbers_.reserve(3 * largest);
+  matrix_.reserve(3 * largest, most_entries);
   rate_.resize(3 * largest);
   solution_.resize(3 * largest);
   coefficient_.resize(largest);
@@ -90,25 +108,23 @@ FrictionalContact::Solution FrictionalContact::solve(
     std::span<const double> free, std::span<double> impulse, std::span<double> work,
     std::span<double> dof_impulse) {
   const Component& component = components_[number];
-  const std::size_t all = 3 * component.rows.size();
   places_.clear();
   for (std::size_t i = 0; i < component.rows.size(); ++i) {
     if (active[component.rows[i]] != 0) places_.push_back(i);
   }
   if (places_.empty()) return {};
   const std::size_t n = 3 * places_.size();
+  numbers_.assign(3 * component.rows.size(), -1);
   for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t place = 3 * places_[i / 3] + i % 3;
+    numbers_[3 * places_[i / 3] + i % 3] = static_cast<int>(i);
     const int row = component.rows[places_[i / 3]];
     const int at = operator_row(row, i % 3);
     rate_[i] = at < 0 ? 0 : operator_.apply(at, free);
     solution_[i] = previous_[row][i % 3];
     coefficient_[i / 3] = points_[row].coefficient;
-    for (std::size_t j = 0; j < n; ++j) {
-      matrix_[i * n + j] = component.delassus[place * all + 3 * places_[j / 3] + j % 3];
-    }
   }
-  const FrictionProblem problem{{matrix_.data(), n * n}, {rate_.data(), n}, coefficient_};
+  take_principal_part(component.delassus, numbers_, matrix_);
+  const FrictionProblem problem{matrix_, {rate_.data(), n}, coefficient_};
   const FrictionResult result = solver_->solve(problem, {solution_.data(), n});
   for (std::size_t i = 0; i < n; i += 3) {
     const int row = component.rows[places_[i / 3]];
@@ -117,9 +133,10 @@ FrictionalContact::Solution FrictionalContact::solve(
     for (std::size_t d = 0; d < 3; ++d) {
       const int at = operator_row(row, d);
       if (at < 0) continue;
-      after[d] = std::inner_product(
-          solution_.begin(), solution_.begin() + static_cast<std::ptrdiff_t>(n),
-          matrix_.begin() + static_cast<std::ptrdiff_t>((i + d) * n), rate_[i + d]);
+      after[d] = rate_[i + d];
+      for (std::size_t k = matrix_.begin[i + d]; k < matrix_.begin[i + d + 1]; ++k) {
+        after[d] += matrix_.value[k] * solution_[matrix_.column[k]];
+      }
       const double lambda = solution_[i + d];
       operator_.add_transposed(at, lambda, dof_impulse);
       const double both = lambda * (operator_.apply(at, before) + after[d]);

@@ -7,9 +7,11 @@
 
 #include "common/saved_state.h"
 #include "contact/contact_operator.h"
+#include "contact/delassus.h"
 #include "contact/friction_solver.h"
 #include "contact/interface.h"
 #include "contact/interface_compliance.h"
+#include "contact/sparse_rows.h"
 
 namespace pounding {
 
@@ -32,7 +34,7 @@ class FrictionalContact {
 
   /// Takes over rows that are coupled with each other and with nothing else, some with friction.
   /// Returns the number of the component.
-  std::size_t add(std::vector<int> rows);
+  std::size_t add(std::vector<int> rows, DelassusPattern& pattern);
   /// Room for what solve() needs; after the last add().
   void reserve();
 
@@ -66,7 +68,7 @@ class FrictionalContact {
   };
   struct Component {
     std::vector<int> rows;
-    std::vector<double> delassus;  ///< shape (3 rows, 3 rows), zeros for tangents without friction
+    SparseRows delassus;  ///< three rows each, zeros for tangents without friction
   };
   /// Row of the operator for a direction of a constraint, normal 0; -1: none.
   int operator_row(int row, std::size_t direction) const;
@@ -76,9 +78,11 @@ class FrictionalContact {
   std::vector<Point> points_;  ///< per row
   bool has_any_ = false;
   std::vector<Component> components_;
+  std::vector<int> place_;  ///< per row of the operator: its constraint's within its component
   std::optional<FrictionSolver> solver_;  ///< once there is room
   std::vector<std::size_t> places_;       ///< active rows within the component
-  std::vector<double> matrix_;
+  std::vector<int> numbers_;              ///< of the active ones' directions; -1: not active
+  SparseRows matrix_;                     ///< H of the active rows
   std::vector<double> rate_;
   std::vector<double> solution_;
   std::vector<double> coefficient_;

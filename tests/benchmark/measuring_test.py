@@ -115,6 +115,21 @@ class Plant(unittest.TestCase):
         self.assertGreater(float(row["minutes"]), 0)
 
 
+class Faces(unittest.TestCase):
+    def test_faces_that_close_at_once(self):
+        folder = tempfile.mkdtemp(prefix="pounding-")
+        result = script("benchmark", "--faces", "5,12", "--ranks", 2, "--rounds", 1, "--output", folder)
+        self.assertEqual(result.returncode, 0, result.stderr[-3000:])
+        with open(os.path.join(folder, "faces.md")) as file:
+            self.assertIn(file.read(), result.stdout)
+        rows = rows_of(os.path.join(folder, "faces.csv"))
+        self.assertEqual([(int(row["rows"]), int(row["coupled_rows"])) for row in rows],
+                         [(25, 25), (144, 144), (961, 0), (961, 0)])
+        for row in rows:
+            self.assertLess(float(row["residual"]), 1e-13, row)
+            self.assertGreater(float(row["contact_microseconds"]), 0, row)
+
+
 class Shapes(unittest.TestCase):
     def test_a_general_mesh_beside_one_in_rows(self):
         folder = tempfile.mkdtemp(prefix="pounding-")

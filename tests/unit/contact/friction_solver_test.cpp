@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/full_rows.h"
+
 namespace pounding {
 namespace {
 
@@ -16,6 +18,7 @@ struct Example {
   std::vector<double> delassus;
   std::vector<double> rate;
   std::vector<double> coefficient;
+  mutable SparseRows sparse;  ///< delassus as problem() shows it
 
   Example(std::size_t points, std::size_t motions, unsigned seed, double friction) {
     std::mt19937 random(seed);
@@ -39,7 +42,10 @@ struct Example {
     }
     coefficient.assign(points, friction);
   }
-  FrictionProblem problem() const { return {delassus, rate, coefficient}; }
+  FrictionProblem problem() const {
+    sparse = full_rows(delassus);
+    return {sparse, rate, coefficient};
+  }
   std::vector<double> after(const std::vector<double>& impulse) const {
     std::vector<double> v = rate;
     for (std::size_t i = 0; i < v.size(); ++i) {
@@ -101,7 +107,7 @@ TEST(FrictionSolver, SolvesSingularProblems) {
 
 TEST(FrictionSolver, PointAloneIsInClosedForm) {
   const double h = 0.25;
-  const std::vector<double> delassus{h, 0, 0, 0, h, 0, 0, 0, h};
+  const SparseRows delassus = full_rows({h, 0, 0, 0, h, 0, 0, 0, h});
   const std::vector<double> coefficient{0.5};
   FrictionSolver solver(1);
   std::vector<double> impulse(3, 7.0);
@@ -175,7 +181,8 @@ TEST(FrictionSolver, GivesTheSameBitsAndMindsBadNumbers) {
   EXPECT_EQ(first, second);
   std::vector<double> rate = example.rate;
   rate[4] = std::numeric_limits<double>::quiet_NaN();
-  const FrictionResult bad = solver.solve({example.delassus, rate, example.coefficient}, second);
+  const FrictionResult bad =
+      solver.solve({example.problem().delassus, rate, example.coefficient}, second);
   EXPECT_FALSE(bad.finite);
   EXPECT_TRUE(std::isinf(bad.residual));
   EXPECT_EQ(second, std::vector<double>(18, 0.0));
