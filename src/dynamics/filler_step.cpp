@@ -28,6 +28,11 @@ FillerStep::FillerStep(MPI_Comm comm, const Interface& interface, std::span<cons
   for (const FillerRows::Row& row : rows_.rows()) {
     laws_.emplace_back(*contacts[row.contact].filler, row.part.thickness, row.part.area);
   }
+  for (const std::vector<FillerRows::Coupling>& coupled : rows_.couplings()) {
+    double sum = 0;
+    for (const FillerRows::Coupling& other : coupled) sum += std::abs(other.compliance);
+    reach_.push_back(sum);
+  }
   const std::size_t count = laws_.size();
   memory_.assign(remembered * count, 0.0);
   for (auto* values : {&now_, &rate_, &rate_before_, &before_, &free_after_, &force_,
@@ -87,7 +92,7 @@ void FillerStep::press(bool first, std::span<const StructureState> structures,
   for (std::size_t r = 0; r < laws_.size(); ++r) {
     free_after_[r] = now_[r] + time_step_ * free_after_[r];
   }
-  solve(share);
+  if (!hold(share)) solve(share);
   for (std::size_t r = 0; r < laws_.size(); ++r) impulse_[r] = share * time_step_ * force_[r];
   rows_.set_impulses(impulse_);
   for (std::size_t s = 0; s < structures.size(); ++s) {
@@ -97,6 +102,21 @@ void FillerStep::press(bool first, std::span<const StructureState> structures,
     steps[s].correct(dofs, before_step_[s], velocity_[s]);
   }
   note_peaks();
+}
+
+bool FillerStep::hold(double share) {
+  double largest = 0;
+  for (std::size_t r = 0; r < laws_.size(); ++r) {
+    force_[r] = laws_[r].full(now_[r], {&memory_[remembered * r], remembered});
+    largest = std::max(largest, force_[r]);
+  }
+  const double square = share * time_step_ * time_step_;
+  for (std::size_t r = 0; r < laws_.size(); ++r) {
+    const std::span<const double> memory(&memory_[remembered * r], remembered);
+    const double least = free_after_[r] - square * reach_[r] * largest;
+    if (force_[r] > 0 && least < laws_[r].holds_down_to(before_[r], memory)) return false;
+  }
+  return true;
 }
 
 void FillerStep::solve(double share) {

@@ -56,6 +56,8 @@ class FillerStep {
   void load(const SavedState& saved);
 
  private:
+  /// Forces of rows none of which lets go in the step; false if one may.
+  bool hold(double share);
   void solve(double share);
   void note_peaks();
   std::vector<std::string> record_names() const;
@@ -74,6 +76,7 @@ class FillerStep {
   std::vector<double> force_before_;  ///< N_{n-1}
   std::vector<double> held_;          ///< W_{n-1/2}
   std::vector<double> impulse_;
+  std::vector<double> reach_;                       ///< sum of the moduli of a row of H [1/kg]
   double loss_ = 0;                                 ///< of the step before
   bool made_ = false;                               ///< a step was
   std::vector<StructureStep::Before> before_step_;  ///< per structure

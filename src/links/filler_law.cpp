@@ -25,11 +25,15 @@ void FillerLaw::yield(double now, double /*kept*/, std::span<double> memory) con
   memory[1] = std::max(memory[0], now - first_loading(now) / spring_.tangent());
 }
 
+double FillerLaw::full(double now, std::span<const double> memory) const {
+  return spring_.tangent() * std::max(0.0, now - memory[1]);
+}
+
 double FillerLaw::force(double before, double now, double after,
                         std::span<const double> memory) const {
   const double crushed = memory[1];
   if (before > crushed) return spring_.force(before - crushed, now - crushed, after - crushed);
-  return after >= before ? spring_.tangent() * std::max(0.0, now - crushed) : 0;
+  return after >= before ? full(now, memory) : 0;
 }
 
 double FillerLaw::solve(double before, double now, double free_after, double compliance,
@@ -38,9 +42,9 @@ double FillerLaw::solve(double before, double now, double free_after, double com
   if (before > crushed) {
     return spring_.solve(before - crushed, now - crushed, free_after - crushed, compliance);
   }
-  const double full = spring_.tangent() * std::max(0.0, now - crushed);
-  if (compliance <= 0) return free_after >= before ? full : 0;
-  return std::clamp((free_after - before) / compliance, 0.0, full);
+  const double most = full(now, memory);
+  if (compliance <= 0) return free_after >= before ? most : 0;
+  return std::clamp((free_after - before) / compliance, 0.0, most);
 }
 
 double FillerLaw::energy(double now, double after, std::span<const double> memory) const {

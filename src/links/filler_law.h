@@ -33,6 +33,12 @@ class FillerLaw final : public LinkLaw {
                std::span<const double> memory = {}) const override;
   double solve(double before, double now, double free_after, double compliance,
                std::span<const double> memory = {}) const override;
+  /// N_n of a step in which it does not let go, the most that it can be.
+  double full(double now, std::span<const double> memory) const;
+  /// Least e_{n+1} of such a step.
+  double holds_down_to(double before, std::span<const double> memory) const {
+    return before > memory[1] ? memory[1] : before;
+  }
   double energy(double now, double after, std::span<const double> memory = {}) const override;
   double tangent() const override { return spring_.tangent(); }
   bool is_idle(double now, std::span<const double> memory = {}) const override {
