@@ -5,8 +5,8 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <set>
 
+#include "contact/delassus.h"
 #include "contact/interface_traces.h"
 
 namespace pounding {
@@ -55,23 +55,15 @@ FillerRows::FillerRows(MPI_Comm comm, const Interface& interface,
 }
 
 void FillerRows::find_couplings(std::size_t structures) {
-  std::map<int, std::set<std::size_t>> moved;  // rows, by what moves together
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    for (const int dof : operator_.row_dofs(static_cast<int>(r))) {
-      moved[compliance_.group_of(static_cast<std::size_t>(dof))].insert(r);
-    }
-  }
+  DelassusPattern pattern(operator_, compliance_);
   parts_.assign(structures, std::vector<std::vector<Coupling>>(rows_.size()));
   couplings_.resize(rows_.size());
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const auto dofs = operator_.row_dofs(static_cast<int>(r));
     const auto values = operator_.row_coefficients(static_cast<int>(r));
-    std::set<std::size_t> others{r};
-    for (const int dof : dofs) {
-      const auto& together = moved[compliance_.group_of(static_cast<std::size_t>(dof))];
-      others.insert(together.begin(), together.end());
-    }
-    for (const std::size_t other : others) {
+    const int row = static_cast<int>(r);
+    for (const int column : pattern.coupled_with({&row, 1})) {
+      const auto other = static_cast<std::size_t>(column);
       const auto other_dofs = operator_.row_dofs(static_cast<int>(other));
       const auto other_values = operator_.row_coefficients(static_cast<int>(other));
       std::map<int, double> part;  // by structure
