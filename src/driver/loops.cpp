@@ -115,7 +115,7 @@ void keep_nearest(const Loop& loop, int item, std::vector<Candidate>& all) {
 }
 
 std::string name_of(const std::string& item, const Candidate& link) {
-  const std::string name = item + "." + std::to_string(link.number);
+  std::string name = item + "." + std::to_string(link.number);
   if (link.part < 0) return name;
   if (link.bar != 0) return name + ".axial";
   const std::string component(motion_names[static_cast<std::size_t>(link.component)]);

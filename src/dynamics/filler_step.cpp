@@ -114,7 +114,7 @@ bool FillerStep::hold(double share) {
   for (std::size_t r = 0; r < laws_.size(); ++r) {
     const std::span<const double> memory(&memory_[remembered * r], remembered);
     const double least = free_after_[r] - square * reach_[r] * largest;
-    if (force_[r] > 0 && least < laws_[r].holds_down_to(before_[r], memory)) return false;
+    if (force_[r] > 0 && least < FillerLaw::holds_down_to(before_[r], memory)) return false;
   }
   return true;
 }

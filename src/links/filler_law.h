@@ -36,7 +36,7 @@ class FillerLaw final : public LinkLaw {
   /// N_n of a step in which it does not let go, the most that it can be.
   double full(double now, std::span<const double> memory) const;
   /// Least e_{n+1} of such a step.
-  double holds_down_to(double before, std::span<const double> memory) const {
+  static double holds_down_to(double before, std::span<const double> memory) {
     return before > memory[1] ? memory[1] : before;
   }
   double energy(double now, double after, std::span<const double> memory = {}) const override;
