@@ -6,6 +6,20 @@
 
 namespace pounding {
 
+namespace {
+
+/// Whether a dof moves, and this rank owns it.
+bool moves_here(const InterfaceDof& dof, std::span<const Mesh> meshes) {
+  if (owned_dof(dof, meshes) >= 0) return true;
+  const Mesh& mesh = meshes[dof.structure];
+  const LocalIndex node = mesh.owned_node(dof.node);
+  if (node < 0) return false;
+  const SupportedNode* const at = mesh.support_at(node);
+  return at != nullptr && at->holds(dof.component);
+}
+
+}  // namespace
+
 LocalIndex owned_dof(const InterfaceDof& dof, std::span<const Mesh> meshes) {
   const Mesh& mesh = meshes[dof.structure];
   const LocalIndex node = mesh.owned_node(dof.node);
@@ -23,13 +37,13 @@ ContactOperator::ContactOperator(MPI_Comm comm, const std::vector<Constraint>& c
       if (fresh) all.push_back({term.structure, term.node, term.component});
     }
   }
-  std::vector<int> free(all.size(), 0);
-  std::transform(all.begin(), all.end(), free.begin(),
-                 [&](const InterfaceDof& dof) { return owned_dof(dof, meshes) >= 0 ? 1 : 0; });
-  MPI_Allreduce(MPI_IN_PLACE, free.data(), static_cast<int>(free.size()), MPI_INT, MPI_MAX, comm);
+  std::vector<int> moves(all.size(), 0);
+  std::transform(all.begin(), all.end(), moves.begin(),
+                 [&](const InterfaceDof& dof) { return moves_here(dof, meshes) ? 1 : 0; });
+  MPI_Allreduce(MPI_IN_PLACE, moves.data(), static_cast<int>(moves.size()), MPI_INT, MPI_MAX, comm);
   std::vector<int> kept(all.size(), -1);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (free[i] != 0) {
+    if (moves[i] != 0) {
       kept[i] = static_cast<int>(dofs_.size());
       dofs_.push_back(all[i]);
     }

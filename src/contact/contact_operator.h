@@ -16,7 +16,8 @@ struct InterfaceDof {
 };
 
 /// The contact operator L over the interface's own list of dofs, the same on every rank: a row per
-/// constraint, a column per dof in order of first appearance. Clamped dofs are not in it.
+/// constraint, a column per dof in order of first appearance. Clamped dofs are in it where
+/// their support moves on its own.
 class ContactOperator {
  public:
   /// `meshes` in the order of the scene's structures; every rank knows which dofs are clamped by

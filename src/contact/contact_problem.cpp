@@ -143,8 +143,9 @@ void ContactProblem::find_components() {
   if (largest > 1) lcp_ = std::make_unique<CoupledLcp>(largest, most_entries);
 }
 
-void ContactProblem::set_displacement(std::size_t structure, const double* displacement) {
-  traces_[structure].apply(displacement, mine_.data() + first_known_[structure], 1);
+void ContactProblem::set_displacement(std::size_t structure, const double* displacement,
+                                      std::span<const double> supports) {
+  traces_[structure].apply(displacement, mine_.data() + first_known_[structure], 1, supports);
 }
 
 void ContactProblem::gather_displacements() {
@@ -167,12 +168,14 @@ bool ContactProblem::detect_contact() {
   return any;
 }
 
-void ContactProblem::set_velocity_before(std::size_t structure, const double* velocity) {
-  traces_[structure].apply(velocity, mine_.data() + 2 * first_known_[structure], 2);
+void ContactProblem::set_velocity_before(std::size_t structure, const double* velocity,
+                                         std::span<const double> supports) {
+  traces_[structure].apply(velocity, mine_.data() + 2 * first_known_[structure], 2, supports);
 }
 
-void ContactProblem::set_free_velocity(std::size_t structure, const double* velocity) {
-  traces_[structure].apply(velocity, mine_.data() + 2 * first_known_[structure] + 1, 2);
+void ContactProblem::set_free_velocity(std::size_t structure, const double* velocity,
+                                       std::span<const double> supports) {
+  traces_[structure].apply(velocity, mine_.data() + 2 * first_known_[structure] + 1, 2, supports);
 }
 
 void ContactProblem::gather_velocities() {
@@ -280,15 +283,27 @@ void ContactProblem::solve_impulse() {
 }
 
 void ContactProblem::add_velocity_change(std::size_t structure, double* velocity) {
-  Trace& trace = traces_[structure];
   for (const std::vector<double>* impulse : {&dof_impulse_, &dof_increment_}) {
-    const std::vector<int>& known = trace.known();
-    for (std::size_t k = 0; k < known.size(); ++k) {
-      const int dof = structure_dofs_[structure][known[k]];
-      place_impulse_[k] = (*impulse)[dof];
-    }
-    trace.add_impulse(place_impulse_.data(), velocity);
+    pick_impulses(structure, *impulse);
+    traces_[structure].add_impulse(place_impulse_.data(), velocity);
   }
+}
+
+void ContactProblem::pick_impulses(std::size_t structure, const std::vector<double>& impulse) {
+  const std::vector<int>& known = traces_[structure].known();
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    const int dof = structure_dofs_[structure][known[k]];
+    place_impulse_[k] = impulse[dof];
+  }
+}
+
+double ContactProblem::support_work(std::size_t structure, std::span<const double> velocity) {
+  double work = 0;
+  for (const std::vector<double>* impulse : {&dof_impulse_, &dof_increment_}) {
+    pick_impulses(structure, *impulse);
+    work += traces_[structure].support_work(place_impulse_, velocity);
+  }
+  return work;
 }
 
 void ContactProblem::save(SavedState& saved) const {

@@ -42,16 +42,19 @@ class ContactProblem {
 
   /// The interface of a structure, as far as this rank knows it.
   const Trace& trace(std::size_t structure) const { return traces_[structure]; }
-  /// u_n over the owned dofs of the structure.
-  void set_displacement(std::size_t structure, const double* displacement);
+  /// u_n over the owned dofs of the structure; `supports`: that of the supports, see Trace::apply.
+  void set_displacement(std::size_t structure, const double* displacement,
+                        std::span<const double> supports = {});
   /// Gathers the displacements and computes the gaps. Members only, collective over them.
   void gather_displacements();
   /// Active set; true if it is not empty.
   bool detect_contact();
   /// v_{n-1/2} and v_free over the owned dofs of the structure, after the displacements of both
-  /// have been gathered.
-  void set_velocity_before(std::size_t structure, const double* velocity);
-  void set_free_velocity(std::size_t structure, const double* velocity);
+  /// have been gathered; `supports`: those of the supports likewise.
+  void set_velocity_before(std::size_t structure, const double* velocity,
+                           std::span<const double> supports = {});
+  void set_free_velocity(std::size_t structure, const double* velocity,
+                         std::span<const double> supports = {});
   /// Gathers the velocities. Members only, collective over them.
   void gather_velocities();
   /// Impulses of the active rows, 0 elsewhere.
@@ -60,6 +63,9 @@ class ContactProblem {
   void clear_impulse();
   /// v += M^-1 T^T L^T lambda over the dofs of the structure's trace.
   void add_velocity_change(std::size_t structure, double* velocity);
+  /// Work of the impulses, friction's included, on a structure's supports that move with `velocity`
+  /// [J]: that of the places that this rank knows.
+  double support_work(std::size_t structure, std::span<const double> velocity);
 
   /// Gaps of the last gather, per row. Members only.
   const std::vector<double>& gaps() const { return gap_; }          ///< [m]
@@ -94,6 +100,8 @@ class ContactProblem {
   std::size_t structure_of(std::size_t dof) const {
     return static_cast<std::size_t>(operator_.dof_list()[dof].structure);
   }
+  /// L^T lambda at the known places of a structure, of one of the two that are kept.
+  void pick_impulses(std::size_t structure, const std::vector<double>& impulse);
   void find_components();
   void solve_component(const Component& component);
   void solve_with_friction(const Component& component);

@@ -93,7 +93,7 @@ void FillerRows::count_from_rest(std::span<const LinearSystem> systems) {
   for (std::size_t s = 0; s < systems.size(); ++s) {
     const std::vector<double> none(systems[s].lumped_mass.size(), 0.0);
     const std::vector<double>& rest = systems[s].rest_displacement;
-    set_state(s, rest.empty() ? none.data() : rest.data(), none.data());
+    set_state(s, rest.empty() ? none.data() : rest.data(), none.data(), {});
   }
   if (!member()) return;
   std::vector<double> compression(rows_.size());
@@ -105,10 +105,10 @@ void FillerRows::count_from_rest(std::span<const LinearSystem> systems) {
 }
 
 void FillerRows::set_state(std::size_t structure, const double* displacement,
-                           const double* velocity) {
+                           const double* velocity, const Supports& supports) {
   double* const values = mine_.data() + fields * first_known_[structure];
-  traces_[structure].apply(displacement, values, fields);
-  traces_[structure].apply(velocity, values + 1, fields);
+  traces_[structure].apply(displacement, values, fields, supports.displacement);
+  traces_[structure].apply(velocity, values + 1, fields, supports.velocity);
 }
 
 void FillerRows::gather(std::span<double> compression, std::span<double> rate) {
@@ -157,13 +157,21 @@ void FillerRows::set_impulses(std::span<const double> impulses) {
   }
 }
 
-void FillerRows::add_velocity_change(std::size_t structure, double* velocity) {
-  Trace& trace = traces_[structure];
-  const std::vector<int>& known = trace.known();
+void FillerRows::pick_impulses(std::size_t structure) {
+  const std::vector<int>& known = traces_[structure].known();
   for (std::size_t k = 0; k < known.size(); ++k) {
     place_impulse_[k] = dof_impulse_[structure_dofs_[structure][known[k]]];
   }
-  trace.add_impulse(place_impulse_.data(), velocity);
+}
+
+void FillerRows::add_velocity_change(std::size_t structure, double* velocity) {
+  pick_impulses(structure);
+  traces_[structure].add_impulse(place_impulse_.data(), velocity);
+}
+
+double FillerRows::support_work(std::size_t structure, std::span<const double> velocity) {
+  pick_impulses(structure);
+  return traces_[structure].support_work(place_impulse_, velocity);
 }
 
 }  // namespace pounding

@@ -33,8 +33,14 @@ class FillerRows {
   bool member() const { return gather_.member(); }  ///< this rank knows a dof of some row
   int root() const { return gather_.root(); }       ///< the lowest member
 
+  /// Motion of supports that carry the structures along, see Trace::apply; empty without.
+  struct Supports {
+    std::span<const double> displacement{};
+    std::span<const double> velocity{};
+  };
   /// Displacement and velocity over the owned dofs of a structure.
-  void set_state(std::size_t structure, const double* displacement, const double* velocity);
+  void set_state(std::size_t structure, const double* displacement, const double* velocity,
+                 const Supports& supports);
   /// Compression d [m] and its rate [m/s] per row from these. Members only, collective over them.
   void gather(std::span<double> compression, std::span<double> rate);
 
@@ -54,8 +60,13 @@ class FillerRows {
   void set_impulses(std::span<const double> impulses);
   /// v += M^-1 T^T L^T lambda over the dofs of the structure's trace.
   void add_velocity_change(std::size_t structure, double* velocity);
+  /// Work of the impulses on a structure's supports that move with `velocity` [J]: that of the
+  /// places that this rank knows.
+  double support_work(std::size_t structure, std::span<const double> velocity);
 
  private:
+  /// L^T lambda at the known places of a structure.
+  void pick_impulses(std::size_t structure);
   void find_couplings(std::size_t structures);
   void count_from_rest(std::span<const LinearSystem> systems);
 

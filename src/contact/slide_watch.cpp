@@ -27,8 +27,9 @@ SlideWatch::SlideWatch(MPI_Comm comm, const Interface& interface,
   }
 }
 
-void SlideWatch::set_displacement(std::size_t structure, const double* displacement) {
-  traces_[structure].apply(displacement, mine_.data() + first_known_[structure], 1);
+void SlideWatch::set_displacement(std::size_t structure, const double* displacement,
+                                  std::span<const double> supports) {
+  traces_[structure].apply(displacement, mine_.data() + first_known_[structure], 1, supports);
 }
 
 void SlideWatch::look(double time) {

@@ -33,8 +33,9 @@ class SlideWatch {
 
   /// This rank takes part in looks.
   bool member() const { return gather_.member(); }
-  /// u over the owned dofs of a structure.
-  void set_displacement(std::size_t structure, const double* displacement);
+  /// u over the owned dofs of a structure; `supports`: that of the supports, see Trace::apply.
+  void set_displacement(std::size_t structure, const double* displacement,
+                        std::span<const double> supports = {});
   /// Looks at all pairs at a time [s]. Members only, collective over them.
   void look(double time);
 

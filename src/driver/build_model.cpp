@@ -15,6 +15,7 @@
 #include "driver/rest.h"
 #include "driver/run_warnings.h"
 #include "driver/warnings.h"
+#include "mesh/find_supported_nodes.h"
 #include "mesh/gmsh_reader.h"
 #include "mesh/soil_node.h"
 #include "modal/buckling.h"
@@ -22,11 +23,14 @@
 #include "modal/reduced_system.h"
 #include "modal/reduction.h"
 #include "scene/soil_reader.h"
+#include "scene/support_reader.h"
 #include "stability/stable_time_step.h"
 #include "stability/step_target.h"
 #include "stability/structure_limits.h"
+#include "statics/find_support_shapes.h"
 #include "system/axial_forces.h"
 #include "system/build_system.h"
+#include "system/links.h"
 #include "system/mass_scaling.h"
 
 namespace pounding {
@@ -79,6 +83,7 @@ void build_meshes(MPI_Comm comm, Scene& scene, Profile& profile, Model& model) {
         }
         model.buildings[s].absorbing = find_absorbing_nodes(scene, scene.structures[s], meshes[s]);
         check_mesh(scene, s, meshes[s], model);
+        meshes[s].supported = find_supported_nodes(scene, scene.structures[s], meshes[s]);
       }
       const Progress progress(comm, "faces in contact and probes", scene.progress_interval);
       model.interface = find_interface(scene, meshes);
@@ -120,7 +125,8 @@ void build_meshes(MPI_Comm comm, Scene& scene, Profile& profile, Model& model) {
   }
   timer.reset();
   progress.emplace(comm, "modal bases", scene.progress_interval);
-  auto bases = find_bases(comm, scene, meshes, model.interface, model.probes, profile);
+  auto bases = find_bases(comm, scene, meshes, model.interface, model.probes,
+                          model.support_columns(), profile);
   for (std::size_t s = 0; s < meshes.size(); ++s) model.buildings[s].basis = std::move(bases[s]);
 }
 
@@ -181,6 +187,16 @@ bool leans(const Structure& structure) {
   return structure.p_delta && !structure.modal;
 }
 
+/// How a structure at full order follows its supports, if these move on their own. Collective.
+void find_shapes(MPI_Comm comm, const Scene& scene, const Structure& structure, const Mesh& mesh,
+                 const Model& model, LinearSystem& system) {
+  if (!model.supports || !stands_on_moving_support(scene, structure)) return;
+  const Progress progress = begin(comm, scene, structure, "static responses to its supports");
+  system.supports =
+      find_support_shapes(structure, mesh, system, model.support_columns(), scene.preload_solver);
+  if (system.links) system.links->find_trace(system, mesh);
+}
+
 /// System and modes of a structure whose mesh is distributed and whose basis is known.
 /// `for_weight`: only what the equilibrium under its weight needs.
 void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& profile,
@@ -194,7 +210,7 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
   building.system = &system;
   if (building.basis) {
     system = build_reduced_system(comm, owners_of_reduced(comm, scene)[s], wanted, mesh,
-                                  *building.basis);
+                                  *building.basis, model.support_columns());
     building.modal = modes_of_basis(*building.basis, scene.modes);
     building.limits = limits_of(wanted, system, mesh, building.basis_or_null(), {});
     return;
@@ -207,10 +223,12 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
   const bool exported = !scene.export_matrices.empty();
   const bool keeps_first = structure.uniform_damping && structure.uniform_damping->reference == 0;
   const int modes = std::max(for_weight ? 0 : scene.modes, keeps_first ? 1 : 0);
+  const bool with_matrix =
+      modes > 0 || exported || scene.preload || stands_on_moving_support(scene, wanted);
   {
     const ScopedTimer timer(profile, Phase::assembly);
     const Progress progress = begin(comm, scene, structure, "assembly");
-    system = build_system(structure, mesh, scene.stiffness, modes > 0 || exported || scene.preload);
+    system = build_system(structure, mesh, scene.stiffness, with_matrix);
   }
   const ScopedTimer timer(profile, Phase::modes);
   require_passive_matrices(structure, system);
@@ -223,6 +241,7 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
     system.uniform_damping->reference = reference_frequency(structure, building.modal);
   }
   if (for_weight) return;
+  find_shapes(comm, scene, structure, mesh, model, system);
   building.modal.modes.resize(std::min<std::size_t>(building.modal.modes.size(), scene.modes));
   if (!exported && !scene.preload) system.stiffness->release_matrix();
   Progress progress = begin(comm, scene, structure, "largest frequency and stable time step");
@@ -251,6 +270,7 @@ void turn_weight_with_columns(MPI_Comm comm, const Scene& scene, Profile& profil
 
 void add_warnings(MPI_Comm comm, const Scene& scene, Model& model) {
   append(model.motion->doubts(), model.warnings);
+  if (model.supports) append(model.supports->doubts(), model.warnings);
   for (const LinearSystem& system : model.systems) append(sliver_warnings(system), model.warnings);
   append(model.interface.warnings, model.warnings);
   for (const Building& building : model.buildings) {
@@ -269,6 +289,10 @@ Model build_model(MPI_Comm comm, Scene& scene, Profile& profile) {
   on_every_rank(comm, [&] {
     model.motion = std::make_unique<GroundMotion>(scene.motion, scene.resampling);
     if (scene.motion_from_below) model.motion->enter_from_below();
+    if (!scene.supports.empty()) {
+      model.supports =
+          std::make_unique<SupportMotion>(scene.supports, *model.motion, scene.resampling);
+    }
   });
   build_meshes(comm, scene, profile, model);
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {

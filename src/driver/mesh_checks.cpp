@@ -31,7 +31,7 @@ std::string found_at(const Places& places, const char* what) {
   return std::to_string(places.count) + what + place_text(places.first);
 }
 
-/// Groups that clamps, rigid groups, soil, contacts and probes name, and those left out.
+/// Groups that clamps, rigid groups, soil, contacts, supports and probes name, and those left out.
 std::set<std::string> named_groups(const Scene& scene, const Structure& structure) {
   std::set<std::string> names(structure.ignored_groups.begin(), structure.ignored_groups.end());
   for (const Clamp& clamp : structure.clamps) names.insert(clamp.group);
@@ -44,6 +44,11 @@ std::set<std::string> named_groups(const Scene& scene, const Structure& structur
   for (const Contact& contact : scene.contacts) {
     for (const ContactSide& side : {contact.secondary, contact.primary}) {
       if (side.structure == structure.name) names.insert(side.group);
+    }
+  }
+  for (const Support& support : scene.supports) {
+    for (const SupportedGroup& group : support.groups) {
+      if (group.structure == structure.name) names.insert(group.group);
     }
   }
   for (const Probe& probe : scene.probes) {
@@ -74,8 +79,9 @@ bool is_zero(const Vector3& vector) {
 }
 
 bool is_shaken(const Scene& scene) {
-  return std::ranges::any_of(scene.motion,
-                             [](const auto& component) { return component.has_value(); });
+  return !scene.supports.empty() || std::ranges::any_of(scene.motion, [](const auto& component) {
+    return component.has_value();
+  });
 }
 
 bool starts_in_motion(const Structure& structure) {

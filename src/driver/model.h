@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "mesh/mesh.h"
 #include "mesh/probe_set.h"
 #include "motion/ground_motion.h"
+#include "motion/support_motion.h"
 #include "scene/scene.h"
 #include "statics/equilibrium.h"
 #include "system/linear_system.h"
@@ -27,13 +29,19 @@ struct Model {
   Interface interface;                ///< reports on rank 0 only
   std::vector<ResolvedProbe> probes;
   std::unique_ptr<GroundMotion> motion;
-  std::optional<Equilibrium> equilibrium;  ///< that the run starts from
+  std::unique_ptr<SupportMotion> supports;  ///< null where the ground moves as one
+  std::optional<Equilibrium> equilibrium;   ///< that the run starts from
   double partition_imbalance = 1;
   long partition_edge_cut = 0;
   double filler_time_step = std::numeric_limits<double>::infinity();  ///< see filler_limit [s]
   double time_step = 0;                                               ///< in force [s]
   std::int64_t steps = 0;                                             ///< until the end time
   std::vector<std::string> warnings;  ///< one line each, on rank 0: what may not be meant
+  /// Components of the supports' motion that differ from the ground's.
+  std::span<const SupportColumn> support_columns() const {
+    return supports ? std::span<const SupportColumn>(supports->columns())
+                    : std::span<const SupportColumn>();
+  }
   double smallest_stable_time_step() const {
     const double smallest = std::ranges::min_element(buildings, {}, [](const Building& building) {
                               return building.limits.stable_time_step;

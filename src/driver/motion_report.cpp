@@ -6,7 +6,7 @@
 
 namespace pounding {
 
-void print_motion(const GroundMotion& motion) {
+void print_motion(const GroundMotion& motion, const SupportMotion* supports) {
   std::printf("\n");
   for (const MotionDescription& d : motion.descriptions()) {
     std::printf("motion %s: %s\n  %s%s%s, %zu points every %.6g s, %.6g s", d.direction.c_str(),
@@ -22,6 +22,14 @@ void print_motion(const GroundMotion& motion) {
     std::printf("the motion enters from below as a wave; displacements are absolute\n");
   }
   if (motion.descriptions().empty()) std::printf("motion: none\n");
+  for (std::size_t c = 0; supports != nullptr && c < supports->columns().size(); ++c) {
+    const bool turns = supports->columns()[c].component >= 3;
+    const SupportMotion::Reach reach = supports->reach(c);
+    std::printf("%s: %s; against the ground at most %.4g %s and %.4g %s\n",
+                supports->describe(c).c_str(), supports->source(c).c_str(), reach.peak,
+                turns ? "rad/s2" : "m/s2", turns ? reach.largest : 1000 * reach.largest,
+                turns ? "rad" : "mm");
+  }
 }
 
 nlohmann::ordered_json describe_motion(const GroundMotion& motion) {
@@ -39,6 +47,19 @@ nlohmann::ordered_json describe_motion(const GroundMotion& motion) {
     }
   }
   return description;
+}
+
+nlohmann::ordered_json describe_supports(const SupportMotion& supports) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (std::size_t c = 0; c < supports.columns().size(); ++c) {
+    const SupportMotion::Reach reach = supports.reach(c);
+    list.push_back({{"component", supports.describe(c)},
+                    {"source", supports.source(c)},
+                    {"peak", reach.peak},
+                    {"largest", reach.largest},
+                    {"end", reach.end}});
+  }
+  return list;
 }
 
 }  // namespace pounding

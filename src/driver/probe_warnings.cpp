@@ -51,7 +51,9 @@ std::vector<std::string> probe_warnings(std::span<const ResolvedProbe> probes,
     });
     if (clamped > 0) {
       warnings.push_back(subject(probe, clamped) +
-                         " clamped: the ground's own motion is recorded there");
+                         (mesh.supported.empty()
+                              ? " clamped: the ground's own motion is recorded there"
+                              : " clamped: the motion of its support is recorded there"));
     }
     const std::size_t in_contact = std::ranges::count_if(probe.nodes, [&](GlobalIndex node) {
       return touching.contains({probe.structure, node});

@@ -358,7 +358,7 @@ void print_title(const Scene& scene, int ranks) {
 }
 
 void print_model(const Scene& scene, const Model& model) {
-  print_motion(*model.motion);
+  print_motion(*model.motion, model.supports.get());
   for (const Building& building : model.buildings) print_structure(building);
   for (const InterfaceReport& report : model.interface.reports) print_contact(report);
   print_rest(scene, model);

@@ -7,7 +7,7 @@
 namespace pounding {
 namespace {
 
-std::string hash_of(const GroundMotion& motion) {
+std::string hash_of(const GroundMotion& motion, const SupportMotion* supports) {
   Hash hash;
   for (int direction = 0; direction < 3; ++direction) {
     const Accelerogram& component = motion.component(direction);
@@ -18,6 +18,10 @@ std::string hash_of(const GroundMotion& motion) {
       hash.add(incident.time_step);
       hash.add_all(incident.acceleration);
     }
+  }
+  for (std::size_t c = 0; supports != nullptr && c < supports->columns().size(); ++c) {
+    hash.add(supports->own(c).time_step);
+    hash.add_all(supports->own(c).acceleration);
   }
   return hash.text();
 }
@@ -33,7 +37,7 @@ std::map<std::string, std::string> lasting_options(const std::string& resolved) 
 }
 
 RunIdentity identity_of(const std::string& resolved, const Model& model) {
-  return {lasting_options(resolved), model.time_step, hash_of(*model.motion)};
+  return {lasting_options(resolved), model.time_step, hash_of(*model.motion, model.supports.get())};
 }
 
 }  // namespace pounding

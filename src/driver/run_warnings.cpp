@@ -56,7 +56,8 @@ void add_long_step(const std::string& of, double sample, double step,
 
 std::vector<std::string> run_warnings(const Scene& scene, const Model& model) {
   std::vector<std::string> warnings;
-  if (stands_still(scene) && !scene.dry_run && scene.export_matrices.empty()) {
+  if (stands_still(scene) && model.support_columns().empty() && !scene.dry_run &&
+      scene.export_matrices.empty()) {
     warnings.emplace_back(
         "nothing makes the scene move: no -motion_x_record or -motion_x_target (nor y, z), no "
         "initial displacement or velocity, no gravity");

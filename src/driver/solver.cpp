@@ -44,7 +44,7 @@ void Solver::make_stepper() {
   stepper_ = std::make_unique<CdLagrange>(
       parts_.comm, parts_.systems, *parts_.motion, contact_.get(), fillers_.get(),
       GapWatch(parts_.systems, bounds_, parts_.motion->peaks(), parts_.time_step), parts_.time_step,
-      *parts_.profile);
+      *parts_.profile, parts_.supports);
 }
 
 }  // namespace pounding

@@ -33,7 +33,8 @@ class Solver {
     std::vector<double> energy_margins;  ///< per structure, at the time step [-]
     Profile* profile = nullptr;
     double progress_interval = std::numeric_limits<double>::infinity();  ///< [s], see Progress
-    std::span<const Contact> contacts;  ///< of the scene, needed where joints have fillers
+    std::span<const Contact> contacts;        ///< of the scene, needed where joints have fillers
+    const SupportMotion* supports = nullptr;  ///< null where the ground moves as one
   };
 
   /// Puts contact and scheme together, at t_0. Collective.

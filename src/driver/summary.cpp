@@ -283,6 +283,7 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
   summary["structures_key"] = scene.structures_key;
   if (model.equilibrium) summary["equilibrium"] = describe_equilibrium(scene, model);
   summary["motion"] = describe_motion(*model.motion);
+  if (model.supports) summary["supports"] = describe_supports(*model.supports);
   summary["time_step"] = model.time_step;
   summary["stable_time_step"] = model.smallest_stable_time_step();
   if (std::isfinite(model.filler_time_step)) summary["filler_time_step"] = model.filler_time_step;

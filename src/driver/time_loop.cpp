@@ -49,7 +49,8 @@ Solver::Parts solver_parts(MPI_Comm comm, const Scene& scene, const Model& model
                       {},
                       &profile,
                       scene.progress_interval,
-                      scene.contacts};
+                      scene.contacts,
+                      model.supports.get()};
   for (const Building& building : model.buildings) {
     parts.energy_margins.push_back(building.energy_margin);
   }
@@ -192,7 +193,8 @@ void TimeLoop::watch_slides(std::int64_t step) {
   const ScopedTimer timer(profile_, Phase::output);
   const std::vector<StructureState>& structures = solver_.stepper().state().structures;
   for (std::size_t s = 0; s < structures.size(); ++s) {
-    slides_->set_displacement(s, structures[s].displacement.data());
+    slides_->set_displacement(s, structures[s].displacement.data(),
+                              solver_.stepper().state().supports.displacement);
   }
   slides_->look(static_cast<double>(step) * model_.time_step);
 }

@@ -10,15 +10,18 @@ namespace pounding {
 
 CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
                        const GroundMotion& motion, ContactProblem* contact, FillerStep* fillers,
-                       GapWatch watch, double time_step, Profile& profile)
+                       GapWatch watch, double time_step, Profile& profile,
+                       const SupportMotion* supports)
     : systems_(systems),
       motion_(motion),
+      support_motion_(supports),
       contact_(contact),
       fillers_(fillers),
       watch_(std::move(watch)),
       time_step_(time_step),
       profile_(profile),
-      state_(systems),
+      state_(systems, supports != nullptr ? supports->columns().size() : 0),
+      supports_(state_.supports.displacement.size()),
       energy_(comm, systems, time_step),
       counts_work_(contact != nullptr && contact->root() == rank_of(comm)),
       sums_(systems.size()) {
@@ -30,10 +33,10 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
     extra_forces_.push_back(systems_[s].has_extra_damping()
                                 ? wrap_vector(systems_[s], state.extra_force)
                                 : VecHandle());
-    link_steps_.push_back(
-        systems_[s].links
-            ? std::make_unique<LinkStep>(systems_[s], state, structure_steps_[s], time_step)
-            : nullptr);
+    link_steps_.push_back(systems_[s].links
+                              ? std::make_unique<LinkStep>(systems_[s], state, structure_steps_[s],
+                                                           supports_, time_step)
+                              : nullptr);
     StoredForces store(state.stiffness_displacement.data());  // K u_0
     systems_[s].stiffness->apply({state.displacement.data(), state.displacement.data(), 0}, store);
     for (std::vector<double>& filtered : state.filtered) {
@@ -52,6 +55,8 @@ void CdLagrange::step(bool look_at_gap, bool with_energies) {
   const double time = static_cast<double>(state_.step) * time_step_;
   motion_.evaluate(time, acceleration_);
   motion_.evaluate_incident(time, incident_);
+  if (support_motion_ != nullptr) support_motion_->evaluate(time, supports_.acceleration);
+  supports_.begin(state_.supports, force_duration_);
 
   detect_contact(look_at_gap);  // A = { i : g_i(u_n) <= g_tol }
   if (fillers_ != nullptr) measure_fillers();
@@ -62,6 +67,7 @@ void CdLagrange::step(bool look_at_gap, bool with_energies) {
     correct_velocity();  // v+ = v_free + M^-1 L^T lambda,   u_{n+1} = u_n + dt v+
   }
   close_energy();  // E+ - E- = -dt vbar^T C vbar + dt vbar^T (f - x) + 1/2 lambda^T L v-
+  supports_.finish(time_step_, state_.supports);
   ++state_.step;
 }
 
@@ -74,12 +80,13 @@ void CdLagrange::detect_contact(bool look_at_gap) {
   const ScopedTimer timer(profile_, Phase::contact);
   ++looks_;
   for (std::size_t s = 0; s < systems_.size(); ++s) {
-    contact_->set_displacement(s, state_.structures[s].displacement.data());
+    contact_->set_displacement(s, state_.structures[s].displacement.data(), supports_.displacement);
   }
   contact_->gather_displacements();
   touching_ = contact_->detect_contact();
   for (std::size_t s = 0; touching_ && s < systems_.size(); ++s) {
-    contact_->set_velocity_before(s, state_.structures[s].velocity.data());
+    contact_->set_velocity_before(s, state_.structures[s].velocity.data(),
+                                  supports_.velocity_before);
     structure_steps_[s].remember(contact_->trace(s).dofs(), before_[s]);
   }
   if (!touching_) {
@@ -98,7 +105,7 @@ void CdLagrange::free_velocity(bool with_energies) {
     sums_[s].extra_damping_before = apply_extra_damping(s);
     if (link_steps_[s]) link_steps_[s]->begin(incident_);
     structure_steps_[s].begin(force_duration_, acceleration_, first,
-                              with_energies || energy_.needs_energies());
+                              with_energies || energy_.needs_energies(), supports_.acceleration);
     systems_[s].stiffness->finish(argument(s), structure_steps_[s]);
     structure_steps_[s].complete();
     if (link_steps_[s]) link_steps_[s]->pull(first);
@@ -107,19 +114,19 @@ void CdLagrange::free_velocity(bool with_energies) {
 
 void CdLagrange::measure_fillers() {
   const ScopedTimer timer(profile_, Phase::contact);
-  fillers_->begin(state_.structures, structure_steps_);
+  fillers_->begin(state_.structures, structure_steps_, supports_);
 }
 
 void CdLagrange::press_fillers() {
   const ScopedTimer timer(profile_, Phase::contact);
-  fillers_->press(state_.step == 0, state_.structures, structure_steps_);
+  fillers_->press(state_.step == 0, state_.structures, structure_steps_, supports_);
 }
 
 void CdLagrange::solve_impulse() {
   const ScopedEvent event(events_.solve_impulse);
   const ScopedTimer timer(profile_, Phase::contact);
   for (std::size_t s = 0; s < systems_.size(); ++s) {
-    contact_->set_free_velocity(s, state_.structures[s].velocity.data());
+    contact_->set_free_velocity(s, state_.structures[s].velocity.data(), supports_.velocity);
   }
   contact_->gather_velocities();
   contact_->solve_impulse();
@@ -143,6 +150,9 @@ void CdLagrange::close_energy() {
     sums_[s] = structure_steps_[s].sums();
     sums_[s].extra_damping_before = extra_damping;
     if (link_steps_[s]) link_steps_[s]->finish(sums_[s]);
+    if (touching_ && systems_[s].supports) {
+      sums_[s].contact_support_input = -contact_->support_work(s, supports_.velocity_mean);
+    }
   }
   if (fillers_ != nullptr) fillers_->finish(sums_[0]);
   ContactWork work;

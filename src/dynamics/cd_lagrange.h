@@ -13,7 +13,9 @@
 #include "dynamics/link_step.h"
 #include "dynamics/state.h"
 #include "dynamics/structure_step.h"
+#include "dynamics/support_step.h"
 #include "motion/ground_motion.h"
+#include "motion/support_motion.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -41,10 +43,11 @@ namespace pounding {
 /// contact does not lower it. A step allocates nothing, opens nothing, prints nothing.
 class CdLagrange {
  public:
-  /// All references must outlive this object. `contact` and `fillers` may be null. Collective.
+  /// All references must outlive this object. `contact` and `fillers` may be null, and `supports`
+  /// where the ground moves as one. Collective.
   CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems, const GroundMotion& motion,
              ContactProblem* contact, FillerStep* fillers, GapWatch watch, double time_step,
-             Profile& profile);
+             Profile& profile, const SupportMotion* supports = nullptr);
 
   /// The step to t_n, n = state().step; the start at t_0 on the first call. `look_at_gap` makes the
   /// interface gather whatever its distance; `with_energies`: the ledger's line before this step
@@ -112,12 +115,14 @@ class CdLagrange {
 
   std::span<const LinearSystem> systems_;
   const GroundMotion& motion_;
+  const SupportMotion* support_motion_;
   ContactProblem* contact_;
   FillerStep* fillers_;
   GapWatch watch_;
   double time_step_;
   Profile& profile_;
   State state_;
+  SupportStep supports_;
   std::vector<StructureStep> structure_steps_;
   std::vector<std::unique_ptr<LinkStep>> link_steps_;  ///< null where there are no such bars
   EnergyBalance energy_;

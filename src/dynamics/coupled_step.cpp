@@ -46,13 +46,15 @@ void CoupledStep::keep(std::size_t place, std::size_t count, const double* force
 }
 
 void CoupledStep::advance(const StepTerms<double>& terms, const std::array<double, 3>& ground_step,
-                          bool with_energies, DofSums<double>& dof_sums,
-                          DofEnergies<double>& dof_energies, StepSums& sums) {
+                          std::span<const double> support_step, bool with_energies,
+                          DofSums<double>& dof_sums, DofEnergies<double>& dof_energies,
+                          StepSums& sums) {
   if (with_energies) {
     sums.added_kinetic_before += system_.coupled_mass->added_product(state_.velocity.data());
   }
   filter_forces();
   form_impulses(terms, ground_step);
+  if (!support_step.empty()) add_support_loads(support_step);
   system_.coupled_mass->solve(field_.data());
   if (with_energies) {
     settle_nodes<true>(terms, dof_sums, dof_energies, sums);
@@ -60,6 +62,28 @@ void CoupledStep::advance(const StepTerms<double>& terms, const std::array<doubl
     settle_nodes<false>(terms, dof_sums, dof_energies, sums);
   }
   sums.filtered += filtered_work();
+  if (!support_step.empty()) sums.support_input += support_work(support_step);
+}
+
+void CoupledStep::add_support_loads(std::span<const double> support_step) {
+  for (const Node& node : nodes_) {
+    for (std::size_t c = 0; c < node.count; ++c) {
+      const std::size_t i = node.begin + c;
+      field_[node.field + c] -= system_.lumped_mass[i] * support_step[i];
+    }
+  }
+}
+
+double CoupledStep::support_work(std::span<const double> support_step) const {
+  double work = 0;
+  for (const Node& node : nodes_) {
+    for (std::size_t c = 0; c < node.count; ++c) {
+      const std::size_t i = node.begin + c;
+      const double sum = 2 * state_.velocity[i] - field_[node.field + c];
+      work -= support_step[i] * system_.lumped_mass[i] * sum / 2;
+    }
+  }
+  return work;
 }
 
 void CoupledStep::filter_forces() {

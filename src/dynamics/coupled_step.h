@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "dynamics/state.h"
@@ -24,10 +25,11 @@ class CoupledStep {
 
   /// q of coupled dofs that follow each other, `place` the number of the first among them all.
   void keep(std::size_t place, std::size_t count, const double* force);
-  /// After every force of the step. `ground_step`: h (a_g - g) [m/s]. Adds to the sums.
+  /// After every force of the step. `ground_step`: h (a_g - g) [m/s]; `support_step`: what supports
+  /// that move on their own add to it per owned dof, empty without. Adds to the sums.
   void advance(const StepTerms<double>& terms, const std::array<double, 3>& ground_step,
-               bool with_energies, DofSums<double>& dof_sums, DofEnergies<double>& dof_energies,
-               StepSums& sums);
+               std::span<const double> support_step, bool with_energies, DofSums<double>& dof_sums,
+               DofEnergies<double>& dof_energies, StepSums& sums);
 
  private:
   struct Node {
@@ -43,6 +45,10 @@ class CoupledStep {
                     const std::array<double, 3>& ground_step);
   /// f of all dofs from q and the filters' memories.
   void filter_forces();
+  /// Takes the loads of the supports off the impulses.
+  void add_support_loads(std::span<const double> support_step);
+  /// Their work on v+ + v-, after the step [J].
+  double support_work(std::span<const double> support_step) const;
   /// The part of the energy balance that stems from f - q.
   double filtered_work() const;
   template <bool with_energies>

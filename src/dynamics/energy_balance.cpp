@@ -42,9 +42,10 @@ void EnergyBalance::add_step(std::span<const StepSums> sums,
   }
   if (steps_ == 1) {
     initial_lagged_damping_ = lagged_damping_;
-    initial_ -= open_.contact - open_.friction;
+    initial_ -= open_.contact - open_.friction + open_.contact_supports;
     contact_.add(open_.contact);
     friction_.add(open_.friction);
+    input_.add(open_.contact_supports);
   }
   if (steps_ > 1) {
     damping_.add(open_.damping);
@@ -85,7 +86,8 @@ EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
     }
     result.device += time_step_ / 2 * sums[b].device;
     result.links += sums[b].link_loss;
-    result.input += sums[b].link_input;
+    result.input += sums[b].link_input + sums[b].support_input + sums[b].contact_support_input;
+    result.contact_supports += sums[b].contact_support_input;
   }
   return result;
 }
@@ -150,9 +152,9 @@ void EnergyBalance::for_each_sum(Balance& balance, Function&& function) {
   }
   function(balance.initial_);
   function(balance.initial_lagged_damping_);
-  for (auto* work :
-       {&balance.open_.damping, &balance.open_.input, &balance.open_.contact, &balance.open_.device,
-        &balance.open_.links, &balance.open_.gravity, &balance.open_.friction}) {
+  for (auto* work : {&balance.open_.damping, &balance.open_.input, &balance.open_.contact,
+                     &balance.open_.device, &balance.open_.links, &balance.open_.gravity,
+                     &balance.open_.friction, &balance.open_.contact_supports}) {
     function(*work);
   }
   for (auto& sum : balance.filtered_) {

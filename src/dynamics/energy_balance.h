@@ -126,6 +126,7 @@ class EnergyBalance {
     double links = 0;
     double gravity = 0;  ///< part of the input
     double friction = 0;
+    double contact_supports = 0;  ///< part of the input: of supports against contact impulses
   };
   /// Calls `function` with each number of this rank that adds up over ranks.
   template <typename Balance, typename Function>

@@ -45,10 +45,13 @@ FillerStep::FillerStep(MPI_Comm comm, const Interface& interface, std::span<cons
   }
 }
 
-void FillerStep::begin(std::span<const StructureState> structures, std::span<StructureStep> steps) {
+void FillerStep::begin(std::span<const StructureState> structures, std::span<StructureStep> steps,
+                       const SupportStep& supports) {
   if (!rows_.member()) return;
+  support_input_ = 0;
   for (std::size_t s = 0; s < structures.size(); ++s) {
-    rows_.set_state(s, structures[s].displacement.data(), structures[s].velocity.data());
+    rows_.set_state(s, structures[s].displacement.data(), structures[s].velocity.data(),
+                    {supports.displacement, supports.velocity_before});
     steps[s].remember(rows_.trace(s).dofs(), before_step_[s]);
   }
   rate_before_.swap(rate_);
@@ -76,7 +79,7 @@ void FillerStep::begin(std::span<const StructureState> structures, std::span<Str
 }
 
 void FillerStep::press(bool first, std::span<const StructureState> structures,
-                       std::span<StructureStep> steps) {
+                       std::span<StructureStep> steps, const SupportStep& supports) {
   if (!rows_.member()) return;
   std::fill(force_.begin(), force_.end(), 0.0);
   bool idle = true;
@@ -86,7 +89,8 @@ void FillerStep::press(bool first, std::span<const StructureState> structures,
   if (idle) return;
   const double share = first ? 0.5 : 1;
   for (std::size_t s = 0; s < structures.size(); ++s) {
-    rows_.set_state(s, structures[s].displacement.data(), structures[s].velocity.data());
+    rows_.set_state(s, structures[s].displacement.data(), structures[s].velocity.data(),
+                    {supports.displacement, supports.velocity});
   }
   rows_.gather(impulse_, free_after_);  // of the displacements nothing is needed
   for (std::size_t r = 0; r < laws_.size(); ++r) {
@@ -100,6 +104,7 @@ void FillerStep::press(bool first, std::span<const StructureState> structures,
     rows_.trace(s).restrict_to_dofs(structures[s].velocity.data(), velocity_[s].data());
     rows_.add_velocity_change(s, velocity_[s].data());
     steps[s].correct(dofs, before_step_[s], velocity_[s]);
+    support_input_ -= rows_.support_work(s, supports.velocity_mean);
   }
   note_peaks();
 }
@@ -167,6 +172,7 @@ void FillerStep::finish(StepSums& sums) {
     records_.note(k, now_[r], force_[r], memory_[remembered * r] > 0);
   }
   if (counts_) sums.link_loss_before += loss_;
+  if (rows_.member()) sums.support_input += support_input_;
 }
 
 std::vector<std::string> FillerStep::record_names() const {

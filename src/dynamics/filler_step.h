@@ -11,6 +11,7 @@
 #include "dynamics/state.h"
 #include "dynamics/step_sums.h"
 #include "dynamics/structure_step.h"
+#include "dynamics/support_step.h"
 #include "links/filler_law.h"
 #include "scene/scene.h"
 
@@ -36,11 +37,12 @@ class FillerStep {
 
   /// Before the structures' step to t_n: d_n, its rate, what they crush, and what the dofs hold.
   /// Members of the rows communicate.
-  void begin(std::span<const StructureState> structures, std::span<StructureStep> steps);
+  void begin(std::span<const StructureState> structures, std::span<StructureStep> steps,
+             const SupportStep& supports);
   /// After it: forces, v+, u_{n+1}. `first`: they act for half a step, from v_0. Members
   /// communicate.
-  void press(bool first, std::span<const StructureState> structures,
-             std::span<StructureStep> steps);
+  void press(bool first, std::span<const StructureState> structures, std::span<StructureStep> steps,
+             const SupportStep& supports);
   /// Ends the step: adds the fillers' energy before it, and their loss in the last one.
   void finish(StepSums& sums);
 
@@ -77,6 +79,7 @@ class FillerStep {
   std::vector<double> held_;          ///< W_{n-1/2}
   std::vector<double> impulse_;
   std::vector<double> reach_;                       ///< sum of the moduli of a row of H [1/kg]
+  double support_input_ = 0;                        ///< work of supports against the fillers [J]
   double loss_ = 0;                                 ///< of the step before
   bool made_ = false;                               ///< a step was
   std::vector<StructureStep::Before> before_step_;  ///< per structure

@@ -11,6 +11,7 @@
 #include "common/disjoint_sets.h"
 #include "common/row_products.h"
 #include "links/law_of.h"
+#include "system/support_shapes.h"
 
 namespace pounding {
 namespace {
@@ -31,9 +32,10 @@ double product(const std::array<double, RigidBody::width>& a,
 }  // namespace
 
 LinkStep::LinkStep(const LinearSystem& system, const StructureState& state, StructureStep& step,
-                   double time_step)
+                   const SupportStep& supports, double time_step)
     : state_(state),
       step_(step),
+      supports_(supports),
       time_step_(time_step),
       links_(system.links->links()),
       trace_(system.links->trace()),
@@ -51,10 +53,24 @@ LinkStep::LinkStep(const LinearSystem& system, const StructureState& state, Stru
     laws_.push_back(law_of(link.origin, time_step));
     memory_.emplace_back(laws_.back()->memory_size(), 0.0);
   }
+  if (system.supports) find_carried();
   find_bodies(system);
   find_couplings();
   find_blocks();
   find_yielding();
+}
+
+void LinkStep::find_carried() {
+  const std::size_t columns = supports_.acceleration.size();
+  for (const Link& link : links_) {
+    std::vector<double>& row = carried_.emplace_back(link.supports);
+    row.resize(columns, 0.0);
+    for (std::size_t i = 0; i < link.place.size(); ++i) {
+      if (link.place[i] < 0) continue;
+      const auto of_place = trace_.carried(static_cast<std::size_t>(link.place[i]));
+      for (std::size_t c = 0; c < columns; ++c) row[c] += link.weight[i] * of_place[c];
+    }
+  }
 }
 
 void LinkStep::find_yielding() {
@@ -143,7 +159,7 @@ void LinkStep::respond(const Link& link) {
   trace_.add_impulse(field_.data(), velocity_.data());
   std::vector<double> all(state_.velocity.size(), 0.0);
   for (std::size_t k = 0; k < velocity_.size(); ++k) all[trace_.dofs()[k]] = velocity_[k];
-  measure(all, free_after_);
+  measure(all, {}, free_after_);
 }
 
 void LinkStep::find_couplings() {
@@ -283,9 +299,13 @@ void LinkStep::form_inverses(double share) {
   }
 }
 
-void LinkStep::measure(const std::vector<double>& owned, std::vector<double>& elongations) {
+void LinkStep::measure(const std::vector<double>& owned, std::span<const double> supports,
+                       std::vector<double>& elongations) {
   trace_.apply(owned.data(), field_.data(), 1);
   for (std::size_t b = 0; b < links_.size(); ++b) elongations[b] = links_[b].elongation(field_);
+  for (std::size_t b = 0; b < carried_.size(); ++b) {
+    add_columns(carried_[b], supports, &elongations[b], 1);
+  }
 }
 
 void LinkStep::add_rates(double duration, std::vector<double>& elongations) const {
@@ -298,12 +318,12 @@ void LinkStep::begin(const Vector3& incident) {
     push_[b] = along[0] * incident[0] + along[1] * incident[1] + along[2] * incident[2];
   }
   step_.remember(trace_.dofs(), held_);
-  if (!others_.empty()) measure(state_.displacement, now_);
-  if (!records_.empty()) measure(state_.displacement, recorded_);
+  if (!others_.empty()) measure(state_.displacement, supports_.displacement, now_);
+  if (!records_.empty()) measure(state_.displacement, supports_.displacement, recorded_);
   for (const Block& block : blocks_) {
     for (const std::size_t b : block.links) now_[b] = 0;
   }
-  if (!rates_known_) measure(state_.velocity, rate_);
+  if (!rates_known_) measure(state_.velocity, supports_.velocity_before, rate_);
   add_rates(-time_step_, before_);
 }
 
@@ -394,7 +414,7 @@ void LinkStep::pull(bool first) {
   yield();
   const double share = first ? 0.5 : 1;
   if (share != share_) form_inverses(share);
-  measure(state_.velocity, rate_);
+  measure(state_.velocity, supports_.velocity, rate_);
   add_rates(time_step_, free_after_);
   for (int i = 0; i < most_sweeps; ++i) {
     const double change = sweep();
@@ -439,7 +459,7 @@ LinkStep::Bedding LinkStep::bedding() const {
 }
 
 void LinkStep::finish(StepSums& sums) {
-  measure(state_.velocity, rate_);
+  measure(state_.velocity, supports_.velocity, rate_);
   rates_known_ = true;
   add_rates(time_step_, after_);
   for (std::size_t b = 0; b < links_.size(); ++b) {
@@ -451,6 +471,9 @@ void LinkStep::finish(StepSums& sums) {
     sums.link_input += push_[b] * mean + given;
     sums.link_loss += (force_[b] + push_[b]) * mean -
                       (laws_[b]->energy(now_[b], after_[b], memory_[b]) - held) + given;
+    double carried = 0;  // part of the mean that the supports make
+    if (!carried_.empty()) add_columns(carried_[b], supports_.velocity_mean, &carried, 1);
+    sums.support_input += time_step_ * carried * (force_[b] + push_[b]);
   }
   note_records();
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "dynamics/state.h"
 #include "dynamics/step_sums.h"
 #include "dynamics/structure_step.h"
+#include "dynamics/support_step.h"
 #include "links/link_law.h"
 #include "system/links.h"
 #include "system/trace.h"
@@ -27,7 +29,7 @@ class LinkStep {
  public:
   /// `system` has links. References must outlive this object.
   LinkStep(const LinearSystem& system, const StructureState& state, StructureStep& step,
-           double time_step);
+           const SupportStep& supports, double time_step);
 
   /// Before the structure's step to t_n: e_n, e_{n-1}, and what the dofs hold. `incident`: velocity
   /// of the wave from below at t_n [m/s].
@@ -84,6 +86,7 @@ class LinkStep {
     double friction = 0;  ///< of such a bearing: capacity over minus the gauge's elongation [N/m]
     double pressing = 0;  ///< likewise what presses on it [N/m]
   };
+  void find_carried();
   void find_yielding();
   /// Yields from e_n, before any force of the step is known.
   void yield();
@@ -105,12 +108,15 @@ class LinkStep {
   double left_over(std::size_t link) const;
   double largest_force() const;
   void note_records();
-  void measure(const std::vector<double>& owned, std::vector<double>& elongations);
+  /// b . u of all links; `supports`: motion that carries them along, per column.
+  void measure(const std::vector<double>& owned, std::span<const double> supports,
+               std::vector<double>& elongations);
   /// e_n + duration b . v.
   void add_rates(double duration, std::vector<double>& elongations) const;
 
   const StructureState& state_;
   StructureStep& step_;
+  const SupportStep& supports_;
   double time_step_;
   const std::vector<Link>& links_;
   Trace trace_;
@@ -138,6 +144,8 @@ class LinkStep {
   std::vector<double> rate_;        ///< b . v
   LinkRecords records_;
   std::vector<double> recorded_;  ///< e_n of all links; empty if none is recorded
+  /// Elongation of each link per unit of each column of the supports' motion; empty without.
+  std::vector<std::vector<double>> carried_;
 };
 
 }  // namespace pounding

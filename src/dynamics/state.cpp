@@ -31,7 +31,9 @@ Vec StateVectors::renewed(Vec vector) {
   return vector;
 }
 
-State::State(std::span<const LinearSystem> systems) {
+State::State(std::span<const LinearSystem> systems, std::size_t support_columns)
+    : supports{std::vector<double>(support_columns, 0.0),
+               std::vector<double>(support_columns, 0.0)} {
   for (const LinearSystem& system : systems) {
     const std::size_t dofs = system.lumped_mass.size();
     const std::vector<double> extra_force(system.has_extra_damping() ? dofs : 0, 0.0);
@@ -57,6 +59,10 @@ State::State(std::span<const LinearSystem> systems) {
 
 void State::save(SavedState& saved) const {
   saved.put("step", {static_cast<double>(step - 1)});  // the last one made
+  if (!supports.displacement.empty()) {
+    saved.put("support_displacement", supports.displacement);
+    saved.put("support_velocity", supports.velocity);
+  }
   for (std::size_t s = 0; s < structures.size(); ++s) {
     const auto number = static_cast<int>(s);
     saved.put_dofs(number, "displacement", structures[s].displacement);
@@ -70,6 +76,10 @@ void State::save(SavedState& saved) const {
 
 void State::load(const SavedState& saved) {
   step = saved.integer("step") + 1;
+  if (!supports.displacement.empty()) {
+    saved.get("support_displacement", supports.displacement);
+    saved.get("support_velocity", supports.velocity);
+  }
   for (std::size_t s = 0; s < structures.size(); ++s) {
     const auto number = static_cast<int>(s);
     saved.get_dofs(number, "displacement", structures[s].displacement);

@@ -38,12 +38,21 @@ class StateVectors {
   VecHandle velocity_;
 };
 
+/// Motion of supports relative to the scene's ground, per column of SupportShapes; empty where the
+/// ground moves as one. Before the step to t_n:
+struct SupportState {
+  std::vector<double> displacement;  ///< r_n [m, rad]
+  std::vector<double> velocity;      ///< r'_{n-1/2} [m/s, rad/s]
+};
+
 struct State {
   std::vector<StructureState> structures;
+  SupportState supports;
   std::int64_t step = 0;  ///< n of the next step
 
   /// Starts at rest but for the initial displacement and velocity of every structure.
-  explicit State(std::span<const LinearSystem> systems);
+  /// `support_columns`: number of components of the supports' motion.
+  explicit State(std::span<const LinearSystem> systems, std::size_t support_columns = 0);
 
   void save(SavedState& saved) const;
   void load(const SavedState& saved);

@@ -153,6 +153,35 @@ class InfluenceGround {
   Lanes* momentum_;
 };
 
+/// The ground's part as `Ground` tells it, and that of supports which move on their own, told dof
+/// by dof: h sum_c iota_c r_c''.
+template <typename Ground>
+class SupportedGround {
+ public:
+  /// `work` gains the sum of these times M s.
+  SupportedGround(Ground& ground, const double* support_step, Lanes& work)
+      : ground_(ground), support_step_(support_step), work_(work) {}
+
+  template <int vector, typename Count>
+  Lanes step(std::size_t i, Count count) const {
+    Lanes supports;
+    load_first(support_step_ + i, count, supports);
+    return ground_.template step<vector>(i, count) + supports;
+  }
+  template <int vector, typename Count>
+  void add(std::size_t i, Count count, const Lanes& momentum) {
+    Lanes supports;
+    load_first(support_step_ + i, count, supports);
+    add_product(supports, momentum, work_);
+    ground_.template add<vector>(i, count, momentum);
+  }
+
+ private:
+  Ground& ground_;
+  const double* support_step_;
+  Lanes& work_;
+};
+
 /// Where nothing filters the force.
 struct Unfiltered {
   static constexpr bool acts = false;

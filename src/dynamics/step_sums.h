@@ -19,6 +19,8 @@ struct StepSums {
   double link_loss = 0;              ///< what the step made them take and not keep [J]
   double link_loss_before = 0;       ///< likewise of fillers, in the step before [J]
   double link_input = 0;             ///< work of a wave from below on them [J]
+  double support_input = 0;          ///< work of supports' motion, contacts apart [J]
+  double contact_support_input = 0;  ///< of supports against contact impulses [J]
   double kinetic_before = 0;         ///< v-^T M v- [J], if energies are asked for
   double added_kinetic_before = 0;   ///< v-^T S v- [J] likewise
   double strain_before = 0;          ///< u_n^T K u_{n-1} [J], if energies are asked for

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "dynamics/step_policies.h"
+#include "system/support_shapes.h"
 
 namespace pounding {
 namespace {
@@ -37,23 +38,27 @@ Filters<double> filters_of(const LinearSystem& system, double time_step) {
 StructureStep::StructureStep(const LinearSystem& system, StructureState& state, double time_step)
     : system_(system), state_(state), filters_(filters_of(system, time_step)) {
   terms_.time_step = time_step;
+  if (system.supports) support_step_.assign(system.lumped_mass.size(), 0.0);
   find_segments(damped_dofs(system));
   if (system.coupled_mass) coupled_ = std::make_unique<CoupledStep>(system, state, filters_);
 }
 
 double StructureStep::ground_step_at(std::size_t dof) const {
+  const double supports = support_step_.empty() ? 0 : support_step_[dof];
   if (system_.generalised) {
-    double step = 0;
+    double step = supports;
     for (std::size_t d = 0; d < 3; ++d) {
       add_product(ground_step_[d], system_.generalised->influence[d][dof], step);
     }
     return step;
   }
   const int direction = system_.direction[dof];
-  return direction < 0 ? 0 : ground_step_[direction];
+  const double ground = direction < 0 ? 0 : ground_step_[direction];
+  return support_step_.empty() ? ground : ground + supports;
 }
 
 void StructureStep::add_momentum(std::size_t dof, double momentum) {
+  if (!support_step_.empty()) sums_.support_input -= support_step_[dof] * momentum / 2;
   if (system_.generalised) {
     for (std::size_t d = 0; d < 3; ++d) {
       sums_.momentum[d] += system_.generalised->influence[d][dof] * momentum;
@@ -122,7 +127,7 @@ void StructureStep::find_segments(const std::vector<char>& damped) {
 }
 
 void StructureStep::begin(double duration, const std::array<double, 3>& ground_acceleration,
-                          bool first, bool with_energies) {
+                          bool first, bool with_energies, std::span<const double> supports) {
   const double dt = terms_.time_step;
   terms_ = {dt, duration, 1 - duration * system_.damping.alpha,
             first ? 0 : 1 / (system_.damping.beta + dt)};
@@ -137,6 +142,13 @@ void StructureStep::begin(double duration, const std::array<double, 3>& ground_a
   for (std::size_t v = 0; v < pattern_vectors; ++v) {
     momentum_[0][v] = momentum_[1][v] = influenced_momentum_[v] = Lanes{};
   }
+  std::fill(support_step_.begin(), support_step_.end(), 0.0);
+  for (std::size_t c = 0; system_.supports && c < supports.size(); ++c) {
+    const std::vector<double>& shape = system_.supports->shape[c];
+    const double step = duration * supports[c];
+    for (std::size_t i = 0; i < shape.size(); ++i) support_step_[i] += step * shape[i];
+  }
+  support_work_ = Lanes{};
   vector_sums_ = {};
   dof_sums_ = {};
   vector_energies_ = {};
@@ -214,6 +226,17 @@ void StructureStep::advance_vectors(std::size_t first, std::size_t end, const do
   vector_sums_ = sums;
 }
 
+template <bool with_energies, typename Damping, typename Masses, typename Ground>
+void StructureStep::advance_on_supports(std::size_t first, std::size_t end, const double* force,
+                                        const Damping& damping, Masses masses, Ground& ground) {
+  if (support_step_.empty()) {
+    advance_vectors<with_energies>(first, end, force, damping, masses, ground);
+    return;
+  }
+  SupportedGround<Ground> supported(ground, support_step_.data(), support_work_);
+  advance_vectors<with_energies>(first, end, force, damping, masses, supported);
+}
+
 template <bool with_energies>
 void StructureStep::advance_dofs(std::size_t first, std::size_t end, const double* force) {
   for (std::size_t i = first; i < end; ++i, ++force) {
@@ -257,19 +280,19 @@ void StructureStep::advance(const Segment& segment, LocalIndex begin, LocalIndex
     case Order::translations: {
       const std::size_t node = segment.first_node + offset / 3;
       PatternGround ground(ground_[0], momentum_[0]);
-      advance_vectors<with_energies>(first, stop, force, damping,
-                                     NodeMasses(&node_mass_[node], &node_inverse_mass_[node]),
-                                     ground);
+      advance_on_supports<with_energies>(first, stop, force, damping,
+                                         NodeMasses(&node_mass_[node], &node_inverse_mass_[node]),
+                                         ground);
       break;
     }
     case Order::nodes_of_six: {
       PatternGround ground(ground_[1], momentum_[1]);
-      advance_vectors<with_energies>(first, stop, force, damping, dof_masses, ground);
+      advance_on_supports<with_energies>(first, stop, force, damping, dof_masses, ground);
       break;
     }
     case Order::generalised: {
       InfluenceGround ground(*system_.generalised, ground_step_, influenced_momentum_);
-      advance_vectors<with_energies>(first, stop, force, damping, dof_masses, ground);
+      advance_on_supports<with_energies>(first, stop, force, damping, dof_masses, ground);
       break;
     }
     case Order::none:
@@ -279,7 +302,8 @@ void StructureStep::advance(const Segment& segment, LocalIndex begin, LocalIndex
 
 void StructureStep::complete() {
   if (coupled_) {
-    coupled_->advance(terms_, ground_step_, with_energies_, dof_sums_, dof_energies_, sums_);
+    coupled_->advance(terms_, ground_step_, support_step_, with_energies_, dof_sums_, dof_energies_,
+                      sums_);
   }
 }
 
@@ -334,6 +358,7 @@ StepSums StructureStep::sums() const {
     if (l % 6 < 3) total.momentum[l % 3] += momentum_[1][l / lanes][l % lanes];
   }
   for (std::size_t d = 0; d < 3; ++d) total.momentum[d] += add_up(influenced_momentum_[d]);
+  total.support_input -= add_up(support_work_) / 2;
   return total;
 }
 

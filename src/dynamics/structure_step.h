@@ -26,9 +26,10 @@ class StructureStep final : public ForceReceiver {
   /// References must outlive this object.
   StructureStep(const LinearSystem& system, StructureState& state, double time_step);
 
-  /// `duration`: of the velocity's step [s]; `first`: K u_{n-1} holds K u_n already and stays.
+  /// `duration`: of the velocity's step [s]; `first`: K u_{n-1} holds K u_n already and stays;
+  /// `supports`: r_c'' of every column of SupportShapes [m/s2, rad/s2].
   void begin(double duration, const std::array<double, 3>& ground_acceleration, bool first,
-             bool with_energies);
+             bool with_energies, std::span<const double> supports = {});
   void receive(LocalIndex begin, LocalIndex end, const double* force) override;
   /// After every range of the step.
   void complete();
@@ -72,14 +73,18 @@ class StructureStep final : public ForceReceiver {
   template <bool with_energies, typename Damping, typename Masses, typename Ground>
   void advance_vectors(std::size_t first, std::size_t end, const double* force,
                        const Damping& damping, Masses masses, Ground& ground);
+  /// Dofs by vectors, with what supports do where they move on their own.
+  template <bool with_energies, typename Damping, typename Masses, typename Ground>
+  void advance_on_supports(std::size_t first, std::size_t end, const double* force,
+                           const Damping& damping, Masses masses, Ground& ground);
   /// Dofs one by one.
   template <bool with_energies>
   void advance_dofs(std::size_t first, std::size_t end, const double* force);
   /// f - q of a dof after the step.
   double filtered_part(std::size_t dof) const;
-  /// h (a_g - g) iota of a dof.
+  /// h ((a_g - g) iota + sum_c iota_c r_c'') of a dof.
   double ground_step_at(std::size_t dof) const;
-  /// Adds to iota_d^T M s what M s is at a dof.
+  /// Adds to iota_d^T M s, and to the work of supports, what M s is at a dof.
   void add_momentum(std::size_t dof, double momentum);
 
   const LinearSystem& system_;
@@ -92,6 +97,8 @@ class StructureStep final : public ForceReceiver {
   Filters<double> filters_{};  ///< none without uniform damping
   bool with_energies_ = false;
   std::array<double, 3> ground_step_{};
+  std::vector<double> support_step_;  ///< h sum_c iota_c r_c'' per owned dof; empty without
+  Lanes support_work_{};              ///< sum of support_step_ times M s
   /// Patterns of nodes without and with rotations: h (a_g - g) iota, and the sums of M s.
   Lanes ground_[2][pattern_vectors]{};
   Lanes momentum_[2][pattern_vectors]{};

@@ -8,6 +8,7 @@
 #include "common/types.h"
 #include "elements/element_traits.h"
 #include "mesh/absorbing_node.h"
+#include "mesh/supported_node.h"
 #include "mesh/tied_node.h"
 #include "scene/scene.h"
 
@@ -68,6 +69,7 @@ struct GlobalMesh {
   std::vector<UnusedElements> unused;  ///< points do not count
   /// Nodes of absorbing faces; found after reading, with the elements behind these faces.
   std::vector<AbsorbingNode> absorbing;
+  std::vector<SupportedNode> supported;  ///< sorted; empty where the ground moves as one
   /// One bit per free component of a node: 0-2 translations, 3-5 rotations. Rotations exist where
   /// an element asks for them; what is clamped is not free.
   std::vector<std::uint8_t> free_components;

@@ -350,6 +350,17 @@ void share_absorbing_nodes(MPI_Comm comm, std::vector<AbsorbingNode> nodes, Mesh
       [&](const AbsorbingNode& absorbing) { return mesh.owned_node(absorbing.node) >= 0; });
 }
 
+/// Tells every rank the nodes on supports; each keeps those that it has, ghosts as well.
+void share_supported_nodes(MPI_Comm comm, std::vector<SupportedNode> nodes, Mesh& mesh) {
+  broadcast_array(comm, nodes, 0);
+  if (nodes.empty()) return;
+  std::vector<GlobalIndex> local = mesh.file_node;
+  std::ranges::sort(local);
+  std::ranges::copy_if(nodes, std::back_inserter(mesh.supported), [&](const SupportedNode& node) {
+    return std::ranges::binary_search(local, node.node);
+  });
+}
+
 }  // namespace
 
 bool meets_rigid_body(const Mesh& mesh, const ElementBlock& block, std::size_t element) {
@@ -386,6 +397,7 @@ Mesh distribute_mesh(MPI_Comm comm, const std::string& name, const GlobalMesh& g
   Mesh mesh = unpack(comm, name, std::move(mine));
   share_rigid_parts(comm, global.rigid, mesh);
   share_absorbing_nodes(comm, global.absorbing, mesh);
+  share_supported_nodes(comm, global.supported, mesh);
   return mesh;
 }
 

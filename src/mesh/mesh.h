@@ -64,6 +64,7 @@ struct Mesh {
   std::vector<int> rigid_of;             ///< per local node into `rigid`, -1: in none
   std::vector<LocalIndex> by_file_node;  ///< owned nodes in file order
   std::vector<AbsorbingNode> absorbing;  ///< at owned nodes, in file order
+  std::vector<SupportedNode> supported;  ///< of the local nodes, in file order
 
   LocalIndex node_count() const { return static_cast<LocalIndex>(file_node.size()); }
   /// Local dof of a component (0-5) at a local node, -1 if it is clamped or does not exist.
@@ -79,6 +80,12 @@ struct Mesh {
     if (local < 0) return -1;
     if (node < owned_nodes) return first_owned_dof + local;
     return ghost_dof[node - owned_nodes] + (local - first_dof[node]);
+  }
+  /// The support that a local node stands on, null if it stands on none or on the common ground.
+  const SupportedNode* support_at(LocalIndex node) const {
+    const auto found =
+        std::ranges::lower_bound(supported, file_node[node], {}, &SupportedNode::node);
+    return found != supported.end() && found->node == file_node[node] ? &*found : nullptr;
   }
   Vector3 position(LocalIndex node) const {
     const double* x = &coordinates[3 * node];

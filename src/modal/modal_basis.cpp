@@ -15,6 +15,7 @@
 #include "modal/rigid_motions.h"
 #include "modal/shifted_solver.h"
 #include "system/admissible_motions.h"
+#include "system/support_shapes.h"
 
 namespace pounding {
 namespace {
@@ -286,6 +287,7 @@ class BasisMaker {
     find_modes_in(rotation, basis);
     add_participation(rotation, basis);
     add_rows(rotation, basis);
+    if (system_.supports) add_supports(rotation, basis);
   }
 
   /// Modes are vectors of A whatever stands beside them: they come out of the rotation as they went
@@ -316,6 +318,31 @@ class BasisMaker {
       for (std::size_t k = 0; k < 6; ++k) of_space.column(k)[j] = values[k];
     }
     basis.participation = transposed_product(rotation, of_space).values;
+  }
+
+  /// After the points are known.
+  void add_supports(const DenseMatrix& rotation, ModalBasis& basis) const {
+    const SupportShapes& supports = *system_.supports;
+    const std::size_t columns = supports.columns.size();
+    DenseMatrix of_space(space_.columns, 0);
+    for (const std::vector<double>& shape : supports.shape) {
+      std::vector<double> scaled = shape;  // M^1/2 iota
+      for (std::size_t i = 0; i < scaled.size(); ++i) {
+        scaled[i] *= std::sqrt(system_.lumped_mass[i]);
+      }
+      std::vector<double> parts(space_.columns, 0.0);
+      for (std::size_t j = 0; !scaled.empty() && j < parts.size(); ++j) {
+        parts[j] = dot(space_.column(j), scaled.data(), dofs_);
+      }
+      of_space.append(parts);
+    }
+    basis.support_participation = transposed_product(rotation, of_space).values;
+    for (const TracePoint& point : basis.points) {
+      const LocalIndex dof = mesh_.dof(mesh_.owned_node(point.node), point.component);
+      for (std::size_t c = 0; c < columns; ++c) {
+        basis.support_rows.push_back(supports.shape[c].empty() ? 0 : supports.shape[c][dof]);
+      }
+    }
   }
 
   void add_rows(const DenseMatrix& rotation, ModalBasis& basis) const {
@@ -372,6 +399,8 @@ void broadcast_basis(MPI_Comm comm, int root, ModalBasis& basis) {
   broadcast_array(comm, basis.participation, root);
   broadcast_array(comm, basis.points, root);
   broadcast_array(comm, basis.rows, root);
+  broadcast_array(comm, basis.support_participation, root);
+  broadcast_array(comm, basis.support_rows, root);
 }
 
 }  // namespace pounding

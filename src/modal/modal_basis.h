@@ -25,6 +25,10 @@ struct ModalBasis {
   std::vector<double> participation;
   std::vector<TracePoint> points;  ///< free components of nodes
   std::vector<double> rows;        ///< Phi there, shape (points, k) [kg^-1/2]
+  /// Phi^T M iota of the columns of the supports' motion, shape (columns, k), and iota at the
+  /// points, shape (points, columns); empty where the ground moves as one.
+  std::vector<double> support_participation;
+  std::vector<double> support_rows;
 
   std::size_t size() const { return squared_frequency.size(); }
 };

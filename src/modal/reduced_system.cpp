@@ -12,6 +12,7 @@
 #include "stiffness/diagonal_stiffness.h"
 #include "system/critical_time_step.h"
 #include "system/links.h"
+#include "system/support_shapes.h"
 
 namespace pounding {
 namespace {
@@ -87,10 +88,31 @@ std::unique_ptr<GeneralisedCoordinates> take_coordinates(ModalBasis& basis, bool
   return coordinates;
 }
 
+/// How the coordinates and the places whose displacement is known follow the supports.
+std::shared_ptr<SupportShapes> take_supports(const ModalBasis& basis, bool owner,
+                                             std::span<const double> masses,
+                                             std::span<const SupportColumn> columns) {
+  auto supports = std::make_shared<SupportShapes>();
+  supports->columns.assign(columns.begin(), columns.end());
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    std::vector<double>& shape = supports->shape.emplace_back();
+    for (std::size_t i = 0; owner && i < basis.size(); ++i) {
+      shape.push_back(basis.support_participation[c * basis.size() + i] / masses[i]);
+    }
+  }
+  for (std::size_t i = 0; owner && i < basis.points.size(); ++i) {
+    const auto row = basis.support_rows.begin() + static_cast<std::ptrdiff_t>(i * columns.size());
+    supports->at_places[basis.points[i]].assign(row,
+                                                row + static_cast<std::ptrdiff_t>(columns.size()));
+  }
+  return supports;
+}
+
 }  // namespace
 
 LinearSystem build_reduced_system(MPI_Comm comm, int owner, const Structure& structure,
-                                  const Mesh& mesh, ModalBasis& basis) {
+                                  const Mesh& mesh, ModalBasis& basis,
+                                  std::span<const SupportColumn> columns) {
   const bool mine = rank_of(comm) == owner;
   LinearSystem system;
   system.name = structure.name;
@@ -119,6 +141,9 @@ LinearSystem build_reduced_system(MPI_Comm comm, int owner, const Structure& str
     system.uniform_damping = uniform_damping_of(structure, basis);
   } else {
     system.extra_damping = share(damping_rates(structure, basis));
+  }
+  if (!basis.support_participation.empty()) {
+    system.supports = take_supports(basis, mine, masses, columns);
   }
   system.generalised = take_coordinates(basis, mine, masses);
   const LargestFrequency largest = largest_frequency(structure, basis);

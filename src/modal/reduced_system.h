@@ -18,9 +18,11 @@
 namespace pounding {
 
 /// The system; rank `owner` has all coordinates, and the whole mesh for its links, the others none.
-/// The rows of the basis go into it. Collective over `comm`.
+/// The rows of the basis go into it. `columns`: motions of the scene's supports. Collective over
+/// `comm`.
 LinearSystem build_reduced_system(MPI_Comm comm, int owner, const Structure& structure,
-                                  const Mesh& mesh, ModalBasis& basis);
+                                  const Mesh& mesh, ModalBasis& basis,
+                                  std::span<const SupportColumn> columns = {});
 
 /// The lowest `count` modes of the basis, for the report.
 ModalResult modes_of_basis(const ModalBasis& basis, int count);

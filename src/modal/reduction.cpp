@@ -15,6 +15,7 @@
 #include "modal/definiteness.h"
 #include "modal/modal_basis_file.h"
 #include "statics/equilibrium.h"
+#include "statics/find_support_shapes.h"
 #include "system/axial_forces.h"
 #include "system/build_system.h"
 #include "system/links.h"
@@ -125,7 +126,8 @@ LargestCompression turn_weight_with_columns(const Structure& structure, const Li
   return set_axial_forces(structure, rest.displacement[0], 1, mesh);
 }
 
-void compute(const Structure& structure, Profile& profile, Reduction& reduction) {
+void compute(const Structure& structure, std::span<const SupportColumn> columns, Profile& profile,
+             Reduction& reduction) {
   reduction.mesh.comm = MPI_COMM_SELF;
   std::optional<LinearSystem> system;
   {
@@ -143,6 +145,10 @@ void compute(const Structure& structure, Profile& profile, Reduction& reduction)
   }
   const ScopedTimer timer(profile, Phase::modes);
   require_passive_matrices(structure, *system);
+  if (!reduction.mesh.supported.empty()) {
+    system->supports =
+        find_support_shapes(structure, reduction.mesh, *system, columns, StaticSolver::automatic);
+  }
   reduction.basis = compute_modal_basis(*system, reduction.mesh, reduction.request);
 }
 
@@ -175,6 +181,7 @@ std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& sc
                                                   std::span<const GlobalMesh> meshes,
                                                   const Interface& interface,
                                                   std::span<const ResolvedProbe> probes,
+                                                  std::span<const SupportColumn> columns,
                                                   Profile& profile) {
   const auto structure_of = [&](const Reduction& r) -> const Structure& {
     return scene.structures[r.structure];
@@ -205,7 +212,9 @@ std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& sc
   }
   on_every_rank(comm, [&] {
     for (Reduction& reduction : reductions) {
-      if (reduction.worker == rank_of(comm)) compute(structure_of(reduction), profile, reduction);
+      if (reduction.worker == rank_of(comm)) {
+        compute(structure_of(reduction), columns, profile, reduction);
+      }
     }
   });
   std::vector<std::optional<ModalBasis>> bases(scene.structures.size());

@@ -20,11 +20,13 @@ std::vector<int> owners_of_reduced(MPI_Comm comm, const Scene& scene);
 /// Per structure the basis of a reduced one, nothing for the others: out of its file if that still
 /// belongs to the structure, else computed, several structures at a time, and written there. A
 /// basis is computed by one rank alone, so that it has the same bits on any number of ranks.
-/// `meshes` are read on rank 0 only. Throws UserError on every rank alike. Collective.
+/// `meshes` are read on rank 0 only. `columns`: motions of the scene's supports. Throws UserError
+/// on every rank alike. Collective.
 std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& scene,
                                                   std::span<const GlobalMesh> meshes,
                                                   const Interface& interface,
                                                   std::span<const ResolvedProbe> probes,
+                                                  std::span<const SupportColumn> columns,
                                                   Profile& profile);
 
 }  // namespace pounding

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "common/error.h"
 #include "motion/record_text.h"
@@ -98,7 +99,7 @@ std::vector<std::string> peak_doubts(const std::string& name, const MotionCompon
 }  // namespace
 
 void GroundMotion::add(std::size_t direction, const MotionComponent& component) {
-  const std::string name = std::string("motion ") + direction_names[direction];
+  const std::string name = name_ + " " + direction_names[direction];
   check_scaling(name, component);
   Accelerogram& accelerogram = components_[direction];
   MotionDescription description;
@@ -130,7 +131,8 @@ void GroundMotion::add(std::size_t direction, const MotionComponent& component) 
 }
 
 GroundMotion::GroundMotion(const std::array<std::optional<MotionComponent>, 3>& components,
-                           Resampling resampling) {
+                           Resampling resampling, std::string name)
+    : name_(std::move(name)) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (!components[i]) continue;
     add(i, *components[i]);
@@ -145,7 +147,7 @@ GroundMotion::GroundMotion(const std::array<std::optional<MotionComponent>, 3>& 
     as_given = as_given && description.file_peak > 0 && !description.scaling.starts_with("to pga");
   }
   if (as_given && largest <= small_pga) {
-    doubts_.push_back("motion: the largest peak is " + text_of(largest) +
+    doubts_.push_back(name_ + ": the largest peak is " + text_of(largest) +
                       " m/s2, not above 0.5 m/s2; are the files' numbers in g?");
   }
 }

@@ -34,9 +34,9 @@ class GroundMotion {
   /// Reads the files; every rank may do so, or one that shares the result. Band-limited resampling
   /// goes to steps of 5e-4 s or less. Throws UserError (see read_accelerogram,
   /// generate_accelerogram; a pga for a record that is zero; a synthetic motion without pga; a peak
-  /// above ten thousand g, as in the file or as scaled).
+  /// above ten thousand g, as in the file or as scaled). `name` stands in messages.
   GroundMotion(const std::array<std::optional<MotionComponent>, 3>& components,
-               Resampling resampling);
+               Resampling resampling, std::string name = "motion");
 
   /// a_g [m/s2] in direction 0, 1 or 2 at time t [s].
   double acceleration(int direction, double t) const noexcept {
@@ -89,6 +89,7 @@ class GroundMotion {
 
   double incident_velocity(int direction, double t) const noexcept;
 
+  std::string name_;
   std::vector<MotionDescription> descriptions_;
   std::vector<std::string> doubts_;
   std::array<Accelerogram, 3> components_{Accelerogram{{}, 1}, Accelerogram{{}, 1},

@@ -5,6 +5,7 @@
 
 #include "common/parallel.h"
 #include "common/row_products.h"
+#include "system/support_shapes.h"
 
 namespace pounding {
 namespace {
@@ -79,17 +80,23 @@ Recorder::StructureNodes Recorder::find_nodes(const LinearSystem& system, const 
     }
     if (places.size() > before) counts.push_back((places.size() - before) / 3);
   }
-  StructureNodes nodes{structure, Trace(system, mesh, places, false), {}, nodes_, {}};
+  StructureNodes nodes{structure, Trace(system, mesh, places, false), {}, {}, nodes_, {}};
   nodes.values.resize(system.generalised ? 3 * counts.size() : places.size());
   if (system.generalised) {
     const std::size_t width = nodes.trace.dofs().size();
+    const std::size_t columns = system.supports ? system.supports->columns.size() : 0;
     nodes.mean_rows.assign(nodes.values.size() * width, 0.0);
+    nodes.mean_carried.assign(nodes.values.size() * columns, 0.0);
     std::size_t place = 0;
     for (std::size_t p = 0; p < counts.size(); ++p) {
       for (std::size_t k = 0; k < 3 * counts[p]; ++k, ++place) {
         double* const mean = &nodes.mean_rows[(3 * p + k % 3) * width];
         for (std::size_t i = 0; i < width; ++i) {
           mean[i] += nodes.trace.row(place)[i] / static_cast<double>(counts[p]);
+        }
+        for (std::size_t c = 0; c < columns; ++c) {
+          nodes.mean_carried[(3 * p + k % 3) * columns + c] +=
+              nodes.trace.carried(place)[c] / static_cast<double>(counts[p]);
         }
       }
     }
@@ -152,15 +159,16 @@ void Recorder::add_step(const std::array<double, 3>& ground_velocity_step) {
 }
 
 void Recorder::put(const State& state, std::vector<double> StructureState::*quantity,
-                   std::size_t offset) {
+                   std::span<const double> supports, std::size_t offset) {
   double* const record = buffer_.data() + buffered_ * width_;
   for (StructureNodes& nodes : structures_) {
     const std::vector<double>& owned = state.structures[nodes.structure].*quantity;
     if (nodes.mean_rows.empty()) {
-      nodes.trace.apply(owned.data(), nodes.values.data(), 1);
+      nodes.trace.apply(owned.data(), nodes.values.data(), 1, supports);
     } else {
       multiply_rows(nodes.mean_rows.data(), nodes.values.size(), owned.size(), owned.data(),
                     nodes.values.data(), 1);
+      add_columns(nodes.mean_carried, supports, nodes.values.data(), 1);
     }
     for (std::size_t i = 0; i < nodes.values.size(); ++i) {
       record[values_per_node * (nodes.first_node + i / 3) + offset + i % 3] = nodes.values[i];
@@ -169,12 +177,12 @@ void Recorder::put(const State& state, std::vector<double> StructureState::*quan
 }
 
 void Recorder::take_displacements(const State& state) {
-  put(state, &StructureState::displacement, 0);
+  put(state, &StructureState::displacement, state.supports.displacement, 0);
 }
 
 void Recorder::record(const State& state, std::span<const double> gaps,
                       std::span<const double> links) {
-  put(state, &StructureState::velocity, 3);
+  put(state, &StructureState::velocity, state.supports.velocity, 3);
   double* out = buffer_.data() + buffered_ * width_ + values_per_node * nodes_;
   if (rank_of(layout_.comm) == layout_.interface_root) {
     for (std::size_t c = 0; c < layout_.contacts.size(); ++c) {

@@ -95,8 +95,10 @@ class Recorder {
     std::size_t structure;
     Trace trace;                    ///< three components of each node, node after node
     std::vector<double> mean_rows;  ///< of generalised coordinates, shape (nodes x 3, coordinates)
-    std::size_t first_node;         ///< into the nodes of a record of this rank
-    std::vector<double> values;     ///< per place of the trace
+    /// How supports carry these, shape (nodes x 3, columns); empty without.
+    std::vector<double> mean_carried;
+    std::size_t first_node;      ///< into the nodes of a record of this rank
+    std::vector<double> values;  ///< per place of the trace
   };
 
   /// A dataset of the file; `columns` 0: a plain vector.
@@ -109,7 +111,8 @@ class Recorder {
   StructureNodes find_nodes(const LinearSystem& system, const Mesh& mesh, std::size_t structure,
                             std::vector<GlobalIndex>& found) const;
   /// Writes a quantity of the state into the record at hand, `offset` values into each node.
-  void put(const State& state, std::vector<double> StructureState::*quantity, std::size_t offset);
+  void put(const State& state, std::vector<double> StructureState::*quantity,
+           std::span<const double> supports, std::size_t offset);
   void name_channels();
   std::vector<Quantity> quantities() const;
   void create_file(const std::string& path);

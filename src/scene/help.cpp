@@ -22,6 +22,12 @@ const char* title_of(OptionBlock block) {
       return "Contacts";
     case OptionBlock::motion:
       return "Ground motion";
+    case OptionBlock::support:
+      return "Supports, parts of the ground that move on their own";
+    case OptionBlock::support_motion:
+      return "Motion of a support along an axis";
+    case OptionBlock::support_rotation:
+      return "Rotation of a support about an axis";
     case OptionBlock::probe:
       return "Probes";
     case OptionBlock::spectra:

@@ -7,82 +7,109 @@ namespace {
 
 using Names = OptionReader::Names;
 
-/// Options that would have no effect are mistakes.
-void forbid_all(const OptionReader& options, std::initializer_list<std::string_view> patterns,
-                const Names& names, const std::string& why) {
-  for (const std::string_view pattern : patterns) options.forbid(pattern, names, why);
-}
+/// Reads the motion along one axis, of the ground or of a support.
+class AxisReader {
+ public:
+  AxisReader(OptionReader& options, const std::string& direction, const std::string& support)
+      : options_(options),
+        direction_(direction),
+        prefix_(support.empty() ? "" : "<support>_"),
+        names_(support.empty() ? Names{direction} : Names{support, direction}) {}
 
-RecordedMotion read_record(OptionReader& options, const Names& names) {
-  RecordedMotion motion;
-  motion.file = options.text("motion_<x|y|z>_record", names);
-  const std::string unit = options.choice("motion_<x|y|z>_unit", names);
-  motion.unit = unit == "auto" ? "" : unit;
-  motion.time_step = options.real("motion_<x|y|z>_time_step", names);
-  motion.column = options.integer("motion_<x|y|z>_column", names);
-  if (!options.given("motion_<x|y|z>_target", names)) {
-    forbid_all(
-        options, {"motion_<x|y|z>_seed", "motion_<x|y|z>_duration", "motion_<x|y|z>_envelope"},
-        names,
-        "goes with -" + option_name("motion_<x|y|z>_target", names) + ", which is not given");
-  }
-  return motion;
-}
+  bool given(const char* what) const { return options_.given(pattern(what), names_); }
 
-SyntheticMotion read_synthetic(OptionReader& options, const Names& names) {
-  forbid_all(options, {"motion_<x|y|z>_unit", "motion_<x|y|z>_time_step", "motion_<x|y|z>_column"},
-             names,
-             "goes with -" + option_name("motion_<x|y|z>_record", names) + ", which is not given");
-  SyntheticMotion motion;
-  motion.target = options.text("motion_<x|y|z>_target", names);
-  motion.seed = options.integer("motion_<x|y|z>_seed", names);
-  motion.duration = options.real("motion_<x|y|z>_duration", names);
-  const std::vector<double> envelope = options.reals("motion_<x|y|z>_envelope", names, 2);
-  motion.envelope = {envelope[0], envelope[1]};
-  if (motion.envelope[0] > motion.envelope[1]) {
-    options.refuse("motion_<x|y|z>_envelope", names, "t1 is above t2");
+  std::optional<MotionComponent> read() {
+    const bool recorded = given("record");
+    const bool synthetic = !recorded && given("target");
+    if (!recorded && !synthetic) forbid_details();
+    if (!synthetic && (!recorded || text("record") == "none")) {
+      if (prefix_.empty()) text("record");  // in force
+      return std::nullopt;
+    }
+    MotionComponent component;
+    component.pga = options_.real(pattern("pga"), names_);
+    component.scale = options_.real(pattern("scale"), names_);
+    if (component.pga > 0 && component.scale != 1) {
+      options_.refuse(pattern("scale"), names_,
+                      "no effect beside -" + option_name(pattern("pga"), names_) +
+                          ", which is above 0; leave one of them out");
+    }
+    if (recorded) {
+      component.source = read_record();
+    } else {
+      component.source = read_synthetic();
+      if (component.pga == 0) {
+        options_.refuse(pattern("pga"), names_,
+                        "a synthetic motion needs a peak ground acceleration above 0");
+      }
+    }
+    return component;
   }
-  if (motion.envelope[1] > motion.duration) {
-    options.refuse("motion_<x|y|z>_envelope", names,
-                   "t2 is above -" + option_name("motion_<x|y|z>_duration", names));
+
+ private:
+  std::string pattern(const char* what) const { return prefix_ + "motion_<x|y|z>_" + what; }
+  std::string text(const char* what) { return options_.text(pattern(what), names_); }
+
+  /// Options that would have no effect are mistakes.
+  void forbid(std::initializer_list<const char*> details, const char* without) const {
+    for (const char* what : details) {
+      options_.forbid(
+          pattern(what), names_,
+          "goes with -" + option_name(pattern(without), names_) + ", which is not given");
+    }
   }
-  return motion;
-}
+
+  void forbid_details() const {
+    const OptionBlock block = prefix_.empty() ? OptionBlock::motion : OptionBlock::support_motion;
+    for (const OptionRow& row : option_table()) {
+      if (row.block != block) continue;
+      options_.forbid(row.pattern, names_,
+                      "there is no motion along " + direction_ + "; give -" +
+                          option_name(pattern("record"), names_) + " or -" +
+                          option_name(pattern("target"), names_));
+    }
+  }
+
+  RecordedMotion read_record() {
+    RecordedMotion motion;
+    motion.file = text("record");
+    const std::string unit = options_.choice(pattern("unit"), names_);
+    motion.unit = unit == "auto" ? "" : unit;
+    motion.time_step = options_.real(pattern("time_step"), names_);
+    motion.column = options_.integer(pattern("column"), names_);
+    if (!given("target")) forbid({"seed", "duration", "envelope"}, "target");
+    return motion;
+  }
+
+  SyntheticMotion read_synthetic() {
+    forbid({"unit", "time_step", "column"}, "record");
+    SyntheticMotion motion;
+    motion.target = text("target");
+    motion.seed = options_.integer(pattern("seed"), names_);
+    motion.duration = options_.real(pattern("duration"), names_);
+    const std::vector<double> envelope = options_.reals(pattern("envelope"), names_, 2);
+    motion.envelope = {envelope[0], envelope[1]};
+    if (motion.envelope[0] > motion.envelope[1]) {
+      options_.refuse(pattern("envelope"), names_, "t1 is above t2");
+    }
+    if (motion.envelope[1] > motion.duration) {
+      options_.refuse(pattern("envelope"), names_,
+                      "t2 is above -" + option_name(pattern("duration"), names_));
+    }
+    return motion;
+  }
+
+  OptionReader& options_;
+  std::string direction_;
+  std::string prefix_;
+  Names names_;
+};
 
 }  // namespace
 
-std::optional<MotionComponent> read_motion(OptionReader& options, const std::string& direction) {
-  const Names names{direction};
-  const bool recorded = options.given("motion_<x|y|z>_record", names);
-  const bool synthetic = !recorded && options.given("motion_<x|y|z>_target", names);
-  if (!recorded && !synthetic) {
-    for (const OptionRow& row : option_table()) {
-      if (row.block == OptionBlock::motion) {
-        options.forbid(row.pattern, names,
-                       "there is no motion along " + direction + "; give -motion_" + direction +
-                           "_record or -motion_" + direction + "_target");
-      }
-    }
-  }
-  if (!synthetic && options.text("motion_<x|y|z>_record", names) == "none") return std::nullopt;
-  MotionComponent component;
-  component.pga = options.real("motion_<x|y|z>_pga", names);
-  component.scale = options.real("motion_<x|y|z>_scale", names);
-  if (component.pga > 0 && component.scale != 1) {
-    options.refuse("motion_<x|y|z>_scale", names,
-                   "no effect beside -" + option_name("motion_<x|y|z>_pga", names) +
-                       ", which is above 0; leave one of them out");
-  }
-  if (recorded) {
-    component.source = read_record(options, names);
-  } else {
-    component.source = read_synthetic(options, names);
-    if (component.pga == 0) {
-      options.refuse("motion_<x|y|z>_pga", names,
-                     "a synthetic motion needs a peak ground acceleration above 0");
-    }
-  }
-  return component;
+std::optional<MotionComponent> read_motion(OptionReader& options, const std::string& direction,
+                                           const std::string& support) {
+  return AxisReader(options, direction, support).read();
 }
 
 }  // namespace pounding

@@ -15,7 +15,8 @@ namespace pounding {
 /// Options as PETSc flattens them: name without the leading '-' -> value ("" for a bare flag).
 using OptionsDatabase = std::map<std::string, std::string>;
 
-/// Block that an option belongs to; each but `run`, `motion` and `spectra` repeats per user's name.
+/// Block that an option belongs to; each but `run`, `motion` and `spectra` repeats per user's name,
+/// and what tells the motion of a support per axis as well.
 enum class OptionBlock {
   run,
   structure,
@@ -24,6 +25,9 @@ enum class OptionBlock {
   section,
   contact,
   motion,
+  support,
+  support_motion,
+  support_rotation,
   probe,
   spectra
 };

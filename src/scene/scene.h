@@ -225,6 +225,31 @@ struct MotionComponent {
   double scale = 1;  ///< [-]
 };
 
+/// A physical group of a structure whose clamped nodes stand on a support.
+struct SupportedGroup {
+  std::string structure;
+  std::string group;
+};
+
+/// A part of the ground that moves on its own, as one rigid body, with all that is clamped to it.
+struct Support {
+  std::string name;
+  std::vector<SupportedGroup> groups;
+  double delay = 0;         ///< with which the scene's motion arrives [s]
+  Vector3 factor{1, 1, 1};  ///< on that motion; 0: it stands still
+  /// Motion of its own along x, y, z, in place of that; rotations about them [rad/s2].
+  std::array<std::optional<MotionComponent>, 6> motion;
+  Vector3 point{0, 0, 0};  ///< about which it turns [m]
+};
+
+/// One component of the motion of a support beside that of the scene's ground: displacement along
+/// an axis (0-2) or rotation (3-5).
+struct SupportColumn {
+  int support = 0;
+  int component = 0;
+  Vector3 point{0, 0, 0};  ///< about which it turns [m]
+};
+
 /// How the stiffness is applied: as a sparse matrix, element by element without one, or by what the
 /// mesh is (element by element where enough elements have a kernel of their own).
 enum class StiffnessMethod { automatic, assembled, element };
@@ -271,6 +296,7 @@ struct Scene {
   std::vector<Structure> structures;
   std::vector<Contact> contacts;
   std::array<std::optional<MotionComponent>, 3> motion;
+  std::vector<Support> supports;   ///< that move otherwise than `motion`
   bool motion_from_below = false;  ///< an incident wave; else the ground itself moves like that
   Resampling resampling = Resampling::linear;
   StiffnessMethod stiffness = StiffnessMethod::automatic;

@@ -17,6 +17,7 @@
 #include "scene/resolved_options.h"
 #include "scene/structure_reader.h"
 #include "scene/structures_key.h"
+#include "scene/support_reader.h"
 #include "scene/unknown_options.h"
 
 namespace pounding {
@@ -31,7 +32,8 @@ class SceneReader {
 
   ReadScene read() {
     scene_.title = options_.text("title");
-    listed_ = {read_names("structures"), read_names("contacts"), read_names("probes")};
+    listed_ = {read_names("structures"), read_names("contacts"), read_names("probes"),
+               read_names("supports")};
     require_apart(listed_.structures);
     refuse_unknown_options(options_.database(), listed_);
     read_run();
@@ -50,6 +52,10 @@ class SceneReader {
       scene_.motion[d] = read_motion(options_, direction_names[d]);
     }
     check_absorbing(options_, scene_);
+    for (const std::string& name : listed_.supports) {
+      scene_.supports.push_back(read_support(options_, name));
+    }
+    check_supports(options_, scene_);
     for (const std::string& name : listed_.probes) scene_.probes.push_back(read_probe(name));
     read_loops();
     read_spectra();

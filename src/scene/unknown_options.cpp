@@ -3,6 +3,7 @@
 #include <set>
 
 #include "common/error.h"
+#include "common/types.h"
 #include "scene/nearest_name.h"
 #include "scene/option_blocks.h"
 #include "scene/option_values.h"
@@ -72,6 +73,16 @@ std::vector<std::vector<std::string>> owners(const OptionsDatabase& database,
       break;
     case OptionBlock::motion:
       add({"x", "y", "z"});
+      break;
+    case OptionBlock::support:
+      add(with_complete(database, block, as_set(listed.supports)));
+      break;
+    case OptionBlock::support_motion:
+    case OptionBlock::support_rotation:
+      for (const std::string& support :
+           with_complete(database, OptionBlock::support, as_set(listed.supports))) {
+        for (const char* axis : direction_names) result.push_back({support, axis});
+      }
       break;
     case OptionBlock::probe:
       add(with_complete(database, block, as_set(listed.probes)));

@@ -7,17 +7,18 @@
 
 namespace pounding {
 
-/// Names that `structures`, `contacts` and `probes` list.
+/// Names that `structures`, `contacts`, `probes` and `supports` list.
 struct ListedNames {
   std::vector<std::string> structures;
   std::vector<std::string> contacts;
   std::vector<std::string> probes;
+  std::vector<std::string> supports{};
 };
 
 /// Refuses the first option that the table does not explain for the listed names, naming the
-/// nearest one that it does. A material, section, contact or probe that is wholly defined but not
-/// used is allowed: it may belong to a library, or be switched off by `-contacts none`. Throws
-/// UserError.
+/// nearest one that it does. A material, section, contact, probe or support that is wholly defined
+/// but not used is allowed: it may belong to a library, or be switched off by `-contacts none`.
+/// Throws UserError.
 void refuse_unknown_options(const OptionsDatabase& database, const ListedNames& listed);
 
 }  // namespace pounding

@@ -59,9 +59,9 @@ std::vector<double> rigid_motion(const Mesh& mesh, int motion) {
 }  // namespace
 
 AssembledStatics::AssembledStatics(const LinearSystem& system, const Mesh& mesh, double shift,
-                                   StaticSolver solver)
+                                   StaticSolver solver, Held held)
     : system_(system) {
-  if (system.uniform_damping) at_rest_ = system.uniform_damping->at_rest();
+  if (system.uniform_damping && held == Held::at_rest) at_rest_ = system.uniform_damping->at_rest();
   POUNDING_PETSC(MatDuplicate(system.stiffest_matrix(), MAT_COPY_VALUES, matrix_.out()));
   POUNDING_PETSC(MatSetOptionsPrefixFactor(matrix_.get(), prefix));
   PetscInt first = 0;
@@ -70,7 +70,8 @@ AssembledStatics::AssembledStatics(const LinearSystem& system, const Mesh& mesh,
     // The stiffest matrix has them at their stiffest, and uniform damping leaves them alone.
     linear_links_ = link_terms(system);
     add_links(linear_links_, -1, first, matrix_.get());
-    std::erase_if(linear_links_, [](const LinkTerms& link) { return link.one_way; });
+    std::erase_if(linear_links_,
+                  [&](const LinkTerms& link) { return link.one_way || held == Held::elements; });
   }
   POUNDING_PETSC(MatScale(matrix_.get(), at_rest_));
   if (system.links) add_links(linear_links_, 1, first, matrix_.get());

@@ -19,8 +19,12 @@ namespace pounding {
 /// (GAMG) that knows the six rigid motions.
 class AssembledStatics final : public StaticStiffness {
  public:
+  /// Stiffness that counts: of all that carries at rest, one-way links apart, or of the linear
+  /// elements alone, with s = 1.
+  enum class Held { at_rest, elements };
   /// Collective. Needs the matrix of the system.
-  AssembledStatics(const LinearSystem& system, const Mesh& mesh, double shift, StaticSolver solver);
+  AssembledStatics(const LinearSystem& system, const Mesh& mesh, double shift, StaticSolver solver,
+                   Held held = Held::at_rest);
   void apply(const std::vector<double>& u, std::vector<double>& q) const override;
   void solve(std::vector<double>& x) const override;
   std::string method() const override;

@@ -12,6 +12,7 @@
 #include "stiffness/element_properties.h"
 #include "stiffness/element_stiffness.h"
 #include "stiffness/sparse_matrix.h"
+#include "system/each_element.h"
 #include "system/element_bounds.h"
 #include "system/links.h"
 #include "system/rotary_scaling.h"
@@ -19,32 +20,6 @@
 
 namespace pounding {
 namespace {
-
-/// Calls `visit(block, element, layout, work)` with the matrices of every element on this rank.
-template <typename Visit>
-void for_each_element(const Structure& structure, const Mesh& mesh, Visit&& visit) {
-  ElementWork work;
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
-    const ElementBlock& block = mesh.blocks[b];
-    const ElementProperties properties = element_properties(structure.regions[block.region]);
-    const ElementLayout layout = element_layout(block.type);
-    const std::size_t size = layout.size();
-    for (std::size_t e = 0; e < block.count(); ++e) {
-      try {
-        element_matrices(block.type, gather_coordinates(mesh, block, e, work), properties,
-                         {work.stiffness.data(), size * size}, {work.mass.data(), size});
-        if (!block.axial_force.empty()) {
-          add_geometric_stiffness(block.type, gather_coordinates(mesh, block, e, work), properties,
-                                  block.axial_force[e], {work.stiffness.data(), size * size});
-        }
-      } catch (const ElementError& error) {
-        throw UserError("structure " + structure.name + ": " + describe_element(mesh, block, e) +
-                        ": " + error.what());
-      }
-      visit(block, e, layout, work);
-    }
-  }
-}
 
 /// Everything that one sweep over the elements of this rank yields.
 class Assembly {
@@ -73,9 +48,10 @@ class Assembly {
     system_.lumped_mass.assign(mesh_.owned_dofs, 0.0);
     numbers_ = global_numbers(mesh_);
     on_every_rank(mesh_.comm, [&] {
-      for_each_element(structure_, mesh_,
-                       [&](const ElementBlock& block, std::size_t e, const ElementLayout& layout,
-                           ElementWork& work) { add(block, e, layout, work); });
+      for_each_element(
+          structure_, mesh_, [](const auto&, std::size_t) { return true; },
+          [&](const ElementBlock& block, std::size_t e, const ElementLayout& layout,
+              ElementWork& work) { add(block, e, layout, work); });
       check_mass();
     });
     system_.stiffness = finished(std::move(matrix_));

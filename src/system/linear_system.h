@@ -23,6 +23,7 @@
 namespace pounding {
 
 class Links;
+struct SupportShapes;
 
 /// A displacement component of a node, by what does not depend on the partition.
 struct TracePoint {
@@ -67,6 +68,8 @@ struct LinearSystem {
   std::string stiffness_method;          ///< how it is applied, for the report
   std::unique_ptr<Stiffness> taut;       ///< K with every link at its stiffest; null without links
   std::shared_ptr<Links> links;          ///< null if there are none
+  /// How it follows supports that move on their own; null where the ground moves as one.
+  std::shared_ptr<const SupportShapes> supports;
   std::unique_ptr<Stiffness> extra_damping;  ///< D [N s/m, N m s]; null if there is none
   MassScaling mass_scaling;
   RotaryScaling rotary_scaling;               ///< in `lumped_mass` already

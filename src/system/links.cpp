@@ -10,6 +10,7 @@
 #include "elements/element.h"
 #include "elements/point.h"
 #include "mesh/location.h"
+#include "system/support_shapes.h"
 
 namespace pounding {
 namespace {
@@ -93,6 +94,9 @@ void Links::add_bar(const Structure& structure, const Mesh& mesh, const ElementB
     for (std::size_t end = 0; end < 2; ++end) {
       link.place[3 * end + d] = mesh.dof(nodes[end], static_cast<int>(d));
       link.weight[3 * end + d] = (end == 0 ? -1 : 1) * (b[d] - a[d]) / length;
+      if (link.place[3 * end + d] < 0) {
+        link.held.push_back({nodes[end], static_cast<int>(d), link.weight[3 * end + d]});
+      }
     }
   }
   keep(mesh, block, element, link);
@@ -118,6 +122,11 @@ void Links::add_springs(const Structure& structure, const Mesh& mesh, const Elem
     if (part == SpringPart::gauge && ends == 2 &&
         mesh.position(nodes[1])[c] < mesh.position(nodes[0])[c]) {
       for (double& weight : link.weight) weight = -weight;  // told as if the second one lay above
+    }
+    for (std::size_t end = 0; end < ends; ++end) {
+      if (link.place[end] < 0) {
+        link.held.push_back({nodes[end], static_cast<int>(c), link.weight[end]});
+      }
     }
     keep(mesh, block, element, link);
   };
@@ -194,6 +203,16 @@ void Links::find_trace(const LinearSystem& system, const Mesh& mesh) {
     }
   }
   trace_ = std::make_unique<Trace>(system, mesh, places, true);
+  for (Link& link : links_) {
+    link.supports.clear();
+    for (std::size_t c = 0; system.supports && c < system.supports->columns.size(); ++c) {
+      double& sum = link.supports.emplace_back(0.0);
+      for (const HeldEnd& end : link.held) {
+        sum += end.weight *
+               support_displacement(system.supports->columns[c], mesh, end.node, end.component);
+      }
+    }
+  }
 }
 
 std::vector<TracePoint> link_points(const Structure& structure, const GlobalMesh& mesh) {

@@ -15,12 +15,21 @@
 
 namespace pounding {
 
+/// End of a link that is held in a component.
+struct HeldEnd {
+  LocalIndex node = 0;
+  int component = 0;
+  double weight = 0;  ///< in the elongation
+};
+
 /// A link between two nodes, or from one to the ground. This rank owns those that can move.
 struct Link {
   /// Places in the trace of all links, -1 where the end is held: a bar has three of each end, soil
   /// up to six of its node.
   std::array<int, 6> place{-1, -1, -1, -1, -1, -1};
   std::array<double, 6> weight{};  ///< b: of each place in the elongation
+  std::vector<HeldEnd> held{};     ///< ends that may stand on a support
+  std::vector<double> supports{};  ///< elongation by them, per column of SupportShapes; or empty
   Vector3 incident{};  ///< force along it of a wave from below, per its velocity [N s/m]
   LinkOrigin origin;
   std::int64_t number = 0;  ///< among the elements of its structure's file; its name in checkpoints
@@ -41,7 +50,7 @@ class Links {
   /// ranks.
   static std::unique_ptr<Links> build(const Structure& structure, const Mesh& mesh);
 
-  /// Once the system's mass is complete.
+  /// Once the system's mass is complete, and again once it is known how it follows its supports.
   void find_trace(const LinearSystem& system, const Mesh& mesh);
 
   const std::vector<Link>& links() const { return links_; }  ///< of this rank

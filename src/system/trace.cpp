@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "common/row_products.h"
+#include "system/support_shapes.h"
 
 namespace pounding {
 namespace {
@@ -30,6 +31,7 @@ Trace::Trace(const LinearSystem& system, const Mesh& mesh, std::span<const Trace
     take_unit_rows(mesh, places);
     if (impulses && system.coupled_mass) take_coupled_dofs(*system.coupled_mass);
   }
+  if (system.supports) take_supports(system, mesh, places);
   for (const LocalIndex dof : dofs_) inverse_mass_.push_back(system.inverse_mass[dof]);
   force_.assign(dofs_.size(), 0.0);
 }
@@ -100,18 +102,50 @@ void Trace::take_dense_rows(const LinearSystem& system, const Mesh& mesh,
   }
 }
 
+void Trace::take_supports(const LinearSystem& system, const Mesh& mesh,
+                          std::span<const TracePoint> places) {
+  const SupportShapes& supports = *system.supports;
+  columns_ = supports.columns.size();
+  for (const int place : known_) {
+    const TracePoint& point = places[place];
+    const LocalIndex node = mesh.owned_node(point.node);
+    const LocalIndex dof = mesh.dof(node, point.component);
+    for (std::size_t c = 0; c < columns_; ++c) {
+      double value = 0;
+      if (dof < 0) {
+        value = support_displacement(supports.columns[c], mesh, node, point.component);
+      } else if (dense_) {
+        value = supports.at_places.at(point)[c];
+      } else if (!supports.shape[c].empty()) {
+        value = supports.shape[c][dof];
+      }
+      carried_.push_back(value);
+    }
+  }
+}
+
+double Trace::support_work(std::span<const double> f, std::span<const double> velocity) const {
+  double work = 0;
+  for (std::size_t k = 0; columns_ > 0 && k < known_.size(); ++k) {
+    for (std::size_t c = 0; c < columns_; ++c) work += f[k] * carried(k)[c] * velocity[c];
+  }
+  return work;
+}
+
 void Trace::restrict_to_dofs(const double* owned, double* x) const {
   for (std::size_t k = 0; k < dofs_.size(); ++k) x[k] = owned[dofs_[k]];
 }
 
-void Trace::apply(const double* owned, double* out, std::size_t stride) const {
-  if (!dense_) {
+void Trace::apply(const double* owned, double* out, std::size_t stride,
+                  std::span<const double> supports) const {
+  if (dense_) {
+    multiply_rows(rows_.data(), known_.size(), dofs_.size(), owned, out, stride);
+  } else {
     for (std::size_t k = 0; k < own_dof_.size(); ++k) {
       out[stride * k] = own_dof_[k] < 0 ? 0 : owned[dofs_[own_dof_[k]]];
     }
-    return;
   }
-  multiply_rows(rows_.data(), known_.size(), dofs_.size(), owned, out, stride);
+  if (columns_ > 0) add_columns(carried_, supports, out, stride);
 }
 
 void Trace::add_force(std::size_t k, double f, std::span<double> owned) const {

@@ -32,8 +32,17 @@ class Trace {
 
   /// x = values of dofs() out of those of all owned dofs.
   void restrict_to_dofs(const double* owned, double* x) const;
-  /// out[stride * k] = (T x)_k for each known place k, x over all owned dofs.
-  void apply(const double* owned, double* out, std::size_t stride) const;
+  /// out[stride * k] = (T x)_k for each known place k, x over all owned dofs. `supports`: motion of
+  /// the supports, per column of SupportShapes, which carries the places along; may be empty.
+  void apply(const double* owned, double* out, std::size_t stride,
+             std::span<const double> supports = {}) const;
+  /// How far each column of the supports' motion carries known place k; empty where none does.
+  std::span<const double> carried(std::size_t k) const {
+    return {carried_.data() + k * columns_, columns_};
+  }
+  /// Work [J] of forces times their duration f [N s] at the known places on a velocity of the
+  /// supports, per column.
+  double support_work(std::span<const double> f, std::span<const double> velocity) const;
   /// x += M^-1 T^T f, f per known place, x over dofs().
   void add_impulse(const double* f, double* x);
   /// Row k of T of a structure in generalised coordinates, over all of them.
@@ -59,6 +68,9 @@ class Trace {
   void take_dense_rows(const LinearSystem& system, const Mesh& mesh,
                        std::span<const TracePoint> places);
 
+  void take_supports(const LinearSystem& system, const Mesh& mesh,
+                     std::span<const TracePoint> places);
+
   /// x += M^-1 force_.
   void add_solution(double* x);
 
@@ -71,6 +83,8 @@ class Trace {
   std::vector<double> inverse_mass_;  ///< per dof of dofs_
   std::vector<int> own_dof_;        ///< unit rows: per known place into dofs_, -1 if it is clamped
   std::vector<double> rows_;        ///< else shape (known, dofs)
+  std::size_t columns_ = 0;         ///< of the supports' motion; 0: the ground moves as one
+  std::vector<double> carried_;     ///< shape (known, columns)
   std::vector<double> force_;       ///< T^T f
   std::vector<int> field_place_;    ///< per dof of dofs_, in field_; -1: its mass is not coupled
   std::vector<double> field_;       ///< see CoupledMass

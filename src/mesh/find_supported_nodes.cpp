@@ -1,0 +1,100 @@
+#include "mesh/find_supported_nodes.h"
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+#include "common/error.h"
+#include "mesh/group_names.h"
+#include "scene/support_reader.h"
+
+namespace pounding {
+namespace {
+
+int clamped(const GlobalMesh& mesh, GlobalIndex node) {
+  return mesh.components[node] & ~mesh.free_components[node];
+}
+
+std::string place_text(const GlobalMesh& mesh, GlobalIndex node) {
+  const Vector3 x = mesh.position(node);
+  std::ostringstream text;
+  text << "(" << x[0] << ", " << x[1] << ", " << x[2] << ")";
+  return text.str();
+}
+
+[[noreturn]] void refuse(const Support& support, const SupportedGroup& group,
+                         const std::string& why) {
+  throw UserError("option -" + support.name + "_groups " + group.structure + ":" + group.group +
+                  ": " + why);
+}
+
+void refuse_ties(const Structure& structure, const GlobalMesh& mesh) {
+  for (const RigidNodes& part : mesh.rigid) {
+    for (const TiedNode& tied : part.tied) {
+      bool held = clamped(mesh, tied.node) != 0;
+      for (const Carrier& carrier : tied.carriers) held = held || clamped(mesh, carrier.node) != 0;
+      if (held) {
+        throw UserError("option -" + structure.name + "_tie " + part.group + ": the node at " +
+                        place_text(mesh, tied.node) +
+                        " is clamped, or follows a clamped one, and the structure stands on a "
+                        "support that moves on its own; tie them elsewhere, or clamp less");
+      }
+    }
+  }
+}
+
+/// Which support each clamped node stands on.
+std::map<GlobalIndex, int> support_of_nodes(const Scene& scene, const Structure& structure,
+                                            const GlobalMesh& mesh) {
+  std::map<GlobalIndex, int> found;
+  for (std::size_t s = 0; s < scene.supports.size(); ++s) {
+    const Support& support = scene.supports[s];
+    for (const SupportedGroup& group : support.groups) {
+      if (group.structure != structure.name) continue;
+      const auto nodes = mesh.groups.find(group.group);
+      if (nodes == mesh.groups.end()) {
+        refuse(support, group, "there is no such group, the mesh has: " + group_names(mesh));
+      }
+      bool any = false;
+      for (const GlobalIndex node : nodes->second.nodes) {
+        if (clamped(mesh, node) == 0) continue;
+        any = true;
+        const auto [at, is_new] = found.try_emplace(node, static_cast<int>(s));
+        if (!is_new && at->second != static_cast<int>(s)) {
+          refuse(support, group,
+                 "its clamped node at " + place_text(mesh, node) + " stands on support " +
+                     scene.supports[at->second].name + " as well");
+        }
+      }
+      if (!any) {
+        refuse(support, group,
+               "no node of it is clamped; name it in -" + structure.name + "_clamp");
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<SupportedNode> find_supported_nodes(const Scene& scene, const Structure& structure,
+                                                const GlobalMesh& mesh) {
+  const std::map<GlobalIndex, int> found = support_of_nodes(scene, structure, mesh);
+  std::vector<SupportedNode> nodes;
+  for (GlobalIndex node = 0; !found.empty() && node < mesh.node_count(); ++node) {
+    if (clamped(mesh, node) == 0) continue;
+    const auto at = found.find(node);
+    if (at == found.end()) {
+      throw UserError("structure " + structure.name + ": its clamped node at " +
+                      place_text(mesh, node) +
+                      " stands on none of -supports, and others of it do; name its group in the "
+                      "_groups of one, which may move with the ground");
+    }
+    nodes.push_back({node, at->second, clamped(mesh, node)});
+  }
+  if (!stands_on_moving_support(scene, structure)) return {};
+  refuse_ties(structure, mesh);
+  return nodes;
+}
+
+}  // namespace pounding

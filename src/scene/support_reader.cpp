@@ -1,0 +1,173 @@
+#include "scene/support_reader.h"
+
+#include <algorithm>
+#include <set>
+
+#include "scene/motion_reader.h"
+#include "scene/nearest_name.h"
+#include "scene/option_values.h"
+
+namespace pounding {
+namespace {
+
+constexpr std::string_view groups_option = "<support>_groups";
+
+bool turns(const Support& support) {
+  return std::any_of(support.motion.begin() + 3, support.motion.end(),
+                     [](const auto& rotation) { return rotation.has_value(); });
+}
+
+std::vector<SupportedGroup> read_groups(OptionReader& options, const std::string& name) {
+  std::vector<SupportedGroup> groups;
+  for (const std::string& item : split(options.text(groups_option, {name}), ',')) {
+    const std::vector<std::string> words = split(item, ':');
+    if (words.size() != 2 || words[0].empty() || words[1].empty()) {
+      options.refuse(groups_option, {name}, "'" + item + "' is not structure:group");
+    }
+    groups.push_back({words[0], words[1]});
+  }
+  return groups;
+}
+
+/// A rotation about an axis, as a motion whose record is in rad/s2.
+std::optional<MotionComponent> read_rotation(OptionReader& options, const std::string& name,
+                                             const std::string& axis) {
+  const OptionReader::Names names{name, axis};
+  if (!options.given("<support>_rotation_<x|y|z>_record", names)) {
+    for (const char* what : {"time_step", "column", "scale"}) {
+      options.forbid(std::string("<support>_rotation_<x|y|z>_") + what, names,
+                     "goes with -" + name + "_rotation_" + axis + "_record, which is not given");
+    }
+    return std::nullopt;
+  }
+  RecordedMotion record;
+  record.file = options.text("<support>_rotation_<x|y|z>_record", names);
+  record.time_step = options.real("<support>_rotation_<x|y|z>_time_step", names);
+  record.column = options.integer("<support>_rotation_<x|y|z>_column", names);
+  MotionComponent component;
+  component.source = record;
+  component.scale = options.real("<support>_rotation_<x|y|z>_scale", names);
+  return component;
+}
+
+void refuse(const OptionReader& options, const Support& support, const std::string& why) {
+  options.refuse(groups_option, {support.name}, why);
+}
+
+/// Delay and factor act on the motion of the ground, along axes without a record.
+void require_effect(const OptionReader& options, const Scene& scene, const Support& support) {
+  bool acts = false;
+  for (std::size_t d = 0; d < 3; ++d) acts = acts || (scene.motion[d] && !support.motion[d]);
+  if (acts) return;
+  for (const char* what : {"<support>_delay", "<support>_factor"}) {
+    options.forbid(what, {support.name},
+                   "no effect: along no axis the support goes by -motion_x, _y or _z");
+  }
+}
+
+/// Refuses what nobody has worked out, or tested, for a structure on supports that move on their
+/// own.
+void require_plain(const OptionReader& options, const Scene& scene, const Support& support,
+                   const Structure& structure) {
+  const auto refuse_with = [&](const std::string& option) {
+    refuse(options, support,
+           "structure " + structure.name + ": not with -" + structure.name + option);
+  };
+  if (!structure.matrices.empty()) {
+    refuse(options, support,
+           "structure " + structure.name + ": -" + structure.name +
+               "_matrices do not tell what its clamped dofs do to the others");
+  }
+  if (structure.soil) refuse_with("_soil_mat");
+  if (!structure.absorbing.empty()) refuse_with("_absorbing");
+  if (!scene.export_matrices.empty()) {
+    refuse(options, support, "not with -export_matrices: no matrix tells how supports move");
+  }
+  for (const Region& region : structure.regions) {
+    if (!region.nonlinear.yields()) continue;
+    if (std::ranges::any_of(structure.regions, [&](const Region& other) {
+          return structure.damping_of(other).alpha > 0;
+        })) {
+      refuse(options, support,
+             "structure " + structure.name +
+                 ": damping alpha brakes against what linear elements " +
+                 "alone carry along, not what yields as " + region.group +
+                 "; give beta or damping_uniform");
+    }
+  }
+  if (!structure.modal) return;
+  if (!structure.modal->basis_file.empty()) refuse_with("_modal_basis");
+  for (const Region& region : structure.regions) {
+    if (follows_law(region)) {
+      refuse(options, support,
+             "structure " + structure.name + " is reduced: not with -" +
+                 option_name(law_option(region), {structure.name, region.group}));
+    }
+  }
+}
+
+}  // namespace
+
+Support read_support(OptionReader& options, const std::string& name) {
+  Support support;
+  support.name = name;
+  support.groups = read_groups(options, name);
+  support.delay = options.real("<support>_delay", {name});
+  const std::vector<double> factor = options.reals("<support>_factor", {name}, 3);
+  for (std::size_t d = 0; d < 3; ++d) {
+    const std::string axis = direction_names[d];
+    support.factor[d] = factor[d];
+    support.motion[d] = read_motion(options, axis, name);
+    if (!support.motion[d] && options.given("<support>_motion_<x|y|z>_record", {name, axis})) {
+      support.factor[d] = 0;  // it stands still
+    }
+    support.motion[3 + d] = read_rotation(options, name, axis);
+  }
+  if (turns(support)) {
+    const std::vector<double> point = options.reals("<support>_point", {name}, 3);
+    std::copy(point.begin(), point.end(), support.point.begin());
+  } else {
+    options.forbid("<support>_point", {name}, "the support does not turn; leave it out");
+  }
+  return support;
+}
+
+void check_supports(const OptionReader& options, const Scene& scene) {
+  std::set<std::pair<std::string, std::string>> seen;
+  std::vector<std::string> known;
+  for (const Structure& structure : scene.structures) known.push_back(structure.name);
+  for (const Support& support : scene.supports) {
+    for (const auto& [name, group] : support.groups) {
+      const auto structure = std::ranges::find(scene.structures, name, &Structure::name);
+      if (structure == scene.structures.end()) {
+        refuse(options, support, "there is no structure '" + name + "'" + suggestion(name, known));
+      }
+      if (!seen.emplace(name, group).second) {
+        refuse(options, support, "'" + name + ":" + group + "' stands on a support already");
+      }
+      require_plain(options, scene, support, *structure);
+    }
+    if (scene.motion_from_below) {
+      refuse(options, support, "not with -motion_input below");
+    }
+    require_effect(options, scene, support);
+  }
+}
+
+bool moves_otherwise(const Support& support, std::size_t component, bool ground_moves) {
+  if (support.motion[component]) return true;
+  return component < 3 && ground_moves && (support.delay > 0 || support.factor[component] != 1);
+}
+
+bool stands_on_moving_support(const Scene& scene, const Structure& structure) {
+  return std::ranges::any_of(scene.supports, [&](const Support& support) {
+    bool moves = false;
+    for (std::size_t c = 0; c < 6; ++c) {
+      moves = moves || moves_otherwise(support, c, c < 3 && scene.motion[c].has_value());
+    }
+    return moves &&
+           std::ranges::count(support.groups, structure.name, &SupportedGroup::structure) > 0;
+  });
+}
+
+}  // namespace pounding

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "scene/option_reader.h"
+#include "scene/scene.h"
+
+namespace pounding {
+
+/// A part of the ground that moves otherwise than the scene's motion says, with its own motion.
+/// Throws UserError.
+Support read_support(OptionReader& options, const std::string& name);
+
+/// Refuses supports that name no structure of the scene, that a group stands on twice, whose delay
+/// or factor has no effect, and that are not combined with the rest of the scene. Throws UserError.
+void check_supports(const OptionReader& options, const Scene& scene);
+
+/// Whether a support moves otherwise than the ground in a component, 0-2 along x, y, z and 3-5
+/// about them; `ground_moves`: along that axis.
+bool moves_otherwise(const Support& support, std::size_t component, bool ground_moves);
+
+/// Whether a structure stands on a support that moves otherwise than the ground.
+bool stands_on_moving_support(const Scene& scene, const Structure& structure);
+
+}  // namespace pounding

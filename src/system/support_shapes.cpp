@@ -1,0 +1,64 @@
+#include "system/support_shapes.h"
+
+#include <algorithm>
+
+#include "common/rigid_motion.h"
+#include "system/each_element.h"
+
+namespace pounding {
+
+double support_displacement(const SupportColumn& column, const Mesh& mesh, LocalIndex node,
+                            int component) {
+  const SupportedNode* const at = mesh.support_at(node);
+  if (at == nullptr || at->support != column.support || !at->holds(component)) return 0;
+  const Vector3 x = mesh.position(node);
+  const Vector3& p = column.point;
+  return rigid_motion_row(static_cast<std::size_t>(component),
+                          {x[0] - p[0], x[1] - p[1], x[2] - p[2]})[column.component];
+}
+
+std::vector<double> support_force(const Structure& structure, const Mesh& mesh,
+                                  const SupportColumn& column) {
+  std::vector<double> force(mesh.owned_dofs, 0.0);
+  std::array<double, max_element_size> moved{};
+  const auto is_moved = [&](const ElementBlock& block, std::size_t element) {
+    const ElementLayout layout = element_layout(block.type);
+    if (!is_linear(block.type)) return false;
+    bool any = false;
+    const std::size_t size = layout.size();
+    const std::size_t width = layout.components;
+    for (std::size_t i = 0; i < size; ++i) {
+      const LocalIndex node =
+          block.connectivity[element * static_cast<std::size_t>(layout.nodes) + i / width];
+      moved[i] = support_displacement(column, mesh, node, static_cast<int>(i % width));
+      any = any || moved[i] != 0;
+    }
+    return any;
+  };
+  for_each_element(structure, mesh, is_moved,
+                   [&](const ElementBlock& block, std::size_t element, const ElementLayout& layout,
+                       const ElementWork& work) {
+                     const auto dofs = element_dofs(mesh, block, element, layout);
+                     const std::size_t size = layout.size();
+                     for (std::size_t i = 0; i < size; ++i) {
+                       if (dofs[i] < 0 || dofs[i] >= mesh.owned_dofs) continue;
+                       for (std::size_t j = 0; j < size; ++j) {
+                         force[dofs[i]] += work.stiffness[i * size + j] * moved[j];
+                       }
+                     }
+                   });
+  return force;
+}
+
+void add_columns(std::span<const double> values, std::span<const double> motion, double* out,
+                 std::size_t stride) {
+  if (values.empty() || motion.empty()) return;
+  const std::size_t width = motion.size();
+  for (std::size_t k = 0; k * width < values.size(); ++k) {
+    double sum = 0;
+    for (std::size_t c = 0; c < width; ++c) sum += values[k * width + c] * motion[c];
+    out[stride * k] += sum;
+  }
+}
+
+}  // namespace pounding

@@ -1,0 +1,411 @@
+"""Supports that move on their own: viaducts, bars and a tower on parts of the ground.
+
+Two supports with the motion of the ground give what the ground gives, with impacts, friction, links and every kind
+of damping. What differs from that is compared with central differences of dense matrices in absolute coordinates,
+with the loads K_fs (u_s + beta v_s) of the prescribed displacements, from the matrices that the program exports of
+the structure without clamps; with gaps that close by hand; and with the rigid rotation of a tower.
+"""
+import math
+import os
+import tempfile
+import unittest
+
+import h5py
+import numpy
+import scipy.io
+
+import program
+from recorded import Recorded, assert_continues, assert_follows, write_samples
+
+STEEL = ["-material_steel_young", "2.1e11", "-material_steel_poisson", 0.3, "-material_steel_density", 7850]
+SECTION = ["-section_leg_area", 0.04, "-section_leg_inertia_y", "4e-4", "-section_leg_inertia_z", "2e-4",
+           "-section_leg_torsion", "3e-4", "-section_leg_z_axis", "0,1,0"]
+SPAN, HEIGHT, BEARING = 6.0, 5.0, "3e7,4e7,2e8,1e6,1e6,1e6"
+
+
+def viaduct(name, spans, x0, *more):
+    """A deck on piers; the feet are clamped."""
+    words = [f"-{name}_mesh", "tests/meshes/viaduct.geo", f"-{name}_mesh_set", f"spans={spans},x0={x0!r}",
+             f"-{name}_clamp", "feet", f"-{name}_deck_element", "shell", f"-{name}_deck_material", "steel",
+             f"-{name}_deck_thickness", 0.3, f"-{name}_piers_element", "beam", f"-{name}_piers_material", "steel",
+             f"-{name}_piers_section", "leg", f"-{name}_bearings_element", "spring",
+             f"-{name}_bearings_stiffness", BEARING]
+    words += [f"-{name}_ignore", "braces"] if not any("braces" in str(word) for word in more) else []
+    return words + list(more)
+
+
+def braces(name):
+    return [f"-{name}_braces_element", "bar", f"-{name}_braces_material", "steel", f"-{name}_braces_area", 1e-4,
+            f"-{name}_braces_tension_only", "true"]
+
+
+class Pulse:
+    """Acceleration of a smooth displacement that comes back to zero, along an axis."""
+
+    def __init__(self, size, frequency, cycles=2):
+        self.step, end = 1e-3, cycles / frequency
+        t = self.step * numpy.arange(round(end / self.step) + 1)
+        w, envelope = 2 * math.pi * frequency, math.pi / end
+        # u = size sin^3(envelope t) sin(w t), its second derivative by terms of one frequency each
+        terms = [(3 / 4, envelope), (-1 / 4, 3 * envelope)]
+        a = sum(c / 2 * (-(w - e)**2 * numpy.cos((w - e) * t) + (w + e)**2 * numpy.cos((w + e) * t)) for c, e in terms)
+        self.samples = size * a
+        self.file = write_samples(self.samples, self.step)
+
+    def at(self, t):
+        return numpy.interp(t, self.step * numpy.arange(len(self.samples)), self.samples, left=0, right=0)
+
+    def words(self, option):
+        return [f"-{option}_record", self.file, f"-{option}_unit", "m/s2"]
+
+
+class WithPulses(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.x, cls.z = Pulse(0.02, 3.0), Pulse(0.004, 5.0)
+
+    @classmethod
+    def tearDownClass(cls):
+        for pulse in (cls.x, cls.z):
+            os.remove(pulse.file)
+
+    def ground(self):
+        return self.x.words("motion_x") + self.z.words("motion_z")
+
+
+def probes(*named):
+    words = ["-probes", ",".join(name for name, _, _ in named)]
+    for name, structure, group in named:
+        words += [f"-{name}_structure", structure, f"-{name}_group", group, f"-{name}_average", "false"]
+    return words
+
+
+class UniformMotion(WithPulses):
+    """Two viaducts that pound: all supports move as the ground would."""
+    END = 0.3
+    LINKS = ["-a_bearings_dashpot", "1e5,1e5,1e5,0,0,0", *braces("b"), "-joint_filler", "0.3:1e4,0.8:5e4",
+             "-joint_filler_unloading", 5e5, "-joint_filler_area", 0.6]
+
+    def words(self, *more):
+        return ["-structures", "a,b", *viaduct("a", 2, 0.0), *viaduct("b", 1, 12.0005), *STEEL, *SECTION,
+                "-contacts", "joint", "-joint_secondary", "a:east", "-joint_primary", "b:west", "-joint_friction", 0.3,
+                *probes(("pa", "a", "east"), ("pb", "b", "west"), ("fa", "a", "feet")), "-end_time", self.END,
+                "-output_interval", 1e-3, *more]
+
+    def on_supports(self):
+        words = ["-supports", "one,two", "-one_groups", "a:foot0,b:feet", "-two_groups", "a:foot1,a:foot2"]
+        for support in ("one", "two"):
+            words += self.x.words(f"{support}_motion_x") + self.z.words(f"{support}_motion_z")
+        return words
+
+    def compare(self, ranks, *more, tolerance=1e-9):
+        common = Recorded(self, self.words(*self.ground(), *more), ranks)
+        moved = Recorded(self, self.words(*self.on_supports(), *more), ranks, identity=1e-11)
+        self.assertGreater(sum(common.column("impulse")), 0, "it pounds")
+        for axis in "xyz":
+            foot = moved.displacement(f"fa.1.{axis}")
+            self.assertEqual(abs(foot - moved.displacement(f"fa.3.{axis}")).max(), 0)
+            scale = abs(common.displacement("pa.1.x")).max()
+            for probe in ("pa.1", "pa.3", "pb.2"):
+                difference = moved.displacement(f"{probe}.{axis}") - foot - common.displacement(f"{probe}.{axis}")
+                self.assertLess(abs(difference).max(), tolerance * scale, (probe, axis))
+        assert_follows(self, moved.force("joint"), common.force("joint"), 1e-6, "force")
+        return moved
+
+    def test_rayleigh_damping(self):
+        for ranks in (1, 2):
+            moved = self.compare(ranks, "-a_damping_alpha", 0.5, "-a_damping_beta", 2e-5, "-b_damping_alpha", 0.2,
+                                 "-b_damping_beta", 1e-5)
+            self.assertGreater(moved.energy["damping"], 0)
+
+    def test_uniform_damping(self):
+        self.compare(2, "-a_damping_uniform", 0.03, "-a_damping_band", "1,200", "-b_damping_alpha", 0.2)
+
+    def test_links_and_filler(self):
+        moved = self.compare(2, *self.LINKS, "-b_damping_beta", 1e-5, "-stiffness", "element")
+        self.assertGreater(moved.energy["devices"], 0)
+
+    def test_bearings_that_yield(self):
+        """What holds the deck along x is no linear element."""
+        moved = self.compare(2, "-a_bearings_yield_force", "5e3,5e3,0", "-a_bearings_hardening", 0.1)
+        self.assertGreater(moved.energy["devices"], 0)
+
+    def test_rigid_deck_and_own_damping(self):
+        self.compare(2, "-a_diaphragm", "deck", "-b_piers_damping_beta", 1e-5, "-b_mass_scaling", 5e-5)
+
+    def test_from_rest_under_gravity(self):
+        moved = self.compare(2, "-gravity", 9.81, "-preload", "static", "-a_p_delta", "true", "-a_damping_beta", 1e-5)
+        self.assertLess(moved.displacement("pa.1.z")[0], -1e-4)
+
+    def test_all_modes(self):
+        self.compare(2, "-a_model", "modal", "-a_modal_vectors", 10000, "-a_damping_beta", 1e-5)
+
+
+class MovedDifferently(WithPulses):
+    """The same viaducts on feet that a wave reaches one after the other."""
+    words = UniformMotion.words
+    END, LINKS = UniformMotion.END, UniformMotion.LINKS
+
+    def on_supports(self):
+        words = self.ground() + ["-supports", "s0,s1,s2,s3"]
+        for i, group in enumerate(("a:foot0", "a:foot1", "a:foot2,b:foot0", "b:foot1")):
+            words += [f"-s{i}_groups", group, f"-s{i}_delay", 0.02 * i, f"-s{i}_factor", f"{1 - 0.1 * i!r},1,1"]
+        return words + self.z.words("s3_motion_y")
+
+    def run_on(self, ranks, *more):
+        """The ledger closes to round-off."""
+        return Recorded(self, self.words(*self.on_supports(), *more), ranks, identity=1e-11)
+
+    def compare(self, run, other, tolerance):
+        for channel in ("pa.1.x", "pb.2.y", "pa.3.z"):
+            assert_follows(self, run.displacement(channel), other.displacement(channel), tolerance, channel)
+
+    def test_ledger_and_ranks(self):
+        """Impacts, friction, dashpots, braces, a filler, bearings that yield, a rigid deck."""
+        for more in ([*self.LINKS, "-a_damping_beta", 1e-5],
+                     ["-a_bearings_yield_force", "5e3,5e3,0", "-b_diaphragm", "deck", "-a_damping_uniform", 0.03]):
+            runs = [self.run_on(ranks, *more) for ranks in (1, 2, 3)]
+            self.assertGreater(runs[0].energy["devices"], 0)
+            for other in runs[1:]:
+                self.compare(other, runs[0], 1e-9)
+        self.assertGreater(runs[0].energy["friction"], 0)
+        self.assertGreater(sum(runs[0].column("impulse")), 0, "it pounds")
+
+    def test_all_modes(self):
+        """As the finite elements themselves, beside impacts and friction."""
+        more = ["-a_damping_beta", 1e-5, "-time_step", 3e-5]
+        full = self.run_on(2, *more)
+        self.assertGreater(sum(full.column("impulse")), 0, "it pounds")
+        self.compare(self.run_on(2, *more, "-a_model", "modal", "-a_modal_vectors", 10000), full, 1e-8)
+
+    def test_continues(self):
+        assert_continues(self, self.words(*self.on_supports(), *self.LINKS, "-a_damping_uniform", 0.03), 0.2, 3000)
+
+    def test_without_a_difference_no_bit_changes(self):
+        """Supports that go by the motion of the ground leave the run as it is without them."""
+        plain = Recorded(self, self.words(*self.ground()), 2)
+        same = Recorded(self, self.words(*self.ground(), "-supports", "s", "-s_groups", "a:feet,b:feet"), 2)
+        for channel in ("pa.1.x", "pb.2.z"):
+            self.assertTrue(numpy.array_equal(plain.velocity(channel), same.velocity(channel)))
+
+
+class Tower(WithPulses):
+    """A mass on a weightless column whose foot rocks about a point away from it: the top goes along as a rigid body,
+    and on top of that as an oscillator under the inertia of that motion."""
+    MASS, YOUNG, INERTIA, HEIGHT, POINT = 2000.0, 3e10, 1e-3, 8.0, (1.5, 0.0, -2.0)
+
+    def test_rocking(self):
+        step = 2e-4
+        words = ["-structures", "t", "-t_mesh", "tests/meshes/cantilever.geo", "-t_mesh_set",
+                 f"height={self.HEIGHT!r},n=1", "-t_clamp", "base", "-t_stem_element", "beam", "-t_stem_material", "stuff",
+                 "-t_stem_section", "pipe", "-material_stuff_young", self.YOUNG, "-material_stuff_poisson", 0.2,
+                 "-material_stuff_density", 1e-3, "-section_pipe_area", 0.1, "-section_pipe_inertia_y", self.INERTIA,
+                 "-section_pipe_inertia_z", self.INERTIA, "-section_pipe_torsion", self.INERTIA,
+                 "-section_pipe_z_axis", "1,0,0", "-t_top_element", "point_mass", "-t_top_mass", self.MASS,
+                 "-t_top_rotary_inertia", "1,1,1", "-supports", "s", "-s_groups", "t:base", "-s_rotation_y_record",
+                 self.x.file, "-s_rotation_y_scale", 0.1, "-s_point", ",".join(map(repr, self.POINT)), "-time_step", step,
+                 "-end_time", 1, "-output_interval", step, *probes(("top", "t", "top"), ("foot", "t", "base"))]
+        run = Recorded(self, words, 2)
+        up, stiffness = self.HEIGHT - self.POINT[2], 3 * self.YOUNG * self.INERTIA / self.HEIGHT**3
+        u = v = angle = rate = 0.0
+        exact = []
+        for n in range(len(run.time)):
+            exact.append((angle, u))
+            h, turn = (step if n else step / 2), 0.1 * self.x.at(n * step)
+            v += h * (-stiffness / self.MASS * u - up * turn)
+            rate += h * turn
+            u, angle = u + step * v, angle + step * rate
+        angle, u = numpy.array(exact).T
+        self.assertGreater(abs(u).max(), 0.1 * abs(up * angle).max())
+        for found, by_hand, tolerance in (("top.x", up * angle + u, 2e-3), ("top.z", self.POINT[0] * angle, 5e-3),
+                                          ("foot.x", -self.POINT[2] * angle, 1e-12),
+                                          ("foot.z", self.POINT[0] * angle, 1e-12)):
+            assert_follows(self, run.displacement(found), by_hand, tolerance, found)
+
+
+def read_matrices(folder, structure):
+    """Rows (position, component) of an exported structure, its K and the diagonal of its M."""
+    where = os.path.join(folder, structure)
+    with open(os.path.join(where, "dofs.csv")) as file:
+        rows = [line.strip().split(",") for line in file if line[0] not in "#x"]
+    dofs = [(*(round(float(v), 6) for v in row[:3]), row[3]) for row in rows]
+    stiffness = scipy.io.mmread(os.path.join(where, "stiffness.mtx")).toarray()
+    return dofs, stiffness, scipy.io.mmread(os.path.join(where, "mass.mtx")).toarray().ravel()
+
+
+class DenseSteps:
+    """Central differences in absolute coordinates: the rows of the feet are prescribed, u_s and v_s by the same
+    steps from their accelerations; alpha brakes v - iota v_s, beta what the stiffness resists."""
+
+    def __init__(self, test, words, alpha, beta):
+        with tempfile.TemporaryDirectory() as folder:
+            without = [word for i, word in enumerate(words) if "-v_clamp" not in (word, words[i - 1])]
+            program.must_run(test, [*without, "-v_allow_loose", "true", "-export_matrices", folder, "-end_time", 1e-4,
+                                    "-modes", 0], 1)
+            self.dofs, stiffness, mass = read_matrices(folder, "v")
+        self.alpha, self.beta = alpha, beta
+        self.feet = [i for i, dof in enumerate(self.dofs) if dof[2] == 0]
+        self.free = [i for i, dof in enumerate(self.dofs) if dof[2] != 0]
+        self.inner = stiffness[numpy.ix_(self.free, self.free)]
+        self.outer = stiffness[numpy.ix_(self.free, self.feet)]
+        self.mass = mass[self.free]
+        self.shape = -numpy.linalg.solve(self.inner, self.outer)
+
+    def run(self, acceleration, dt, steps):
+        """Absolute displacements of all rows at every step; `acceleration(t)`: of the feet's rows."""
+        u, v = numpy.zeros(len(self.free)), numpy.zeros(len(self.free))
+        us, vs = numpy.zeros(len(self.feet)), numpy.zeros(len(self.feet))
+        history = numpy.zeros((steps, len(self.dofs)))
+        for n in range(steps):
+            history[n, self.free], history[n, self.feet] = u, us
+            h = dt if n > 0 else dt / 2
+            force = self.inner @ (u + self.beta * v) + self.outer @ (us + self.beta * vs)
+            v = v - h * (force / self.mass + self.alpha * (v - self.shape @ vs))
+            vs = vs + h * acceleration(n * dt)
+            u, us = u + dt * v, us + dt * vs
+        return history
+
+
+class TravellingWave(WithPulses):
+    """A viaduct of two spans: the motion of the ground reaches its piers one after the other, grows on the way, and
+    the last foot moves along y by a record of its own, and rocks about a point beside it."""
+    STEP, END, DELAYS, FACTORS = 4e-5, 0.3, (0.0, 0.04, 0.11), (1.0, 1.3, 0.7)
+    POINT = (12.5, 0.4, -0.3)
+    solutions = []
+
+    def words(self, *more):
+        return ["-structures", "v", *viaduct("v", 2, 0.0), *STEEL, *SECTION, *self.ground(), "-time_step", self.STEP,
+                "-end_time", self.END, *more]
+
+    def on_supports(self):
+        words = ["-supports", "s0,s1,s2"]
+        for i in range(3):
+            words += [f"-s{i}_groups", f"v:foot{i}", f"-s{i}_delay", self.DELAYS[i],
+                      f"-s{i}_factor", ",".join([repr(self.FACTORS[i])] * 3)]
+        words += self.x.words("s2_motion_y") + ["-s2_motion_y_scale", 0.5]
+        for axis, scale in (("x", 0.03), ("y", -0.05), ("z", 0.02)):
+            words += [f"-s2_rotation_{axis}_record", self.z.file, f"-s2_rotation_{axis}_scale", scale]
+        return words + ["-s2_point", ",".join(map(repr, self.POINT)), "-output_interval", 2e-4,
+                        *probes(("deck", "v", "deck"), ("feet", "v", "feet"))]
+
+    def acceleration(self, dofs):
+        """Of the rows of the feet, absolute."""
+        def at(t):
+            turn = self.z.at(t) * numpy.array([0.03, -0.05, 0.02])
+            result = []
+            for x, y, z, component in dofs:
+                i = round(x / SPAN)
+                late, factor = t - self.DELAYS[i], self.FACTORS[i]
+                a = factor * numpy.array([self.x.at(late), 0.0, self.z.at(late)])
+                rotation = turn if i == 2 else numpy.zeros(3)
+                if i == 2:
+                    a[1] = 0.5 * self.x.at(t)
+                a = a + numpy.cross(rotation, numpy.array([x, y, z]) - self.POINT)
+                result.append({"u": a, "r": rotation}[component[0]]["xyz".index(component[1])])
+            return numpy.array(result)
+        return at
+
+    def exact(self, alpha, beta):
+        """Dense steps, taken once."""
+        if not self.solutions:
+            dense = DenseSteps(self, self.words(), alpha, beta)
+            history = dense.run(self.acceleration([dense.dofs[i] for i in dense.feet]), self.STEP,
+                                round(self.END / self.STEP) + 1)
+            self.solutions.append((dense, history[::5]))
+        return self.solutions[0]
+
+    def check(self, ranks, *more, alpha=0.6, beta=5e-6, tolerance=1e-9):
+        damping = ["-v_damping_alpha", alpha, "-v_damping_beta", beta]
+        run = Recorded(self, self.words(*self.on_supports(), *damping, *more), ranks)
+        dense, exact = self.exact(alpha, beta)
+        ground = {"x": self.x, "y": None, "z": self.z}
+        for axis in "xyz":
+            u, v = 0.0, 0.0
+            moved = numpy.zeros(len(exact) * 5)
+            for n in range(len(moved) if ground[axis] else 0):  # of the ground itself, by the same steps
+                moved[n] = u
+                v += (self.STEP if n else self.STEP / 2) * ground[axis].at(n * self.STEP)
+                u += self.STEP * v
+            for probe in ("deck", "feet"):
+                for position, name in zip(*run.nodes(probe)):
+                    row = dense.dofs.index((*(round(float(x), 6) for x in position), "u" + axis))
+                    found = run.displacement(f"{name}.{axis}")
+                    difference = found + moved[::5][:len(found)] - exact[:len(found), row]
+                    self.assertLess(abs(difference).max(), tolerance * abs(exact).max(), (name, axis))
+        self.assertGreater(abs(run.energy["input"]), 0)
+        return run
+
+    def test_against_dense_steps(self):
+        for ranks in (1, 2):
+            self.check(ranks)
+
+    def test_element_by_element_and_with_all_modes(self):
+        self.check(2, "-stiffness", "element")
+        self.check(2, "-v_model", "modal", "-v_modal_vectors", 10000)
+
+    def test_ranks_repeats_and_restarts(self):
+        words = self.words(*self.on_supports(), "-v_damping_beta", 5e-6)
+        runs = [Recorded(self, words, ranks) for ranks in (1, 2, 3, 2)]
+        for run in runs[1:]:
+            for channel in ("deck.1.x", "deck.5.y", "deck.7.z", "feet.3.x"):
+                assert_follows(self, run.displacement(channel), runs[0].displacement(channel), 1e-11, channel)
+                self.assertTrue(numpy.array_equal(runs[1].velocity(channel), runs[3].velocity(channel)), channel)
+        assert_continues(self, words, 0.15, 2500)
+
+
+class MovedApart(unittest.TestCase):
+    """Two bars on the x axis, each held at its outer end by a support of its own; the gap between them closes."""
+    YOUNG, DENSITY, LENGTH, GAP = 2e9, 2000.0, 1.0, 2e-3
+
+    def words(self, *more):
+        words = ["-structures", "a,b", "-supports", "sa,sb", "-sa_groups", "a:x_min", "-sb_groups", "b:x_max",
+                 "-material_stuff_young", self.YOUNG, "-material_stuff_poisson", 0.0,
+                 "-material_stuff_density", self.DENSITY, "-contacts", "joint", "-joint_secondary", "a:x_max",
+                 "-joint_primary", "b:x_min"]
+        for name, x0, end in (("a", 0.0, "x_min"), ("b", self.LENGTH + self.GAP, "x_max")):
+            words += [f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set",
+                      f"x0={x0!r},lx={self.LENGTH!r},ly=0.2,lz=0.2,nx=10", f"-{name}_clamp", end,
+                      f"-{name}_body_element", "hex8", f"-{name}_body_material", "stuff"]
+        return words + list(more)
+
+    def approach(self, acceleration, step, *more, ranks=2):
+        """Support b comes towards a by this acceleration."""
+        path = write_samples(-acceleration / 2, step)
+        other = write_samples(acceleration / 2, step)
+        try:
+            return Recorded(self, self.words("-sb_motion_x_record", path, "-sb_motion_x_unit", "m/s2",
+                                             "-sa_motion_x_record", other, "-sa_motion_x_unit", "m/s2", *more), ranks)
+        finally:
+            os.remove(path)
+            os.remove(other)
+
+    def test_instant_of_the_impact(self):
+        """Supports that begin to approach smoothly, at first as a t^3: the bars follow as rigid ones but for their own
+        delay, a second order of what they deform by."""
+        step, rate = 1e-3, 0.5  # m/s3
+        times = step * numpy.arange(401)
+        closing = (6 * self.GAP / rate)**(1 / 3)  # rate t^3 / 6 = gap
+        for ranks in (1, 2):
+            run = self.approach(rate * times, step, "-end_time", 1.05 * closing, "-output_interval", 1e-4, ranks=ranks)
+            lag = self.DENSITY * self.LENGTH**2 / (2 * self.YOUNG) * rate * closing  # u = rho a L^2 / 2E, both bars
+            speed = rate * closing**2 / 2
+            self.assertAlmostEqual(run.column("start")[0], closing + lag / speed, delta=3 * run.time_step)
+            self.assertGreater(closing, 100 * run.time_step)
+
+    def test_force_of_a_gap_that_stays_closed(self):
+        """Supports that end 5 mm nearer to each other press the bars by E A / 2L times what the gap falls short of
+        that."""
+        step, end, way = 1e-3, 0.2, 5e-3
+        t = step * numpy.arange(round(end / step) + 1)
+        w = 2 * math.pi / end
+        for ranks in (1, 2):
+            run = self.approach(way / end * w * numpy.sin(w * t), step, "-a_damping_alpha", 300, "-b_damping_alpha", 300,
+                                "-end_time", 0.6, "-output_interval", 1e-3, ranks=ranks)
+            behind = run.summary["impacts"]["max_penetration"]  # where the faces stand since they met
+            self.assertLess(behind, 5e-6)
+            exact = self.YOUNG * 0.2**2 / (2 * self.LENGTH) * (way - self.GAP - behind)
+            self.assertAlmostEqual(run.plateau("joint", 0.55, 0.6) / exact, 1, delta=3e-4)
+
+
+if __name__ == "__main__":
+    unittest.main()
