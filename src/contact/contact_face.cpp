@@ -181,12 +181,10 @@ void turn_towards(ContactFace& face, const Vector3& point) {
   settle_normals(face);
 }
 
-std::optional<FacetPoint> meet_facet(const GlobalMesh& mesh, const Facet& facet,
-                                     const Vector3& origin, const Vector3& direction,
-                                     double tolerance, double reach) {
-  if (facet.count == 2) return meet_edge(mesh, facet, origin, direction, tolerance, reach);
+std::optional<FacetPoint> meet_corners(std::span<const Vector3> corners, const Vector3& origin,
+                                       const Vector3& direction, double tolerance) {
   // Newton on x(xi, eta) - origin - distance * direction = 0; exact in one step on a triangle.
-  const bool triangle = facet.count == 3;
+  const bool triangle = corners.size() == 3;
   double xi = triangle ? 1.0 / 3 : 0;
   double eta = xi;
   FacetPoint point;
@@ -206,8 +204,8 @@ std::optional<FacetPoint> meet_facet(const GlobalMesh& mesh, const Facet& facet,
     Vector3 offset{-origin[0], -origin[1], -origin[2]};
     Vector3 tangent_xi{0, 0, 0};
     Vector3 tangent_eta{0, 0, 0};
-    for (std::size_t a = 0; a < static_cast<std::size_t>(facet.count); ++a) {
-      const Vector3 x = mesh.position(facet.nodes[a]);
+    for (std::size_t a = 0; a < corners.size(); ++a) {
+      const Vector3& x = corners[a];
       for (std::size_t d = 0; d < 3; ++d) {
         offset[d] += point.weights[a] * x[d];
         tangent_xi[d] += along_xi[a] * x[d];
@@ -230,6 +228,16 @@ std::optional<FacetPoint> meet_facet(const GlobalMesh& mesh, const Facet& facet,
       triangle ? std::max({-xi, -eta, xi + eta - 1}) : std::max(std::abs(xi), std::abs(eta)) - 1;
   if (outside > tolerance) return std::nullopt;
   return point;
+}
+
+std::optional<FacetPoint> meet_facet(const GlobalMesh& mesh, const Facet& facet,
+                                     const Vector3& origin, const Vector3& direction,
+                                     double tolerance, double reach) {
+  if (facet.count == 2) return meet_edge(mesh, facet, origin, direction, tolerance, reach);
+  std::array<Vector3, 4> corners{};
+  const auto count = static_cast<std::size_t>(facet.count);
+  for (std::size_t a = 0; a < count; ++a) corners[a] = mesh.position(facet.nodes[a]);
+  return meet_corners(std::span(corners).first(count), origin, direction, tolerance);
 }
 
 }  // namespace pounding

@@ -59,6 +59,12 @@ struct FacetPoint {
   double distance = 0;              ///< along the line's direction from its origin [m]
 };
 
+/// The point where the line from `origin` along the unit vector `direction` meets the bilinear
+/// quadrilateral or the triangle of some corners, or nothing if it passes outside by more than a
+/// relative `tolerance`.
+std::optional<FacetPoint> meet_corners(std::span<const Vector3> corners, const Vector3& origin,
+                                       const Vector3& direction, double tolerance);
+
 /// The point where the line from `origin` along the unit vector `direction` meets a facet (bilinear
 /// quadrilateral, triangle, or edge), or nothing if it passes outside by more than a relative
 /// `tolerance`. An edge is met when the line passes it at no more than `reach` [m].

@@ -1,8 +1,6 @@
 #include "contact/contact_operator.h"
 
 #include <algorithm>
-#include <map>
-#include <tuple>
 
 namespace pounding {
 
@@ -27,34 +25,41 @@ LocalIndex owned_dof(const InterfaceDof& dof, std::span<const Mesh> meshes) {
 }
 
 ContactOperator::ContactOperator(MPI_Comm comm, const std::vector<Constraint>& constraints,
-                                 std::span<const Mesh> meshes) {
-  std::map<std::tuple<int, GlobalIndex, int>, int> number;
+                                 std::span<const Mesh> meshes,
+                                 std::span<const ConstraintTerm> more) {
+  Numbers number;
   std::vector<InterfaceDof> all;
-  for (const Constraint& constraint : constraints) {
-    for (const ConstraintTerm& term : constraint.terms) {
-      const auto [found, fresh] = number.try_emplace({term.structure, term.node, term.component},
-                                                     static_cast<int>(all.size()));
-      if (fresh) all.push_back({term.structure, term.node, term.component});
-    }
-  }
+  const auto add = [&](const ConstraintTerm& term) {
+    const bool fresh =
+        number
+            .try_emplace({term.structure, term.node, term.component}, static_cast<int>(all.size()))
+            .second;
+    if (fresh) all.push_back({term.structure, term.node, term.component});
+  };
+  for (const Constraint& constraint : constraints) std::ranges::for_each(constraint.terms, add);
+  std::ranges::for_each(more, add);
   std::vector<int> moves(all.size(), 0);
   std::transform(all.begin(), all.end(), moves.begin(),
                  [&](const InterfaceDof& dof) { return moves_here(dof, meshes) ? 1 : 0; });
   MPI_Allreduce(MPI_IN_PLACE, moves.data(), static_cast<int>(moves.size()), MPI_INT, MPI_MAX, comm);
-  std::vector<int> kept(all.size(), -1);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (moves[i] != 0) {
-      kept[i] = static_cast<int>(dofs_.size());
-      dofs_.push_back(all[i]);
-    }
+    if (moves[i] == 0) continue;
+    column_[{all[i].structure, all[i].node, all[i].component}] = static_cast<int>(dofs_.size());
+    dofs_.push_back(all[i]);
   }
+  set_rows(constraints);
+}
+
+void ContactOperator::set_rows(std::span<const Constraint> constraints) {
+  row_begin_.assign(1, 0);
+  row_dof_.clear();
+  row_coefficient_.clear();
   for (const Constraint& constraint : constraints) {
     for (const ConstraintTerm& term : constraint.terms) {
-      const int column = kept[number.at({term.structure, term.node, term.component})];
-      if (column >= 0) {
-        row_dof_.push_back(column);
-        row_coefficient_.push_back(term.coefficient);
-      }
+      const auto found = column_.find({term.structure, term.node, term.component});
+      if (found == column_.end()) continue;
+      row_dof_.push_back(found->second);
+      row_coefficient_.push_back(term.coefficient);
     }
     row_begin_.push_back(row_dof_.size());
   }

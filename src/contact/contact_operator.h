@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "contact/interface.h"
@@ -22,8 +24,12 @@ class ContactOperator {
  public:
   /// `meshes` in the order of the scene's structures; every rank knows which dofs are clamped by
   /// asking their owners. Collective over `comm`.
+  /// Dofs of `more` get columns after those of the constraints.
   ContactOperator(MPI_Comm comm, const std::vector<Constraint>& constraints,
-                  std::span<const Mesh> meshes);
+                  std::span<const Mesh> meshes, std::span<const ConstraintTerm> more = {});
+
+  /// Other rows over the same dofs; not collective.
+  void set_rows(std::span<const Constraint> constraints);
 
   int rows() const { return static_cast<int>(row_begin_.size()) - 1; }
   int dofs() const { return static_cast<int>(dofs_.size()); }
@@ -44,7 +50,10 @@ class ContactOperator {
     return {values.data() + row_begin_[r], row_begin_[r + 1] - row_begin_[r]};
   }
 
+  using Numbers = std::map<std::tuple<int, GlobalIndex, int>, int>;
+
   std::vector<InterfaceDof> dofs_;
+  Numbers column_;  ///< per structure, node and component; clamped dofs are not in it
   std::vector<std::size_t> row_begin_{0};
   std::vector<int> row_dof_;
   std::vector<double> row_coefficient_;

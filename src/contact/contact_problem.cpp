@@ -24,7 +24,10 @@ constexpr double rate_roundoff = 1e-14;
 ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
                                std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
                                double gap_tolerance)
-    : operator_(comm, with_friction_rows(interface.constraints), meshes),
+    : constraints_(interface.constraints),
+      operator_(comm, with_friction_rows(constraints_), meshes,
+                SlidingPairs::all_terms(interface.sliding)),
+      sliding_(operator_, interface),
       structure_dofs_(dofs_by_structure(operator_, systems.size())),
       traces_(make_traces(operator_, systems, meshes, true)),
       gather_(comm, known_dofs(structure_dofs_, traces_)),
@@ -60,13 +63,22 @@ ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
   dof_increment_.assign(dofs, 0.0);
   smallest_gap_ = rows > 0 ? *std::min_element(gap_.begin(), gap_.end()) : 0;
   build_delassus();
-  find_components();
 }
 
 void ContactProblem::build_delassus() {
+  diagonal_.clear();
   for (int row = 0; row < rows(); ++row) {
     diagonal_.push_back(delassus_entry(operator_, compliance_, row, row));
   }
+  find_components();
+}
+
+void ContactProblem::take_new_pairs() {
+  for (std::size_t row = 0; row < constraints_.size(); ++row) {
+    initial_gap_[row] = constraints_[row].initial_gap;
+  }
+  operator_.set_rows(with_friction_rows(constraints_));
+  build_delassus();
 }
 
 std::vector<double> ContactProblem::row_force(int row, std::size_t structure,
@@ -97,6 +109,9 @@ double ContactProblem::row_compliance(int row, std::size_t structure) const {
 }
 
 void ContactProblem::find_components() {
+  components_.clear();
+  friction_.forget_components();
+  coupled_rows_ = 0;
   std::vector<std::vector<int>> row_groups;
   for (int row = 0; row < rows(); ++row) {
     std::vector<int>& groups = row_groups.emplace_back();
@@ -150,6 +165,7 @@ void ContactProblem::set_displacement(std::size_t structure, const double* displ
 
 void ContactProblem::gather_displacements() {
   gather_.gather(1, {mine_.data(), mine_.size() / InterfaceGather::max_fields}, displacement_);
+  if (sliding_.any() && sliding_.find(displacement_, constraints_)) take_new_pairs();
   smallest_gap_ = std::numeric_limits<double>::max();
   for (int row = 0; row < rows(); ++row) {
     const std::size_t r = row;
@@ -310,6 +326,7 @@ void ContactProblem::save(SavedState& saved) const {
   saved.put("contact_impulse", impulse_);
   saved.put("contact_largest_residual", {largest_residual_, largest_rate_});
   friction_.save(saved);
+  sliding_.save(saved);
 }
 
 void ContactProblem::load(const SavedState& saved) {
@@ -319,6 +336,9 @@ void ContactProblem::load(const SavedState& saved) {
   largest_residual_ = largest[0];
   largest_rate_ = largest[1];
   friction_.load(saved);
+  if (!sliding_.any()) return;
+  sliding_.load(saved, constraints_);
+  take_new_pairs();
 }
 
 double ContactProblem::total_work() const {

@@ -11,6 +11,7 @@
 #include "contact/interface.h"
 #include "contact/interface_compliance.h"
 #include "contact/interface_gather.h"
+#include "contact/sliding_pairs.h"
 #include "contact/sparse_rows.h"
 #include "system/linear_system.h"
 #include "system/trace.h"
@@ -26,7 +27,8 @@ namespace pounding {
 /// system/trace.h), so that H = L T M^-1 T^T L^T [1/kg]; it is built once. Rows that share nothing
 /// that moves with another row are solved in closed form, lambda_i = max(0, -(L v_free)_i / H_ii);
 /// coupled rows by CoupledLcp, component by component; components with friction have tangential
-/// impulses beside the normal ones (see FrictionalContact). Nothing allocates after construction.
+/// impulses beside the normal ones (see FrictionalContact). Nothing allocates after construction,
+/// but where sliding pairs are found anew: then L and H are built again.
 class ContactProblem {
  public:
   /// Collective over `comm`. `gap_tolerance` [m].
@@ -45,7 +47,8 @@ class ContactProblem {
   /// u_n over the owned dofs of the structure; `supports`: that of the supports, see Trace::apply.
   void set_displacement(std::size_t structure, const double* displacement,
                         std::span<const double> supports = {});
-  /// Gathers the displacements and computes the gaps. Members only, collective over them.
+  /// Gathers the displacements, finds sliding pairs anew and computes the gaps. Members only,
+  /// collective over them.
   void gather_displacements();
   /// Active set; true if it is not empty.
   bool detect_contact();
@@ -96,7 +99,9 @@ class ContactProblem {
     int frictional = -1;  ///< its number there; -1: no row has friction
   };
 
+  /// H, its components and room for them, from the rows of L as they are.
   void build_delassus();
+  void take_new_pairs();
   std::size_t structure_of(std::size_t dof) const {
     return static_cast<std::size_t>(operator_.dof_list()[dof].structure);
   }
@@ -112,7 +117,9 @@ class ContactProblem {
   /// gap rate.
   void note_residual(double residual, double rate);
 
+  std::vector<Constraint> constraints_;  ///< as they are now
   ContactOperator operator_;
+  SlidingPairs sliding_;
   std::vector<std::vector<int>> structure_dofs_;  ///< per structure: its interface dofs
   std::vector<Trace> traces_;                     ///< per structure
   std::vector<std::size_t> first_known_;          ///< per structure, into the values of this rank

@@ -59,4 +59,16 @@ FacetFinder::Result FacetFinder::find(const Vector3& origin, const Vector3& dire
   return result;
 }
 
+std::vector<std::size_t> FacetFinder::within(const Vector3& origin, const Vector3& direction,
+                                             double distance) const {
+  std::vector<std::size_t> facets;
+  for (std::size_t f = 0; f < face_.facets.size(); ++f) {
+    const Vector3 to = minus(centre_[f], origin);
+    const double along = dot(to, direction);
+    const double across = std::sqrt(std::max(0.0, dot(to, to) - along * along));
+    if (across <= 1.01 * radius_[f] + distance && looks_against(f, direction)) facets.push_back(f);
+  }
+  return facets;
+}
+
 }  // namespace pounding

@@ -35,6 +35,11 @@ class FacetFinder {
   Result find(const Vector3& origin, const Vector3& direction, double half_thickness,
               double depth) const;
 
+  /// Facets that look against `direction` and may come to lie before a node at `origin` that moves
+  /// across the direction by up to `distance` [m].
+  std::vector<std::size_t> within(const Vector3& origin, const Vector3& direction,
+                                  double distance) const;
+
  private:
   bool looks_against(std::size_t facet, const Vector3& direction) const;
 

@@ -14,6 +14,7 @@
 #include "contact/crossing.h"
 #include "contact/facet_finder.h"
 #include "contact/filler_parts.h"
+#include "contact/sliding_builder.h"
 #include "mesh/bounding_box.h"
 
 namespace pounding {
@@ -36,19 +37,21 @@ class PairFinder {
   }
 
   void find(Interface& interface) {
-    const std::size_t first = interface.constraints.size();
+    const std::size_t first = first_row_ = interface.constraints.size();
     if (contact_.primary.is_wall()) {
       pair_with_wall(interface);
     } else if (has_crossing_lines()) {
+      if (contact_.sliding > 0) refuse_sliding_lines();
       pair_crossings(interface);
     } else {
       pair(sides_.secondary, sides_.primary, interface);
       if (contact_.passes == 2) pair(sides_.primary, sides_.secondary, interface);
     }
-    if (interface.constraints.size() == first) refuse_without_pairs();
+    if (report_.pairs == 0) refuse_without_pairs();
     const std::span<Constraint> found(&interface.constraints[first],
                                       interface.constraints.size() - first);
     set_gaps(found);
+    set_offsets(found, interface.sliding);
     if (contact_.filler) {
       lay_filler(contact_, sides_.secondary.face.has_lines(), found, report_);
     }
@@ -70,6 +73,11 @@ class PairFinder {
             "the bodies lie within each other; name the faces that look at each other, or move a "
             "mesh";
     throw UserError(text.str());
+  }
+
+  [[noreturn]] void refuse_sliding_lines() const {
+    throw UserError("option -" + contact_.name +
+                    "_sliding: edges and beams that cross keep their pairs; leave it out");
   }
 
   void find_tangent_axes() {
@@ -141,13 +149,24 @@ class PairFinder {
   void pair(const FaceSide& nodes, const FaceSide& facets, Interface& interface) {
     const double reach = (nodes.thickness + facets.thickness) / 2;
     const FacetFinder finder(*facets.mesh, facets.face, reach);
+    std::optional<SlidingBuilder> sliding;
+    if (contact_.sliding > 0) {
+      sliding.emplace(contact_, number_, nodes, facets, finder, interface.sliding);
+    }
     for (std::size_t i = 0; i < nodes.face.nodes.size(); ++i) {
       const FacetFinder::Result result =
           finder.find(nodes.mesh->position(nodes.face.nodes[i]), nodes.face.node_normals[i],
                       nodes.face.node_half_thickness[i], nodes.face.node_depth[i]);
       if (result.faced) {
         add_pair(nodes, i, facets, *result.faced, reach, interface);
+        if (sliding) sliding->add_row(i, interface.constraints);
         continue;
+      }
+      if (sliding && sliding->may_face(i)) {
+        Constraint open;
+        open.geometric_gap = open_gap;
+        finish(nodes, i, std::move(open), interface);
+        sliding->add_row(i, interface.constraints);
       }
       ++report_.unmatched_nodes;
       if (result.behind < 0) {
@@ -220,8 +239,9 @@ class PairFinder {
   void keep(const Vector3& x, Constraint&& constraint, Interface& interface) {
     constraint.contact = number_;
     constraint.friction = contact_.friction;
+    if (contact_.sliding > 0) constraint.facet_size = 2 * contact_.sliding;
     for (std::size_t t = 0; t < 2; ++t) constraint.place[t] = x[report_.tangent_axes[t]];
-    ++report_.pairs;
+    if (constraint.geometric_gap < open_gap) ++report_.pairs;
     report_.matched += constraint.matched ? 1 : 0;
     interface.constraints.push_back(std::move(constraint));
   }
@@ -264,6 +284,7 @@ class PairFinder {
       }
       constraint.initial_gap =
           contact_.gap.values.empty() ? constraint.geometric_gap : given_gap(s);
+      if (constraint.geometric_gap == open_gap) continue;
       report_.smallest_gap = std::min(report_.smallest_gap, constraint.initial_gap);
       report_.largest_gap = std::max(report_.largest_gap, constraint.initial_gap);
       report_.overlapping += constraint.initial_gap < 0 ? 1 : 0;
@@ -275,8 +296,29 @@ class PairFinder {
     }
   }
 
+  /// Gaps given count from where the faces stand; a row that faces nothing yet gets the mean.
+  void set_offsets(std::span<Constraint> constraints, SlidingFaces& sliding) const {
+    const auto is_open = [](const Constraint& row) { return row.geometric_gap == open_gap; };
+    double sum = 0;
+    for (const Constraint& row : constraints) {
+      if (!is_open(row)) sum += row.initial_gap - row.geometric_gap;
+    }
+    for (Constraint& row : constraints) {
+      if (is_open(row)) row.initial_gap = open_gap;
+    }
+    const auto paired = static_cast<std::size_t>(
+        std::ranges::count_if(constraints, [&](const Constraint& row) { return !is_open(row); }));
+    for (SlidingFaces::Row& row : sliding.rows) {
+      if (row.contact != number_) continue;
+      const Constraint& own = constraints[static_cast<std::size_t>(row.constraint) - first_row_];
+      row.offset =
+          is_open(own) ? sum / static_cast<double>(paired) : own.initial_gap - own.geometric_gap;
+    }
+  }
+
   const Contact& contact_;
   int number_;
+  std::size_t first_row_ = 0;  ///< of the contact, in the interface
   ContactSides sides_;
   InterfaceReport report_;
   std::map<const FaceSide*, std::vector<double>> areas_;  ///< of the nodes of a side

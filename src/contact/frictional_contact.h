@@ -32,6 +32,7 @@ class FrictionalContact {
   /// The row of the operator for each tangent of a constraint with friction, at `row` and the next.
   int tangent(int row) const { return points_[row].tangent; }
 
+  void forget_components() { components_.clear(); }
   /// Takes over rows that are coupled with each other and with nothing else, some with friction.
   /// Returns the number of the component.
   std::size_t add(std::vector<int> rows, DelassusPattern& pattern);

@@ -45,6 +45,7 @@ void broadcast_interface(MPI_Comm comm, Interface& interface) {
   }
   broadcast_array(comm, heads);
   broadcast_array(comm, terms);
+  broadcast_sliding_faces(comm, interface.sliding);
   MPI_Bcast(&interface.model_size, 1, MPI_DOUBLE, 0, comm);
   if (rank_of(comm) == 0) return;
   auto next = terms.begin();

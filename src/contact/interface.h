@@ -5,6 +5,7 @@
 
 #include <mpi.h>
 
+#include "contact/sliding_faces.h"
 #include "mesh/global_mesh.h"
 #include "mesh/node_links.h"
 
@@ -38,12 +39,16 @@ struct Constraint {
   std::vector<ConstraintTerm> terms;
   double initial_gap = 0;         ///< of hard contact: with a filler, until it is dense [m]
   double geometric_gap = 0;       ///< as the meshes stand, between the surfaces of shells [m]
-  double facet_size = 0;          ///< of the facet that it faces; 0: a wall, endless [m]
+  double facet_size = 0;          ///< of the facet that it faces, or twice how far pairs may slide
+                                  ///< where they are found anew; 0: a wall, endless [m]
   std::array<double, 2> place{};  ///< secondary node on the tangent axes [m]
   bool matched = false;           ///< faces one primary node exactly
   double friction = 0;            ///< Coulomb's coefficient [-]
   FillerPart filler;
 };
+
+/// Initial gap of a row that faces nothing yet [m].
+constexpr double open_gap = 1e30;
 
 /// Report of the pairs found for one contact.
 struct InterfaceReport {
@@ -71,6 +76,7 @@ struct InterfaceReport {
 struct Interface {
   std::vector<Constraint> constraints;  ///< in the order of the contacts, nodes in file order
   std::vector<InterfaceReport> reports;
+  SlidingFaces sliding;
   double model_size = 0;              ///< largest extent of the scene [m]
   std::vector<std::string> warnings;  ///< what may not be meant; rank 0 only
 };

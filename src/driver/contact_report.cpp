@@ -84,7 +84,12 @@ void print_slides(const Scene& scene, const RunStatistics& statistics) {
     const Slide& slide = statistics.slides[c];
     std::printf("  %-12s slid along itself by at most %.4g mm", scene.contacts[c].name.c_str(),
                 1000 * slide.distance);
-    if (slide.facet_size > 0) std::printf(", on a facet of %.4g mm", 1000 * slide.facet_size);
+    if (scene.contacts[c].sliding > 0) {
+      std::printf(", of %.4g mm within which pairs are found anew",
+                  1000 * scene.contacts[c].sliding);
+    } else if (slide.facet_size > 0) {
+      std::printf(", on a facet of %.4g mm", 1000 * slide.facet_size);
+    }
     std::printf("\n");
   }
 }

@@ -16,8 +16,9 @@ std::unique_ptr<ContactProblem> make_contact(const Solver::Parts& parts) {
 }  // namespace
 
 Solver::Solver(Parts parts) : parts_(std::move(parts)), contact_(make_contact(parts_)) {
-  if (has_fillers(*parts_.interface)) {
-    // Energy that a filler holds is no structure's: gaps are looked at in every step.
+  if (has_fillers(*parts_.interface) || !parts_.interface->sliding.empty()) {
+    // Energy that a filler holds is no structure's, and the bounds are those of the first pairs:
+    // gaps are looked at in every step.
     bounds_.resize(parts_.systems.size());
     for (GapWatch::Bound& bound : bounds_) {
       bound.rate_norm = std::numeric_limits<double>::infinity();

@@ -129,11 +129,20 @@ std::vector<std::string> slide_warnings(const Scene& scene, const RunStatistics&
     if (slide.since < 0) continue;
     std::ostringstream text;
     text.precision(4);
-    text << "contact " << scene.contacts[c].name << ": its faces slid along each other by up to "
-         << slide.distance << " m, more than half of the facet there (" << slide.facet_size
-         << " m), from t = " << slide.since
-         << " s on; nodes stay with the facets that they face at the start, so that impacts after "
-            "that may hit what has moved away, or miss";
+    const std::string& name = scene.contacts[c].name;
+    text << "contact " << name << ": its faces slid along each other by up to " << slide.distance
+         << " m, more than ";
+    if (scene.contacts[c].sliding > 0) {
+      text << "-" << name << "_sliding " << scene.contacts[c].sliding
+           << " m, from t = " << slide.since
+           << " s on; what lies farther is not looked for: give more";
+    } else {
+      text
+          << "half of the facet there (" << slide.facet_size << " m), from t = " << slide.since
+          << " s on; nodes stay with the facets that they face at the start, so that impacts after "
+             "that may hit what has moved away, or miss; -"
+          << name << "_sliding finds pairs anew";
+    }
     warnings.push_back(text.str());
   }
   return warnings;

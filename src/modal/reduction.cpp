@@ -50,6 +50,12 @@ ModalRequest request_of(MPI_Comm comm, const Scene& scene, int s, const GlobalMe
       std::ranges::stable_partition(across, [](const Constraint& row) { return row.friction > 0; });
   add({across.begin(), smooth.begin()}, request.contact_points);
   add(smooth, request.other_points);
+  for (const SlidingFaces::Node& node : interface.sliding.nodes) {
+    for (int d = 0; node.structure == s && d < 3; ++d) {
+      const TracePoint point{node.node, d};
+      if (known.insert(point).second) request.other_points.push_back(point);
+    }
+  }
   for (const ResolvedProbe& probe : probes) {
     for (std::size_t k = 0; probe.structure == s && k < probe.nodes.size(); ++k) {
       for (int d = 0; d < 3; ++d) request.other_points.push_back({probe.nodes[k], d});

@@ -160,6 +160,7 @@ constexpr std::array table{
     OptionRow{Block::contact, "<contact>_gap", Kind::text, "m", value("geometry"), any, "geometry, or one, two or four numbers g1,g2,...", "initial gap: uniform, linear, or at the four corners"},
     OptionRow{Block::contact, "<contact>_passes", Kind::integer, "-", value("1"), Range{1, 2, false, false}, "", "2: nodes of the primary side are kept out of the secondary as well"},
     OptionRow{Block::contact, "<contact>_friction", Kind::real, "-", value("0"), Range{0, 10, false, false}, "", "Coulomb's coefficient of friction; 0: smooth"},
+    OptionRow{Block::contact, "<contact>_sliding", Kind::real, "m", value("0"), not_negative, "", "how far the two faces may slide along each other: pairs are found anew as they do; 0: pairs stay those of the start"},
     OptionRow{Block::contact, "<contact>_filler", Kind::text, "-:Pa", value("none"), any, "strain:pressure,strain:pressure,... or none", "filler of the joint, foam or board: pressure under first loading, from 0:0 on; hard contact stands at the last strain"},
     OptionRow{Block::contact, "<contact>_filler_unloading", Kind::real, "Pa", absent("required with filler"), positive, "", "filler: slope of pressure over strain on which it unloads and loads again, at least the steepest of the table"},
     OptionRow{Block::contact, "<contact>_filler_thickness", Kind::real, "m", absent("left out: the gap"), positive, "", "filler: its thickness; less than the gap: it begins to press where the rest of the gap is closed"},

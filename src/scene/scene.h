@@ -198,6 +198,8 @@ struct Contact {
   InitialGap gap;
   int passes = 1;                ///< 2: the nodes of the primary side are constrained as well
   double friction = 0;           ///< Coulomb's coefficient [-]
+  double sliding = 0;            ///< how far the faces may slide along each other, pairs being
+                                 ///< found anew; 0: pairs stay those of the start [m]
   std::optional<Filler> filler;  ///< between the faces until they meet
 };
 

@@ -227,10 +227,22 @@ class SceneReader {
       }
     }
     contact.filler = read_filler(options_, name);
+    contact.sliding = options_.real("<contact>_sliding", {name});
+    if (contact.sliding > 0 && contact.primary.is_wall()) {
+      options_.refuse("<contact>_sliding", {name}, "a wall is endless; leave it out");
+    }
+    if (contact.sliding > 0 && contact.filler) {
+      options_.refuse("<contact>_sliding", {name},
+                      "contact " + name + " has a filler, which stays where it is");
+    }
     if (contact.filler && !scene_.export_matrices.empty()) {
       options_.refuse(
           "export_matrices", {},
           "contact " + name + " has a filler, which is no matrix; not with -" + name + "_filler");
+    }
+    if (contact.sliding > 0 && !scene_.export_matrices.empty()) {
+      options_.refuse("export_matrices", {},
+                      "the rows of contact " + name + " change; not with -" + name + "_sliding");
     }
     return contact;
   }
