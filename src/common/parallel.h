@@ -55,14 +55,18 @@ void receive_array(MPI_Comm comm, int from, std::vector<Value>& values) {
   }
 }
 
-/// The array of rank `root` on every rank. Collective.
+/// The array of rank `root` on every rank, of any length. Collective.
 template <typename Value>
 void broadcast_array(MPI_Comm comm, std::vector<Value>& values, int root = 0) {
   long count = static_cast<long>(values.size());
   MPI_Bcast(&count, 1, MPI_LONG, root, comm);
   values.resize(count);
-  MPI_Bcast(values.data(), static_cast<int>(count * static_cast<long>(sizeof(Value))), MPI_CHAR,
-            root, comm);
+  char* bytes = reinterpret_cast<char*>(values.data());
+  const long total = count * static_cast<long>(sizeof(Value));
+  for (long sent = 0; sent < total; sent += 1L << 30) {
+    MPI_Bcast(bytes + sent, static_cast<int>(std::min(total - sent, 1L << 30)), MPI_CHAR, root,
+              comm);
+  }
 }
 
 }  // namespace pounding
