@@ -1,0 +1,83 @@
+"""Everything that lies between buildings in one scene: a block that slides with friction over many facets of a deck,
+held by springs that yield and by a dashpot, meets a post behind a filler that locks; deck and post stand on supports
+that move apart. Reference: the energy identity, momentum, and every number of ranks."""
+import os
+import unittest
+
+import numpy
+
+from program import write_samples
+from recorded import Recorded, assert_continues
+
+IDENTITY = 1e-11
+MASS = 2400 * 0.3**3
+
+
+def box(name, start, sides, cells, *more):
+    (x, y, z), (lx, ly, lz), (nx, ny, nz) = start, sides, cells
+    return [f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set",
+            f"x0={x},y0={y},z0={z},lx={lx},ly={ly},lz={lz},nx={nx},ny={ny},nz={nz}",
+            f"-{name}_body_element", "hex8", f"-{name}_body_material", "concrete", *more]
+
+
+class AllJoints(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        time = numpy.arange(0, 0.4, 1e-3)
+        cls.record = write_samples(6 * numpy.sin(2 * numpy.pi * 4 * time) * numpy.sin(numpy.pi * time / 0.4)**2, 1e-3)
+
+    @classmethod
+    def tearDownClass(cls):
+        os.remove(cls.record)
+
+    def words(self, *more):
+        words = ["-structures", "deck,block,post",
+                 *box("deck", (0, -0.3, -0.3), (2, 0.6, 0.3), (16, 3, 1), "-deck_clamp", "z_min"),
+                 *box("block", (0.2, -0.15, 0), (0.3, 0.3, 0.3), (2, 2, 2)),
+                 *box("post", (0.9, -0.2, -0.3), (0.3, 0.4, 1.2), (1, 2, 6), "-post_clamp", "z_min"),
+                 "-material_concrete_young", 3e8, "-material_concrete_poisson", 0.2,
+                 "-material_concrete_density", 2400, "-deck_gravity", "0,0,0", "-post_gravity", "0,0,0",
+                 "-block_gravity", "0,0,-9.81", "-block_initial_velocity", "3,0.2,0",
+                 "-block_corners_element", "grounded_spring", "-block_corners_stiffness", "2e3,2e3,0",
+                 "-block_corners_yield_force", "20,20,0", "-block_corners_hardening", 0.05,
+                 "-block_corners_dashpot", "50,50,0", "-block_damping_beta", 2e-6, "-post_damping_uniform", 0.03,
+                 "-contacts", "floor,joint",
+                 "-floor_secondary", "block:z_min", "-floor_primary", "deck:z_max", "-floor_gap", 0,
+                 "-floor_friction", 0.2, "-floor_sliding", 1.5,
+                 "-joint_secondary", "block:x_max", "-joint_primary", "post:x_min", "-joint_gap", 0.35,
+                 "-joint_friction", 0.2, "-joint_filler", "0.1:8e3,0.6:2e4", "-joint_filler_unloading", 1e6,
+                 "-joint_filler_thickness", 0.1,
+                 "-supports", "west,east", "-west_groups", "deck:z_min", "-east_groups", "post:z_min",
+                 "-motion_x_record", self.record, "-motion_x_unit", "m/s2", "-east_delay", 0.03,
+                 "-probes", "middle,top", "-middle_structure", "block", "-middle_group", "body",
+                 "-top_structure", "post", "-top_group", "z_max", "-time_step", 1e-5, "-end_time", 0.35,
+                 "-output_interval", 1e-3, "-energy_interval", 50]
+        return [*words, *more]
+
+    def test_ledger_and_ranks(self):
+        runs = [Recorded(self, self.words(), ranks, IDENTITY) for ranks in (1, 2, 3, 4)]
+        one = runs[0]
+        self.assertGreater(one.energy["friction"], 5)
+        self.assertGreater(sum(impulse for impulse, name in zip(one.column("impulse"), one.impacts["contact"])
+                               if name == "joint"), 1, "the filler locks")
+        self.assertGreater(one.summary["contacts"]["joint"]["filler"]["crushed_strain"], 0.5)
+        self.assertGreater(one.summary["contacts"]["floor"]["largest_slide"], 0.25)
+        for other in runs[1:]:
+            for channel in ("middle.x", "middle.y", "middle.z", "top.x"):
+                difference = abs(other.displacement(channel) - one.displacement(channel)).max()
+                self.assertLess(difference, 1e-9 * abs(one.displacement(channel)).max(), channel)
+
+    def test_all_modes(self):
+        full = Recorded(self, self.words("-end_time", 0.2), 2, IDENTITY)
+        reduced = Recorded(self, self.words("-end_time", 0.2, "-post_model", "modal", "-post_modal_vectors", 108), 2,
+                           IDENTITY)
+        for channel in ("middle.x", "top.x"):
+            difference = abs(full.displacement(channel) - reduced.displacement(channel)).max()
+            self.assertLess(difference, 1e-8 * abs(full.displacement(channel)).max(), channel)
+
+    def test_a_continued_run_is_the_uninterrupted_one(self):
+        assert_continues(self, self.words("-end_time", 0.2, "-modes", 0), 0.15, 13000)
+
+
+if __name__ == "__main__":
+    unittest.main()
