@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "benchmark/timed_step.h"
@@ -12,15 +13,12 @@ namespace {
 constexpr double gap_tolerance = 1e-12;  // of the model's size
 
 Solver::Parts solver_parts(const SteppedModel& model, Profile& profile) {
-  Solver::Parts parts{model.comm,
-                      model.systems,
-                      model.meshes,
-                      &model.interface,
-                      model.motion.get(),
-                      gap_tolerance * model.interface.model_size,
-                      model.time_step,
-                      {},
-                      &profile};
+  Solver::Parts parts{model.comm,         model.systems,
+                      model.meshes,       &model.interface,
+                      model.motion.get(), gap_tolerance * model.interface.model_size,
+                      model.time_step,    {},
+                      &profile,           std::numeric_limits<double>::infinity(),
+                      model.contacts,     model.supports.get()};
   for (const LinearSystem& system : model.systems) {
     parts.energy_margins.push_back(
         energy_margin(system.damping, system.element_frequency_bound, model.time_step));

@@ -136,7 +136,9 @@ SteppedModel scene_model(MPI_Comm comm, const ModelRequest& request, StiffnessMe
   model.meshes = std::move(built.meshes);
   model.systems = std::move(built.systems);
   model.interface = std::move(built.interface);
+  model.contacts = std::move(scene.contacts);
   model.motion = std::move(built.motion);
+  model.supports = std::move(built.supports);
   model.time_step = built.time_step;
   return model;
 }

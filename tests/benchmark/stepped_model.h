@@ -8,6 +8,7 @@
 #include "contact/interface.h"
 #include "mesh/mesh.h"
 #include "motion/ground_motion.h"
+#include "motion/support_motion.h"
 #include "system/linear_system.h"
 
 namespace pounding::measuring {
@@ -31,8 +32,10 @@ struct SteppedModel {
   std::vector<Mesh> meshes;
   std::vector<LinearSystem> systems;
   Interface interface;
+  std::vector<Contact> contacts;  ///< of a scene
   std::unique_ptr<GroundMotion> motion;
-  double time_step = 0;  ///< 0.9 of the one that single elements guarantee [s]
+  std::unique_ptr<SupportMotion> supports;  ///< of a scene; null where the ground moves as one
+  double time_step = 0;                     ///< 0.9 of the one that single elements guarantee [s]
 
   GlobalIndex global_dofs() const;
 };
