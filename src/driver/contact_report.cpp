@@ -64,13 +64,7 @@ void print_fillers(const Scene& scene, const RunStatistics& statistics) {
 
 void print_loops(const RunStatistics& statistics) {
   for (const LoopReport& loop : statistics.loops) {
-    LinkTotals most;
-    for (const LinkTotals& link : loop.totals) {
-      most.largest_elongation = std::max(most.largest_elongation, link.largest_elongation);
-      most.largest_force = std::max(most.largest_force, link.largest_force);
-      most.work += link.work;
-      most.yielded += link.yielded;
-    }
+    const LinkTotals most = loop.whole();
     std::printf(
         "  %-12s %.0f of %zu links yielded, elongation at most %.4g mm (or mrad), force %.4g "
         "kN (or kN m), took %.4g J\n",

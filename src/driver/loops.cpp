@@ -124,6 +124,17 @@ std::string name_of(const std::string& item, const Candidate& link) {
 
 }  // namespace
 
+LinkTotals LoopReport::whole() const {
+  LinkTotals most;
+  for (const LinkTotals& link : totals) {
+    most.largest_elongation = std::max(most.largest_elongation, link.largest_elongation);
+    most.largest_force = std::max(most.largest_force, link.largest_force);
+    most.work += link.work;
+    most.yielded += link.yielded;
+  }
+  return most;
+}
+
 Loops::Loops(MPI_Comm comm, const Scene& scene, const Model& model, Solver& solver) : comm_(comm) {
   const int rank = rank_of(comm);
   std::vector<Candidate> all;

@@ -16,6 +16,9 @@ struct LoopReport {
   std::string name;
   std::vector<std::string> links;
   std::vector<LinkTotals> totals;  ///< per link
+
+  /// Extremes over all links; `work` and `yielded` are sums.
+  LinkTotals whole() const;
 };
 
 /// Links that the scene wants recorded: finds them, has their steps record them, and tells their

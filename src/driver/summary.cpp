@@ -230,14 +230,10 @@ Json describe_probe(const Scene& scene, const Recorder& recorder, std::size_t p)
 }
 
 Json describe_loop(const LoopReport& loop) {
-  LinkTotals most;
+  const LinkTotals most = loop.whole();
   Json yielded = Json::array();
   for (std::size_t i = 0; i < loop.links.size(); ++i) {
-    const LinkTotals& link = loop.totals[i];
-    most.largest_elongation = std::max(most.largest_elongation, link.largest_elongation);
-    most.largest_force = std::max(most.largest_force, link.largest_force);
-    most.work += link.work;
-    if (link.yielded > 0) yielded.push_back(loop.links[i]);
+    if (loop.totals[i].yielded > 0) yielded.push_back(loop.links[i]);
   }
   return {{"links", loop.links.size()},
           {"yielded", yielded},
