@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/dot_product.h"
 #include "common/magnitude.h"
 
 namespace pounding {
@@ -17,20 +18,6 @@ constexpr int max_sweeps = 20;
 
 std::size_t index(int i) {
   return static_cast<std::size_t>(i);
-}
-
-/// Four partial sums in a fixed order: the same bits from every build, without waiting on one sum.
-double dot(const double* a, const double* b, std::size_t n) {
-  double sum0 = 0, sum1 = 0, sum2 = 0, sum3 = 0;
-  std::size_t i = 0;
-  for (; i + 4 <= n; i += 4) {
-    sum0 += a[i] * b[i];
-    sum1 += a[i + 1] * b[i + 1];
-    sum2 += a[i + 2] * b[i + 2];
-    sum3 += a[i + 3] * b[i + 3];
-  }
-  for (; i < n; ++i) sum0 += a[i] * b[i];
-  return (sum0 + sum1) + (sum2 + sum3);
 }
 
 bool is_diagonal(std::span<const double> matrix, std::size_t n) {
@@ -80,7 +67,7 @@ bool PrincipalFactor::append(int row) {
   const double* h = &delassus_[index(row) * index(n_)];
   double* l = &lower_[index(size_) * stride_];
   for (int j = 0; j < size_; ++j) {  // L y = h, y in l
-    l[j] = h[rows_[index(j)]] - dot(factor_row(j), l, index(j));
+    l[j] = h[rows_[index(j)]] - dot_product(factor_row(j), l, index(j));
   }
   double pivot = h[row];
   for (int j = 0; j < size_; ++j) {
@@ -133,7 +120,7 @@ void PrincipalFactor::back_substitute(std::span<double> x) const {
 }
 
 void PrincipalFactor::solve(std::span<double> x) const {
-  for (int k = 0; k < size_; ++k) x[index(k)] -= dot(factor_row(k), x.data(), index(k));
+  for (int k = 0; k < size_; ++k) x[index(k)] -= dot_product(factor_row(k), x.data(), index(k));
   for (int k = 0; k < size_; ++k) x[index(k)] /= pivot_[index(k)];
   back_substitute(x);
 }
@@ -219,7 +206,7 @@ void LcpSolver::sweep_until_set_rests(std::span<double> impulse, LcpResult& resu
     for (std::size_t i = 0; i < n; ++i) {
       const double* row = &delassus_[i * n];
       if (!(row[i] > 0)) continue;
-      const double rate = free_rate_[i] + dot(row, impulse.data(), n);
+      const double rate = free_rate_[i] + dot_product(row, impulse.data(), n);
       const double updated = std::max(0.0, impulse[i] - rate / row[i]);
       changed = changed || (updated > 0) != (impulse[i] > 0);
       impulse[i] = updated;

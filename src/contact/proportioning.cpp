@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/dot_product.h"
 #include "common/magnitude.h"
 
 namespace pounding {
@@ -23,19 +24,7 @@ constexpr int most_products = 4000;
 constexpr double correction_accuracy = 1e-8;
 
 double dot(std::span<const double> a, std::span<const double> b) {
-  double sum0 = 0;
-  double sum1 = 0;
-  double sum2 = 0;
-  double sum3 = 0;
-  std::size_t i = 0;
-  for (; i + 4 <= a.size(); i += 4) {
-    sum0 += a[i] * b[i];
-    sum1 += a[i + 1] * b[i + 1];
-    sum2 += a[i + 2] * b[i + 2];
-    sum3 += a[i + 3] * b[i + 3];
-  }
-  for (; i < a.size(); ++i) sum0 += a[i] * b[i];
-  return (sum0 + sum1) + (sum2 + sum3);
+  return dot_product(a.data(), b.data(), a.size());
 }
 
 }  // namespace
