@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -21,7 +22,8 @@ struct ContactFace {
                                             ///< the facets around [m]
   std::vector<double> node_depth;           ///< of the elements behind it, see Backing::depth [m]
   std::vector<Facet> facets;
-  std::vector<Vector3> facet_areas;          ///< area (length for an edge) along the outward normal
+  std::vector<Vector3> facet_areas;          ///< twice the area (length for an edge) along the
+                                             ///< outward normal
   std::vector<char> two_sided;               ///< per facet: both sides of a shell are outside
   std::vector<double> facet_half_thickness;  ///< as of the nodes [m]
   std::vector<double> facet_depth;           ///< as of the nodes [m]
@@ -34,6 +36,15 @@ struct ContactFace {
   /// Some facet is.
   bool has_lines() const {
     return std::ranges::any_of(facets, [](const Facet& facet) { return facet.count == 2; });
+  }
+  /// Area of a facet [m2], of an edge its length [m].
+  double facet_area(std::size_t facet) const {
+    return norm(facet_areas[facet]) / (facets[facet].count == 2 ? 1 : 2);
+  }
+  /// Side of a square of a facet's area, of an edge its length [m].
+  double facet_size(std::size_t facet) const {
+    const double area = facet_area(facet);
+    return facets[facet].count == 2 ? area : std::sqrt(area);
   }
   int beams = 0;         ///< facets that are axes of beams
   int inner_facets = 0;  ///< with elements on both of their sides

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/pair_terms.h"
+
 namespace pounding {
 namespace {
-
-/// How far outside a facet, relative to its size, a node may lie and still face it.
-constexpr double facet_tolerance = 1e-6;
 
 /// A facet looks against a direction if the cosine of its outward normal is below this.
 constexpr double facing_cosine = -0.5;
@@ -37,14 +36,19 @@ bool FacetFinder::looks_against(std::size_t facet, const Vector3& direction) con
   return (face_.two_sided[facet] != 0 ? -std::abs(cosine) : cosine) < facing_cosine;
 }
 
+bool FacetFinder::may_meet(std::size_t facet, const Vector3& origin, const Vector3& direction,
+                           double distance) const {
+  const Vector3 to = minus(centre_[facet], origin);
+  const double along = dot(to, direction);
+  const double across = std::sqrt(std::max(0.0, dot(to, to) - along * along));
+  return across <= 1.01 * radius_[facet] + distance && looks_against(facet, direction);
+}
+
 FacetFinder::Result FacetFinder::find(const Vector3& origin, const Vector3& direction,
                                       double half_thickness, double depth) const {
   Result result;
   for (std::size_t f = 0; f < face_.facets.size(); ++f) {
-    const Vector3 to = minus(centre_[f], origin);
-    const double along = dot(to, direction);
-    const double across = std::sqrt(std::max(0.0, dot(to, to) - along * along));
-    if (across > 1.01 * radius_[f] + reach_ || !looks_against(f, direction)) continue;
+    if (!may_meet(f, origin, direction, reach_)) continue;
     const auto point =
         meet_facet(mesh_, face_.facets[f], origin, direction, facet_tolerance, reach_);
     if (!point) continue;
@@ -63,10 +67,7 @@ std::vector<std::size_t> FacetFinder::within(const Vector3& origin, const Vector
                                              double distance) const {
   std::vector<std::size_t> facets;
   for (std::size_t f = 0; f < face_.facets.size(); ++f) {
-    const Vector3 to = minus(centre_[f], origin);
-    const double along = dot(to, direction);
-    const double across = std::sqrt(std::max(0.0, dot(to, to) - along * along));
-    if (across <= 1.01 * radius_[f] + distance && looks_against(f, direction)) facets.push_back(f);
+    if (may_meet(f, origin, direction, distance)) facets.push_back(f);
   }
   return facets;
 }

@@ -42,6 +42,9 @@ class FacetFinder {
 
  private:
   bool looks_against(std::size_t facet, const Vector3& direction) const;
+  /// A facet looks against the direction and may reach within `distance` across it of the line [m].
+  bool may_meet(std::size_t facet, const Vector3& origin, const Vector3& direction,
+                double distance) const;
 
   const GlobalMesh& mesh_;
   const ContactFace& face_;

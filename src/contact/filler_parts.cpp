@@ -32,10 +32,8 @@ void require_room(const Contact& contact, const Constraint& constraint) {
 std::vector<double> node_areas(const ContactFace& face) {
   std::map<GlobalIndex, double> share;
   for (std::size_t f = 0; f < face.facets.size(); ++f) {
-    const bool line = face.facets[f].count == 2;
-    const double area = norm(face.facet_areas[f]) / (line ? 1 : 2);  // vectors are twice the area
     for (const GlobalIndex node : face.facets[f].corners()) {
-      share[node] += area / static_cast<double>(face.facets[f].count);
+      share[node] += face.facet_area(f) / static_cast<double>(face.facets[f].count);
     }
   }
   std::vector<double> areas;

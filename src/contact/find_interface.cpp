@@ -14,14 +14,12 @@
 #include "contact/crossing.h"
 #include "contact/facet_finder.h"
 #include "contact/filler_parts.h"
+#include "contact/pair_terms.h"
 #include "contact/sliding_builder.h"
 #include "mesh/bounding_box.h"
 
 namespace pounding {
 namespace {
-
-/// A weight this close to 1 is the node itself; one this close to 0 is not there.
-constexpr double snap = 1e-6;
 
 /// Finds the pairs of one contact.
 class PairFinder {
@@ -119,7 +117,7 @@ class PairFinder {
         if (!known.insert({held, holds}).second) continue;
         constraint.matched = held.size() == 1 && holds.size() == 1;
         constraint.geometric_gap = crossing->gap;
-        constraint.facet_size = norm(primary.face.facet_areas[g]);
+        constraint.facet_size = primary.face.facet_size(g);
         if (contact_.filler) constraint.filler.area = 1;  // all places alike
         note_half_thickness(secondary, secondary.face.facet_half_thickness[f]);
         note_half_thickness(primary, primary.face.facet_half_thickness[g]);
@@ -187,35 +185,21 @@ class PairFinder {
   void add_pair(const FaceSide& nodes, std::size_t i, const FaceSide& facets,
                 const FacedFacet& faced, double reach, Interface& interface) {
     const Facet& facet = facets.face.facets[faced.facet];
-    FacetPoint point = faced.point;
+    const std::array<double, 4> weights = snapped(faced.point.weights);
     const Vector3& normal = nodes.face.node_normals[i];
     Constraint constraint;
-    const std::size_t count = facet.count;
-    for (std::size_t a = 0; a < count; ++a) {
-      if (point.weights[a] > 1 - snap) {
-        constraint.matched = true;
-        std::fill(point.weights.begin(), point.weights.end(), 0.0);
-        point.weights[a] = 1;
-      }
-    }
-    for (std::size_t a = 0; a < count; ++a) {
-      if (std::abs(point.weights[a]) > snap) {
-        add_terms(facets.structure, facet.nodes[a], point.weights[a], normal, constraint);
+    constraint.matched = std::ranges::find(weights, 1.0) != weights.end();
+    for (std::size_t a = 0; a < static_cast<std::size_t>(facet.count); ++a) {
+      if (weights[a] != 0) {
+        add_terms(facets.structure, facet.nodes[a], weights[a], normal, constraint);
       }
     }
     constraint.geometric_gap = faced.gap;
-    constraint.facet_size = facet_size(facets.face, faced.facet, reach);
+    constraint.facet_size = facets.face.facet_size(faced.facet);
+    if (facet.count == 2) constraint.facet_size = std::min(constraint.facet_size, reach);
     note_half_thickness(nodes, nodes.face.node_half_thickness[i]);
     note_half_thickness(facets, facets.face.facet_half_thickness[faced.facet]);
     finish(nodes, i, std::move(constraint), interface);
-  }
-
-  /// Side of a square of the facet's area; of an edge its length, or what it reaches across if that
-  /// is less [m].
-  static double facet_size(const ContactFace& face, std::size_t facet, double reach) {
-    const Vector3& area = face.facet_areas[facet];
-    const double size = std::sqrt(dot(area, area));
-    return face.facets[facet].count == 2 ? std::min(size, reach) : std::sqrt(size / 2);
   }
 
   void note_half_thickness(const FaceSide& side, double half_thickness) {
@@ -244,14 +228,6 @@ class PairFinder {
     if (constraint.geometric_gap < open_gap) ++report_.pairs;
     report_.matched += constraint.matched ? 1 : 0;
     interface.constraints.push_back(std::move(constraint));
-  }
-
-  static void add_terms(int structure, GlobalIndex node, double weight, const Vector3& normal,
-                        Constraint& constraint) {
-    for (int d = 0; d < 3; ++d) {
-      const double coefficient = weight * normal[d];
-      if (coefficient != 0) constraint.terms.push_back({structure, node, d, coefficient});
-    }
   }
 
   /// The gap that the user gave, interpolated between the corners of the secondary face.

@@ -1,6 +1,5 @@
 #include "contact/sliding_builder.h"
 
-#include <cmath>
 #include <utility>
 
 #include "common/error.h"
@@ -47,7 +46,7 @@ int SlidingBuilder::facet_number(std::size_t facet) {
     entry.nodes[static_cast<std::size_t>(entry.count++)] = node_number(other_, node);
   }
   entry.half_thickness = other_.face.facet_half_thickness[facet];
-  entry.size = std::sqrt(norm(other_.face.facet_areas[facet]) / (entry.count == 3 ? 0.5 : 1));
+  entry.size = other_.face.facet_size(facet);
   facets_[facet] = static_cast<int>(faces_.facets.size());
   faces_.facets.push_back(entry);
   return facets_[facet];

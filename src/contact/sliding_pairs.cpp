@@ -7,14 +7,10 @@
 #include <tuple>
 
 #include "contact/contact_face.h"
+#include "contact/pair_terms.h"
 
 namespace pounding {
 namespace {
-
-/// How far outside a facet, relative to its size, a node may lie and still face it.
-constexpr double facet_tolerance = 1e-6;
-/// A weight this close to 1 is the node itself; one this close to 0 is not there.
-constexpr double snap = 1e-6;
 
 Vector3 plus(const Vector3& a, const Vector3& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
@@ -24,18 +20,6 @@ Vector3 plus(const Vector3& a, const Vector3& b) {
 double across(const Vector3& v, const Vector3& normal) {
   const double part = dot(v, normal);
   return norm({v[0] - part * normal[0], v[1] - part * normal[1], v[2] - part * normal[2]});
-}
-
-std::array<double, 4> snapped(std::array<double, 4> weights) {
-  for (double& weight : weights) {
-    if (std::abs(weight) <= snap) weight = 0;
-  }
-  for (std::size_t a = 0; a < weights.size(); ++a) {
-    if (weights[a] <= 1 - snap) continue;
-    weights.fill(0);
-    weights[a] = 1;
-  }
-  return weights;
 }
 
 }  // namespace
@@ -130,12 +114,7 @@ void SlidingPairs::put(std::size_t row, std::span<Constraint> rows) const {
   constraint.matched = false;
   const auto add = [&](int number, double weight) {
     const SlidingFaces::Node& place = faces_.nodes[number];
-    for (int d = 0; d < 3; ++d) {
-      const double coefficient = weight * node.normal[d];
-      if (coefficient != 0) {
-        constraint.terms.push_back({place.structure, place.node, d, coefficient});
-      }
-    }
+    add_terms(place.structure, place.node, weight, node.normal, constraint);
   };
   double gap = node.offset - node.half_thickness - facet.half_thickness;
   for (int a = 0; !pair.open && a < facet.count; ++a) {

@@ -97,12 +97,13 @@ class OnAFixedDeck(unittest.TestCase):
     def test_it_falls_beyond_the_end(self):
         speed, start = 5.0, 3.5
         leaves = (LENGTH - start + 0.1 * math.sqrt(WIDTH * LENGTH / 20)) / speed  # a tenth of a facet late
-        run = Recorded(self, scene(start, speed, 0.15, *FIXED), 2, IDENTITY_OF_A_FLIGHT)
+        soft = ["-material_concrete_young", YOUNG / 10]  # less round-off of K u in a flight of .75 m
+        run = Recorded(self, scene(start, speed, 0.15, *FIXED, *soft), 2, IDENTITY_OF_A_FLIGHT)
         falling = run.time > leaves + 1e-3
         slope = numpy.polyfit(run.time[falling], run.velocity("load.z")[falling], 1)[0]
         self.assertAlmostEqual(slope / -GRAVITY, 1, delta=1e-6)
         self.assertLess(max(run.column("end")), leaves + 1e-3)
-        stays = Recorded(self, scene(start, speed, 0.15, *FIXED, sliding=0), 2, LONG)
+        stays = Recorded(self, scene(start, speed, 0.15, *FIXED, *soft, sliding=0), 2, LONG)
         self.assertGreater(max(stays.column("end")), 0.14)
 
     def test_it_comes_onto_the_deck(self):
