@@ -3,17 +3,19 @@
 import hashlib
 import json
 import os
-import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
 
+from parts.side_by_side import run_side_by_side
+from pounding.runs import Job, complaint, environment
+
 from . import harvest
 from .cases import Case
 
 SOURCE = Path(__file__).resolve().parents[3]
-REQUEST, LOG, SUMMARY = "request.json", "log.txt", "summary.json"
+REQUEST, SUMMARY = "request.json", "summary.json"
 # Steps of Model B cost more than those of Model A; the first finished runs correct this guess.
 FIRST_GUESS = {"A": 1.0, "B": 1.5}
 
@@ -51,44 +53,14 @@ def build_folder() -> Path:
     return SOURCE / os.environ.get("POUNDING_BUILD", "build")
 
 
-def environment() -> dict:
-    """The variables that run/environment sets."""
-    text = subprocess.run(["bash", "-c", "source run/environment && env -0"], cwd=SOURCE, capture_output=True,
-                          text=True, check=True).stdout
-    return dict(item.split("=", 1) for item in text.split("\0") if "=" in item)
-
-
-class Job:
+class CaseJob(Job):
     """A case that runs now."""
 
     def __init__(self, case: Case, folder: Path, ranks: int, variables: dict):
-        self.case, self.folder, self.started = case, folder, time.monotonic()
-        folder.mkdir(parents=True, exist_ok=True)
+        self.case, self.folder = case, folder
         for name in (SUMMARY, REQUEST):
             (folder / name).unlink(missing_ok=True)
-        command = ["mpirun", "-n", str(ranks), str(build_folder() / "pounding"), *case.words, "-output", str(folder)]
-        self.log = open(folder / LOG, "w")
-        self.process = subprocess.Popen(command, cwd=SOURCE, env=variables, stdin=subprocess.DEVNULL,
-                                        stdout=self.log, stderr=subprocess.STDOUT, start_new_session=True)
-
-    @property
-    def wall_time(self) -> float:
-        return time.monotonic() - self.started
-
-    def stop(self) -> None:
-        """Ends this run and waits for it."""
-        os.killpg(self.process.pid, signal.SIGTERM)
-        self.process.wait()
-        self.log.close()
-
-    def outcome(self) -> str:
-        """After the process ended: '' if all went well, else one line."""
-        self.log.close()
-        if self.process.returncode != 0:
-            lines = (self.folder / LOG).read_text(errors="replace").replace("\r", "\n").splitlines()
-            said = [line for line in lines if line.startswith("pounding: ")]
-            return said[0] if said else f"exit status {self.process.returncode}, see {self.folder / LOG}"
-        return ""
+        super().__init__(case.words, folder, ranks, SOURCE, variables)
 
 
 class Clock:
@@ -146,8 +118,7 @@ def prepare_bases(cases: list, variables: dict) -> None:
         done = subprocess.run(command, cwd=SOURCE, env=variables, stdin=subprocess.DEVNULL, capture_output=True,
                               text=True, check=False)
         if done.returncode != 0:
-            said = [line for line in done.stderr.splitlines() if line.startswith("pounding: ")]
-            raise SetUpError(said[0] if said else f"modal bases of {case.name}: exit status {done.returncode}")
+            raise SetUpError(complaint(done.stderr) or f"modal bases of {case.name}: exit status {done.returncode}")
         say(f"  modal bases of {case.variant}: {time.monotonic() - started:.0f} s")
 
 
@@ -158,31 +129,25 @@ def run_all(cases: list, root: Path, jobs: int, ranks: int, keep_histories: bool
     waiting = [case for case in cases if not is_finished(case, root / case.name)]
     say(f"campaign: {len(cases)} runs, {len(cases) - len(waiting)} finished before, {jobs} at a time on "
         f"{ranks} rank{'s' if ranks > 1 else ''} each; results in {root}")
-    variables, running, clock = environment(), [], Clock(jobs)
-    done, total = 0, len(waiting)
+    variables, clock, total = environment(), Clock(jobs), len(waiting)
+    finished = []
     prepare_bases(waiting, variables)
-    try:
-        while waiting or running:
-            while waiting and len(running) < jobs:
-                case = waiting.pop(0)
-                running.append(Job(case, root / case.name, ranks, variables))
-            show_running(running, clock.left(waiting, running))
-            time.sleep(0.1)
-            for job in [job for job in running if job.process.poll() is not None]:
-                running.remove(job)
-                failures[job.case] = job.outcome() or close(job, keep_histories)
-                done += 1
-                clock.add(job.case.model, job.wall_time)
-                result = failures[job.case] or harvest.one_line(job.folder)
-                say(f"  {done}/{total}  {job.case.name}: {result}; {job.wall_time:.0f} s; "
-                    f"{clock.left(waiting, running)}")
-    finally:
-        for job in running:
-            job.stop()
+
+    def start(case: Case) -> CaseJob:
+        return CaseJob(case, root / case.name, ranks, variables)
+
+    def ended(case: Case, job: CaseJob, left: list, running: list) -> None:
+        failures[case] = job.outcome() or close(job, keep_histories)
+        finished.append(case)
+        clock.add(case.model, job.wall_time)
+        result = failures[case] or harvest.one_line(job.folder)
+        say(f"  {len(finished)}/{total}  {case.name}: {result}; {job.wall_time:.0f} s; {clock.left(left, running)}")
+
+    run_side_by_side(waiting, jobs, start, ended, lambda left, running: show_running(running, clock.left(left, running)))
     return failures
 
 
-def close(job: Job, keep_history: bool) -> str:
+def close(job: CaseJob, keep_history: bool) -> str:
     """Takes the harvest of a run that ended well, and signs it as finished."""
     try:
         harvest.take(job.case, job.folder, keep_history)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .results import Missing, Result
+from pounding.results import Missing, Result
 from .style import (WIDTH, contact_colour, legend_above, log_scale, plot_series, plt, probe_colour,
                     save, stacked)
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .results import DIRECTIONS, Missing, Result
+from pounding.results import DIRECTIONS, Missing, Result
 from .style import (DIRECTION_COLOURS, G, WIDTH, has_signal, legend_above, log_scale, plot_series,
                     plt, probe_colour, save, stacked)
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .results import Missing, Result
+from pounding.results import Missing, Result
 from .style import WIDTH, plt, save
 
 _COLOURS = ("#0072B2", "#E69F00", "#009E73", "#CC79A7")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .results import Result
+from pounding.results import Result
 from .style import G
 
 CSS = """

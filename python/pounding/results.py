@@ -1,4 +1,4 @@
-"""Reads what a run left in its result folder. SI units throughout."""
+"""What a run left in its result folder, as numpy arrays. SI units throughout."""
 
 import csv
 import json
@@ -48,6 +48,18 @@ class Result:
         column = self.history["channels"].index(f"{probe}.{direction}")
         time = self.history["time"] + self.offset.get(quantity, 0.0)
         return time, self.history[quantity][:, column]
+
+    def spectrum(self, probe: str, direction: str, damping: float | None = None):
+        """Frequencies [Hz] and pseudo-acceleration [m/s2] of one floor response spectrum, or None if there is
+        none; without `damping` those of the smallest ratio."""
+        if not self.spectra or len(self.spectra["damping"]) == 0:
+            return None
+        ratio = self.spectra["damping"].min() if damping is None else damping
+        rows = ((self.spectra["probe"] == probe) & (self.spectra["direction"] == direction)
+                & (self.spectra["damping"] == ratio))
+        if not rows.any():
+            return None
+        return self.spectra["frequency"][rows], self.spectra["pseudo_acceleration"][rows]
 
     def need(self, *datasets: str) -> None:
         for name in datasets:
@@ -114,8 +126,9 @@ def _need_columns(table: dict, *columns: str) -> None:
             raise ValueError(f"no column {name}")
 
 
-def load(folder: Path) -> Result:
+def load(folder: Path | str) -> Result:
     """Reads the folder. Throws ResultError if it is not there, holds nothing, or a file is bad."""
+    folder = Path(folder)
     if not folder.is_dir():
         raise ResultError(f"{folder} is not a folder; give the output folder of a run")
     result = Result(folder)
@@ -149,3 +162,27 @@ def load(folder: Path) -> Result:
         raise ResultError(f"{folder} holds no results (summary.json, history.h5, ...)")
     result.title = str(result.summary.get("title") or result.title or folder.name)
     return result
+
+
+@dataclass
+class Modes:
+    """Lowest modes of one structure: `coordinates` (nodes, 3) [m], `frequencies` (modes) [Hz], `shapes`
+    (modes, nodes, 3 or 6): x, y, z and the rotations about them, phi^T M phi = 1, of either sign."""
+
+    coordinates: np.ndarray
+    frequencies: np.ndarray
+    shapes: np.ndarray
+
+
+def load_modes(folder: Path) -> dict:
+    """Structure -> Modes of the modes.h5 that `write_modes: true` leaves. Throws ResultError."""
+    path = Path(folder) / "modes.h5"
+    if not path.is_file():
+        raise ResultError(f"{path}: no such file; run with -write_modes")
+    try:
+        with h5py.File(path, "r") as file:
+            return {name: Modes(group["coordinates"][()], group["frequencies"][()],
+                                np.stack([group["shapes"][key][()] for key in sorted(group["shapes"])]))
+                    for name, group in file.items()}
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise ResultError(f"{path} cannot be read: {' '.join(str(error).split())}") from error

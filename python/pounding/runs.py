@@ -1,0 +1,104 @@
+"""Runs of the program from Python."""
+
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+from .results import Result, load
+from .scenes import value_text
+
+SOURCE = Path(__file__).resolve().parents[2]
+LOG = "log.txt"
+
+
+class RunError(Exception):
+    """A run that did not come to its end: one line for the user."""
+
+
+def program(name: str = "pounding") -> Path:
+    """Path of a program of the build, which POUNDING_BUILD names where it is not `build`. Throws RunError if it is
+    not there."""
+    path = (SOURCE / os.environ.get("POUNDING_BUILD", "build") / name).absolute()
+    if not os.access(path, os.X_OK):
+        raise RunError(f"{path}: no such program; build it with run/setup, or name its folder in POUNDING_BUILD")
+    return path
+
+
+def environment() -> dict:
+    """The variables that run/environment sets."""
+    text = subprocess.run(["bash", "-c", "source run/environment && env -0"], cwd=SOURCE, capture_output=True,
+                          text=True, check=True).stdout
+    return dict(item.split("=", 1) for item in text.split("\0") if "=" in item)
+
+
+def words_of(scene: Path | str | None, options: dict) -> list:
+    """The command line after the program's name: the scene's file, then one word and one value per option."""
+    words = [] if scene is None else ["-options_file", str(scene)]
+    for name, value in options.items():
+        words += [f"-{name}", value_text(value)]
+    return words
+
+
+def command(words: list, ranks: int) -> list:
+    return ["mpirun", "-n", str(ranks), str(program()), *map(str, words)]
+
+
+def complaint(text: str) -> str:
+    """What the program itself said last before it gave up, or ''."""
+    said = [line for line in text.replace("\r", "\n").splitlines() if line.startswith("pounding: ")]
+    return said[0] if said else ""
+
+
+class Job:
+    """A run that goes on now, in a session of its own: what it prints goes to `log.txt` in `output`."""
+
+    def __init__(self, words: list, output: Path, ranks: int, folder: Path, variables: dict):
+        """`words`: the command line without the output folder; `folder`: where the program runs."""
+        self.output, self.started = output, time.monotonic()
+        output.mkdir(parents=True, exist_ok=True)
+        self.log = open(output / LOG, "w")
+        self.process = subprocess.Popen(command([*words, "-output", output], ranks), cwd=folder, env=variables,
+                                        stdin=subprocess.DEVNULL, stdout=self.log, stderr=subprocess.STDOUT,
+                                        start_new_session=True)
+
+    @property
+    def wall_time(self) -> float:
+        return time.monotonic() - self.started
+
+    @property
+    def running(self) -> bool:
+        return self.process.poll() is None
+
+    def stop(self) -> None:
+        """Ends this run and waits for it."""
+        if self.running:
+            os.killpg(self.process.pid, signal.SIGTERM)
+        self.process.wait()
+        self.log.close()
+
+    def outcome(self) -> str:
+        """Waits for the end: '' if all went well, else one line."""
+        self.process.wait()
+        self.log.close()
+        if self.process.returncode == 0:
+            return ""
+        said = complaint((self.output / LOG).read_text(errors="replace"))
+        return said or f"exit status {self.process.returncode}, see {self.output / LOG}"
+
+
+def run(scene: Path | str | None, output: Path | str, ranks: int = 1, folder: Path | str | None = None,
+        **options) -> Result:
+    """Runs a scene into the folder `output`, with more options as names and values, and reads what it left; what
+    it printed is in `log.txt` there. `folder`: where the program runs, and relative paths begin (default: here).
+    Throws RunError, or ResultError."""
+    base = Path(folder or ".").absolute()
+    job = Job(words_of(scene, options), (base / output).absolute(), ranks, base, environment())
+    try:
+        failure = job.outcome()
+    finally:
+        job.stop()
+    if failure:
+        raise RunError(failure)
+    return load(job.output)

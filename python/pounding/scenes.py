@@ -1,0 +1,72 @@
+"""Scenes as dictionaries: {"end_time": 5, "left": {"mesh": "left.geo"}} or flat {"left_mesh": "left.geo"}."""
+
+import re
+from pathlib import Path
+
+
+class SceneError(Exception):
+    """A scene that cannot be written or read: one line for the user."""
+
+
+def value_text(value) -> str:
+    """A value as the program reads it: true and false, `none` for None, items joined by commas."""
+    if value is None:
+        return "none"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (list, tuple)):
+        return ",".join(value_text(item) for item in value)
+    if isinstance(value, float):
+        return repr(value)
+    return str(value)
+
+
+def flatten(scene: dict, prefix: str = "") -> dict:
+    """Option -> text, nested names joined by _ as the program does. Throws SceneError where a name comes twice or
+    is none."""
+    options = {}
+    for name, value in scene.items():
+        if not re.fullmatch(r"[A-Za-z][\w/.]*", str(name)):
+            raise SceneError(f"'{name}' is not a name of an option")
+        own = flatten(value, f"{prefix}{name}_") if isinstance(value, dict) else {f"{prefix}{name}": value_text(value)}
+        for option, text in own.items():
+            if options.setdefault(option, text) is not text:
+                raise SceneError(f"{option} stands twice in the scene")
+    return options
+
+
+def _quoted(text: str) -> str:
+    escapes = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t"}
+    return '"' + "".join(escapes.get(letter, letter) for letter in text) + '"'
+
+
+def _lines(scene: dict, indent: str) -> list:
+    lines = []
+    for name, value in scene.items():
+        if isinstance(value, dict):
+            lines += [f"{indent}{name}:"] + _lines(value, indent + "  ")
+        else:
+            lines.append(f"{indent}{name}: {_quoted(value_text(value))}")
+    return lines
+
+
+def write_scene(path: Path | str, scene: dict) -> Path:
+    """Writes the scene as an options file in YAML, nested as it is given, and returns its path. Throws SceneError,
+    or OSError if it cannot be written."""
+    flatten(scene)
+    path = Path(path)
+    path.write_text("\n".join(_lines(scene, "")) + "\n", encoding="utf-8")
+    return path
+
+
+def read_scene(path: Path | str) -> dict:
+    """Option -> text of a `resolved.yaml`, or of another file of flat lines `name: "value"`. Throws SceneError."""
+    options = {}
+    for number, line in enumerate(Path(path).read_text(encoding="utf-8").splitlines(), 1):
+        if not line.strip() or line.startswith("#"):
+            continue
+        found = re.fullmatch(r'"?([A-Za-z][\w/.]*)"?: "((?:[^"\\]|\\.)*)"', line)
+        if not found:
+            raise SceneError(f"{path}, line {number}: not a line of resolved options")
+        options[found[1]] = re.sub(r"\\(.)", lambda pair: {"n": "\n", "t": "\t"}.get(pair[1], pair[1]), found[2])
+    return options

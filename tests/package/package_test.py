@@ -1,0 +1,103 @@
+"""The Python package: scenes written and read back, runs, results as arrays, and its example."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+import program
+import two_buildings
+from two_buildings import pounding
+
+
+class Scenes(unittest.TestCase):
+    def setUp(self):
+        place = tempfile.TemporaryDirectory(prefix="pounding-")
+        self.addCleanup(place.cleanup)
+        self.place = Path(place.name)
+
+    def test_what_is_written_is_what_the_program_reads(self):
+        scene = {"include": two_buildings.SCENE, "title": 'quotes " and \\ back', "end_time": 0.01, "modes": 2,
+                 "write_modes": True, "left": {"slabs": {"thickness": 0.2}}, "spectra_damping": [0.02, 0.05],
+                 "loops": None}
+        path = pounding.write_scene(self.place / "scene.yaml", scene)
+        run = pounding.run(path, self.place / "out", ranks=2, folder=two_buildings.FOLDER)
+        read = pounding.read_scene(self.place / "out" / "resolved.yaml")
+        for name, text in pounding.flatten(scene).items():
+            if name != "include":
+                self.assertEqual(read[name], text, name)
+        self.assertEqual(run.summary["options"]["left_slabs_thickness"], "0.2")
+        self.assertEqual(sorted(set(run.spectra["damping"])), [0.02, 0.05])
+        modes = pounding.load_modes(self.place / "out")
+        self.assertEqual(modes["left"].shapes.shape, (2, 77, 6))
+        self.assertAlmostEqual(modes["left"].frequencies[0],
+                               run.summary["structures"]["left"]["frequencies"][0]["frequency"], delta=1e-9)
+
+    def test_bad_scenes_are_one_line(self):
+        for scene in ({"left": {"mesh": "a.geo"}, "left_mesh": "b.geo"}, {"two words": 1}, {"": 1}):
+            with self.assertRaises(pounding.SceneError):
+                pounding.write_scene(self.place / "scene.yaml", scene)
+
+    def test_a_run_that_fails_says_what_the_program_said(self):
+        for ranks in (1, 2):
+            with self.assertRaisesRegex(pounding.RunError, "pounding: .*end_time"):
+                two_buildings.run(self.place / "bad", ranks, end_time=-1)
+
+
+class Results(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        place = tempfile.TemporaryDirectory(prefix="pounding-")
+        cls.addClassCleanup(place.cleanup)
+        cls.folder = Path(place.name)
+        cls.found = two_buildings.run(cls.folder, gap=0.01)
+
+    def test_arrays_are_those_of_the_files(self):
+        with h5py.File(self.folder / "history.h5") as file:
+            names = [name.decode().strip("\0 ") for name in file["channels"][()]]
+            column = file["acceleration"][:, names.index("left_roof.x")]
+            stamps = file["time"][()] + file["acceleration"].attrs["time_offset"]
+        time, values = self.found.series("acceleration", "left_roof", "x")
+        np.testing.assert_array_equal(values, column)
+        np.testing.assert_allclose(time, stamps, atol=1e-15)
+        with open(self.folder / "summary.json") as file:
+            self.assertEqual(self.found.summary, json.load(file))
+        table = program.read_csv(self.folder / "impacts.csv")
+        np.testing.assert_array_equal(self.found.impacts["impulse"], [float(text) for text in table["impulse"]])
+        table = program.read_csv(self.folder / "spectra.csv")
+        own = [float(value) for probe, way, value in zip(table["probe"], table["direction"],
+                                                         table["pseudo_acceleration"]) if (probe, way) == ("left_roof", "x")]
+        np.testing.assert_array_equal(self.found.spectrum("left_roof", "x")[1], own)
+
+    def test_what_is_not_there_is_none(self):
+        self.assertIsNone(self.found.spectrum("cellar", "x"))
+        self.assertIsNone(self.found.spectrum("left_roof", "x", damping=0.07))
+        self.assertIsNone(self.found.series("displacement", "cellar", "x"))
+        with self.assertRaisesRegex(pounding.ResultError, "write_modes"):
+            pounding.load_modes(self.folder)
+        with self.assertRaisesRegex(pounding.ResultError, "not a folder"):
+            pounding.load(self.folder / "nowhere")
+
+
+class Example(unittest.TestCase):
+    def test_gaps(self):
+        with tempfile.TemporaryDirectory(prefix="pounding-") as folder:
+            script = os.path.join(program.SOURCE, "python", "examples", "gaps.py")
+            done = subprocess.run([sys.executable, script, folder], capture_output=True, text=True, timeout=300,
+                                  env={**os.environ, "POUNDING_BUILD": os.path.abspath(program.BUILD)}, check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            rows = [line.split() for line in done.stdout.splitlines()[1:4]]
+            counts = [int(row[1]) for row in rows]
+            self.assertGreater(counts[0], counts[2])
+            self.assertEqual(counts[2], 0)
+            self.assertGreater(float(rows[0][4]), 2 * float(rows[2][4]), "impacts are felt at 100 Hz")
+            self.assertTrue(Path(folder, "gaps.png").read_bytes().startswith(b"\x89PNG"))
+
+
+if __name__ == "__main__":
+    unittest.main()
