@@ -1,0 +1,88 @@
+"""Figures, CSV files, text and page of a comparison."""
+
+from html import escape
+from pathlib import Path
+
+import numpy as np
+
+from parts.benchmark.tables import markdown, write_csv
+from parts.plot.report import CSS, html_figure, html_table
+from parts.plot.style import WIDTH, log_scale, plt, save
+
+from . import tables
+from .runs import Runs
+
+COLOURS = ("#000000", "#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+STYLES = ("-", "--", "-.", ":")
+
+
+def spectra_figure(runs: Runs, probe: str, folder: Path) -> list:
+    """Spectra of one probe over each other, one column per direction, and below them their ratio to the first."""
+    damping = runs.dampings[0]
+    ways, floor = runs.moving(probe, damping), runs.round_off(probe, damping)
+    figure, grid = plt.subplots(2, len(ways), figsize=(max(WIDTH, 4.0 * len(ways)), 5.6), squeeze=False, sharex=True,
+                                sharey="row", height_ratios=(3, 2))
+    for column, way in enumerate(ways):
+        upper, lower = grid[:, column]
+        values = runs.spectra(probe, way, damping)
+        held = values[0] > floor
+        for axes in (upper, lower):
+            log_scale(axes, "x", runs.frequency)
+        log_scale(upper, "y", max(values, key=max))
+        for index, (label, own) in enumerate(zip(runs.labels, values)):
+            look = {"color": COLOURS[index % len(COLOURS)], "ls": STYLES[index % len(STYLES)], "lw": 1.5}
+            upper.plot(runs.frequency, np.where(own > floor, own, np.nan), label=label, **look)
+            lower.plot(runs.frequency[held], own[held] / values[0][held], **look)
+        if not held.any():
+            lower.text(0.5, 0.5, f"no motion in {runs.labels[0]}", transform=lower.transAxes, ha="center")
+        upper.set_title(f"{probe}, {way}")
+        lower.set_xlabel("frequency [Hz]")
+    log_scale(grid[1, 0], "y", [0.1, 10])
+    grid[0, 0].legend(loc="best")
+    grid[0, 0].set_ylabel("pseudo-acceleration [m/s²]")
+    grid[1, 0].set_ylabel(f"over {runs.labels[0]}")
+    return save(figure, folder, f"spectra_{probe}.png", f"Floor response spectra of {probe}",
+                f"Pseudo-acceleration at {100 * damping:g} % damping, and its ratio to that of {runs.labels[0]}.")
+
+
+def _cells(rows: list) -> tuple:
+    """Header and cells of rows of dictionaries."""
+    head = list(rows[0]) if rows else []
+    return head, [[row[name] for name in head] for row in rows]
+
+
+def _parts(runs: Runs) -> list:
+    """(title, rows) of the tables that are shown."""
+    return [("Options that differ", tables.options(runs)), ("Impacts", tables.impacts(runs)),
+            ("Peaks", tables.peaks(runs)),
+            (f"Spectra over those of {runs.labels[0]}, {100 * runs.dampings[0]:g} % damping",
+             tables.worst_ratios(runs))]
+
+
+def text(runs: Runs) -> str:
+    """What the terminal shows."""
+    lines = [f"note: {note}" for note in runs.notes]
+    for title, rows in _parts(runs):
+        lines += [markdown(title, *_cells(rows)) if rows else f"**{title}**: none\n"]
+    return "\n".join(lines)
+
+
+def write(runs: Runs, folder: Path) -> Path:
+    """Writes everything into the folder and returns the page's path."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, rows in (("spectra", tables.spectra(runs)), ("impacts", tables.impacts(runs)),
+                       ("peaks", tables.peaks(runs)), ("options", tables.options(runs))):
+        if rows:
+            write_csv(folder / f"{name}.csv", rows)
+        else:
+            (folder / f"{name}.csv").write_text("option\n")  # no option differs
+    figures = [page for probe in runs.probes for page in spectra_figure(runs, probe, folder)]
+    title = escape(" beside ".join(runs.labels))
+    body = "".join(f'<p class="note">{escape(note)}</p>\n' for note in runs.notes)
+    for caption, rows in _parts(runs):
+        body += html_table(caption, *_cells(rows)) if rows else f"<p>{escape(caption)}: none.</p>\n"
+    body += "".join(html_figure(folder, page) for page in figures)
+    path = folder / "comparison.html"
+    path.write_text(f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'
+                    f"<style>{CSS}</style></head>\n<body>\n<h1>{title}</h1>\n{body}</body></html>\n", encoding="utf-8")
+    return path
