@@ -1,0 +1,122 @@
+"""One row per member of a sweep, and the figure over it."""
+
+from pathlib import Path
+
+from matplotlib.ticker import MaxNLocator
+
+from parts.plot.style import WIDTH, plt, probe_colour, save
+from pounding.results import DIRECTIONS, Result
+
+from .members import Axis, Member
+
+
+def _probe_columns(result: Result) -> dict:
+    """Peak acceleration [m/s2], displacement [m] and spectrum per probe and direction: of the smallest damping ratio the
+    largest pseudo-acceleration and its frequency [Hz]. Round-off is 0."""
+    columns = {}
+    for probe, one in result.summary.get("probes", {}).items():
+        for key, title in (("peak_acceleration", "peak a {} [m/s2]"), ("peak_displacement", "peak u {} [m]")):
+            values = [value or 0.0 for value in one.get(key) or [0, 0, 0]]
+            for way, value in zip(DIRECTIONS, values):
+                columns[title.format(f"{probe}.{way}")] = value if value > 1e-6 * max(values) else 0.0
+        spectra = {way: result.spectrum(probe, way) for way in DIRECTIONS}
+        largest = max((found[1].max() for found in spectra.values() if found), default=0.0)
+        for way, found in spectra.items():
+            if found:
+                peak = found[1].max()
+                moves = peak > 1e-6 * largest
+                columns[f"peak PSA {probe}.{way} [m/s2]"] = float(peak) if moves else 0.0
+                columns[f"at {probe}.{way} [Hz]"] = float(found[0][found[1].argmax()]) if moves else ""
+    return columns
+
+
+def row_of(axes: list, member: Member, result: Result | None, failure: str) -> dict:
+    """What the table says of a member; a failed one has its reason only."""
+    row = {axis.title: value for axis, value in zip(axes, member.values)}
+    row.update({"folder": member.name, "status": failure or "ok"})
+    if result is None:
+        return row
+    impacts = result.summary.get("impacts", {})
+    row.update({"impacts": impacts.get("episodes", 0), "strongest impulse [N s]": impacts.get("largest_impulse", 0.0),
+                "total impulse [N s]": impacts.get("total_impulse", 0.0),
+                "energy lost [J]": impacts.get("energy_lost", 0.0)})
+    for name, one in impacts.items():
+        if isinstance(one, dict):
+            row[f"impacts {name}"] = one.get("episodes", 0)
+            row[f"strongest impulse {name} [N s]"] = one.get("largest_impulse", 0.0)
+    row.update(_probe_columns(result))
+    row.update({"wall time [s]": result.summary.get("wall_time"), "commit": result.summary.get("commit", "")})
+    return row
+
+
+def shown(rows: list, axes: list) -> tuple:
+    """Header and cells of what the terminal shows: impacts, and the largest spectrum of any direction by probe."""
+    probes = probes_of(rows)
+    head = [*(axis.title for axis in axes), "impacts", "strongest [N s]", *(f"PSA {probe}" for probe in probes), ""]
+    cells = []
+    for row in rows:
+        failed = row["status"] != "ok"
+        cells.append([*(row[axis.title] for axis in axes), "" if failed else row["impacts"],
+                      "" if failed else row["strongest impulse [N s]"],
+                      *("" if failed else psa_of(row, probe) for probe in probes),
+                      row["status"] if failed else ""])
+    return head, cells
+
+
+def probes_of(rows: list) -> list:
+    return list(dict.fromkeys(key.split()[2].rpartition(".")[0] for row in rows for key in row
+                              if key.startswith("peak PSA ")))
+
+
+def psa_of(row: dict, probe: str) -> float:
+    """Largest of the three directions [m/s2]."""
+    return max(float(row.get(f"peak PSA {probe}.{way} [m/s2]", 0.0)) for way in DIRECTIONS)
+
+
+def _number(text: str) -> float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+def _abscissa(axes: list, rows: list) -> tuple:
+    """The axis to draw over, the first whose values are all numbers, and what a row has along it; else the rows'
+    order."""
+    for axis in axes:
+        if len(axis.values) > 1 and all(_number(value) is not None for value in axis.values):
+            return axis, [_number(row[axis.title]) for row in rows]
+    return None, list(range(1, len(rows) + 1))
+
+
+def draw(rows: list, axes: list, folder: Path) -> list:
+    """Strongest impulse, and the largest spectrum by probe, over the first axis of numbers; one line for each choice of
+    the others. Nothing where no member came to its end."""
+    rows = [row for row in rows if row["status"] == "ok"]
+    probes = probes_of(rows)
+    if not rows:
+        return []
+    axis, places = _abscissa(axes, rows)
+    others = [one for one in axes if one is not axis]
+    groups = {}
+    for row, place in zip(rows, places):
+        label = ", ".join(f"{one.title} {row[one.title]}" for one in others) if axis else ""
+        groups.setdefault(label, []).append((place, row))
+    figure, panels = plt.subplots(-(-(1 + len(probes)) // 2), 2, squeeze=False,
+                                  figsize=(WIDTH, 0.4 + 3.2 * (-(-(1 + len(probes)) // 2))))
+    titles = ["strongest impulse [N s]", *(f"largest PSA of {probe} [m/s²]" for probe in probes)]
+    for blank in panels.ravel()[len(titles):]:
+        blank.set_visible(False)
+    for number, (axes_of, title) in enumerate(zip(panels.ravel(), titles)):
+        for index, (label, points) in enumerate(groups.items()):
+            points = sorted(points, key=lambda point: point[0])
+            values = [psa_of(row, probes[number - 1]) if number else row["strongest impulse [N s]"] for _, row in points]
+            axes_of.plot([place for place, _ in points], values, "o-", label=label or None, lw=1.4, ms=4,
+                         color=probe_colour(list(groups), label))
+        axes_of.set_title(title)
+        axes_of.set_ylim(bottom=0)
+        axes_of.xaxis.set_major_locator(MaxNLocator(5))
+        axes_of.set_xlabel(axis.title if axis else "member, in the order of the table")
+    if any(groups):
+        panels[0][0].legend(loc="best", fontsize=7)
+    return save(figure, folder, "sweep.png", "Sweep", "Strongest impulse and largest floor spectrum.")
