@@ -149,6 +149,7 @@ constexpr std::array table{
     OptionRow{Block::material, "material_<material>_poisson", Kind::real, "-", required, poisson_ratio, "", "Poisson's ratio"},
     OptionRow{Block::material, "material_<material>_density", Kind::real, "kg/m3", required, positive, "", "density"},
 
+    OptionRow{Block::section, "section_<section>_profile", Kind::text, "name", absent("left out: its own name, if that is one"), any, "a standard section: HEB160, IPE300, UPN200, W14x132, SHS100x5, HSS8x8x1/2", "standard section whose numbers it takes where the next four are left out"},
     OptionRow{Block::section, "section_<section>_area", Kind::real, "m2", required, positive, "", "area"},
     OptionRow{Block::section, "section_<section>_inertia_y", Kind::real, "m4", required, positive, "", "second moment about local y (bending in local x-z)"},
     OptionRow{Block::section, "section_<section>_inertia_z", Kind::real, "m4", required, positive, "", "second moment about local z (bending in local x-y)"},

@@ -101,6 +101,14 @@ std::optional<std::vector<double>> parse_increasing(std::string_view text) {
   return values;
 }
 
+std::string upper_case(std::string_view text) {
+  std::string upper(text);
+  for (char& letter : upper) {
+    if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
+  }
+  return upper;
+}
+
 std::string shown_value(std::string_view text) {
   constexpr std::size_t longest = 80;
   std::string line = trimmed(text);

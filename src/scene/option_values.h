@@ -30,6 +30,9 @@ std::optional<std::vector<double>> parse_reals(std::string_view text);
 /// increasing finite numbers; a logarithmic range needs start > 0.
 std::optional<std::vector<double>> parse_increasing(std::string_view text);
 
+/// Small letters of the alphabet made capital.
+std::string upper_case(std::string_view text);
+
 /// A value fit for a message: one line, not too long, "(no value)" when empty.
 std::string shown_value(std::string_view text);
 

@@ -55,7 +55,9 @@ std::vector<std::pair<std::string, std::string>> resolved_values(const std::stri
         value.erase(at, 1);
       }
     }
-    values.emplace_back(line.substr(0, colon), value);
+    std::string name = line.substr(0, colon);
+    if (name.size() >= 2 && name.front() == '"') name = name.substr(1, name.size() - 2);
+    values.emplace_back(name, value);
   }
   return values;
 }

@@ -15,6 +15,7 @@
 #include "scene/option_reader.h"
 #include "scene/option_values.h"
 #include "scene/resolved_options.h"
+#include "scene/standard_parts.h"
 #include "scene/structure_reader.h"
 #include "scene/structures_key.h"
 #include "scene/support_reader.h"
@@ -322,8 +323,9 @@ class SceneReader {
 }  // namespace
 
 ReadScene read_scene(const OptionsDatabase& database) {
-  ReadScene read = SceneReader(database).read();
-  const ChosenFidelity chosen = choose_fidelity(database, read.scene.structures_key);
+  const OptionsDatabase whole = with_standard_parts(database);
+  ReadScene read = SceneReader(whole).read();
+  const ChosenFidelity chosen = choose_fidelity(whole, read.scene.structures_key);
   if (!chosen.note.empty()) {
     read = SceneReader(chosen.options).read();
     read.scene.fidelity_note = chosen.note;

@@ -18,6 +18,7 @@
 #include "scene/rigid_reader.h"
 #include "scene/soil_reader.h"
 #include "scene/spring_reader.h"
+#include "scene/standard_parts.h"
 
 namespace pounding {
 namespace {
@@ -80,21 +81,30 @@ std::vector<std::pair<std::string, std::string>> read_mesh_set(OptionReader& opt
   return pairs;
 }
 
-/// Refuses the reference of a region to a material or section that has no option at all.
+/// Refuses the reference of a region to a material or section that has no option at all, or only
+/// some of them while its name is a slip of that of a standard one. `first`: an option that every
+/// one has.
 void require_defined(const OptionReader& options, std::string_view pattern, const Names& region,
-                     OptionBlock block, const std::string& name) {
-  for (const OptionRow& row : option_table()) {
-    if (row.block == block && options.given(row.pattern, {name})) return;
-  }
+                     std::string_view first, const std::string& name) {
+  if (options.given(first, {name})) return;
+  const OptionBlock block = option_row(first).block;
+  const bool some = std::ranges::any_of(option_table(), [&](const OptionRow& row) {
+    return row.block == block && options.given(row.pattern, {name});
+  });
+  std::string near = block == OptionBlock::section ? standard_section_suggestion(name)
+                                                   : standard_material_suggestion(name);
+  if (some && near.empty()) return;  // the option that is missing says more
+  const std::string own = suggestion(name, complete_names(options.database(), block));
+  if (!own.empty()) near = own;
   options.refuse(pattern, region,
-                 "'" + name + "' is not defined" +
-                     suggestion(name, complete_names(options.database(), block)));
+                 "'" + name + "' is neither " + (some ? "wholly " : "") +
+                     "defined nor the name of a standard one" + near);
 }
 
 Material read_material(OptionReader& options, const Names& region) {
   const std::string_view pattern = "<structure>_<group>_material";
   const std::string name = options.text(pattern, region);
-  require_defined(options, pattern, region, OptionBlock::material, name);
+  require_defined(options, pattern, region, "material_<material>_young", name);
   return {name, options.real("material_<material>_young", {name}),
           options.real("material_<material>_poisson", {name}),
           options.real("material_<material>_density", {name})};
@@ -104,8 +114,11 @@ Section read_section(OptionReader& options, const Names& region) {
   const std::string_view pattern = "<structure>_<group>_section";
   Section section;
   section.name = options.text(pattern, region);
-  require_defined(options, pattern, region, OptionBlock::section, section.name);
+  require_defined(options, pattern, region, "section_<section>_area", section.name);
   const Names names{section.name};
+  if (options.given("section_<section>_profile", names)) {
+    options.text("section_<section>_profile", names);  // its numbers are among the options already
+  }
   section.area = options.real("section_<section>_area", names);
   section.inertia_y = options.real("section_<section>_inertia_y", names);
   section.inertia_z = options.real("section_<section>_inertia_z", names);
