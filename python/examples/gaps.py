@@ -18,10 +18,9 @@ import pounding  # noqa: E402
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else "results/gaps").absolute()
 folder.mkdir(parents=True, exist_ok=True)
 
-# %% A scene that takes what it does not say from another one. Paths in it begin where the program runs.
-begin = SOURCE / "petsc-options" / "new" / "two-buildings"
+# %% A scene that takes what it does not say from another one.
 scene = pounding.write_scene(folder / "short.yaml", {
-    "include": begin / "two-buildings.yaml",
+    "include": SOURCE / "petsc-options" / "new" / "two-buildings" / "two-buildings.yaml",
     "title": "Short motion, wide output",
     "end_time": 4.0,
     "motion": {"x": {"duration": 4.0, "envelope": [0.5, 3.0]}},
@@ -31,7 +30,7 @@ scene = pounding.write_scene(folder / "short.yaml", {
 # %% One run per gap.
 runs = {}
 for gap in (0.005, 0.02, 0.06):
-    runs[gap] = pounding.run(scene, folder / f"gap-{gap:g}", ranks=2, folder=begin, floor1_gap=gap, floor2_gap=gap)
+    runs[gap] = pounding.run(scene, folder / f"gap-{gap:g}", ranks=2, floor1_gap=gap, floor2_gap=gap)
 
 # %% What they left: dictionaries of numpy arrays.
 print("gap [m]  impacts  strongest [N s]  roof PSA at 3 Hz  at 100 Hz [m/s2]")

@@ -91,8 +91,8 @@ class Job:
 def run(scene: Path | str | None, output: Path | str, ranks: int = 1, folder: Path | str | None = None,
         **options) -> Result:
     """Runs a scene into the folder `output`, with more options as names and values, and reads what it left; what
-    it printed is in `log.txt` there. `folder`: where the program runs, and relative paths begin (default: here).
-    Throws RunError, or ResultError."""
+    it printed is in `log.txt` there. `folder`: where the program runs and the paths of its command line begin
+    (default: here). Throws RunError, or ResultError."""
     base = Path(folder or ".").absolute()
     job = Job(words_of(scene, options), (base / output).absolute(), ranks, base, environment())
     try:

@@ -1,5 +1,6 @@
 #include "scene/options_database.h"
 
+#include <algorithm>
 #include <deque>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +9,7 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "scene/option_values.h"
 #include "scene/options_file.h"
 
 namespace pounding {
@@ -19,8 +21,10 @@ std::string read_text(const std::string& option, const std::string& file) {
   const std::string what = "option -" + option + " " + file + ": ";
   std::error_code failure;
   if (!std::filesystem::is_regular_file(file, failure)) {
-    throw UserError(what +
-                    "no such file (paths are relative to the folder in which the program runs)");
+    throw UserError(
+        what +
+        "no such file (paths are relative to the folder in which the program runs, in a "
+        "file of options first to the folder of that file)");
   }
   if (std::filesystem::file_size(file, failure) > largest_file) {
     throw UserError(what + "above 10 MB, that is no options file");
@@ -31,33 +35,77 @@ std::string read_text(const std::string& option, const std::string& file) {
   return text;
 }
 
+/// A path that stands in a file of that folder: relative to the folder if there is something there,
+/// else as it is, relative to where the program runs.
+std::string found_path(const std::filesystem::path& folder, const std::string& path) {
+  const std::filesystem::path beside = folder / path;  // an absolute path stays
+  std::error_code failure;
+  const bool there = !path.empty() && std::filesystem::exists(beside, failure);
+  return there ? beside.lexically_normal().string() : path;
+}
+
+/// Whether the value of an option is the path of something that the program reads.
+bool names_input(std::string_view option) {
+  return std::ranges::any_of(option_table(), [option](const OptionRow& row) {
+    if (row.unit != "file" && !row.form.starts_with("a folder with")) return false;
+    const std::size_t last = row.pattern.rfind('>');
+    return last == std::string_view::npos ? option == row.pattern
+                                          : option.ends_with(row.pattern.substr(last + 1));
+  });
+}
+
+/// Finds what the options of a file name beside that file. Collective.
+void find_inputs(MPI_Comm comm, const std::string& file, OptionsDatabase& options) {
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  for (auto& [name, value] : options) {
+    const std::string path = trimmed(value);
+    if (folder.empty() || !names_input(name) || path.empty() || path == "none") continue;
+    std::string found;
+    on_rank0(comm, [&] { found = found_path(folder, path); });
+    broadcast(comm, found);
+    value = found;
+  }
+}
+
+/// A file of options to be read.
+struct Waiting {
+  std::string option;  ///< that names it
+  std::string file;
+  std::filesystem::path folder;  ///< of the file that includes it
+};
+
 }  // namespace
 
 OptionsDatabase read_options_database(MPI_Comm comm, const CommandLine& line) {
   OptionsDatabase database = line.options;
-  std::deque<std::pair<std::string, std::string>> waiting;  // option and file
-  for (const std::string& file : line.files) waiting.emplace_front("options_file", file);
+  std::deque<Waiting> waiting;
+  for (const std::string& file : line.files) waiting.push_front({"options_file", file, {}});
   std::set<std::string> seen;
-  const auto take_include = [&](OptionsDatabase& from) {
+  const auto take_include = [&](OptionsDatabase& from, const std::filesystem::path& folder) {
     const auto found = from.find("include");
     if (found != from.end()) {
-      waiting.emplace_back("include", found->second);
+      waiting.push_back({"include", found->second, folder});
       from.erase(found);
     }
   };
-  take_include(database);
+  take_include(database, {});
   while (!waiting.empty()) {
-    const std::string option = waiting.front().first;
-    const std::string file = waiting.front().second;
+    const Waiting next = waiting.front();
     waiting.pop_front();
-    if (!seen.insert(file).second) {
-      throw UserError("option -" + option + " " + file + ": this file is read already");
-    }
+    std::string file;
     std::string text;
-    on_rank0(comm, [&] { text = read_text(option, file); });
+    on_rank0(comm, [&] {
+      file = found_path(next.folder, next.file);
+      text = read_text(next.option, file);
+    });
+    broadcast(comm, file);
+    if (!seen.insert(file).second) {
+      throw UserError("option -" + next.option + " " + file + ": this file is read already");
+    }
     broadcast(comm, text);
     OptionsDatabase read = parse_options_file(text, file);
-    take_include(read);
+    find_inputs(comm, file, read);
+    take_include(read, std::filesystem::path(file).parent_path());
     database.merge(read);
   }
   return database;

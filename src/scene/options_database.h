@@ -8,9 +8,10 @@ namespace pounding {
 
 /// The options of the command line, then those of its files, the later before the earlier, then
 /// those of the files that they `include`: who comes first wins. Rank 0 reads the files, every rank
-/// gets their text. Relative paths are relative to the folder in which the program runs. Throws
-/// UserError on every rank alike (missing or unreadable file, what parse_options_file refuses,
-/// files that include each other). Collective.
+/// gets their text. In such a file, paths of what is read are relative to the folder of the file if
+/// something of that name is there, else to the folder in which the program runs. Throws UserError
+/// on every rank alike (missing or unreadable file, what parse_options_file refuses, files that
+/// include each other). Collective.
 OptionsDatabase read_options_database(MPI_Comm comm, const CommandLine& line);
 
 /// The options in it that are meant for PETSc and SLEPc.

@@ -26,9 +26,10 @@ struct RolledShape {
 ///     D = ((r + tw/2)^2 + (r + tf)^2 - r^2) / (2 r + tf).
 SectionNumbers i_section(const RolledShape& shape);
 
-/// A channel with tapered flanges (UPN): the flange's thickness is that at the middle of the width,
-/// with a slope of 8 %, or where the height is above 300 mm at the middle of the overhang, with 5 %.
-/// Inertias are about its centroid. Torsion after El Darwish and Johnston (1965), parallel flanges:
+/// A channel with tapered flanges (UPN): the flange's thickness is that at the middle of the
+/// width, with a slope of 8 %, or where the height is above 300 mm at the middle of the overhang,
+/// with 5 %. Inertias are about its centroid. Torsion after El Darwish and Johnston (1965), for
+/// parallel flanges:
 ///     It = 2/3 b tf^3 + (h - 2 tf) tw^3 / 3 + 2 a D^4 - .42 tf^4,
 ///     D = 2 (3 r + tw + tf - sqrt(2 (2 r + tw) (2 r + tf))),
 ///     a = -.0908 + .2621 tw/tf + .1231 r/tf - .0752 tw r / tf^2 - .0945 (tw/tf)^2.
