@@ -67,6 +67,19 @@ class Result:
                 raise Missing(f"history.h5 has no {name}" if self.history else "no history.h5")
 
 
+def low_pass(values, time, frequency: float):
+    """The low-pass of docs/results.md: two poles of Butterworth forwards and backwards, both passes together
+    leave 1/sqrt(2) at `frequency` [Hz]. Returns the values as they are where their samples hold no such filter."""
+    if len(values) < 2 or frequency * (interval := time[1] - time[0]) > 0.25 * (1 + 1e-9):
+        return values
+    from scipy import signal
+    cut = np.arctan(np.tan(np.pi * frequency * interval) / (np.sqrt(2) - 1) ** 0.25) / np.pi
+    b, a = signal.butter(2, 2 * cut)
+    start = signal.lfilter_zi(b, a)
+    forth = signal.lfilter(b, a, values, zi=start * values[0])[0]
+    return signal.lfilter(b, a, forth[::-1], zi=start * forth[-1])[0][::-1]
+
+
 def _read_history(path: Path, result: Result) -> None:
     with h5py.File(path, "r") as file:
         result.title = _text(file.attrs.get("title", ""))

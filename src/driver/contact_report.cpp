@@ -37,13 +37,17 @@ void print_impacts(const Scene& scene, const RunStatistics& statistics,
       statistics.all_impacts.largest_impulse, statistics.all_impacts.max_penetration);
   constexpr std::size_t shown = 20;
   if (!impacts.impacts().empty()) {
-    std::printf("  contact         start s  duration ms  impulse N s   peak kN  points  lost J\n");
+    std::printf(
+        "  contact         start s  duration ms  impulse N s  kN over %.3g ms  of a step  points  "
+        "lost J\n",
+        1000 * scene.force_window);
   }
   for (std::size_t i = 0; i < std::min(shown, impacts.impacts().size()); ++i) {
     const Impact& impact = impacts.impacts()[i];
-    std::printf("  %-12s %10.5f %12.3f %12.2f %9.1f %7d %7.2f\n",
+    std::printf("  %-12s %10.5f %12.3f %12.2f %14.1f %10.1f %7d %7.2f\n",
                 scene.contacts[impact.contact].name.c_str(), impact.start, 1000 * impact.duration(),
-                impact.impulse, impact.peak_force / 1000, impact.points, impact.energy_lost);
+                impact.impulse, impact.window_force / 1000, impact.peak_force / 1000, impact.points,
+                impact.energy_lost);
   }
   if (impacts.impacts().size() > shown) {
     std::printf("  ... and %zu more in impacts.csv\n", impacts.impacts().size() - shown);

@@ -296,18 +296,21 @@ void print_structure(const Building& building) {
   }
 }
 
-void print_probes(const Recorder& recorder, const std::vector<ProbeSpectrum>& spectra,
-                  double start) {
+void print_probes(const Recorder& recorder, const StatedPeaks& peaks,
+                  const std::vector<ProbeSpectrum>& spectra, double start) {
   if (recorder.channels().empty()) return;
   if (start > 0) {
     std::printf("\npeaks and spectra from %.6g s on, the oscillators at rest then\n", start);
   }
   std::printf(
-      "\nprobe             peak acceleration m/s2   peak displacement mm   spectrum peak m/s2 at "
-      "Hz\n");
+      "\npeak accelerations below %.4g Hz, and as sampled every %.4g s, where an impulse counts by "
+      "1/interval"
+      "\nprobe          peak acceleration m/s2   as sampled   peak displacement mm   spectrum peak "
+      "m/s2 at Hz\n",
+      peaks.frequency, recorder.interval());
   for (std::size_t channel = 0; channel < recorder.channels().size(); ++channel) {
-    std::printf("  %-18s %16.3f %22.3f", recorder.channels()[channel].c_str(),
-                recorder.peaks()[channel].acceleration,
+    std::printf("  %-18s %14.3f %15.3f %17.3f", recorder.channels()[channel].c_str(),
+                peaks.acceleration[channel], recorder.peaks()[channel].acceleration,
                 1000 * recorder.peaks()[channel].displacement);
     const std::string& probe = recorder.probes()[channel / 3].name;
     for (const ProbeSpectrum& spectrum : spectra) {
@@ -403,7 +406,7 @@ void print_results(const Scene& scene, const RunStatistics& statistics,
   print_slides(scene, statistics);
   print_loops(statistics);
   print_contact_ratios(scene, statistics);
-  print_probes(recorder, spectra, scene.spectra.start);
+  print_probes(recorder, statistics.peaks, spectra, scene.spectra.start);
   std::printf("\n");
   print_warnings(statistics.warnings);
   const EnergyLine& energy = statistics.energy;

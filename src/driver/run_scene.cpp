@@ -120,7 +120,8 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
   statistics.step_time = MPI_Wtime() - step_start;
   loop.fill(statistics);
   on_rank0(comm, [&] {
-    write_impacts(scene.output + "/impacts.csv", contact_names(scene), loop.impacts().impacts());
+    write_impacts(scene.output + "/impacts.csv", contact_names(scene), loop.impacts().impacts(),
+                  scene.force_window);
     write_energy(scene.output + "/energy.csv", loop.ledger().lines());
   });
   if (signal != 0) stop(scene, model, signal, loop.step());
@@ -133,6 +134,8 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
     append(contact_warnings(statistics.complementarity_residual), statistics.warnings);
     append(slide_warnings(scene, statistics), statistics.warnings);
     append(pendulum_warnings(statistics), statistics.warnings);
+    statistics.peaks = stated_peaks(scene, loop.recorder());
+    append(peak_warnings(scene, statistics.peaks, loop.recorder()), statistics.warnings);
     statistics.wall_time = MPI_Wtime() - start;
     write_summary(scene.output + "/summary.json", scene, resolved, model, statistics,
                   loop.recorder(), size_of(comm));

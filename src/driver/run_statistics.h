@@ -7,6 +7,7 @@
 #include "common/profile.h"
 #include "contact/slide_watch.h"
 #include "driver/loops.h"
+#include "driver/stated_peaks.h"
 #include "driver/uplift_watch.h"
 #include "dynamics/energy_balance.h"
 #include "dynamics/filler_step.h"
@@ -34,6 +35,7 @@ struct RunStatistics {
   std::vector<LoopReport> loops;             ///< per item of the option
   std::vector<Slide> slides;                 ///< per contact
   std::vector<ContactRatio> contact_ratios;  ///< per structure; empty where nothing may lift off
+  StatedPeaks peaks;                         ///< rank 0
   std::vector<std::string> overpressed;      ///< structures with a pendulum whose slope was cut
   std::vector<std::string> warnings;         ///< one line each: what the run came upon
   std::vector<double> phase_seconds;         ///< largest over the ranks, per Phase

@@ -174,6 +174,8 @@ Json describe_impacts(const ImpactTotals& totals) {
   return {{"episodes", totals.episodes},
           {"total_impulse", totals.total_impulse},
           {"largest_impulse", totals.largest_impulse},
+          {"peak_force", totals.peak_force},
+          {"window_force", totals.window_force},
           {"max_penetration", totals.max_penetration},
           {"energy_lost", totals.energy_lost},
           {"friction_loss", totals.friction_loss}};
@@ -214,16 +216,19 @@ Json describe_equilibrium(const Scene& scene, const Model& model) {
   return description;
 }
 
-Json describe_probe(const Scene& scene, const Recorder& recorder, std::size_t p) {
+Json describe_probe(const Scene& scene, const RunStatistics& statistics, const Recorder& recorder,
+                    std::size_t p) {
   const ResolvedProbe& probe = recorder.probes()[p];
   Json description;
   description["structure"] = scene.structures[probe.structure].name;
   description["position"] = probe.position;
   description["nodes"] = probe.nodes.size();
   description["peak_acceleration"] = Json::array();
+  description["sampled_peak_acceleration"] = Json::array();
   description["peak_displacement"] = Json::array();
   for (std::size_t d = 0; d < 3; ++d) {
-    description["peak_acceleration"].push_back(recorder.peaks()[3 * p + d].acceleration);
+    description["peak_acceleration"].push_back(statistics.peaks.acceleration[3 * p + d]);
+    description["sampled_peak_acceleration"].push_back(recorder.peaks()[3 * p + d].acceleration);
     description["peak_displacement"].push_back(recorder.peaks()[3 * p + d].displacement);
   }
   return description;
@@ -310,6 +315,7 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
         {"time_below_80_percent", ratio.low_duration}};
   }
   summary["impacts"] = describe_impacts(statistics.all_impacts);
+  summary["impacts"]["force_window"] = scene.force_window;
   summary["impacts"]["complementarity_residual"] = statistics.complementarity_residual;
   summary["contacts"] = Json::object();
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
@@ -322,9 +328,10 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
     }
   }
   for (const LoopReport& loop : statistics.loops) summary["loops"][loop.name] = describe_loop(loop);
+  summary["peak_frequency"] = statistics.peaks.frequency;
   summary["probes"] = Json::object();
   for (std::size_t p = 0; p < recorder.probes().size(); ++p) {
-    summary["probes"][recorder.probes()[p].name] = describe_probe(scene, recorder, p);
+    summary["probes"][recorder.probes()[p].name] = describe_probe(scene, statistics, recorder, p);
   }
   summary["warnings"] = Json::array();
   for (const auto* warnings : {&scene.warnings, &model.warnings, &statistics.warnings}) {

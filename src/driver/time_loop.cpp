@@ -70,7 +70,8 @@ TimeLoop::TimeLoop(MPI_Comm comm, const Scene& scene, const Model& model, Profil
                                                  static_cast<int>(scene.contacts.size()))
                   : nullptr),
       catalogue_(static_cast<int>(scene.contacts.size()), contacts_of(model.interface),
-                 places_of(model.interface), scene.impact_merge_time),
+                 places_of(model.interface),
+                 {scene.impact_merge_time, scene.force_window, model.time_step}),
       smallest_gaps_(scene.contacts.size(), 0.0),
       slide_stride_(static_cast<std::int64_t>(std::max(1.0, slide_interval / model.time_step))),
       uplift_(may_lift_off(scene) ? std::make_unique<UpliftWatch>(comm, model.systems.size())

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "common/error.h"
 #include "common/parallel.h"
@@ -12,7 +13,7 @@
 namespace pounding {
 namespace {
 
-constexpr std::size_t impact_columns = 16;
+constexpr std::size_t impact_columns = 17;
 
 /// Impacts as rows of numbers.
 std::vector<double> to_table(std::span<const Impact> impacts) {
@@ -22,7 +23,7 @@ std::vector<double> to_table(std::span<const Impact> impacts) {
                  {static_cast<double>(i.contact), i.start, i.end, i.impulse, i.peak_force,
                   static_cast<double>(i.points), i.energy_lost, i.max_penetration, i.place[0],
                   i.place[1], i.contact_time, i.low_share[0], i.low_share[1], i.tangential_impulse,
-                  i.slip, i.friction_loss});
+                  i.slip, i.friction_loss, i.window_force});
   }
   return table;
 }
@@ -44,7 +45,8 @@ std::vector<Impact> from_table(const std::vector<double>& table) {
                        {v[11], v[12]},
                        v[13],
                        v[14],
-                       v[15]});
+                       v[15],
+                       v[16]});
   }
   return impacts;
 }
@@ -91,19 +93,24 @@ void ImpactTotals::add(const Impact& impact) {
   ++episodes;
   total_impulse += impact.impulse;
   largest_impulse = std::max(largest_impulse, impact.impulse);
+  peak_force = std::max(peak_force, impact.peak_force);
+  window_force = std::max(window_force, impact.window_force);
   max_penetration = std::max(max_penetration, impact.max_penetration);
   energy_lost += impact.energy_lost;
   friction_loss += impact.friction_loss;
 }
 
 ImpactCatalogue::ImpactCatalogue(int contacts, std::vector<int> contact_of_row,
-                                 std::vector<std::array<double, 2>> places, double merge_time)
-    : merge_time_(merge_time),
+                                 std::vector<std::array<double, 2>> places,
+                                 const ImpactTimes& times)
+    : merge_time_(times.merge),
       contact_of_row_(std::move(contact_of_row)),
       places_(std::move(places)),
       low_(low_halves(static_cast<std::size_t>(contacts), contact_of_row_, places_)),
       open_(static_cast<std::size_t>(contacts)),
       is_open_(static_cast<std::size_t>(contacts), 0),
+      windows_(static_cast<std::size_t>(contacts),
+               ForceWindow(times.force_window, times.time_step)),
       step_impulse_(static_cast<std::size_t>(contacts), 0.0),
       touched_(contact_of_row_.size(), 0),
       slipped_(contact_of_row_.size(), 0.0) {
@@ -132,12 +139,15 @@ void ImpactCatalogue::add_step(double time, double duration, const ContactStep& 
       is_open_[c] = 1;
       open_[c] = Impact{};
       open_[c].contact = static_cast<int>(c);
+      windows_[c].reset();
       open_[c].start = time;
     }
     open_[c].end = time + duration;
     open_[c].contact_time += duration;
     open_[c].impulse += step_impulse_[c];
     open_[c].peak_force = std::max(open_[c].peak_force, step_impulse_[c] / duration);
+    windows_[c].add(time, time + duration, step_impulse_[c]);
+    open_[c].window_force = windows_[c].largest();
   }
   for (std::size_t row = 0; row < impulses.size(); ++row) {
     Impact& impact = open_[contact_of_row_[row]];
@@ -189,6 +199,9 @@ void ImpactCatalogue::save(SavedState& saved) const {
   saved.put("impacts_is_open", std::vector<double>(is_open_.begin(), is_open_.end()));
   saved.put("impacts_touched_rows", std::vector<double>(touched_.begin(), touched_.end()));
   saved.put("impacts_slipped_rows", slipped_);
+  for (std::size_t c = 0; c < windows_.size(); ++c) {
+    saved.put("impacts_window_" + std::to_string(c), windows_[c].table(), ForceWindow::columns);
+  }
 }
 
 void ImpactCatalogue::load(const SavedState& saved) {
@@ -204,6 +217,12 @@ void ImpactCatalogue::load(const SavedState& saved) {
   if (!names_contacts(open, open_.size())) saved.refuse_values("impacts_open");
   impacts_ = from_table(closed);
   open_ = from_table(open);
+  for (std::size_t c = 0; c < windows_.size(); ++c) {
+    const std::vector<double>& table =
+        saved.table("impacts_window_" + std::to_string(c), ForceWindow::columns);
+    if (table.empty()) saved.refuse_values("impacts_window_" + std::to_string(c));
+    windows_[c].restore(table.data(), table.size() / ForceWindow::columns);
+  }
   const auto is_set = [](double value) { return static_cast<char>(value != 0); };
   std::ranges::transform(is_open, is_open_.begin(), is_set);
   std::ranges::transform(touched, touched_.begin(), is_set);
@@ -224,7 +243,7 @@ ImpactTotals ImpactCatalogue::totals() const {
 }
 
 void write_impacts(const std::string& path, const std::vector<std::string>& contacts,
-                   std::span<const Impact> impacts) {
+                   std::span<const Impact> impacts, double force_window) {
   CsvFile file(path);
   file.comment("contact episodes; times [s], impulse [N s], force [N], energy [J], lengths [m];");
   file.comment(
@@ -235,15 +254,22 @@ void write_impacts(const std::string& path, const std::vector<std::string>& cont
   file.comment(
       "tangential_impulse: of friction, sum of magnitudes; slip: longest path of a point in "
       "contact");
+  std::ostringstream window;
+  window
+      << "peak_force: largest impulse of a step over the step, depends on the step; window_force: "
+         "over any "
+      << force_window << " s";
+  file.comment(window.str());
   file.header(
       "contact,start,end,duration,impulse,peak_force,points,energy_lost,max_penetration,lateral,"
-      "vertical,contact_time,left,bottom,tangential_impulse,slip,friction_loss");
+      "vertical,contact_time,left,bottom,tangential_impulse,slip,friction_loss,window_force");
   for (const Impact& impact : impacts) {
     file.row(contacts[impact.contact],
              {impact.start, impact.end, impact.duration(), impact.impulse, impact.peak_force,
               static_cast<double>(impact.points), impact.energy_lost, impact.max_penetration,
               impact.place[0], impact.place[1], impact.contact_time, impact.low_share[0],
-              impact.low_share[1], impact.tangential_impulse, impact.slip, impact.friction_loss});
+              impact.low_share[1], impact.tangential_impulse, impact.slip, impact.friction_loss,
+              impact.window_force});
   }
   file.close();
 }

@@ -8,6 +8,7 @@
 #include <mpi.h>
 
 #include "common/saved_state.h"
+#include "output/force_window.h"
 
 namespace pounding {
 
@@ -30,6 +31,7 @@ struct Impact {
   double tangential_impulse = 0;  ///< of friction: sum of its magnitudes [N s]
   double slip = 0;                ///< path of the point that slid farthest while it touched [m]
   double friction_loss = 0;       ///< [J]
+  double window_force = 0;        ///< largest force over a stated time, see ForceWindow [N]
   double duration() const { return end - start; }
 };
 
@@ -43,11 +45,20 @@ struct ContactStep {
   std::span<const double> friction_losses;      ///< [J]
 };
 
+/// Times that the catalogue goes by [s].
+struct ImpactTimes {
+  double merge = 0;         ///< pauses that are shorter are part of an episode
+  double force_window = 0;  ///< over which `window_force` is taken
+  double time_step = 0;     ///< longest
+};
+
 /// Totals of a contact, or of all.
 struct ImpactTotals {
   int episodes = 0;
   double total_impulse = 0;    ///< [N s]
   double largest_impulse = 0;  ///< of an episode [N s]
+  double peak_force = 0;       ///< largest of an episode [N]
+  double window_force = 0;     ///< largest of an episode [N]
   double max_penetration = 0;  ///< [m]
   double energy_lost = 0;      ///< [J]
   double friction_loss = 0;    ///< [J]
@@ -59,7 +70,7 @@ class ImpactCatalogue {
  public:
   /// `contact_of_row`, `places`: contact and tangential position of each constraint.
   ImpactCatalogue(int contacts, std::vector<int> contact_of_row,
-                  std::vector<std::array<double, 2>> places, double merge_time);
+                  std::vector<std::array<double, 2>> places, const ImpactTimes& times);
 
   /// One step of length `duration` at `time` [s].
   void add_step(double time, double duration, const ContactStep& step);
@@ -87,15 +98,17 @@ class ImpactCatalogue {
   std::vector<std::array<double, 2>> low_;  ///< per row: 1 below the middle, 0.5 at it, 0 above
   std::vector<Impact> open_;                ///< per contact
   std::vector<char> is_open_;               ///< per contact
+  std::vector<ForceWindow> windows_;        ///< per contact
   std::vector<double> step_impulse_;        ///< per contact, of the current step
   std::vector<char> touched_;               ///< per row, in the open episode
   std::vector<double> slipped_;             ///< per row, path in the open episode [m]
   std::vector<Impact> impacts_;
 };
 
-/// `impacts.csv`: one line per episode. Throws UserError if the file cannot be written.
+/// `impacts.csv`: one line per episode. `force_window` [s]: time of window_force. Throws UserError
+/// if the file cannot be written.
 void write_impacts(const std::string& path, const std::vector<std::string>& contacts,
-                   std::span<const Impact> impacts);
+                   std::span<const Impact> impacts, double force_window);
 
 /// An impact as `impacts.csv` tells it, with the name of its contact.
 struct NamedWindow {

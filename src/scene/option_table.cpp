@@ -56,6 +56,7 @@ constexpr std::array table{
     OptionRow{Block::run, "preload_solver", Kind::choice, "word", value("auto"), any, "auto|direct|iterative", "how the equilibrium is solved: by a factorisation, by conjugate gradients, or by what the memory allows"},
     OptionRow{Block::run, "gap_tolerance", Kind::real, "-", value("1e-12"), not_negative, "", "contact where gap <= gap_tolerance x model size"},
     OptionRow{Block::run, "impact_merge_time", Kind::real, "s", value("1e-3"), not_negative, "", "contacts separated by less are one impact"},
+    OptionRow{Block::run, "force_window", Kind::real, "s", value("1e-3"), positive, "", "time over which the largest force of an impact is taken: its largest impulse within it, over it"},
     OptionRow{Block::run, "output_interval", Kind::real, "s", value("5e-5"), positive, "", "time between two samples of the probes"},
     OptionRow{Block::run, "gap_interval", Kind::real, "s", value("0"), not_negative, "", "time between two samples of the gaps, not a number in between unless they were looked at anyway; 0: with every sample of the probes"},
     OptionRow{Block::run, "energy_interval", Kind::integer, "steps", value("100"), at_least_1, "", "steps between two lines of the energy balance"},
@@ -205,13 +206,14 @@ constexpr std::array table{
     OptionRow{Block::spectra, "spectra_damping", Kind::reals, "-", value("0.05"), damping_ratio, "a comma-separated list of numbers", "damping ratios of the oscillators"},
     OptionRow{Block::spectra, "spectra_frequencies", Kind::text, "Hz", value("0.5:400:200log"), positive, "start:stop:COUNTlog, start:stop:COUNTlin (COUNT 2 to 100000) or an increasing list", "frequencies of the oscillators"},
     OptionRow{Block::spectra, "spectra_start", Kind::real, "s", value("0"), not_negative, "", "time from which spectra and peak values count: the oscillators are at rest then"},
+    OptionRow{Block::spectra, "peak_frequency", Kind::real, "Hz", value("0"), not_negative, "", "peaks of acceleration are those after a low-pass at this frequency; 0: the highest of spectra_frequencies"},
 };
 
 // Options that touch neither motion nor records; the time step itself is compared, not its options.
 constexpr std::array changeable_on_restart = std::to_array<std::string_view>({
     "title", "end_time", "courant", "time_step", "allow_unstable", "omega_max_tolerance", "progress_interval", "modes", "write_modes", "mesh_time_limit", "dry_run", "output",
     "checkpoint_interval", "checkpoint_steps", "export_matrices", "partition", "restart", "spectra_damping",
-    "spectra_frequencies", "spectra_start"});
+    "spectra_frequencies", "spectra_start", "peak_frequency"});
 // clang-format on
 
 }  // namespace

@@ -288,6 +288,7 @@ struct SpectraRequest {
   std::vector<double> damping_ratios;  ///< [-]
   std::vector<double> frequencies;     ///< [Hz], increasing
   double start = 0;                    ///< spectra and peaks leave out what comes before [s]
+  double peak_frequency = 0;           ///< of the low-pass before peaks of acceleration [Hz]
 };
 
 struct Scene {
@@ -318,6 +319,7 @@ struct Scene {
   StaticSolver preload_solver = StaticSolver::automatic;
   double gap_tolerance = 0;      ///< contact where gap <= gap_tolerance x model size [-]
   double impact_merge_time = 0;  ///< contacts separated by less are one episode [s]
+  double force_window = 0;       ///< over which the largest force of an impact is taken [s]
   double output_interval = 0;    ///< of the probes [s]
   double gap_interval = 0;       ///< of the gaps at least; 0: with every sample of the probes [s]
   int energy_interval = 0;       ///< steps between two lines of the energy ledger

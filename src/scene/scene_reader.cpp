@@ -90,6 +90,7 @@ class SceneReader {
                                                  : StaticSolver::iterative;
     scene_.gap_tolerance = options_.real("gap_tolerance");
     scene_.impact_merge_time = options_.real("impact_merge_time");
+    scene_.force_window = options_.real("force_window");
     scene_.output_interval = options_.real("output_interval");
     scene_.gap_interval = options_.real("gap_interval");
     scene_.energy_interval = options_.integer("energy_interval");
@@ -305,6 +306,8 @@ class SceneReader {
       options_.refuse("spectra_frequencies", {});
     }
     scene_.spectra.frequencies = *frequencies;
+    scene_.spectra.peak_frequency = options_.real("peak_frequency");
+    if (scene_.spectra.peak_frequency == 0) scene_.spectra.peak_frequency = frequencies->back();
     scene_.spectra.start = options_.real("spectra_start");
     const double last_start =
         scene_.end_time - 2 * std::max(scene_.output_interval, scene_.time_step);

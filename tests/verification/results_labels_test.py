@@ -151,7 +151,7 @@ class Labels(unittest.TestCase):
         self.assertEqual(list(self.fine.csv["impacts.csv"]),
                          ["contact", "start", "end", "duration", "impulse", "peak_force", "points", "energy_lost",
                           "max_penetration", "lateral", "vertical", "contact_time", "left", "bottom",
-                          "tangential_impulse", "slip", "friction_loss"])
+                          "tangential_impulse", "slip", "friction_loss", "window_force"])
         self.assertEqual(list(self.fine.csv["energy.csv"]),
                          ["time", "kinetic", "strain", "damping_loss", "contact_work", "friction_loss", "input_work",
                           "gravity_work", "device_work", "residual"])
@@ -272,7 +272,7 @@ class Labels(unittest.TestCase):
                 self.assertAlmostEqual(totals["energy_lost"], column["energy_lost"].sum(), delta=1e-6)
                 self.assertAlmostEqual(totals["max_penetration"], column["max_penetration"].max(), delta=1e-12)
             for probe, first in (("face1", 0), ("face2", 3)):
-                for key, name in (("peak_acceleration", "acceleration"), ("peak_displacement", "displacement")):
+                for key, name in (("sampled_peak_acceleration", "acceleration"), ("peak_displacement", "displacement")):
                     peaks = abs(results.data[name][:, first:first + 3]).max(axis=0)
                     numpy.testing.assert_allclose(summary["probes"][probe][key], peaks, rtol=1e-12)
                 self.assertEqual(summary["probes"][probe]["nodes"], 4)
@@ -332,22 +332,23 @@ class Labels(unittest.TestCase):
 
         said = re.search(r"initial gap ([0-9.]+) to ([0-9.]+) mm", printed)
         self.assertEqual([float(word) for word in said.groups()], [20, 20])
-        rows = re.findall(r"^  gap +([0-9.]+) +([0-9.]+) +([0-9.]+) +([0-9.]+) +(\d+) +([0-9.-]+)$", printed,
+        rows = re.findall(r"^  gap +([0-9.]+) +([0-9.]+) +([0-9.]+) +([0-9.]+) +([0-9.]+) +(\d+) +([0-9.-]+)$", printed,
                           re.MULTILINE)
         columns = [written.column("impacts.csv", name) * factor for name, factor in
-                   (("start", 1), ("duration", 1e3), ("impulse", 1), ("peak_force", 1e-3), ("points", 1),
-                    ("energy_lost", 1))]
+                   (("start", 1), ("duration", 1e3), ("impulse", 1), ("window_force", 1e-3),
+                    ("peak_force", 1e-3), ("points", 1), ("energy_lost", 1))]
         numpy.testing.assert_allclose(numpy.array(rows, dtype=float), numpy.array(columns).T[:20], atol=0.051)
         totals = re.search(r"impacts: (\d+) episodes, total impulse ([0-9.]+) N s, largest ([0-9.]+) N s", printed)
         self.assertEqual(int(totals.group(1)), written.summary["impacts"]["episodes"])
         self.assertAlmostEqual(float(totals.group(2)), written.summary["impacts"]["total_impulse"], delta=0.051)
         self.assertAlmostEqual(float(totals.group(3)), written.summary["impacts"]["largest_impulse"], delta=0.051)
         for probe in ("face1", "face2"):
-            said = re.search(rf"^  {probe}\.x +([0-9.]+) +([0-9.]+) .*?at ([0-9.]+) \(2 %\).*\(5 %\)$", printed,
+            said = re.search(rf"^  {probe}\.x +([0-9.]+) +([0-9.]+) +([0-9.]+) .*?at ([0-9.]+) \(2 %\).*\(5 %\)$", printed,
                              re.MULTILINE)
             peaks = written.summary["probes"][probe]
             self.assertAlmostEqual(float(said.group(1)), peaks["peak_acceleration"][0], delta=6e-4)
-            self.assertAlmostEqual(float(said.group(2)), 1e3 * peaks["peak_displacement"][0], delta=6e-4)
+            self.assertAlmostEqual(float(said.group(2)), peaks["sampled_peak_acceleration"][0], delta=6e-4)
+            self.assertAlmostEqual(float(said.group(3)), 1e3 * peaks["peak_displacement"][0], delta=6e-4)
         said = re.search(r"kinetic ([^,]+), strain ([^,]+), damping loss ([^,]+), contact work ([^,]+), "
                          r"input work (\S+)", printed)
         for word, name in zip(said.groups(), ("kinetic", "strain", "damping", "contact", "input")):
@@ -420,7 +421,7 @@ class Labels(unittest.TestCase):
             numpy.testing.assert_allclose(at, place, atol=1e-6)
             self.assertAlmostEqual(off, 1e3 * distance, delta=0.06)
             table = program.read_csv(os.path.join(folder, "spectra.csv"))
-            row = numbers(rf"\n  {name}.x +# +# +# at # \(2 %\) +# at # \(5 %\)\n", printed)[2:]
+            row = numbers(rf"\n  {name}.x +# +# +# +# at # \(2 %\) +# at # \(5 %\)\n", printed)[3:]
             for ratio, peak, frequency in ((0.02, *row[:2]), (0.05, *row[2:])):
                 spectrum = {float(a): float(f) for a, f, probe, direction, damping in
                             zip(table["pseudo_acceleration"], table["frequency"], table["probe"], table["direction"],

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pounding.results import DIRECTIONS, Missing, Result
+from pounding.results import DIRECTIONS, Missing, Result, low_pass
 from .style import (DIRECTION_COLOURS, G, WIDTH, has_signal, legend_above, log_scale, plot_series,
                     plt, probe_colour, save, stacked)
 
@@ -129,11 +129,15 @@ def drifts(result: Result) -> list:
 
 def accelerations(result: Result) -> list:
     result.need("acceleration", "channels")
+    cut = result.summary.get("peak_frequency")
+    below = f"below {cut:.4g} Hz" if cut else "as sampled"
     largest = np.nanmax(np.abs(result.history["acceleration"]), initial=0.0)
     made = []
     for direction in DIRECTIONS:
         series = {probe: result.series("acceleration", probe, direction)
                   for probe in result.probes}
+        series = {probe: (found[0], low_pass(found[1], found[0], cut)) if found and cut else found
+                  for probe, found in series.items()}
         series = {probe: found for probe, found in series.items() if found is not None}
         if not any(has_signal(values, largest) for _, values in series.values()):
             continue
@@ -141,12 +145,14 @@ def accelerations(result: Result) -> list:
         for axes, (probe, (time, values)) in zip(rows, series.items()):
             plot_series(axes, time, values, color=probe_colour(result.probes, probe), lw=0.7)
             peak = np.nanmax(np.abs(values), initial=0.0)
-            axes.set_title(f"{probe}, {direction}: peak {peak:.3g} m/s² ({peak / G:.3g} g)")
+            axes.set_title(f"{probe}, {direction}: peak {below} {peak:.3g} m/s² ({peak / G:.3g} g)")
             axes.set_ylabel("[m/s²]")
         rows[-1].set_xlabel("time [s]")
         made += save(figure, result.folder, f"accelerations_{direction}.png",
                      f"Absolute accelerations, {direction}",
-                     "Absolute acceleration of the floors, mean over the output interval.")
+                     f"Absolute acceleration of the floors, {below}"
+                     + (", after the low-pass without phase that stated peaks are taken from."
+                        if cut else ": mean over the output interval."))
     if not made:
         raise Missing("the floors do not move")
     return made

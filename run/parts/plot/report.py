@@ -79,8 +79,10 @@ def _probe_table(summary: dict) -> str:
         moved = probe.get("peak_displacement") or [None] * 3
         in_g = [None if value is None else value / G for value in peak]
         rows.append((name, *peak, in_g[0], *(None if v is None else 1e3 * v for v in moved)))
-    return html_table("Peaks of the floors", ["", "a x [m/s²]", "a y", "a z", "a x [g]", "u x [mm]",
-                                              "u y", "u z"], rows)
+    cut = summary.get("peak_frequency")
+    caption = "Peaks of the floors" + (f", accelerations below {cut:.4g} Hz" if cut else "")
+    return html_table(caption, ["", "a x [m/s²]", "a y", "a z", "a x [g]", "u x [mm]", "u y",
+                                "u z"], rows)
 
 
 def _impact_tables(result: Result) -> str:
@@ -95,9 +97,11 @@ def _impact_tables(result: Result) -> str:
                    for name, one in parts])
     table = result.impacts
     if table and len(table["start"]):
+        width = impacts.get("force_window")
+        width = f"{1e3 * width:.3g} ms" if width else "a stated time"
         order = np.argsort(-table["impulse"])[:10]
         columns = (("start", "start [s]", 1), ("duration", "duration [ms]", 1e3),
-                   ("impulse", "impulse [N s]", 1), ("peak_force", "peak force [kN]", 1e-3),
+                   ("impulse", "impulse [N s]", 1), ("window_force", f"force over {width} [kN]", 1e-3),
                    ("points", "points", 1), ("energy_lost", "energy lost [J]", 1))
         columns = [column for column in columns if column[0] in table]
         rows = [(str(table["contact"][i]), *(float(table[key][i] * scale)

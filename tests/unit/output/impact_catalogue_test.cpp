@@ -10,8 +10,10 @@
 namespace pounding {
 namespace {
 
+constexpr ImpactTimes times{0.01, 2e-3, 1e-3};
+
 TEST(ImpactCatalogue, MergesContactsWithinTheMergeTimeAndSeparatesOthers) {
-  ImpactCatalogue catalogue(1, {0, 0}, {{0.0, 1.0}, {2.0, 1.0}}, 0.01);
+  ImpactCatalogue catalogue(1, {0, 0}, {{0.0, 1.0}, {2.0, 1.0}}, times);
   const auto add = [&](double time, double first, double second) {
     const std::vector<double> gaps{-1e-6, -2e-6};
     const std::vector<double> impulses{first, second};
@@ -30,6 +32,7 @@ TEST(ImpactCatalogue, MergesContactsWithinTheMergeTimeAndSeparatesOthers) {
   EXPECT_EQ(first.points, 2);
   EXPECT_DOUBLE_EQ(first.energy_lost, 1.5);
   EXPECT_DOUBLE_EQ(first.peak_force, 3000);
+  EXPECT_DOUBLE_EQ(first.window_force, 1500);
   EXPECT_DOUBLE_EQ(first.place[0], 0.5);  // (3 * 0 + 1 * 2) / 4
   EXPECT_DOUBLE_EQ(first.max_penetration, 2e-6);
   EXPECT_DOUBLE_EQ(first.contact_time, 0.002);  // of the 0.006 from its start to its end
@@ -42,7 +45,7 @@ TEST(ImpactCatalogue, MergesContactsWithinTheMergeTimeAndSeparatesOthers) {
 
 TEST(ImpactCatalogue, MergesAcrossSilencesUpToTheMergeTimeAndNoLonger) {
   const auto episodes = [](double silence) {
-    ImpactCatalogue catalogue(1, {0}, {{0.0, 0.0}}, 0.01);
+    ImpactCatalogue catalogue(1, {0}, {{0.0, 0.0}}, times);
     const std::vector<double> none{0.0};
     const std::vector<double> one{1.0};
     catalogue.add_step(1, 0.001, {none, one, none});
@@ -56,7 +59,7 @@ TEST(ImpactCatalogue, MergesAcrossSilencesUpToTheMergeTimeAndNoLonger) {
 
 TEST(ImpactCatalogue, ContinuesAnOpenEpisode) {
   const auto make = [] {
-    return ImpactCatalogue(2, {0, 0, 1}, {{0.0, 1.0}, {2.0, 1.0}, {5.0, 5.0}}, 0.01);
+    return ImpactCatalogue(2, {0, 0, 1}, {{0.0, 1.0}, {2.0, 1.0}, {5.0, 5.0}}, times);
   };
   const auto add = [](ImpactCatalogue& catalogue, double time, double first, double third) {
     const std::vector<double> gaps{-1e-6, -2e-6, -3e-6};
@@ -90,6 +93,7 @@ TEST(ImpactCatalogue, ContinuesAnOpenEpisode) {
     EXPECT_EQ(one.end, other.end);
     EXPECT_EQ(one.impulse, other.impulse);
     EXPECT_EQ(one.peak_force, other.peak_force);
+    EXPECT_EQ(one.window_force, other.window_force);
     EXPECT_EQ(one.points, other.points);
     EXPECT_EQ(one.energy_lost, other.energy_lost);
     EXPECT_EQ(one.max_penetration, other.max_penetration);
@@ -111,7 +115,7 @@ TEST(ImpactCatalogue, TellsTheHalvesOfEachFaceApart) {
   }
   places.push_back({100.0, 100.0});
   contact_of_row.push_back(0);
-  ImpactCatalogue catalogue(2, contact_of_row, places, 0.01);
+  ImpactCatalogue catalogue(2, contact_of_row, places, times);
   const std::vector<double> none(7, 0.0);
   catalogue.add_step(1, 1e-3, {none, std::vector<double>{1, 0, 2, 4, 0, 1, 0}, none});
   catalogue.add_step(3, 1e-3, {none, std::vector<double>{0, 0, 0, 0, 0, 0, 5}, none});
@@ -131,7 +135,7 @@ TEST_F(ImpactFile, IsReadBackAsItWasWritten) {
   impact.end = 0.34;
   impact.impulse = 2;
   const std::string path = (folder_ / "impacts.csv").string();
-  write_impacts(path, {"floor1", "floor2"}, std::vector<Impact>{impact, impact});
+  write_impacts(path, {"floor1", "floor2"}, std::vector<Impact>{impact, impact}, 1e-3);
   const auto windows = read_impact_windows(path);
   ASSERT_EQ(windows.size(), 2u);
   EXPECT_EQ(windows[1].contact, "floor2");
@@ -140,7 +144,7 @@ TEST_F(ImpactFile, IsReadBackAsItWasWritten) {
 }
 
 TEST(ImpactCatalogue, AddsFrictionUpAndForgetsPathsOfEarlierEpisodes) {
-  ImpactCatalogue catalogue(1, {0, 0}, {{0, 0}, {1, 0}}, 0.01);
+  ImpactCatalogue catalogue(1, {0, 0}, {{0, 0}, {1, 0}}, times);
   const std::vector<double> none{0, 0};
   const std::vector<double> impulses{2, 0};
   const std::vector<double> tangential{1, 0};
@@ -163,9 +167,9 @@ TEST(ImpactCatalogue, AddsFrictionUpAndForgetsPathsOfEarlierEpisodes) {
 }
 
 TEST_F(ImpactFile, EveryNumberStandsUnderItsName) {
-  Impact impact{0, 1, 3, 5, 7, 11, 13, 17, {19, 23}, 29, {31, 37}, 41, 43, 47};
+  Impact impact{0, 1, 3, 5, 7, 11, 13, 17, {19, 23}, 29, {31, 37}, 41, 43, 47, 53};
   const std::string path = (folder_ / "impacts.csv").string();
-  write_impacts(path, {"floor"}, std::vector<Impact>{impact});
+  write_impacts(path, {"floor"}, std::vector<Impact>{impact}, 1e-3);
   std::ifstream file(path);
   std::string names;
   while (std::getline(file, names) && names.starts_with('#')) {
@@ -174,8 +178,9 @@ TEST_F(ImpactFile, EveryNumberStandsUnderItsName) {
   std::getline(file, numbers);
   EXPECT_EQ(names,
             "contact,start,end,duration,impulse,peak_force,points,energy_lost,max_penetration,"
-            "lateral,vertical,contact_time,left,bottom,tangential_impulse,slip,friction_loss");
-  EXPECT_EQ(numbers, "floor,1,3,2,5,7,11,13,17,19,23,29,31,37,41,43,47");
+            "lateral,vertical,contact_time,left,bottom,tangential_impulse,slip,friction_loss,"
+            "window_force");
+  EXPECT_EQ(numbers, "floor,1,3,2,5,7,11,13,17,19,23,29,31,37,41,43,47,53");
 }
 
 TEST_F(ImpactFile, RefusesWhatIsNoCatalogue) {

@@ -1,0 +1,83 @@
+#include "driver/stated_peaks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "motion/low_pass.h"
+
+namespace pounding {
+namespace {
+
+/// A sampled peak above so many times the stated one is that of an impulse within a sample.
+constexpr double doubtful_ratio = 2;
+
+/// How many times the largest sampled peak of a probe exceeds its largest stated one.
+double excess(const StatedPeaks& peaks, const Recorder& recorder, std::size_t probe) {
+  double sampled = 0;
+  double stated = 0;
+  for (std::size_t channel = 3 * probe; channel < 3 * probe + 3; ++channel) {
+    sampled = std::max(sampled, recorder.peaks()[channel].acceleration);
+    stated = std::max(stated, peaks.acceleration[channel]);
+  }
+  return stated > 0 ? sampled / stated : 1;
+}
+
+}  // namespace
+
+StatedPeaks stated_peaks(const Scene& scene, const Recorder& recorder) {
+  const double highest = low_pass_limit / recorder.interval();
+  StatedPeaks peaks;
+  peaks.lowered = !(scene.spectra.peak_frequency <= highest);
+  peaks.frequency = peaks.lowered ? highest : scene.spectra.peak_frequency;
+  const std::size_t first = recorder.first_record_from(scene.spectra.start);
+  for (std::size_t channel = 0; channel < recorder.channels().size(); ++channel) {
+    const std::vector<double> filtered =
+        low_pass(recorder.acceleration(channel), recorder.interval(), peaks.frequency);
+    double& peak = peaks.acceleration.emplace_back(0);
+    for (std::size_t i = first; i < filtered.size(); ++i) {
+      peak = std::max(peak, std::abs(filtered[i]));
+    }
+  }
+  return peaks;
+}
+
+std::vector<std::string> peak_warnings(const Scene& scene, const StatedPeaks& peaks,
+                                       const Recorder& recorder) {
+  std::vector<std::string> warnings;
+  std::ostringstream text;
+  text.precision(4);
+  if (peaks.lowered && !recorder.channels().empty()) {
+    text << "peak accelerations are those below " << peaks.frequency << " Hz, not "
+         << scene.spectra.peak_frequency << " Hz: samples every " << recorder.interval()
+         << " s hold no more; give -output_interval "
+         << low_pass_limit / scene.spectra.peak_frequency << " or less";
+    warnings.push_back(text.str());
+  }
+  constexpr std::size_t named = 3;
+  std::vector<std::string> names;
+  double most = 1;
+  bool reduced = false;
+  for (std::size_t p = 0; p < recorder.probes().size(); ++p) {
+    const double times = excess(peaks, recorder, p);
+    if (!(times > doubtful_ratio)) continue;
+    names.push_back(recorder.probes()[p].name);
+    most = std::max(most, times);
+    reduced = reduced || scene.structures[recorder.probes()[p].structure].modal.has_value();
+  }
+  if (names.empty()) return warnings;
+  text.str("");
+  text << (names.size() == 1 ? "probe " : "probes ");
+  for (std::size_t i = 0; i < std::min(named, names.size()); ++i) {
+    text << (i > 0 ? ", " : "") << names[i];
+  }
+  if (names.size() > named) text << " and " << names.size() - named << " more";
+  text << ": sampled accelerations reach " << most << " times the peak below " << peaks.frequency
+       << " Hz; that sampled value goes with 1/output_interval where an impulse acts beside the "
+          "probe"
+       << (reduced ? " or its structure is reduced" : "") << ", so take the other";
+  warnings.push_back(text.str());
+  return warnings;
+}
+
+}  // namespace pounding
