@@ -2,6 +2,8 @@
 
 import math
 
+import numpy as np
+
 from pounding.results import DIRECTIONS
 
 from .runs import ROUND_OFF, Runs
@@ -18,14 +20,14 @@ def spectra(runs: Runs) -> list:
         for probe in runs.probes:
             floor = runs.round_off(probe, damping)
             for way in runs.moving(probe, damping):
-                values = runs.spectra(probe, way, damping)
+                values = [np.where(one > floor, one, 0.0) for one in runs.spectra(probe, way, damping)]
                 for index, frequency in enumerate(runs.frequency):
                     row = {"probe": probe, "direction": way, "damping": f"{damping:g}", "frequency": f"{frequency:.6g}"}
                     for label, own in zip(runs.labels, values):
                         row[f"PSA {label} [m/s2]"] = f"{own[index]:.7g}"
                     for label, own in zip(runs.labels[1:], values[1:]):
                         first = values[0][index]
-                        row[f"{label} / {runs.labels[0]}"] = f"{own[index] / first:.6g}" if first > floor else ""
+                        row[f"{label} / {runs.labels[0]}"] = f"{own[index] / first:.6g}" if first > 0 else ""
                     rows.append(row)
     return rows
 
@@ -58,7 +60,8 @@ def peaks(runs: Runs) -> list:
                 if max(values) <= floor:
                     continue
                 row = {"probe": probe, "direction": way, "peak": title}
-                row.update(zip(runs.labels, (value if value > floor else 0.0 for value in values)))
+                values = [value if value > floor else 0.0 for value in values]
+                row.update(zip(runs.labels, values))
                 row.update({f"{label} / {runs.labels[0]}": value / values[0] if values[0] > floor else ""
                             for label, value in zip(runs.labels[1:], values[1:])})
                 rows.append(row)
@@ -100,8 +103,9 @@ def worst_ratios(runs: Runs) -> list:
     damping = runs.dampings[0]
     for probe in runs.probes:
         for way in runs.moving(probe, damping):
-            first, *others = runs.spectra(probe, way, damping)
-            held = first > runs.round_off(probe, damping)
+            floor = runs.round_off(probe, damping)
+            first, *others = (np.where(one > floor, one, 0.0) for one in runs.spectra(probe, way, damping))
+            held = first > 0
             for label, own in zip(runs.labels[1:], others):
                 if not held.any():
                     continue
