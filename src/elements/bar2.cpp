@@ -26,7 +26,7 @@ void bar2_lumped_mass(std::span<const double> coordinates, const ElementProperti
                       std::span<double> lumped_mass) {
   const double length = segment_between(coordinates).length;
   std::fill(lumped_mass.begin(), lumped_mass.end(),
-            properties.density * properties.area * length / 2);
+            (properties.density * properties.area + properties.added_mass) * length / 2);
 }
 
 }  // namespace pounding

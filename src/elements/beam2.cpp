@@ -67,7 +67,7 @@ void beam2_lumped_mass(std::span<const double> coordinates, const ElementPropert
   const auto [direction, length] = segment_between(coordinates);
   const Matrix3 frame = local_frame(direction, properties.z_axis);
   const double half = properties.density * length / 2;
-  const double translation = half * properties.area;
+  const double translation = half * properties.area + properties.added_mass * length / 2;
   const double chord = translation * length * length / 12;  // rho A L^3 / 24
   const Vector3 rotation = rotate_diagonal_to_global(
       frame, {half * (properties.inertia_y + properties.inertia_z),

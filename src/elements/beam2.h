@@ -15,8 +15,8 @@ namespace pounding {
 void beam2_stiffness(std::span<const double> coordinates, const ElementProperties& properties,
                      std::span<double> stiffness);
 
-/// Lumped mass in global axes, shape (12) [kg, kg m2]. At each node: translations rho A L / 2;
-/// rotation about local y (z) rho A L^3 / 24 + rho I_y (I_z) L / 2; about local x
+/// Lumped mass in global axes, shape (12) [kg, kg m2]. At each node, m = rho A + added_mass:
+/// translations m L / 2; rotation about local y (z) m L^3 / 24 + rho I_y (I_z) L / 2; about local x
 /// rho (I_y + I_z) L / 2; the rotary part turned to global axes and its diagonal kept. Throws
 /// ElementError as the stiffness does.
 void beam2_lumped_mass(std::span<const double> coordinates, const ElementProperties& properties,

@@ -35,7 +35,7 @@ using ShellFunction = void (*)(Coordinates, const ShellProperties&, Matrix);
 
 template <ShellFunction function>
 void of_shell(Coordinates coordinates, const Properties& p, Matrix result) {
-  function(coordinates, {p.young, p.poisson, p.density, p.thickness, p.rotary_inertia_factor},
+  function(coordinates, {p.young, p.poisson, p.density, p.thickness, p.rotary_inertia_factor, p.added_mass},
            result);
 }
 
@@ -57,8 +57,8 @@ void nothing(Coordinates, const Properties&, Matrix result) {
 }
 
 constexpr std::string_view of_solid = "material";
-constexpr std::string_view of_bar = "material area tension_only slack yield_force hardening";
-constexpr std::string_view of_plate = "material thickness rotary_inertia_factor";
+constexpr std::string_view of_bar = "material area tension_only slack yield_force hardening mass_per_length";
+constexpr std::string_view of_plate = "material thickness rotary_inertia_factor mass_per_area";
 constexpr std::string_view of_point = "mass rotary_inertia";
 constexpr std::string_view of_spring =
     "stiffness dashpot dashpot_exponent yield_force hardening yield_circle sliding_friction "
@@ -76,7 +76,7 @@ constexpr std::array table{
     ElementTraits{Type::hex8_full, "hex8_full", "hex8_full", Family::solid, {8, 3}, 5, Type::wedge6, hex8_faces,
         of_solid, brick_stiffness<Hex8Formulation::full>, hex8_lumped_mass, Kernel::brick, measured_costs::brick, true, false},
     ElementTraits{Type::beam, "beam", "beam", Family::line, {2, 6}, 1, {}, {},
-        "material section", beam2_stiffness, beam2_lumped_mass, Kernel::beam, measured_costs::beam, true, true},
+        "material section mass_per_length", beam2_stiffness, beam2_lumped_mass, Kernel::beam, measured_costs::beam, true, true},
     ElementTraits{Type::bar, "bar", "bar", Family::line, {2, 3}, 1, {}, {},
         of_bar, bar2_stiffness, bar2_lumped_mass, Kernel::sparse, measured_costs::small, true, true},
     ElementTraits{Type::tension_bar, "bar (tension only)", "bar", Family::line, {2, 3}, 1, {}, {},

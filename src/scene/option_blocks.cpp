@@ -19,12 +19,19 @@ bool is_name_character(char c) {
   return is_letter(c) || (c >= '0' && c <= '9') || c == '_';
 }
 
+/// Whether a structure says what elements it is made of.
+bool has_elements(const OptionsDatabase& database, const std::string& structure) {
+  return std::ranges::any_of(region_groups(database, structure), [&](const std::string& group) {
+    return database.contains(option_name("<structure>_<group>_element", {structure, group}));
+  });
+}
+
 bool is_complete(const OptionsDatabase& database, OptionBlock block, const std::string& name) {
   const bool whole = std::ranges::all_of(option_table(), [&](const OptionRow& row) {
     return row.block != block || !row.preset.required ||
            database.contains(option_name(row.pattern, {name}));
   });
-  return whole &&
+  return whole && (block != OptionBlock::structure || has_elements(database, name)) &&
          (block != OptionBlock::probe || database.contains(option_name("<probe>_at", {name})) ||
           database.contains(option_name("<probe>_group", {name})));
 }
@@ -33,14 +40,22 @@ bool is_complete(const OptionsDatabase& database, OptionBlock block, const std::
 
 std::set<std::string> region_groups(const OptionsDatabase& database, const std::string& structure) {
   std::set<std::string> groups;
-  for (const OptionRow& row : option_table()) {
-    if (row.block != OptionBlock::region) continue;
-    const std::string tail(row.pattern.substr(row.pattern.rfind('>') + 1));
-    for (const auto& [option, value] : database) {
-      if (const auto group = match_option(structure + "_<group>" + tail, option)) {
+  for (const auto& [option, value] : database) {
+    // mat_mass_per_area: an option of mat, unless it is the area of an element mat_mass_per.
+    std::string shortest;
+    bool has_element = false;
+    for (const OptionRow& row : option_table()) {
+      if (row.block != OptionBlock::region) continue;
+      const std::string tail(row.pattern.substr(row.pattern.rfind('>') + 1));
+      const auto group = match_option(structure + "_<group>" + tail, option);
+      if (!group) continue;
+      if (shortest.empty() || group->size() < shortest.size()) shortest = *group;
+      if (database.contains(option_name("<structure>_<group>_element", {structure, *group}))) {
         groups.insert(*group);
+        has_element = true;
       }
     }
+    if (!has_element && !shortest.empty()) groups.insert(shortest);
   }
   return groups;
 }

@@ -37,6 +37,7 @@ class SceneReader {
                read_names("supports")};
     require_apart(listed_.structures);
     refuse_unknown_options(options_.database(), listed_);
+    mention_structures_left_out();
     read_run();
     for (const std::string& name : listed_.structures) {
       scene_.structures.push_back(read_structure(options_, name));
@@ -160,6 +161,16 @@ class SceneReader {
     if (structure.mass_scaling > 0 && !scene_.export_matrices.empty()) {
       options_.refuse("export_matrices", {},
                       "structure " + structure.name + " has scaled mass, which is not diagonal");
+    }
+  }
+
+  /// A name forgotten in the list of structures looks like a scene that takes some of another's.
+  void mention_structures_left_out() {
+    for (const std::string& name : complete_names(options_.database(), OptionBlock::structure)) {
+      if (std::ranges::count(listed_.structures, name) == 0) {
+        scene_.warnings.push_back("structure " + name +
+                                  " is defined and left out: it is not in -structures");
+      }
     }
   }
 

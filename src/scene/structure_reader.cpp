@@ -27,11 +27,11 @@ using Names = OptionReader::Names;
 
 /// Options that belong to some elements only: refused beside the others.
 void forbid_others(const OptionReader& options, const std::string& element, const Names& names) {
-  for (const std::string property :
-       {"area", "dashpot", "dashpot_exponent", "hardening", "mass", "material", "rotary_inertia",
-        "rotary_inertia_factor", "section", "compression_only", "slack", "sliding_friction",
-        "pendulum_radius", "stiffness", "tension_only", "thickness", "yield_circle",
-        "yield_force"}) {
+  constexpr std::string_view properties =
+      "area dashpot dashpot_exponent hardening mass mass_per_area mass_per_length material "
+      "rotary_inertia rotary_inertia_factor section compression_only slack sliding_friction "
+      "pendulum_radius stiffness tension_only thickness yield_circle yield_force";
+  for (const std::string& property : split(properties, ' ')) {
     if (!takes(traits_of(element_of_word(element)), property)) {
       options.forbid("<structure>_<group>_" + property, names,
                      "not for the element " + element + " of this group; leave it out");
@@ -148,8 +148,12 @@ void read_solid(OptionReader& options, const Names& names, Region& region) {
     }
     read_nonlinear_bar(options, names, region);
   }
+  if (takes(element, "mass_per_length")) {
+    region.added_mass = options.real("<structure>_<group>_mass_per_length", names);
+  }
   if (takes(element, "thickness")) {
     region.thickness = options.real("<structure>_<group>_thickness", names);
+    region.added_mass = options.real("<structure>_<group>_mass_per_area", names);
     region.rotary_inertia_factor = options.real("<structure>_<group>_rotary_inertia_factor", names);
   }
 }

@@ -93,7 +93,12 @@ std::vector<std::vector<std::string>> owners(const OptionsDatabase& database,
 
 }  // namespace
 
-void refuse_unknown_options(const OptionsDatabase& database, const ListedNames& listed) {
+void refuse_unknown_options(const OptionsDatabase& database, const ListedNames& in_use) {
+  // Scenes that include others take some of their structures.
+  ListedNames listed = in_use;
+  const NameSet structures =
+      with_complete(database, OptionBlock::structure, as_set(in_use.structures));
+  listed.structures.assign(structures.begin(), structures.end());
   std::vector<std::string> known;
   for (const OptionRow& row : option_table()) {
     for (const std::vector<std::string>& names : owners(database, listed, row.block)) {

@@ -16,9 +16,9 @@ struct ListedNames {
 };
 
 /// Refuses the first option that the table does not explain for the listed names, naming the
-/// nearest one that it does. A material, section, contact, probe or support that is wholly defined
-/// but not used is allowed: it may belong to a library, or be switched off by `-contacts none`.
-/// Throws UserError.
-void refuse_unknown_options(const OptionsDatabase& database, const ListedNames& listed);
+/// nearest one that it does. A structure, material, section, contact, probe or support that is
+/// wholly defined but not used is allowed: it may belong to a library, or be switched off by
+/// `-contacts none`. Throws UserError.
+void refuse_unknown_options(const OptionsDatabase& database, const ListedNames& in_use);
 
 }  // namespace pounding

@@ -52,6 +52,15 @@ TEST(Bar2, PullsAlongItsAxisOnly) {
   for (const double m : e.lumped_mass) EXPECT_NEAR(m, 2400 * 0.01 * 13 / 2, 1e-12);
 }
 
+TEST(Bar2, WhatItCarriesIsLumpedAtItsEnds) {
+  ElementProperties p = concrete_bar();
+  p.added_mass = 12;
+  const auto e = dense_element(ElementType::bar, {0, 0, 0, 3, 4, 12}, p);
+  for (const double m : e.lumped_mass) {
+    EXPECT_NEAR(m, (p.density * p.area + 12) * 13 / 2, 1e-12);
+  }
+}
+
 TEST(Bar2, FixedFreeFrequenciesFollowTheLumpedDispersion) {
   const std::size_t count = 20;
   DenseModel model = straight_bar(count, 5.0, concrete_bar());

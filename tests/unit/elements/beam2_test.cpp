@@ -143,6 +143,17 @@ TEST(Beam2, LumpedMassAlongTheAxes) {
   for (std::size_t i = 0; i < 12; ++i) EXPECT_NEAR(mass[i] / expected[i % 6], 1, 1e-14) << i;
 }
 
+TEST(Beam2, WhatItCarriesTurnsWithItsLength) {
+  const double length = 0.8;
+  ElementProperties p = hea160({0, 0, 1});
+  const auto bare = dense_element(ElementType::beam, {0, 0, 0, length, 0, 0}, p).lumped_mass;
+  p.added_mass = 70;
+  const auto loaded = dense_element(ElementType::beam, {0, 0, 0, length, 0, 0}, p).lumped_mass;
+  const double chord = 70 * std::pow(length, 3) / 24;
+  const double more[6] = {35 * length, 35 * length, 35 * length, 0, chord, chord};
+  for (std::size_t i = 0; i < 12; ++i) EXPECT_NEAR(loaded[i] - bare[i], more[i % 6], 1e-12) << i;
+}
+
 TEST(Beam2, LumpedMassOfAColumnAndOfADiagonal) {
   // A column whose local z is global x: local y is global y, local x global z.
   const double length = 0.8;

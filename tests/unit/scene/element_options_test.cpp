@@ -1,3 +1,4 @@
+#include "scene/option_blocks.h"
 #include "scene_cases.h"
 
 /// What each kind of element asks of its group.
@@ -22,9 +23,38 @@ TEST(ElementOptions, Shell) {
   EXPECT_EQ(shell.element, ElementType::shell4);
   EXPECT_EQ(shell.thickness, 0.22);
   EXPECT_EQ(shell.rotary_inertia_factor, 0);
+  EXPECT_EQ(shell.added_mass, 0);
   expect_refused(
       with_group({{"tower_extra_element", "shell"}, {"tower_extra_material", "concrete"}}),
       {"-tower_extra_thickness", "[m]", "> 0"});
+}
+
+TEST(ElementOptions, WhatElementsCarry) {
+  const Region shell = region({{"tower_extra_element", "shell"},
+                               {"tower_extra_material", "concrete"},
+                               {"tower_extra_thickness", "0.22"},
+                               {"tower_extra_mass_per_area", "350"}});
+  EXPECT_EQ(shell.added_mass, 350);
+  OptionsDatabase bar{{"tower_extra_element", "bar"},
+                      {"tower_extra_material", "concrete"},
+                      {"tower_extra_area", "1e-4"},
+                      {"tower_extra_mass_per_length", "12"}};
+  EXPECT_EQ(region(bar).added_mass, 12);
+  bar["tower_extra_mass_per_area"] = "12";
+  expect_refused(with_group(bar), {"-tower_extra_mass_per_area", "not for the element bar"});
+}
+
+/// "extra_mass_per" and "extra" both have options that end in "area".
+TEST(ElementOptions, AGroupIsTheShortestNameThatHasAnElement) {
+  OptionsDatabase groups{{"tower_extra_element", "shell"},
+                         {"tower_extra_material", "concrete"},
+                         {"tower_extra_thickness", "0.22"},
+                         {"tower_extra_mass_per_area", "350"}};
+  EXPECT_EQ(region_groups(groups, "tower"), (std::set<std::string>{"extra"}));
+  groups.erase("tower_extra_element");
+  EXPECT_EQ(region_groups(groups, "tower"), (std::set<std::string>{"extra"}));
+  groups["tower_extra_mass_per_element"] = "bar";
+  EXPECT_EQ(region_groups(groups, "tower"), (std::set<std::string>{"extra", "extra_mass_per"}));
 }
 
 TEST(ElementOptions, TensionOnlyBar) {

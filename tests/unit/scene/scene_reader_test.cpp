@@ -8,7 +8,9 @@
 namespace pounding::scene_cases {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::Pair;
 
 TEST(SceneReader, SmallestSceneHoldsTheDefaults) {
@@ -178,6 +180,15 @@ TEST(SceneReader, ContactsAndProbesCanBeSwitchedOff) {
   const Scene scene = read_scene(with(pair(), {{"contacts", "none"}, {"probes", "none"}})).scene;
   EXPECT_TRUE(scene.contacts.empty());
   EXPECT_TRUE(scene.probes.empty());
+}
+
+TEST(SceneReader, AStructureOfASceneCanBeTakenAlone) {
+  const OptionsDatabase alone =
+      with(pair(), {{"structures", "tower"}, {"contacts", "none"}, {"probes", "none"}});
+  const Scene scene = read_scene(alone).scene;
+  EXPECT_EQ(scene.structures.size(), 1U);
+  EXPECT_THAT(scene.warnings, Contains(HasSubstr("structure annex is defined")));
+  expect_refused(with(alone, {{"annex_clomp", "base"}}), {"-annex_clomp", "-annex_clamp"});
 }
 
 TEST(SceneReader, SpectraOfTheirOwn) {
