@@ -1,8 +1,9 @@
 // Reinforced-concrete block of a plant: shear walls on a grid of 6.1 m, a basement, two storeys, and a
 // tower over the four central rooms. Shells in the middle of walls and slabs. Modules of half a room;
 // m: elements along a module, so that an element is about 3.05 / m wide. opening_* = 1 leaves a module
-// out of the slabs over the basement and the first storey, for stairs.
-DefineConstant[ m = 6, opening = 1 ];
+// out of the slabs over the basement and the first storey, for stairs. post: height of a cabinet. The walls
+// that face neighbours are east_face (large x) and west_face.
+DefineConstant[ m = 6, opening = 1, post = 1.8 ];
 
 module = 3.048;
 count = 8;               // modules along x and along y
@@ -56,7 +57,7 @@ For k In {0:levels-1}
 EndFor
 
 mat() = {}; slabs() = {}; roofs() = {};
-basement() = {}; inner() = {}; outer() = {}; tower() = {}; east() = {};
+basement() = {}; inner() = {}; outer() = {}; tower() = {}; east() = {}; west() = {};
 For k In {0:levels-1}
   For j In {0:count-1}
     For i In {0:count-1}
@@ -95,7 +96,9 @@ For k In {0:levels-2}
         ElseIf (k == 0 && edge) basement() += s;
         ElseIf (edge) outer() += s;
         Else inner() += s; EndIf
-        If (way == 1 && line == count && k > 0 && k < tower_from) east() += s; EndIf
+        If (way == 1 && k > 0 && k < tower_from)
+          If (line == count) east() += s; ElseIf (line == 0) west() += s; EndIf
+        EndIf
       EndFor
     EndFor
   EndFor
@@ -109,6 +112,7 @@ Physical Surface("inner_walls") = inner();
 Physical Surface("outer_walls") = outer();
 Physical Surface("tower_walls") = tower();
 Physical Surface("east_face") = east();
+Physical Surface("west_face") = west();
 // The soil holds the mat at the corners of its modules.
 soil() = {};
 For n In {0:level-1}
@@ -119,3 +123,16 @@ Physical Point("soil") = soil();
 Physical Point("equipment") = {p(level + 3*row + 3), p(level + 5*row + 5), p(level + 3*row + 5),
   p(level + 5*row + 1), p(2*level + 3*row + 3), p(2*level + 5*row + 5), p(2*level + 1*row + 1),
   p(2*level + 7*row + 7), p(3*level + 5*row + 3), p(4*level + 4*row + 4)};
+// Cabinets: posts that carry a mass, in the middle of rooms: beside the walls that face neighbours and in
+// the middle of the first storey's slab, and in the tower.
+posts() = {}; cabinets() = {};
+For place In {0:4}
+  k = place < 3 ? 2 : place + 1;
+  i = place == 0 ? 7 : (place == 1 ? 1 : (place == 2 ? 5 : 3));
+  j = place < 2 ? 5 : 3;
+  q = newp; Point(q) = {i * module, j * module, z(k) + post};
+  l = newl; Line(l) = {p(k * level + j * row + i), q}; Transfinite Line{l} = 2;
+  posts() += l; cabinets() += q;
+EndFor
+Physical Line("cabinet_posts") = posts();
+Physical Point("cabinets") = cabinets();

@@ -1,0 +1,99 @@
+"""The buildings of petsc-options/plant against what is published of them: masses, frequencies, three in a row."""
+import unittest
+
+import numpy
+
+import program
+from recorded import Recorded
+
+MESHES = {"block": "m={}", "frame": "m={},x0=24.801"}
+IDLE = {"block": "west_face,east_face,soil", "frame": "edge_1,edge_2,far_edge_1,far_edge_2,soil"}
+X, Y, Z, ABOUT_Z = 0, 1, 2, 5
+
+
+def strongest(structure, axis, above=0):
+    """Frequency [Hz] and effective mass of the mode with the largest one along an axis, above a frequency."""
+    modes = [mode for mode in structure["frequencies"] if mode["frequency"] > above]
+    mode = max(modes, key=lambda mode: mode["effective_modal_mass"][axis])
+    return mode["frequency"], mode["effective_modal_mass"][axis]
+
+
+class Plant(unittest.TestCase):
+    def modes_of(self, scene, structure, count, *more, m=2, ranks=1):
+        words = ["-options_file", f"petsc-options/plant/{scene}.yaml", "-structures", structure, "-contacts", "none",
+                 "-probes", "none", f"-{structure}_mesh_set", MESHES[structure].format(m), "-modes", count,
+                 "-end_time", 1e-3, *more]
+        return program.must_run(self, words, ranks)[1]["structures"][structure]
+
+    def on_rock(self, structure, count, m=2, ranks=1):
+        """The building with its mat clamped."""
+        return self.modes_of("buildings", structure, count, f"-{structure}_clamp", "mat", f"-{structure}_ignore",
+                             IDLE[structure], f"-{structure}_initial_velocity", "1e-3,0,0", m=m, ranks=ranks)
+
+    def close(self, found, published, tolerance):
+        self.assertAlmostEqual(found / published, 1, delta=tolerance)
+
+
+class Frame(Plant):
+    def test_on_rock(self):
+        frame = self.on_rock("frame", 50)
+        self.close(frame["mass"], 1585e3, 0.005)
+        first, moving = strongest(frame, X)
+        self.close(first, 4.38, 0.03)
+        self.assertAlmostEqual(moving / 623e3, 0.84, delta=0.02)
+        self.close(strongest(frame, Y)[0], 4.84, 0.03)
+        self.close(strongest(frame, ABOUT_Z)[0], 8.32, 0.03)
+        second, moving = strongest(frame, X, above=8)
+        self.close(second, 11.7, 0.03)
+        self.assertAlmostEqual(moving / 623e3, 0.12, delta=0.01)
+
+    def test_finer_mesh(self):
+        coarse, fine = (self.on_rock("frame", 3, m, 2) for m in (2, 4))
+        for axis in (X, Y):
+            self.close(strongest(coarse, axis)[0], strongest(fine, axis)[0], 0.002)
+
+    def test_on_soil(self):
+        self.close(strongest(self.modes_of("layered_soil", "frame", 3), X)[0], 3.98, 0.05)
+
+
+class Block(Plant):
+    def test_on_rock(self):
+        """Mass 16,340 t; two sway modes each way, and the floors' vertical one."""
+        block = self.on_rock("block", 40, 2, 2)
+        self.close(block["mass"], 16340e3, 0.005)
+        for axis in (X, Y):
+            self.close(strongest(block, axis)[0], 12.6, 0.05)
+            self.close(strongest(block, axis, above=18)[0], 22.5, 0.05)
+        self.close(strongest(block, Z, above=25)[0], 30.4, 0.05)
+
+    def test_finer_mesh(self):
+        coarse, fine = (strongest(self.on_rock("block", 4, m), X)[0] for m in (2, 4))
+        self.close(coarse, fine, 0.01)
+
+    def test_on_soil(self):
+        self.close(strongest(self.modes_of("layered_soil", "block", 3, ranks=2), X)[0], 6.5, 0.05)
+
+
+class ThreeInARow(unittest.TestCase):
+    def test_the_middle_one_is_hit_from_both_sides(self):
+        """The block starts towards one frame and comes back on the other; the ranks agree."""
+        found = []
+        for ranks in (1, 2, 3):
+            run = Recorded(self, ["-options_file", "petsc-options/plant/three.yaml", "-block_mesh_set", "m=1",
+                                  "-frame_mesh_set", "m=1,x0=24.801", "-west_mesh_set", "m=1,x0=-18.705", "-modes", 2,
+                                  "-end_time", 0.3, "-output_interval", 1e-3, "-block_initial_velocity", "0.3,0,0",
+                                  "-floor1_gap", 2e-3, "-floor2_gap", 2e-3, "-west1_gap", 2e-3, "-west2_gap", 2e-3],
+                           ranks, identity=1e-11)
+            impacts = run.summary["impacts"]
+            found.append((run.displacement("block_roof.x"), {name: impacts[name]["total_impulse"] for name in
+                                                              ("floor1", "floor2", "west1", "west2")}))
+        self.assertTrue(found[0][1]["floor1"] > 0 and found[0][1]["west1"] > 0, found[0][1])
+        for displacement, impulses in found[1:]:
+            scale = abs(found[0][0]).max()
+            self.assertLess(abs(displacement - found[0][0]).max(), 1e-9 * scale)
+            for name, impulse in impulses.items():
+                self.assertTrue(numpy.isclose(impulse, found[0][1][name], rtol=1e-8), name)
+
+
+if __name__ == "__main__":
+    unittest.main()
