@@ -313,6 +313,12 @@ void ContactProblem::pick_impulses(std::size_t structure, const std::vector<doub
   }
 }
 
+void ContactProblem::add_dof_impulses(std::span<double> sum) const {
+  for (std::size_t dof = 0; dof < sum.size(); ++dof) {
+    sum[dof] += dof_impulse_[dof] + dof_increment_[dof];
+  }
+}
+
 double ContactProblem::support_work(std::size_t structure, std::span<const double> velocity) {
   double work = 0;
   for (const std::vector<double>* impulse : {&dof_impulse_, &dof_increment_}) {

@@ -78,6 +78,11 @@ class ContactProblem {
   /// Contact work 1/2 lambda^T L v- of the last solve, that of friction apart [J].
   double total_work() const;
   const FrictionalContact& friction() const { return friction_; }
+  /// Places that contacts move, the same on every rank.
+  const std::vector<InterfaceDof>& dof_list() const { return operator_.dof_list(); }
+  /// Adds the impulses L^T lambda of the last solve, friction's included, to `sum` [N s], per place
+  /// of dof_list(). Members only.
+  void add_dof_impulses(std::span<double> sum) const;
   double largest_residual() const { return largest_residual_; }
   double gap_tolerance() const { return gap_tolerance_; }
   /// A structure's part of (row of L T)^T over the dofs that this rank owns.

@@ -9,18 +9,6 @@
 namespace pounding {
 namespace {
 
-/// The outward normal of the secondary side, whose terms are the last ones.
-Vector3 normal_of(const Constraint& constraint) {
-  Vector3 normal{0, 0, 0};
-  const ConstraintTerm& last = constraint.terms.back();
-  for (const ConstraintTerm& term : constraint.terms) {
-    if (term.structure == last.structure && term.node == last.node) {
-      normal[term.component] = -term.coefficient;
-    }
-  }
-  return normalised(normal);  // where edges cross, the secondary node has a part only
-}
-
 /// Two unit vectors across a unit vector and each other; axes for an axis.
 std::array<Vector3, 2> tangents_of(const Vector3& normal) {
   const std::size_t smallest =
@@ -45,6 +33,17 @@ std::vector<ConstraintTerm> weights_of(const Constraint& constraint, const Vecto
 }
 
 }  // namespace
+
+Vector3 normal_of(const Constraint& constraint) {
+  Vector3 normal{0, 0, 0};
+  const ConstraintTerm& last = constraint.terms.back();
+  for (const ConstraintTerm& term : constraint.terms) {
+    if (term.structure == last.structure && term.node == last.node) {
+      normal[term.component] = -term.coefficient;
+    }
+  }
+  return normalised(normal);  // where edges cross, the secondary node has a part only
+}
 
 std::vector<Constraint> tangential_rows(std::span<const Constraint> constraints) {
   std::vector<Constraint> rows;

@@ -7,6 +7,10 @@
 
 namespace pounding {
 
+/// The outward normal of the secondary side of a constraint, whose terms are the last ones: a unit
+/// vector.
+Vector3 normal_of(const Constraint& constraint);
+
 /// Two rows per constraint: what L is for gap rates, for the displacements along two tangents, in
 /// the order of the constraints, with the same weights.
 std::vector<Constraint> tangential_rows(std::span<const Constraint> constraints);

@@ -11,6 +11,7 @@
 #include "contact/find_interface.h"
 #include "driver/filler_limit.h"
 #include "driver/mesh_checks.h"
+#include "driver/model_file.h"
 #include "driver/probe_warnings.h"
 #include "driver/rest.h"
 #include "driver/run_warnings.h"
@@ -124,6 +125,8 @@ void build_meshes(MPI_Comm comm, Scene& scene, Profile& profile, Model& model) {
     }
   }
   timer.reset();
+  progress.reset();
+  if (scene.dry_run && scene.write_model) write_model(comm, scene, model);
   progress.emplace(comm, "modal bases", scene.progress_interval);
   auto bases = find_bases(comm, scene, meshes, model.interface, model.probes,
                           model.support_columns(), profile);

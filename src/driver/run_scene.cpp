@@ -12,10 +12,12 @@
 #include "common/memory.h"
 #include "common/parallel.h"
 #include "driver/build_model.h"
+#include "driver/field_plan.h"
 #include "driver/floor_spectra.h"
 #include "driver/folder_checks.h"
 #include "driver/matrix_export.h"
 #include "driver/mode_shapes.h"
+#include "driver/model_file.h"
 #include "driver/report.h"
 #include "driver/run_identity.h"
 #include "driver/stop_signal.h"
@@ -87,7 +89,7 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
   const double start = MPI_Wtime();
   const bool root = rank_of(comm) == 0;
   Profile profile;
-  const bool writes = !scene.dry_run || scene.write_modes;
+  const bool writes = !scene.dry_run || scene.write_modes || scene.write_model;
   std::optional<ResultFolder> folder;  // of rank 0
   on_rank0(comm, [&] {
     if (writes) try_folder("output", scene.output);
@@ -99,17 +101,22 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
   });
   if (root) print_title(scene, size_of(comm));
   if (!scene.restart.empty()) check_checkpoint(comm, scene.restart, lasting_options(resolved));
+  if (scene.dry_run && scene.write_model) on_rank0(comm, [&] { create_output(scene); });
   const Model model = build_model(comm, scene, profile);
   return_freed_memory();
   if (root) print_model(scene, model);
   if (!scene.export_matrices.empty()) export_matrices(comm, scene, model);
   const RunIdentity identity = identity_of(resolved, model);
   const std::optional<SavedState> restart = read_restart(comm, scene, model, identity);
-  if (!scene.dry_run) on_rank0(comm, [&] { begin_results(scene, resolved, *folder); });
+  if (!scene.dry_run) {
+    on_rank0(comm, [&] { begin_results(scene, resolved, *folder); });
+    if (scene.write_model) write_model(comm, scene, model);
+  }
   if (scene.write_modes) {
     on_rank0(comm, [&] { create_output(scene); });
-    write_mode_shapes(comm, scene.output + "/modes.h5", model);
+    write_mode_shapes(comm, scene, model);
   }
+  print_fields(comm, scene, model);
   TimeLoop loop(comm, scene, model, profile);
   const double seconds = loop.measure(scene.dry_run ? 200 : 50);
   if (root) print_time_step(scene, model, seconds);

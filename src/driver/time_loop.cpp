@@ -9,6 +9,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "driver/checkpoint_schedule.h"
+#include "driver/field_plan.h"
 #include "driver/stop_signal.h"
 #include "driver/terminal.h"
 #include "driver/watchdog.h"
@@ -109,7 +110,7 @@ void TimeLoop::create_recorder(bool continued) {
     constexpr double most = std::numeric_limits<int>::max();
     return std::clamp(count, 1.0, std::min(static_cast<double>(model_.steps) + 1, most));
   };
-  layout.stride = static_cast<int>(whole(scene_.output_interval / model_.time_step));
+  layout.stride = record_stride(scene_, model_);
   layout.time_step = model_.time_step;
   layout.peaks_start = scene_.spectra.start;
   for (const LinearSystem& system : model_.systems) {
@@ -125,6 +126,7 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
   watched_ = is_watched();
   if (!scene_.loops.empty()) loops_ = std::make_unique<Loops>(comm_, scene_, model_, solver_);
   create_recorder(restart != nullptr);
+  fields_ = make_field_writer(comm_, scene_, model_, solver_.contact(), restart != nullptr);
   if (restart != nullptr) load(*restart);
   CheckpointSchedule schedule(comm_, scene_.checkpoint_interval, scene_.checkpoint_steps,
                               first_step_);
@@ -135,22 +137,24 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
     const bool ledger = n > 0 && (n % scene_.energy_interval == 0 || n == model_.steps);
     const bool records = recorder_->due(n);
     if (records) recorder_->take_displacements(solver_.stepper().state());
+    if (fields_ && fields_->due(n)) fields_->take_displacements(solver_.stepper().state());
     watch_slides(n);
     solver_.stepper().step(records && n % gap_stride_ == 0, ledger);
     observe(n);
+    if (fields_) observe_fields(n);
     if (ledger) close_ledger_line();
     if (n > 0 && n % progress_interval == 0) show_progress(start);
     const CheckpointSchedule::Decision decision = schedule.after_step(n);
     if (decision.write) {
       write_checkpoint(identity);
     } else if (decision.flush) {
-      const ScopedTimer flush_timer(profile_, Phase::output);
-      recorder_->flush();
+      flush();
     }
     signal = decision.signal;
   }
   const ScopedTimer timer(profile_, Phase::output);
   recorder_->finish(step() >= model_.steps);
+  if (fields_) fields_->finish();
   catalogue_.finish(comm_, solver_.contact() != nullptr ? solver_.contact()->root() : 0);
   return step() < model_.steps ? signal : 0;
 }
@@ -187,6 +191,20 @@ void TimeLoop::observe(std::int64_t step) {
   }
   recorder_->record(solver_.stepper().state(), smallest_gaps_,
                     loops_ ? loops_->values() : std::span<const double>());
+}
+
+void TimeLoop::observe_fields(std::int64_t step) {
+  const ScopedTimer timer(profile_, Phase::output);
+  if (solver_.stepper().touching() && fields_->counts(step)) {
+    solver_.contact()->add_dof_impulses(fields_->impulses());
+  }
+  if (fields_->due(step)) fields_->record(solver_.stepper().state());
+}
+
+void TimeLoop::flush() {
+  const ScopedTimer timer(profile_, Phase::output);
+  recorder_->flush();
+  if (fields_) fields_->flush();
 }
 
 void TimeLoop::watch_slides(std::int64_t step) {
@@ -229,8 +247,12 @@ void TimeLoop::write_checkpoint(const RunIdentity& identity) {
                           "; the checkpoint before is kept");
   }
   recorder_->save(saved);
-  if (rank_of(comm_) == (solver_.contact() != nullptr ? solver_.contact()->root() : 0)) {
-    catalogue_.save(saved);
+  const bool root =
+      rank_of(comm_) == (solver_.contact() != nullptr ? solver_.contact()->root() : 0);
+  if (root) catalogue_.save(saved);
+  if (fields_) {
+    fields_->save(saved, root);
+    fields_->flush();
   }
   if (slides_ && slides_->root() == rank_of(comm_)) slides_->save(saved);
   if (rank_of(comm_) == 0) ledger_.save(saved);
@@ -245,7 +267,9 @@ void TimeLoop::load(const SavedState& saved) {
   if (slides_) slides_->load(saved);
   ledger_.load(saved);
   if (uplift_) uplift_->load(saved);
-  recorder_->load(saved);  // last: it replaces the history, which nothing refused may touch
+  if (fields_) fields_->check(saved);
+  recorder_->load(saved);  // late: it replaces the history, which nothing refused may touch
+  if (fields_) fields_->load(saved);
   first_step_ = step() + 1;
 }
 

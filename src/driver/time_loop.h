@@ -11,6 +11,7 @@
 #include "driver/uplift_watch.h"
 #include "output/checkpoint.h"
 #include "output/energy_ledger.h"
+#include "output/field_writer.h"
 #include "output/impact_catalogue.h"
 #include "output/recorder.h"
 
@@ -43,6 +44,10 @@ class TimeLoop {
   void load(const SavedState& saved);
   void write_checkpoint(const RunIdentity& identity);
   void observe(std::int64_t step);
+  /// Impulses of the step for the fields, and the frame where one is due.
+  void observe_fields(std::int64_t step);
+  /// Brings what is recorded to the files.
+  void flush();
   /// Looks at how far the faces have slid, before the step to t_n.
   void watch_slides(std::int64_t step);
   void close_ledger_line();
@@ -57,6 +62,7 @@ class TimeLoop {
   ImpactCatalogue catalogue_;
   std::unique_ptr<Loops> loops_;  ///< null if no link is recorded
   std::unique_ptr<Recorder> recorder_;
+  std::unique_ptr<FieldWriter> fields_;  ///< null if none are asked for
   std::vector<double> smallest_gaps_;    ///< per contact
   std::int64_t gap_stride_ = 1;          ///< steps between two samples of the gaps
   std::int64_t slide_stride_ = 1;        ///< steps between two looks at the slides

@@ -128,30 +128,57 @@ void Hdf5File::append(const std::string& name, std::span<const double> values) {
   dataset.rows = total[0];
 }
 
-void Hdf5File::write_array(const std::string& name, std::size_t columns,
-                           std::span<const double> values) {
-  const int rank = columns == 0 ? 1 : 2;
-  const hsize_t width = std::max<hsize_t>(1, columns);
-  const hsize_t size[2] = {values.size() / width, width};
-  const hid_t space = checked(H5Screate_simple(rank, size, nullptr), "describe " + name);
+hid_t Hdf5File::create(const std::string& name, hid_t type, hid_t space, hid_t properties) const {
   const hid_t links = checked(H5Pcreate(H5P_LINK_CREATE), "describe " + name);
   H5Pset_create_intermediate_group(links, 1);
+  const hid_t dataset =
+      H5Dcreate2(file_, name.c_str(), type, space, links, properties, H5P_DEFAULT);
+  H5Pclose(links);
+  H5Pclose(properties);
+  H5Sclose(space);
+  return checked(dataset, "create dataset " + name);
+}
+
+void Hdf5File::write_array(const std::string& name, std::size_t columns,
+                           std::span<const double> values) {
+  write_values(name, columns, H5T_NATIVE_DOUBLE, values.size(), values.data());
+}
+
+void Hdf5File::write_integers(const std::string& name, std::size_t columns,
+                              std::span<const std::int32_t> values) {
+  write_values(name, columns, H5T_NATIVE_INT32, values.size(), values.data());
+}
+
+void Hdf5File::write_values(const std::string& name, std::size_t columns, hid_t type,
+                            std::size_t count, const void* values) {
+  const int rank = columns == 0 ? 1 : 2;
+  const hsize_t width = std::max<hsize_t>(1, columns);
+  const hsize_t size[2] = {count / width, width};
+  const hid_t space = checked(H5Screate_simple(rank, size, nullptr), "describe " + name);
   const hid_t properties = checked(H5Pcreate(H5P_DATASET_CREATE), "describe " + name);
   if (size[0] > 0) {
     const hsize_t chunk[2] = {std::min<hsize_t>(size[0], 65536), width};
     H5Pset_chunk(properties, rank, chunk);
     H5Pset_fletcher32(properties);
   }
-  const hid_t dataset =
-      H5Dcreate2(file_, name.c_str(), H5T_NATIVE_DOUBLE, space, links, properties, H5P_DEFAULT);
-  H5Pclose(properties);
-  H5Pclose(links);
-  H5Sclose(space);
-  checked(dataset, "create dataset " + name);
-  const herr_t status =
-      H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  const hid_t dataset = create(name, type, space, properties);
+  const herr_t status = H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
   H5Dclose(dataset);
   checked(status, "write " + name + " (is the disk full?)");
+}
+
+std::int64_t Hdf5File::reserve(const std::string& name, const std::vector<std::size_t>& shape) {
+  const std::vector<hsize_t> size(shape.begin(), shape.end());
+  const int rank = static_cast<int>(size.size());
+  const hid_t space = checked(H5Screate_simple(rank, size.data(), nullptr), "describe " + name);
+  const hid_t properties = checked(H5Pcreate(H5P_DATASET_CREATE), "describe " + name);
+  H5Pset_alloc_time(properties, H5D_ALLOC_TIME_EARLY);
+  H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER);
+  const hid_t dataset = create(name, H5T_NATIVE_DOUBLE, space, properties);
+  const haddr_t place = H5Dget_offset(dataset);
+  H5Dclose(dataset);
+  if (place == HADDR_UNDEF) checked(-1, "take the place of " + name);
+  return static_cast<std::int64_t>(place);
 }
 
 void Hdf5File::write_strings(const std::string& name, const std::vector<std::string>& values) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,6 +28,12 @@ class Hdf5File {
   /// A dataset of final size with a checksum, shape (rows, columns) or a plain vector if `columns`
   /// is 0; groups in its name come into being.
   void write_array(const std::string& name, std::size_t columns, std::span<const double> values);
+  /// An array of whole numbers of 4 bytes each, otherwise as write_array().
+  void write_integers(const std::string& name, std::size_t columns,
+                      std::span<const std::int32_t> values);
+  /// An array of doubles in one piece whose place in the file is taken at once and filled by others
+  /// once this one is closed; returns where it begins [bytes].
+  std::int64_t reserve(const std::string& name, const std::vector<std::size_t>& shape);
   void write_strings(const std::string& name, const std::vector<std::string>& values);
   /// A dataset of a single number, 0 at first, whose place in the file is taken at once: writing it
   /// anew needs no space.
@@ -58,6 +65,10 @@ class Hdf5File {
     hsize_t rows = 0;
   };
   Dataset& find(const std::string& name);
+  void write_values(const std::string& name, std::size_t columns, hid_t type, std::size_t count,
+                    const void* values);
+  /// A dataset with the groups in its name; closes `space` and `properties`.
+  hid_t create(const std::string& name, hid_t type, hid_t space, hid_t properties) const;
   hid_t checked(hid_t id, const std::string& what) const;
   herr_t close_handles();
   void sync() const;

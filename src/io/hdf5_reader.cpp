@@ -88,6 +88,24 @@ Hdf5Reader::Shape Hdf5Reader::shape(const std::string& dataset) const {
   return {size[0], size[1]};
 }
 
+std::vector<std::size_t> Hdf5Reader::extent(const std::string& dataset) const {
+  const Handle data(open_dataset(dataset));
+  const Handle space(H5Dget_space(data.get()));
+  std::vector<hsize_t> size(std::max(0, H5Sget_simple_extent_ndims(space.get())));
+  H5Sget_simple_extent_dims(space.get(), size.data(), nullptr);
+  return {size.begin(), size.end()};
+}
+
+std::int64_t Hdf5Reader::place(const std::string& dataset) const {
+  const Handle data(open_dataset(dataset));
+  const Handle type(H5Dget_type(data.get()));
+  const haddr_t place = H5Dget_offset(data.get());
+  if (H5Tequal(type.get(), H5T_NATIVE_DOUBLE) <= 0 || place == HADDR_UNDEF) {
+    fail("dataset '" + dataset + "' is not one piece of doubles");
+  }
+  return static_cast<std::int64_t>(place);
+}
+
 std::vector<double> Hdf5Reader::rows(const std::string& dataset, std::size_t first,
                                      std::size_t count) const {
   const Shape whole = shape(dataset);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,10 @@ class Hdf5Reader {
   /// Names in a group, sorted; empty if there is no such group.
   std::vector<std::string> names(const std::string& group) const;
   Shape shape(const std::string& dataset) const;
+  /// Sizes along all dimensions of a dataset.
+  std::vector<std::size_t> extent(const std::string& dataset) const;
+  /// Where a dataset of doubles that lies in one piece begins in the file [bytes].
+  std::int64_t place(const std::string& dataset) const;
   /// `count` rows from row `first`, shape (count, columns).
   std::vector<double> rows(const std::string& dataset, std::size_t first, std::size_t count) const;
   /// The whole of a dataset.

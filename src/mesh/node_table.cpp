@@ -11,28 +11,6 @@ std::vector<GlobalIndex> owned_file_nodes(const Mesh& mesh) {
   return {mesh.file_node.begin(), mesh.file_node.begin() + mesh.owned_nodes};
 }
 
-/// Brings the rows of each rank's owned nodes, shape (owned_nodes, columns), to rank 0.
-std::vector<double> gather_rows(const Mesh& mesh, std::vector<double> rows, std::size_t columns) {
-  std::vector<GlobalIndex> nodes = owned_file_nodes(mesh);
-  if (rank_of(mesh.comm) != 0) {
-    send_array(mesh.comm, 0, nodes);
-    send_array(mesh.comm, 0, rows);
-    return {};
-  }
-  std::vector<double> table(static_cast<std::size_t>(mesh.global_nodes) * columns, 0.0);
-  for (int rank = 0; rank < size_of(mesh.comm); ++rank) {
-    if (rank > 0) {
-      receive_array(mesh.comm, rank, nodes);
-      receive_array(mesh.comm, rank, rows);
-    }
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      std::copy_n(&rows[i * columns], columns,
-                  &table[static_cast<std::size_t>(nodes[i]) * columns]);
-    }
-  }
-  return table;
-}
-
 /// The rows of this rank's owned nodes out of rank 0's table.
 std::vector<double> scatter_rows(const Mesh& mesh, const std::vector<double>& table,
                                  std::size_t columns) {
@@ -75,6 +53,28 @@ void for_each_owned_dof(const Mesh& mesh, std::size_t columns, Function&& functi
 
 }  // namespace
 
+std::vector<double> gather_node_rows(const Mesh& mesh, std::vector<double> rows,
+                                     std::size_t columns) {
+  std::vector<GlobalIndex> nodes = owned_file_nodes(mesh);
+  if (rank_of(mesh.comm) != 0) {
+    send_array(mesh.comm, 0, nodes);
+    send_array(mesh.comm, 0, rows);
+    return {};
+  }
+  std::vector<double> table(static_cast<std::size_t>(mesh.global_nodes) * columns, 0.0);
+  for (int rank = 0; rank < size_of(mesh.comm); ++rank) {
+    if (rank > 0) {
+      receive_array(mesh.comm, rank, nodes);
+      receive_array(mesh.comm, rank, rows);
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      std::copy_n(&rows[i * columns], columns,
+                  &table[static_cast<std::size_t>(nodes[i]) * columns]);
+    }
+  }
+  return table;
+}
+
 std::size_t component_columns(const Mesh& mesh) {
   int rotates = std::any_of(mesh.free_components.begin(), mesh.free_components.end(),
                             [](std::uint8_t mask) { return mask > 0x07; });
@@ -87,7 +87,7 @@ std::vector<double> gather_by_node(const Mesh& mesh, std::span<const double> val
   std::vector<double> rows(static_cast<std::size_t>(mesh.owned_nodes) * columns, 0.0);
   for_each_owned_dof(mesh, columns,
                      [&](std::size_t dof, std::size_t place) { rows[place] = values[dof]; });
-  return gather_rows(mesh, std::move(rows), columns);
+  return gather_node_rows(mesh, std::move(rows), columns);
 }
 
 std::vector<double> scatter_by_node(const Mesh& mesh, const std::vector<double>& table,
@@ -102,7 +102,7 @@ std::vector<double> scatter_by_node(const Mesh& mesh, const std::vector<double>&
 std::vector<double> gather_coordinates(const Mesh& mesh) {
   std::vector<double> rows(mesh.coordinates.begin(),
                            mesh.coordinates.begin() + 3 * mesh.owned_nodes);
-  return gather_rows(mesh, std::move(rows), 3);
+  return gather_node_rows(mesh, std::move(rows), 3);
 }
 
 }  // namespace pounding

@@ -21,6 +21,11 @@ std::vector<double> gather_by_node(const Mesh& mesh, std::span<const double> val
 std::vector<double> scatter_by_node(const Mesh& mesh, const std::vector<double>& table,
                                     std::size_t columns);
 
+/// The table of rows per owned node, shape (owned_nodes, columns); empty on the other ranks.
+/// Collective.
+std::vector<double> gather_node_rows(const Mesh& mesh, std::vector<double> rows,
+                                     std::size_t columns);
+
 /// Positions of all nodes [m], shape (global_nodes, 3); empty on the other ranks. Collective.
 std::vector<double> gather_coordinates(const Mesh& mesh);
 

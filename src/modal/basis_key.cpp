@@ -103,6 +103,8 @@ BasisKey basis_key(const Structure& structure, const GlobalMesh& mesh,
   if (request.candidates > request.modes) vectors.add(static_cast<double>(request.candidates));
   if (request.gravity != Vector3{0, 0, 0}) vectors.add_all(request.gravity);
   if (structure.p_delta) vectors.add("p_delta");
+  std::vector<TracePoint> places = request.other_points;
+  places.insert(places.end(), request.shown_points.begin(), request.shown_points.end());
   return {{"mesh", hash_of(mesh)},
           {"elements", hash_of(structure.regions)},
           {"matrices", hash_of_matrices(structure.matrices)},
@@ -110,7 +112,7 @@ BasisKey basis_key(const Structure& structure, const GlobalMesh& mesh,
           {"rigid groups", hash_of(mesh.rigid)},
           {"number of vectors", vectors.text()},
           {"contact points", hash_of(request.contact_points)},
-          {"probe points", hash_of(request.other_points)}};
+          {"probe points", hash_of(places)}};
 }
 
 }  // namespace pounding

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <sstream>
 
 #include "common/error.h"
@@ -347,10 +348,12 @@ class BasisMaker {
 
   void add_rows(const DenseMatrix& rotation, ModalBasis& basis) const {
     DenseMatrix of_space(space_.columns, 0);
-    for (const auto* points : {&request_.contact_points, &request_.other_points}) {
+    std::set<TracePoint> known;
+    for (const auto* points :
+         {&request_.contact_points, &request_.other_points, &request_.shown_points}) {
       for (const TracePoint& point : *points) {
         const LocalIndex dof = mesh_.dof(mesh_.owned_node(point.node), point.component);
-        if (dof < 0 || std::ranges::find(basis.points, point) != basis.points.end()) continue;
+        if (dof < 0 || !known.insert(point).second) continue;
         const std::size_t i = dof;
         basis.points.push_back(point);
         std::vector<double> row(space_.columns);

@@ -25,7 +25,8 @@ namespace pounding {
 namespace {
 
 /// Where a run asks for the motion of a structure: contacts, along and across their normals, probes
-/// and links. Links are known on rank 0 alone, which has the mesh. Collective.
+/// and links, and every node for its fields. Links are known on rank 0 alone, which has the mesh.
+/// Collective.
 ModalRequest request_of(MPI_Comm comm, const Scene& scene, int s, const GlobalMesh& mesh,
                         const Interface& interface, std::span<const ResolvedProbe> probes) {
   const ModalModel& modal = *scene.structures[s].modal;
@@ -66,6 +67,13 @@ ModalRequest request_of(MPI_Comm comm, const Scene& scene, int s, const GlobalMe
   broadcast_array(comm, links, 0);
   for (const TracePoint& point : links) {
     if (known.insert(point).second) request.other_points.push_back(point);
+  }
+  if (scene.fields_interval > 0) {
+    GlobalIndex nodes = mesh.node_count();
+    MPI_Bcast(&nodes, 1, MPI_INT64_T, 0, comm);
+    for (GlobalIndex node = 0; node < nodes; ++node) {
+      for (int d = 0; d < 3; ++d) request.shown_points.push_back({node, d});
+    }
   }
   return request;
 }

@@ -50,7 +50,8 @@ constexpr std::array table{
     OptionRow{Block::run, "allow_unstable", Kind::boolean, "flag", value("false"), any, "", "accept a time step above the stable one (for studies)"},
     OptionRow{Block::run, "omega_max_tolerance", Kind::real, "-", value("1e-3"), eigen_tolerance, "", "part by which omega_max may be too large, and the stable step too small, where 1e-10 would take long"},
     OptionRow{Block::run, "modes", Kind::integer, "-", value("12"), not_negative, "", "lowest modes computed per structure"},
-    OptionRow{Block::run, "write_modes", Kind::boolean, "flag", value("false"), any, "", "write their shapes to modes.h5"},
+    OptionRow{Block::run, "write_modes", Kind::boolean, "flag", value("false"), any, "", "write their shapes to modes.h5, and modes.xdmf for ParaView"},
+    OptionRow{Block::run, "write_model", Kind::boolean, "flag", value("false"), any, "", "write the meshes with groups, supports, contacts and probes to model.xdmf and model.h5 for ParaView"},
     OptionRow{Block::run, "gravity", Kind::real, "m/s2", value("0"), not_negative, "", "acceleration of gravity, along -z, of every structure without one of its own"},
     OptionRow{Block::run, "preload", Kind::choice, "word", value("none"), any, "none|static", "static: the run starts from the equilibrium under gravity, contacts closed where they carry"},
     OptionRow{Block::run, "preload_solver", Kind::choice, "word", value("auto"), any, "auto|direct|iterative", "how the equilibrium is solved: by a factorisation, by conjugate gradients, or by what the memory allows"},
@@ -65,6 +66,9 @@ constexpr std::array table{
     OptionRow{Block::run, "dry_run", Kind::boolean, "flag", value("false"), any, "", "check the model, print what a run would cost, and stop"},
     OptionRow{Block::run, "progress_interval", Kind::real, "s", value("2"), positive, "", "phases of the start-up that take longer say how far they are, twice as late each time"},
     OptionRow{Block::run, "output", Kind::text, "folder", value("results"), any, "a folder", "result folder"},
+    OptionRow{Block::run, "fields_interval", Kind::real, "s", value("0"), not_negative, "", "time between two frames of the motion of all nodes in fields.xdmf and fields.h5, for ParaView; 0: none"},
+    OptionRow{Block::run, "fields_start", Kind::real, "s", value("0"), not_negative, "", "time of the first frame"},
+    OptionRow{Block::run, "fields_end", Kind::real, "s", value("0"), not_negative, "", "no frame is later; 0: until the end of the run"},
     OptionRow{Block::run, "checkpoint_interval", Kind::real, "s", value("0"), not_negative, "", "wall time between two checkpoints; 0: one only when a signal stops the run"},
     OptionRow{Block::run, "checkpoint_steps", Kind::integer, "steps", value("0"), not_negative, "", "steps between two checkpoints; 0: none"},
     OptionRow{Block::run, "export_matrices", Kind::text, "folder", value("none"), any, "a folder or none", "writes the matrices of every structure there, with contact, influence and probe rows"},
@@ -213,7 +217,7 @@ constexpr std::array table{
 
 // Options that touch neither motion nor records; the time step itself is compared, not its options.
 constexpr std::array changeable_on_restart = std::to_array<std::string_view>({
-    "title", "end_time", "courant", "time_step", "allow_unstable", "omega_max_tolerance", "progress_interval", "modes", "write_modes", "mesh_time_limit", "dry_run", "output",
+    "title", "end_time", "courant", "time_step", "allow_unstable", "omega_max_tolerance", "progress_interval", "modes", "write_modes", "write_model", "mesh_time_limit", "dry_run", "output",
     "checkpoint_interval", "checkpoint_steps", "export_matrices", "partition", "restart", "spectra_damping",
     "spectra_frequencies", "spectra_start", "peak_frequency"});
 // clang-format on

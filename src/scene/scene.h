@@ -316,6 +316,10 @@ struct Scene {
   double progress_interval = 0;    ///< of the lines that a long phase of the start-up prints [s]
   int modes = 0;                   ///< lowest modes to compute per structure
   bool write_modes = false;        ///< their shapes as well
+  bool write_model = false;        ///< the meshes with what the options made of them
+  double fields_interval = 0;      ///< between two pictures of the whole motion [s]; 0: none
+  double fields_start = 0;         ///< of the first [s]
+  double fields_end = 0;           ///< of the last at most [s]; 0: the end of the run
   bool preload = false;            ///< start from the static equilibrium
   StaticSolver preload_solver = StaticSolver::automatic;
   double gap_tolerance = 0;      ///< contact where gap <= gap_tolerance x model size [-]

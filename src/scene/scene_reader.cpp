@@ -83,6 +83,7 @@ class SceneReader {
     scene_.allow_geo_commands = options_.boolean("allow_geo_commands");
     scene_.modes = options_.integer("modes");
     scene_.write_modes = options_.boolean("write_modes");
+    scene_.write_model = options_.boolean("write_model");
     gravity_ = options_.real("gravity");
     scene_.preload = options_.choice("preload") == "static";
     const std::string solver = options_.choice("preload_solver");
@@ -97,6 +98,9 @@ class SceneReader {
     scene_.energy_interval = options_.integer("energy_interval");
     scene_.dry_run = options_.boolean("dry_run");
     scene_.output = options_.text("output");
+    scene_.fields_interval = options_.real("fields_interval");
+    scene_.fields_start = options_.real("fields_start");
+    scene_.fields_end = options_.real("fields_end");
     scene_.checkpoint_interval = options_.real("checkpoint_interval");
     scene_.checkpoint_steps = options_.integer("checkpoint_steps");
     const std::string folder = options_.text("export_matrices");

@@ -108,13 +108,14 @@ TEST_F(Folder, LosesWhatAnEarlierRunLeftAndNothingElse) {
 
 TEST_F(Folder, KeepsWhatItsRunGoesOnFrom) {
   const ResultFolder folder(path());
-  for (const char* name : {"summary.json", "history.h5", "checkpoint.h5", "modes.h5"}) {
+  for (const char* name :
+       {"summary.json", "history.h5", "checkpoint.h5", "modes.h5", "fields.h5"}) {
     touch(name);
   }
   EXPECT_THAT(folder.clear(path() + "/checkpoint.h5"), ElementsAre("summary.json"));
   EXPECT_THAT(folder.clear(path() + "/../run/./checkpoint.h5"), IsEmpty());
-  EXPECT_THAT(names(),
-              UnorderedElementsAre("running.lock", "history.h5", "checkpoint.h5", "modes.h5"));
+  EXPECT_THAT(names(), UnorderedElementsAre("running.lock", "history.h5", "checkpoint.h5",
+                                            "modes.h5", "fields.h5"));
 }
 
 }  // namespace

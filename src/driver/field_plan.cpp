@@ -1,0 +1,91 @@
+#include "driver/field_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <sstream>
+
+#include "common/error.h"
+#include "common/parallel.h"
+#include "driver/mesh_labels.h"
+
+namespace pounding {
+namespace {
+
+/// Never more than the run has, nor than an int holds.
+double whole(const Model& model, double count) {
+  constexpr double most = std::numeric_limits<int>::max();
+  return std::clamp(count, 1.0, std::min(static_cast<double>(model.steps) + 1, most));
+}
+
+/// Whole parts of a number that may miss the next whole one by round-off only.
+std::int64_t parts(double count) {
+  return static_cast<std::int64_t>(std::floor(count * (1 + 1e-9)));
+}
+
+}  // namespace
+
+int record_stride(const Scene& scene, const Model& model) {
+  return static_cast<int>(whole(model, scene.output_interval / model.time_step));
+}
+
+std::optional<FieldSteps> planned_fields(const Scene& scene, const Model& model) {
+  if (scene.fields_interval == 0) return std::nullopt;
+  const std::int64_t sample = record_stride(scene, model);
+  const double interval = static_cast<double>(sample) * model.time_step;
+  FieldSteps steps;
+  steps.stride = sample * parts(whole(model, scene.fields_interval / interval));
+  steps.first =
+      sample * static_cast<std::int64_t>(std::ceil(scene.fields_start / interval * (1 - 1e-9)));
+  const std::int64_t last = scene.fields_end > 0
+                                ? std::min(model.steps, parts(scene.fields_end / model.time_step))
+                                : model.steps;
+  if (steps.first > last) {
+    std::ostringstream text;
+    text << "option -fields_start " << scene.fields_start << " s: "
+         << (scene.fields_end > 0 ? "-fields_end or the end of the run" : "the end of the run")
+         << " comes before the first frame";
+    throw UserError(text.str());
+  }
+  steps.count = 1 + (last - steps.first) / steps.stride;
+  return steps;
+}
+
+void print_fields(MPI_Comm comm, const Scene& scene, const Model& model) {
+  const auto steps = planned_fields(scene, model);
+  if (!steps) return;
+  const double bytes =
+      FieldWriter::size(*steps, model.systems, model.meshes, !scene.contacts.empty());
+  if (rank_of(comm) != 0) return;
+  std::printf("fields for ParaView: %lld frames every %.4g s from t = %.4g s, up to %.3g MB\n",
+              static_cast<long long>(steps->count),
+              static_cast<double>(steps->stride) * model.time_step,
+              static_cast<double>(steps->first) * model.time_step, bytes / 1e6);
+}
+
+std::unique_ptr<FieldWriter> make_field_writer(MPI_Comm comm, const Scene& scene,
+                                               const Model& model, const ContactProblem* contact,
+                                               bool continued) {
+  const auto steps = planned_fields(scene, model);
+  if (!steps) return nullptr;
+  FieldWriter::Layout layout;
+  layout.comm = comm;
+  layout.folder = scene.output;
+  if (continued) {
+    layout.continued = std::filesystem::path(scene.restart).replace_filename("fields.h5");
+  }
+  layout.title = scene.title;
+  layout.time_step = model.time_step;
+  layout.steps = *steps;
+  layout.labels = mesh_labels(scene, model.interface);
+  if (contact != nullptr) {
+    for (const InterfaceDof& dof : contact->dof_list()) {
+      layout.places.push_back({dof.structure, dof.node, dof.component});
+    }
+  }
+  return std::make_unique<FieldWriter>(std::move(layout), model.systems, model.meshes);
+}
+
+}  // namespace pounding

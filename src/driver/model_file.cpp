@@ -1,0 +1,231 @@
+#include "driver/model_file.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "common/error.h"
+#include "common/matrix3.h"
+#include "common/parallel.h"
+#include "contact/tangential_rows.h"
+#include "driver/mesh_labels.h"
+#include "mesh/node_table.h"
+#include "output/result_folder.h"
+
+namespace pounding {
+namespace {
+
+/// Number of a name in a list from 1 on, where it is put if it is not there.
+std::int32_t number_of(const std::string& name, std::vector<std::string>& names) {
+  const auto found = std::ranges::find(names, name);
+  if (found != names.end()) return static_cast<std::int32_t>(found - names.begin()) + 1;
+  names.push_back(name);
+  return static_cast<std::int32_t>(names.size());
+}
+
+/// Adds what the regions say of the cells of a structure.
+class CellValues {
+ public:
+  CellValues(Hdf5File& file, const Structure& structure, const CellTable& cells, XdmfGrid& grid)
+      : file_(file), structure_(structure), cells_(cells), grid_(grid) {}
+
+  void add_number(const std::string& name,
+                  const std::function<std::int32_t(const Region&)>& number) {
+    std::vector<std::int32_t> values;
+    for (const std::int32_t r : cells_.region) values.push_back(number(structure_.regions[r]));
+    const std::string path = structure_.name + "/" + name;
+    file_.write_integers(path, 0, values);
+    grid_.cell_values.push_back({name, path, true, {values.size()}});
+  }
+
+  void add(const std::string& name, const std::function<double(const Region&)>& value) {
+    add_vectors(name, 0, [&](const Region& region) { return Vector3{value(region), 0, 0}; });
+  }
+
+  /// `columns`: 3, or 0 for numbers.
+  void add_vectors(const std::string& name, std::size_t columns,
+                   const std::function<Vector3(const Region&)>& value) {
+    std::vector<double> values;
+    for (const std::int32_t r : cells_.region) {
+      const Vector3 vector = value(structure_.regions[r]);
+      values.insert(values.end(), vector.begin(), vector.begin() + (columns == 0 ? 1 : 3));
+    }
+    const std::string path = structure_.name + "/" + name;
+    file_.write_array(path, columns, values);
+    XdmfArray array{name, path, false, {cells_.count()}};
+    if (columns > 0) array.shape.push_back(columns);
+    grid_.cell_values.push_back(array);
+  }
+
+ private:
+  Hdf5File& file_;
+  const Structure& structure_;
+  const CellTable& cells_;
+  XdmfGrid& grid_;
+};
+
+struct Names {
+  std::vector<std::string> materials;
+  std::vector<std::string> sections;
+};
+
+void add_properties(Hdf5File& file, const Structure& structure, const CellTable& cells,
+                    Names& names, XdmfGrid& grid) {
+  CellValues values(file, structure, cells, grid);
+  values.add_number("material", [&](const Region& region) {
+    return has_extent(region.element) ? number_of(region.material.name, names.materials) : 0;
+  });
+  values.add_number("section", [&](const Region& region) {
+    return region.section ? number_of(region.section->name, names.sections) : 0;
+  });
+  values.add("thickness", [](const Region& region) { return region.thickness; });
+  values.add("area", [](const Region& region) {
+    return region.section ? region.section->area : region.area;
+  });
+  values.add("young", [](const Region& region) { return region.material.young; });
+  values.add("density", [](const Region& region) { return region.material.density; });
+  values.add("mass", [](const Region& region) { return region.mass; });
+  values.add_vectors("spring_stiffness", 3, [](const Region& region) {
+    return Vector3{region.stiffness[0], region.stiffness[1], region.stiffness[2]};
+  });
+}
+
+/// Points and cells beside the structures, on rank 0.
+struct Marks {
+  std::vector<double> points;
+  std::vector<std::int32_t> topology;
+  std::vector<std::int32_t> numbers;  ///< per cell: of the contact or probe
+  std::vector<double> gaps;           ///< per cell [m]
+
+  GlobalIndex add_point(const Vector3& x) {
+    points.insert(points.end(), x.begin(), x.end());
+    return static_cast<GlobalIndex>(points.size() / 3) - 1;
+  }
+};
+
+Vector3 position(const std::vector<double>& coordinates, GlobalIndex node) {
+  const double* const x = &coordinates[3 * static_cast<std::size_t>(node)];
+  return {x[0], x[1], x[2]};
+}
+
+/// The pairs of the contacts; those without a place that they face, on walls or while they are
+/// open, get one on their normal, at their gap.
+Marks contact_marks(const Interface& interface,
+                    const std::vector<std::vector<double>>& coordinates) {
+  Marks marks;
+  for (const Constraint& row : interface.constraints) {
+    if (row.initial_gap == open_gap) continue;
+    std::array<Vector3, 2> places{};  // of the two sides, weighted
+    std::array<double, 2> weights{};
+    const Vector3 normal = normal_of(row);
+    for (const ConstraintTerm& term : row.terms) {
+      const double weight = term.coefficient * normal[static_cast<std::size_t>(term.component)];
+      const std::size_t side = weight < 0 ? 0 : 1;
+      const Vector3 x = position(coordinates[static_cast<std::size_t>(term.structure)], term.node);
+      weights[side] += weight;
+      for (std::size_t d = 0; d < 3; ++d) places[side][d] += weight * x[d];
+    }
+    if (weights[0] == 0) continue;
+    for (std::size_t d = 0; d < 3; ++d) {
+      places[0][d] /= weights[0];
+      places[1][d] =
+          weights[1] > 0 ? places[1][d] / weights[1] : places[0][d] + row.initial_gap * normal[d];
+    }
+    const std::array<GlobalIndex, 2> line{marks.add_point(places[0]), marks.add_point(places[1])};
+    add_cell(line, false, marks.topology);
+    marks.numbers.push_back(row.contact + 1);
+    marks.gaps.push_back(row.initial_gap);
+  }
+  return marks;
+}
+
+Marks probe_marks(std::span<const ResolvedProbe> probes,
+                  const std::vector<std::vector<double>>& coordinates) {
+  Marks marks;
+  for (std::size_t p = 0; p < probes.size(); ++p) {
+    const std::vector<double>& nodes = coordinates[static_cast<std::size_t>(probes[p].structure)];
+    for (const GlobalIndex node : probes[p].nodes) {
+      const std::array<GlobalIndex, 1> point{marks.add_point(position(nodes, node))};
+      add_cell(point, false, marks.topology);
+      marks.numbers.push_back(static_cast<std::int32_t>(p) + 1);
+    }
+  }
+  return marks;
+}
+
+XdmfGrid write_marks(Hdf5File& file, const std::string& name, const std::string& number,
+                     const Marks& marks) {
+  XdmfGrid grid;
+  grid.name = name;
+  grid.cells = marks.numbers.size();
+  const std::string folder = "marks/" + name + "/";
+  grid.geometry = {"points", folder + "points", false, {marks.points.size() / 3, 3}};
+  grid.topology = {"topology", folder + "topology", true, {marks.topology.size()}};
+  file.write_array(grid.geometry.path, 3, marks.points);
+  file.write_integers(grid.topology.path, 0, marks.topology);
+  grid.cell_values.push_back({number, folder + number, true, {grid.cells}});
+  file.write_integers(folder + number, 0, marks.numbers);
+  if (!marks.gaps.empty()) {
+    grid.cell_values.push_back({"initial_gap", folder + "initial_gap", false, {grid.cells}});
+    file.write_array(folder + "initial_gap", 0, marks.gaps);
+  }
+  return grid;
+}
+
+std::string numbered(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + std::to_string(i + 1) + " " + names[i];
+  }
+  return text;
+}
+
+}  // namespace
+
+void write_model(MPI_Comm comm, const Scene& scene, const Model& model) {
+  const MeshLabels labels = mesh_labels(scene, model.interface);
+  std::optional<Hdf5File> file;
+  on_rank0(comm, [&] {
+    file.emplace(scene.output + "/model.h5");
+    write_group_names(*file, labels);
+  });
+  std::string grids;
+  Names names;
+  std::vector<std::vector<double>> coordinates;
+  for (std::size_t s = 0; s < model.meshes.size(); ++s) {
+    const CellTable cells = gather_cells(model.meshes[s]);
+    XdmfGrid grid = write_mesh(file ? &*file : nullptr, model.meshes[s], cells, s, labels);
+    coordinates.push_back(gather_coordinates(model.meshes[s]));
+    on_rank0(comm, [&] {
+      add_properties(*file, scene.structures[s], cells, names, grid);
+      grids += xdmf_grid("model.h5", grid);
+    });
+  }
+  on_rank0(comm, [&] {
+    std::vector<std::string> probes;
+    for (const ResolvedProbe& probe : model.probes) probes.push_back(probe.name);
+    for (const auto& [name, list] :
+         {std::pair("contacts", &labels.contacts), std::pair("probes", &std::as_const(probes)),
+          std::pair("materials", &std::as_const(names.materials)),
+          std::pair("sections", &std::as_const(names.sections))}) {
+      file->write_strings(name, *list);
+    }
+    const Marks pairs = contact_marks(model.interface, coordinates);
+    const Marks points = probe_marks(model.probes, coordinates);
+    for (const auto& [name, marks, list] : {std::tuple("contact", &pairs, &labels.contacts),
+                                            std::tuple("probe", &points, &std::as_const(probes))}) {
+      if (marks->numbers.empty()) continue;
+      XdmfGrid grid = write_marks(*file, std::string(name) + "s", name, *marks);
+      grid.notes.emplace_back(std::string(name) + "s", numbered(*list));
+      grids += xdmf_grid("model.h5", grid);
+    }
+    file->close();
+    write_whole_file(scene.output + "/model.xdmf",
+                     xdmf_document(xdmf_side_by_side("model", std::nullopt, grids)));
+    std::printf("model for ParaView: %s/model.xdmf\n", scene.output.c_str());
+  });
+}
+
+}  // namespace pounding

@@ -1,0 +1,254 @@
+#include "output/field_writer.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <sstream>
+#include <utility>
+
+#include "common/error.h"
+#include "common/parallel.h"
+#include "mesh/node_table.h"
+#include "output/result_folder.h"
+
+namespace pounding {
+namespace {
+
+constexpr const char* file_name = "fields.h5";
+
+/// Places of the components `first` to `first` + 2 of the owned nodes.
+std::vector<TracePoint> owned_places(const Mesh& mesh, int first) {
+  std::vector<TracePoint> places;
+  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
+    for (int d = first; d < first + 3; ++d) places.push_back({mesh.file_node[node], d});
+  }
+  return places;
+}
+
+/// Whether a picture of the structure tells rotations. Collective.
+bool shows_rotations(const LinearSystem& system, const Mesh& mesh) {
+  const bool rotates = component_columns(mesh) > 3;
+  return rotates && !system.generalised;
+}
+
+bool has_value(std::span<const double> values) {
+  return std::ranges::any_of(values, [](double value) { return value != 0; });
+}
+
+std::string gigabytes(double bytes) {
+  std::ostringstream text;
+  text.precision(3);
+  text << bytes / 1e9 << " GB";
+  return text.str();
+}
+
+}  // namespace
+
+FieldWriter::FieldWriter(Layout layout, std::span<const LinearSystem> systems,
+                         std::span<const Mesh> meshes)
+    : layout_(std::move(layout)), meshes_(meshes), impulses_(layout_.places.size(), 0.0) {
+  structures_.reserve(meshes.size());
+  for (std::size_t s = 0; s < meshes.size(); ++s) {
+    structures_.push_back(fields_of(systems[s], meshes[s], s));
+  }
+  const double bytes = size(layout_.steps, systems, meshes, !layout_.places.empty());
+  on_rank0(layout_.comm, [&] {
+    std::error_code failure;
+    const auto space = std::filesystem::space(layout_.folder, failure);
+    if (!failure && static_cast<double>(space.available) < bytes) {
+      throw UserError("option -fields_interval: " + std::to_string(layout_.steps.count) +
+                      " frames take up to " + gigabytes(bytes) + ", and " + layout_.folder +
+                      " has " + gigabytes(static_cast<double>(space.available)) +
+                      " left; give a longer interval, or -fields_start and -fields_end");
+    }
+  });
+  if (!layout_.continued.empty()) return;
+  create(layout_.folder + "/" + file_name);
+  open();
+}
+
+FieldWriter::StructureFields FieldWriter::fields_of(const LinearSystem& system, const Mesh& mesh,
+                                                    std::size_t structure) {
+  const bool rotations = shows_rotations(system, mesh);
+  StructureFields fields{mesh.structure,
+                         static_cast<std::size_t>(mesh.global_nodes),
+                         Trace(system, mesh, owned_places(mesh, 0), false),
+                         {},
+                         FileBlocks(mesh),
+                         {},
+                         {},
+                         {}};
+  const std::size_t owned = 3 * static_cast<std::size_t>(mesh.owned_nodes);
+  fields.block.assign(3 * fields.blocks.count(), 0.0);
+  const auto add = [&](const char* name, const char* unit) {
+    fields.quantities.push_back({name, unit, std::vector<double>(owned, 0.0), {}});
+  };
+  add("displacement", "m");
+  add("velocity", "m/s");
+  if (rotations) {
+    fields.rotation.emplace(system, mesh, owned_places(mesh, 3), false);
+    add("rotation", "rad");
+  }
+  if (layout_.places.empty()) return fields;
+  add("contact_impulse", "N s");
+  for (std::size_t i = 0; i < layout_.places.size(); ++i) {
+    const ContactPlace& place = layout_.places[i];
+    if (place.structure != static_cast<int>(structure)) continue;
+    const LocalIndex node = mesh.owned_node(place.node);
+    if (node < 0) continue;
+    fields.contact.push_back(
+        {3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(place.component), i});
+  }
+  return fields;
+}
+
+double FieldWriter::size(const FieldSteps& steps, std::span<const LinearSystem> systems,
+                         std::span<const Mesh> meshes, bool contacts) {
+  double bytes = 0;
+  for (std::size_t s = 0; s < meshes.size(); ++s) {
+    const int quantities =
+        2 + (shows_rotations(systems[s], meshes[s]) ? 1 : 0) + (contacts ? 1 : 0);
+    bytes += static_cast<double>(steps.count) * static_cast<double>(meshes[s].global_nodes) * 3 *
+             sizeof(double) * quantities;
+  }
+  return bytes;
+}
+
+double FieldWriter::time_of(std::int64_t frame) const {
+  return static_cast<double>(layout_.steps.first + frame * layout_.steps.stride) *
+         layout_.time_step;
+}
+
+void FieldWriter::create(const std::string& path) {
+  std::optional<Hdf5File> file;
+  on_rank0(layout_.comm, [&] {
+    file.emplace(path);
+    file->write_attribute("/", "title", layout_.title);
+    file->write_attribute("/", "time_step", layout_.time_step);
+    file->write_attribute("/", "first_step", static_cast<double>(layout_.steps.first));
+    file->write_attribute("/", "stride", static_cast<double>(layout_.steps.stride));
+    write_group_names(*file, layout_.labels);
+    std::vector<double> times;
+    for (std::int64_t f = 0; f < layout_.steps.count; ++f) times.push_back(time_of(f));
+    file->write_array("time", 0, times);
+    file->write_attribute("time", "unit", "s");
+    frames_place_ = file->reserve("frames", {1});
+  });
+  grids_.clear();
+  for (std::size_t s = 0; s < structures_.size(); ++s) {
+    const CellTable cells = gather_cells(meshes_[s]);
+    grids_.push_back(write_mesh(file ? &*file : nullptr, meshes_[s], cells, s, layout_.labels));
+  }
+  std::vector<std::int64_t> places;
+  on_rank0(layout_.comm, [&] {
+    places = reserve(*file);
+    file->close();
+  });
+  broadcast_array(layout_.comm, places);
+  auto next = places.begin();
+  for (StructureFields& fields : structures_) {
+    for (Quantity& quantity : fields.quantities) {
+      quantity.places.assign(next, next + layout_.steps.count);
+      next += layout_.steps.count;
+    }
+  }
+}
+
+std::vector<std::int64_t> FieldWriter::reserve(Hdf5File& file) const {
+  std::vector<std::int64_t> places;
+  for (const StructureFields& fields : structures_) {
+    for (const Quantity& quantity : fields.quantities) {
+      for (std::int64_t frame = 0; frame < layout_.steps.count; ++frame) {
+        places.push_back(file.reserve(path_of(fields, quantity, frame), {fields.nodes, 3}));
+      }
+      const std::string group = fields.name + "/" + quantity.name;
+      file.write_attribute(group, "unit", quantity.unit);
+      if (quantity.name == "velocity") {
+        file.write_attribute(group, "time_offset", layout_.time_step / 2);
+      }
+    }
+  }
+  return places;
+}
+
+std::string FieldWriter::path_of(const StructureFields& fields, const Quantity& quantity,
+                                 std::int64_t frame) {
+  char number[24];
+  std::snprintf(number, sizeof number, "/%06lld", static_cast<long long>(frame));
+  return fields.name + "/" + quantity.name + number;
+}
+
+void FieldWriter::open() {
+  on_every_rank(layout_.comm, [&] {
+    file_ =
+        std::make_unique<PlacedFile>(layout_.folder + "/" + file_name, PlacedFile::Access::write);
+  });
+}
+
+void FieldWriter::take_displacements(const State& state) {
+  for (std::size_t s = 0; s < structures_.size(); ++s) {
+    StructureFields& fields = structures_[s];
+    const std::vector<double>& moved = state.structures[s].displacement;
+    fields.displacement.apply(moved.data(), fields.quantities[0].owned.data(), 1,
+                              state.supports.displacement);
+    if (fields.rotation) {
+      fields.rotation->apply(moved.data(), fields.quantities[2].owned.data(), 1,
+                             state.supports.displacement);
+    }
+  }
+}
+
+void FieldWriter::record(const State& state) {
+  for (std::size_t s = 0; s < structures_.size(); ++s) {
+    StructureFields& fields = structures_[s];
+    fields.displacement.apply(state.structures[s].velocity.data(),
+                              fields.quantities[1].owned.data(), 1, state.supports.velocity);
+    for (const auto& [value, place] : fields.contact) {
+      fields.quantities.back().owned[value] = impulses_[place];
+    }
+    for (Quantity& quantity : fields.quantities) {
+      fields.blocks.exchange(quantity.owned, fields.block);
+      on_every_rank(layout_.comm, [&] {  // what nothing is written to is 0
+        if (!has_value(fields.block)) return;
+        constexpr std::int64_t bytes = 3 * sizeof(double);
+        const std::int64_t place = quantity.places[static_cast<std::size_t>(frames_)];
+        file_->write(place + bytes * fields.blocks.first(), fields.block);
+      });
+    }
+  }
+  std::ranges::fill(impulses_, 0.0);
+  on_rank0(layout_.comm, [&] {
+    const double frames = static_cast<double>(frames_ + 1);
+    file_->write(frames_place_, {&frames, 1});
+    text_ += frame_text(frames_);
+  });
+  ++frames_;
+}
+
+std::string FieldWriter::frame_text(std::int64_t frame) const {
+  std::string grids;
+  for (std::size_t s = 0; s < structures_.size(); ++s) {
+    const StructureFields& fields = structures_[s];
+    XdmfGrid grid = grids_[s];
+    for (const Quantity& quantity : fields.quantities) {
+      grid.node_values.push_back(
+          {quantity.name, path_of(fields, quantity, frame), false, {fields.nodes, 3}});
+    }
+    grids += xdmf_grid(file_name, grid);
+  }
+  return xdmf_side_by_side("frame " + std::to_string(frame), time_of(frame), grids);
+}
+
+void FieldWriter::flush() {
+  on_rank0(layout_.comm, [&] {
+    if (frames_ == 0) return;
+    write_whole_file(layout_.folder + "/fields.xdmf", xdmf_document(xdmf_in_time("fields", text_)));
+  });
+}
+
+void FieldWriter::finish() {
+  flush();
+  on_every_rank(layout_.comm, [&] { file_->sync(); });
+}
+
+}  // namespace pounding

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/saved_state.h"
+#include "dynamics/state.h"
+#include "io/placed_file.h"
+#include "mesh/mesh.h"
+#include "output/file_blocks.h"
+#include "output/mesh_grid.h"
+#include "system/trace.h"
+
+namespace pounding {
+
+/// The steps whose motion is kept as a whole: `count` of them from `first` on, every `stride`.
+struct FieldSteps {
+  std::int64_t first = 0;
+  std::int64_t stride = 1;
+  std::int64_t count = 0;
+
+  std::int64_t last() const { return first + (count - 1) * stride; }
+  bool contains(std::int64_t step) const {
+    return step >= first && step <= last() && (step - first) % stride == 0;
+  }
+};
+
+/// A displacement component of a node of a structure that contacts move.
+struct ContactPlace {
+  int structure = 0;
+  GlobalIndex node = 0;  ///< file order
+  int component = 0;     ///< 0-2
+};
+
+/// Writes `fields.h5` and `fields.xdmf`, the motion of all nodes for ParaView. Per structure,
+/// beside what write_mesh() says of it, groups with an array 000000 ... of shape (nodes, 3) for
+/// each frame, nodes in file order:
+///
+///     displacement      u_n, of t_n in `time`, relative to the ground [m]
+///     velocity          v_{n+1/2}, half a step later, relative to the ground [m/s]
+///     rotation          of t_n, where nodes rotate and the structure is not reduced [rad]
+///     contact_impulse   that contacts brought to the node since the frame before [N s]
+///
+/// the first two to the bit what the history says of the same node. The arrays take their places in
+/// the file at the beginning; then every rank fills its part of them (FileBlocks) as the run goes.
+/// `frames` is the number of whole frames, written after them, and `fields.xdmf` lists these; what
+/// lies behind is no motion. A frame allocates nothing but the line of the list.
+class FieldWriter {
+ public:
+  struct Layout {
+    MPI_Comm comm = MPI_COMM_SELF;
+    std::string folder;
+    std::string continued;  ///< fields.h5 of the run that this one continues; empty: a new one
+    std::string title;
+    double time_step = 0;  ///< [s]
+    FieldSteps steps;
+    MeshLabels labels;
+    std::vector<ContactPlace> places;  ///< where contacts act, of all ranks
+  };
+
+  /// Creates the files, unless the run is a continued one. Throws UserError on every rank alike (no
+  /// space). Collective.
+  FieldWriter(Layout layout, std::span<const LinearSystem> systems, std::span<const Mesh> meshes);
+  FieldWriter(const FieldWriter&) = delete;
+  FieldWriter& operator=(const FieldWriter&) = delete;
+
+  /// Bytes that the arrays take. Collective.
+  static double size(const FieldSteps& steps, std::span<const LinearSystem> systems,
+                     std::span<const Mesh> meshes, bool contacts);
+
+  bool due(std::int64_t step) const { return layout_.steps.contains(step); }
+  /// Whether impulses of the step come to a frame.
+  bool counts(std::int64_t step) const {
+    return step > layout_.steps.first - layout_.steps.stride && step <= layout_.steps.last();
+  }
+  /// Impulses of a step are added to this, per place of the layout [N s], on all ranks that own
+  /// their nodes.
+  std::span<double> impulses() { return impulses_; }
+  /// Before the step to be kept: takes the displacements.
+  void take_displacements(const State& state);
+  /// After it: writes the frame. Throws UserError on every rank alike (no space). Collective.
+  void record(const State& state);
+  /// Lists the frames that are there. Collective.
+  void flush();
+  /// Lists them, everything on the disk. Collective.
+  void finish();
+
+  /// Keeps the number of frames and the impulses since the last one. Local; `root`: this rank knows
+  /// the impulses.
+  void save(SavedState& saved, bool root) const;
+  /// Refuses a file that cannot be continued. Throws UserError on every rank alike. Collective.
+  void check(const SavedState& saved);
+  /// Takes the frames known to `saved` over from the file continued, which may be the one that is
+  /// then replaced. Throws UserError on every rank alike. Collective.
+  void load(const SavedState& saved);
+
+ private:
+  /// A quantity of a structure.
+  struct Quantity {
+    std::string name;
+    const char* unit;
+    std::vector<double> owned;           ///< shape (owned_nodes, 3)
+    std::vector<std::int64_t> places{};  ///< of its arrays in the file, per frame [bytes]
+  };
+  struct StructureFields {
+    std::string name;
+    std::size_t nodes = 0;  ///< of all ranks
+    Trace displacement;
+    std::optional<Trace> rotation;
+    FileBlocks blocks;
+    std::vector<double> block;  ///< values of this rank's block
+    std::vector<Quantity> quantities;
+    std::vector<std::array<std::size_t, 2>> contact;  ///< value of the impulse, place in impulses
+  };
+
+  StructureFields fields_of(const LinearSystem& system, const Mesh& mesh, std::size_t structure);
+  void create(const std::string& path);
+  /// Takes the places of all arrays of a file. Rank 0.
+  std::vector<std::int64_t> reserve(Hdf5File& file) const;
+  /// Name of an array in the file.
+  static std::string path_of(const StructureFields& fields, const Quantity& quantity,
+                             std::int64_t frame);
+  void open();
+  void copy_frames(const std::string& to) const;
+  std::string frame_text(std::int64_t frame) const;
+  double time_of(std::int64_t frame) const;
+
+  Layout layout_;
+  std::span<const Mesh> meshes_;
+  std::vector<StructureFields> structures_;
+  std::vector<double> impulses_;
+  std::unique_ptr<PlacedFile> file_;
+  std::int64_t frames_ = 0;
+
+  // Rank 0
+  std::vector<XdmfGrid> grids_;    ///< of the structures, without what moves
+  std::int64_t frames_place_ = 0;  ///< of their number in the file [bytes]
+  std::string text_;               ///< of the frames so far
+};
+
+}  // namespace pounding
