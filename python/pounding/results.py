@@ -61,6 +61,18 @@ class Result:
             return None
         return self.spectra["frequency"][rows], self.spectra["pseudo_acceleration"][rows]
 
+    def closings(self) -> dict:
+        """Contact -> by how much its gap closed at most [m], from the recorded gaps; none of a history without."""
+        found = {}
+        if "gap" not in self.history:
+            return found
+        for column, name in enumerate(self.contacts):
+            gap = self.history["gap"][:, column]
+            given = self.summary.get("contacts", {}).get(name, {}).get("initial_gap")
+            if given and np.isfinite(gap).any():
+                found[name] = float(given[0] - np.nanmin(gap))
+        return found
+
     def need(self, *datasets: str) -> None:
         for name in datasets:
             if name not in self.history or len(self.history[name]) == 0:

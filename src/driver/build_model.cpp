@@ -15,6 +15,7 @@
 #include "driver/probe_warnings.h"
 #include "driver/rest.h"
 #include "driver/run_warnings.h"
+#include "driver/separation.h"
 #include "driver/warnings.h"
 #include "mesh/find_supported_nodes.h"
 #include "mesh/gmsh_reader.h"
@@ -212,9 +213,10 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
   building.mesh = &mesh;
   building.system = &system;
   if (building.basis) {
+    building.modal = modes_of_basis(*building.basis, scene.modes);
+    building.mode_gaps = modes_at_contacts(comm, model, s);  // before its rows go into the system
     system = build_reduced_system(comm, owners_of_reduced(comm, scene)[s], wanted, mesh,
                                   *building.basis, model.support_columns());
-    building.modal = modes_of_basis(*building.basis, scene.modes);
     building.limits = limits_of(wanted, system, mesh, building.basis_or_null(), {});
     return;
   }
@@ -238,7 +240,8 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
   if (building.compression) require_no_buckling(structure, mesh, system, *building.compression);
   {
     const Progress progress = begin(comm, scene, structure, "lowest modes");
-    building.modal = lowest_modes(system, mesh, modes, scene.write_modes);
+    const bool with_shapes = scene.write_modes || !scene.contacts.empty();
+    building.modal = lowest_modes(system, mesh, modes, with_shapes);
   }
   if (keeps_first) {
     system.uniform_damping->reference = reference_frequency(structure, building.modal);
@@ -246,6 +249,10 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
   if (for_weight) return;
   find_shapes(comm, scene, structure, mesh, model, system);
   building.modal.modes.resize(std::min<std::size_t>(building.modal.modes.size(), scene.modes));
+  if (!scene.contacts.empty()) building.mode_gaps = modes_at_contacts(comm, model, s);
+  if (!scene.write_modes) {
+    for (Mode& mode : building.modal.modes) mode.shape = {};
+  }
   if (!exported && !scene.preload) system.stiffness->release_matrix();
   Progress progress = begin(comm, scene, structure, "largest frequency and stable time step");
   building.limits = limits_of(structure, system, mesh, nullptr, effort_of(scene, progress));
@@ -303,6 +310,7 @@ Model build_model(MPI_Comm comm, Scene& scene, Profile& profile) {
   }
   turn_weight_with_columns(comm, scene, profile, model);
   put_at_rest(comm, scene, profile, model);
+  on_rank0(comm, [&] { model.separations = find_separations(scene, model); });
   add_warnings(comm, scene, model);
   model.filler_time_step = filler_limit(comm, scene, model);
   choose_time_step(scene, model);

@@ -34,7 +34,9 @@ struct Building {
   AbsorbingReport absorbing;             ///< likewise
   std::optional<ModalBasis> basis;       ///< if the structure is reduced; no rows
   ModalResult modal;
-  std::optional<StepDesign> design;               ///< if its time step has a target
+  std::vector<double> mode_gaps;     ///< of each mode, what it adds to the gap of each contact row,
+                                     ///< shape (modes, rows), see modes_at_contacts
+  std::optional<StepDesign> design;  ///< if its time step has a target
   std::optional<LargestCompression> compression;  ///< under its weight, with P-Delta at full order
   StructureLimits limits;
   double energy_margin = 0;  ///< of the time step in force [-]

@@ -10,6 +10,7 @@
 #include "driver/contact_report.h"
 #include "driver/motion_report.h"
 #include "driver/rest.h"
+#include "driver/separation.h"
 #include "driver/soil_report.h"
 #include "stability/stable_time_step.h"
 
@@ -364,6 +365,7 @@ void print_model(const Scene& scene, const Model& model) {
   print_motion(*model.motion, model.supports.get());
   for (const Building& building : model.buildings) print_structure(building);
   for (const InterfaceReport& report : model.interface.reports) print_contact(report);
+  print_separations(scene, model.separations);
   print_rest(scene, model);
   print_probe_places(scene, model.probes);
   std::printf("\npartition: imbalance %.3f, cut edges %ld\n", model.partition_imbalance,

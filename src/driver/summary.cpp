@@ -234,6 +234,24 @@ Json describe_probe(const Scene& scene, const RunStatistics& statistics, const R
   return description;
 }
 
+Json describe_separation(const Separation& one) {
+  const auto side = [](const SeparationSide& of) -> Json {
+    return {{"structure", of.structure},
+            {"peak_displacement", of.peak},
+            {"modes", of.modes},
+            {"frequency", of.frequency},
+            {"damping_ratio", of.ratio}};
+  };
+  return {{"gap", one.gap},
+          {"secondary", side(one.secondary)},
+          {"primary", side(one.primary)},
+          {"correlation", one.correlation},
+          {"sum", one.sum},
+          {"srss", one.srss},
+          {"ddc", one.ddc},
+          {"modal", one.modal}};
+}
+
 Json describe_loop(const LoopReport& loop) {
   const LinkTotals most = loop.whole();
   Json yielded = Json::array();
@@ -317,6 +335,9 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
   summary["impacts"] = describe_impacts(statistics.all_impacts);
   summary["impacts"]["force_window"] = scene.force_window;
   summary["impacts"]["complementarity_residual"] = statistics.complementarity_residual;
+  for (const Separation& one : model.separations) {
+    summary["separations"][scene.contacts[one.contact].name] = describe_separation(one);
+  }
   summary["contacts"] = Json::object();
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     const InterfaceReport& report = model.interface.reports[c];

@@ -54,6 +54,7 @@ Mode describe_mode(double eigenvalue, const std::array<double, 6>& participation
                    const std::array<double, 6>& inertia) {
   Mode mode;
   mode.frequency = std::sqrt(std::max(0.0, eigenvalue)) / (2 * std::numbers::pi);
+  mode.participation = participation;
   for (std::size_t k = 0; k < 6; ++k) {
     mode.effective_modal_mass[k] = participation[k] * participation[k];
     const double fraction = inertia[k] > 0 ? mode.effective_modal_mass[k] / inertia[k] : 0;

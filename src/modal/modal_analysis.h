@@ -11,13 +11,15 @@ namespace pounding {
 
 /// One natural mode of an undamped structure, mass-normalised.
 struct Mode {
-  double frequency = 0;                          ///< [Hz]
-  std::array<double, 6> effective_modal_mass{};  ///< along x, y, z [kg]; about x, y, z through
-                                                 ///< the centre of mass [kg m2]
-  std::string direction;                         ///< "x" ... "rz": where most of the mass moves
-  double direction_fraction = 0;                 ///< of the mass (rotary inertia) in that direction
-  std::string location;                          ///< where it moves most, of modes near zero only
-  std::vector<double> shape;                     ///< phi over the owned dofs; empty unless asked
+  double frequency = 0;                   ///< [Hz]
+  std::array<double, 6> participation{};  ///< Gamma = phi^T M R, with the sign of phi
+  std::array<double, 6>
+      effective_modal_mass{};     ///< Gamma^2: along x, y, z [kg]; about x, y, z through
+                                  ///< the centre of mass [kg m2]
+  std::string direction;          ///< "x" ... "rz": where most of the mass moves
+  double direction_fraction = 0;  ///< of the mass (rotary inertia) in that direction
+  std::string location;           ///< where it moves most, of modes near zero only
+  std::vector<double> shape;      ///< phi over the owned dofs; empty unless asked
 };
 
 struct ModalResult {

@@ -111,6 +111,19 @@ def _impact_tables(result: Result) -> str:
     return text
 
 
+def _joint_table(result: Result) -> str:
+    closings = result.closings()
+    episodes = result.summary.get("impacts", {})
+    rows = []
+    for name, one in result.summary.get("separations", {}).items():
+        closing = closings.get(name)
+        hit = closing is not None and episodes.get(name, {}).get("episodes", 0) > 0
+        cells = [1e3 * one[key] for key in ("gap", "modal", "ddc", "srss", "sum")]
+        rows.append((name, *cells, "hit" if hit else None if closing is None else 1e3 * closing))
+    return html_table("Joints: width, and what would be needed by response spectrum so that nothing hits [mm]",
+                      ["", "width", "modal", "DDC", "SRSS", "sum", "closed in the history"], rows)
+
+
 def _energy_table(summary: dict) -> str:
     labels = (("input", "work of the ground [J]"), ("damping", "damping [J]"),
               ("contact", "contact [J]"), ("relative_residual", "relative residual"))
@@ -130,7 +143,7 @@ def write(result: Result, pages: list) -> Path:
     """Writes report.html into the result folder and returns its path."""
     title = escape(result.title)
     summary = result.summary
-    tables = (_run_table(summary) + _impact_tables(result) + _probe_table(summary)
+    tables = (_run_table(summary) + _impact_tables(result) + _joint_table(result) + _probe_table(summary)
               + _structure_tables(summary) + _energy_table(summary))
     if not summary:
         tables += '<p class="note">No summary.json in the result folder.</p>\n'
