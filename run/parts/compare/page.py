@@ -67,8 +67,8 @@ def text(runs: Runs) -> str:
     return "\n".join(lines)
 
 
-def write(runs: Runs, folder: Path) -> Path:
-    """Writes everything into the folder and returns the page's path."""
+def body(runs: Runs, folder: Path) -> str:
+    """Writes CSV files and figures into the folder and returns what a page says of them, in HTML."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, rows in (("spectra", tables.spectra(runs)), ("impacts", tables.impacts(runs)),
                        ("peaks", tables.peaks(runs)), ("options", tables.options(runs))):
@@ -77,12 +77,19 @@ def write(runs: Runs, folder: Path) -> Path:
         else:
             (folder / f"{name}.csv").write_text("option\n")  # no option differs
     figures = [page for probe in runs.probes for page in spectra_figure(runs, probe, folder)]
-    title = escape(" beside ".join(runs.labels))
-    body = "".join(f'<p class="note">{escape(note)}</p>\n' for note in runs.notes)
+    found = "".join(f'<p class="note">{escape(note)}</p>\n' for note in runs.notes)
     for caption, rows in _parts(runs):
-        body += html_table(caption, *_cells(rows)) if rows else f"<p>{escape(caption)}: none.</p>\n"
-    body += "".join(html_figure(folder, page) for page in figures)
-    path = folder / "comparison.html"
+        found += html_table(caption, *_cells(rows)) if rows else f"<p>{escape(caption)}: none.</p>\n"
+    return found + "".join(html_figure(folder, page) for page in figures)
+
+
+def write_page(path: Path, title: str, content: str) -> Path:
     path.write_text(f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'
-                    f"<style>{CSS}</style></head>\n<body>\n<h1>{title}</h1>\n{body}</body></html>\n", encoding="utf-8")
+                    f"<style>{CSS}</style></head>\n<body>\n<h1>{title}</h1>\n{content}</body></html>\n", encoding="utf-8")
     return path
+
+
+def write(runs: Runs, folder: Path) -> Path:
+    """Writes everything into the folder and returns the page's path."""
+    title = escape(" beside ".join(runs.labels))
+    return write_page(folder / "comparison.html", title, body(runs, folder))

@@ -1,0 +1,52 @@
+"""The page of run/plant: what it cost, impacts by floor, the pictures and spectra of every run."""
+
+import subprocess
+from html import escape
+from pathlib import Path
+
+from parts.benchmark.tables import markdown
+from parts.compare import page
+from parts.compare.runs import Runs
+from parts.plot.report import html_table
+from pounding.runs import SOURCE
+
+COST = ["run", "dofs", "ranks", "steps", "microseconds per step", "wall time [s]", "seconds per second of motion",
+        "memory of all ranks [GB]"]
+
+
+def cost_rows(runs: Runs) -> list:
+    """A row per run; start-up, modes and bases are part of the wall time, not of the steps."""
+    rows = []
+    for label, result in zip(runs.labels, runs.results):
+        told = result.summary
+        dofs = sum(structure["dofs"] for structure in told["structures"].values())
+        step = told["microseconds_per_step"]
+        stepping = 1e-6 * step * told["steps"] / told["end_time"]
+        rows.append([label, dofs, told["ranks"], told["steps"], f"{step:.1f}", f"{told['wall_time']:.1f}",
+                     f"{stepping:.3g}", f"{told['peak_memory'] / 1e9:.3g}"])
+    return rows
+
+
+def text(runs: Runs) -> str:
+    return markdown("Cost", COST, cost_rows(runs))
+
+
+def draw(folder: Path) -> str:
+    """Figures and page of one run by run/plot: '' or why there are none."""
+    done = subprocess.run([str(SOURCE / "run" / "plot"), str(folder)], capture_output=True, text=True)
+    return "" if done.returncode == 0 else (done.stderr.strip().splitlines() or ["run/plot failed"])[-1]
+
+
+def write(runs: Runs, folder: Path) -> Path:
+    """Draws every run, compares them, writes plant.html and returns its path."""
+    links = ""
+    for label, result in zip(runs.labels, runs.results):
+        why = draw(result.folder)
+        link = result.folder.resolve().relative_to(folder.resolve()) / "report.html"
+        links += (f'<li><a href="{escape(str(link))}">{escape(label)}</a></li>\n' if not why else
+                  f"<li>{escape(label)}: {escape(why)}</li>\n")
+    content = html_table("What it cost", COST, cost_rows(runs))
+    content += f"<p>Reports of the runs, with pictures of the model:</p>\n<ul>\n{links}</ul>\n"
+    content += page.body(runs, folder / "comparison")
+    title = escape(runs.results[0].summary.get("title") or "The plant pair")
+    return page.write_page(folder / "plant.html", title, content)

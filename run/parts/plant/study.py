@@ -1,0 +1,72 @@
+"""Runs of the plant pair: without contacts, and with them at each fidelity."""
+
+from pathlib import Path
+
+from parts.sweep.members import REQUEST, SUMMARY, Member, is_finished, sign
+from pounding.runs import SOURCE, Job, environment, program
+
+SIZES = ("small", "medium", "large")
+FIDELITIES = ("full", "modal")
+APART = "apart"  # the run without contacts
+JOINTS = ("floor1", "floor2")
+DEVIATION = 0.005  # by which the joint is narrower at one end [m]
+BUILDINGS = ("block", "frame")
+
+
+class StudyError(Exception):
+    """One line for the user."""
+
+
+def scene_of(size: str) -> Path:
+    return SOURCE / "petsc-options" / "plant" / f"{size}.yaml"
+
+
+def options_of(fidelity: str, modes: int, folder: Path) -> dict:
+    """Options of a fidelity; bases are kept in the folder of the run, with what its contacts ask of them."""
+    if fidelity == "full":
+        return {}
+    found = {}
+    for building in BUILDINGS:
+        found |= {f"{building}_model": "modal", f"{building}_modal_vectors": str(modes),
+                  f"{building}_modal_basis": str((folder / f"{building}.basis").absolute())}
+    return found
+
+
+def members(fidelities: list, modes: int, seconds: float, gap: float, folder: Path) -> list:
+    """Throws StudyError for a gap below the deviation. The first one has no contacts and the first fidelity; the others have contacts, one fidelity each."""
+    if gap < DEVIATION:
+        raise StudyError(f"--gap {gap:g}: below the joint's deviation of {DEVIATION:g} m, so that it would be closed")
+
+    def member(name: str, fidelity: str, more: dict) -> Member:
+        options = {"end_time": f"{seconds:g}", **options_of(fidelity, modes, folder / name), **more}
+        return Member(name, (name,), tuple(options.items()))
+
+    joints = {f"{joint}_gap": f"{gap:g},{gap - DEVIATION:g}" for joint in JOINTS}
+    return [member(APART, fidelities[0], {"contacts": "none"}),
+            *(member(fidelity, fidelity, joints) for fidelity in fidelities)]
+
+
+def run_all(wanted: list, size: str, more: list, ranks: int, folder: Path) -> None:
+    """Runs what is not finished, one after another, from the folder of the sources. Throws StudyError."""
+    forbidden = [word for word in more if word.lstrip("-") in ("output", "dry_run", "restart", "contacts", "structures")]
+    if forbidden:
+        raise StudyError(f"--options: not with {forbidden[0]}, which is the study's own")
+    folder.mkdir(parents=True, exist_ok=True)
+    scene, variables = scene_of(size), environment()
+    for member in wanted:
+        place = folder / member.name
+        if is_finished(member, scene, more, place):
+            print(f"  {member.name}: finished before", flush=True)
+            continue
+        program()
+        for name in (REQUEST, SUMMARY):
+            (place / name).unlink(missing_ok=True)
+        job = Job(member.words(scene, more), place.absolute(), ranks, SOURCE, variables)
+        try:
+            failure = job.outcome()
+        finally:
+            job.stop()
+        if failure:
+            raise StudyError(f"run {member.name}: {failure}")
+        sign(member, scene, more, place)
+        print(f"  {member.name}: done; {job.wall_time:.0f} s", flush=True)
