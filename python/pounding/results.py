@@ -109,11 +109,12 @@ def _read_history(path: Path, result: Result) -> None:
     if "records" in history:  # rows behind them were still being written when the run ended
         rows, whole = len(history["time"]), int(history.pop("records")[0])
         for name, values in history.items():
-            if name not in ("channels", "contacts", "links") and len(values) == rows:
+            if name not in ("channels", "contacts", "links", "forces") and len(values) == rows:
                 history[name] = values[:whole]
     for name, labels in (("displacement", "channels"), ("velocity", "channels"),
                          ("acceleration", "channels"), ("gap", "contacts"),
                          ("contact_force", "contacts"), ("link_elongation", "links"), ("link_force", "links"),
+                         ("force", "forces"),
                          ("ground_acceleration", DIRECTIONS)):
         columns = len(labels if labels is DIRECTIONS else history.get(labels, []))
         shape = (len(history["time"]), columns)

@@ -90,6 +90,7 @@ void build_meshes(MPI_Comm comm, Scene& scene, Profile& profile, Model& model) {
       const Progress progress(comm, "faces in contact and probes", scene.progress_interval);
       model.interface = find_interface(scene, meshes);
       model.probes = resolve_probes(scene, meshes);
+      model.forces = resolve_forces(scene, meshes);
       append(probe_warnings(model.probes, meshes, model.interface), model.warnings);
     });
     for (std::size_t s = 0; s < meshes.size(); ++s) {
@@ -97,6 +98,7 @@ void build_meshes(MPI_Comm comm, Scene& scene, Profile& profile, Model& model) {
     }
     broadcast_interface(comm, model.interface);
     broadcast_probes(comm, model.probes);
+    broadcast_forces(comm, model.forces);
   }
   std::optional<ScopedTimer> timer(std::in_place, profile, Phase::partition);
   std::optional<Progress> progress(std::in_place, comm, "partition", scene.progress_interval);
@@ -129,7 +131,7 @@ void build_meshes(MPI_Comm comm, Scene& scene, Profile& profile, Model& model) {
   progress.reset();
   if (scene.dry_run && scene.write_model) write_model(comm, scene, model);
   progress.emplace(comm, "modal bases", scene.progress_interval);
-  auto bases = find_bases(comm, scene, meshes, model.interface, model.probes,
+  auto bases = find_bases(comm, scene, meshes, model.interface, model.probes, model.forces,
                           model.support_columns(), profile);
   for (std::size_t s = 0; s < meshes.size(); ++s) model.buildings[s].basis = std::move(bases[s]);
 }

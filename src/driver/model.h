@@ -12,6 +12,7 @@
 #include "contact/interface.h"
 #include "driver/building.h"
 #include "driver/separation_rules.h"
+#include "mesh/force_places.h"
 #include "mesh/mesh.h"
 #include "mesh/probe_set.h"
 #include "motion/ground_motion.h"
@@ -29,6 +30,7 @@ struct Model {
   std::vector<Building> buildings;    ///< per structure: these two and what is known of them
   Interface interface;                ///< reports on rank 0 only
   std::vector<ResolvedProbe> probes;
+  std::vector<ResolvedForce> forces;
   std::unique_ptr<GroundMotion> motion;
   std::unique_ptr<SupportMotion> supports;  ///< null where the ground moves as one
   std::optional<Equilibrium> equilibrium;   ///< that the run starts from

@@ -12,6 +12,7 @@
 #include "driver/rest.h"
 #include "driver/separation.h"
 #include "driver/soil_report.h"
+#include "driver/storeys.h"
 #include "stability/stable_time_step.h"
 
 namespace pounding {
@@ -408,6 +409,8 @@ void print_results(const Scene& scene, const RunStatistics& statistics,
   print_slides(scene, statistics);
   print_loops(statistics);
   print_contact_ratios(scene, statistics);
+  print_forces(statistics.forces);
+  print_drifts(recorder.drifts());
   print_probes(recorder, statistics.peaks, spectra, scene.spectra.start);
   std::printf("\n");
   print_warnings(statistics.warnings);

@@ -143,6 +143,9 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
     append(pendulum_warnings(statistics), statistics.warnings);
     statistics.peaks = stated_peaks(scene, loop.recorder());
     append(peak_warnings(scene, statistics.peaks, loop.recorder()), statistics.warnings);
+    if (!statistics.forces.empty()) {
+      write_forces(scene.output + "/forces.csv", statistics.forces);
+    }
     statistics.wall_time = MPI_Wtime() - start;
     write_summary(scene.output + "/summary.json", scene, resolved, model, statistics,
                   loop.recorder(), size_of(comm));

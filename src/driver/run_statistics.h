@@ -6,6 +6,7 @@
 
 #include "common/profile.h"
 #include "contact/slide_watch.h"
+#include "driver/forces.h"
 #include "driver/loops.h"
 #include "driver/stated_peaks.h"
 #include "driver/uplift_watch.h"
@@ -33,6 +34,7 @@ struct RunStatistics {
   ImpactTotals all_impacts;
   std::vector<FillerTotals> fillers;         ///< per contact; empty without fillers
   std::vector<LoopReport> loops;             ///< per item of the option
+  std::vector<ForceReport> forces;           ///< per item of the option; rank 0
   std::vector<Slide> slides;                 ///< per contact
   std::vector<ContactRatio> contact_ratios;  ///< per structure; empty where nothing may lift off
   StatedPeaks peaks;                         ///< rank 0

@@ -265,6 +265,27 @@ Json describe_loop(const LoopReport& loop) {
           {"energy_taken", most.work}};
 }
 
+Json describe_forces(const ForceReport& force) {
+  Json description = Json::object();
+  for (std::size_t c = 0; c < force.components.size(); ++c) {
+    const std::size_t e = force.largest(c);
+    const ForcePeak& peak = force.peaks[e * force.components.size() + c];
+    Json& of = description[force.components[c]];
+    of = {{"peak", peak.value}, {"time", peak.time}};
+    if (!force.elements[e].empty()) of["element"] = std::stoll(force.elements[e]);
+  }
+  return description;
+}
+
+Json describe_drift(const Storey& storey, const std::array<DriftPeak, 2>& peaks) {
+  return {{"structure", storey.structure},
+          {"upper", storey.upper},
+          {"lower", storey.lower},
+          {"height", storey.height},
+          {"peak", {peaks[0].drift, peaks[1].drift}},
+          {"time", {peaks[0].time, peaks[1].time}}};
+}
+
 Json describe_filler(const InterfaceReport& report, const FillerTotals& totals) {
   return {{"area", report.filler_area},
           {"thickness", report.filler_thickness},
@@ -349,6 +370,14 @@ void write_summary(const std::string& path, const Scene& scene, const std::strin
     }
   }
   for (const LoopReport& loop : statistics.loops) summary["loops"][loop.name] = describe_loop(loop);
+  for (const ForceReport& force : statistics.forces) {
+    summary["forces"][force.name] = describe_forces(force);
+  }
+  summary["drifts"] = Json::array();
+  for (std::size_t s = 0; s < recorder.drifts().storeys().size(); ++s) {
+    summary["drifts"].push_back(
+        describe_drift(recorder.drifts().storeys()[s], recorder.drifts().peaks()[s]));
+  }
   summary["peak_frequency"] = statistics.peaks.frequency;
   summary["probes"] = Json::object();
   for (std::size_t p = 0; p < recorder.probes().size(); ++p) {

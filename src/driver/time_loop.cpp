@@ -11,6 +11,7 @@
 #include "driver/checkpoint_schedule.h"
 #include "driver/field_plan.h"
 #include "driver/stop_signal.h"
+#include "driver/storeys.h"
 #include "driver/terminal.h"
 #include "driver/watchdog.h"
 
@@ -105,6 +106,8 @@ void TimeLoop::create_recorder(bool continued) {
     layout.links = loops_->names();
     layout.my_links = loops_->mine();
   }
+  layout.storeys = find_storeys(comm_, scene_, model_);
+  if (forces_) layout.forces = forces_->recorded();
   layout.interface_root = solver_.contact() != nullptr ? solver_.contact()->root() : -1;
   const auto whole = [&](double count) {  // never more than the run has, nor than an int holds
     constexpr double most = std::numeric_limits<int>::max();
@@ -125,6 +128,7 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
   const StopSignal stop_signal;
   watched_ = is_watched();
   if (!scene_.loops.empty()) loops_ = std::make_unique<Loops>(comm_, scene_, model_, solver_);
+  if (!scene_.forces.empty()) forces_ = std::make_unique<Forces>(comm_, scene_, model_);
   create_recorder(restart != nullptr);
   fields_ = make_field_writer(comm_, scene_, model_, solver_.contact(), restart != nullptr);
   if (restart != nullptr) load(*restart);
@@ -138,6 +142,7 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
     const bool records = recorder_->due(n);
     if (records) recorder_->take_displacements(solver_.stepper().state());
     if (fields_ && fields_->due(n)) fields_->take_displacements(solver_.stepper().state());
+    if (records && forces_) forces_->begin(solver_.stepper().state());
     watch_slides(n);
     solver_.stepper().step(records && n % gap_stride_ == 0, ledger);
     observe(n);
@@ -189,8 +194,10 @@ void TimeLoop::observe(std::int64_t step) {
       gap = std::min(gap, solver_.contact()->gaps()[row]);
     }
   }
+  if (forces_) forces_->end(solver_.stepper());
   recorder_->record(solver_.stepper().state(), smallest_gaps_,
-                    loops_ ? loops_->values() : std::span<const double>());
+                    loops_ ? loops_->values() : std::span<const double>(),
+                    forces_ ? forces_->values() : std::span<const double>());
 }
 
 void TimeLoop::observe_fields(std::int64_t step) {
@@ -257,6 +264,7 @@ void TimeLoop::write_checkpoint(const RunIdentity& identity) {
   if (slides_ && slides_->root() == rank_of(comm_)) slides_->save(saved);
   if (rank_of(comm_) == 0) ledger_.save(saved);
   if (rank_of(comm_) == 0 && uplift_) uplift_->save(saved);
+  if (rank_of(comm_) == 0 && forces_) forces_->save(saved);
   pounding::write_checkpoint(comm_, scene_.output + "/checkpoint.h5", identity, model_.meshes,
                              model_.systems, saved);
 }
@@ -267,6 +275,7 @@ void TimeLoop::load(const SavedState& saved) {
   if (slides_) slides_->load(saved);
   ledger_.load(saved);
   if (uplift_) uplift_->load(saved);
+  if (forces_) forces_->load(saved);
   if (fields_) fields_->check(saved);
   recorder_->load(saved);  // late: it replaces the history, which nothing refused may touch
   if (fields_) fields_->load(saved);
@@ -317,6 +326,7 @@ void TimeLoop::fill(RunStatistics& statistics) const {
     if (overpressed != 0) statistics.overpressed.push_back(model_.systems[s].name);
   }
   if (loops_) statistics.loops = loops_->report();
+  if (forces_) statistics.forces = forces_->report();
   if (uplift_) statistics.contact_ratios = uplift_->ratios();
   statistics.peak_memory = peak_memory();
   MPI_Allreduce(MPI_IN_PLACE, &statistics.peak_memory, 1, MPI_DOUBLE, MPI_SUM, comm_);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "contact/slide_watch.h"
+#include "driver/forces.h"
 #include "driver/loops.h"
 #include "driver/model.h"
 #include "driver/run_statistics.h"
@@ -60,7 +61,8 @@ class TimeLoop {
   Solver solver_;
   std::unique_ptr<SlideWatch> slides_;  ///< null without contacts
   ImpactCatalogue catalogue_;
-  std::unique_ptr<Loops> loops_;  ///< null if no link is recorded
+  std::unique_ptr<Loops> loops_;    ///< null if no link is recorded
+  std::unique_ptr<Forces> forces_;  ///< null if none is recorded
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<FieldWriter> fields_;  ///< null if none are asked for
   std::vector<double> smallest_gaps_;    ///< per contact

@@ -52,6 +52,8 @@ class LinkStep {
   /// A pendulum of this rank was pressed beyond the slope that its stiffness allows.
   bool overpressed() const;
   const LinkRecords& records() const { return records_; }
+  /// Force N_n of a link of this rank in the step just made [N, N m].
+  double force(std::size_t link) const { return force_[link]; }
 
   /// Saves what the links remember, link by link. `structure`: its number.
   void save(int structure, SavedState& saved) const;

@@ -42,7 +42,7 @@ struct ModalRequest {
   Vector3 gravity{0, 0, 0};  ///< that the structure is to rest under [m/s2]; 0: no vector for it
   std::vector<TracePoint> contact_points;
   std::vector<TracePoint> other_points;  ///< where the motion is wanted as well
-  std::vector<TracePoint> shown_points;  ///< and for pictures, which choose no modes
+  std::vector<TracePoint> shown_points;  ///< and for pictures and forces, which choose no modes
 };
 
 /// The lowest modes, and beside them the attachment vectors: static responses to gravity, where the

@@ -28,7 +28,8 @@ namespace {
 /// and links, and every node for its fields. Links are known on rank 0 alone, which has the mesh.
 /// Collective.
 ModalRequest request_of(MPI_Comm comm, const Scene& scene, int s, const GlobalMesh& mesh,
-                        const Interface& interface, std::span<const ResolvedProbe> probes) {
+                        const Interface& interface, std::span<const ResolvedProbe> probes,
+                        std::span<const ResolvedForce> forces) {
   const ModalModel& modal = *scene.structures[s].modal;
   ModalRequest request;
   request.modes = modal.modes;
@@ -73,6 +74,11 @@ ModalRequest request_of(MPI_Comm comm, const Scene& scene, int s, const GlobalMe
     MPI_Bcast(&nodes, 1, MPI_INT64_T, 0, comm);
     for (GlobalIndex node = 0; node < nodes; ++node) {
       for (int d = 0; d < 3; ++d) request.shown_points.push_back({node, d});
+    }
+  }
+  for (const ResolvedForce& force : forces) {
+    for (std::size_t k = 0; force.structure == s && k < force.nodes.size(); ++k) {
+      for (int c = 0; c < 6; ++c) request.shown_points.push_back({force.nodes[k], c});
     }
   }
   return request;
@@ -195,6 +201,7 @@ std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& sc
                                                   std::span<const GlobalMesh> meshes,
                                                   const Interface& interface,
                                                   std::span<const ResolvedProbe> probes,
+                                                  std::span<const ResolvedForce> forces,
                                                   std::span<const SupportColumn> columns,
                                                   Profile& profile) {
   const auto structure_of = [&](const Reduction& r) -> const Structure& {
@@ -206,7 +213,8 @@ std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& sc
     if (!scene.structures[s].modal) continue;
     Reduction& reduction = reductions.emplace_back();
     reduction.structure = static_cast<int>(s);
-    reduction.request = request_of(comm, scene, reduction.structure, meshes[s], interface, probes);
+    reduction.request =
+        request_of(comm, scene, reduction.structure, meshes[s], interface, probes, forces);
     int stored = 0;
     on_rank0(comm, [&] {
       forbid_damping_matrix(scene.structures[s]);

@@ -6,6 +6,7 @@
 
 #include "common/profile.h"
 #include "contact/interface.h"
+#include "mesh/force_places.h"
 #include "mesh/global_mesh.h"
 #include "mesh/probe_set.h"
 #include "modal/modal_basis.h"
@@ -26,6 +27,7 @@ std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& sc
                                                   std::span<const GlobalMesh> meshes,
                                                   const Interface& interface,
                                                   std::span<const ResolvedProbe> probes,
+                                                  std::span<const ResolvedForce> forces,
                                                   std::span<const SupportColumn> columns,
                                                   Profile& profile);
 

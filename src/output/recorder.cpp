@@ -34,7 +34,8 @@ Recorder::Recorder(Layout layout, std::span<const LinearSystem> systems,
   }
   const bool root = rank_of(layout_.comm) == layout_.interface_root;
   width_ = values_per_node * nodes_ + (root ? 2 * layout_.contacts.size() : 0) +
-           values_per_link * layout_.my_links.size();
+           values_per_link * layout_.my_links.size() +
+           (rank_of(layout_.comm) == 0 ? layout_.forces.size() : 0);
   buffer_.resize(buffer_records * width_);
   ground_.resize(3 * buffer_records);
   impulse_.assign(layout_.contacts.size(), 0.0);
@@ -111,6 +112,7 @@ void Recorder::name_channels() {
     last_velocity_.insert(last_velocity_.end(), v.begin(), v.end());
   }
   peaks_.assign(channels_.size(), {});
+  drifts_ = StoreyDrifts(layout_.storeys);
 }
 
 std::vector<Recorder::Quantity> Recorder::quantities() const {
@@ -124,6 +126,7 @@ std::vector<Recorder::Quantity> Recorder::quantities() const {
     list.push_back({"gap", layout_.contacts.size(), "m"});
     list.push_back({"contact_force", layout_.contacts.size(), "N"});
   }
+  if (!layout_.forces.empty()) list.push_back({"force", layout_.forces.size(), "N, N m"});
   if (!layout_.links.empty()) {
     list.push_back({"link_elongation", layout_.links.size(), "m, rad"});
     list.push_back({"link_force", layout_.links.size(), "N, N m"});
@@ -137,6 +140,7 @@ void Recorder::create_file(const std::string& path) {
   file_->write_strings("channels", channels_);
   file_->write_strings("contacts", layout_.contacts);
   if (!layout_.links.empty()) file_->write_strings("links", layout_.links);
+  if (!layout_.forces.empty()) file_->write_strings("forces", layout_.forces);
   for (const Quantity& quantity : quantities()) {
     file_->create_dataset(quantity.name, quantity.columns, quantity.unit);
   }
@@ -181,7 +185,7 @@ void Recorder::take_displacements(const State& state) {
 }
 
 void Recorder::record(const State& state, std::span<const double> gaps,
-                      std::span<const double> links) {
+                      std::span<const double> links, std::span<const double> forces) {
   put(state, &StructureState::velocity, state.supports.velocity, 3);
   double* out = buffer_.data() + buffered_ * width_ + values_per_node * nodes_;
   if (rank_of(layout_.comm) == layout_.interface_root) {
@@ -191,7 +195,8 @@ void Recorder::record(const State& state, std::span<const double> gaps,
       impulse_[c] = 0;
     }
   }
-  std::copy(links.begin(), links.end(), out);
+  out = std::copy(links.begin(), links.end(), out);
+  if (rank_of(layout_.comm) == 0) std::copy(forces.begin(), forces.end(), out);
   std::copy(ground_sum_.begin(), ground_sum_.end(), &ground_[3 * buffered_]);
   ground_sum_ = {0, 0, 0};
   if (++buffered_ == buffer_records) flush();
@@ -231,6 +236,7 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
   const std::size_t links = layout_.links.size();
   std::vector<double> link_elongation(rows * links);
   std::vector<double> link_force(rows * links);
+  std::vector<double> force_columns;
   // Node values of one record by probe and position: means are taken in the probe's own order.
   std::vector<std::vector<const double*>> values;
   for (const std::size_t count : recorded_nodes_) values.emplace_back(count, nullptr);
@@ -242,7 +248,9 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
       const double* from = gathered.data() + offsets[rank] + row * width;
       const bool root = static_cast<int>(rank) == layout_.interface_root;
       const std::vector<int>& own_links = rank_links_[rank];
-      const std::size_t beside = (root ? 2 * contacts : 0) + values_per_link * own_links.size();
+      const std::size_t forces = rank == 0 ? layout_.forces.size() : 0;
+      const std::size_t beside =
+          (root ? 2 * contacts : 0) + values_per_link * own_links.size() + forces;
       const std::size_t nodes = (width - beside) / values_per_node;
       for (std::size_t k = 0; k < nodes; ++k, ++node, from += values_per_node) {
         values[order_[node][0]][order_[node][1]] = from;
@@ -251,11 +259,12 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
         gap.push_back(from[2 * c]);
         force.push_back(from[2 * c + 1]);
       }
-      from += beside - values_per_link * own_links.size();
+      if (root) from += 2 * contacts;
       for (const int link : own_links) {
         link_elongation[row * links + static_cast<std::size_t>(link)] = *from++;
         link_force[row * links + static_cast<std::size_t>(link)] = *from++;
       }
+      force_columns.insert(force_columns.end(), from, from + forces);
     }
     time.push_back(static_cast<double>(records_++ * layout_.stride) * layout_.time_step);
     for (std::size_t channel = 0; channel < channels; ++channel) {
@@ -292,6 +301,7 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
     file_->append("gap", gap);
     file_->append("contact_force", force);
   }
+  if (!layout_.forces.empty()) file_->append("force", force_columns);
   if (links > 0) {
     file_->append("link_elongation", link_elongation);
     file_->append("link_force", link_force);
@@ -319,6 +329,11 @@ void Recorder::note_peaks(std::size_t first_record, std::span<const double> disp
     ChannelPeaks& peaks = peaks_[i % channels_.size()];
     peaks.acceleration = std::max(peaks.acceleration, std::abs(acceleration[i]));
     peaks.displacement = std::max(peaks.displacement, std::abs(displacement[i]));
+  }
+  const std::size_t rows = channels_.empty() ? 0 : displacement.size() / channels_.size();
+  for (std::size_t row = first > first_record ? first - first_record : 0; row < rows; ++row) {
+    drifts_.note(static_cast<double>(first_record + row) * interval(),
+                 displacement.subspan(row * channels_.size(), channels_.size()));
   }
 }
 

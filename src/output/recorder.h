@@ -12,6 +12,7 @@
 #include "io/hdf5_reader.h"
 #include "mesh/mesh.h"
 #include "mesh/probe_set.h"
+#include "output/storey_drifts.h"
 #include "system/trace.h"
 
 namespace pounding {
@@ -25,7 +26,7 @@ struct ChannelPeaks {
 /// Writes `history.h5`. A record is made every `stride` steps: displacement at t_n, velocity at
 /// t_n + dt/2, and as absolute acceleration the change of velocity since the last record over the
 /// interval (so that no impulse is lost between samples), ground included. Contacts: smallest gap
-/// at t_n and mean force over the interval. Links: elongation and force at t_n.
+/// at t_n and mean force over the interval. Links: elongation and force at t_n. Forces: at t_n.
 ///
 /// Values wait in a buffer on the rank that owns them and travel to rank 0 a few thousand records
 /// at a time, or when they are told to; a record itself neither allocates nor communicates. The
@@ -41,11 +42,13 @@ class Recorder {
     std::string title;
     std::vector<ResolvedProbe> probes;
     std::vector<std::string> contacts;
-    std::vector<std::string> links;  ///< recorded ones, of all ranks
-    std::vector<int> my_links;       ///< those that this rank passes, numbers among them
-    int interface_root = -1;         ///< rank that passes gaps and impulses, -1: none
+    std::vector<std::string> links;   ///< recorded ones, of all ranks
+    std::vector<int> my_links;        ///< those that this rank passes, numbers among them
+    std::vector<std::string> forces;  ///< that rank 0 passes
+    int interface_root = -1;          ///< rank that passes gaps and impulses, -1: none
     int stride = 1;
     double time_step = 0;
+    std::vector<Storey> storeys;
     double peaks_start = 0;                 ///< records before do not count as peaks [s]
     std::vector<Vector3> initial_velocity;  ///< per structure [m/s]
   };
@@ -62,9 +65,10 @@ class Recorder {
   /// Before the step to be recorded: takes the displacements.
   void take_displacements(const State& state);
   /// After it: makes the record; `gaps` per contact are read on the interface root, `links`,
-  /// elongation and force of each of this rank, on every one. Collective only when the buffer is
-  /// full.
-  void record(const State& state, std::span<const double> gaps, std::span<const double> links);
+  /// elongation and force of each of this rank, on every one, `forces` on rank 0. Collective only
+  /// when the buffer is full.
+  void record(const State& state, std::span<const double> gaps, std::span<const double> links,
+              std::span<const double> forces = {});
   /// Brings all records made to the file and to the operating system. Throws UserError on every
   /// rank alike (no space). Collective.
   void flush();
@@ -81,6 +85,8 @@ class Recorder {
   const std::vector<std::string>& channels() const { return channels_; }
   std::vector<double> acceleration(std::size_t channel) const;
   const std::vector<ChannelPeaks>& peaks() const { return peaks_; }
+  /// Drifts of the records from `peaks_start` on, rank 0.
+  const StoreyDrifts& drifts() const { return drifts_; }
   /// Largest displacement of all channels and all records [m].
   double largest_displacement() const { return largest_displacement_; }
   /// The first record that counts: the middle of its interval is not before `start` [s].
@@ -145,6 +151,7 @@ class Recorder {
   std::vector<double> last_velocity_;
   std::vector<double> accelerations_;  ///< all records, shape (records, channels)
   std::vector<ChannelPeaks> peaks_;
+  StoreyDrifts drifts_;
   double largest_displacement_ = 0;
   std::int64_t records_ = 0;
 };

@@ -55,6 +55,7 @@ void Recorder::check_history(const Hdf5Reader& history) const {
   };
   refuse_unless(history.strings("channels") == channels_ &&
                 history.strings("contacts") == layout_.contacts);
+  refuse_unless(layout_.forces.empty() || history.strings("forces") == layout_.forces);
   refuse_unless(layout_.links.empty() || history.strings("links") == layout_.links);
   for (const Quantity& quantity : quantities()) {
     const Hdf5Reader::Shape shape = history.shape(quantity.name);

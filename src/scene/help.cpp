@@ -30,6 +30,8 @@ const char* title_of(OptionBlock block) {
       return "Rotation of a support about an axis";
     case OptionBlock::probe:
       return "Probes";
+    case OptionBlock::force:
+      return "Forces";
     case OptionBlock::spectra:
       return "Floor response spectra";
   }

@@ -31,6 +31,16 @@ void OptionReader::keep(std::string_view pattern, const Names& names) {
   }
 }
 
+std::vector<Vector3> OptionReader::points(std::string_view pattern, const Names& names) {
+  std::vector<Vector3> points;
+  for (const std::string& item : split(text(pattern, names), ';')) {
+    const auto numbers = parse_reals(item);
+    if (!numbers || numbers->size() != 3) refuse(pattern, names, "'" + item + "' is not a point");
+    points.push_back({(*numbers)[0], (*numbers)[1], (*numbers)[2]});
+  }
+  return points;
+}
+
 void OptionReader::refuse(std::string_view pattern, const Names& names,
                           const std::string& why) const {
   const std::string shown = shown_value(value(pattern, names));

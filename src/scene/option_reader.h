@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/types.h"
 #include "scene/option_table.h"
 
 namespace pounding {
@@ -30,6 +31,9 @@ class OptionReader {
   /// Numbers, each in the range; `count` of them unless 0.
   std::vector<double> reals(std::string_view pattern, const Names& names = {},
                             std::size_t count = 0);
+
+  /// Points "x,y,z; x,y,z".
+  std::vector<Vector3> points(std::string_view pattern, const Names& names = {});
 
   /// "option -name value: why; expected ...".
   [[noreturn]] void refuse(std::string_view pattern, const Names& names,

@@ -43,6 +43,7 @@ constexpr std::array table{
     OptionRow{Block::run, "probes", Kind::names, "names", value("none"), any, "", "where the motion is recorded"},
     OptionRow{Block::run, "loops", Kind::names, "names", value("none"), any, "", "links whose force is recorded over their elongation: structure:group of what yields or damps, or a contact with a filler"},
     OptionRow{Block::run, "loops_at", Kind::text, "m", absent("left out: all of them"), any, "points x,y,z; x,y,z", "of each group in loops, the element nearest to each point only"},
+    OptionRow{Block::run, "forces", Kind::names, "names", value("none"), any, "", "forces that are recorded: reactions, storeys, members"},
     OptionRow{Block::run, "supports", Kind::names, "names", value("none"), any, "", "parts of the ground that move otherwise than the motion says"},
     OptionRow{Block::run, "end_time", Kind::real, "s", required, positive, "", "duration of the run"},
     OptionRow{Block::run, "courant", Kind::real, "-", value("0.9"), fraction, "", "fraction of the stable time step that is used"},
@@ -208,6 +209,14 @@ constexpr std::array table{
     OptionRow{Block::probe, "<probe>_at", Kind::text, "m", absent("this or group"), any, "points x,y,z; x,y,z", "points, each snapped to the nearest node"},
     OptionRow{Block::probe, "<probe>_group", Kind::text, "group", absent("this or at"), any, "a physical group", "all nodes of a physical group"},
     OptionRow{Block::probe, "<probe>_average", Kind::boolean, "flag", value("true"), any, "", "one averaged record instead of one per node"},
+    OptionRow{Block::probe, "<probe>_floor", Kind::boolean, "flag", value("false"), any, "", "it tells the motion of a floor: drifts are those between floors"},
+
+    OptionRow{Block::force, "<force>_structure", Kind::text, "name", required, any, "the name of a structure", "the structure that they are of"},
+    OptionRow{Block::force, "<force>_kind", Kind::choice, "word", required, any, "reactions|storey|members", "reactions: what the ground does to it; storey: what passes through a level; members: at the ends of beams, bars and springs"},
+    OptionRow{Block::force, "<force>_level", Kind::real, "m", absent("storey only"), any, "", "z of the level"},
+    OptionRow{Block::force, "<force>_about", Kind::reals, "m", absent("left out: the origin, of a storey the point of its level below or above it"), any, "three numbers x,y,z", "point that the moments are about"},
+    OptionRow{Block::force, "<force>_group", Kind::text, "group", absent("members only"), any, "a physical group", "the elements"},
+    OptionRow{Block::force, "<force>_at", Kind::text, "m", absent("left out: peaks of all of them, no history"), any, "points x,y,z; x,y,z", "the element of the group nearest to each point, with its history"},
 
     OptionRow{Block::spectra, "spectra_damping", Kind::reals, "-", value("0.05"), damping_ratio, "a comma-separated list of numbers", "damping ratios of the oscillators"},
     OptionRow{Block::spectra, "spectra_frequencies", Kind::text, "Hz", value("0.5:400:200log"), positive, "start:stop:COUNTlog, start:stop:COUNTlin (COUNT 2 to 100000) or an increasing list", "frequencies of the oscillators"},

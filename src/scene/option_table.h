@@ -29,6 +29,7 @@ enum class OptionBlock {
   support_motion,
   support_rotation,
   probe,
+  force,
   spectra
 };
 

@@ -11,6 +11,7 @@
 #include "common/types.h"
 #include "elements/element_traits.h"
 #include "scene/filler.h"
+#include "scene/force_item.h"
 #include "scene/nonlinear_spring.h"
 #include "scene/soil.h"
 #include "scene/uniform_damping.h"
@@ -273,6 +274,7 @@ struct Probe {
   std::vector<Vector3> points;  ///< each snaps to the nearest node [m]
   std::string group;            ///< or all nodes of a physical group
   bool average = true;          ///< one averaged channel set, or one per node
+  bool floor = false;           ///< the level of a floor, between which drifts are
 };
 
 /// Links whose force is recorded over their elongation: those of a region, or the filler of a
@@ -307,6 +309,7 @@ struct Scene {
   PartitionBy partition_by = PartitionBy::automatic;
   std::vector<Probe> probes;
   std::vector<Loop> loops;
+  std::vector<ForceItem> forces;
   SpectraRequest spectra;
   double end_time = 0;             ///< [s]
   double courant = 0;              ///< fraction of the stable time step [-]

@@ -9,6 +9,7 @@
 #include "scene/doubts.h"
 #include "scene/fidelity_target.h"
 #include "scene/filler_reader.h"
+#include "scene/force_reader.h"
 #include "scene/motion_reader.h"
 #include "scene/nearest_name.h"
 #include "scene/option_blocks.h"
@@ -34,7 +35,7 @@ class SceneReader {
   ReadScene read() {
     scene_.title = options_.text("title");
     listed_ = {read_names("structures"), read_names("contacts"), read_names("probes"),
-               read_names("supports")};
+               read_names("supports"), read_names("forces")};
     require_apart(listed_.structures);
     refuse_unknown_options(options_.database(), listed_);
     mention_structures_left_out();
@@ -60,6 +61,9 @@ class SceneReader {
     check_supports(options_, scene_);
     for (const std::string& name : listed_.probes) scene_.probes.push_back(read_probe(name));
     read_loops();
+    for (const std::string& name : listed_.forces) {
+      scene_.forces.push_back(read_force(options_, scene_, name));
+    }
     read_spectra();
     const std::vector<std::string> doubts = scene_doubts(scene_);
     scene_.warnings.insert(scene_.warnings.end(), doubts.begin(), doubts.end());
@@ -275,29 +279,22 @@ class SceneReader {
                       "_at and -" + name + "_group");
     }
     if (at) {
-      probe.points = read_points("<probe>_at", {name});
+      probe.points = options_.points("<probe>_at", {name});
     } else {
       probe.group = options_.text("<probe>_group", {name});
     }
     probe.average = options_.boolean("<probe>_average", {name});
-    return probe;
-  }
-
-  std::vector<Vector3> read_points(std::string_view pattern, const Names& names) {
-    std::vector<Vector3> points;
-    for (const std::string& item : split(options_.text(pattern, names), ';')) {
-      const auto numbers = parse_reals(item);
-      if (!numbers || numbers->size() != 3) {
-        options_.refuse(pattern, names, "'" + item + "' is not a point");
-      }
-      points.push_back({(*numbers)[0], (*numbers)[1], (*numbers)[2]});
+    probe.floor = options_.boolean("<probe>_floor", {name});
+    if (probe.floor && !probe.average) {
+      options_.refuse("<probe>_floor", {name},
+                      "a floor is one record; not with -" + name + "_average false");
     }
-    return points;
+    return probe;
   }
 
   void read_loops() {
     std::vector<Vector3> points;
-    if (options_.given("loops_at")) points = read_points("loops_at", {});
+    if (options_.given("loops_at")) points = options_.points("loops_at");
     for (const std::string& item : options_.list("loops")) {
       const std::vector<std::string> words = split(item, ':');
       if (words.size() == 2 && !words[0].empty() && !words[1].empty()) {

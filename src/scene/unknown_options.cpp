@@ -87,6 +87,9 @@ std::vector<std::vector<std::string>> owners(const OptionsDatabase& database,
     case OptionBlock::probe:
       add(with_complete(database, block, as_set(listed.probes)));
       break;
+    case OptionBlock::force:
+      add(with_complete(database, block, as_set(listed.forces)));
+      break;
   }
   return result;
 }

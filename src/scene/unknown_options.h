@@ -7,17 +7,18 @@
 
 namespace pounding {
 
-/// Names that `structures`, `contacts`, `probes` and `supports` list.
+/// Names that `structures`, `contacts`, `probes`, `supports` and `forces` list.
 struct ListedNames {
   std::vector<std::string> structures;
   std::vector<std::string> contacts;
   std::vector<std::string> probes;
   std::vector<std::string> supports{};
+  std::vector<std::string> forces{};
 };
 
 /// Refuses the first option that the table does not explain for the listed names, naming the
-/// nearest one that it does. A structure, material, section, contact, probe or support that is
-/// wholly defined but not used is allowed: it may belong to a library, or be switched off by
+/// nearest one that it does. A structure, material, section, contact, probe, support or force that
+/// is wholly defined but not used is allowed: it may belong to a library, or be switched off by
 /// `-contacts none`. Throws UserError.
 void refuse_unknown_options(const OptionsDatabase& database, const ListedNames& in_use);
 

@@ -55,6 +55,7 @@ class Links {
 
   const std::vector<Link>& links() const { return links_; }  ///< of this rank
   const Trace& trace() const { return *trace_; }
+  const std::vector<LocalIndex>& dofs() const { return dofs_; }  ///< of the mesh, per place of it
   /// Some link of some rank holds stiffness that is no part of K: it acts in one direction only, or
   /// yields.
   bool hold_stiffness() const { return hold_stiffness_; }

@@ -89,6 +89,9 @@ def make_summary(path: Path) -> None:
         "impacts": {"episodes": 3, "total_impulse": 1190.0, "largest_impulse": 900.0,
                     "max_penetration": 1e-6, "floor1": {"episodes": 1, "total_impulse": 30.0},
                     "floor2": {"episodes": 2, "total_impulse": 1160.0}},
+        "drifts": [{"structure": one, "upper": f"{one}_floor{level}", "lower": "base" if level == 1 else f"{one}_floor1",
+                    "height": 2.72 if level == 1 else 2.5, "peak": [0.01, 0.002], "time": [1.0, 2.0]}
+                   for one in ("s1", "s2") for level in (1, 2)],
         "probes": {name: {"structure": owner, "position": [1.0, 1.14, height],
                           "peak_acceleration": [9.1, None, 1.0],
                           "peak_displacement": [0.02, 0.01, 0.0001]}

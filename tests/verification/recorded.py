@@ -145,7 +145,8 @@ def assert_continues(test, arguments, stop, checkpoint, ranks=2):
             test.assertEqual(result.returncode, 0, result.stderr[-2000:])
         with h5py.File(os.path.join(folder, "history.h5")) as whole, \
                 h5py.File(os.path.join(cut, "history.h5")) as continued:
-            for name in ("displacement", "velocity", "acceleration", "contact_force", "link_elongation", "link_force"):
+            for name in ("displacement", "velocity", "acceleration", "contact_force", "link_elongation", "link_force",
+                         "force"):
                 if name in whole:
                     test.assertTrue(numpy.array_equal(whole[name][()], continued[name][()]), name)
         lines = {}

@@ -81,50 +81,34 @@ def response_spectra(result: Result) -> list:
                 f"carry {100 * MODE_SHARE:g} % of its mass or more in the direction of that colour.")
 
 
-def _levels(result: Result) -> dict:
-    """Structure -> [(height, probe)], increasing heights, one probe per height."""
-    levels = {}
-    for name, probe in result.summary.get("probes", {}).items():
-        if name in result.probes and probe.get("structure") and probe.get("position"):
-            floors = levels.setdefault(probe["structure"], {})
-            floors.setdefault(round(probe["position"][2], 6), name)
-    return {structure: sorted(floors.items()) for structure, floors in levels.items()}
-
-
 def drifts(result: Result) -> list:
     result.need("displacement")
-    storeys = []
-    for structure, floors in _levels(result).items():
-        below = (0.0, None)
-        for height, probe in floors:
-            if height - below[0] > 1e-6:
-                storeys.append((structure, below, (height, probe)))
-            below = (height, probe)
+    storeys = result.summary.get("drifts", [])
     if not storeys:
-        raise Missing("summary.json gives no positions of the probes")
+        raise Missing("no probe is marked as a floor (-<probe>_floor)")
     figure, rows = stacked(len(storeys), 1.75)
-    for axes, (structure, (low, lower), (high, upper)) in zip(rows, storeys):
-        peaks = []
+    for axes, storey in zip(rows, storeys):
+        upper, lower, peaks = storey["upper"], storey["lower"], []
         for direction in ("x", "y"):
             series = result.series("displacement", upper, direction)
             if series is None:
                 continue
             time, moved = series
-            base = result.series("displacement", lower, direction) if lower else None
-            drift = 100 * (moved - (base[1] if base else 0)) / (high - low)
+            base = None if lower == "base" else result.series("displacement", lower, direction)
+            drift = 100 * (moved - (base[1] if base else 0)) / storey["height"]
             if has_signal(drift, 1e-3):
                 colour = DIRECTION_COLOURS[direction]
                 plot_series(axes, time, drift, color=colour, label=direction, lw=0.9)
                 peaks.append(f"{direction} {np.nanmax(np.abs(drift)):.3g} %")
-        axes.set_title(f"{structure}: {upper} over {lower or 'the ground'}; peak "
+        axes.set_title(f"{storey['structure']}: {upper} over {lower if lower != 'base' else 'its base'}; peak "
                        + (", ".join(peaks) or "none"))
         axes.set_ylabel("drift [%]")
         if peaks:
             legend_above(axes, columns=2)
     rows[-1].set_xlabel("time [s]")
     return save(figure, result.folder, "drifts.png", "Drifts",
-                "Horizontal displacement of a level less that of the one below, over their "
-                "distance in height; the lowest level against the ground (z = 0).")
+                "Horizontal displacement of a floor less that of the one below, over their distance in height; "
+                "the lowest floor against the ground at the base of its structure.")
 
 
 def accelerations(result: Result) -> list:

@@ -1,0 +1,197 @@
+#include "driver/forces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "common/error.h"
+#include "common/parallel.h"
+#include "elements/end_forces.h"
+#include "io/csv_file.h"
+#include "system/links.h"
+
+namespace pounding {
+namespace {
+
+constexpr std::array<const char*, 6> total_names{"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
+
+bool has_history(const ForceItem& force) {
+  return force.kind != ForceKind::members || !force.points.empty();
+}
+
+/// Links of a reduced structure stand beside modes that hold them at their stiffest.
+void refuse_relieved(const ForceItem& force, const LinearSystem& system) {
+  if (force.kind == ForceKind::members || !system.generalised || !system.links ||
+      !system.links->hold_stiffness()) {
+    return;
+  }
+  throw UserError("option -" + force.name + "_kind: structure " + force.structure +
+                  " is reduced and has elements that yield or act in one direction only; give -" +
+                  force.structure + "_model full, or -loops for these elements");
+}
+
+std::vector<std::string> components_of(const ForceItem& force, const Structure& structure) {
+  if (force.kind != ForceKind::members) return {total_names.begin(), total_names.end()};
+  const auto region = std::ranges::find(structure.regions, force.group, &Region::group);
+  const auto names = end_force_names(region->element);
+  return {names.begin(), names.end()};
+}
+
+}  // namespace
+
+std::size_t ForceReport::largest(std::size_t component) const {
+  std::size_t best = 0;
+  const auto size = [&](std::size_t e) {
+    return std::abs(peaks[e * components.size() + component].value);
+  };
+  for (std::size_t e = 1; e < elements.size(); ++e) best = size(e) > size(best) ? e : best;
+  return best;
+}
+
+Forces::Forces(MPI_Comm comm, const Scene& scene, const Model& model)
+    : comm_(comm), peaks_start_(scene.spectra.start) {
+  lay_out(scene, model);
+  for (std::size_t s = 0; s < model.systems.size(); ++s) {
+    std::vector<ElementForces::Row> rows;
+    on_every_rank(comm, [&] {
+      for (std::size_t i = 0; i < items_.size(); ++i) {
+        if (model.forces[i].structure != static_cast<int>(s)) continue;
+        const ForceItem& force = scene.forces[i];
+        refuse_relieved(force, model.systems[s]);
+        std::vector<ElementForces::Row> more;
+        if (force.kind == ForceKind::members) {
+          more =
+              member_rows(scene.structures[s], model.meshes[s], model.forces[i], items_[i].first);
+        } else if (model.systems[s].generalised) {
+          more = total_rows(scene.structures[s], model.meshes[s], force, model.forces[i],
+                            items_[i].first);
+        }
+        std::ranges::move(more, std::back_inserter(rows));
+        if (force.kind == ForceKind::members) continue;
+        totals_.push_back({s, items_[i].first,
+                           std::make_unique<TotalForce>(force, model.systems[s], model.meshes[s],
+                                                        model.time_step)});
+      }
+    });
+    if (rows.empty()) continue;
+    elements_.push_back(
+        {s, std::make_unique<ElementForces>(model.systems[s], model.meshes[s], rows)});
+  }
+}
+
+void Forces::lay_out(const Scene& scene, const Model& model) {
+  for (std::size_t i = 0; i < scene.forces.size(); ++i) {
+    const ForceItem& force = scene.forces[i];
+    Item& item = items_.emplace_back();
+    item.name = force.name;
+    item.components =
+        components_of(force, scene.structures[static_cast<std::size_t>(model.forces[i].structure)]);
+    if (force.kind != ForceKind::members) item.elements = {""};
+    for (std::size_t e = 0; force.kind == ForceKind::members && e < model.forces[i].elements.size();
+         ++e) {
+      item.elements.push_back(std::to_string(model.forces[i].elements[e]));
+    }
+  }
+  std::size_t next = 0;
+  for (const bool recorded : {true, false}) {
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+      if (has_history(scene.forces[i]) != recorded) continue;
+      items_[i].first = next;
+      next += items_[i].columns();
+      for (std::size_t e = 0; recorded && e < items_[i].elements.size(); ++e) {
+        const std::string& element = items_[i].elements[e];
+        for (const std::string& component : items_[i].components) {
+          recorded_.push_back(items_[i].name + (element.empty() ? "" : "." + element) + "." +
+                              component);
+        }
+      }
+    }
+  }
+  part_.assign(next, 0.0);
+  columns_.assign(next, 0.0);
+  peaks_.assign(next, {});
+}
+
+void Forces::begin(const State& state) {
+  std::ranges::fill(part_, 0.0);
+  for (Total& total : totals_) total.force->begin(state.structures[total.structure]);
+  for (Elements& of : elements_) {
+    of.forces->add(state.structures[of.structure].displacement, state.supports.displacement, part_);
+  }
+}
+
+void Forces::end(const CdLagrange& stepper) {
+  for (const Total& total : totals_) {
+    Wrench sum{};
+    total.force->add(stepper.state().structures[total.structure],
+                     stepper.link_step(total.structure), sum);
+    for (std::size_t k = 0; k < sum.size(); ++k) part_[total.first + k] += sum[k];
+  }
+  MPI_Reduce(part_.data(), columns_.data(), static_cast<int>(part_.size()), MPI_DOUBLE, MPI_SUM, 0,
+             comm_);
+  if (rank_of(comm_) != 0 || stepper.time() < peaks_start_) return;
+  for (std::size_t c = 0; c < peaks_.size(); ++c) {
+    const ForcePeak now{columns_[c], stepper.time()};
+    if (std::abs(now.value) > std::abs(peaks_[c].value)) peaks_[c] = now;
+  }
+}
+
+void Forces::save(SavedState& saved) const {
+  std::vector<double> table;
+  for (const ForcePeak& peak : peaks_) table.insert(table.end(), {peak.value, peak.time});
+  saved.put("force_peaks", table, 2);
+}
+
+void Forces::load(const SavedState& saved) {
+  std::vector<double> table(2 * peaks_.size());
+  saved.get("force_peaks", table);
+  for (std::size_t c = 0; c < peaks_.size(); ++c) peaks_[c] = {table[2 * c], table[2 * c + 1]};
+}
+
+std::vector<ForceReport> Forces::report() const {
+  std::vector<ForceReport> reports;
+  for (const Item& item : items_) {
+    const auto first = peaks_.begin() + static_cast<std::ptrdiff_t>(item.first);
+    reports.push_back({item.name,
+                       item.components,
+                       item.elements,
+                       {first, first + static_cast<std::ptrdiff_t>(item.columns())}});
+  }
+  return reports;
+}
+
+void write_forces(const std::string& path, std::span<const ForceReport> reports) {
+  CsvFile file(path);
+  file.comment(
+      "largest forces [N] and moments [N m] at the instants of the samples, with their sign");
+  file.comment("element: its number in the mesh file, 0: the whole item; time [s]");
+  file.header("item,component,element,peak,time");
+  for (const ForceReport& report : reports) {
+    for (std::size_t e = 0; e < report.elements.size(); ++e) {
+      for (std::size_t c = 0; c < report.components.size(); ++c) {
+        const ForcePeak& peak = report.peaks[e * report.components.size() + c];
+        const std::string& element = report.elements[e];
+        file.row(report.name + "," + report.components[c],
+                 {element.empty() ? 0.0 : std::stod(element), peak.value, peak.time});
+      }
+    }
+  }
+  file.close();
+}
+
+void print_forces(std::span<const ForceReport> reports) {
+  if (reports.empty()) return;
+  std::printf("\nforce             largest kN (or kN m) of the samples      at s   element\n");
+  for (const ForceReport& report : reports) {
+    for (std::size_t c = 0; c < report.components.size(); ++c) {
+      const std::size_t e = report.largest(c);
+      const ForcePeak& peak = report.peaks[e * report.components.size() + c];
+      std::printf("  %-18s %24.6g %19.5f   %s\n",
+                  (report.name + "." + report.components[c]).c_str(), peak.value / 1000, peak.time,
+                  report.elements[e].c_str());
+    }
+  }
+}
+
+}  // namespace pounding

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "driver/model.h"
+#include "output/storey_drifts.h"
+#include "scene/scene.h"
+
+namespace pounding {
+
+/// Storeys between the probes that the scene calls floors, structure by structure from below.
+/// Throws UserError for two floors of a structure at one height. Collective.
+std::vector<Storey> find_storeys(MPI_Comm comm, const Scene& scene, const Model& model);
+
+/// The table of the console, from the records that count.
+void print_drifts(const StoreyDrifts& drifts);
+
+}  // namespace pounding

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "dynamics/cd_lagrange.h"
+#include "mesh/force_places.h"
+#include "mesh/mesh.h"
+#include "system/linear_system.h"
+#include "system/wrench.h"
+
+namespace pounding {
+
+/// The force of the ground on a structure, or what passes upwards through a level of it: minus the
+/// sum of all internal forces on the dofs above, those of springs, dashpots and links to the ground
+/// included. Elements between counted dofs push as much as they pull, so that only those count that
+/// end below the level, at clamps or in the ground. With the forces of the step to t_n,
+///
+///     R = - sum_i r_i ( K (u_n + beta v-) + D v- + b N )_i
+///
+/// r_i the force and the moment that a unit force on dof i has, or the force that uniform damping
+/// filters in place of the first term. Exactly what the scheme has: R is the change of momentum of
+/// what is above, less what gravity, contacts and mass damping do to it.
+class TotalForce {
+ public:
+  /// Finds what it counts at full order; of a structure in generalised coordinates only what links
+  /// do. References must outlive this object. Local.
+  TotalForce(const ForceItem& item, const LinearSystem& system, const Mesh& mesh, double time_step);
+
+  /// Before the step to t_n.
+  void begin(const StructureState& state);
+  /// Adds this rank's part of R after it; `links` may be null.
+  void add(const StructureState& state, const LinkStep* links, Wrench& total) const;
+
+ private:
+  /// A dof that is counted, and where it is.
+  struct Counted {
+    LocalIndex dof = 0;
+    int component = 0;
+    Vector3 place{};  ///< [m]
+  };
+  void add_force(const Counted& counted, double force, Wrench& total) const {
+    add_unit_force(point_, counted.place, counted.component, force, total);
+  }
+  /// Sum over the counted dofs of a nodal force.
+  Wrench sum(std::span<const double> force) const;
+
+  const LinearSystem& system_;
+  double time_step_;
+  Vector3 point_;
+  std::vector<Counted> counted_;  ///< empty in generalised coordinates
+  std::vector<Wrench> links_;     ///< per link of this rank, of a unit force of it
+  Wrench before_{};               ///< of K u_{n-1}
+};
+
+}  // namespace pounding

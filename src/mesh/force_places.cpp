@@ -1,0 +1,144 @@
+#include "mesh/force_places.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "common/error.h"
+#include "common/parallel.h"
+#include "mesh/bounding_box.h"
+
+namespace pounding {
+namespace {
+
+/// An element of a set of the mesh.
+struct Place {
+  const ElementSet* set = nullptr;
+  std::size_t element = 0;
+
+  std::span<const GlobalIndex> nodes() const {
+    const std::size_t count = set->connectivity.size() / set->tags.size();
+    return {&set->connectivity[element * count], count};
+  }
+};
+
+std::vector<Place> places_of(const GlobalMesh& mesh) {
+  std::vector<Place> places;
+  for (const ElementSet& set : mesh.regions) {
+    for (std::size_t e = 0; e < set.tags.size(); ++e) places.push_back({&set, e});
+  }
+  return places;
+}
+
+/// The element of the group whose middle is nearest to a point.
+Place nearest(const ForceItem& force, const GlobalMesh& mesh, const std::vector<Place>& group,
+              const Vector3& point) {
+  constexpr double far = 0.05;  // of the extent of the mesh, beyond the size of the element
+  double least = std::numeric_limits<double>::infinity();
+  Place best;
+  for (const Place& place : group) {
+    const double away = distance(centroid(mesh, place.nodes()), point);
+    if (!(away < least * (1 - 1e-9))) continue;
+    least = away;
+    best = place;
+  }
+  double size = 0;
+  for (const GlobalIndex node : best.nodes()) {
+    size = std::max(size, distance(mesh.position(node), centroid(mesh, best.nodes())));
+  }
+  if (least > size + far * bounding_box({&mesh, 1}).diagonal()) {
+    std::ostringstream text;
+    text << "option -" << force.name << "_at: the point (" << point[0] << ", " << point[1] << ", "
+         << point[2] << ") is " << least << " m away from the middle of the nearest element of "
+         << force.group << "; give a point on one";
+    throw UserError(text.str());
+  }
+  return best;
+}
+
+std::vector<Place> chosen_elements(const ForceItem& force, const GlobalMesh& mesh) {
+  std::vector<Place> group;
+  for (const Place& place : places_of(mesh)) {
+    if (place.set->group == force.group) group.push_back(place);
+  }
+  if (force.points.empty()) {
+    std::ranges::stable_sort(group, {}, [](const Place& p) { return p.set->tags[p.element]; });
+    return group;
+  }
+  std::vector<Place> chosen;
+  for (const Vector3& point : force.points) {
+    const Place place = nearest(force, mesh, group, point);
+    const bool again = std::ranges::any_of(chosen, [&](const Place& other) {
+      return other.set == place.set && other.element == place.element;
+    });
+    if (!again) chosen.push_back(place);
+  }
+  return chosen;
+}
+
+/// Elements of which a total counts some force but not all: their own sum is zero.
+std::vector<Place> passing_elements(const ForceItem& force, const GlobalMesh& mesh) {
+  std::vector<Place> passing;
+  for (const Place& place : places_of(mesh)) {
+    const ElementTraits& traits = traits_of(place.set->type);
+    if (traits.stiffness == nullptr || traits.family == ElementFamily::point_mass) continue;
+    bool some = false;
+    bool all = !is_grounded(place.set->type);
+    for (const GlobalIndex node : place.nodes()) {
+      for (int c = 0; c < traits.layout.components; ++c) {
+        const bool one = counts(force, mesh.free_components[node], mesh.position(node)[2], c);
+        some = some || one;
+        all = all && one;
+      }
+    }
+    if (some && !all) passing.push_back(place);
+  }
+  return passing;
+}
+
+}  // namespace
+
+bool counts(const ForceItem& force, std::uint8_t free_components, double z, int component) {
+  constexpr double round_off = 1e-9;  // m
+  if ((free_components >> component & 1) == 0) return false;
+  return force.kind != ForceKind::storey || z > force.level + round_off;
+}
+
+std::vector<ResolvedForce> resolve_forces(const Scene& scene, std::span<const GlobalMesh> meshes) {
+  std::vector<ResolvedForce> forces;
+  for (const ForceItem& force : scene.forces) {
+    std::size_t s = 0;
+    while (scene.structures[s].name != force.structure) ++s;
+    ResolvedForce& resolved = forces.emplace_back();
+    resolved.structure = static_cast<int>(s);
+    std::vector<Place> places;
+    if (force.kind == ForceKind::members) {
+      places = chosen_elements(force, meshes[s]);
+    } else if (scene.structures[s].modal) {
+      places = passing_elements(force, meshes[s]);
+    }
+    std::set<GlobalIndex> nodes;
+    for (const Place& place : places) {
+      resolved.elements.push_back(place.set->tags[place.element]);
+      resolved.regions.push_back(place.set->region);
+      nodes.insert(place.nodes().begin(), place.nodes().end());
+    }
+    resolved.nodes.assign(nodes.begin(), nodes.end());
+  }
+  return forces;
+}
+
+void broadcast_forces(MPI_Comm comm, std::vector<ResolvedForce>& forces) {
+  int count = static_cast<int>(forces.size());
+  MPI_Bcast(&count, 1, MPI_INT, 0, comm);
+  forces.resize(count);
+  for (ResolvedForce& force : forces) {
+    MPI_Bcast(&force.structure, 1, MPI_INT, 0, comm);
+    broadcast_array(comm, force.elements, 0);
+    broadcast_array(comm, force.regions, 0);
+    broadcast_array(comm, force.nodes, 0);
+  }
+}
+
+}  // namespace pounding

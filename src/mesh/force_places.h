@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <mpi.h>
+
+#include "mesh/global_mesh.h"
+#include "scene/scene.h"
+
+namespace pounding {
+
+/// An item of the option `forces` on its mesh.
+struct ResolvedForce {
+  int structure = 0;
+  /// Elements that it is about, by their numbers in the file: of members those chosen, in the order
+  /// of their points or by number; of totals of a reduced structure those that pass force on to
+  /// what is not counted, none at full order.
+  std::vector<std::int64_t> elements;
+  std::vector<int> regions;        ///< of each of them, since a point may be several elements
+  std::vector<GlobalIndex> nodes;  ///< of these elements, sorted
+};
+
+/// Whether a total counts the forces on a component of a node: it is free and above the level.
+bool counts(const ForceItem& force, std::uint8_t free_components, double z, int component);
+
+/// Finds the elements of every item. Throws UserError for a point far from the group's elements.
+std::vector<ResolvedForce> resolve_forces(const Scene& scene, std::span<const GlobalMesh> meshes);
+
+/// Brings what rank 0 found to every rank. Collective.
+void broadcast_forces(MPI_Comm comm, std::vector<ResolvedForce>& forces);
+
+}  // namespace pounding

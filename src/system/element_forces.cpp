@@ -1,0 +1,145 @@
+#include "system/element_forces.h"
+
+#include <algorithm>
+#include <map>
+
+#include "elements/end_forces.h"
+#include "stiffness/element_properties.h"
+#include "system/each_element.h"
+#include "system/wrench.h"
+
+namespace pounding {
+namespace {
+
+/// Places of elements in the list of an item, by region and number.
+using Places = std::map<std::pair<int, std::int64_t>, std::size_t>;
+
+Places places_of(const ResolvedForce& force) {
+  Places places;
+  for (std::size_t i = 0; i < force.elements.size(); ++i) {
+    places[{force.regions[i], force.elements[i]}] = i;
+  }
+  return places;
+}
+
+/// An element of an item, and its dofs as places that do not depend on the partition.
+struct Chosen {
+  const ElementBlock& block;
+  std::size_t place = 0;  ///< in the list of the item
+  std::span<const double> coordinates;
+  std::span<const double> stiffness;
+  std::vector<TracePoint> points;
+  std::vector<LocalIndex> nodes;  ///< of the mesh, per point
+};
+
+/// Calls `visit` for those elements of an item that this rank has.
+template <typename Visit>
+void for_each_chosen(const Structure& structure, const Mesh& mesh, const ResolvedForce& force,
+                     Visit&& visit) {
+  const Places places = places_of(force);
+  const auto wanted = [&](const ElementBlock& block, std::size_t e) {
+    return places.contains({block.region, block.tags[e]});
+  };
+  for_each_element(
+      structure, mesh, wanted,
+      [&](const ElementBlock& block, std::size_t e, const ElementLayout& layout,
+          ElementWork& work) {
+        const auto size = static_cast<std::size_t>(layout.size());
+        Chosen chosen{block,
+                      places.at({block.region, block.tags[e]}),
+                      gather_coordinates(mesh, block, e, work),
+                      {work.stiffness.data(), size * size},
+                      {},
+                      {}};
+        for (std::size_t i = 0; i < size; ++i) {
+          const auto components = static_cast<std::size_t>(layout.components);
+          const LocalIndex node = block.connectivity[(e * size + i) / components];
+          chosen.nodes.push_back(node);
+          chosen.points.push_back({mesh.file_node[node], static_cast<int>(i % components)});
+        }
+        visit(chosen);
+      });
+}
+
+}  // namespace
+
+ElementForces::ElementForces(const LinearSystem& system, const Mesh& mesh,
+                             const std::vector<Row>& rows) {
+  std::map<TracePoint, std::size_t> number;
+  for (const Row& row : rows) {
+    for (const TracePoint& point : row.points) {
+      if (mesh.owned_node(point.node) >= 0) number.emplace(point, 0);
+    }
+  }
+  std::vector<TracePoint> places;
+  for (auto& [point, place] : number) {
+    place = places.size();
+    places.push_back(point);
+  }
+  trace_ = std::make_unique<Trace>(system, mesh, places, false);
+  field_.assign(places.size(), 0.0);
+  for (const Row& row : rows) {
+    for (std::size_t i = 0; i < row.points.size(); ++i) {
+      const auto found = number.find(row.points[i]);
+      if (found == number.end() || row.coefficients[i] == 0) continue;
+      terms_.push_back({row.column, found->second, row.coefficients[i]});
+    }
+  }
+  if (!system.uniform_damping || system.rest_displacement.empty()) return;
+  rest_.assign(places.size(), 0.0);
+  trace_->apply(system.rest_displacement.data(), rest_.data(), 1);
+  relaxed_ = 1 - system.uniform_damping->at_rest();
+}
+
+void ElementForces::add(std::span<const double> owned, std::span<const double> supports,
+                        std::span<double> columns) {
+  trace_->apply(owned.data(), field_.data(), 1, supports);
+  for (std::size_t i = 0; i < rest_.size(); ++i) field_[i] -= relaxed_ * rest_[i];
+  for (const Term& term : terms_) columns[term.column] += term.coefficient * field_[term.place];
+}
+
+std::vector<ElementForces::Row> member_rows(const Structure& structure, const Mesh& mesh,
+                                            const ResolvedForce& chosen, std::size_t first) {
+  std::vector<ElementForces::Row> rows;
+  for_each_chosen(structure, mesh, chosen, [&](const Chosen& element) {
+    const std::size_t count = end_force_names(element.block.type).size();
+    const std::vector<double> forces = end_force_rows(
+        element.block.type, element.coordinates,
+        element_properties(structure.regions[element.block.region]), element.stiffness);
+    for (std::size_t k = 0; k < count; ++k) {
+      const double* const row = &forces[k * element.points.size()];
+      rows.push_back(
+          {first + count * element.place + k, element.points, {row, row + element.points.size()}});
+    }
+  });
+  return rows;
+}
+
+std::vector<ElementForces::Row> total_rows(const Structure& structure, const Mesh& mesh,
+                                           const ForceItem& item, const ResolvedForce& passing,
+                                           std::size_t first) {
+  std::vector<ElementForces::Row> rows;
+  for_each_chosen(structure, mesh, passing, [&](const Chosen& element) {
+    const std::size_t size = element.points.size();
+    std::array<std::vector<double>, 6> sums;
+    sums.fill(std::vector<double>(size, 0.0));
+    for (std::size_t i = 0; i < size; ++i) {
+      const LocalIndex node = element.nodes[i];
+      const Vector3 x = mesh.position(node);
+      if (!counts(item, mesh.free_components[node], x[2], element.points[i].component)) continue;
+      Wrench unit{};
+      add_unit_force(item.point(), x, element.points[i].component, -1, unit);
+      for (std::size_t k = 0; k < unit.size(); ++k) {
+        for (std::size_t j = 0; unit[k] != 0 && j < size; ++j) {
+          sums[k][j] += unit[k] * element.stiffness[i * size + j];
+        }
+      }
+    }
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+      rows.push_back({first + k, element.points, std::move(sums[k])});
+    }
+  });
+  return rows;
+}
+
+}  // namespace pounding

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "mesh/force_places.h"
+#include "mesh/mesh.h"
+#include "system/linear_system.h"
+#include "system/trace.h"
+
+namespace pounding {
+
+/// Elastic forces of chosen elements of a structure, K_e u_e: each is a linear form of the
+/// displacements of the nodes there, which in generalised coordinates follow from the rows of the
+/// basis. Where uniform damping relaxes K, what the rest before the run holds is relaxed with it.
+class ElementForces {
+ public:
+  /// A column of the table of all forces and the linear form that it is.
+  struct Row {
+    std::size_t column = 0;
+    std::vector<TracePoint> points;
+    std::vector<double> coefficients;  ///< per point [N/m, N, N m]
+  };
+
+  /// The part of these rows that hangs on this rank's nodes. References must outlive this object.
+  /// Local.
+  ElementForces(const LinearSystem& system, const Mesh& mesh, const std::vector<Row>& rows);
+
+  /// Adds this rank's part at displacements u_n of the owned dofs and of the supports to the
+  /// columns.
+  void add(std::span<const double> owned, std::span<const double> supports,
+           std::span<double> columns);
+
+ private:
+  struct Term {
+    std::size_t column = 0;
+    std::size_t place = 0;  ///< among the known ones of the trace
+    double coefficient = 0;
+  };
+  std::unique_ptr<Trace> trace_;
+  std::vector<Term> terms_;
+  std::vector<double> field_;
+  std::vector<double> rest_;  ///< field of the rest before the run; empty without uniform damping
+  double relaxed_ = 0;        ///< part of it that is not held
+};
+
+/// Rows of the members of an item, from `first` on, element after element in the item's order; each
+/// element on every rank that has it. Throws UserError (an element that cannot be).
+std::vector<ElementForces::Row> member_rows(const Structure& structure, const Mesh& mesh,
+                                            const ResolvedForce& chosen, std::size_t first);
+
+/// Rows of a total of a reduced structure, six from `first` on: minus what its elements push on
+/// what is counted.
+std::vector<ElementForces::Row> total_rows(const Structure& structure, const Mesh& mesh,
+                                           const ForceItem& item, const ResolvedForce& passing,
+                                           std::size_t first);
+
+}  // namespace pounding
