@@ -86,10 +86,11 @@ void shell_lumped_mass(std::span<const double> nodal_areas, const ShellPropertie
   const double square_radius =
       std::max(thickness * thickness / 12, properties.rotary_inertia_factor * area);
   for (std::size_t node = 0; node < nodal_areas.size(); ++node) {
-    const double own = properties.density * thickness * nodal_areas[node];
+    const double mass =
+        (properties.density * thickness + properties.added_mass) * nodal_areas[node];
     for (std::size_t i = 0; i < 3; ++i) {
-      lumped_mass[per_node * node + i] = own + properties.added_mass * nodal_areas[node];
-      lumped_mass[per_node * node + 3 + i] = own * square_radius;
+      lumped_mass[per_node * node + i] = mass;
+      lumped_mass[per_node * node + 3 + i] = mass * square_radius;
     }
   }
 }

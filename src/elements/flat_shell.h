@@ -28,7 +28,7 @@ struct ShellProperties {
   /// longer for h / t = 10 to 25), and the first six frequencies of a square plate in 16 x 16
   /// elements fall by 0.1 to 2.5 %.
   double rotary_inertia_factor = 0;
-  double added_mass = 0;  ///< per area, on top of density times thickness [kg/m2]
+  double added_mass = 0;  ///< per area, as if spread through the thickness [kg/m2]
 };
 
 inline constexpr double shear_correction = 5.0 / 6;  // kappa
