@@ -139,7 +139,7 @@ def html_figure(folder: Path, page: dict) -> str:
             f'<figcaption>{escape(page["caption"])}</figcaption></figure>\n')
 
 
-def write(result: Result, pages: list) -> Path:
+def write(result: Result, pages: list, view: str = "") -> Path:
     """Writes report.html into the result folder and returns its path."""
     title = escape(result.title)
     summary = result.summary
@@ -151,5 +151,5 @@ def write(result: Result, pages: list) -> Path:
     path = result.folder / "report.html"
     path.write_text(f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
                     f"<title>{title}</title><style>{CSS}</style></head>\n<body>\n<h1>{title}</h1>\n"
-                    f"{tables}{figures}</body></html>\n", encoding="utf-8")
+                    f"{tables}{view}{figures}</body></html>\n", encoding="utf-8")
     return path
