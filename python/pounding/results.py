@@ -209,6 +209,6 @@ def load_modes(folder: Path) -> dict:
         with h5py.File(path, "r") as file:
             return {name: Modes(group["coordinates"][()], group["frequencies"][()],
                                 np.stack([group["shapes"][key][()] for key in sorted(group["shapes"])]))
-                    for name, group in file.items()}
+                    for name, group in file.items() if isinstance(group, h5py.Group)}
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise ResultError(f"{path} cannot be read: {' '.join(str(error).split())}") from error

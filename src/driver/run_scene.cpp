@@ -142,7 +142,9 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
     append(slide_warnings(scene, statistics), statistics.warnings);
     append(pendulum_warnings(statistics), statistics.warnings);
     statistics.peaks = stated_peaks(scene, loop.recorder());
-    append(peak_warnings(scene, statistics.peaks, loop.recorder()), statistics.warnings);
+    if (statistics.all_impacts.episodes > 0) {
+      append(peak_warnings(scene, statistics.peaks, loop.recorder()), statistics.warnings);
+    }
     if (!statistics.forces.empty()) {
       write_forces(scene.output + "/forces.csv", statistics.forces);
     }

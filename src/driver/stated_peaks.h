@@ -20,7 +20,7 @@ struct StatedPeaks {
 StatedPeaks stated_peaks(const Scene& scene, const Recorder& recorder);
 
 /// One line if the low-pass had to be lowered, and one that names the probes whose sampled peak
-/// goes with the output interval.
+/// goes with the output interval. Of runs with impacts: others have no impulse within a sample.
 std::vector<std::string> peak_warnings(const Scene& scene, const StatedPeaks& peaks,
                                        const Recorder& recorder);
 
