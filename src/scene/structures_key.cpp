@@ -34,6 +34,16 @@ bool is_representation(const std::string& option) {
                              [&](const OptionRow& row) { return row.pattern == pattern; });
 }
 
+/// Whether it is an option of a probe, whose name may begin with that of a structure.
+bool is_of_probe(const std::string& name, const std::vector<std::string>& probes) {
+  return std::ranges::any_of(option_table(), [&](const OptionRow& row) {
+    return row.block == OptionBlock::probe &&
+           std::ranges::any_of(probes, [&](const std::string& probe) {
+             return name == option_name(row.pattern, {probe});
+           });
+  });
+}
+
 /// Whether an option tells what the structures are.
 bool belongs(const std::string& name, const std::vector<std::string>& structures,
              const std::vector<std::string>& contacts) {
@@ -111,11 +121,13 @@ void add_file(const std::string& path, Hash& hash) {
 std::string structures_key(const Options& in_force) {
   const std::vector<std::string> structures = names_in(in_force, "structures");
   const std::vector<std::string> contacts = names_in(in_force, "contacts");
+  const std::vector<std::string> probes = names_in(in_force, "probes");
   Options sorted = in_force;
   std::ranges::sort(sorted);
   Hash hash;
   for (const auto& [name, value] : sorted) {
-    if (!belongs(name, structures, contacts) || is_preset(name, value, structures, contacts)) {
+    if (!belongs(name, structures, contacts) || is_of_probe(name, probes) ||
+        is_preset(name, value, structures, contacts)) {
       continue;
     }
     hash.add(name);

@@ -1,0 +1,81 @@
+"""run/tradeoff --scene on a scene of one's own: its errors are those of its spectra, its table chooses a setting."""
+import csv
+import math
+import os
+import tempfile
+import unittest
+
+import program
+import two_buildings
+from two_buildings import pounding
+
+
+class SceneStudy(unittest.TestCase):
+    """A second of the two small buildings: full order, half the step, and 50 modes."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory(prefix="pounding-")
+        cls.scene = os.path.join(cls.folder.name, "mine.yaml")
+        with open(cls.scene, "w") as file:
+            file.write(f"include: {two_buildings.SCENE}\nmodes: 0\nend_time: 1.2\nprobes: left_roof\n"
+                       "left: {damping: {reference: 3}}\nright: {damping: {reference: 4}}\n"
+                       "floor1: {gap: 0.01}\nfloor2: {gap: 0.01}\n")
+        cls.out = os.path.join(cls.folder.name, "study")
+        cls.words = ["tradeoff", "--scene", cls.scene, "--only", "modal-50", "--output", cls.out]
+        cls.done = program.command(*cls.words)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def rows(self):
+        with open(os.path.join(self.out, "tradeoff.csv"), newline="") as file:
+            return {row["setting"]: row for row in csv.DictReader(file)}
+
+    def test_errors_are_those_of_the_spectra(self):
+        self.assertEqual(self.done.returncode, 0, self.done.stderr)
+        rows = self.rows()
+        self.assertEqual(list(rows), ["full", "noise-step", "modal-50"])
+        self.assertEqual(float(rows["full"]["rms 1-400"]) if "rms 1-400" in rows["full"] else 0, 0)
+        runs = {name: pounding.load(os.path.join(self.out, "scene", name)) for name in rows}
+        squares = []
+        for way in "xyz":
+            frequency, full = runs["full"].spectrum("left_roof", way)
+            reduced = runs["modal-50"].spectrum("left_roof", way)[1]
+            if full.min() > 1e-6 * max(runs["full"].spectrum("left_roof", axis)[1].max() for axis in "xyz"):
+                logs = [math.log(a / b) for f, a, b in zip(frequency, reduced, full) if 1 <= f <= 400]
+                squares.append(sum(value**2 for value in logs) / len(logs))
+        self.assertAlmostEqual(float(rows["modal-50"]["rms"]) / math.sqrt(sum(squares) / len(squares)), 1, delta=1e-3)
+        self.assertLess(float(rows["noise-step"]["rms"]), float(rows["modal-50"]["rms"]))
+
+    def test_the_table_chooses_for_this_scene_only(self):
+        table = os.path.join(self.out, "fidelity.csv")
+        words = ["-options_file", self.scene, "-fidelity_table", table, "-fidelity_target", 10, "-end_time", 0.01]
+        for ranks in (1, 2):
+            summary = program.must_run(self, words, ranks)[1]
+            chosen = summary["options"]["left_model"]
+            self.assertIn(chosen, ("full", "modal"))
+        program.must_refuse(self, program.COARSE_PAIR + ["-fidelity_table", table, "-fidelity_target", 10],
+                            "-fidelity_table")
+
+    def test_finished_runs_are_kept(self):
+        path = os.path.join(self.out, "scene", "full", "summary.json")
+        before = os.stat(path).st_mtime_ns
+        again = program.command(*self.words)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual(os.stat(path).st_mtime_ns, before)
+
+    def test_mistakes_are_one_line(self):
+        for words, part in ((("--scene", "nothing.yaml"), "no such file"), (("--scene", self.scene, "--gap", "gap2"), "--gap"),
+                            (("--only", "modal-51"), "none of")):
+            done = program.command("tradeoff", *words)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(part, done.stderr)
+        done = program.command(*self.words[:3], "--only", "modal-51", "--output", self.out)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("none of", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
