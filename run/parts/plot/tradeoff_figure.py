@@ -3,8 +3,8 @@
 from . import style
 
 
-def draw(summary: list, path) -> None:
-    """`summary`: a row per setting, as tradeoffs.study.summarised gives them."""
+def draw(summary: list, path, spectra: str = "floor-2") -> None:
+    """`summary`: a row per setting, as tradeoffs.study.summarised gives them; `spectra`: whose error it is."""
     figure, axes = style.plt.subplots(figsize=(style.WIDTH, 5.5))
     savings = [row for row in summary if not row["noise"] and row["median rms"] > 0]
     noise = [row["rms"] for row in summary if row["noise"] and row["rms"] > 0]
@@ -33,7 +33,7 @@ def draw(summary: list, path) -> None:
     axes.plot([], [], "o", color="#9A9A9A", label="worst case")
     axes.plot([], [], "o", color="#9A9A9A", markerfacecolor="white", markersize=4, label="median case")
     axes.set_xlabel("wall time per second of motion [s/s]")
-    axes.set_ylabel("rms of ln(spectrum / reference), floor 2, 1-400 Hz [-]")
+    axes.set_ylabel(f"rms of ln(spectrum / reference), {spectra} spectra, 1-400 Hz [-]")
     axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=2, columnspacing=1.2)
     _name(figure, axes, front + [row for row in savings if row not in front])
     figure.savefig(path)

@@ -100,12 +100,17 @@ def scene_files(scene: Path) -> list:
     return found
 
 
-def request_of(member: Member, scene: Path, more: list, options: dict) -> dict:
-    """All that the results depend on: the words, and the contents of the files that `options`, those in force,
-    and the scene name. The program's version is none of it."""
-    used = {value for name, value in options.items() if re.search(r"(mesh|record|target|table|basis|restart)$", name)}
+def file_hashes(scene: Path, options: dict) -> dict:
+    """Path -> hash of the files that the scene and `options`, those in force, name."""
+    used = {value for name, value in options.items() if re.search(r"(mesh|record|target|table|restart)$", name)}
     files = scene_files(scene) + sorted(Path(value) for value in used if Path(value).is_file())
-    return {"words": member.words(scene, more), "files": {str(path): _hash(path) for path in files}}
+    return {str(path): _hash(path) for path in files}
+
+
+def request_of(member: Member, scene: Path, more: list, options: dict) -> dict:
+    """All that the results depend on: the words, and the contents of the files. The program's version is none of
+    it."""
+    return {"words": member.words(scene, more), "files": file_hashes(scene, options)}
 
 
 def is_finished(member: Member, scene: Path, more: list, folder: Path) -> bool:

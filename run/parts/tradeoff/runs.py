@@ -3,8 +3,10 @@
 import csv
 import json
 import shutil
-import subprocess
 from pathlib import Path
+
+from parts.sweep.members import file_hashes
+from pounding.runs import Job, environment, words_of
 
 from .metrics import GRID
 from .settings import Setting
@@ -14,6 +16,13 @@ SOURCE = Path(__file__).resolve().parents[3]
 
 class Case:
     """A gap configuration and a ground motion of the two-storey pair over a window of time."""
+
+    directions = ("x",)
+    folder = SOURCE  # where it runs
+
+    def inputs(self, place: Path) -> dict:
+        """What its results depend on beside the command: nothing that changes."""
+        return {}
 
     def __init__(self, name: str, gaps: dict, motion: dict, window: float):
         self.name, self.gaps, self.motion, self.window = name, gaps, motion, window
@@ -32,17 +41,45 @@ class Case:
         return words
 
 
-class Outcome:
-    """What one run left: its summary and the floor spectra along x."""
+class SceneCase:
+    """A scene of the user's, over the first seconds of it where a window is given."""
 
-    def __init__(self, folder: Path):
+    directions = ("x", "y", "z")
+    name = "scene"
+
+    def __init__(self, scene: Path, window: float | None):
+        self.scene, self.window, self.folder = scene.resolve(), window, Path.cwd()
+
+    def words(self, setting: Setting, folder: Path) -> list:
+        """As those of Case."""
+        options = {"spectra_frequencies": GRID, "modes": 0, **({"end_time": self.window} if self.window else {}),
+                   **dict(setting.changes)}
+        return [word.replace("{folder}", str(folder)) for word in words_of(self.scene, options)]
+
+    def inputs(self, place: Path) -> dict:
+        """Hashes of the scene and its files; nothing where no run came to its end."""
+        try:
+            return file_hashes(self.scene, json.loads((place / "summary.json").read_text())["options"])
+        except (OSError, ValueError, KeyError):
+            return {}
+
+
+class Outcome:
+    """What one run left: its summary and the floor spectra, {probe: (frequency, values)} along x, or
+    {probe.direction: ...} of a scene along all directions."""
+
+    def __init__(self, folder: Path, directions: tuple = ("x",)):
         self.summary = json.loads((folder / "summary.json").read_text())
+        self.axes = ["xyz".index(way) for way in directions]
         self.spectra = {}
         with open(folder / "spectra.csv") as file:
             rows = csv.DictReader(line for line in file if not line.startswith("#"))
+            ratio = None
             for row in rows:
-                if row["direction"] == "x":
-                    frequency, values = self.spectra.setdefault(row["probe"], ([], []))
+                ratio = ratio or row["damping"]
+                if row["direction"] in directions and row["damping"] == ratio:
+                    name = row["probe"] + (f".{row['direction']}" if len(directions) > 1 else "")
+                    frequency, values = self.spectra.setdefault(name, ([], []))
                     frequency.append(float(row["frequency"]))
                     values.append(float(row["pseudo_acceleration"]))
 
@@ -58,27 +95,40 @@ class Outcome:
         return self.wall_time - self.per_second() * self.summary["end_time"]
 
     def peak_drift(self) -> float:
-        """Largest displacement of any floor along x [m]."""
-        return max(probe["peak_displacement"][0] for probe in self.summary["probes"].values())
+        """Largest displacement of any probe, of the pair along x [m]."""
+        return max(probe["peak_displacement"][axis] for probe in self.summary["probes"].values() for axis in self.axes)
+
+    def moving(self) -> list:
+        """Names of the spectra with more than round-off beside the largest of their probe."""
+        largest = {}
+        for name, (_, values) in self.spectra.items():
+            probe = name.rpartition(".")[0]
+            largest[probe] = max(largest.get(probe, 0.0), *values)
+        return [name for name, (_, values) in self.spectra.items()
+                if min(values) > 1e-6 * largest[name.rpartition(".")[0]]]
 
 
-def run(case: Case, setting: Setting, ranks: int, folder: Path, log) -> Outcome | None:
-    """One run, or what an earlier one with the same command left; None if the program refuses it."""
+def run(case: Case | SceneCase, setting: Setting, ranks: int, folder: Path, log) -> Outcome | None:
+    """One run, or what an earlier one with the same command and files left; None if the program refuses it."""
     place = folder / case.name / setting.name
     words = case.words(setting, folder)
     command = f"{ranks} {' '.join(words)}"
     mark = place / "command.txt"
-    if not (mark.exists() and mark.read_text() == command):
+
+    def signature() -> str:
+        files = case.inputs(place)
+        return command + (json.dumps(files) if files else "")
+
+    if not (mark.exists() and mark.read_text() == signature()):
         shutil.rmtree(place, ignore_errors=True)
-        place.mkdir(parents=True)
-        script = 'source run/environment; exec mpirun -n "$0" "$build/pounding" "$@"'
-        result = subprocess.run(["bash", "-c", script, str(ranks), *words, "-output", str(place)], cwd=SOURCE,
-                                capture_output=True, text=True)
-        (place / "run.txt").write_text(result.stdout + result.stderr)
-        if result.returncode != 0:
-            reason = [line for line in result.stderr.splitlines() if line.startswith("pounding: ")]
-            log(f"  {setting.name}: {reason[0] if reason else 'failed, see ' + str(place / 'run.txt')}")
+        job = Job(words, place, ranks, case.folder, environment())
+        try:
+            failure = job.outcome()
+        finally:
+            job.stop()
+        if failure:
+            log(f"  {setting.name}: {failure}")
             return None
         (place / "history.h5").unlink(missing_ok=True)  # large, and not read here
-        mark.write_text(command)
-    return Outcome(place)
+        mark.write_text(signature())
+    return Outcome(place, case.directions)

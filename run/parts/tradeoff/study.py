@@ -24,15 +24,17 @@ def cases(window: float, records, gaps) -> list:
             for gap in gaps for name, motion in motions.items()]
 
 
-def floor_2(ratios: dict, band: str = "1-400") -> tuple:
-    """rms over the second floors of both buildings, and the largest of either."""
-    squares = [ratios[probe][band]["rms"]**2 for probe in FLOOR_2]
-    return (sum(squares) / len(squares))**0.5, max(ratios[probe][band]["max"] for probe in FLOOR_2)
+def overall(ratios: dict, probes, band: str = "1-400") -> tuple:
+    """rms over the spectra that count, and the largest of any: for the pair the second floors of both buildings."""
+    squares = [ratios[probe][band]["rms"]**2 for probe in probes]
+    return (sum(squares) / len(squares))**0.5, max(ratios[probe][band]["max"] for probe in probes)
 
 
 def row_of(case: Case, setting: Setting, found: Outcome, reference: Outcome) -> dict:
-    ratios = compare(found.spectra, reference.spectra)
-    rms, largest = floor_2(ratios)
+    probes = FLOOR_2 if isinstance(case, Case) else reference.moving()
+    ratios = compare(found.spectra, {probe: reference.spectra[probe] for probe in reference.spectra
+                                     if isinstance(case, Case) or probe in probes})
+    rms, largest = overall(ratios, probes)
     impacts, expected = found.summary["impacts"], reference.summary["impacts"]
     row = {"case": case.name, "setting": setting.name, "noise": setting.noise, "wall_time": found.wall_time,
            "per_second": found.per_second(), "set_up": found.set_up(),
@@ -50,17 +52,17 @@ def row_of(case: Case, setting: Setting, found: Outcome, reference: Outcome) -> 
             row[f"{probe} {band} rms"] = figure["rms"]
             row[f"{probe} {band} max"] = figure["max"]
     for band in ("1-10", "10-50", "50-150", "150-400"):
-        row[f"rms {band}"] = floor_2(ratios, band)[0]
+        row[f"rms {band}"] = overall(ratios, probes, band)[0]
     return row
 
 
-def study(list_of_cases: list, settings: list, ranks: int, folder, log) -> list:
+def study(list_of_cases: list, settings: list, ranks: int, folder, log, noise: list = NOISE) -> list:
     """Rows of all cases; each case begins with its reference."""
     rows = []
     for case in list_of_cases:
         log(f"{case.name}:")
         reference = None
-        for setting in [REFERENCE, *NOISE, *settings]:
+        for setting in [REFERENCE, *noise, *settings]:
             found = run(case, setting, ranks, folder, log)
             if found is None:
                 continue
@@ -87,30 +89,40 @@ def summarised(rows: list) -> list:
     return result
 
 
-def portable(setting: Setting) -> str | None:
-    """The options of a setting that do for any scene, as `-fidelity_table` has them: those that both
-    buildings share, and those of the run. None if it has others."""
+def portable(setting: Setting, structures: tuple) -> str | None:
+    """The options of a setting as `-fidelity_table` has them: those that all structures share, and those of the run.
+    None if it has others."""
     changes = {name: value for name, value in setting.changes if not name.endswith("_modal_basis")}
+    heads = tuple(f"{name}_" for name in structures)
     words = []
     for name, value in changes.items():
-        if name.startswith("s1_") and changes.get("s2_" + name[3:]) == value:
-            words.append(f"{name[3:]}={value}")
-        elif not name.startswith(("s1_", "s2_")):
+        head = next((head for head in heads if name.startswith(head)), None)
+        if head is None:
             words.append(f"-{name}={value}")
-        elif not (name.startswith("s2_") and changes.get("s1_" + name[3:]) == value):
+            continue
+        option = name[len(head):]
+        if any(changes.get(other + option) != value for other in heads):
             return None
+        if head == heads[0]:
+            words.append(f"{option}={value}")
     return None if setting.shells else " ".join(words)
 
 
-def fidelity_table(summary: list, settings: list) -> str:
-    """What `-fidelity_table` reads: every setting that both buildings share, with error and cost."""
-    lines = ["# Settings measured by run/tradeoff on the two-storey pair: rms of ln(floor spectrum / full order) on",
-             "# floor 2, 1-400 Hz, in the worst case, and wall time per second of motion. Read by -fidelity_target.",
-             f"# structures: {summary[0]['structures_key']} the two-storey pair of petsc-options/azalee/pair.yaml",
+PAIR = ("the two-storey pair", "floor 2, 1-400 Hz, in the worst case",
+        "the two-storey pair of petsc-options/azalee/pair.yaml")
+
+
+def fidelity_table(summary: list, settings: list, structures: tuple, what: tuple) -> str:
+    """What `-fidelity_table` reads: every setting that the structures share, with error and cost. `what`: on what it
+    was measured, which spectra, and which structures, in words."""
+    scene, spectra, key = what
+    lines = [f"# Settings measured by run/tradeoff on {scene}: rms of ln(floor spectrum / full order) on",
+             f"# {spectra}, and wall time per second of motion. Read by -fidelity_target.",
+             f"# structures: {summary[0]['structures_key']} {key}",
              "setting,rms,cost,options"]
     for row in summary:
         setting = next((one for one in settings if one.name == row["setting"]), None)
-        options = portable(setting) if setting else None
+        options = portable(setting, structures) if setting else None
         if options is not None and not setting.noise:
             lines.append(f"{setting.name},{row['rms']:.3g},{row['per_second']:.3g},{options}")
     return "\n".join(lines) + "\n"
