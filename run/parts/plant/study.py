@@ -38,7 +38,7 @@ def members(fidelities: list, modes: int, seconds: float, gap: float, folder: Pa
         raise StudyError(f"--gap {gap:g}: below the joint's deviation of {DEVIATION:g} m, so that it would be closed")
 
     def member(name: str, fidelity: str, more: dict) -> Member:
-        options = {"end_time": f"{seconds:g}", **options_of(fidelity, modes, folder / name), **more}
+        options = {"end_time": f"{seconds:g}", "write_model": "true", **options_of(fidelity, modes, folder / name), **more}
         return Member(name, (name,), tuple(options.items()))
 
     joints = {f"{joint}_gap": f"{gap:g},{gap - DEVIATION:g}" for joint in JOINTS}

@@ -61,8 +61,10 @@ def impact_places(result: Result) -> list:
     first, second = (" or ".join(sorted({pair[i] for pair in labels})) for i in range(2))
     elevation.set(title="On the faces", xlabel=f"{first} [m]", ylabel=f"{second} [m]")
     elevation.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), markerscale=0.3)
-    plan.set(title="In plan" if parts else "In plan: no mesh in the folder", xlabel="x [m]", ylabel="y [m]")
-    for axes in (elevation, plan):
+    plan.set(title="In plan", xlabel="x [m]", ylabel="y [m]")
+    if not parts:  # no mesh in the folder
+        plan.remove()
+    for axes in (elevation, plan) if parts else (elevation,):
         axes.set_aspect("equal", "datalim")
     return save(figure, result.folder, "impact_places.png", "Where they hit",
                 "Each impact at the mean place of its impulses, the area of its circle in proportion to its impulse; "
