@@ -35,7 +35,8 @@ using ShellFunction = void (*)(Coordinates, const ShellProperties&, Matrix);
 
 template <ShellFunction function>
 void of_shell(Coordinates coordinates, const Properties& p, Matrix result) {
-  function(coordinates, {p.young, p.poisson, p.density, p.thickness, p.rotary_inertia_factor, p.added_mass},
+  function(coordinates,
+           {p.young, p.poisson, p.density, p.thickness, p.rotary_inertia_factor, p.added_mass},
            result);
 }
 
@@ -57,7 +58,8 @@ void nothing(Coordinates, const Properties&, Matrix result) {
 }
 
 constexpr std::string_view of_solid = "material";
-constexpr std::string_view of_bar = "material area tension_only slack yield_force hardening mass_per_length";
+constexpr std::string_view of_bar =
+    "material area tension_only slack yield_force hardening mass_per_length";
 constexpr std::string_view of_plate = "material thickness rotary_inertia_factor mass_per_area";
 constexpr std::string_view of_point = "mass rotary_inertia";
 constexpr std::string_view of_spring =

@@ -1,9 +1,9 @@
 #include "motion/modal_combination.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace pounding {
 namespace {
