@@ -39,15 +39,20 @@ bool is_complete(const OptionsDatabase& database, OptionBlock block, const std::
 }  // namespace
 
 std::set<std::string> region_groups(const OptionsDatabase& database, const std::string& structure) {
+  std::vector<std::string> patterns;
+  for (const OptionRow& row : option_table()) {
+    if (row.block != OptionBlock::region) continue;
+    patterns.push_back(structure + "_<group>" +
+                       std::string(row.pattern.substr(row.pattern.rfind('>') + 1)));
+  }
   std::set<std::string> groups;
   for (const auto& [option, value] : database) {
+    if (!option.starts_with(structure + "_")) continue;
     // mat_mass_per_area: an option of mat, unless it is the area of an element mat_mass_per.
     std::string shortest;
     bool has_element = false;
-    for (const OptionRow& row : option_table()) {
-      if (row.block != OptionBlock::region) continue;
-      const std::string tail(row.pattern.substr(row.pattern.rfind('>') + 1));
-      const auto group = match_option(structure + "_<group>" + tail, option);
+    for (const std::string& pattern : patterns) {
+      const auto group = match_option(pattern, option);
       if (!group) continue;
       if (shortest.empty() || group->size() < shortest.size()) shortest = *group;
       if (database.contains(option_name("<structure>_<group>_element", {structure, *group}))) {

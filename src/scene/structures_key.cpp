@@ -34,12 +34,12 @@ bool is_representation(const std::string& option) {
                              [&](const OptionRow& row) { return row.pattern == pattern; });
 }
 
-/// Whether it is an option of a probe, whose name may begin with that of a structure.
-bool is_of_probe(const std::string& name, const std::vector<std::string>& probes) {
+/// Whether it is an option of something of a block, whose name may begin with that of a structure.
+bool is_of_block(const std::string& name, OptionBlock block,
+                 const std::vector<std::string>& owners) {
   return std::ranges::any_of(option_table(), [&](const OptionRow& row) {
-    return row.block == OptionBlock::probe &&
-           std::ranges::any_of(probes, [&](const std::string& probe) {
-             return name == option_name(row.pattern, {probe});
+    return row.block == block && std::ranges::any_of(owners, [&](const std::string& owner) {
+             return name == option_name(row.pattern, {owner});
            });
   });
 }
@@ -122,11 +122,13 @@ std::string structures_key(const Options& in_force) {
   const std::vector<std::string> structures = names_in(in_force, "structures");
   const std::vector<std::string> contacts = names_in(in_force, "contacts");
   const std::vector<std::string> probes = names_in(in_force, "probes");
+  const std::vector<std::string> forces = names_in(in_force, "forces");
   Options sorted = in_force;
   std::ranges::sort(sorted);
   Hash hash;
   for (const auto& [name, value] : sorted) {
-    if (!belongs(name, structures, contacts) || is_of_probe(name, probes) ||
+    if (!belongs(name, structures, contacts) || is_of_block(name, OptionBlock::probe, probes) ||
+        is_of_block(name, OptionBlock::force, forces) ||
         is_preset(name, value, structures, contacts)) {
       continue;
     }

@@ -57,10 +57,11 @@ class FidelityTarget(unittest.TestCase):
                         found = summary["options"][option]
                         self.assertTrue(found == value or float(found) == float(value), (option, found))
 
-    def test_probes_are_no_part_of_the_key(self):
+    def test_probes_and_forces_are_no_part_of_the_key(self):
         """Those of the pair have names that begin as the structures' do."""
+        base = ["-forces", "s1_base", "-s1_base_structure", "s1", "-s1_base_kind", "reactions"]
         keys = {program.must_run(self, program.COARSE_PAIR + ["-end_time", 1e-4, "-modes", 0, *words], 1)[1]["structures_key"]
-                for words in ([], ["-probes", "none"], ["-s1_floor2_at", "0,0,5.22"], ["-s1_floor2_floor", "false"])}
+                for words in ([], ["-probes", "none"], ["-s1_floor2_at", "0,0,5.22"], ["-s1_floor2_floor", "false"], base)}
         self.assertEqual(len(keys), 1)
 
     def test_says_what_it_took_and_why(self):
