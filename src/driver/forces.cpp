@@ -20,12 +20,10 @@ bool has_history(const ForceItem& force) {
   return force.kind != ForceKind::members || !force.points.empty();
 }
 
-/// Links of a reduced structure stand beside modes that hold them at their stiffest.
+/// Refuses a total of a reduced structure whose links stand beside modes that hold them at their
+/// stiffest.
 void refuse_relieved(const ForceItem& force, const LinearSystem& system) {
-  if (force.kind == ForceKind::members || !system.generalised || !system.links ||
-      !system.links->hold_stiffness()) {
-    return;
-  }
+  if (!system.generalised || !system.links || !system.links->hold_stiffness()) return;
   throw UserError("option -" + force.name + "_kind: structure " + force.structure +
                   " is reduced and has elements that yield or act in one direction only; give -" +
                   force.structure + "_model full, or -loops for these elements");
@@ -58,18 +56,19 @@ Forces::Forces(MPI_Comm comm, const Scene& scene, const Model& model)
       for (std::size_t i = 0; i < items_.size(); ++i) {
         if (model.forces[i].structure != static_cast<int>(s)) continue;
         const ForceItem& force = scene.forces[i];
-        refuse_relieved(force, model.systems[s]);
-        std::vector<ElementForces::Row> more;
+        const std::size_t first = items_[i].first;
+        const auto add = [&rows](std::vector<ElementForces::Row> more) {
+          std::ranges::move(more, std::back_inserter(rows));
+        };
         if (force.kind == ForceKind::members) {
-          more =
-              member_rows(scene.structures[s], model.meshes[s], model.forces[i], items_[i].first);
-        } else if (model.systems[s].generalised) {
-          more = total_rows(scene.structures[s], model.meshes[s], force, model.forces[i],
-                            items_[i].first);
+          add(member_rows(scene.structures[s], model.meshes[s], model.forces[i], first));
+          continue;
         }
-        std::ranges::move(more, std::back_inserter(rows));
-        if (force.kind == ForceKind::members) continue;
-        totals_.push_back({s, items_[i].first,
+        refuse_relieved(force, model.systems[s]);
+        if (model.systems[s].generalised) {
+          add(total_rows(scene.structures[s], model.meshes[s], force, model.forces[i], first));
+        }
+        totals_.push_back({s, first,
                            std::make_unique<TotalForce>(force, model.systems[s], model.meshes[s],
                                                         model.time_step)});
       }

@@ -278,7 +278,7 @@ void TimeLoop::load(const SavedState& saved) {
   if (forces_) forces_->load(saved);
   if (fields_) fields_->check(saved);
   recorder_->load(saved);  // late: it replaces the history, which nothing refused may touch
-  if (fields_) fields_->load(saved);
+  if (fields_) fields_->load();
   first_step_ = step() + 1;
 }
 

@@ -65,8 +65,7 @@ void FieldWriter::check(const SavedState& saved) {
   });
 }
 
-void FieldWriter::load(const SavedState& saved) {
-  check(saved);
+void FieldWriter::load() {
   const std::string path = layout_.folder + "/fields.h5";
   create(path + ".new");
   on_rank0(layout_.comm, [&] {

@@ -91,11 +91,12 @@ class FieldWriter {
   /// Keeps the number of frames and the impulses since the last one. Local; `root`: this rank knows
   /// the impulses.
   void save(SavedState& saved, bool root) const;
-  /// Refuses a file that cannot be continued. Throws UserError on every rank alike. Collective.
+  /// Takes the number of frames and the impulses over, and refuses a file that cannot be continued.
+  /// Throws UserError on every rank alike. Collective.
   void check(const SavedState& saved);
-  /// Takes the frames known to `saved` over from the file continued, which may be the one that is
+  /// After check(): takes the frames over from the file continued, which may be the one that is
   /// then replaced. Throws UserError on every rank alike. Collective.
-  void load(const SavedState& saved);
+  void load();
 
  private:
   /// A quantity of a structure.
