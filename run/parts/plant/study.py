@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from parts.sweep.members import REQUEST, SUMMARY, Member, is_finished, sign
-from pounding.runs import SOURCE, Job, environment, program
+from parts.sweep.members import Member, end, is_finished, start
+from pounding.runs import SOURCE, environment, program
 
 SIZES = ("small", "medium", "large")
 FIDELITIES = ("full", "modal")
@@ -33,12 +33,16 @@ def options_of(fidelity: str, modes: int, folder: Path) -> dict:
 
 
 def members(fidelities: list, modes: int, seconds: float, gap: float, folder: Path) -> list:
-    """Throws StudyError for a gap below the deviation. The first one has no contacts and the first fidelity; the others have contacts, one fidelity each."""
+    """The first one has no contacts and the first fidelity; the others have contacts, one fidelity each. Throws
+    StudyError for a gap below the deviation, and for a fidelity that stands twice."""
+    if len(set(fidelities)) < len(fidelities):
+        raise StudyError("--fidelity: one stands twice")
     if gap < DEVIATION:
         raise StudyError(f"--gap {gap:g}: below the joint's deviation of {DEVIATION:g} m, so that it would be closed")
 
     def member(name: str, fidelity: str, more: dict) -> Member:
-        options = {"end_time": f"{seconds:g}", "write_model": "true", **options_of(fidelity, modes, folder / name), **more}
+        options = {"end_time": f"{seconds:g}", "write_model": "true", **options_of(fidelity, modes, folder / name),
+                   **more}
         return Member(name, (name,), tuple(options.items()))
 
     joints = {f"{joint}_gap": f"{gap:g},{gap - DEVIATION:g}" for joint in JOINTS}
@@ -59,14 +63,11 @@ def run_all(wanted: list, size: str, more: list, ranks: int, folder: Path) -> No
             print(f"  {member.name}: finished before", flush=True)
             continue
         program()
-        for name in (REQUEST, SUMMARY):
-            (place / name).unlink(missing_ok=True)
-        job = Job(member.words(scene, more), place.absolute(), ranks, SOURCE, variables)
+        job = start(member, scene, more, place, ranks, SOURCE, variables)
         try:
-            failure = job.outcome()
+            failure = end(job, member, scene, more, place)
         finally:
             job.stop()
         if failure:
             raise StudyError(f"run {member.name}: {failure}")
-        sign(member, scene, more, place)
         print(f"  {member.name}: done; {job.wall_time:.0f} s", flush=True)

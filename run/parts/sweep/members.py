@@ -7,7 +7,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from pounding.runs import words_of
+from pounding.runs import Job, words_of
 
 REQUEST, SUMMARY = "request.json", "summary.json"
 
@@ -123,7 +123,22 @@ def is_finished(member: Member, scene: Path, more: list, folder: Path) -> bool:
     return done == request_of(member, scene, more, options)
 
 
-def sign(member: Member, scene: Path, more: list, folder: Path) -> None:
+def start(member: Member, scene: Path, more: list, place: Path, ranks: int, folder: Path, variables: dict) -> Job:
+    """A job that runs a member anew, from `folder`; what was in its place is finished no longer."""
+    for name in (REQUEST, SUMMARY):
+        (place / name).unlink(missing_ok=True)
+    return Job(member.words(scene, more), place.absolute(), ranks, folder, variables)
+
+
+def end(job: Job, member: Member, scene: Path, more: list, place: Path) -> str:
+    """Waits for the job and marks what it left as finished: '' if all went well, else one line."""
+    failure = job.outcome()
+    if not failure:
+        _sign(member, scene, more, place)
+    return failure
+
+
+def _sign(member: Member, scene: Path, more: list, folder: Path) -> None:
     """Marks the results in the folder as finished."""
     options = json.loads((folder / SUMMARY).read_text())["options"]
     (folder / REQUEST).write_text(json.dumps(request_of(member, scene, more, options), indent=1))
