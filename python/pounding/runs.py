@@ -46,7 +46,7 @@ def command(words: list, ranks: int) -> list:
 
 
 def complaint(text: str) -> str:
-    """What the program itself said last before it gave up, or ''."""
+    """The first line in which the program itself said why it gave up, or ''."""
     said = [line for line in text.replace("\r", "\n").splitlines() if line.startswith("pounding: ")]
     return said[0] if said else ""
 

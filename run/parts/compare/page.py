@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from parts.benchmark.tables import markdown, write_csv
-from parts.plot.report import CSS, html_figure, html_table
+from parts.plot.report import html_figure, html_table, write_page
 from parts.plot.style import WIDTH, log_scale, plt, save
 
 from . import tables
@@ -83,13 +83,6 @@ def body(runs: Runs, folder: Path) -> str:
     return found + "".join(html_figure(folder, page) for page in figures)
 
 
-def write_page(path: Path, title: str, content: str) -> Path:
-    path.write_text(f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'
-                    f"<style>{CSS}</style></head>\n<body>\n<h1>{title}</h1>\n{content}</body></html>\n", encoding="utf-8")
-    return path
-
-
 def write(runs: Runs, folder: Path) -> Path:
     """Writes everything into the folder and returns the page's path."""
-    title = escape(" beside ".join(runs.labels))
-    return write_page(folder / "comparison.html", title, body(runs, folder))
+    return write_page(folder / "comparison.html", " beside ".join(runs.labels), body(runs, folder))

@@ -1,7 +1,5 @@
 """Tables of a comparison: lists of dictionaries, one per row, that go to CSV files and to the page."""
 
-import math
-
 import numpy as np
 
 from pounding.results import DIRECTIONS
@@ -73,7 +71,7 @@ def same(one: str | None, other: str | None) -> bool:
     if one == other:
         return True
     try:
-        return math.isclose(float(one), float(other), rel_tol=0, abs_tol=0)
+        return float(one) == float(other)
     except (TypeError, ValueError):
         return False
 

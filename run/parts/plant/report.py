@@ -7,7 +7,7 @@ from pathlib import Path
 from parts.benchmark.tables import markdown
 from parts.compare import page
 from parts.compare.runs import Runs
-from parts.plot.report import html_table
+from parts.plot.report import html_table, write_page
 from pounding.runs import SOURCE
 
 COST = ["run", "dofs", "ranks", "steps", "microseconds per step", "wall time [s]", "seconds per second of motion",
@@ -48,5 +48,5 @@ def write(runs: Runs, folder: Path) -> Path:
     content = html_table("What it cost", COST, cost_rows(runs))
     content += f"<p>Reports of the runs, with pictures of the model:</p>\n<ul>\n{links}</ul>\n"
     content += page.body(runs, folder / "comparison")
-    title = escape(runs.results[0].summary.get("title") or "The plant pair")
-    return page.write_page(folder / "plant.html", title, content)
+    title = runs.results[0].summary.get("title") or "The plant pair"
+    return write_page(folder / "plant.html", title, content)

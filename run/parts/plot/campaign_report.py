@@ -7,7 +7,7 @@ from pathlib import Path
 from parts.campaign import findings, impact_table, paper, paper_tables
 from parts.campaign.cases import VARIANTS
 from parts.campaign.results import Campaign
-from .report import CSS, html_figure, html_table
+from .report import html_figure, html_table, write_page
 
 
 def _findings(campaign: Campaign) -> str:
@@ -75,8 +75,4 @@ def write(campaign: Campaign, summaries: dict, failures: dict, pages: list, fold
     parts.append(_note("left: share of the impulse in the half of the face at y = 0; bottom: in its lower half; at "
                        f"both ends: impacts of which each half took over {100 * (1 - impact_table.AT_AN_END):.0f} %."))
     parts.append(_runs(campaign))
-    path = folder / "report.html"
-    path.write_text(f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>'
-                    f"<style>{CSS}</style></head>\n<body>\n<h1>{escape(title)}</h1>\n{''.join(parts)}</body></html>\n",
-                    encoding="utf-8")
-    return path
+    return write_page(folder / "report.html", title, "".join(parts))

@@ -35,11 +35,12 @@ def impact_places(result: Result) -> list:
     parts, largest = _parts(result), impacts["impulse"].max()
     figure, (elevation, plan) = plt.subplots(1, 2, figsize=(WIDTH, 4.2))
     for part in parts:  # nodes of the faces that may touch
+        for first, second in sorted({tuple(_axes_of(contacts[name])[1]) for name in names}):
+            elevation.scatter(part.points[:, first], part.points[:, second], s=0.3, color="#CCCCCC", zorder=0)
         for name in names:
             nodes = part.points[part.contacts.get(name, [])]
             _, (first, second) = _axes_of(contacts[name])
             elevation.scatter(nodes[:, first], nodes[:, second], s=3, color="#999999", zorder=1)
-            elevation.scatter(part.points[:, first], part.points[:, second], s=0.3, color="#CCCCCC", zorder=0)
         plan.scatter(*part.points[:, :2].T, s=0.3, color="#CCCCCC", zorder=1)
     labels = set()
     for name in names:

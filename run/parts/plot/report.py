@@ -139,17 +139,20 @@ def html_figure(folder: Path, page: dict) -> str:
             f'<figcaption>{escape(page["caption"])}</figcaption></figure>\n')
 
 
+def write_page(path: Path, title: str, content: str) -> Path:
+    """Writes a page of its own, its content in HTML, and returns the path."""
+    title = escape(title)
+    path.write_text(f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'
+                    f"<style>{CSS}</style></head>\n<body>\n<h1>{title}</h1>\n{content}</body></html>\n", encoding="utf-8")
+    return path
+
+
 def write(result: Result, pages: list, view: str = "") -> Path:
     """Writes report.html into the result folder and returns its path."""
-    title = escape(result.title)
     summary = result.summary
     tables = (_run_table(summary) + _impact_tables(result) + _joint_table(result) + _probe_table(summary)
               + _structure_tables(summary) + _energy_table(summary))
     if not summary:
         tables += '<p class="note">No summary.json in the result folder.</p>\n'
     figures = "".join(html_figure(result.folder, page) for page in pages)
-    path = result.folder / "report.html"
-    path.write_text(f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
-                    f"<title>{title}</title><style>{CSS}</style></head>\n<body>\n<h1>{title}</h1>\n"
-                    f"{tables}{view}{figures}</body></html>\n", encoding="utf-8")
-    return path
+    return write_page(result.folder / "report.html", result.title, tables + view + figures)

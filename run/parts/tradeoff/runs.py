@@ -1,11 +1,11 @@
 """Runs the program for the study and keeps of each run what the tables need."""
 
-import csv
 import json
 import shutil
 from pathlib import Path
 
 from parts.sweep.members import file_hashes
+from pounding.results import DIRECTIONS, load
 from pounding.runs import Job, environment, words_of
 
 from .metrics import GRID
@@ -69,19 +69,14 @@ class Outcome:
     {probe.direction: ...} of a scene along all directions."""
 
     def __init__(self, folder: Path, directions: tuple = ("x",)):
-        self.summary = json.loads((folder / "summary.json").read_text())
-        self.axes = ["xyz".index(way) for way in directions]
+        result = load(folder)
+        self.summary = result.summary
+        self.axes = [DIRECTIONS.index(way) for way in directions]
         self.spectra = {}
-        with open(folder / "spectra.csv") as file:
-            rows = csv.DictReader(line for line in file if not line.startswith("#"))
-            ratio = None
-            for row in rows:
-                ratio = ratio or row["damping"]
-                if row["direction"] in directions and row["damping"] == ratio:
-                    name = row["probe"] + (f".{row['direction']}" if len(directions) > 1 else "")
-                    frequency, values = self.spectra.setdefault(name, ([], []))
-                    frequency.append(float(row["frequency"]))
-                    values.append(float(row["pseudo_acceleration"]))
+        for probe in dict.fromkeys(result.spectra["probe"]):
+            for way in directions:
+                name = f"{probe}.{way}" if len(directions) > 1 else str(probe)
+                self.spectra[name] = result.spectrum(probe, way, result.spectra["damping"][0])
 
     @property
     def wall_time(self) -> float:
