@@ -7,7 +7,6 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
-#include "elements/end_forces.h"
 #include "io/csv_file.h"
 #include "system/links.h"
 
@@ -17,7 +16,7 @@ namespace {
 constexpr std::array<const char*, 6> total_names{"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
 
 bool has_history(const ForceItem& force) {
-  return force.kind != ForceKind::members || !force.points.empty();
+  return !force.of_elements() || !force.points.empty();
 }
 
 /// Refuses a total of a reduced structure whose links stand beside modes that hold them at their
@@ -30,9 +29,9 @@ void refuse_relieved(const ForceItem& force, const LinearSystem& system) {
 }
 
 std::vector<std::string> components_of(const ForceItem& force, const Structure& structure) {
-  if (force.kind != ForceKind::members) return {total_names.begin(), total_names.end()};
+  if (!force.of_elements()) return {total_names.begin(), total_names.end()};
   const auto region = std::ranges::find(structure.regions, force.group, &Region::group);
-  const auto names = end_force_names(region->element);
+  const auto names = element_force_names(region->element);
   return {names.begin(), names.end()};
 }
 
@@ -60,14 +59,16 @@ Forces::Forces(MPI_Comm comm, const Scene& scene, const Model& model)
         const auto add = [&rows](std::vector<ElementForces::Row> more) {
           std::ranges::move(more, std::back_inserter(rows));
         };
-        if (force.kind == ForceKind::members) {
+        if (force.of_elements()) {
           add(member_rows(scene.structures[s], model.meshes[s], model.forces[i], first));
           continue;
         }
-        refuse_relieved(force, model.systems[s]);
-        if (model.systems[s].generalised) {
+        const bool cut = force.kind == ForceKind::cut;
+        if (!cut) refuse_relieved(force, model.systems[s]);
+        if (cut || model.systems[s].generalised) {
           add(total_rows(scene.structures[s], model.meshes[s], force, model.forces[i], first));
         }
+        if (cut) continue;
         totals_.push_back({s, first,
                            std::make_unique<TotalForce>(force, model.systems[s], model.meshes[s],
                                                         model.time_step)});
@@ -86,16 +87,21 @@ void Forces::lay_out(const Scene& scene, const Model& model) {
     item.name = force.name;
     item.components =
         components_of(force, scene.structures[static_cast<std::size_t>(model.forces[i].structure)]);
-    if (force.kind != ForceKind::members) item.elements = {""};
-    for (std::size_t e = 0; force.kind == ForceKind::members && e < model.forces[i].elements.size();
-         ++e) {
-      item.elements.push_back(std::to_string(model.forces[i].elements[e]));
+    if (!force.of_elements()) {
+      item.elements = {""};
+      continue;
+    }
+    for (const std::int64_t element : model.forces[i].elements) {
+      item.elements.push_back(std::to_string(element));
     }
   }
   std::size_t next = 0;
   for (const bool recorded : {true, false}) {
     for (std::size_t i = 0; i < items_.size(); ++i) {
       if (has_history(scene.forces[i]) != recorded) continue;
+      if (recorded && scene.forces[i].kind == ForceKind::shells) {
+        unit_ = "N, N m; of shells N/m, N m/m";
+      }
       items_[i].first = next;
       next += items_[i].columns();
       for (std::size_t e = 0; recorded && e < items_[i].elements.size(); ++e) {
@@ -163,7 +169,8 @@ std::vector<ForceReport> Forces::report() const {
 void write_forces(const std::string& path, std::span<const ForceReport> reports) {
   CsvFile file(path);
   file.comment(
-      "largest forces [N] and moments [N m] at the instants of the samples, with their sign");
+      "largest forces [N] and moments [N m] at the instants of the samples, with their sign; of "
+      "shells per length [N/m, N]");
   file.comment("element: its number in the mesh file, 0: the whole item; time [s]");
   file.header("item,component,element,peak,time");
   for (const ForceReport& report : reports) {
@@ -181,7 +188,7 @@ void write_forces(const std::string& path, std::span<const ForceReport> reports)
 
 void print_forces(std::span<const ForceReport> reports) {
   if (reports.empty()) return;
-  std::printf("\nforce             largest kN (or kN m) of the samples      at s   element\n");
+  std::printf("\nforce       largest kN, kN m (of shells per m) of samples      at s   element\n");
   for (const ForceReport& report : reports) {
     for (std::size_t c = 0; c < report.components.size(); ++c) {
       const std::size_t e = report.largest(c);

@@ -16,7 +16,7 @@ namespace pounding {
 
 /// The value of a force that was largest in magnitude, and when.
 struct ForcePeak {
-  double value = 0;  ///< [N, N m]
+  double value = 0;  ///< [N, N m], of shells per length [N/m, N]
   double time = 0;   ///< [s]
 };
 
@@ -41,6 +41,8 @@ class Forces {
 
   /// Columns with a history, which are the first; the same on all ranks.
   const std::vector<std::string>& recorded() const { return recorded_; }
+  /// Their unit, in words.
+  const std::string& unit() const { return unit_; }
 
   /// Before the step to t_n that is sampled. Local.
   void begin(const State& state);
@@ -79,6 +81,7 @@ class Forces {
   double peaks_start_;
   std::vector<Item> items_;
   std::vector<std::string> recorded_;
+  std::string unit_ = "N, N m";
   std::vector<Total> totals_;
   std::vector<Elements> elements_;
   std::vector<double> part_;     ///< of this rank, per column

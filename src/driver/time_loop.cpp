@@ -107,7 +107,10 @@ void TimeLoop::create_recorder(bool continued) {
     layout.my_links = loops_->mine();
   }
   layout.storeys = find_storeys(comm_, scene_, model_);
-  if (forces_) layout.forces = forces_->recorded();
+  if (forces_) {
+    layout.forces = forces_->recorded();
+    layout.force_unit = forces_->unit();
+  }
   layout.interface_root = solver_.contact() != nullptr ? solver_.contact()->root() : -1;
   const auto whole = [&](double count) {  // never more than the run has, nor than an int holds
     constexpr double most = std::numeric_limits<int>::max();

@@ -12,7 +12,7 @@ TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const 
   for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
     const Vector3 x = mesh.position(node);
     for (int c = 0; c < 6; ++c) {
-      if (!counts(item, mesh.free_components[node], x[2], c)) continue;
+      if (!counts(item, mesh.free_components[node], x, c)) continue;
       const LocalIndex dof = mesh.dof(node, c);
       of_dof[dof] = {dof, c, x};
     }

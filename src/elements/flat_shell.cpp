@@ -95,6 +95,33 @@ void shell_lumped_mass(std::span<const double> nodal_areas, const ShellPropertie
   }
 }
 
+void set_plane_strains(std::span<const std::array<double, 2>> gradients, CentreStrains& strains) {
+  constexpr std::size_t ux = 0, uy = 1, rx = 3, ry = 4;
+  const std::vector<double> none(per_node * gradients.size(), 0.0);
+  strains.membrane.fill(none);
+  strains.curvature.fill(none);
+  for (std::size_t node = 0; node < gradients.size(); ++node) {
+    const std::size_t first = per_node * node;
+    const auto [x, y] = gradients[node];
+    strains.membrane[0][first + ux] = strains.membrane[2][first + uy] = x;
+    strains.membrane[1][first + uy] = strains.membrane[2][first + ux] = y;
+    strains.curvature[0][first + ry] = x;
+    strains.curvature[1][first + rx] = -y;
+    strains.curvature[2][first + ry] = y;
+    strains.curvature[2][first + rx] = -x;
+  }
+}
+
+void set_shear_strains(std::span<const double> along_x, std::span<const double> along_y,
+                       CentreStrains& strains) {
+  strains.shear.fill(std::vector<double>(2 * along_x.size(), 0.0));
+  for (std::size_t i = 0; i < along_x.size(); ++i) {
+    const std::size_t place = per_node * (i / 3) + plate_components[i % 3];
+    strains.shear[0][place] = along_x[i];
+    strains.shear[1][place] = along_y[i];
+  }
+}
+
 double negligible_length(std::span<const double> coordinates) {
   double extent = 0;
   for (const double x : coordinates) extent = std::max(extent, std::abs(x));

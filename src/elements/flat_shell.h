@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "common/matrix3.h"
 #include "elements/element_properties.h"
@@ -86,6 +87,24 @@ void assemble_shell(std::span<const double> membrane, std::span<const double> pl
 /// max(t^2 / 12, rotary_inertia_factor * sum of the areas).
 void shell_lumped_mass(std::span<const double> nodal_areas, const ShellProperties& properties,
                        std::span<double> lumped_mass);
+
+/// Strains of a shell at its centre, as linear forms of the dofs of the feet of its nodes in its
+/// plane, shape (6 nodes) each, in local axes; and what they are multiplied with.
+struct CentreStrains {
+  Matrix3 frame{};                                 ///< local axes, in rows
+  std::vector<double> heights;                     ///< of the nodes above the plane [m]
+  std::array<std::vector<double>, 3> membrane{};   ///< exx, eyy, gxy
+  std::array<std::vector<double>, 3> curvature{};  ///< of (ry, -rx): kxx, kyy, 2 kxy [1/m]
+  std::array<std::vector<double>, 2> shear{};      ///< dw/dx + ry, dw/dy - rx
+  double shear_stiffness = 0;                      ///< shear force per length and strain [N/m]
+};
+
+/// Membrane strains and curvatures from the gradients of the shape functions, one per node [1/m].
+void set_plane_strains(std::span<const std::array<double, 2>> gradients, CentreStrains& strains);
+
+/// Transverse shear strains from forms of the dofs (uz, rx, ry) per node.
+void set_shear_strains(std::span<const double> along_x, std::span<const double> along_y,
+                       CentreStrains& strains);
 
 /// Length below which an element drowns in the digits of its coordinates [m].
 double negligible_length(std::span<const double> coordinates);

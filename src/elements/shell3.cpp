@@ -102,8 +102,33 @@ StrainRow<plane_size> edge_shear(const FlatTriangle& triangle, std::size_t a, st
   return row;
 }
 
-/// Bending of the rotation vector (ry, -rx), and transverse shear: the field of edge functions
-/// N_a grad N_b - N_b grad N_a, whose tangential component is constant along each edge.
+/// Transverse shear strains where the area coordinates have `values`, dofs (uz, rx, ry) per node:
+/// the field of edge functions N_a grad N_b - N_b grad N_a, whose tangential component is constant
+/// along each edge.
+std::array<StrainRow<plane_size>, 2> shear_at(const FlatTriangle& triangle,
+                                              const std::array<double, node_count>& values) {
+  std::array<StrainRow<plane_size>, 2> shear{};
+  for (std::size_t a = 0; a < node_count; ++a) {
+    const std::size_t b = (a + 1) % node_count;
+    const auto along = edge_shear(triangle, a, b);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double edge_function =
+          values[a] * triangle.gradients[b][i] - values[b] * triangle.gradients[a][i];
+      for (std::size_t j = 0; j < plane_size; ++j) shear[i][j] += edge_function * along[j];
+    }
+  }
+  return shear;
+}
+
+/// Transverse shear force per length and strain, reduced as the header says [N/m].
+double shear_stiffness(const FlatTriangle& triangle, const PlaneModuli& moduli, double thickness) {
+  const double square = thickness * thickness;
+  const double h = triangle.longest_edge;
+  return shear_correction * moduli.shear * thickness * square /
+         (square + shear_stabilisation * h * h);
+}
+
+/// Bending of the rotation vector (ry, -rx), and transverse shear.
 PlaneMatrix plate_stiffness(const FlatTriangle& triangle, const PlaneModuli& moduli,
                             double thickness) {
   PlaneMatrix matrix{};
@@ -117,22 +142,11 @@ PlaneMatrix plate_stiffness(const FlatTriangle& triangle, const PlaneModuli& mod
   const double square = thickness * thickness;
   add_plane_energy<plane_size>(grad_x, grad_y, moduli, triangle.area * thickness * square / 12,
                                matrix);
-  const double h = triangle.longest_edge;
-  const double modulus =
-      shear_correction * moduli.shear * thickness * square / (square + shear_stabilisation * h * h);
+  const double modulus = shear_stiffness(triangle, moduli, thickness);
   for (std::size_t g = 0; g < node_count; ++g) {
-    std::array<StrainRow<plane_size>, 2> shear{};
-    const auto values = edge_middle(g);
-    for (std::size_t a = 0; a < node_count; ++a) {
-      const std::size_t b = (a + 1) % node_count;
-      const auto along = edge_shear(triangle, a, b);
-      for (std::size_t i = 0; i < 2; ++i) {
-        const double edge_function =
-            values[a] * triangle.gradients[b][i] - values[b] * triangle.gradients[a][i];
-        for (std::size_t j = 0; j < plane_size; ++j) shear[i][j] += edge_function * along[j];
-      }
+    for (const auto& row : shear_at(triangle, edge_middle(g))) {
+      add_square<plane_size>(row, modulus * triangle.area / 3, matrix);
     }
-    for (const auto& row : shear) add_square<plane_size>(row, modulus * triangle.area / 3, matrix);
   }
   return matrix;
 }
@@ -147,6 +161,21 @@ void shell3_stiffness(std::span<const double> coordinates, const ShellProperties
   assemble_shell(membrane_stiffness(triangle, moduli, properties.thickness),
                  plate_stiffness(triangle, moduli, properties.thickness), heights, triangle.frame,
                  stiffness);
+}
+
+CentreStrains shell3_centre_strains(std::span<const double> coordinates,
+                                    const ShellProperties& properties) {
+  const PlaneModuli moduli = checked_plane_moduli(properties);
+  const FlatTriangle triangle = checked_triangle(coordinates);
+  constexpr double third = 1.0 / node_count;
+  CentreStrains strains;
+  strains.frame = triangle.frame;
+  strains.heights.assign(node_count, 0.0);
+  set_plane_strains(triangle.gradients, strains);
+  const auto shear = shear_at(triangle, {third, third, third});
+  set_shear_strains(shear[0], shear[1], strains);
+  strains.shear_stiffness = shear_stiffness(triangle, moduli, properties.thickness);
+  return strains;
 }
 
 void shell3_lumped_mass(std::span<const double> coordinates, const ShellProperties& properties,

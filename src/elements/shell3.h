@@ -19,6 +19,11 @@ namespace pounding {
 void shell3_stiffness(std::span<const double> coordinates, const ShellProperties& properties,
                       std::span<double> stiffness);
 
+/// Strains at the centre: those of membrane and bending are the same everywhere in it. Throws
+/// ElementError as the stiffness does.
+CentreStrains shell3_centre_strains(std::span<const double> coordinates,
+                                    const ShellProperties& properties);
+
 /// Lumped mass in global axes, shape (18) [kg, kg m2]: a third of the area at each node. Throws
 /// ElementError as the stiffness does.
 void shell3_lumped_mass(std::span<const double> coordinates, const ShellProperties& properties,

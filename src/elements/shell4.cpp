@@ -180,18 +180,11 @@ StrainRow<plane_size> edge_shear(const FlatQuad& quad, std::size_t a, std::size_
   return row;
 }
 
-/// Bending of the rotation vector (ry, -rx), and transverse shear interpolated between opposite
-/// edges, dofs (uz, rx, ry) per node.
-void add_plate(const FlatQuad& quad, const Shape& shape, const Map& map, const Vector2& point,
-               const PlaneModuli& moduli, double thickness, std::span<double> matrix) {
-  std::array<StrainRow<plane_size>, 2> grad_x{}, grad_y{}, shear{};
-  for (std::size_t a = 0; a < node_count; ++a) {
-    const Vector2 gradient = to_space(map, shape.derivatives[a]);
-    for (std::size_t i = 0; i < 2; ++i) {
-      grad_x[i][3 * a + 2] = gradient[i];
-      grad_y[i][3 * a + 1] = -gradient[i];
-    }
-  }
+/// Transverse shear strains at a point, interpolated between opposite edges, dofs (uz, rx, ry) per
+/// node.
+std::array<StrainRow<plane_size>, 2> shear_at(const FlatQuad& quad, const Map& map,
+                                              const Vector2& point) {
+  std::array<StrainRow<plane_size>, 2> shear{};
   const auto below = edge_shear(quad, 0, 1), above = edge_shear(quad, 3, 2);
   const auto left = edge_shear(quad, 0, 3), right = edge_shear(quad, 1, 2);
   for (std::size_t i = 0; i < plane_size; ++i) {
@@ -201,10 +194,24 @@ void add_plate(const FlatQuad& quad, const Shape& shape, const Map& map, const V
     shear[0][i] = gamma[0];
     shear[1][i] = gamma[1];
   }
+  return shear;
+}
+
+/// Bending of the rotation vector (ry, -rx), and transverse shear, dofs (uz, rx, ry) per node.
+void add_plate(const FlatQuad& quad, const Shape& shape, const Map& map, const Vector2& point,
+               const PlaneModuli& moduli, double thickness, std::span<double> matrix) {
+  std::array<StrainRow<plane_size>, 2> grad_x{}, grad_y{};
+  for (std::size_t a = 0; a < node_count; ++a) {
+    const Vector2 gradient = to_space(map, shape.derivatives[a]);
+    for (std::size_t i = 0; i < 2; ++i) {
+      grad_x[i][3 * a + 2] = gradient[i];
+      grad_y[i][3 * a + 1] = -gradient[i];
+    }
+  }
   const double weight = map.determinant;
   const double inertia = thickness * thickness * thickness / 12;
   add_plane_energy<plane_size>(grad_x, grad_y, moduli, weight * inertia, matrix);
-  for (const auto& row : shear) {
+  for (const auto& row : shear_at(quad, map, point)) {
     add_square<plane_size>(row, weight * shear_correction * moduli.shear * thickness, matrix);
   }
 }
@@ -231,6 +238,24 @@ void shell4_stiffness(std::span<const double> coordinates, const ShellProperties
   }
   condense_last(with_modes, membrane_size, plane_size, membrane);
   assemble_shell(membrane, plate, quad.heights, quad.frame, stiffness);
+}
+
+CentreStrains shell4_centre_strains(std::span<const double> coordinates,
+                                    const ShellProperties& properties) {
+  const PlaneModuli moduli = checked_plane_moduli(properties);
+  const FlatQuad quad = checked_quad(coordinates);
+  const Shape shape = shape_at({0, 0});
+  const Map map = map_at(quad, shape);
+  CentreStrains strains;
+  strains.frame = quad.frame;
+  strains.heights.assign(quad.heights.begin(), quad.heights.end());
+  std::array<Vector2, node_count> gradients{};
+  for (std::size_t a = 0; a < node_count; ++a) gradients[a] = to_space(map, shape.derivatives[a]);
+  set_plane_strains(gradients, strains);
+  const auto shear = shear_at(quad, map, {0, 0});
+  set_shear_strains(shear[0], shear[1], strains);
+  strains.shear_stiffness = shear_correction * moduli.shear * properties.thickness;
+  return strains;
 }
 
 void shell4_lumped_mass(std::span<const double> coordinates, const ShellProperties& properties,

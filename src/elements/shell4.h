@@ -23,6 +23,12 @@ inline constexpr double largest_warp = 0.1;
 void shell4_stiffness(std::span<const double> coordinates, const ShellProperties& properties,
                       std::span<double> stiffness);
 
+/// Strains at the centre: the membrane and bending strains there are their means over the element,
+/// whatever its shape, since the gradients of the modes vanish there. Throws ElementError as the
+/// stiffness does.
+CentreStrains shell4_centre_strains(std::span<const double> coordinates,
+                                    const ShellProperties& properties);
+
 /// Lumped mass in global axes, shape (24) [kg, kg m2]: the nodal area is the integral of N_a (a
 /// quarter of the area of a parallelogram). Throws ElementError as the stiffness does.
 void shell4_lumped_mass(std::span<const double> coordinates, const ShellProperties& properties,

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "common/matrix3.h"
 #include "common/parallel.h"
 #include "mesh/bounding_box.h"
 
@@ -34,7 +35,8 @@ std::vector<Place> places_of(const GlobalMesh& mesh) {
 /// The element of the group whose middle is nearest to a point.
 Place nearest(const ForceItem& force, const GlobalMesh& mesh, const std::vector<Place>& group,
               const Vector3& point) {
-  constexpr double far = 0.05;  // of the extent of the mesh, beyond the size of the element
+  // Of the extent of the mesh, beyond the size of the element; a shell has to be hit.
+  const double far = force.kind == ForceKind::shells ? 0 : 0.05;
   double least = std::numeric_limits<double>::infinity();
   Place best;
   for (const Place& place : group) {
@@ -77,32 +79,53 @@ std::vector<Place> chosen_elements(const ForceItem& force, const GlobalMesh& mes
   return chosen;
 }
 
+/// Refuses a plane that no element of the group crosses.
+[[noreturn]] void refuse_missed(const ForceItem& force, const GlobalMesh& mesh) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+  for (const Place& place : places_of(mesh)) {
+    if (place.set->group != force.group) continue;
+    for (const GlobalIndex node : place.nodes()) {
+      const double along = dot(force.normal, mesh.position(node));
+      least = std::min(least, along);
+      most = std::max(most, along);
+    }
+  }
+  std::ostringstream text;
+  text << "option -" << force.name << "_level: no element of " << force.group
+       << " crosses the level " << force.level << "; along the normal the group reaches from "
+       << least << " to " << most << " m, and nodes on the level count as below";
+  throw UserError(text.str());
+}
+
 /// Elements of which a total counts some force but not all: their own sum is zero.
 std::vector<Place> passing_elements(const ForceItem& force, const GlobalMesh& mesh) {
   std::vector<Place> passing;
   for (const Place& place : places_of(mesh)) {
+    if (force.kind == ForceKind::cut && place.set->group != force.group) continue;
     const ElementTraits& traits = traits_of(place.set->type);
     if (traits.stiffness == nullptr || traits.family == ElementFamily::point_mass) continue;
     bool some = false;
     bool all = !is_grounded(place.set->type);
     for (const GlobalIndex node : place.nodes()) {
       for (int c = 0; c < traits.layout.components; ++c) {
-        const bool one = counts(force, mesh.free_components[node], mesh.position(node)[2], c);
+        const bool one = counts(force, mesh.free_components[node], mesh.position(node), c);
         some = some || one;
         all = all && one;
       }
     }
     if (some && !all) passing.push_back(place);
   }
+  if (passing.empty() && force.kind == ForceKind::cut) refuse_missed(force, mesh);
   return passing;
 }
 
 }  // namespace
 
-bool counts(const ForceItem& force, std::uint8_t free_components, double z, int component) {
-  constexpr double round_off = 1e-9;  // m
+bool counts(const ForceItem& force, std::uint8_t free_components, const Vector3& x, int component) {
+  if (force.kind == ForceKind::cut) return force.beyond(x);
   if ((free_components >> component & 1) == 0) return false;
-  return force.kind != ForceKind::storey || z > force.level + round_off;
+  return force.kind != ForceKind::storey || force.beyond(x);
 }
 
 std::vector<ResolvedForce> resolve_forces(const Scene& scene, std::span<const GlobalMesh> meshes) {
@@ -113,9 +136,9 @@ std::vector<ResolvedForce> resolve_forces(const Scene& scene, std::span<const Gl
     ResolvedForce& resolved = forces.emplace_back();
     resolved.structure = static_cast<int>(s);
     std::vector<Place> places;
-    if (force.kind == ForceKind::members) {
+    if (force.of_elements()) {
       places = chosen_elements(force, meshes[s]);
-    } else if (scene.structures[s].modal) {
+    } else if (force.kind == ForceKind::cut || scene.structures[s].modal) {
       places = passing_elements(force, meshes[s]);
     }
     std::set<GlobalIndex> nodes;

@@ -126,7 +126,9 @@ std::vector<Recorder::Quantity> Recorder::quantities() const {
     list.push_back({"gap", layout_.contacts.size(), "m"});
     list.push_back({"contact_force", layout_.contacts.size(), "N"});
   }
-  if (!layout_.forces.empty()) list.push_back({"force", layout_.forces.size(), "N, N m"});
+  if (!layout_.forces.empty()) {
+    list.push_back({"force", layout_.forces.size(), layout_.force_unit.c_str()});
+  }
   if (!layout_.links.empty()) {
     list.push_back({"link_elongation", layout_.links.size(), "m, rad"});
     list.push_back({"link_force", layout_.links.size(), "N, N m"});

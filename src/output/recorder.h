@@ -45,7 +45,8 @@ class Recorder {
     std::vector<std::string> links;   ///< recorded ones, of all ranks
     std::vector<int> my_links;        ///< those that this rank passes, numbers among them
     std::vector<std::string> forces;  ///< that rank 0 passes
-    int interface_root = -1;          ///< rank that passes gaps and impulses, -1: none
+    std::string force_unit = "N, N m";
+    int interface_root = -1;  ///< rank that passes gaps and impulses, -1: none
     int stride = 1;
     double time_step = 0;
     std::vector<Storey> storeys;

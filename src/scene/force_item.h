@@ -13,7 +13,9 @@ namespace pounding {
 enum class ForceKind : std::uint8_t {
   reactions,  ///< what the ground does to a structure, three forces and three moments
   storey,     ///< likewise what passes through a level
-  members     ///< of beams, bars and springs, at their ends
+  members,    ///< of beams, bars and springs, at their ends
+  shells,     ///< forces and moments per length at the centres of shells
+  cut         ///< what elements of a group carry through a plane
 };
 
 /// An item of the option `forces`.
@@ -21,14 +23,27 @@ struct ForceItem {
   std::string name;
   std::string structure;
   ForceKind kind = ForceKind::reactions;
-  double level = 0;                ///< of a storey: z [m]
+  double level = 0;                ///< of a storey or a cut: along the normal from the origin [m]
+  Vector3 normal{0, 0, 1};         ///< of a cut, of length 1; what it points to is beyond
   std::optional<Vector3> about{};  ///< moments are about this point [m]; nothing: see `point`
-  std::string group;               ///< of members
+  std::string group;               ///< of members, shells and cuts
   std::vector<Vector3> points;     ///< elements nearest to these only [m]; empty: all of the group
 
-  /// Point of the moments [m]: of a storey on its level unless told otherwise.
+  /// Forces of single elements, in place of a total.
+  bool of_elements() const { return kind == ForceKind::members || kind == ForceKind::shells; }
+
+  bool has_level() const { return kind == ForceKind::storey || kind == ForceKind::cut; }
+
+  /// Point of the moments [m]: of a level the foot of the origin on it unless told otherwise.
   Vector3 point() const {
-    return about.value_or(kind == ForceKind::storey ? Vector3{0, 0, level} : Vector3{0, 0, 0});
+    const double away = has_level() ? level : 0;
+    return about.value_or(Vector3{away * normal[0], away * normal[1], away * normal[2]});
+  }
+
+  /// Whether a place is beyond the level [m].
+  bool beyond(const Vector3& x) const {
+    constexpr double round_off = 1e-9;  // m
+    return normal[0] * x[0] + normal[1] * x[1] + normal[2] * x[2] > level + round_off;
   }
 };
 

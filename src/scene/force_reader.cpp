@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/matrix3.h"
 #include "scene/nearest_name.h"
 
 namespace pounding {
@@ -18,6 +19,17 @@ const Structure& structure_of(OptionReader& options, const Scene& scene, const s
                  "there is no structure '" + wanted + "'" + suggestion(wanted, known));
 }
 
+/// Why elements cannot have the forces that an item asks for; empty if they can.
+std::string reason_against(ForceKind kind, ElementType element) {
+  if (kind == ForceKind::shells) return is_shell(element) ? "" : "its elements are no shells";
+  if (kind == ForceKind::members) {
+    const bool has_ends = joins_two_nodes(element) || is_spring(element);
+    return has_ends ? "" : "its elements are neither beams nor bars nor springs";
+  }
+  const bool passes = has_extent(element) || (is_spring(element) && !is_grounded(element));
+  return passes ? "" : "its elements pass no force from one side of a plane to the other";
+}
+
 /// The group of an item, whose elements must have the forces that it asks for.
 void read_group(OptionReader& options, const Structure& structure, ForceItem& force) {
   if (!options.given("<force>_group", {force.name})) {
@@ -30,18 +42,35 @@ void read_group(OptionReader& options, const Structure& structure, ForceItem& fo
     options.refuse("<force>_group", {force.name},
                    "structure " + structure.name + " has no elements in such a group");
   }
-  if (!joins_two_nodes(region->element) && !is_spring(region->element)) {
-    options.refuse("<force>_group", {force.name},
-                   "its elements are neither beams nor bars nor springs");
-  }
+  const std::string reason = reason_against(force.kind, region->element);
+  if (!reason.empty()) options.refuse("<force>_group", {force.name}, reason);
   if (follows_law(*region)) {
     options.refuse("<force>_group", {force.name},
                    "its elements follow a law: give -loops " + structure.name + ":" + force.group +
                        " instead");
   }
-  if (options.given("<force>_at", {force.name})) {
-    force.points = options.points("<force>_at", {force.name});
+}
+
+/// Where a storey or a cut is.
+void read_level(OptionReader& options, ForceItem& force) {
+  if (!options.given("<force>_level", {force.name})) {
+    options.refuse("<force>_kind", {force.name},
+                   "give -" + force.name + "_level as well, the z of the cut");
   }
+  force.level = options.real("<force>_level", {force.name});
+  if (!options.given("<force>_normal", {force.name})) return;
+  const std::vector<double> normal = options.reals("<force>_normal", {force.name}, 3);
+  force.normal = normalised({normal[0], normal[1], normal[2]});
+  if (force.normal == Vector3{0, 0, 0}) {
+    options.refuse("<force>_normal", {force.name}, "no direction");
+  }
+}
+
+ForceKind kind_of(const std::string& word) {
+  if (word == "reactions") return ForceKind::reactions;
+  if (word == "storey") return ForceKind::storey;
+  if (word == "shells") return ForceKind::shells;
+  return word == "cut" ? ForceKind::cut : ForceKind::members;
 }
 
 }  // namespace
@@ -51,26 +80,22 @@ ForceItem read_force(OptionReader& options, const Scene& scene, const std::strin
   force.name = name;
   const Structure& structure = structure_of(options, scene, name);
   force.structure = structure.name;
-  const std::string kind = options.choice("<force>_kind", {name});
-  force.kind = kind == "reactions" ? ForceKind::reactions
-               : kind == "storey"  ? ForceKind::storey
-                                   : ForceKind::members;
-  const bool of_elements = force.kind == ForceKind::members;
+  force.kind = kind_of(options.choice("<force>_kind", {name}));
+  const bool of_group = force.of_elements() || force.kind == ForceKind::cut;
   const auto only_for = [&](bool used, std::string_view pattern, const std::string& kinds) {
     if (!used) options.forbid(pattern, {name}, "only with -" + name + "_kind " + kinds);
   };
-  only_for(of_elements, "<force>_group", "members");
-  only_for(of_elements, "<force>_at", "members");
-  only_for(force.kind == ForceKind::storey, "<force>_level", "storey");
-  only_for(!of_elements, "<force>_about", "reactions or storey");
-  if (of_elements) read_group(options, structure, force);
-  if (force.kind == ForceKind::storey) {
-    if (!options.given("<force>_level", {name})) {
-      options.refuse("<force>_kind", {name}, "give -" + name + "_level as well, the z of the cut");
-    }
-    force.level = options.real("<force>_level", {name});
+  only_for(of_group, "<force>_group", "members, shells or cut");
+  only_for(force.of_elements(), "<force>_at", "members or shells");
+  only_for(force.has_level(), "<force>_level", "storey or cut");
+  only_for(force.kind == ForceKind::cut, "<force>_normal", "cut");
+  only_for(!force.of_elements(), "<force>_about", "reactions, storey or cut");
+  if (of_group) read_group(options, structure, force);
+  if (force.of_elements() && options.given("<force>_at", {name})) {
+    force.points = options.points("<force>_at", {name});
   }
-  if (!of_elements && options.given("<force>_about", {name})) {
+  if (force.has_level()) read_level(options, force);
+  if (!force.of_elements() && options.given("<force>_about", {name})) {
     const std::vector<double> point = options.reals("<force>_about", {name}, 3);
     force.about = Vector3{point[0], point[1], point[2]};
   }

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "elements/end_forces.h"
+#include "elements/shell_forces.h"
 #include "stiffness/element_properties.h"
 #include "system/each_element.h"
 #include "system/wrench.h"
@@ -98,14 +99,22 @@ void ElementForces::add(std::span<const double> owned, std::span<const double> s
   for (const Term& term : terms_) columns[term.column] += term.coefficient * field_[term.place];
 }
 
+std::span<const std::string_view> element_force_names(ElementType type) {
+  if (is_shell(type)) return shell_force_names;
+  return end_force_names(type);
+}
+
 std::vector<ElementForces::Row> member_rows(const Structure& structure, const Mesh& mesh,
                                             const ResolvedForce& chosen, std::size_t first) {
   std::vector<ElementForces::Row> rows;
   for_each_chosen(structure, mesh, chosen, [&](const Chosen& element) {
-    const std::size_t count = end_force_names(element.block.type).size();
-    const std::vector<double> forces = end_force_rows(
-        element.block.type, element.coordinates,
-        element_properties(structure.regions[element.block.region]), element.stiffness);
+    const ElementType type = element.block.type;
+    const ElementProperties properties =
+        element_properties(structure.regions[element.block.region]);
+    const std::size_t count = element_force_names(type).size();
+    const std::vector<double> forces =
+        is_shell(type) ? shell_force_rows(type, element.coordinates, properties)
+                       : end_force_rows(type, element.coordinates, properties, element.stiffness);
     for (std::size_t k = 0; k < count; ++k) {
       const double* const row = &forces[k * element.points.size()];
       rows.push_back(
@@ -126,7 +135,7 @@ std::vector<ElementForces::Row> total_rows(const Structure& structure, const Mes
     for (std::size_t i = 0; i < size; ++i) {
       const LocalIndex node = element.nodes[i];
       const Vector3 x = mesh.position(node);
-      if (!counts(item, mesh.free_components[node], x[2], element.points[i].component)) continue;
+      if (!counts(item, mesh.free_components[node], x, element.points[i].component)) continue;
       Wrench unit{};
       add_unit_force(item.point(), x, element.points[i].component, -1, unit);
       for (std::size_t k = 0; k < unit.size(); ++k) {

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "mesh/force_places.h"
@@ -11,9 +12,10 @@
 
 namespace pounding {
 
-/// Elastic forces of chosen elements of a structure, K_e u_e: each is a linear form of the
-/// displacements of the nodes there, which in generalised coordinates follow from the rows of the
-/// basis. Where uniform damping relaxes K, what the rest before the run holds is relaxed with it.
+/// Elastic forces of chosen elements of a structure, those of K_e u_e or at the centres of shells:
+/// each is a linear form of the displacements of the nodes there, which in generalised coordinates
+/// follow from the rows of the basis. Where uniform damping relaxes K, what the rest before the run
+/// holds is relaxed with it.
 class ElementForces {
  public:
   /// A column of the table of all forces and the linear form that it is.
@@ -45,13 +47,16 @@ class ElementForces {
   double relaxed_ = 0;        ///< part of it that is not held
 };
 
-/// Rows of the members of an item, from `first` on, element after element in the item's order; each
+/// Names of the forces of an element, of shell_forces.h or end_forces.h.
+std::span<const std::string_view> element_force_names(ElementType type);
+
+/// Rows of the members or shells of an item, from `first` on, element after element in the item's order; each
 /// element on every rank that has it. Throws UserError (an element that cannot be).
 std::vector<ElementForces::Row> member_rows(const Structure& structure, const Mesh& mesh,
                                             const ResolvedForce& chosen, std::size_t first);
 
-/// Rows of a total of a reduced structure, six from `first` on: minus what its elements push on
-/// what is counted.
+/// Rows of a cut, or of a total of a reduced structure, six from `first` on: minus what its elements
+/// push on what is counted.
 std::vector<ElementForces::Row> total_rows(const Structure& structure, const Mesh& mesh,
                                            const ForceItem& item, const ResolvedForce& passing,
                                            std::size_t first);
