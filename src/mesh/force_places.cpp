@@ -35,7 +35,7 @@ std::vector<Place> places_of(const GlobalMesh& mesh) {
 /// The element of the group whose middle is nearest to a point.
 Place nearest(const ForceItem& force, const GlobalMesh& mesh, const std::vector<Place>& group,
               const Vector3& point) {
-  // Of the extent of the mesh, beyond the size of the element; a shell has to be hit.
+  // The part of the extent of the mesh that is allowed beyond the size of the element.
   const double far = force.kind == ForceKind::shells ? 0 : 0.05;
   double least = std::numeric_limits<double>::infinity();
   Place best;

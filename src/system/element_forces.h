@@ -50,13 +50,13 @@ class ElementForces {
 /// Names of the forces of an element, of shell_forces.h or end_forces.h.
 std::span<const std::string_view> element_force_names(ElementType type);
 
-/// Rows of the members or shells of an item, from `first` on, element after element in the item's order; each
-/// element on every rank that has it. Throws UserError (an element that cannot be).
+/// Rows of the members or shells of an item, from `first` on, element after element in the item's
+/// order; each element on every rank that has it. Throws UserError (an element that cannot be).
 std::vector<ElementForces::Row> member_rows(const Structure& structure, const Mesh& mesh,
                                             const ResolvedForce& chosen, std::size_t first);
 
-/// Rows of a cut, or of a total of a reduced structure, six from `first` on: minus what its elements
-/// push on what is counted.
+/// Rows of a cut, or of a total of a reduced structure, six from `first` on: minus what its
+/// elements push on what is counted.
 std::vector<ElementForces::Row> total_rows(const Structure& structure, const Mesh& mesh,
                                            const ForceItem& item, const ResolvedForce& passing,
                                            std::size_t first);
