@@ -66,6 +66,7 @@ int run_job(MPI_Comm comm, std::span<const std::string> words) {
 }  // namespace
 
 int main(int count, char** words) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a log grows line by line
   pounding::yield_where_crowded();
   MPI_Init(&count, &words);
   const std::vector<std::string> arguments(words + 1, words + count);

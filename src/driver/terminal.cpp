@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace pounding {
@@ -43,6 +44,13 @@ bool is_watched() {
   const std::string outer = standard_output(process);
   return outer.empty() || outer.starts_with("/dev/pts/") || outer.starts_with("/dev/tty") ||
          outer == "/dev/console";
+}
+
+int terminal_width() {
+  constexpr int usual = 80;
+  winsize size{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0) return usual;
+  return size.ws_col > 1 ? size.ws_col : usual;
 }
 
 }  // namespace pounding

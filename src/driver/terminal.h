@@ -7,4 +7,7 @@ namespace pounding {
 /// counts.
 bool is_watched();
 
+/// Columns of the terminal of the standard output, 80 where it does not say.
+int terminal_width();
+
 }  // namespace pounding

@@ -129,7 +129,7 @@ void TimeLoop::create_recorder(bool continued) {
 
 int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
   const StopSignal stop_signal;
-  watched_ = is_watched();
+  progress_ = std::make_unique<RunProgress>(is_watched(), scene_.progress_interval);
   if (!scene_.loops.empty()) loops_ = std::make_unique<Loops>(comm_, scene_, model_, solver_);
   if (!scene_.forces.empty()) forces_ = std::make_unique<Forces>(comm_, scene_, model_);
   create_recorder(restart != nullptr);
@@ -139,7 +139,7 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
                               first_step_);
   int signal = 0;
   const double start = MPI_Wtime();
-  const std::int64_t progress_interval = std::max<std::int64_t>(1, model_.steps / 200);
+  const std::int64_t shown_interval = std::max<std::int64_t>(1, model_.steps / 200);
   for (std::int64_t n = first_step_; n <= model_.steps && signal == 0; ++n) {
     const bool ledger = n > 0 && (n % scene_.energy_interval == 0 || n == model_.steps);
     const bool records = recorder_->due(n);
@@ -151,7 +151,7 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
     observe(n);
     if (fields_) observe_fields(n);
     if (ledger) close_ledger_line();
-    if (n > 0 && n % progress_interval == 0) show_progress(start);
+    if (n > 0 && n % shown_interval == 0) show_progress(start);
     const CheckpointSchedule::Decision decision = schedule.after_step(n);
     if (decision.write) {
       write_checkpoint(identity);
@@ -292,16 +292,12 @@ void TimeLoop::show_progress(double start) {
     now = {solver_.contact()->smallest_gap(), -static_cast<double>(catalogue_.episodes())};
   }
   MPI_Allreduce(MPI_IN_PLACE, now.data(), 2, MPI_DOUBLE, MPI_MIN, comm_);
-  if (rank_of(comm_) != 0 || !watched_) return;
-  const double elapsed = MPI_Wtime() - start;
+  if (rank_of(comm_) != 0) return;
   const double time = solver_.stepper().time();
-  const double done = time - static_cast<double>(first_step_) * model_.time_step;
-  const double cost = elapsed / std::max(done, model_.time_step);
-  std::printf("\r  %5.1f %%  t = %.3f s  %.3f s/s  remaining %.0f s", 100 * time / scene_.end_time,
-              time, cost, cost * (scene_.end_time - time));
-  if (now[0] < no_gap) std::printf("  gap %.2f mm  impacts %.0f", 1000 * now[0], std::abs(now[1]));
-  std::printf("  energy residual %.1e   ", solver_.stepper().energy().relative_residual());
-  std::fflush(stdout);
+  const double begun =
+      static_cast<double>(std::max<std::int64_t>(first_step_ - 1, 0)) * model_.time_step;
+  progress_->show({time, scene_.end_time, time - begun, MPI_Wtime() - start, now[0],
+                   std::llround(-now[1]), solver_.stepper().energy().relative_residual()});
 }
 
 void TimeLoop::fill(RunStatistics& statistics) const {

@@ -7,6 +7,7 @@
 #include "driver/forces.h"
 #include "driver/loops.h"
 #include "driver/model.h"
+#include "driver/run_progress.h"
 #include "driver/run_statistics.h"
 #include "driver/solver.h"
 #include "driver/uplift_watch.h"
@@ -73,7 +74,7 @@ class TimeLoop {
   std::vector<double> energy_round_off_;  ///< of each of them [J]
   EnergyLedger ledger_;
   std::int64_t first_step_ = 0;
-  bool watched_ = false;  ///< somebody sees the line of progress
+  std::unique_ptr<RunProgress> progress_;
 };
 
 }  // namespace pounding

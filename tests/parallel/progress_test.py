@@ -1,5 +1,13 @@
-"""Phases of the start-up that take long say so, on any number of ranks, once."""
+"""Phases of the start-up that take long say so, on any number of ranks, once; so does the run itself, in a log by whole
+lines, on a terminal in one line of its width."""
+import fcntl
+import os
+import pty
 import re
+import struct
+import subprocess
+import tempfile
+import termios
 import unittest
 
 import program
@@ -31,6 +39,64 @@ class Progress(unittest.TestCase):
         result = program.run(CASE + ["-progress_interval", "1000"])
         self.assertEqual(result.returncode, 0, result.stderr[-2000:])
         self.assertEqual(phases(result.stdout), {})
+
+
+LOOP = ["-options_file", "petsc-options/plant/frames.yaml", "-end_time", "0.15", "-modes", 1, "-probes", "none",
+        "-a_mesh_set", "size=2,bays_x=4", "-b_mesh_set", "size=2,bays_x=3,x_offset=24.05,face_at_end=0"]
+LINE = re.compile(r"^  (\d+\.\d) %: t = (\S+) of 0\.15 s, (\S+) s of wall time per simulated s, (\d+) s left, "
+                  r"smallest gap -?\d+\.\d\d mm, \d+ impacts, energy residual \S+$", re.MULTILINE)
+
+
+class Steps(unittest.TestCase):
+    def started(self, ranks, interval, **streams):
+        folder = tempfile.TemporaryDirectory(prefix="pounding-")
+        self.addCleanup(folder.cleanup)
+        line = program.words([*LOOP, "-progress_interval", interval, "-output", folder.name], ranks)
+        return subprocess.Popen(line, cwd=program.SOURCE, env=program.ENVIRONMENT, stderr=subprocess.DEVNULL, **streams)
+
+    def test_a_log_grows_line_by_line(self):
+        """In a pipe: whole lines as they come, no carriage return, and numbers that agree with each other."""
+        for ranks in (1, 2):
+            running = self.started(ranks, 0.01, stdout=subprocess.PIPE)
+            text, alive = b"", False
+            with running.stdout:
+                for line in running.stdout:
+                    text += line
+                    alive = alive or (b" %: t = " in line and running.poll() is None)
+            self.assertEqual(running.wait(), 0)
+            self.assertTrue(alive, "a line of progress came before the end")
+            self.assertNotIn(b"\r", text)
+            found = LINE.findall(text.decode())
+            self.assertGreaterEqual(len(found), 2, text[-3000:])
+            self.assertEqual(len(found), text.count(b" %: t = "), "every line is whole")
+            for percent, time, cost, left in found:
+                self.assertAlmostEqual(float(percent), 100 * float(time) / 0.15, delta=0.1)
+                self.assertAlmostEqual(float(left), float(cost) * (0.15 - float(time)), delta=0.51 + 0.01 * float(cost))
+
+    def test_short_runs_are_silent(self):
+        running = self.started(2, 1000, stdout=subprocess.PIPE)
+        text = running.communicate()[0]
+        self.assertEqual(running.returncode, 0)
+        self.assertNotIn(b" %: t = ", text)
+
+    def test_a_terminal_has_one_line_of_its_width(self):
+        for ranks in (1, 2):
+            ours, theirs = pty.openpty()
+            fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 61, 0, 0))
+            running = self.started(ranks, 1000, stdout=theirs)
+            os.close(theirs)
+            text = b""
+            while True:
+                try:
+                    more = os.read(ours, 65536)
+                except OSError:     # the other end is closed
+                    break
+                text += more
+            os.close(ours)
+            self.assertEqual(running.wait(), 0)
+            pieces = [piece.split(b"\n")[0] for piece in text.split(b"\r") if b" %: t = " in piece]
+            self.assertGreater(len(pieces), 50)
+            self.assertEqual({len(piece) for piece in pieces}, {60}, pieces[:3])
 
 
 if __name__ == "__main__":
