@@ -17,10 +17,16 @@ class RunError(Exception):
     """A run that did not come to its end: one line for the user."""
 
 
+def folder_of_programs() -> Path:
+    """That of the build, which POUNDING_BUILD names where it is not `build`; of an installed package its bin."""
+    if "POUNDING_BUILD" in os.environ or (SOURCE / "CMakeLists.txt").exists():
+        return (SOURCE / os.environ.get("POUNDING_BUILD", "build")).absolute()
+    return SOURCE.parents[1] / "bin"
+
+
 def program(name: str = "pounding") -> Path:
-    """Path of a program of the build, which POUNDING_BUILD names where it is not `build`. Throws RunError if it is
-    not there."""
-    path = (SOURCE / os.environ.get("POUNDING_BUILD", "build") / name).absolute()
+    """Path of a program. Throws RunError if it is not there."""
+    path = folder_of_programs() / name
     if not os.access(path, os.X_OK):
         raise RunError(f"{path}: no such program; build it with run/setup, or name its folder in POUNDING_BUILD")
     return path

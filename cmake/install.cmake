@@ -1,0 +1,47 @@
+# What `cmake --install` puts under a prefix, and the Debian package that `run/package` makes of it.
+#   bin                 the programs, and pounding-tools, which starts the tools below
+#   share/pounding      scenes and meshes as in the repository, tools (run), the Python package (python)
+#   share/doc/pounding  the pages
+include(GNUInstallDirs)
+set(POUNDING_SHARE ${CMAKE_INSTALL_DATADIR}/pounding)
+
+install(TARGETS pounding pounding-mesh pounding-spectra RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(PROGRAMS cmake/pounding-tools DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY meshes petsc-options python DESTINATION ${POUNDING_SHARE}
+  PATTERN __pycache__ EXCLUDE)
+install(PROGRAMS run/compare run/new run/plant run/plot run/seal run/sweep run/tradeoff
+  DESTINATION ${POUNDING_SHARE}/run)
+install(FILES run/environment DESTINATION ${POUNDING_SHARE}/run)
+install(DIRECTORY run/parts DESTINATION ${POUNDING_SHARE}/run
+  PATTERN __pycache__ EXCLUDE
+  PATTERN campaign EXCLUDE
+  PATTERN stability EXCLUDE
+  PATTERN verification EXCLUDE)
+install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# `import pounding` in Debian's Python finds the package where the prefix is /usr.
+install(CODE "
+  set(modules \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib/python3/dist-packages\")
+  file(MAKE_DIRECTORY \"\${modules}\")
+  file(CREATE_LINK ../../../${POUNDING_SHARE}/python/pounding \"\${modules}/pounding\" SYMBOLIC)")
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME pounding)
+set(CPACK_PACKAGE_CONTACT "The authors of pounding <authors@pounding.invalid>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Seismic pounding between plant buildings, floor spectra to 400 Hz")
+set(CPACK_PACKAGE_DESCRIPTION "Explicit finite-element dynamics with unilateral contact, in parallel\
+ with MPI and PETSc: what floors and equipment feel when two buildings hit each other. Scenes, tools\
+ that draw and compare results, and a Python package come with it.")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS
+  "openmpi-bin, python3, python3-h5py, python3-matplotlib, python3-numpy, python3-scipy")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS libopenblas0-serial)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+if(NOT POUNDING_PORTABLE)  # not to be taken for one that runs on other machines
+  set(CPACK_DEBIAN_FILE_NAME
+    pounding_${PROJECT_VERSION}_this-machine-only_${CMAKE_SYSTEM_PROCESSOR}.deb)
+endif()
+include(CPack)
