@@ -7,7 +7,7 @@ set(POUNDING_SHARE ${CMAKE_INSTALL_DATADIR}/pounding)
 
 install(TARGETS pounding pounding-mesh pounding-spectra RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(PROGRAMS cmake/pounding-tools DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY meshes petsc-options python DESTINATION ${POUNDING_SHARE}
+install(DIRECTORY meshes octave petsc-options python DESTINATION ${POUNDING_SHARE}
   PATTERN __pycache__ EXCLUDE)
 install(PROGRAMS run/compare run/new run/plant run/plot run/seal run/sweep run/tradeoff
   DESTINATION ${POUNDING_SHARE}/run)

@@ -18,13 +18,16 @@ import pounding  # noqa: E402
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else "results/gaps").absolute()
 folder.mkdir(parents=True, exist_ok=True)
 
-# %% A scene that takes what it does not say from another one.
+# %% A scene that takes what it does not say from another one, and records forces of the left building.
 scene = pounding.write_scene(folder / "short.yaml", {
     "include": SOURCE / "petsc-options" / "new" / "two-buildings" / "two-buildings.yaml",
     "title": "Short motion, wide output",
     "end_time": 4.0,
     "motion": {"x": {"duration": 4.0, "envelope": [0.5, 3.0]}},
     "spectra": {"damping": [0.02, 0.05]},
+    "forces": ["feet", "slabs"],
+    "feet": {"structure": "left", "kind": "reactions"},
+    "slabs": {"structure": "left", "kind": "shells", "group": "slabs"},
 })
 
 # %% One run per gap.
@@ -33,12 +36,15 @@ for gap in (0.005, 0.02, 0.06):
     runs[gap] = pounding.run(scene, folder / f"gap-{gap:g}", ranks=2, floor1_gap=gap, floor2_gap=gap)
 
 # %% What they left: dictionaries of numpy arrays.
-print("gap [m]  impacts  strongest [N s]  roof PSA at 3 Hz  at 100 Hz [m/s2]")
+print("gap [m]  impacts  strongest [N s]  roof PSA at 3 Hz  at 100 Hz [m/s2]  base shear [kN]  N11 [kN/m]")
 for gap, run in runs.items():
     frequency, acceleration = run.spectrum("left_roof", "x", damping=0.05)
     at = [acceleration[abs(frequency - wanted).argmin()] for wanted in (3, 100)]
     strongest = max(run.impacts["impulse"], default=0.0)
-    print(f"{gap:7g}  {len(run.impacts['impulse']):7d}  {strongest:15.1f}  {at[0]:16.2f}  {at[1]:16.2f}")
+    shear = run.force("feet.Fx")[1]
+    membrane = run.forces["peak"][(run.forces["item"] == "slabs") & (run.forces["component"] == "N11")]
+    print(f"{gap:7g}  {len(run.impacts['impulse']):7d}  {strongest:15.1f}  {at[0]:16.2f}  {at[1]:16.2f}"
+          f"  {abs(shear).max() / 1e3:15.1f}  {abs(membrane).max() / 1e3:10.1f}")
 time, displacement = run.series("displacement", "left_roof", "x")
 print(f"left roof without a neighbour near: {1e3 * abs(displacement).max():.1f} mm at most, at "
       f"{time[abs(displacement).argmax()]:.2f} s")

@@ -29,6 +29,7 @@ class Result:
     offset: dict = field(default_factory=dict)  # dataset name -> shift of its time stamps [s]
     spectra: dict = field(default_factory=dict)  # column -> array
     impacts: dict = field(default_factory=dict)
+    forces: dict = field(default_factory=dict)  # of forces.csv: largest values
     energy: dict = field(default_factory=dict)
     title: str = ""
 
@@ -48,6 +49,12 @@ class Result:
         column = self.history["channels"].index(f"{probe}.{direction}")
         time = self.history["time"] + self.offset.get(quantity, 0.0)
         return time, self.history[quantity][:, column]
+
+    def force(self, name: str):
+        """Times and values of one force, "base.Fx" or "corner.17.My1", or None if it was not recorded."""
+        if name not in self.history.get("forces", []):
+            return None
+        return self.history["time"], self.history["force"][:, self.history["forces"].index(name)]
 
     def spectrum(self, probe: str, direction: str, damping: float | None = None):
         """Frequencies [Hz] and pseudo-acceleration [m/s2] of one floor response spectrum, or None if there is
@@ -164,11 +171,13 @@ def load(folder: Path | str) -> Result:
         "history.h5": lambda path: _read_history(path, result),
         "spectra.csv": lambda path: result.spectra.update(_read_table(path)),
         "impacts.csv": lambda path: result.impacts.update(_read_table(path)),
+        "forces.csv": lambda path: result.forces.update(_read_table(path)),
         "energy.csv": lambda path: result.energy.update(_read_table(path)),
     }
     columns = {
         "spectra": ("probe", "direction", "damping", "frequency", "pseudo_acceleration"),
         "impacts": ("contact", "start", "end", "duration", "impulse"),
+        "forces": ("item", "component", "element", "peak", "time"),
         "energy": ("time", "kinetic", "strain", "input_work", "residual"),
     }
     for name, read in readers.items():

@@ -74,6 +74,19 @@ class Results(unittest.TestCase):
                                                          table["pseudo_acceleration"]) if (probe, way) == ("left_roof", "x")]
         np.testing.assert_array_equal(self.found.spectrum("left_roof", "x")[1], own)
 
+    def test_forces_are_those_of_the_files(self):
+        with tempfile.TemporaryDirectory(prefix="pounding-") as folder:
+            run = two_buildings.run(Path(folder), gap=0.01, end_time=0.05, forces="feet", feet_structure="left",
+                                    feet_kind="reactions")
+            with h5py.File(Path(folder, "history.h5")) as file:
+                names = [name.decode().strip("\0 ") for name in file["forces"][()]]
+                column = file["force"][:, names.index("feet.Fx")]
+            time, values = run.force("feet.Fx")
+            np.testing.assert_array_equal(values, column)
+            self.assertEqual(len(time), len(values))
+            self.assertEqual(abs(run.forces["peak"][run.forces["component"] == "Fx"]).max(), abs(values).max())
+            self.assertIsNone(run.force("feet.N"))
+
     def test_what_is_not_there_is_none(self):
         self.assertIsNone(self.found.spectrum("cellar", "x"))
         self.assertIsNone(self.found.spectrum("left_roof", "x", damping=0.07))
@@ -96,6 +109,7 @@ class Example(unittest.TestCase):
             self.assertGreater(counts[0], counts[2])
             self.assertEqual(counts[2], 0)
             self.assertGreater(float(rows[0][4]), 2 * float(rows[2][4]), "impacts are felt at 100 Hz")
+            self.assertGreater(float(rows[0][6]), 5 * float(rows[2][6]), "and by the slabs")
             self.assertTrue(Path(folder, "gaps.png").read_bytes().startswith(b"\x89PNG"))
 
 
