@@ -64,9 +64,10 @@ def summary(folder):
 
 
 def must_run(test, arguments, ranks=2, timeout=900):
-    """Runs into a fresh folder and returns it with the summary; fails the test on an error."""
+    """Runs into a fresh folder and returns it with the summary; fails the test on an error. Numbers in tables have all
+    their digits unless the arguments say otherwise."""
     folder = tempfile.mkdtemp(prefix="pounding-")
-    result = run(list(arguments) + ["-output", folder], ranks, timeout)
+    result = run(["-csv_digits", 17, *arguments, "-output", folder], ranks, timeout)
     test.assertEqual(result.returncode, 0, result.stdout[-2000:] + result.stderr[-2000:])
     return folder, summary(folder)
 

@@ -9,6 +9,7 @@ import h5py
 import numpy as np
 
 DIRECTIONS = ("x", "y", "z")
+GROUND = "ground"  # stands for a probe in the rows of spectra.csv that are the ground's
 
 
 class ResultError(Exception):
@@ -32,6 +33,7 @@ class Result:
     forces: dict = field(default_factory=dict)  # of forces.csv: largest values
     energy: dict = field(default_factory=dict)
     title: str = ""
+    without: "Result | None" = None  # the run without pounding, where one is set beside it
 
     @property
     def probes(self) -> list:
@@ -41,6 +43,12 @@ class Result:
     @property
     def contacts(self) -> list:
         return list(self.history.get("contacts", []))
+
+    @property
+    def spectrum_probes(self) -> list:
+        """Probes that spectra.csv has, without the ground."""
+        names = dict.fromkeys(str(name) for name in self.spectra.get("probe", []))
+        return [name for name in names if name != GROUND or name in self.probes]
 
     def series(self, quantity: str, probe: str, direction: str):
         """Time stamps and values of one channel, or None if it was not recorded."""
@@ -136,7 +144,8 @@ def _text(value) -> str:
 
 
 def _read_table(path: Path) -> dict:
-    """Columns of a CSV file with '#' comments: numbers where every value is one, else text."""
+    """Columns of a CSV file: numbers where every value is one, else text. Lines of comments ('#') are passed over,
+    which the files of earlier versions begin with."""
     lines = [line for line in path.read_text().splitlines() if line and not line.startswith("#")]
     if not lines:
         raise ValueError("no header line")

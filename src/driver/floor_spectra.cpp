@@ -1,10 +1,11 @@
 #include "driver/floor_spectra.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <cmath>
 
 #include "common/parallel.h"
 #include "io/csv_file.h"
+#include "io/spectra_table.h"
 
 namespace pounding {
 
@@ -69,6 +70,8 @@ std::vector<ProbeSpectrum> compute_floor_spectra(MPI_Comm comm, const Scene& sce
       spectrum.probe = recorder.probes()[channel / 3].name;
       spectrum.direction = direction_names[channel % 3];
       spectrum.damping_ratio = ratios[r];
+      spectrum.interval = recorder.interval();
+      spectrum.valid_up_to = faithful_up_to(recorder.interval());
       if (channel % ranks == 0) {
         spectrum.points = std::move(mine[channel / ranks * ratios.size() + r]);
       } else {
@@ -79,35 +82,38 @@ std::vector<ProbeSpectrum> compute_floor_spectra(MPI_Comm comm, const Scene& sce
   return spectra;
 }
 
-void write_floor_spectra(const std::string& path, const std::vector<ProbeSpectrum>& spectra,
-                         double sampling_interval, double start) {
-  CsvFile file(path);
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "floor response spectra of absolute acceleration, block means over %.6g s;",
-                sampling_interval);
-  file.comment(text);
-  // Block means lower a spectrum by about (pi f dt)^2 / 2: 1 % at f dt = 0.045.
-  std::snprintf(text, sizeof text, "within 1 %% of the continuous signal up to %.0f Hz",
-                0.045 / sampling_interval);
-  file.comment(text);
-  if (start > 0) {
-    std::snprintf(text, sizeof text,
-                  "of the record from %.9g s on, when the oscillators are at rest;", start);
-    file.comment(text);
+std::vector<ProbeSpectrum> compute_ground_spectra(const Scene& scene, const GroundMotion& motion) {
+  std::vector<ProbeSpectrum> spectra;
+  if (std::ranges::find(scene.probes, ground_name, &Probe::name) != scene.probes.end()) return {};
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (!motion.active(static_cast<int>(d))) continue;
+    const double step = motion.component(static_cast<int>(d)).time_step;
+    std::vector<double> samples;
+    const auto last = static_cast<std::int64_t>(scene.end_time / step + 1e-6);
+    auto k = static_cast<std::int64_t>(std::ceil(scene.spectra.start / step - 1e-6));
+    for (; k <= last; ++k) {
+      samples.push_back(motion.acceleration(static_cast<int>(d), static_cast<double>(k) * step));
+    }
+    if (samples.size() < 2) continue;
+    for (const double ratio : scene.spectra.damping_ratios) {
+      spectra.push_back({ground_name, direction_names[d], ratio, step, 0.5 / step,
+                         response_spectrum(samples, step, scene.spectra.frequencies, ratio,
+                                           AfterRecord::ignored)});
+    }
   }
-  file.comment("largest response until the end of the run;");
-  file.comment(
-      "frequency [Hz], period [s], displacement [m], pseudo_velocity [m/s], "
-      "pseudo_acceleration [m/s2]");
-  file.header(
-      "probe,direction,damping,frequency,period,displacement,pseudo_velocity,"
-      "pseudo_acceleration");
+  return spectra;
+}
+
+void write_floor_spectra(const std::string& path, std::span<const ProbeSpectrum> spectra,
+                         double start, int digits) {
+  CsvFile file(path, digits);
+  file.header(spectrum_columns);
   for (const ProbeSpectrum& spectrum : spectra) {
-    const std::string label = spectrum.probe + "," + spectrum.direction;
+    const std::string label = spectrum.probe + "," + spectrum.direction + ",complete";
     for (const SpectrumPoint& point : spectrum.points) {
       file.row(label, {spectrum.damping_ratio, point.frequency, 1 / point.frequency,
-                       point.displacement, point.pseudo_velocity, point.pseudo_acceleration});
+                       point.displacement, point.pseudo_velocity, point.pseudo_acceleration,
+                       spectrum.interval, spectrum.valid_up_to, start, 0});
     }
   }
   file.close();

@@ -35,6 +35,14 @@ std::vector<std::string> components_of(const ForceItem& force, const Structure& 
   return {names.begin(), names.end()};
 }
 
+/// Unit of a component: of shells forces and moments are per length.
+const char* unit_of(const std::string& component) {
+  const bool moment = component[0] == 'M' || component[0] == 'T';
+  const bool of_shells = std::ranges::find(shell_force_names, component) != shell_force_names.end();
+  if (of_shells) return moment ? "N" : "N/m";
+  return moment ? "N m" : "N";
+}
+
 }  // namespace
 
 std::size_t ForceReport::largest(std::size_t component) const {
@@ -166,19 +174,16 @@ std::vector<ForceReport> Forces::report() const {
   return reports;
 }
 
-void write_forces(const std::string& path, std::span<const ForceReport> reports) {
-  CsvFile file(path);
-  file.comment(
-      "largest forces [N] and moments [N m] at the instants of the samples, with their sign; of "
-      "shells per length [N/m, N]");
-  file.comment("element: its number in the mesh file, 0: the whole item; time [s]");
-  file.header("item,component,element,peak,time");
+void write_forces(const std::string& path, std::span<const ForceReport> reports, int digits) {
+  CsvFile file(path, digits);
+  file.header("item,component,unit,element,peak,time");
   for (const ForceReport& report : reports) {
     for (std::size_t e = 0; e < report.elements.size(); ++e) {
       for (std::size_t c = 0; c < report.components.size(); ++c) {
         const ForcePeak& peak = report.peaks[e * report.components.size() + c];
         const std::string& element = report.elements[e];
-        file.row(report.name + "," + report.components[c],
+        const std::string& component = report.components[c];
+        file.row(report.name + "," + component + "," + unit_of(component),
                  {element.empty() ? 0.0 : std::stod(element), peak.value, peak.time});
       }
     }

@@ -89,9 +89,9 @@ class Forces {
   std::vector<ForcePeak> peaks_;
 };
 
-/// `forces.csv`: the peak of every component of every element. Throws UserError if it cannot be
-/// written.
-void write_forces(const std::string& path, std::span<const ForceReport> reports);
+/// `forces.csv`: the peak of every component of every element, of `digits` significant digits.
+/// Throws UserError if it cannot be written.
+void write_forces(const std::string& path, std::span<const ForceReport> reports, int digits);
 
 /// The table of the console.
 void print_forces(std::span<const ForceReport> reports);

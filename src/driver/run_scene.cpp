@@ -128,14 +128,15 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
   loop.fill(statistics);
   on_rank0(comm, [&] {
     write_impacts(scene.output + "/impacts.csv", contact_names(scene), loop.impacts().impacts(),
-                  scene.force_window);
-    write_energy(scene.output + "/energy.csv", loop.ledger().lines());
+                  scene.csv_digits);
+    write_energy(scene.output + "/energy.csv", loop.ledger().lines(), scene.csv_digits);
   });
   if (signal != 0) stop(scene, model, signal, loop.step());
-  const std::vector<ProbeSpectrum> spectra = compute_floor_spectra(comm, scene, loop.recorder());
+  std::vector<ProbeSpectrum> spectra = compute_floor_spectra(comm, scene, loop.recorder());
   on_rank0(comm, [&] {
-    write_floor_spectra(scene.output + "/spectra.csv", spectra, loop.recorder().interval(),
-                        scene.spectra.start);
+    std::ranges::move(compute_ground_spectra(scene, *model.motion), std::back_inserter(spectra));
+    write_floor_spectra(scene.output + "/spectra.csv", spectra, scene.spectra.start,
+                        scene.csv_digits);
     statistics.warnings =
         displacement_warnings(loop.recorder().largest_displacement(), model.interface.model_size);
     append(contact_warnings(statistics.complementarity_residual), statistics.warnings);
@@ -146,7 +147,7 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
       append(peak_warnings(scene, statistics.peaks, loop.recorder()), statistics.warnings);
     }
     if (!statistics.forces.empty()) {
-      write_forces(scene.output + "/forces.csv", statistics.forces);
+      write_forces(scene.output + "/forces.csv", statistics.forces, scene.csv_digits);
     }
     statistics.wall_time = MPI_Wtime() - start;
     write_summary(scene.output + "/summary.json", scene, resolved, model, statistics,

@@ -4,9 +4,10 @@
 
 namespace pounding {
 
-CsvFile::CsvFile(const std::string& path)
+CsvFile::CsvFile(const std::string& path, int digits)
     : standard_output_(path.empty() || path == "/dev/stdout"),
       path_(standard_output_ ? "standard output" : path),
+      digits_(digits),
       file_(standard_output_ ? stdout : std::fopen(path.c_str(), "w")) {
   if (file_ == nullptr) throw UserError(path + ": cannot be written");
 }
@@ -27,7 +28,7 @@ void CsvFile::row(const std::string& label, std::span<const double> values) {
   bool first = label.empty();
   std::fputs(label.c_str(), file_);
   for (const double value : values) {
-    std::fprintf(file_, first ? "%.17g" : ",%.17g", value);
+    std::fprintf(file_, first ? "%.*g" : ",%.*g", digits_, value);
     first = false;
   }
   std::fputc('\n', file_);

@@ -7,13 +7,15 @@
 
 namespace pounding {
 
-/// A CSV file with comment lines first ("# "), one header line, then rows of numbers with all their
-/// digits. Throws UserError if it cannot be opened or written.
+/// A CSV file: one header line, then rows of numbers. Comment lines ("# ") stand before the header
+/// in files that the program itself reads back, in no others: a spreadsheet takes the first line
+/// for the names of the columns. Throws UserError if it cannot be opened or written.
 class CsvFile {
  public:
   /// `path` empty or "/dev/stdout": the standard output of the program, wherever it stands; opened
-  /// by name it would begin again at the start of its file.
-  explicit CsvFile(const std::string& path);
+  /// by name it would begin again at the start of its file. `digits`: significant ones of each
+  /// number; 17 give it back to the bit.
+  explicit CsvFile(const std::string& path, int digits = 17);
   CsvFile(const CsvFile&) = delete;
   CsvFile& operator=(const CsvFile&) = delete;
   ~CsvFile();
@@ -31,6 +33,7 @@ class CsvFile {
  private:
   bool standard_output_ = false;
   std::string path_;
+  int digits_;
   std::FILE* file_ = nullptr;
 };
 

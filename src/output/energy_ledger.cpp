@@ -62,13 +62,8 @@ void EnergyLedger::load(const SavedState& saved) {
   added_ = saved.integer("ledger_added");
 }
 
-void write_energy(const std::string& path, const std::vector<EnergyLine>& lines) {
-  CsvFile file(path);
-  file.comment("energy ledger of all structures [J] at time + half a time step [s];");
-  file.comment(
-      "kinetic = v^T (M - dt/2 C) v / 2, strain = u_{n+1}^T K u_n / 2 and energy of links; the "
-      "residual closes the "
-      "identity; gravity_work is a part of input_work");
+void write_energy(const std::string& path, const std::vector<EnergyLine>& lines, int digits) {
+  CsvFile file(path, digits);
   file.header(
       "time,kinetic,strain,damping_loss,contact_work,friction_loss,input_work,gravity_work,device_"
       "work,"

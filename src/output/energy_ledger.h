@@ -30,7 +30,8 @@ class EnergyLedger {
   EnergyLine last_;
 };
 
-/// `energy.csv`: one row per line. Throws UserError if the file cannot be written.
-void write_energy(const std::string& path, const std::vector<EnergyLine>& lines);
+/// `energy.csv`: one row per line, of `digits` significant digits. Throws UserError if the file
+/// cannot be written.
+void write_energy(const std::string& path, const std::vector<EnergyLine>& lines, int digits);
 
 }  // namespace pounding

@@ -243,23 +243,8 @@ ImpactTotals ImpactCatalogue::totals() const {
 }
 
 void write_impacts(const std::string& path, const std::vector<std::string>& contacts,
-                   std::span<const Impact> impacts, double force_window) {
-  CsvFile file(path);
-  file.comment("contact episodes; times [s], impulse [N s], force [N], energy [J], lengths [m];");
-  file.comment(
-      "lateral, vertical: where on the face, tangent axes of the contact in the order x, y, z;");
-  file.comment("contact_time: sum of the steps with an impulse;");
-  file.comment(
-      "left, bottom: share of the impulse below the middle of the face, along lateral, vertical;");
-  file.comment(
-      "tangential_impulse: of friction, sum of magnitudes; slip: longest path of a point in "
-      "contact");
-  std::ostringstream window;
-  window
-      << "peak_force: largest impulse of a step over the step, depends on the step; window_force: "
-         "over any "
-      << force_window << " s";
-  file.comment(window.str());
+                   std::span<const Impact> impacts, int digits) {
+  CsvFile file(path, digits);
   file.header(
       "contact,start,end,duration,impulse,peak_force,points,energy_lost,max_penetration,lateral,"
       "vertical,contact_time,left,bottom,tangential_impulse,slip,friction_loss,window_force");

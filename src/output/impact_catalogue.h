@@ -105,10 +105,10 @@ class ImpactCatalogue {
   std::vector<Impact> impacts_;
 };
 
-/// `impacts.csv`: one line per episode. `force_window` [s]: time of window_force. Throws UserError
-/// if the file cannot be written.
+/// `impacts.csv`: one line per episode, its columns as docs/results.md tells them; `digits`:
+/// significant ones. Throws UserError if the file cannot be written.
 void write_impacts(const std::string& path, const std::vector<std::string>& contacts,
-                   std::span<const Impact> impacts, double force_window);
+                   std::span<const Impact> impacts, int digits);
 
 /// An impact as `impacts.csv` tells it, with the name of its contact.
 struct NamedWindow {

@@ -21,6 +21,7 @@ constexpr Range fraction{0, 1, true, false};
 constexpr Range damping_ratio{0, 1, false, true};
 constexpr Range uniform_ratio{0, 0.3, false, false};
 constexpr Range eigen_tolerance{1e-10, 0.1, false, false};
+constexpr Range csv_digits{6, 17, false, false};
 constexpr Range filter_count{1, 8, false, false};
 constexpr Range dashpot_power{0.05, 2, false, false};
 constexpr Range below_1{0, 1, false, true};
@@ -67,6 +68,7 @@ constexpr std::array table{
     OptionRow{Block::run, "dry_run", Kind::boolean, "flag", value("false"), any, "", "check the model, print what a run would cost, and stop"},
     OptionRow{Block::run, "progress_interval", Kind::real, "s", value("2"), positive, "", "phases of the start-up that take longer say how far they are, twice as late each time; in a log the steps as well"},
     OptionRow{Block::run, "output", Kind::text, "folder", value("results"), any, "a folder", "result folder"},
+    OptionRow{Block::run, "csv_digits", Kind::integer, "-", value("9"), csv_digits, "", "significant digits of the numbers in spectra.csv, impacts.csv, energy.csv and forces.csv; 17: to the bit"},
     OptionRow{Block::run, "fields_interval", Kind::real, "s", value("0"), not_negative, "", "time between two frames of the motion of all nodes in fields.xdmf and fields.h5, for ParaView; 0: none"},
     OptionRow{Block::run, "fields_start", Kind::real, "s", value("0"), not_negative, "", "time of the first frame"},
     OptionRow{Block::run, "fields_end", Kind::real, "s", value("0"), not_negative, "", "no frame is later; 0: until the end of the run"},
@@ -229,7 +231,7 @@ constexpr std::array table{
 constexpr std::array changeable_on_restart = std::to_array<std::string_view>({
     "title", "end_time", "courant", "time_step", "allow_unstable", "omega_max_tolerance", "progress_interval", "modes", "write_modes", "write_model", "mesh_time_limit", "dry_run", "output",
     "checkpoint_interval", "checkpoint_steps", "export_matrices", "partition", "restart", "spectra_damping",
-    "spectra_frequencies", "spectra_start", "peak_frequency"});
+    "spectra_frequencies", "spectra_start", "peak_frequency", "csv_digits"});
 // clang-format on
 
 }  // namespace

@@ -328,6 +328,7 @@ struct Scene {
   double gap_tolerance = 0;      ///< contact where gap <= gap_tolerance x model size [-]
   double impact_merge_time = 0;  ///< contacts separated by less are one episode [s]
   double force_window = 0;       ///< over which the largest force of an impact is taken [s]
+  int csv_digits = 0;            ///< significant digits of the numbers in the tables of the results
   double output_interval = 0;    ///< of the probes [s]
   double gap_interval = 0;       ///< of the gaps at least; 0: with every sample of the probes [s]
   int energy_interval = 0;       ///< steps between two lines of the energy ledger

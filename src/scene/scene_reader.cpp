@@ -97,6 +97,7 @@ class SceneReader {
     scene_.gap_tolerance = options_.real("gap_tolerance");
     scene_.impact_merge_time = options_.real("impact_merge_time");
     scene_.force_window = options_.real("force_window");
+    scene_.csv_digits = options_.integer("csv_digits");
     scene_.output_interval = options_.real("output_interval");
     scene_.gap_interval = options_.real("gap_interval");
     scene_.energy_interval = options_.integer("energy_interval");

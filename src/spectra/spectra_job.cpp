@@ -1,7 +1,6 @@
 #include "spectra/spectra_job.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <optional>
 
@@ -9,6 +8,7 @@
 
 #include "common/error.h"
 #include "io/csv_file.h"
+#include "io/spectra_table.h"
 #include "motion/spectrum_shape.h"
 #include "output/impact_catalogue.h"
 #include "spectra/signal_reader.h"
@@ -19,7 +19,7 @@ namespace {
 
 /// One line of the result: a signal or envelope, a treatment, a damping ratio, and its columns.
 struct Spectrum {
-  std::string channel;
+  std::string source;  ///< probe and direction as the table has them
   Treatment treatment = Treatment::complete;
   double damping_ratio = 0;
   std::vector<std::vector<double>> columns;  ///< shape (quantities, frequencies)
@@ -31,6 +31,13 @@ struct Input {
   std::vector<SignalPeak> peaks;
   double dirac_step = 0;
 };
+
+/// Probe and direction of a channel of a history; a record has its name and no direction.
+std::string source_of(const NamedSignal& named) {
+  const std::size_t dot = named.is_history ? named.name.rfind('.') : std::string::npos;
+  if (dot == std::string::npos) return named.name + ",";
+  return named.name.substr(0, dot) + "," + named.name.substr(dot + 1);
+}
 
 bool asked(const SpectraOptions& options, Treatment treatment) {
   return std::ranges::find(options.treatments, treatment) != options.treatments.end();
@@ -117,7 +124,7 @@ std::vector<Spectrum> spectra_of(const SpectraOptions& options, const Input& inp
     const SampledSignal treated =
         treat(input.named.signal, input.peaks, treatment, input.dirac_step);
     for (const double ratio : options.damping_ratios) {
-      spectra.push_back({input.named.name, treatment, ratio,
+      spectra.push_back({source_of(input.named), treatment, ratio,
                          compute(options, treated, ratio, after(options, input, treatment))});
     }
   }
@@ -134,44 +141,30 @@ void widen(std::vector<Spectrum>& envelope, const std::vector<Spectrum>& spectra
   }
 }
 
-void write_header(CsvFile& file, const SpectraOptions& options, double longest_step) {
-  char text[200];
-  std::snprintf(
-      text, sizeof text,
-      "response spectra, samples every %.9g s; within 1 %% of the continuous signal up to "
-      "%.4g Hz if they are means over the step",
-      longest_step, 0.045 / longest_step);
-  file.comment(text);
-  if (options.start > 0) {
-    std::snprintf(text, sizeof text, "from %.9g s on, when the oscillators are at rest",
-                  options.start);
-    file.comment(text);
-  }
-  if (options.broadening > 0) {
-    std::snprintf(text, sizeof text, "widened by %.4g %% to both sides, every column by itself",
-                  100 * options.broadening);
-    file.comment(text);
-  }
-  file.comment(
-      "frequency [Hz], period [s], displacement [m], velocities [m/s], accelerations [m/s2]");
-  file.header(std::string("channel,treatment,damping,frequency,period,displacement,"
-                          "pseudo_velocity,pseudo_acceleration") +
-              (options.true_peaks ? ",velocity,absolute_acceleration,relative_acceleration" : ""));
+/// Names of the columns, those of a run first.
+std::string header_of(const SpectraOptions& options) {
+  return std::string(spectrum_columns) +
+         (options.true_peaks ? ",velocity,absolute_acceleration,relative_acceleration" : "");
 }
 
+/// Rows of spectra, one per frequency. `interval` [s]: longest one between samples.
 void write_spectra(CsvFile& file, const SpectraOptions& options,
-                   const std::vector<Spectrum>& spectra) {
+                   const std::vector<Spectrum>& spectra, double interval) {
+  constexpr std::size_t pseudo = 3;
   for (const Spectrum& spectrum : spectra) {
     std::vector<std::vector<double>> columns;
     for (const auto& values : spectrum.columns) {
       columns.push_back(broadened(options.frequencies, values, options.broadening));
     }
     const std::string label =
-        spectrum.channel + "," + treatment_names()[static_cast<std::size_t>(spectrum.treatment)];
+        spectrum.source + "," + treatment_names()[static_cast<std::size_t>(spectrum.treatment)];
     std::vector<double> row;
     for (std::size_t i = 0; i < options.frequencies.size(); ++i) {
       row = {spectrum.damping_ratio, options.frequencies[i], 1 / options.frequencies[i]};
-      for (const auto& values : columns) row.push_back(values[i]);
+      for (std::size_t q = 0; q < pseudo; ++q) row.push_back(columns[q][i]);
+      row.insert(row.end(),
+                 {interval, faithful_up_to(interval), options.start, options.broadening});
+      for (std::size_t q = pseudo; q < columns.size(); ++q) row.push_back(columns[q][i]);
       file.row(label, row);
     }
   }
@@ -183,8 +176,8 @@ void write_peaks(CsvFile& file, const Input& input) {
     return signal.first_time + (static_cast<double>(k) - 0.5) * signal.time_step;
   };
   for (const SignalPeak& peak : input.peaks) {
-    file.row(input.named.name, {start_of(peak.first), start_of(peak.last), peak.impulse,
-                                &peak == &highest_peak(input.peaks) ? 1.0 : 0.0});
+    file.row(source_of(input.named), {start_of(peak.first), start_of(peak.last), peak.impulse,
+                                      &peak == &highest_peak(input.peaks) ? 1.0 : 0.0});
   }
 }
 
@@ -197,28 +190,27 @@ void run_spectra(const SpectraOptions& options) {
     longest_step = std::max(longest_step, named.signal.time_step);
     inputs.push_back(prepare(options, std::move(named)));
   }
-  CsvFile file(options.output);
+  CsvFile file(options.output, options.digits);
   std::optional<CsvFile> peaks;
   if (!options.peaks.empty()) {
-    peaks.emplace(options.peaks);
-    peaks->comment("peaks during contacts; times [s], impulse: integral of the acceleration [m/s]");
-    peaks->header("channel,start,end,impulse,highest");
+    peaks.emplace(options.peaks, options.digits);
+    peaks->header("probe,direction,start,end,impulse,highest");
   }
-  write_header(file, options, longest_step);
+  file.header(header_of(options));
   std::vector<Spectrum> envelope;
   for (const Input& input : inputs) {
     std::vector<Spectrum> spectra = spectra_of(options, input);
     if (peaks) write_peaks(*peaks, input);
     if (!options.envelope) {
-      write_spectra(file, options, spectra);
+      write_spectra(file, options, spectra, input.named.signal.time_step);
     } else if (envelope.empty()) {
       envelope = std::move(spectra);
     } else {
       widen(envelope, spectra);
     }
   }
-  for (Spectrum& spectrum : envelope) spectrum.channel = "envelope";
-  write_spectra(file, options, envelope);
+  for (Spectrum& spectrum : envelope) spectrum.source = "envelope,";
+  write_spectra(file, options, envelope, longest_step);
   if (peaks) peaks->close();
   file.close();
 }

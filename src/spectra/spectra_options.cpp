@@ -187,6 +187,13 @@ constexpr std::array option_specs{
     OptionSpec{"peaks", "FILE", "a file",
                "CSV of the peaks: start, end, impulse of the floor per unit of mass",
                [](const std::string& t, SpectraOptions& o) { return !(o.peaks = t).empty(); }},
+    OptionSpec{"digits", "N", "a whole number from 6 to 17",
+               "significant digits of every number; default 9, 17: to the bit",
+               [](const std::string& t, SpectraOptions& o) {
+                 const auto number = parse_integer(t);
+                 o.digits = number.value_or(0);
+                 return o.digits >= 6 && o.digits <= 17;
+               }},
 };
 
 const OptionSpec& find_option(const std::string& name) {
@@ -224,8 +231,8 @@ std::string spectra_help() {
       "pounding-spectra: response spectra of recorded or computed accelerations\n\n"
       "  pounding-spectra [--name value ...] FILE ...\n\n"
       "FILE is the history.h5 of a run, or a record: AT2, CSV, columns, CSMIP rows, JSON. The\n"
-      "oscillators start at rest, and their peaks are exact for samples joined by lines. CSV with\n"
-      "all digits; SI units.\n\n";
+      "oscillators start at rest, and their peaks are exact for samples joined by lines. A CSV\n"
+      "as spectra.csv of a run is; SI units.\n\n";
   for (const OptionSpec& spec : option_specs) {
     std::string line = "  --" + std::string(spec.name) + " " + spec.value;
     if (line.size() > 26) {

@@ -31,6 +31,7 @@ struct SpectraOptions {
   double dirac_step = 0;              ///< [s]; 0: the time step of the run
   std::string output;                 ///< CSV; "": standard output
   std::string peaks;                  ///< CSV of the peaks; "": none
+  int digits = 9;                     ///< significant ones of every number
 };
 
 /// The page of --help.

@@ -76,7 +76,7 @@ class Results(unittest.TestCase):
 
     def test_forces_are_those_of_the_files(self):
         with tempfile.TemporaryDirectory(prefix="pounding-") as folder:
-            run = two_buildings.run(Path(folder), gap=0.01, end_time=0.05, forces="feet", feet_structure="left",
+            run = two_buildings.run(Path(folder), gap=0.01, end_time=0.05, forces="feet", feet_structure="left", csv_digits=17,
                                     feet_kind="reactions")
             with h5py.File(Path(folder, "history.h5")) as file:
                 names = [name.decode().strip("\0 ") for name in file["forces"][()]]

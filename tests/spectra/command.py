@@ -31,8 +31,8 @@ def read(text):
 
 
 def computed(test, *words):
-    """The table that the program prints; it must end well and say nothing else."""
-    result = spectra(*words)
+    """The table that the program prints, with all digits; it must end well and say nothing else."""
+    result = spectra("--digits", 17, *words)
     test.assertEqual((result.returncode, result.stderr), (0, ""))
     return read(result.stdout)
 

@@ -21,7 +21,7 @@ class StandardOutput(unittest.TestCase):
     def rows(self):
         with open(self.path) as file:
             lines = file.read().splitlines()
-        return lines, [line for line in lines if line[:1] not in "#" and not line.startswith("channel,")]
+        return lines, [line for line in lines if line[:1] not in "#" and not line.startswith("probe,")]
 
     def test_appends_to_a_file(self):
         with open(self.path, "w") as file:

@@ -40,6 +40,11 @@ def make_results(folder):
         json.dump({"time_step": SOLVER_STEP}, file)
 
 
+def sources(table):
+    """Probe and direction of every row."""
+    return [f"{probe}.{direction}" for probe, direction in zip(table["probe"], table["direction"])]
+
+
 class Results(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -64,9 +69,9 @@ class Results(unittest.TestCase):
 
     def test_all_channels_or_those_asked_for(self):
         table = computed(self, self.history, *frequencies([1, 3]))
-        self.assertEqual(list(table["channel"]), ["roof.x"] * 2 + ["roof.y"] * 2 + ["other.x"] * 2)
+        self.assertEqual(sources(table), ["roof.x"] * 2 + ["roof.y"] * 2 + ["other.x"] * 2)
         table = computed(self, self.history, "--channels", "other,roof.y", *frequencies([1]))
-        self.assertEqual(list(table["channel"]), ["other.x", "roof.y"])
+        self.assertEqual(sources(table), ["other.x", "roof.y"])
 
     def test_relative_to_the_ground(self):
         table = computed(self, self.history, "--channels", "roof.y", "--frame", "relative", *frequencies([3]))
@@ -76,7 +81,7 @@ class Results(unittest.TestCase):
         values = [1, 3, 8]
         each = computed(self, self.history, *frequencies(values))["pseudo_acceleration"].reshape(3, 3)
         table = computed(self, self.history, "--envelope", *frequencies(values))
-        self.assertEqual(list(table["channel"]), ["envelope"] * 3)
+        self.assertEqual(sources(table), ["envelope."] * 3)
         self.assertEqual(list(table["pseudo_acceleration"]), list(each.max(axis=0)))
 
     def test_broadening_holds_the_peak_over_its_band(self):
@@ -91,9 +96,10 @@ class Results(unittest.TestCase):
         self.assertTrue((wide["pseudo_acceleration"] >= plain["pseudo_acceleration"]).all())
 
     def test_says_what_was_done(self):
-        text = spectra(self.history, "--channels", "other.x", *frequencies([2]), "--broaden", 15).stdout
-        self.assertIn("samples every 0.0001 s; within 1 % of the continuous signal up to 450 Hz", text)
-        self.assertIn("widened by 15 % to both sides", text)
+        table = read(spectra(self.history, "--channels", "other.x", *frequencies([2]), "--broaden", 15, "--start",
+                             0.25).stdout)
+        self.assertEqual([table[name][0] for name in ("interval", "valid_up_to", "start", "broadening")],
+                         [1e-4, 450, 0.25, 0.15])
         self.assertEqual(computed(self, self.history, "--channels", "other.x", *frequencies([2]))["period"][0], 0.5)
 
     def test_regulatory_frequencies(self):
@@ -154,12 +160,26 @@ class Results(unittest.TestCase):
         with open(path) as file:
             self.assertEqual(file.read(), spectra(*words).stdout)
 
+    def test_nine_digits_or_as_many_as_asked(self):
+        words = [self.history, "--channels", "other.x", *frequencies([1 / 3])]
+        exact = read(spectra(*words, "--digits", 17).stdout)
+        for digits, more in ((9, ()), (6, ("--digits", 6))):
+            header, row = spectra(*words, *more).stdout.splitlines()
+            self.assertTrue(header.startswith("probe,direction,treatment,damping,frequency,period,"))
+            for name, text in zip(header.split(","), row.split(",")):
+                if name not in ("probe", "direction", "treatment"):
+                    self.assertEqual(text, f"{exact[name][0]:.{digits}g}", name)
+        for wrong in (5, 18, "many"):
+            refused = spectra(*words, "--digits", wrong)
+            self.assertEqual((refused.returncode, len(refused.stderr.splitlines())), (1, 1))
+            self.assertIn("--digits", refused.stderr)
+
     def test_columns_of_a_record_by_number(self):
         path = os.path.join(self.folder, "three.csv")
         with open(path, "w") as file:
             file.write("time,x,y\n" + "".join(f"{i * 0.01:.2f},{i % 7 - 3},{(i % 5 - 2) * 2}\n" for i in range(400)))
         table = computed(self, path, "--unit", "m/s2", "--columns", "2,3", *frequencies([4]))
-        self.assertEqual(list(table["channel"]), ["column2", "column3"])
+        self.assertEqual(sources(table), ["column2.", "column3."])
         last = computed(self, path, "--unit", "m/s2", "--columns", "3", *frequencies([4]))
         self.assertEqual(last["pseudo_acceleration"][0], table["pseudo_acceleration"][1])
         asked = spectra(path, "--unit", "m/s2", *frequencies([4]))

@@ -141,7 +141,7 @@ def assert_continues(test, arguments, stop, checkpoint, ranks=2):
     with tempfile.TemporaryDirectory() as cut:
         for more in (["-end_time", stop, "-checkpoint_steps", checkpoint],
                      ["-restart", os.path.join(cut, "checkpoint.h5")]):
-            result = program.run([*arguments, *more, "-output", cut], ranks)
+            result = program.run(["-csv_digits", 17, *arguments, *more, "-output", cut], ranks)
             test.assertEqual(result.returncode, 0, result.stderr[-2000:])
         with h5py.File(os.path.join(folder, "history.h5")) as whole, \
                 h5py.File(os.path.join(cut, "history.h5")) as continued:

@@ -61,7 +61,7 @@ def load(case: Case, run: Case, root: Path) -> CaseResult:
         for row in read_table(folder / harvest.TREATED):
             treated.setdefault(row["treatment"], []).append(float(row["pseudo_acceleration"]))
         treated = {name: np.array(part) for name, part in treated.items()}
-        peaks = [{name: float(value) for name, value in row.items() if name != "channel"}
+        peaks = [{name: float(value) for name, value in row.items() if name not in ("probe", "direction", "channel")}
                  for row in read_table(folder / harvest.PEAKS)]
     series = {name: values if name.endswith("time") else factor * values
               for name, values in np.load(folder / harvest.SERIES).items()}

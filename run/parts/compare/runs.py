@@ -55,13 +55,9 @@ def _read(folder: Path) -> Result:
     result = load(folder)
     if not result.summary:
         raise CompareError(f"{folder}: no summary.json, the run did not reach its end")
-    if not result.spectra or len(result.spectra["frequency"]) == 0:
+    if not result.spectrum_probes:
         raise CompareError(f"{folder}: no spectra.csv with a line; a run without probes leaves nothing to compare")
     return result
-
-
-def _probes(result: Result) -> list:
-    return list(dict.fromkeys(result.spectra["probe"]))
 
 
 def _common(found: list) -> list:
@@ -69,7 +65,7 @@ def _common(found: list) -> list:
 
 
 def _common_probes(labels: list, results: list, notes: list) -> list:
-    found = [_probes(result) for result in results]
+    found = [result.spectrum_probes for result in results]
     common = _common(found)
     lists = "; ".join(f"{label} has {', '.join(names)}" for label, names in zip(labels, found))
     if not common:

@@ -73,7 +73,7 @@ class Outcome:
         self.summary = result.summary
         self.axes = [DIRECTIONS.index(way) for way in directions]
         self.spectra = {}
-        for probe in dict.fromkeys(result.spectra["probe"]):
+        for probe in result.spectrum_probes:
             for way in directions:
                 name = f"{probe}.{way}" if len(directions) > 1 else str(probe)
                 self.spectra[name] = result.spectrum(probe, way, result.spectra["damping"][0])

@@ -135,7 +135,7 @@ TEST_F(ImpactFile, IsReadBackAsItWasWritten) {
   impact.end = 0.34;
   impact.impulse = 2;
   const std::string path = (folder_ / "impacts.csv").string();
-  write_impacts(path, {"floor1", "floor2"}, std::vector<Impact>{impact, impact}, 1e-3);
+  write_impacts(path, {"floor1", "floor2"}, std::vector<Impact>{impact, impact}, 17);
   const auto windows = read_impact_windows(path);
   ASSERT_EQ(windows.size(), 2u);
   EXPECT_EQ(windows[1].contact, "floor2");
@@ -169,11 +169,10 @@ TEST(ImpactCatalogue, AddsFrictionUpAndForgetsPathsOfEarlierEpisodes) {
 TEST_F(ImpactFile, EveryNumberStandsUnderItsName) {
   Impact impact{0, 1, 3, 5, 7, 11, 13, 17, {19, 23}, 29, {31, 37}, 41, 43, 47, 53};
   const std::string path = (folder_ / "impacts.csv").string();
-  write_impacts(path, {"floor"}, std::vector<Impact>{impact}, 1e-3);
+  write_impacts(path, {"floor"}, std::vector<Impact>{impact}, 9);
   std::ifstream file(path);
   std::string names;
-  while (std::getline(file, names) && names.starts_with('#')) {
-  }
+  std::getline(file, names);
   std::string numbers;
   std::getline(file, numbers);
   EXPECT_EQ(names,
