@@ -11,6 +11,7 @@
 #include "driver/run_scene.h"
 #include "scene/command_line.h"
 #include "scene/options_database.h"
+#include "scene/scene_origin.h"
 #include "scene/scene_reader.h"
 
 namespace {
@@ -26,13 +27,14 @@ void run_words(MPI_Comm comm, std::span<const std::string> words,
     }
     return;
   }
-  const pounding::OptionsDatabase database = pounding::read_options_database(comm, line);
+  std::vector<std::string> files;
+  const pounding::OptionsDatabase database = pounding::read_options_database(comm, line, &files);
   pounding::ReadScene read = pounding::read_scene(database);
   for (const std::string& ignored : pounding::ignored_variables()) {
     read.scene.warnings.push_back(ignored);
   }
   petsc.emplace(pounding::petsc_options(database));
-  pounding::run_scene(comm, read.scene, read.resolved);
+  pounding::run_scene(comm, read.scene, read.resolved, pounding::origin_of(line, files));
 }
 
 /// Exit status of the job: 0, 1 after an error, 2 stopped by a signal; messages are one line from

@@ -1,5 +1,7 @@
 #include "common/version.h"
 
+#include <commit.h>  // of the build, by cmake/commit.cmake
+
 namespace pounding {
 
 const char* program_version() {

@@ -36,10 +36,18 @@ nlohmann::ordered_json describe_motion(const GroundMotion& motion) {
   nlohmann::ordered_json description{{"x", nullptr}, {"y", nullptr}, {"z", nullptr}};
   for (const MotionDescription& d : motion.descriptions()) {
     nlohmann::ordered_json& of = description[d.direction];
-    of = {{"file", d.source},       {"format", d.layout},
-          {"points", d.points},     {"time_step", d.time_step},
-          {"duration", d.duration}, {"scaled", d.scaling},
-          {"pga", d.pga},           {"pga_in_g", d.pga / standard_gravity}};
+    of = {{"file", d.source},
+          {"format", d.layout},
+          {"points", d.points},
+          {"time_step", d.time_step},
+          {"duration", d.duration},
+          {"scaled", d.scaling},
+          {"pga", d.pga},
+          {"pga_in_g", d.pga / standard_gravity},
+          {"treatment", d.treatment},
+          {"end_velocity", d.end_velocity},
+          {"end_displacement", d.end_displacement}};
+    if (d.factor != 0) of["factor"] = d.factor;
     if (!d.unit.empty()) {
       of["unit"] = d.unit;
       of["file_peak"] = d.file_peak;

@@ -350,7 +350,7 @@ void print_warnings(const std::vector<std::string>& warnings) {
 
 }  // namespace
 
-void print_title(const Scene& scene, int ranks) {
+void print_title(const Scene& scene, const std::string& overrides, int ranks) {
   int major = 0;
   int minor = 0;
   int subminor = 0;
@@ -358,6 +358,7 @@ void print_title(const Scene& scene, int ranks) {
   std::printf("pounding %s (%s), PETSc %d.%d.%d, %d rank%s\n", program_version(), program_commit(),
               major, minor, subminor, ranks, ranks == 1 ? "" : "s");
   if (!scene.title.empty()) std::printf("%s\n", scene.title.c_str());
+  if (!overrides.empty()) std::printf("  %s\n", overrides.c_str());
   if (!scene.fidelity_note.empty()) std::printf("%s\n", scene.fidelity_note.c_str());
   print_warnings(scene.warnings);
 }

@@ -12,7 +12,8 @@
 /// Report that a run prints; to be called on rank 0 only.
 namespace pounding {
 
-void print_title(const Scene& scene, int ranks);
+/// `overrides`: in words, how the run differs from the files of its options.
+void print_title(const Scene& scene, const std::string& overrides, int ranks);
 void print_model(const Scene& scene, const Model& model);
 /// `seconds_per_step`: measured, 0 if it was not.
 void print_time_step(const Scene& scene, const Model& model, double seconds_per_step);

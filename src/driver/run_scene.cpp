@@ -18,6 +18,7 @@
 #include "driver/matrix_export.h"
 #include "driver/mode_shapes.h"
 #include "driver/model_file.h"
+#include "driver/provenance.h"
 #include "driver/report.h"
 #include "driver/run_identity.h"
 #include "driver/stop_signal.h"
@@ -83,7 +84,7 @@ std::optional<SavedState> read_restart(MPI_Comm comm, const Scene& scene, const 
 
 }  // namespace
 
-void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
+void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved, const SceneOrigin& origin) {
   flush_subnormal_numbers();
   return_large_arrays();
   const double start = MPI_Wtime();
@@ -99,7 +100,8 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
       std::ranges::copy(replaced_results(scene, resolved), std::back_inserter(scene.warnings));
     }
   });
-  if (root) print_title(scene, size_of(comm));
+  if (root) print_title(scene, overrides_text(origin), size_of(comm));
+  const Provenance provenance = note_provenance(comm, origin, resolved);
   if (!scene.restart.empty()) check_checkpoint(comm, scene.restart, lasting_options(resolved));
   if (scene.dry_run && scene.write_model) on_rank0(comm, [&] { create_output(scene); });
   const Model model = build_model(comm, scene, profile);
@@ -150,8 +152,8 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved) {
       write_forces(scene.output + "/forces.csv", statistics.forces, scene.csv_digits);
     }
     statistics.wall_time = MPI_Wtime() - start;
-    write_summary(scene.output + "/summary.json", scene, resolved, model, statistics,
-                  loop.recorder(), size_of(comm));
+    write_summary(scene.output + "/summary.json",
+                  {provenance, scene, resolved, model, statistics, loop.recorder(), size_of(comm)});
     print_results(scene, statistics, loop.impacts(), loop.recorder(), spectra);
   });
 }

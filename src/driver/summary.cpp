@@ -8,6 +8,7 @@
 
 #include "common/version.h"
 #include "driver/motion_report.h"
+#include "driver/region_report.h"
 #include "driver/rest.h"
 #include "driver/soil_report.h"
 #include "output/result_folder.h"
@@ -78,6 +79,7 @@ Json describe_structure(const Building& building) {
     elements += block.global_count;
   }
   structure["elements"] = elements;
+  structure["regions"] = describe_regions(*building.structure);
   structure["connectivity"] = describe_findings(building.findings);
   structure["mass"] = building.system->total_mass;
   structure["stiffness"] = building.system->stiffness_method;
@@ -310,13 +312,13 @@ Json describe_contact(const InterfaceReport& report, const Slide& slide) {
 
 }  // namespace
 
-void write_summary(const std::string& path, const Scene& scene, const std::string& resolved,
-                   const Model& model, const RunStatistics& statistics, const Recorder& recorder,
-                   int ranks) {
+void write_summary(const std::string& path, const FinishedRun& run) {
+  const auto& [provenance, scene, resolved, model, statistics, recorder, ranks] = run;
   Json summary;
   summary["title"] = scene.title;
   summary["version"] = program_version();
   summary["commit"] = program_commit();
+  add_provenance(provenance, summary);
   for (const Building& building : model.buildings) {
     summary["structures"][building.name()] = describe_structure(building);
   }

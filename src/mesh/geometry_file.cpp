@@ -76,6 +76,7 @@ class Inspection {
   }
 
   GeometryWords found;
+  std::vector<std::filesystem::path> included;
 
  private:
   void check_header(const std::filesystem::path& file) const {
@@ -117,6 +118,7 @@ class Inspection {
       if (!std::filesystem::is_regular_file(other)) {
         refuse(file, tokens[i].line, "the file " + other.string() + " that it takes in is missing");
       }
+      included.push_back(other);
       inspect(other, depth + 1);
     } else if (!allow_commands_) {
       refuse(file, tokens[i].line,
@@ -190,6 +192,17 @@ class Inspection {
 };
 
 }  // namespace
+
+std::vector<std::filesystem::path> files_included_in(const std::filesystem::path& file) {
+  if (!is_geometry(file) || !std::filesystem::is_regular_file(file)) return {};
+  Inspection inspection("", true);
+  try {
+    inspection.inspect(file, 0);
+  } catch (const UserError&) {
+    return {};
+  }
+  return std::move(inspection.included);
+}
 
 bool is_geometry(const std::filesystem::path& file) {
   return file.extension() == ".geo";

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace pounding {
 
@@ -14,6 +15,10 @@ struct GeometryWords {
 
 /// Whether Gmsh parses a file as a geometry in its own language (.geo).
 bool is_geometry(const std::filesystem::path& file);
+
+/// Files that a geometry includes or merges, and those that these do, in the order of the text:
+/// none of a file that is no geometry or cannot be read, none whose name is computed.
+std::vector<std::filesystem::path> files_included_in(const std::filesystem::path& file);
 
 /// Looks at a mesh or geometry before Gmsh does, which runs the commands of any file that it does
 /// not know as something else. Throws UserError, with `option` at its head, where the file is

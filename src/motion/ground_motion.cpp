@@ -63,6 +63,7 @@ MotionDescription describe_synthetic(const SyntheticMotion& motion) {
   MotionDescription description;
   description.source = motion.target;
   description.layout = "synthetic, seed " + std::to_string(motion.seed);
+  description.treatment = "made to end without velocity and displacement";
   return description;
 }
 
@@ -71,8 +72,22 @@ MotionDescription describe_record(const std::string& file, const Accelerogram& r
   description.source = file;
   description.layout = record.layout;
   description.unit = record.unit;
+  description.treatment = "baseline as recorded, no correction";
   description.file_peak = record.peak();
   return description;
+}
+
+/// Velocity and displacement at the end, exact for straight lines between samples.
+void integrate(const Accelerogram& record, MotionDescription& description) {
+  const double h = record.time_step;
+  double velocity = 0, displacement = 0;
+  for (std::size_t i = 1; i < record.acceleration.size(); ++i) {
+    const double before = record.acceleration[i - 1], after = record.acceleration[i];
+    displacement += h * (velocity + h * (2 * before + after) / 6);
+    velocity += h * (before + after) / 2;
+  }
+  description.end_velocity = velocity;
+  description.end_displacement = displacement;
 }
 
 std::string scaling_text(const MotionComponent& component) {
@@ -114,6 +129,7 @@ void GroundMotion::add(std::size_t direction, const MotionComponent& component) 
     description = describe_record(record.file, accelerogram);
     require_possible_peak(name, record.file + ": peak", description.file_peak);
     const double factor = scaling_factor(name, component, description);
+    description.factor = factor;
     for (double& a : accelerogram.acceleration) a *= factor;
     require_possible_peak(name, "scaled peak", accelerogram.peak());
   }
@@ -123,6 +139,7 @@ void GroundMotion::add(std::size_t direction, const MotionComponent& component) 
   description.duration = accelerogram.duration();
   description.scaling = scaling_text(component);
   description.pga = accelerogram.peak();
+  integrate(accelerogram, description);
   for (const std::string& doubt : accelerogram.doubts) doubts_.push_back(name + ": " + doubt);
   for (const std::string& doubt : peak_doubts(name, component, description)) {
     doubts_.push_back(doubt);
@@ -136,8 +153,11 @@ GroundMotion::GroundMotion(const std::array<std::optional<MotionComponent>, 3>& 
   for (std::size_t i = 0; i < 3; ++i) {
     if (!components[i]) continue;
     add(i, *components[i]);
+    std::string& treatment = descriptions_.back().treatment;
+    treatment += ", straight lines between samples";
     if (resampling == Resampling::band_limited) {
       components_[i] = resample_band_limited(components_[i], resampled_step);
+      treatment += " after band-limited resampling to " + text_of(components_[i].time_step) + " s";
     }
   }
   double largest = 0;

@@ -13,16 +13,20 @@ namespace pounding {
 
 /// Motion in one direction as it was understood, before it is resampled.
 struct MotionDescription {
-  std::string direction;   ///< "x"
-  std::string source;      ///< file of the record or of the target spectrum
-  std::string layout;      ///< "rows of 8 values that follow one another", "synthetic, seed 3"
-  std::string unit;        ///< of the file, and who said it; empty for a synthetic motion
-  std::size_t points = 0;  ///< samples
-  double time_step = 0;    ///< between them [s]
-  double duration = 0;     ///< [s]
-  double file_peak = 0;    ///< as in the file [m/s2]; 0 for a synthetic motion
-  std::string scaling;     ///< "to pga 3.43 m/s2", "by 0.5", "none"
-  double pga = 0;          ///< as applied [m/s2]
+  std::string direction;        ///< "x"
+  std::string source;           ///< file of the record or of the target spectrum
+  std::string layout;           ///< "rows of 8 values that follow one another", "synthetic, seed 3"
+  std::string unit;             ///< of the file, and who said it; empty for a synthetic motion
+  std::size_t points = 0;       ///< samples
+  double time_step = 0;         ///< between them [s]
+  double duration = 0;          ///< [s]
+  double file_peak = 0;         ///< as in the file [m/s2]; 0 for a synthetic motion
+  std::string scaling;          ///< "to pga 3.43 m/s2", "by 0.5", "none"
+  double factor = 0;            ///< on the numbers of the file [-]; 0 for a synthetic motion
+  std::string treatment;        ///< of baseline and sampling: what was done to it
+  double end_velocity = 0;      ///< integral of the scaled motion at its end [m/s]
+  double end_displacement = 0;  ///< its second integral there [m]
+  double pga = 0;               ///< as applied [m/s2]
 };
 
 /// Ground acceleration a_g(t) in the three directions: each component is read or generated, scaled

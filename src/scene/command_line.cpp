@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "common/error.h"
+#include "common/library_versions.h"
 #include "common/version.h"
 #include "scene/option_values.h"
 
@@ -74,7 +75,9 @@ CommandLine read_command_line(std::span<const std::string> words) {
 }
 
 std::string version_text() {
-  return std::string("pounding ") + program_version() + " (" + program_commit() + ")\n";
+  std::string text = std::string("pounding ") + program_version() + " (" + program_commit() + ")\n";
+  for (const auto& [name, version] : library_versions()) text += "  " + name + " " + version + "\n";
+  return text;
 }
 
 std::vector<std::string> ignored_variables() {

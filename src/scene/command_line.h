@@ -22,7 +22,7 @@ struct CommandLine {
 /// `-name=value`, and for -options_file without a file.
 CommandLine read_command_line(std::span<const std::string> words);
 
-/// Text that -version prints: program, version and commit.
+/// Text that -version prints: program, version and commit, then compiler and libraries.
 std::string version_text();
 
 /// One line for each variable of the environment in which PETSc would look for options and which is

@@ -76,7 +76,8 @@ struct Waiting {
 
 }  // namespace
 
-OptionsDatabase read_options_database(MPI_Comm comm, const CommandLine& line) {
+OptionsDatabase read_options_database(MPI_Comm comm, const CommandLine& line,
+                                      std::vector<std::string>* files) {
   OptionsDatabase database = line.options;
   std::deque<Waiting> waiting;
   for (const std::string& file : line.files) waiting.push_front({"options_file", file, {}});
@@ -103,6 +104,7 @@ OptionsDatabase read_options_database(MPI_Comm comm, const CommandLine& line) {
       throw UserError("option -" + next.option + " " + file + ": this file is read already");
     }
     broadcast(comm, text);
+    if (files != nullptr) files->push_back(file);
     OptionsDatabase read = parse_options_file(text, file);
     find_inputs(comm, file, read);
     take_include(read, std::filesystem::path(file).parent_path());

@@ -11,8 +11,10 @@ namespace pounding {
 /// gets their text. In such a file, paths of what is read are relative to the folder of the file if
 /// something of that name is there, else to the folder in which the program runs. Throws UserError
 /// on every rank alike (missing or unreadable file, what parse_options_file refuses, files that
-/// include each other). Collective.
-OptionsDatabase read_options_database(MPI_Comm comm, const CommandLine& line);
+/// include each other). `files`: unless null, the files that were read are appended to it.
+/// Collective.
+OptionsDatabase read_options_database(MPI_Comm comm, const CommandLine& line,
+                                      std::vector<std::string>* files = nullptr);
 
 /// The options in it that are meant for PETSc and SLEPc.
 OptionsDatabase petsc_options(const OptionsDatabase& database);

@@ -107,7 +107,7 @@ class CommandLine(Options):
         for word in ("-version", "--version"):
             result = program.run([word], 2, timeout=60)
             self.assertEqual(result.returncode, 0)
-            self.assertRegex(result.stdout, r"^pounding \d+\.\d+\.\d+ \(\w+\)\n$")
+            self.assertRegex(result.stdout, r"^pounding \d+\.\d+\.\d+ \([\w-]+\)\n(  \w+ .*\d\n)+$")
 
 
 class Libraries(Options):

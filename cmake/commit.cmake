@@ -1,0 +1,22 @@
+# Writes HEADER with the commit of the sources in SOURCE, if it is another one than before.
+set(commit "unknown")
+if(GIT)
+  execute_process(COMMAND ${GIT} rev-parse --short HEAD WORKING_DIRECTORY ${SOURCE}
+    OUTPUT_VARIABLE found OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
+  if(NOT failed)
+    set(commit ${found})
+    execute_process(COMMAND ${GIT} status --porcelain -- src CMakeLists.txt cmake
+      WORKING_DIRECTORY ${SOURCE} OUTPUT_VARIABLE changes ERROR_QUIET)
+    if(changes)
+      string(APPEND commit "-changed")
+    endif()
+  endif()
+endif()
+set(text "#define POUNDING_GIT_HASH \"${commit}\"\n")
+set(before "")
+if(EXISTS ${HEADER})
+  file(READ ${HEADER} before)
+endif()
+if(NOT text STREQUAL before)
+  file(WRITE ${HEADER} ${text})
+endif()

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pounding {
+
+/// Name and version of the compiler, of MPI and of each library that results may depend on: of
+/// those in use where a library tells it, else of those that the program was built with.
+std::vector<std::pair<std::string, std::string>> library_versions();
+
+}  // namespace pounding

@@ -1,0 +1,127 @@
+#include "driver/provenance.h"
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "common/error.h"
+#include "common/library_versions.h"
+#include "common/parallel.h"
+#include "mesh/geometry_file.h"
+#include "scene/option_values.h"
+#include "scene/resolved_options.h"
+
+namespace pounding {
+namespace {
+
+constexpr auto files_of_matrices =
+    std::to_array<const char*>({"dofs.csv", "stiffness.mtx", "mass.mtx"});
+
+std::string local_time() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  localtime_r(&now, &parts);
+  std::array<char, 40> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S%z", &parts);
+  return text.data();
+}
+
+/// Name of the processor as Linux tells it; empty elsewhere.
+std::string processor_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("model name")) return trimmed(line.substr(line.find(':') + 1));
+  }
+  return "";
+}
+
+/// Names of the machines of all ranks, each once; on rank 0.
+std::vector<std::string> machine_names(MPI_Comm comm) {
+  std::array<char, MPI_MAX_PROCESSOR_NAME> own{};
+  int length = 0;
+  MPI_Get_processor_name(own.data(), &length);
+  const auto size = static_cast<std::size_t>(rank_of(comm) == 0 ? size_of(comm) : 0);
+  std::vector<char> all(size * own.size());
+  MPI_Gather(own.data(), static_cast<int>(own.size()), MPI_CHAR, all.data(),
+             static_cast<int>(own.size()), MPI_CHAR, 0, comm);
+  std::vector<std::string> names;
+  for (std::size_t rank = 0; rank < size; ++rank) {
+    const std::string name(&all[rank * own.size()]);
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+/// Files on rank 0, each once, in the order in which they are named.
+class Inputs {
+ public:
+  void add(const std::string& option, const std::string& path) {
+    std::error_code failure;
+    const bool known = std::ranges::find(files, path, &InputFile::path) != files.end();
+    if (known || !std::filesystem::is_regular_file(path, failure)) return;
+    if (!std::ifstream(path)) return;  // its reader says so
+    files.push_back({option, path, digest_of_file(path)});
+  }
+
+  /// Adds what an option in force names, if it is a file that a run reads.
+  void add_option(const std::string& name, const std::string& value) {
+    const auto ends = [&](std::string_view end) { return name.ends_with(end); };
+    if (value.empty() || value == "none") return;
+    if (ends("_matrices")) {
+      for (const char* file : files_of_matrices) add(name, value + "/" + file);
+    } else if (ends("_record") || ends("_target") || name == "restart") {
+      add(name, value);
+    } else if (ends("_mesh")) {
+      add(name, value);
+      for (const auto& file : files_included_in(value)) add("included", file.string());
+    }
+  }
+
+  std::vector<InputFile> files;
+};
+
+std::vector<InputFile> input_files(const SceneOrigin& origin, const std::string& resolved) {
+  Inputs inputs;
+  for (const std::string& file : origin.files) inputs.add("options_file", file);
+  const auto values = resolved_values(resolved);
+  for (const auto& [name, value] : values) inputs.add_option(name, value);
+  const auto value_of = [&](std::string_view wanted) {
+    const auto found =
+        std::ranges::find(values, wanted, &std::pair<std::string, std::string>::first);
+    return found == values.end() ? std::string() : found->second;
+  };
+  const bool has_target = !value_of("fidelity_target").empty();
+  if (has_target) inputs.add("fidelity_table", value_of("fidelity_table"));
+  return std::move(inputs.files);
+}
+
+}  // namespace
+
+Provenance note_provenance(MPI_Comm comm, const SceneOrigin& origin, const std::string& resolved) {
+  Provenance provenance{local_time(), machine_names(comm), processor_name(), {}, origin.overrides};
+  on_rank0(comm, [&] { provenance.inputs = input_files(origin, resolved); });
+  return provenance;
+}
+
+void add_provenance(const Provenance& provenance, nlohmann::ordered_json& summary) {
+  summary["started"] = provenance.started;
+  summary["ended"] = local_time();
+  summary["machine"] = {{"names", provenance.machines}, {"processor", provenance.processor}};
+  summary["overrides"] = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : provenance.overrides) summary["overrides"][name] = value;
+  summary["inputs"] = nlohmann::ordered_json::array();
+  for (const InputFile& input : provenance.inputs) {
+    summary["inputs"].push_back({{"option", input.option},
+                                 {"file", input.path},
+                                 {"bytes", input.digest.bytes},
+                                 {"sha256", input.digest.sha256}});
+  }
+  for (const auto& [name, version] : library_versions()) summary["versions"][name] = version;
+}
+
+}  // namespace pounding

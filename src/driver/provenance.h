@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <mpi.h>
+#include <nlohmann/json_fwd.hpp>
+
+#include "io/file_digest.h"
+#include "scene/scene_origin.h"
+
+namespace pounding {
+
+/// A file that a run read, as it was when the run began.
+struct InputFile {
+  std::string option;  ///< that names it, or "included" of a file that another one takes in
+  std::string path;
+  FileDigest digest;
+};
+
+/// Whence the results of a run are, for a report that is filed.
+struct Provenance {
+  std::string started;                ///< local time with its offset, ISO 8601
+  std::vector<std::string> machines;  ///< of the ranks, each once
+  std::string processor;              ///< of rank 0
+  std::vector<InputFile> inputs;
+  std::vector<std::pair<std::string, std::string>> overrides;  ///< see SceneOrigin
+};
+
+/// Notes what is known when a run begins: time, machines, and every file that its options name,
+/// with its hash: options files and what they include, geometries and what they include, meshes,
+/// matrices, records, targets, the table of a fidelity target, a checkpoint. `resolved`: the
+/// options in force. Files that are not there are left to who reads them. Rank 0 reads; the result
+/// is on rank 0. Throws UserError on every rank alike. Collective.
+Provenance note_provenance(MPI_Comm comm, const SceneOrigin& origin, const std::string& resolved);
+
+/// Adds it to summary.json: `started`, `ended` (now), `machine`, `inputs`, `overrides`, `versions`.
+void add_provenance(const Provenance& provenance, nlohmann::ordered_json& summary);
+
+}  // namespace pounding

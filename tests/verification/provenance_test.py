@@ -1,0 +1,115 @@
+"""Whence the results are: every file that was read with its hash, versions, machine, time, what the command line
+changed, and how records, materials and sections were understood.
+
+A mass on a spring and a beam, from an options file that includes another, a geometry that includes another, and a
+record."""
+import datetime
+import hashlib
+import os
+import shutil
+import tempfile
+import unittest
+
+import numpy
+
+import program
+
+SAMPLES = [0.0, 0.5, -1.0, 2.5, 1.0, 0.0]  # m/s2
+STEP = 0.02
+
+
+class Provenance(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="pounding-origin-")
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.write("points.geo", "Point(1) = {0, 0, 0};\nPoint(2) = {1, 0, 0};\n")
+        self.write("stick.geo", 'Include "points.geo";\nLine(1) = {1, 2};\nTransfinite Curve {1} = 3;\n'
+                   'Physical Curve("post") = {1};\nPhysical Point("foot") = {1};\n')
+        self.write("record.txt", "".join(f"{value}\n" for value in SAMPLES))
+        self.write("parts.yaml", "post: {structure: stick, at: '1,0,0'}\nmaterial: {mine: {young: 2e11, poisson: 0.25, "
+                   "density: 7800}}\nsection: {heb120: {z_axis: '0,1,0'}}\n")
+        self.scene = self.write("case.yaml", """include: parts.yaml
+title: A post, 1 m
+structures: stick
+stick: {mesh: stick.geo, clamp: foot, damping_alpha: 1,
+        post: {element: beam, material: mine, section: heb120}}
+motion: {x: {record: record.txt, unit: m/s2, time_step: 0.02, pga: 5}}
+end_time: 0.1
+modes: 2
+probes: post
+""")
+
+    def write(self, name, text):
+        path = os.path.join(self.folder, name)
+        with open(path, "w") as file:
+            file.write(text)
+        return path
+
+    def run_case(self, *words, ranks=1):
+        return program.must_run(self, ["-options_file", self.scene, *words], ranks)[1]
+
+    def test_every_input_has_the_hash_of_its_content(self):
+        names = ("case.yaml", "parts.yaml", "stick.geo", "points.geo", "record.txt")
+        for ranks in (1, 2):
+            inputs = self.run_case(ranks=ranks)["inputs"]
+            self.assertEqual(sorted(os.path.basename(one["file"]) for one in inputs), sorted(names))
+            for one in inputs:
+                with open(one["file"], "rb") as file:
+                    content = file.read()
+                self.assertEqual((one["bytes"], one["sha256"]), (len(content), hashlib.sha256(content).hexdigest()))
+        before = {one["file"]: one["sha256"] for one in inputs}
+        self.write("points.geo", "Point(1) = {0, 0, 0};\nPoint(2) = {1.0, 0, 0};\n")
+        after = {one["file"]: one["sha256"] for one in self.run_case()["inputs"]}
+        self.assertEqual([os.path.basename(path) for path in before if after[path] != before[path]], ["points.geo"])
+
+    def test_versions_are_those_that_the_program_prints(self):
+        printed = program.run(["--version"], 2).stdout.splitlines()
+        summary = self.run_case()
+        self.assertEqual(printed[0], f"pounding {summary['version']} ({summary['commit']})")
+        self.assertEqual(printed[1:], [f"  {name} {version}" for name, version in summary["versions"].items()])
+        self.assertTrue({"compiler", "MPI", "PETSc", "SLEPc", "MUMPS", "Gmsh", "METIS", "HDF5", "FFTW", "LibYAML"}
+                        <= set(summary["versions"]))
+        for name, version in summary["versions"].items():
+            self.assertRegex(version, r"\d+\.\d+", name)
+
+    def test_time_and_machine(self):
+        before = datetime.datetime.now(datetime.timezone.utc).replace(microsecond=0)
+        summary = self.run_case(ranks=2)
+        started, ended = (datetime.datetime.strptime(summary[key], "%Y-%m-%dT%H:%M:%S%z") for key in ("started", "ended"))
+        self.assertLessEqual(before, started)
+        self.assertLessEqual(started, ended)
+        self.assertLessEqual(ended, datetime.datetime.now(datetime.timezone.utc))
+        self.assertEqual(summary["machine"]["names"], [os.uname().nodename])
+        self.assertEqual(summary["ranks"], 2)
+
+    def test_what_the_command_line_changed_is_said(self):
+        self.assertEqual(self.run_case()["overrides"], {})
+        folder = os.path.join(self.folder, "results")
+        words = ["-options_file", self.scene, "-motion_x_pga", 2.5, "-end_time", 0.05, "-output", folder]
+        for ranks in (1, 2):
+            result = program.run(words, ranks)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("\nA post, 1 m\n  with end_time 0.05, motion_x_pga 2.5\n", result.stdout)
+            self.assertEqual(program.summary(folder)["overrides"], {"end_time": "0.05", "motion_x_pga": "2.5"})
+
+    def test_the_record_as_it_was_understood(self):
+        motion = self.run_case()["motion"]["x"]
+        self.assertAlmostEqual(motion["factor"], 5 / max(map(abs, SAMPLES)), delta=1e-14)
+        scaled = 2 * numpy.array(SAMPLES)
+        velocity = STEP * numpy.concatenate([[0], numpy.cumsum((scaled[1:] + scaled[:-1]) / 2)])
+        moved = numpy.sum(STEP * velocity[:-1] + STEP**2 * (2 * scaled[:-1] + scaled[1:]) / 6)
+        self.assertAlmostEqual(motion["end_velocity"], velocity[-1], delta=1e-14)
+        self.assertAlmostEqual(motion["end_displacement"], moved, delta=1e-14)
+        self.assertIn("no correction, straight lines", motion["treatment"])
+        self.assertIn("band-limited resampling to 0.0005 s",
+                      self.run_case("-resampling", "band_limited")["motion"]["x"]["treatment"])
+
+    def test_materials_and_sections_have_their_numbers(self):
+        post = self.run_case()["structures"]["stick"]["regions"]["post"]
+        self.assertEqual(post["material"], {"name": "mine", "young": 2e11, "poisson": 0.25, "density": 7800})
+        self.assertEqual((post["element"], post["section"]["name"]), ("beam", "heb120"))
+        self.assertAlmostEqual(post["section"]["area"], 34.01e-4, delta=1e-5)  # EN 10365
+
+
+if __name__ == "__main__":
+    unittest.main()
