@@ -7,6 +7,7 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "elements/shell_forces.h"
 #include "io/csv_file.h"
 #include "system/links.h"
 

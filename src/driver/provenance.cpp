@@ -103,15 +103,22 @@ std::vector<InputFile> input_files(const SceneOrigin& origin, const std::string&
 }  // namespace
 
 Provenance note_provenance(MPI_Comm comm, const SceneOrigin& origin, const std::string& resolved) {
-  Provenance provenance{local_time(), machine_names(comm), processor_name(), {}, origin.overrides};
-  on_rank0(comm, [&] { provenance.inputs = input_files(origin, resolved); });
+  Provenance provenance{local_time(), machine_names(comm), "", "", {}, origin.overrides};
+  on_rank0(comm, [&] {
+    provenance.processor = processor_name();
+    std::error_code failure;
+    provenance.folder = std::filesystem::current_path(failure).string();
+    provenance.inputs = input_files(origin, resolved);
+  });
   return provenance;
 }
 
 void add_provenance(const Provenance& provenance, nlohmann::ordered_json& summary) {
   summary["started"] = provenance.started;
   summary["ended"] = local_time();
-  summary["machine"] = {{"names", provenance.machines}, {"processor", provenance.processor}};
+  summary["machine"] = {{"names", provenance.machines},
+                        {"processor", provenance.processor},
+                        {"folder", provenance.folder}};
   summary["overrides"] = nlohmann::ordered_json::object();
   for (const auto& [name, value] : provenance.overrides) summary["overrides"][name] = value;
   summary["inputs"] = nlohmann::ordered_json::array();

@@ -24,6 +24,7 @@ struct Provenance {
   std::string started;                ///< local time with its offset, ISO 8601
   std::vector<std::string> machines;  ///< of the ranks, each once
   std::string processor;              ///< of rank 0
+  std::string folder;                 ///< in which the program runs
   std::vector<InputFile> inputs;
   std::vector<std::pair<std::string, std::string>> overrides;  ///< see SceneOrigin
 };

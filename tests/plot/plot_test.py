@@ -20,7 +20,7 @@ from parts.plot.style import envelope  # noqa: E402
 PROBES = {"s1_floor1": ("s1", 2.72), "s1_floor2": ("s1", 5.22), "s2_floor1": ("s2", 2.72),
           "s2_floor2": ("s2", 5.22)}
 CONTACTS = ("floor1", "floor2")
-FIGURES = {"spectra.png", "drifts.png", "accelerations_x.png", "accelerations_y.png",
+FIGURES = {"answer.png", "spectra.png", "spectra_2.png", "drifts.png", "accelerations_x.png", "accelerations_y.png",
            "accelerations_z.png", "ground_motion.png", "gap.png", "strongest_impact.png",
            "impacts.png", "energy.png", "loops.png"}
 IMPACTS = ((0, 1.0, 4e-3, 30.0), (1, 1.5, 9e-3, 900.0), (1, 2.25, 6e-3, 260.0))

@@ -80,6 +80,7 @@ probes: post
         self.assertLessEqual(started, ended)
         self.assertLessEqual(ended, datetime.datetime.now(datetime.timezone.utc))
         self.assertEqual(summary["machine"]["names"], [os.uname().nodename])
+        self.assertEqual(summary["machine"]["folder"], program.SOURCE)
         self.assertEqual(summary["ranks"], 2)
 
     def test_what_the_command_line_changed_is_said(self):

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from parts.benchmark.tables import markdown, write_csv
-from parts.plot.report import html_figure, html_table, write_page
+from parts.plot.markup import html_figure, html_table, write_page
 from parts.plot.style import WIDTH, log_scale, plt, save
 
 from . import tables

@@ -7,7 +7,7 @@ from pathlib import Path
 from parts.benchmark.tables import markdown
 from parts.compare import page
 from parts.compare.runs import Runs
-from parts.plot.report import html_table, write_page
+from parts.plot.markup import html_table, write_page
 from pounding.runs import SOURCE
 
 COST = ["run", "dofs", "ranks", "steps", "microseconds per step", "wall time [s]", "seconds per second of motion",

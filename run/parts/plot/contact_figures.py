@@ -143,4 +143,4 @@ def energy_balance(result: Result) -> list:
                 "Terms of the energy balance of the scheme, and what it leaves unexplained.")
 
 
-ALL = [gaps, strongest_impact, impact_catalogue, energy_balance]
+JOINT = [gaps, strongest_impact, impact_catalogue]

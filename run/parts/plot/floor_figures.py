@@ -1,12 +1,9 @@
-"""What the floors feel: response spectra, drifts, accelerations, and the ground motion."""
+"""What the floors feel: drifts, accelerations, and the ground motion."""
 
 import numpy as np
 
 from pounding.results import DIRECTIONS, Missing, Result, low_pass
-from .style import (DIRECTION_COLOURS, G, WIDTH, has_signal, legend_above, log_scale, plot_series,
-                    plt, probe_colour, save, stacked)
-
-MODE_SHARE = 0.02  # modes drawn on the spectra carry this share of the mass, or more
+from .style import DIRECTION_COLOURS, G, has_signal, legend_above, plot_series, probe_colour, save, stacked
 
 
 def ground_motion(result: Result) -> list:
@@ -25,60 +22,6 @@ def ground_motion(result: Result) -> list:
     rows[-1].set_xlabel("time [s]")
     return save(figure, result.folder, "ground_motion.png", "Ground motion",
                 "Acceleration of the ground, as applied at the output samples.")
-
-
-def _mode_lines(axes, result: Result, probe: str) -> None:
-    """Thin lines at the frequencies of the structure's modes that carry mass in one direction."""
-    structures = result.summary.get("structures", {})
-    owner = result.summary.get("probes", {}).get(probe, {}).get("structure")
-    structure = structures.get(owner, {})
-    mass = structure.get("mass") or 0
-    for mode in structure.get("frequencies", []):
-        colour = DIRECTION_COLOURS.get(str(mode.get("direction", "")).lower())
-        if colour and mass > 0 and (mode.get("effective_mass") or 0) >= MODE_SHARE * mass:
-            axes.axvline(mode["frequency"], color=colour, lw=0.8, ls=":", zorder=1)
-
-
-def response_spectra(result: Result) -> list:
-    table = result.spectra
-    if not table or len(table["frequency"]) == 0:
-        raise Missing("no spectra.csv" if not table else "spectra.csv has no line")
-    probes = list(dict.fromkeys(table["probe"]))
-    dampings = sorted(set(table["damping"]))
-    styles = dict(zip(dampings, ["-", "--", "-.", ":"] * len(dampings)))
-    columns = min(2, len(probes))
-    rows = -(-len(probes) // columns)
-    figure, grid = plt.subplots(rows, columns, figsize=(WIDTH, 0.5 + 3.2 * rows), squeeze=False,
-                                sharex=True, sharey=True)
-    largest = table["pseudo_acceleration"].max()
-    for axes in grid.ravel()[len(probes):]:
-        axes.set_visible(False)
-    for axes, probe in zip(grid.ravel(), probes):
-        log_scale(axes, "x", table["frequency"])
-        log_scale(axes, "y", table["pseudo_acceleration"])
-        for damping in dampings:
-            for direction in DIRECTIONS:
-                rows_of = ((table["probe"] == probe) & (table["direction"] == direction)
-                           & (table["damping"] == damping))
-                values = table["pseudo_acceleration"][rows_of]
-                if not has_signal(values, largest):
-                    continue
-                label = direction if len(dampings) == 1 else f"{direction}, {100 * damping:g} %"
-                axes.plot(table["frequency"][rows_of], values, styles[damping], label=label,
-                          color=DIRECTION_COLOURS[direction], lw=1.5)
-        _mode_lines(axes, result, probe)
-        axes.grid(True, which="minor", lw=0.3)
-        axes.set_title(probe)
-        if axes.get_legend_handles_labels()[0]:
-            axes.legend(loc="best")
-    for axes in grid[:, 0]:
-        axes.set_ylabel("pseudo-acceleration [m/s²]")
-    for axes in grid[-1]:
-        axes.set_xlabel("frequency [Hz]")
-    percent = ", ".join(f"{100 * damping:g} %" for damping in dampings)
-    return save(figure, result.folder, "spectra.png", "Floor response spectra",
-                f"Pseudo-acceleration at {percent} damping. Dotted: modes of the structure that "
-                f"carry {100 * MODE_SHARE:g} % of its mass or more in the direction of that colour.")
 
 
 def drifts(result: Result) -> list:
@@ -142,4 +85,4 @@ def accelerations(result: Result) -> list:
     return made
 
 
-ALL = [response_spectra, drifts, accelerations, ground_motion]
+ALL = [drifts, accelerations]

@@ -1,0 +1,245 @@
+"""The answer of a run in sentences: did they touch, where, how hard, what it does to the floors, what is left."""
+
+from dataclasses import dataclass
+from html import escape
+
+import numpy as np
+
+from pounding.results import DIRECTIONS, Result
+from . import twin as twins
+
+HEARD = 0.05  # of the largest floor spectrum of the run: what is below it is not looked at
+FELT = 0.01   # of the largest one without pounding: below it nothing moved, and a ratio says nothing
+LOW = 33.0    # up to here are the frequencies of structures and of most equipment [Hz]
+CLOSED = 1e-6  # residuals of the energy identity and of the contact problem up to here are round-off and its growth
+
+
+@dataclass
+class Change:
+    """Where a floor spectrum is most changed: values of the run and of its twin [m/s2] at a frequency [Hz]."""
+
+    probe: str
+    way: str
+    damping: float
+    frequency: float
+    value: float
+    without: float
+
+    @property
+    def ratio(self) -> float:
+        return self.value / self.without
+
+    def text(self) -> str:
+        return (f"{self.ratio:.3g} times at {self.frequency:.3g} Hz at {self.probe} along {self.way} "
+                f"(from {self.without:.3g} to {self.value:.3g} m/s²)")
+
+
+def _pairs(run: Result, twin: Result, damping: float) -> list:
+    """(probe, direction, frequencies, values, values without pounding) of all floor spectra that both have."""
+    probes = [probe for probe in run.spectrum_probes if probe in twin.spectrum_probes]
+    found = []
+    for probe in probes:
+        for way in DIRECTIONS:
+            own, other = run.spectrum(probe, way, damping), twin.spectrum(probe, way, damping)
+            if own and other:
+                found.append((probe, way, own[0], own[1], other[1]))
+    return found
+
+
+def _largest(pairs: list) -> tuple:
+    """The largest values with and without pounding."""
+    return tuple(max((pair[place].max() for pair in pairs), default=0.0) for place in (3, 4))
+
+
+def lowest_damping(run: Result) -> float | None:
+    return float(np.min(run.spectra["damping"])) if run.spectrum_probes else None
+
+
+def largest_change(run: Result, twin: Result, below: float = np.inf) -> Change | None:
+    """The largest ratio of the floor spectra at the smallest damping ratio, of frequencies up to `below`, where the run
+    has HEARD of its largest spectrum and the other one FELT of its own."""
+    damping = lowest_damping(run)
+    pairs = _pairs(run, twin, damping) if damping is not None else []
+    largest, largest_without = _largest(pairs)
+    changes = []
+    for probe, way, frequency, values, without in pairs:
+        for i in np.flatnonzero((values >= HEARD * largest) & (without >= FELT * largest_without) & (without > 0)
+                                & (frequency <= below)):
+            changes.append(Change(probe, way, damping, float(frequency[i]), float(values[i]), float(without[i])))
+    return max(changes, key=lambda change: change.ratio, default=None)
+
+
+def awakened(run: Result, twin: Result) -> tuple | None:
+    """Probe, direction, largest value [m/s2] and its frequency [Hz] of the strongest spectrum where nothing moved
+    without pounding."""
+    pairs = _pairs(run, twin, lowest_damping(run)) if run.spectrum_probes else []
+    largest, largest_without = _largest(pairs)
+    found = [(float(values.max()), float(frequency[values.argmax()]), probe, way)
+             for probe, way, frequency, values, without in pairs
+             if without.max() < FELT * largest_without and values.max() >= HEARD * largest]
+    if not found:
+        return None
+    value, frequency, probe, way = max(found)
+    return probe, way, value, frequency
+
+
+def strongest_spectrum(run: Result) -> tuple | None:
+    """Probe, direction and damping ratio of the largest floor spectrum."""
+    table = run.spectra
+    rows = np.isin(table["probe"], run.spectrum_probes) if table else np.array([])
+    if not rows.any():
+        return None
+    i = np.flatnonzero(rows)[np.argmax(table["pseudo_acceleration"][rows])]
+    return str(table["probe"][i]), str(table["direction"][i]), float(table["damping"][i])
+
+
+def _plural(count: int, word: str) -> str:
+    return f"{count} {word}{'' if count == 1 else 's'}"
+
+
+def _millimetres(value: float) -> str:
+    return f"{1e3 * value:.3g} mm"
+
+
+def _force(value: float) -> str:
+    return f"{1e-3 * value:.4g} kN"
+
+
+def smallest_gaps(run: Result) -> dict:
+    """Contact -> (smallest gap of the history [m], its time [s], smallest gap at rest [m])."""
+    found = {}
+    for column, name in enumerate(run.contacts if "gap" in run.history else []):
+        gap = run.history["gap"][:, column]
+        rest = run.summary.get("contacts", {}).get(name, {}).get("initial_gap")
+        if np.isfinite(gap).any() and rest:
+            at = int(np.nanargmin(gap))
+            found[name] = (float(gap[at]), float(run.history["time"][at]), float(rest[0]))
+    return found
+
+
+def _touched(run: Result) -> list:
+    impacts = run.summary["impacts"]
+    by = {name: one["episodes"] for name, one in impacts.items() if isinstance(one, dict) and one.get("episodes")}
+    where = ", ".join(f"{count} at {name}" for name, count in by.items())
+    lines = [f"The buildings touched: {_plural(impacts['episodes'], 'impact')}, {where}."]
+    table = run.impacts
+    if table and len(table["start"]):
+        i = int(np.argmax(table["impulse"]))
+        hard = f"The hardest came at {table['start'][i]:.4g} s at {table['contact'][i]}: {table['impulse'][i]:.4g} N s"
+        if "window_force" in table and impacts.get("force_window"):
+            j = int(np.argmax(table["window_force"]))
+            hard += f"; the largest force over {1e3 * impacts['force_window']:.3g} ms was {_force(table['window_force'][j])}"
+            hard += "" if i == j else f", at {table['contact'][j]} at {table['start'][j]:.4g} s"
+        first, last = table["start"].min(), table["end"].max()
+        lines.append(f"{hard}. All impacts lie between {first:.4g} and {last:.4g} s; together they are "
+                     f"{impacts['total_impulse']:.4g} N s.")
+    return lines
+
+
+def _apart(run: Result) -> list:
+    gaps = smallest_gaps(run)
+    lines = ["The buildings did not touch."]
+    if gaps:
+        name = min(gaps, key=lambda one: gaps[one][0])
+        gap, time, rest = gaps[name]
+        closing = rest - gap
+        lines.append(f"The smallest gap was {_millimetres(gap)} at {name} at {time:.4g} s, of {_millimetres(rest)} at rest: "
+                     f"the joint closed by {_millimetres(closing)}, and {100 * gap / rest:.3g} % of it is left."
+                     + (f" As long as everything stays linear, a motion {rest / closing:.3g} times as strong would close it."
+                        if closing > 0.001 * rest else ""))
+    return lines
+
+
+def _margin(run: Result) -> list:
+    """Width that response spectra ask of the joint that has least of it."""
+    needed = {name: one for name, one in run.summary.get("separations", {}).items() if one.get("srss")}
+    if not needed:
+        return []
+    name = max(needed, key=lambda one: needed[one]["srss"] / max(needed[one]["gap"], 1e-12))
+    one = needed[name]
+    word = "is wide enough" if one["gap"] >= one["srss"] else "is too narrow"
+    return [f"By response spectrum the joint {name} of {_millimetres(one['gap'])} {word}: the codes' root of the sum of "
+            f"squares asks for {_millimetres(one['srss'])}, the sum of both peaks for {_millimetres(one['sum'])}."]
+
+
+def _floors(run: Result, twin: Result | None, why: str) -> list:
+    if twin is None:
+        return [f"No run without pounding stands beside this one{f' ({why})' if why else ''}: what the impacts do to the "
+                "floors cannot be told. The command at the end of this part makes it; then draw again."]
+    change = largest_change(run, twin)
+    if change is None:
+        return [f"The run without pounding, {twin.folder.name}, has no floor spectra beside which these can be set."]
+    lines = [f"Beside the run without pounding ({twin.folder.name}) the floor spectra ({100 * change.damping:g} %) grow at most "
+             f"{change.text()}."]
+    low = largest_change(run, twin, LOW)
+    if low and change.frequency > LOW:
+        lines[0] += f" Up to {LOW:g} Hz it is at most {low.text()}."
+    awake = awakened(run, twin)
+    if awake:
+        lines.append(f"Impacts move what rests without them: {awake[0]} along {awake[1]} reaches {awake[2]:.3g} m/s² at "
+                     f"{awake[3]:.3g} Hz.")
+    peaks = _peaks(run, twin)
+    return lines + ([peaks] if peaks else [])
+
+
+def _peaks(run: Result, twin: Result) -> str:
+    """The floor whose stated peak acceleration grew most, of those with HEARD of the largest."""
+    found = []
+    for name, probe in run.summary.get("probes", {}).items():
+        other = twin.summary.get("probes", {}).get(name, {}).get("peak_acceleration") or [None] * 3
+        for way, value, without in zip(DIRECTIONS, probe.get("peak_acceleration") or [None] * 3, other):
+            if value and without is not None:
+                found.append((value, without, name, way))
+    largest, largest_without = (max((one[place] for one in found), default=0.0) for place in (0, 1))
+    found = [(one[0] / one[1], *one) for one in found
+             if one[0] >= HEARD * largest and one[1] >= FELT * largest_without > 0]
+    if not found:
+        return ""
+    ratio, value, without, name, way = max(found)
+    cut = run.summary.get("peak_frequency")
+    return (f"The peak acceleration{f' below {cut:g} Hz' if cut else ''} changes most at {name} along {way}: {ratio:.3g} times, "
+            f"from {without:.3g} to {value:.3g} m/s².")
+
+
+def checks(run: Result) -> list:
+    """Whether the energy identity, the contact problem and the penetration close."""
+    summary, lines = run.summary, []
+    residual = summary.get("energy", {}).get("relative_residual")
+    if residual is not None:
+        lines.append(f"The energy identity of the scheme {'closes' if residual <= CLOSED else 'DOES NOT CLOSE'}: its largest "
+                     f"residual is {residual:.1e} of the largest term.")
+    impacts = summary.get("impacts", {})
+    left = impacts.get("complementarity_residual")
+    if impacts.get("episodes") and left is not None:
+        lines.append(f"The contact problem of every step was {'' if left <= CLOSED else 'NOT '}solved: residual {left:.1e}. The "
+                     f"faces went into each other by at most {1e6 * impacts.get('max_penetration', 0):.3g} µm, less than "
+                     "they move in a step.")
+    count = len(summary.get("warnings", []))
+    lines.append(f"The run warned {_plural(count, 'time')}; what it said stands under Warnings." if count
+                 else "The run gave no warning.")
+    return lines
+
+
+def touched(run: Result) -> bool:
+    return bool(run.summary.get("impacts", {}).get("episodes"))
+
+
+def sentences(run: Result, twin: Result | None, why: str = "") -> list:
+    """The answer, its first line alone enough for who reads no further. Nothing of a folder without summary.json."""
+    if not run.summary:
+        return []
+    if touched(run):
+        return [*_touched(run), *_floors(run, twin, why), *_margin(run), *checks(run)]
+    if not run.summary.get("contacts"):
+        return ["No contacts: each building moves on its own in this run.", *checks(run)]
+    return [*_apart(run), *_margin(run), *checks(run)]
+
+
+def html(run: Result, twin: Result | None, why: str) -> str:
+    lines = sentences(run, twin, why)
+    if not lines:
+        return ""
+    text = "".join(f"<p>{escape(line)}</p>\n" for line in lines)
+    if touched(run) and twin is None:
+        text += f"<p>The run without pounding: <code>{escape(twins.command(run))}</code></p>\n"
+    return f'<div class="answer{" touched" if touched(run) else ""}">\n{text}</div>\n'

@@ -1,0 +1,85 @@
+"""Pieces of pages in HTML: numbers, tables, figures, and the page around them, for screen and paper."""
+
+import base64
+from html import escape
+from pathlib import Path
+
+import numpy as np
+
+SHORT = 25  # rows of a table that stays on one page of paper
+
+CSS = """
+body { font: 16px/1.5 sans-serif; color: #222; max-width: 60em; margin: 2em auto; padding: 0 1em; }
+h1 { font-size: 1.6em; line-height: 1.25; } h2 { font-size: 1.25em; margin-top: 2em; } h3 { font-size: 1.05em; margin-top: 1.6em; }
+table { border-collapse: collapse; margin: 0.8em 0; font-size: 0.9em; }
+caption { text-align: left; white-space: nowrap; font-weight: bold; padding: 0.3em 0; }
+th, td { padding: 0.25em 0.8em; text-align: right; border-bottom: 1px solid #ddd; vertical-align: top; }
+th { border-bottom: 2px solid #888; } th:first-child, td:first-child { text-align: left; }
+td.text, th.text { text-align: left; } td.hash { font: 0.8em monospace; text-align: left; overflow-wrap: anywhere; }
+figure { margin: 1.5em 0; } img { max-width: 100%; height: auto; }
+figcaption, .note, .from { color: #555; font-size: 0.9em; }
+.answer { border-left: 5px solid #08519C; padding: 0.1em 1.2em; background: #f4f7fb; }
+.answer.touched { border-color: #C0392B; background: #fdf5f4; }
+.answer p:first-child { font-size: 1.2em; font-weight: bold; }
+code { overflow-wrap: anywhere; } .small table { font-size: 0.75em; }
+@page { size: A4; margin: 16mm 14mm 18mm 14mm;
+  @bottom-right { content: counter(page) " / " counter(pages); font: 8pt sans-serif; color: #555; } }
+@media print {
+  body { font-size: 10pt; line-height: 1.4; margin: 0; max-width: none; padding: 0; }
+  h1 { font-size: 16pt; } h2 { font-size: 13pt; } h2, h3, caption { break-after: avoid; }
+  figure, tr, .answer, .together { break-inside: avoid; } thead { display: table-header-group; }
+  table.short { break-inside: avoid; } .page { break-before: page; } h2 { margin-top: 1.4em; } #view .bar { display: none !important; }
+  th, td { padding: 0.15em 0.6em; } table { max-width: 100%; }
+  figure { margin: 0.8em 0; } img { max-height: 235mm; }
+}
+"""
+
+
+def number(value) -> str:
+    """A cell as text: whole numbers with thin blanks between thousands, others with four digits."""
+    if isinstance(value, bool) or value is None:
+        return "–" if value is None else "yes" if value else "no"
+    if isinstance(value, (int, np.integer)):
+        return f"{value:,}".replace(",", "\u202f")
+    if isinstance(value, (float, np.floating)):
+        return f"{value:.4g}" if np.isfinite(value) else "not finite"
+    return escape(str(value))
+
+
+def html_table(caption: str, header: list, rows: list, text: tuple = (), hashes: tuple = ()) -> str:
+    """A table, or nothing of no rows; columns `text` (numbers from 0) and `hashes` are set to the left."""
+    if not rows:
+        return ""
+
+    def kind(column: int) -> str:
+        return ' class="hash"' if column in hashes else ' class="text"' if column in text else ""
+
+    head = "".join(f"<th{kind(i).replace('hash', 'text')}>{escape(name)}</th>" for i, name in enumerate(header))
+    body = "".join("<tr>" + "".join(f"<td{kind(i)}>{number(cell)}</td>" for i, cell in enumerate(row)) + "</tr>\n"
+                   for row in rows)
+    short = ' class="short"' if len(rows) <= SHORT else ""
+    return (f"<table{short}><caption>{escape(caption)}</caption>\n<thead><tr>{head}</tr></thead>\n"
+            f"<tbody>{body}</tbody></table>\n")
+
+
+def html_figure(folder: Path, page: dict, level: int = 2) -> str:
+    """A figure with its picture in it, under a title of that level."""
+    image = base64.b64encode((folder / page["file"]).read_bytes()).decode()
+    title = escape(page["title"])
+    return (f'<div class="together"><h{level}>{title}</h{level}>\n<figure><img alt="{title}" '
+            f'src="data:image/png;base64,{image}">'
+            f'<figcaption>{escape(page["caption"])}</figcaption></figure></div>\n')
+
+
+def paragraphs(lines: list) -> str:
+    return "".join(f"<p>{escape(line)}</p>\n" for line in lines)
+
+
+def write_page(path: Path, title: str, content: str, under: str = "") -> Path:
+    """Writes a page of its own, its content in HTML, a line under its title, and returns the path."""
+    title = escape(title)
+    under = f'<p class="from">{escape(under)}</p>\n' if under else ""
+    path.write_text(f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'
+                    f"<style>{CSS}</style></head>\n<body>\n<h1>{title}</h1>\n{under}{content}</body></html>\n",
+                    encoding="utf-8")
+    return path

@@ -1,0 +1,65 @@
+"""Whence a report is: date, machine, program and libraries, the inputs with their hashes, and all options."""
+
+from html import escape
+
+from pounding.results import Result
+from .markup import html_table
+
+SHOWN_OVERRIDES = 6  # in a title
+
+
+def overrides(result: Result) -> dict:
+    """Options of the command line by which the run is another one than its files say."""
+    return result.summary.get("overrides", {})
+
+
+def title(result: Result) -> str:
+    """The title of the run, and what the command line changed; a title from the command line stands alone."""
+    changed = overrides(result)
+    if not changed or "title" in changed:
+        return result.title
+    parts = [f"{name} {value}".strip() for name, value in list(changed.items())[:SHOWN_OVERRIDES]]
+    more = f" and {len(changed) - len(parts)} more options" if len(changed) > len(parts) else ""
+    return f"{result.title}, with {', '.join(parts)}{more}"
+
+
+def line(result: Result) -> str:
+    """One line under the title."""
+    summary = result.summary
+    date = str(summary.get("started", "")).replace("T", " ")
+    words = [f"Computed {date}" if date else "", f"pounding {summary['version']} ({summary.get('commit', 'unknown')})"
+             if "version" in summary else "", f"results in {result.folder.resolve()}" if summary else ""]
+    return "; ".join(word for word in words if word)
+
+
+def run_rows(result: Result) -> list:
+    summary = result.summary
+    machine = summary.get("machine", {})
+    rows = [("started", summary.get("started")), ("ended", summary.get("ended")),
+            ("machine", ", ".join(machine.get("names", [])) or None), ("processor", machine.get("processor")),
+            ("folder of the run", machine.get("folder")), ("ranks", summary.get("ranks")),
+            ("pounding", f"{summary['version']}, commit {summary.get('commit', 'unknown')}" if "version" in summary else None)]
+    rows += list(summary.get("versions", {}).items())
+    return [row for row in rows if row[1] is not None]
+
+
+def tables(result: Result) -> str:
+    changed = [(name, value) for name, value in overrides(result).items()]
+    inputs = [(one["file"], one["option"], one["bytes"], one["sha256"]) for one in result.summary.get("inputs", [])]
+    text = html_table("Date, machine, program", ["", ""], run_rows(result), text=(1,))
+    text += html_table("Options of the command line, before those of the files", ["", ""], changed, text=(1,))
+    text += html_table("Inputs, as they were when the run began (SHA-256)", ["file", "named by", "bytes", "SHA-256"], inputs,
+                       text=(1,), hashes=(3,))
+    if str(result.summary.get("commit", "")).endswith("-changed"):
+        text += ('<p class="note">The sources of the program were not those of the commit: build a committed state before '
+                 "a report is filed.</p>\n")
+    return text
+
+
+def options(result: Result) -> str:
+    """All options in force, small."""
+    rows = list(result.summary.get("options", {}).items())
+    if not rows:
+        return ""
+    table = html_table("", ["option", "value"], rows, text=(1,)).replace(f"<caption>{escape('')}</caption>\n", "")
+    return f'<h2 class="page">All options in force</h2>\n<div class="small">{table}</div>\n'

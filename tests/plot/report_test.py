@@ -1,0 +1,263 @@
+"""The report that is filed: the answer in its first lines, the run without pounding beside it, tables that say what the
+console and the files say, and paper.
+
+Two small buildings for 1.2 s: at a gap of 10 mm they hit, at 60 mm they do not, and without contacts they are alone."""
+import html
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy
+
+import program
+import two_buildings
+from two_buildings import pounding
+
+sys.path.insert(0, os.path.join(program.SOURCE, "run"))
+from parts.plot import answer, force_figures, model_tables, twin  # noqa: E402
+
+MORE = {"modes": 4, "spectra_damping": "0.02,0.05", "forces": "base,corner", "base_structure": "left",
+        "base_kind": "reactions", "corner_structure": "left", "corner_kind": "members", "corner_group": "columns",
+        "corner_at": "0,0,1"}
+BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+
+
+def page(folder):
+    return (Path(folder) / "report.html").read_text(encoding="utf-8")
+
+
+def text_of(markup):
+    return html.unescape(re.sub(r"<[^>]*>", " ", markup))
+
+
+def table(markup, caption):
+    """Cells of the first table whose caption begins like that, row by row, the header first."""
+    found = next(one for one in re.findall(r"<table.*?</table>", markup, re.DOTALL)
+                 if html.unescape(re.search("<caption>(.*?)</caption>", one)[1]).startswith(caption))
+    rows = re.findall("<tr>(.*?)</tr>", found, re.DOTALL)
+    return [[html.unescape(cell) for cell in re.findall("<t[hd][^>]*>(.*?)</t[hd]>", row)] for row in rows]
+
+
+def answer_of(folder):
+    return text_of(re.search(r'<div class="answer.*?</div>', page(folder), re.DOTALL)[0])
+
+
+class Report(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.place = Path(tempfile.mkdtemp(prefix="pounding-report-"))
+        cls.addClassCleanup(shutil.rmtree, cls.place)
+        cls.hit = two_buildings.run(cls.place / "hit", gap=0.01, **MORE)
+        cls.alone = two_buildings.run(cls.place / "alone", contacts="none", **MORE)
+        cls.wide = two_buildings.run(cls.place / "wide", 1, gap=0.06, **MORE)
+        drawn = program.command("plot", cls.place / "hit", "--without", cls.place / "alone", *(["--pdf"] if BROWSER else []))
+        assert drawn.returncode == 0, drawn.stderr
+        cls.said = drawn.stdout
+
+    def plot(self, *words):
+        done = program.command("plot", *words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    @staticmethod
+    def console(ranks, *more):
+        """Lines of a dry run of the same model."""
+        given = [word for name, value in two_buildings.SHORT.items() for word in (f"-{name}", value)]
+        return program.run(["-options_file", two_buildings.SCENE, "-dry_run", *given, *more], ranks,
+                           folder=two_buildings.FOLDER).stdout
+
+    def refused(self, *words):
+        done = program.command("plot", *words)
+        self.assertEqual((done.returncode, len(done.stderr.splitlines())), (1, 1), done.stderr)
+        self.assertTrue(done.stderr.startswith("run/plot: "), done.stderr)
+        return done.stderr
+
+    def test_the_answer_has_the_numbers_of_the_files(self):
+        said = answer_of(self.place / "hit")
+        impacts = self.hit.impacts
+        strongest = impacts["impulse"].argmax()
+        self.assertGreater(len(impacts["impulse"]), 0)
+        self.assertIn(f"The buildings touched: {len(impacts['impulse'])} impact", said)
+        self.assertIn(f"The hardest came at {impacts['start'][strongest]:.4g} s at {impacts['contact'][strongest]}: "
+                      f"{impacts['impulse'][strongest]:.4g} N s", said)
+        self.assertIn(f"was {1e-3 * impacts['window_force'].max():.4g} kN", said)
+        # the largest ratio, looked for anew
+        best = (0,)
+        own, other = (run.spectra["pseudo_acceleration"] for run in (self.hit, self.alone))
+        floors = self.hit.spectra["probe"] != "ground"
+        lines = floors & (self.hit.spectra["damping"] == 0.02)
+        for i in numpy.flatnonzero(lines):
+            if own[i] >= 0.05 * own[lines].max() and other[i] >= 0.01 * other[lines].max():
+                best = max(best, (own[i] / other[i], i))
+        ratio, i = best
+        self.assertIn(f"grow at most {ratio:.3g} times at {self.hit.spectra['frequency'][i]:.3g} Hz at "
+                      f"{self.hit.spectra['probe'][i]} along {self.hit.spectra['direction'][i]}", said)
+        residual = self.hit.summary["energy"]["relative_residual"]
+        self.assertIn(f"closes: its largest residual is {residual:.1e}", said)
+        self.assertNotIn("command", said)
+        # and nothing of it stands behind tables
+        whole = page(self.place / "hit")
+        self.assertLess(whole.index('class="answer'), whole.index("<table"))
+        self.assertLess(whole.index("In one picture"), whole.index("<table"))
+
+    def test_checks_that_do_not_close_are_said(self):
+        summary = {**self.hit.summary, "energy": {"relative_residual": 1e-3}, "warnings": ["odd"],
+                   "impacts": {**self.hit.summary["impacts"], "complementarity_residual": 0.1}}
+        said = " ".join(answer.checks(pounding.results.Result(self.hit.folder, summary)))
+        self.assertIn("DOES NOT CLOSE", said)
+        self.assertIn("NOT solved", said)
+        self.assertIn("warned 1 time;", said)
+
+    def test_a_joint_that_stays_open_has_its_margin(self):
+        self.plot(self.place / "wide")
+        said = answer_of(self.place / "wide")
+        gap = self.wide.history["gap"]
+        row, column = numpy.unravel_index(numpy.nanargmin(gap), gap.shape)
+        self.assertIn("The buildings did not touch.", said)
+        smallest, rest = gap[row, column], 0.06
+        self.assertIn(f"The smallest gap was {1e3 * smallest:.3g} mm at {self.wide.contacts[column]} at "
+                      f"{self.wide.history['time'][row]:.4g} s, of 60 mm at rest", said)
+        self.assertIn(f"{100 * smallest / rest:.3g} % of it is left", said)
+        self.assertIn(f"a motion {rest / (rest - smallest):.3g} times as strong", said)
+        self.assertIn("No contacts: each building moves on its own", answer.sentences(self.alone, None)[0])
+
+    def test_a_run_with_a_wide_joint_is_a_run_without_pounding(self):
+        found, why = twin.find(self.hit, self.place / "wide")
+        self.assertEqual((found.folder.name, why), ("wide", ""))
+        change = answer.largest_change(self.hit, found)
+        self.assertAlmostEqual(change.ratio, answer.largest_change(self.hit, self.alone).ratio, delta=1e-6 * change.ratio)
+
+    def test_the_command_of_the_report_makes_the_run_that_is_then_found(self):
+        place = self.place / "found"
+        shutil.copytree(self.place / "hit", place / "hit")
+        self.plot(place / "hit")
+        self.assertIn("No run without pounding stands beside this one", answer_of(place / "hit"))
+        line = html.unescape(re.search("<code>(.*?)</code>", page(place / "hit"))[1])
+        self.assertIn("cd ", line)
+        line = line.replace("build/pounding", shlex.quote(program.PROGRAM))
+        done = subprocess.run(["bash", "-c", line], env=program.ENVIRONMENT, capture_output=True, text=True, timeout=300,
+                              check=False)
+        self.assertEqual(done.returncode, 0, done.stdout[-500:] + done.stderr)
+        said = self.plot(place / "hit")
+        self.assertNotIn("without pounding:", said)
+        self.assertIn("Beside the run without pounding (hit-without)", answer_of(place / "hit"))
+        made = pounding.load(place / "hit-without")
+        self.assertEqual(made.summary["time_step"], self.hit.summary["time_step"])
+        os.rename(place / "hit-without", place / "apart")  # where run/plant has it
+        self.assertEqual(twin.find(pounding.load(place / "hit"), None)[0].folder.name, "apart")
+
+    def test_another_model_is_refused(self):
+        hit = self.place / "hit"
+        for name, options, part in (("longer", {"end_time": 1.3}, "option end_time is 1.3"),
+                                    ("stronger", {"motion_x_pga": 3}, "option motion_x_pga is 3"),
+                                    ("stiffer", {"material_concrete_young": "34e9"}, "material_concrete_young"),
+                                    ("finer", {"time_step": 1e-5}, "has another time step: 1e-05 s"),
+                                    ("close", {"contacts": "floor1,floor2", "gap": 0.012}, "its buildings touched")):
+            two_buildings.run(self.place / name, 1, **{"contacts": "none", **MORE, "modes": 0, **options})
+            self.assertIn(part, self.refused(hit, "--without", self.place / name))
+        self.assertIn("is the run itself", self.refused(hit, "--without", hit))
+        self.assertIn("is not a folder", self.refused(hit, "--without", self.place / "nowhere"))
+
+    def test_a_mesh_of_other_contents_is_another_model(self):
+        other = pounding.results.Result(self.alone.folder, {**self.alone.summary, "inputs": [
+            {**one, "sha256": "0" * 64} if one["option"] == "left_mesh" else one for one in self.alone.summary["inputs"]]})
+        twin.check(self.hit, self.alone)
+        with self.assertRaisesRegex(twin.NoTwin, "the file of left_mesh has other contents"):
+            twin.check(self.hit, other)
+
+    def test_one_that_is_found_but_unlike_is_left_out_with_a_word(self):
+        place = self.place / "unlike"
+        shutil.copytree(self.place / "hit", place / "hit")
+        shutil.copytree(self.place / "hit", place / "hit-without")
+        found, why = twin.find(pounding.load(place / "hit"), None)
+        self.assertIsNone(found)
+        self.assertIn("hit-without is no run without pounding: its buildings touched", why)
+        self.assertIn(why, " ".join(answer.sentences(self.hit, None, why)))
+
+    def test_modes_are_those_of_the_console(self):
+        printed = self.console(2, "-modes", 4)
+        for name in ("left", "right"):
+            part = printed[printed.index(f"structure {name}:"):]
+            console = re.findall(r"^ +(\d+) +([\d.]+) +(\w+) +(\d+) kg along (\w), +([\d.]+) % about/along (\w+), damped "
+                                 r"([\d.]+) Hz", part, re.MULTILINE)[:4]
+            shown = table(page(self.place / "hit"), f"Modes of {name}")[1:]
+            self.assertEqual(len(console), 4)
+            for line, row in zip(console, shown):
+                self.assertEqual(row[:4] + [row[4].removeprefix("along "), row[5], row[2], row[6]], list(line))
+
+    def test_damping_is_that_of_the_console(self):
+        shown = numpy.array(model_tables.SHOWN)
+        omega = 2 * numpy.pi * shown
+        numpy.testing.assert_allclose(model_tables.ratio_of({"alpha": 0.3, "beta": 2e-4}, shown),
+                                      0.3 / (2 * omega) + 2e-4 * omega / 2, rtol=1e-12)
+        found = model_tables.ratio_of(self.hit.summary["structures"]["left"]["damping"], shown)
+        printed = self.console(1)
+        said = re.search(r"ratio at 1, 10, 100, 400 Hz: ([\d.]+) % ([\d.]+) % ([\d.]+) % ([\d.]+) %", printed)
+        self.assertEqual([f"{100 * ratio:.3f}" for ratio in found], list(said.groups()))
+
+    def test_tables_of_model_motion_and_origin(self):
+        whole = page(self.place / "hit")
+        motion = {row[0]: row[1] for row in table(whole, "Ground motion as it was understood")}
+        self.assertEqual(float(motion["PGA [m/s²]"]), 4)
+        self.assertAlmostEqual(float(motion["PGA [g]"]), 4 / 9.80665, delta=2e-3)
+        self.assertIn("synthetic, seed 1", motion["read as"])
+        materials = {row[0]: row[1:] for row in table(whole, "Materials as used")}
+        self.assertEqual(materials["concrete"], ["33", "0.2", "2900"])
+        self.assertEqual(materials["S355"][2], "7850")  # by name, with its numbers
+        sections = {row[0]: row[1:] for row in table(whole, "Sections as used")}
+        self.assertAlmostEqual(float(sections["left_column"][0]), 54.25, delta=0.01)  # HEB160 of EN 10365
+        joints = {row[0]: row for row in table(whole, "Joints as they were computed")}
+        self.assertEqual((joints["floor2"][1], joints["floor2"][5], joints["floor2"][6]),
+                         ("left:east_2 on right:west_2", "10", "20"))
+        inputs = {row[0]: row[3] for row in table(whole, "Inputs")[1:]}
+        self.assertEqual(inputs, {one["file"]: one["sha256"] for one in self.hit.summary["inputs"]})
+        self.assertGreaterEqual(len(inputs), 3)
+        run = dict(row[:2] for row in table(whole, "Date, machine, program"))
+        self.assertEqual(run["PETSc"], self.hit.summary["versions"]["PETSc"])
+        self.assertEqual(run["machine"], os.uname().nodename)
+        self.assertEqual(re.findall(r"""(?:src|href)\s*=\s*["'](?!data:)""", whole), [])
+
+    def test_the_title_follows_the_command_line(self):
+        title = html.unescape(re.search("<h1>(.*?)</h1>", page(self.place / "hit"))[1])
+        self.assertTrue(title.startswith("Two frame buildings side by side, with "), title)
+        self.assertIn(" more options", title)  # than a title holds
+        changed = {row[0] for row in table(page(self.place / "hit"), "Options of the command line")}
+        self.assertTrue({"floor1_gap", "floor2_gap", "end_time"} <= changed, changed)
+
+    def test_forces_have_a_table_and_histories(self):
+        rows = {(row[0], row[1]): row for row in table(page(self.place / "hit"), "Forces")[1:]}
+        column = self.hit.history["forces"].index("base.Fx")
+        force = self.hit.history["force"][:, column]
+        at = abs(force).argmax()
+        row = rows["base", "Fx"]
+        self.assertAlmostEqual(float(row[2]) / (1e-3 * force[at]), 1, delta=1e-3)
+        self.assertAlmostEqual(float(row[4]), self.hit.history["time"][at], delta=1e-3)
+        self.assertEqual(row[3], "kN")
+        other = self.alone.forces
+        here = (other["item"] == "base") & (other["component"] == "Fx")
+        self.assertAlmostEqual(float(row[6]) / (1e-3 * other["peak"][here][0]), 1, delta=1e-3)
+        for item in ("base", "corner"):
+            self.assertTrue((self.place / "hit" / f"forces_{item}.png").exists())
+        found = force_figures.items(["base.Fx", "corner.17.My1", "corner.18.My1"])
+        self.assertEqual(found, {"base": {"Fx": {"": 0}}, "corner": {"My1": {"17": 1, "18": 2}}})
+        self.assertEqual([force_figures.unit_of(name) for name in ("Fx", "My1", "T", "N12", "M12", "Q1")],
+                         ["kN", "kN m", "kN m", "kN/m", "kN", "kN/m"])
+
+    @unittest.skipUnless(BROWSER, "no chromium here to print the page")
+    def test_it_is_printed(self):
+        self.assertIn("report.pdf", self.said)
+        content = (self.place / "hit" / "report.pdf").read_bytes()
+        self.assertTrue(content.startswith(b"%PDF-"))
+        sizes = set(re.findall(rb"/MediaBox \[0 0 (\d+)[.\d]* (\d+)", content))
+        self.assertTrue(all(abs(int(w) - 595) <= 1 and abs(int(h) - 842) <= 1 for w, h in sizes) and sizes, sizes)
+        self.assertGreater(content.count(b"/MediaBox"), 4)  # pages of paper
+
+
+if __name__ == "__main__":
+    unittest.main()
