@@ -7,7 +7,7 @@ from pathlib import Path
 from parts.campaign import findings, impact_table, paper, paper_tables
 from parts.campaign.cases import VARIANTS
 from parts.campaign.results import Campaign
-from .report import html_figure, html_table, write_page
+from .markup import html_figure, html_table, write_page
 
 
 def _findings(campaign: Campaign) -> str:
