@@ -40,7 +40,7 @@ set(CPACK_DEBIAN_PACKAGE_DEPENDS
   "openmpi-bin, python3, python3-h5py, python3-matplotlib, python3-numpy, python3-scipy")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS libopenblas0-serial)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-if(NOT POUNDING_PORTABLE)  # not to be taken for one that runs on other machines
+if(POUNDING_MACHINE STREQUAL native AND NOT POUNDING_PORTABLE)  # not to be taken for one that runs on other machines
   set(CPACK_DEBIAN_FILE_NAME
     pounding_${PROJECT_VERSION}_this-machine-only_${CMAKE_SYSTEM_PROCESSOR}.deb)
 endif()

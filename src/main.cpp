@@ -8,6 +8,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "common/petsc_session.h"
+#include "common/vector_unit.h"
 #include "driver/run_scene.h"
 #include "scene/command_line.h"
 #include "scene/options_database.h"
@@ -68,6 +69,7 @@ int run_job(MPI_Comm comm, std::span<const std::string> words) {
 }  // namespace
 
 int main(int count, char** words) {
+  if (!pounding::fits_this_machine()) return 1;
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a log grows line by line
   pounding::yield_where_crowded();
   MPI_Init(&count, &words);
