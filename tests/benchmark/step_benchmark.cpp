@@ -6,8 +6,8 @@
 //   -scene FILE            a scene of the program, under its own motion
 //   -motion FILE           samples of the ground acceleration [m/s2]; -motion_step their step [s]
 //   -steps A,B,...         element, assembled (the program's step); without:FORM (the same, element
-//                          by element without one form, see leave_out); aij, baij, sbaij (PETSc's
-//                          products in a step written out)
+//                          by element without one form, see leave_out); bare (a slab by a kernel
+//                          for it alone); aij, baij, sbaij (PETSc's products in a step written out)
 //   -apart                 every rank steps a model of its own, nothing is exchanged
 //   -export FOLDER         leaves stiffness.petsc and mass.petsc there (one rank, a brick)
 //
@@ -101,6 +101,8 @@ class Bench {
     std::unique_ptr<TimedStep>& step = steps_[name];
     if (name == "element" || name == "assembled" || name.starts_with(without)) {
       step = make_program_step(model);
+    } else if (name == "bare") {
+      step = make_bare_step(model, request_);
     } else {
       step = make_matrix_step(model, name);
     }
@@ -170,7 +172,7 @@ class Bench {
   static MPI_Comm comm() { return PETSC_COMM_WORLD; }
 
   SteppedModel& model_for(const std::string& name) {
-    const bool element = name == "element" || name.starts_with(without);
+    const bool element = name == "element" || name == "bare" || name.starts_with(without);
     std::unique_ptr<SteppedModel>& model = models_[name.starts_with(without) ? name
                                                    : element                 ? "element"
                                                                              : "assembled"];

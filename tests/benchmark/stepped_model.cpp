@@ -21,7 +21,6 @@
 namespace pounding::measuring {
 namespace {
 
-constexpr Vector3 cell_size{0.12, 0.12, 0.22};  // of the brick [m]
 constexpr Rayleigh damping{0.1562, 1.2557e-5};
 constexpr double courant = 0.9;
 

@@ -13,6 +13,9 @@
 
 namespace pounding::measuring {
 
+/// Edges of the elements of bricks and plates; the last is the plate's thickness [m].
+inline constexpr Vector3 cell_size{0.12, 0.12, 0.22};
+
 /// What is to be stepped, and under which motion.
 struct ModelRequest {
   std::array<int, 3> cells{};  ///< of one brick of concrete, clamped at its face x = 0; of a plate

@@ -9,7 +9,7 @@ from .comparison import BYTES_PER_DOF, LABELS
 from .machine import Machine
 from .tables import markdown, number, write_csv
 
-COLOURS = {"element": "#08519C", "assembled": "#B2182B", "aij": "#E69F00", "baij": "#C2A5CF",
+COLOURS = {"element": "#08519C", "bare": "#6BAED6", "assembled": "#B2182B", "aij": "#E69F00", "baij": "#C2A5CF",
            "sbaij": "#762A83", "scipy": "#1B7837", "octave": "#555555"}
 
 
@@ -78,8 +78,9 @@ NOTES = f"""\
   {BYTES_PER_DOF} bytes per dof: reading and writing the two arrays of the state. Masses,
   coordinates and element matrices can be shared by congruent bricks and are not counted.
 - `element by element` and `assembled` are the program's own step with its energy ledger; the
-  others are the same scheme written out around one product without a ledger. All have moved the
-  brick alike to 1e-9 after their first steps.
+  others are the same scheme written out around one product without a ledger; `bare kernel` is
+  written for slabs of one layer alone, on regular arrays: what the machine allows to the same
+  arithmetic. All have moved the brick alike to 1e-9 after their first steps.
 - Memory: growth of the resident set from an empty process to a stepping one, mesh and all included,
   over the ranks together.
 - What is compared is linear elasticity on congruent bricks, for which the first is specialised;
