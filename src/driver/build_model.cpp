@@ -243,7 +243,7 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
   {
     const Progress progress = begin(comm, scene, structure, "lowest modes");
     const bool with_shapes = scene.write_modes || !scene.contacts.empty();
-    building.modal = lowest_modes(system, mesh, modes, with_shapes);
+    building.modal = lowest_modes(system, mesh, modes, with_shapes, scene.modes_solver);
   }
   if (keeps_first) {
     system.uniform_damping->reference = reference_frequency(structure, building.modal);

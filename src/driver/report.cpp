@@ -274,6 +274,9 @@ void print_structure(const Building& building) {
   }
   print_soil(*building.structure);
   print_absorbing(*building.structure, building.absorbing);
+  if (!building.modal.method.empty()) {
+    std::printf("  modes by %s\n", building.modal.method.c_str());
+  }
   std::printf("  mode  frequency  direction  effective mass, share of it\n");
   int number = 0;
   for (const Mode& mode : building.modal.modes) {

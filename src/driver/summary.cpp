@@ -145,6 +145,7 @@ Json describe_structure(const Building& building) {
                                     {"median_of_group", sliver.median},
                                     {"number_in_group", sliver.count}});
   }
+  if (!building.modal.method.empty()) structure["modes_by"] = building.modal.method;
   structure["frequencies"] = Json::array();
   for (const Mode& mode : building.modal.modes) {
     double effective_mass = 0;

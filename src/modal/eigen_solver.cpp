@@ -24,25 +24,6 @@ std::string given_option(EPS solver) {
   return "";
 }
 
-/// Sets the solver up by the user's options and solves. Throws UserError where it does not work
-/// with such an option.
-void solve(EPS solver) {
-  PetscErrorCode error = EPSSetFromOptions(solver);
-  error = error != 0 ? error : EPSSolve(solver);
-  const std::string option = error != 0 ? given_option(solver) : "";
-  if (!option.empty()) {
-    throw UserError("option " + option + ": the eigenvalue solver does not work with it (" +
-                    take_petsc_message() + "); leave it out");
-  }
-  POUNDING_PETSC(error);
-}
-
-/// Throws that the solver did not converge, for reasons that lie in the model or in its options.
-[[noreturn]] void refuse_unconverged(EPS solver, const std::string& what) {
-  const std::string option = given_option(solver);
-  throw UserError(what + (option.empty() ? "" : "; leave option " + option + " out"));
-}
-
 /// Size of the box around all nodes [m]. Collective.
 double longest_side(const LinearSystem& system, const Mesh& mesh) {
   std::array<double, 6> ends;  // largest coordinates, and largest of their opposites
@@ -59,6 +40,31 @@ double longest_side(const LinearSystem& system, const Mesh& mesh) {
 }
 
 }  // namespace
+
+void solve(EPS solver) {
+  PetscErrorCode error = EPSSetFromOptions(solver);
+  error = error != 0 ? error : EPSSolve(solver);
+  const std::string option = error != 0 ? given_option(solver) : "";
+  if (!option.empty()) {
+    throw UserError("option " + option + ": the eigenvalue solver does not work with it (" +
+                    take_petsc_message() + "); leave it out");
+  }
+  POUNDING_PETSC(error);
+}
+
+void require_converged(EPS solver, const LinearSystem& system, const Mesh& mesh, int count) {
+  PetscInt found = 0;
+  POUNDING_PETSC(EPSGetConverged(solver, &found));
+  if (found >= count) return;
+  const std::string option = given_option(solver);
+  std::ostringstream text;
+  text << "structure " << system.name << ": only " << found << " of " << count
+       << " modes converged; its mesh is " << longest_side(system, mesh)
+       << " m long: look at the units of mesh and materials and at parts that nothing holds, or "
+          "leave the modes out with -modes 0"
+       << (option.empty() ? "" : "; leave option " + option + " out");
+  throw UserError(text.str());
+}
 
 MatHandle mass_scaled(const LinearSystem& system, Mat matrix) {
   std::vector<double> scale(system.inverse_mass.size());
@@ -162,16 +168,7 @@ EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix,
   POUNDING_PETSC(KSPGetPC(factorised, &factorisation));
   factorise_with_mumps(factorisation);
   solve(solver.get());
-  PetscInt found = 0;
-  POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
-  if (found < count) {
-    std::ostringstream text;
-    text << "structure " << system.name << ": only " << found << " of " << count
-         << " modes converged; its mesh is " << longest_side(system, mesh)
-         << " m long: look at the units of mesh and materials and at parts that nothing holds, or "
-            "leave the modes out with -modes 0";
-    refuse_unconverged(solver.get(), text.str());
-  }
+  require_converged(solver.get(), system, mesh, count);
   return solver;
 }
 

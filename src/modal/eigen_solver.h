@@ -16,6 +16,14 @@ MatHandle mass_scaled(const LinearSystem& system, Mat matrix);
 /// M + S, a new matrix. Collective.
 MatHandle mass_matrix(const LinearSystem& system);
 
+/// Sets an eigenvalue solver up by the user's options and solves. Throws UserError where it does
+/// not work with such an option. Collective.
+void solve(EPS solver);
+
+/// Throws UserError where fewer than `count` modes converged, with what may be to blame.
+/// Collective.
+void require_converged(EPS solver, const LinearSystem& system, const Mesh& mesh, int count);
+
 /// Krylov-Schur on a symmetric matrix, or on A x = lambda B x where a `mass` B is given, with a
 /// start vector that does not depend on the number of ranks; which eigenvalues and how many is the
 /// caller's. Collective.

@@ -9,4 +9,8 @@ namespace pounding {
 /// cent) and the like still have the last word. To be called before options are read. Collective.
 void factorise_with_mumps(PC factorisation);
 
+/// Memory that the factor of a symmetric matrix takes on all ranks together, as MUMPS expects it
+/// after ordering the rows and before any number is computed [B]. Collective.
+double factor_memory(Mat matrix);
+
 }  // namespace pounding

@@ -10,6 +10,7 @@
 #include "common/error.h"
 #include "mesh/location.h"
 #include "modal/eigen_solver.h"
+#include "modal/lowest_iteration.h"
 #include "modal/rigid_motions.h"
 #include "modal/scaled_operator.h"
 #include "system/admissible_motions.h"
@@ -73,8 +74,8 @@ double ModalResult::first_frequency() const {
   return 0;
 }
 
-ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count,
-                         bool keep_shapes) {
+ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count, bool keep_shapes,
+                         SolverChoice choice) {
   const RigidMotions motions(system, mesh);
   ModalResult result;
   result.mass = motions.mass();
@@ -96,15 +97,28 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
     mass = admissible->restrict_matrix(mass_matrix(system).get(), 1);
   }
   const int wanted = static_cast<int>(std::min<GlobalIndex>(count, system.independent_dofs()));
-  const EpsHandle solver = solve_lowest(system, mesh, matrix.get(), wanted, mass.get());
+  LowestPairs pairs;
+  if (must_iterate(system, matrix.get(), choice)) {
+    const auto to_coordinates = [&](std::vector<double>& field) {
+      if (admissible) admissible->to_coordinates(field);
+      if (diagonal_mass) weigh(system, field);
+    };
+    pairs = iterate_lowest(
+        {system, mesh, matrix.get(), mass.get(), frequency_bound(system), to_coordinates}, wanted);
+  } else {
+    pairs.solver = solve_lowest(system, mesh, matrix.get(), wanted, mass.get());
+  }
+  result.method = pairs.method;
   PetscInt found = 0;
-  POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
+  POUNDING_PETSC(EPSGetConverged(pairs.solver.get(), &found));
   std::vector<double> storage(system.lumped_mass.size());
   const VecHandle vector = wrap_vector(system, storage);
   const double bound = near_zero * frequency_bound(system);
   for (int i = 0; i < found; ++i) {
     double eigenvalue = 0;
-    POUNDING_PETSC(EPSGetEigenpair(solver.get(), i, &eigenvalue, nullptr, vector.get(), nullptr));
+    POUNDING_PETSC(
+        EPSGetEigenpair(pairs.solver.get(), i, &eigenvalue, nullptr, vector.get(), nullptr));
+    eigenvalue -= pairs.above;
     if (admissible) admissible->to_motion(storage);
     std::vector<double> shape;
     if (keep_shapes) shape = storage;

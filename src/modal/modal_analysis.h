@@ -23,6 +23,7 @@ struct Mode {
 };
 
 struct ModalResult {
+  std::string method;       ///< how they were found, where no factorisation was made
   std::vector<Mode> modes;  ///< increasing frequency
   double mass = 0;          ///< of the free dofs [kg]
   Vector3 centre_of_mass{0, 0, 0};
@@ -54,12 +55,13 @@ double reference_frequency(const Structure& structure, const ModalResult& modal)
 
 /// The lowest `count` modes by SLEPc's Krylov-Schur on M^-1/2 K M^-1/2, shift-and-invert with a
 /// Cholesky factorisation (MUMPS), the shift just below zero so that free structures pass; on K
-/// and M + S where mass is coupled.
+/// and M + S where mass is coupled. By `iterate_lowest` where `must_iterate` says so of
+/// `choice`.
 /// Frequencies of rigid-body modes come out as 0. Participation: Gamma = phi^T M iota, effective
 /// mass Gamma^2. `keep_shapes`: with phi, phi^T M phi = 1. Needs the matrix of the system unless
 /// `count` is 0. Throws UserError when SLEPc finds fewer than asked. Collective.
 ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count,
-                         bool keep_shapes = false);
+                         bool keep_shapes = false, SolverChoice choice = SolverChoice::automatic);
 
 /// omega_max by Lanczos on the same matrix, of which it needs products only. Collective.
 LargestFrequency largest_frequency(const LinearSystem& system, const Mesh& mesh,

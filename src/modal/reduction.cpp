@@ -142,7 +142,7 @@ struct Reduction {
 LargestCompression turn_weight_with_columns(const Structure& structure, const LinearSystem& system,
                                             Mesh& mesh) {
   const Equilibrium rest =
-      find_equilibrium(mesh.comm, {&system, 1}, {&mesh, 1}, Interface{}, StaticSolver::automatic);
+      find_equilibrium(mesh.comm, {&system, 1}, {&mesh, 1}, Interface{}, SolverChoice::automatic);
   return set_axial_forces(structure, rest.displacement[0], 1, mesh);
 }
 
@@ -167,7 +167,7 @@ void compute(const Structure& structure, std::span<const SupportColumn> columns,
   require_passive_matrices(structure, *system);
   if (!reduction.mesh.supported.empty()) {
     system->supports =
-        find_support_shapes(structure, reduction.mesh, *system, columns, StaticSolver::automatic);
+        find_support_shapes(structure, reduction.mesh, *system, columns, SolverChoice::automatic);
   }
   reduction.basis = compute_modal_basis(*system, reduction.mesh, reduction.request);
 }

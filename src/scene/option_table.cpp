@@ -52,6 +52,7 @@ constexpr std::array table{
     OptionRow{Block::run, "allow_unstable", Kind::boolean, "flag", value("false"), any, "", "accept a time step above the stable one (for studies)"},
     OptionRow{Block::run, "omega_max_tolerance", Kind::real, "-", value("1e-3"), eigen_tolerance, "", "part by which omega_max may be too large, and the stable step too small, where 1e-10 would take long"},
     OptionRow{Block::run, "modes", Kind::integer, "-", value("12"), not_negative, "", "lowest modes computed per structure"},
+    OptionRow{Block::run, "modes_solver", Kind::choice, "word", value("auto"), any, "auto|direct|iterative", "how they are found at full order: with a factorisation, by an iteration with multigrid, or by that where the factor would take too much memory"},
     OptionRow{Block::run, "write_modes", Kind::boolean, "flag", value("false"), any, "", "write their shapes to modes.h5, and modes.xdmf for ParaView"},
     OptionRow{Block::run, "write_model", Kind::boolean, "flag", value("false"), any, "", "write the meshes with groups, supports, contacts and probes to model.xdmf and model.h5 for ParaView"},
     OptionRow{Block::run, "gravity", Kind::real, "m/s2", value("0"), not_negative, "", "acceleration of gravity, along -z, of every structure without one of its own"},
@@ -229,7 +230,7 @@ constexpr std::array table{
 
 // Options that touch neither motion nor records; the time step itself is compared, not its options.
 constexpr std::array changeable_on_restart = std::to_array<std::string_view>({
-    "title", "end_time", "courant", "time_step", "allow_unstable", "omega_max_tolerance", "progress_interval", "modes", "write_modes", "write_model", "mesh_time_limit", "dry_run", "output",
+    "title", "end_time", "courant", "time_step", "allow_unstable", "omega_max_tolerance", "progress_interval", "modes", "modes_solver", "write_modes", "write_model", "mesh_time_limit", "dry_run", "output",
     "checkpoint_interval", "checkpoint_steps", "export_matrices", "partition", "restart", "spectra_damping",
     "spectra_frequencies", "spectra_start", "peak_frequency", "csv_digits"});
 // clang-format on

@@ -262,9 +262,9 @@ enum class StiffnessMethod { automatic, assembled, element };
 /// whichever costs a step less.
 enum class PartitionBy { automatic, elements, structures };
 
-/// Solution of the static equilibrium: by a factorisation, by an iteration, or by the factorisation
-/// where it fits into the memory.
-enum class StaticSolver { automatic, direct, iterative };
+/// How equations with the stiffness matrix are solved: by a factorisation, by an iteration, or by
+/// the factorisation where it fits into the memory.
+enum class SolverChoice { automatic, direct, iterative };
 
 enum class Resampling { linear, band_limited };
 
@@ -318,13 +318,14 @@ struct Scene {
   double omega_max_tolerance = 0;  ///< accepted where omega_max to 1e-10 takes long [-]
   double progress_interval = 0;    ///< of the lines that a long phase of the start-up prints [s]
   int modes = 0;                   ///< lowest modes to compute per structure
-  bool write_modes = false;        ///< their shapes as well
-  bool write_model = false;        ///< the meshes with what the options made of them
-  double fields_interval = 0;      ///< between two pictures of the whole motion [s]; 0: none
-  double fields_start = 0;         ///< of the first [s]
-  double fields_end = 0;           ///< of the last at most [s]; 0: the end of the run
-  bool preload = false;            ///< start from the static equilibrium
-  StaticSolver preload_solver = StaticSolver::automatic;
+  SolverChoice modes_solver = SolverChoice::automatic;
+  bool write_modes = false;    ///< their shapes as well
+  bool write_model = false;    ///< the meshes with what the options made of them
+  double fields_interval = 0;  ///< between two pictures of the whole motion [s]; 0: none
+  double fields_start = 0;     ///< of the first [s]
+  double fields_end = 0;       ///< of the last at most [s]; 0: the end of the run
+  bool preload = false;        ///< start from the static equilibrium
+  SolverChoice preload_solver = SolverChoice::automatic;
   double gap_tolerance = 0;      ///< contact where gap <= gap_tolerance x model size [-]
   double impact_merge_time = 0;  ///< contacts separated by less are one episode [s]
   double force_window = 0;       ///< over which the largest force of an impact is taken [s]

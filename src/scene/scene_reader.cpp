@@ -72,6 +72,13 @@ class SceneReader {
   }
 
  private:
+  SolverChoice read_solver(const char* name) {
+    const std::string solver = options_.choice(name);
+    return solver == "auto"     ? SolverChoice::automatic
+           : solver == "direct" ? SolverChoice::direct
+                                : SolverChoice::iterative;
+  }
+
   void read_run() {
     scene_.end_time = options_.real("end_time");
     scene_.courant = options_.real("courant");
@@ -86,14 +93,12 @@ class SceneReader {
     scene_.mesh_time_limit = options_.real("mesh_time_limit");
     scene_.allow_geo_commands = options_.boolean("allow_geo_commands");
     scene_.modes = options_.integer("modes");
+    scene_.modes_solver = read_solver("modes_solver");
     scene_.write_modes = options_.boolean("write_modes");
     scene_.write_model = options_.boolean("write_model");
     gravity_ = options_.real("gravity");
     scene_.preload = options_.choice("preload") == "static";
-    const std::string solver = options_.choice("preload_solver");
-    scene_.preload_solver = solver == "auto"     ? StaticSolver::automatic
-                            : solver == "direct" ? StaticSolver::direct
-                                                 : StaticSolver::iterative;
+    scene_.preload_solver = read_solver("preload_solver");
     scene_.gap_tolerance = options_.real("gap_tolerance");
     scene_.impact_merge_time = options_.real("impact_merge_time");
     scene_.force_window = options_.real("force_window");

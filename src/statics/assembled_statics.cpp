@@ -7,8 +7,8 @@
 #include "common/error.h"
 #include "common/memory.h"
 #include "common/parallel.h"
-#include "common/rigid_motion.h"
 #include "statics/link_terms.h"
+#include "system/near_null_space.h"
 
 namespace pounding {
 namespace {
@@ -42,24 +42,10 @@ void add_links(std::span<const LinkTerms> links, double sign, PetscInt first_dof
   POUNDING_PETSC(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
 }
 
-/// Displacement of the free dofs in a rigid motion, along (0-2) or about (3-5) an axis through the
-/// origin.
-std::vector<double> rigid_motion(const Mesh& mesh, int motion) {
-  std::vector<double> field(mesh.owned_dofs, 0.0);
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    for (int c = 0; c < 6; ++c) {
-      const LocalIndex dof = mesh.dof(node, c);
-      if (dof < 0) continue;
-      field[dof] = rigid_motion_row(static_cast<std::size_t>(c), mesh.position(node))[motion];
-    }
-  }
-  return field;
-}
-
 }  // namespace
 
 AssembledStatics::AssembledStatics(const LinearSystem& system, const Mesh& mesh, double shift,
-                                   StaticSolver solver, Held held)
+                                   SolverChoice solver, Held held)
     : system_(system) {
   if (system.uniform_damping && held == Held::at_rest) at_rest_ = system.uniform_damping->at_rest();
   POUNDING_PETSC(MatDuplicate(system.stiffest_matrix(), MAT_COPY_VALUES, matrix_.out()));
@@ -86,7 +72,7 @@ AssembledStatics::AssembledStatics(const LinearSystem& system, const Mesh& mesh,
   }
   POUNDING_PETSC(MatSetOption(matrix_.get(), MAT_SYMMETRIC, PETSC_TRUE));
   POUNDING_PETSC(MatSetOption(matrix_.get(), MAT_SPD, PETSC_TRUE));
-  if (solver == StaticSolver::iterative || !factorise(solver)) prepare_iteration(mesh);
+  if (solver == SolverChoice::iterative || !factorise(solver)) prepare_iteration(mesh);
 }
 
 /// Copies the matrix to rank 0. Collective.
@@ -114,7 +100,7 @@ void AssembledStatics::gather() {
   POUNDING_PETSC(VecDuplicate(at_zero_.get(), solved_.out()));
 }
 
-bool AssembledStatics::factorise(StaticSolver solver) {
+bool AssembledStatics::factorise(SolverChoice solver) {
   gather();
   enum class Outcome { done, too_large, failed };
   auto outcome = Outcome::done;
@@ -141,7 +127,7 @@ bool AssembledStatics::factorise(StaticSolver solver) {
   return factorised_;
 }
 
-bool AssembledStatics::plan_factor(StaticSolver solver) {
+bool AssembledStatics::plan_factor(SolverChoice solver) {
   Mat matrix = gathered_.get();
   POUNDING_PETSC(MatGetFactor(matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, factor_.out()));
   constexpr PetscInt workspace = 14;  // per cent beyond the estimate
@@ -153,7 +139,7 @@ bool AssembledStatics::plan_factor(StaticSolver solver) {
   PetscInt megabytes = 0;
   POUNDING_PETSC(MatMumpsGetInfog(factor_.get(), megabytes_of_all, &megabytes));
   factor_memory_ = 1e6 * static_cast<double>(megabytes);
-  return solver != StaticSolver::automatic || factor_memory_ <= usable_share * available_memory();
+  return solver != SolverChoice::automatic || factor_memory_ <= usable_share * available_memory();
 }
 
 bool AssembledStatics::fill_factor() {
@@ -166,34 +152,9 @@ bool AssembledStatics::fill_factor() {
 }
 
 void AssembledStatics::prepare_iteration(const Mesh& mesh) {
-  std::array<VecHandle, 6> motions;
-  std::vector<Vec> kept;
-  for (int m = 0; m < 6; ++m) {
-    std::vector<double> field = rigid_motion(mesh, m);
+  set_near_null_space(system_, mesh, matrix_.get(), [&](std::vector<double>& field) {
     if (admissible_) admissible_->to_coordinates(field);
-    const VecHandle wrapped = wrap_vector(system_, field);
-    POUNDING_PETSC(VecDuplicate(wrapped.get(), motions[m].out()));
-    POUNDING_PETSC(VecCopy(wrapped.get(), motions[m].get()));
-    // Orthonormal, as PETSc wants them.
-    for (int repeat = 0; repeat < 2; ++repeat) {
-      for (Vec other : kept) {
-        PetscScalar product = 0;
-        POUNDING_PETSC(VecDot(motions[m].get(), other, &product));
-        POUNDING_PETSC(VecAXPY(motions[m].get(), -product, other));
-      }
-    }
-    PetscReal length = 0;
-    PetscReal before = 0;
-    POUNDING_PETSC(VecNorm(wrapped.get(), NORM_2, &before));
-    POUNDING_PETSC(VecNorm(motions[m].get(), NORM_2, &length));
-    if (!(length > 1e-8 * before)) continue;  // a straight row of nodes: no motion of its own
-    POUNDING_PETSC(VecScale(motions[m].get(), 1 / length));
-    kept.push_back(motions[m].get());
-  }
-  PetscHandle<MatNullSpace, MatNullSpaceDestroy> rigid;
-  POUNDING_PETSC(MatNullSpaceCreate(system_.comm, PETSC_FALSE, static_cast<PetscInt>(kept.size()),
-                                    kept.data(), rigid.out()));
-  POUNDING_PETSC(MatSetNearNullSpace(matrix_.get(), rigid.get()));
+  });
   POUNDING_PETSC(KSPCreate(system_.comm, iteration_.out()));
   POUNDING_PETSC(KSPSetOptionsPrefix(iteration_.get(), prefix));
   POUNDING_PETSC(KSPSetType(iteration_.get(), KSPCG));

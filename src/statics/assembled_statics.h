@@ -23,7 +23,7 @@ class AssembledStatics final : public StaticStiffness {
   /// elements alone, with s = 1.
   enum class Held { at_rest, elements };
   /// Collective. Needs the matrix of the system.
-  AssembledStatics(const LinearSystem& system, const Mesh& mesh, double shift, StaticSolver solver,
+  AssembledStatics(const LinearSystem& system, const Mesh& mesh, double shift, SolverChoice solver,
                    Held held = Held::at_rest);
   void apply(const std::vector<double>& u, std::vector<double>& q) const override;
   void solve(std::vector<double>& x) const override;
@@ -32,10 +32,10 @@ class AssembledStatics final : public StaticStiffness {
  private:
   /// False, and nothing kept, where the factor would not fit and may be left to the iteration. By
   /// rank 0 alone: a factor that ranks share has other last bits in every run.
-  bool factorise(StaticSolver solver);
+  bool factorise(SolverChoice solver);
   void gather();
   /// Rank 0 alone: whether the factor fits, and whether it could be made.
-  bool plan_factor(StaticSolver solver);
+  bool plan_factor(SolverChoice solver);
   bool fill_factor();
   void prepare_iteration(const Mesh& mesh);
   /// x := (s K + shift M)^-1 x in the coordinates of rigid bodies, if there are any.

@@ -53,7 +53,7 @@ double largest_size(const Vector3& v) {
 class Search {
  public:
   Search(MPI_Comm comm, std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
-         const Interface& interface, StaticSolver solver)
+         const Interface& interface, SolverChoice solver)
       : comm_(comm),
         systems_(systems),
         meshes_(meshes),
@@ -377,7 +377,7 @@ class Search {
 
 Equilibrium find_equilibrium(MPI_Comm comm, std::span<const LinearSystem> systems,
                              std::span<const Mesh> meshes, const Interface& interface,
-                             StaticSolver solver) {
+                             SolverChoice solver) {
   return Search(comm, systems, meshes, interface, solver).find();
 }
 

@@ -59,6 +59,6 @@ struct Equilibrium {
 /// naming it. Systems need their matrix. Collective.
 Equilibrium find_equilibrium(MPI_Comm comm, std::span<const LinearSystem> systems,
                              std::span<const Mesh> meshes, const Interface& interface,
-                             StaticSolver solver);
+                             SolverChoice solver);
 
 }  // namespace pounding

@@ -53,7 +53,7 @@ std::vector<double> follow(const LinearSystem& system, const AssembledStatics& s
 std::shared_ptr<SupportShapes> find_support_shapes(const Structure& structure, const Mesh& mesh,
                                                    const LinearSystem& system,
                                                    std::span<const SupportColumn> columns,
-                                                   StaticSolver solver) {
+                                                   SolverChoice solver) {
   auto shapes = std::make_shared<SupportShapes>();
   shapes->columns.assign(columns.begin(), columns.end());
   std::vector<int> stands(columns.size(), 0);

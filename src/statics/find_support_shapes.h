@@ -23,6 +23,6 @@ namespace pounding {
 std::shared_ptr<SupportShapes> find_support_shapes(const Structure& structure, const Mesh& mesh,
                                                    const LinearSystem& system,
                                                    std::span<const SupportColumn> columns,
-                                                   StaticSolver solver);
+                                                   SolverChoice solver);
 
 }  // namespace pounding

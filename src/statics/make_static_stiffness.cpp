@@ -6,7 +6,7 @@
 namespace pounding {
 
 std::unique_ptr<StaticStiffness> make_static_stiffness(const LinearSystem& system, const Mesh& mesh,
-                                                       double shift, StaticSolver solver) {
+                                                       double shift, SolverChoice solver) {
   if (system.generalised) return std::make_unique<ReducedStatics>(system, shift);
   return std::make_unique<AssembledStatics>(system, mesh, shift, solver);
 }

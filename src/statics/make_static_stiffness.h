@@ -13,6 +13,6 @@ namespace pounding {
 /// LinearSystem::stiffest_matrix. `shift` [1/s2]. Throws UserError naming the structure where the
 /// factorisation fails. Collective.
 std::unique_ptr<StaticStiffness> make_static_stiffness(const LinearSystem& system, const Mesh& mesh,
-                                                       double shift, StaticSolver solver);
+                                                       double shift, SolverChoice solver);
 
 }  // namespace pounding

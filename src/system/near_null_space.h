@@ -1,0 +1,19 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "common/petsc.h"
+#include "mesh/mesh.h"
+#include "system/linear_system.h"
+
+namespace pounding {
+
+/// Rigid motions of a structure as the near null space of a matrix of its owned dofs, from which
+/// algebraic multigrid makes its coarse grids; `to_coordinates` takes a field of displacements to
+/// the coordinates of the matrix. Motions that a row of nodes does not have are left out.
+/// Collective.
+void set_near_null_space(const LinearSystem& system, const Mesh& mesh, Mat matrix,
+                         const std::function<void(std::vector<double>&)>& to_coordinates);
+
+}  // namespace pounding
