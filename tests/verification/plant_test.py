@@ -4,11 +4,12 @@ import unittest
 import numpy
 
 import program
-from recorded import Recorded
+from recorded import Recorded, reference
 
 MESHES = {"block": "m={}", "frame": "m={},x0=24.801"}
 IDLE = {"block": "west_face,east_face,soil", "frame": "edge_1,edge_2,far_edge_1,far_edge_2,soil"}
 X, Y, Z, ABOUT_Z = 0, 1, 2, 5
+CABINETS = 10  # [Hz]: they sway below
 
 
 def strongest(structure, axis, above=0):
@@ -65,6 +66,14 @@ class Block(Plant):
             self.close(strongest(block, axis)[0], 12.6, 0.05)
             self.close(strongest(block, axis, above=18)[0], 22.5, 0.05)
         self.close(strongest(block, Z, above=25)[0], 30.4, 0.05)
+
+    def test_quadratic_shells_of_another_program(self):
+        """Ten modes of CalculiX, cabinets apart: swaying and turning within .6 %, slabs within 2.5 %. It makes
+        bricks of its shells, and rigid bodies of the nodes where they meet."""
+        modes = self.on_rock("block", 20, 4, 2)["frequencies"]
+        found = [mode["frequency"] for mode in modes if mode["frequency"] > CABINETS]
+        for number, (ours, theirs) in enumerate(zip(found, reference("block_calculix.csv")["frequency"], strict=True)):
+            self.close(ours, theirs, 0.006 if number < 3 else 0.025)
 
     def test_finer_mesh(self):
         coarse, fine = (strongest(self.on_rock("block", 4, m), X)[0] for m in (2, 4))
