@@ -188,15 +188,15 @@ class Progress(Run):
     def test_only_where_somebody_sees_it(self):
         words = [*CHAIN, "-output", self.output]
         for ranks in (1, 2):
-            self.assertNotIn("remaining", program.run(words, ranks, timeout=60).stdout)
+            self.assertNotIn("per simulated", program.run(words, ranks, timeout=60).stdout)
             with open(os.path.join(self.folder, "log"), "w+") as log:
                 subprocess.run(program.words(words, ranks), cwd=program.SOURCE, env=program.ENVIRONMENT, stdout=log,
                                check=True, timeout=60)
                 log.seek(0)
                 text = log.read()
             self.assertIn("results in", text)
-            self.assertNotIn("remaining", text)
-            self.assertIn("remaining", self.on_a_terminal(program.words(words, ranks)))
+            self.assertNotIn("per simulated", text)
+            self.assertIn("per simulated", self.on_a_terminal(program.words(words, ranks)))
 
     def on_a_terminal(self, command):
         mine, theirs = pty.openpty()
