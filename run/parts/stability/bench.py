@@ -110,7 +110,7 @@ class Bench:
         self.runs += 1
         folder = self.folder / f"run-{self.runs}"
         shutil.rmtree(folder, ignore_errors=True)
-        result = program.run([*words, "-output", str(folder)], ranks, timeout=7200)
+        result = program.run(["-csv_digits", 17, *words, "-output", str(folder)], ranks, timeout=7200)
         try:
             return Outcome(result, folder)
         finally:
