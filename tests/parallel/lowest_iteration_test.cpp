@@ -1,8 +1,9 @@
+#include "modal/lowest_iteration.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "modal/lowest_iteration.h"
 #include "modal/modal_analysis.h"
 #include "support/box_mesh.h"
 #include "support/built_system.h"
