@@ -4,16 +4,14 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/memory.h"
 #include "modal/eigen_solver.h"
 #include "modal/factorisation.h"
+#include "system/factor_plan.h"
 #include "system/near_null_space.h"
 
 namespace pounding {
 namespace {
 
-/// Share of the free memory that a factor may take: its size is an estimate.
-constexpr double usable_share = 0.8;
 /// Residual of a pair over its eigenvalue.
 constexpr double tolerance = 1e-6;
 /// Residuals below this part of the largest eigenvalue are round-off.
@@ -40,13 +38,13 @@ PetscErrorCode error_of(EPS, PetscScalar value, PetscScalar, PetscReal residual,
 
 bool must_iterate(const LinearSystem& system, Mat matrix, SolverChoice choice) {
   if (choice != SolverChoice::automatic) return choice == SolverChoice::iterative;
-  double free_memory = available_memory();
-  MPI_Allreduce(MPI_IN_PLACE, &free_memory, 1, MPI_DOUBLE, MPI_MIN, system.comm);
+  double usable = memory_for_factor();
+  MPI_Allreduce(MPI_IN_PLACE, &usable, 1, MPI_DOUBLE, MPI_MIN, system.comm);
   PetscInt dofs = 0;
   POUNDING_PETSC(MatGetSize(matrix, &dofs, nullptr));
-  const double usable = usable_share * free_memory;
   // Ordering the rows takes its time: only where the answer is in doubt.
-  return most_factor_memory(static_cast<double>(dofs)) > usable && factor_memory(matrix) > usable;
+  return most_factor_memory(static_cast<double>(dofs)) > usable &&
+         plan_factor(matrix, factor_workspace).memory > usable;
 }
 
 LowestPairs iterate_lowest(const LowestProblem& problem, int count) {

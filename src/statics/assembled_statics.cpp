@@ -5,16 +5,13 @@
 #include <cstdio>
 
 #include "common/error.h"
-#include "common/memory.h"
 #include "common/parallel.h"
 #include "statics/link_terms.h"
+#include "system/factor_plan.h"
 #include "system/near_null_space.h"
 
 namespace pounding {
 namespace {
-
-/// Share of the free memory that a factor may take: its size is an estimate.
-constexpr double usable_share = 0.8;
 
 constexpr double iteration_tolerance = 1e-10;
 /// PETSc options of the solvers begin with it.
@@ -128,18 +125,11 @@ bool AssembledStatics::factorise(SolverChoice solver) {
 }
 
 bool AssembledStatics::plan_factor(SolverChoice solver) {
-  Mat matrix = gathered_.get();
-  POUNDING_PETSC(MatGetFactor(matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, factor_.out()));
-  constexpr PetscInt workspace = 14;  // per cent beyond the estimate
-  POUNDING_PETSC(MatMumpsSetIcntl(factor_.get(), workspace, 50));
-  MatFactorInfo info;
-  POUNDING_PETSC(MatFactorInfoInitialize(&info));
-  POUNDING_PETSC(MatCholeskyFactorSymbolic(factor_.get(), matrix, nullptr, &info));
-  constexpr PetscInt megabytes_of_all = 17;
-  PetscInt megabytes = 0;
-  POUNDING_PETSC(MatMumpsGetInfog(factor_.get(), megabytes_of_all, &megabytes));
-  factor_memory_ = 1e6 * static_cast<double>(megabytes);
-  return solver != SolverChoice::automatic || factor_memory_ <= usable_share * available_memory();
+  constexpr int workspace = 50;  // per cent
+  FactorPlan plan = pounding::plan_factor(gathered_.get(), workspace);
+  factor_ = std::move(plan.factor);
+  factor_memory_ = plan.memory;
+  return solver != SolverChoice::automatic || factor_memory_ <= memory_for_factor();
 }
 
 bool AssembledStatics::fill_factor() {
