@@ -15,12 +15,10 @@
 #include "mesh/geometry_file.h"
 #include "scene/option_values.h"
 #include "scene/resolved_options.h"
+#include "system/matrix_system.h"
 
 namespace pounding {
 namespace {
-
-constexpr auto files_of_matrices =
-    std::to_array<const char*>({"dofs.csv", "stiffness.mtx", "mass.mtx"});
 
 std::string local_time() {
   const std::time_t now = std::time(nullptr);
@@ -57,15 +55,18 @@ std::vector<std::string> machine_names(MPI_Comm comm) {
   return names;
 }
 
-/// Files on rank 0, each once, in the order in which they are named.
+/// Files on rank 0, each once for an option, in the order in which they are named.
 class Inputs {
  public:
   void add(const std::string& option, const std::string& path) {
     std::error_code failure;
-    const bool known = std::ranges::find(files, path, &InputFile::path) != files.end();
-    if (known || !std::filesystem::is_regular_file(path, failure)) return;
+    if (!std::filesystem::is_regular_file(path, failure)) return;
     if (!std::ifstream(path)) return;  // its reader says so
-    files.push_back({option, path, digest_of_file(path)});
+    const auto read = std::ranges::find(files, path, &InputFile::path);
+    const bool named = std::ranges::any_of(
+        files, [&](const InputFile& file) { return file.path == path && file.option == option; });
+    if (named) return;
+    files.push_back({option, path, read == files.end() ? digest_of_file(path) : read->digest});
   }
 
   /// Adds what an option in force names, if it is a file that a run reads.
@@ -73,7 +74,10 @@ class Inputs {
     const auto ends = [&](std::string_view end) { return name.ends_with(end); };
     if (value.empty() || value == "none") return;
     if (ends("_matrices")) {
-      for (const char* file : files_of_matrices) add(name, value + "/" + file);
+      add(name, value + "/dofs.csv");
+      for (const char* matrix : {"stiffness", "mass", "damping"}) {
+        add(name, matrix_file(value, matrix));
+      }
     } else if (ends("_record") || ends("_target") || name == "restart") {
       add(name, value);
     } else if (ends("_mesh")) {

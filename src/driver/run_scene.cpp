@@ -101,7 +101,8 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved, const Sc
     }
   });
   if (root) print_title(scene, overrides_text(origin), size_of(comm));
-  const Provenance provenance = note_provenance(comm, origin, resolved);
+  Provenance provenance;  // a dry run leaves no summary to tell it
+  if (!scene.dry_run) provenance = note_provenance(comm, origin, resolved);
   if (!scene.restart.empty()) check_checkpoint(comm, scene.restart, lasting_options(resolved));
   if (scene.dry_run && scene.write_model) on_rank0(comm, [&] { create_output(scene); });
   const Model model = build_model(comm, scene, profile);

@@ -171,6 +171,22 @@ class Report(unittest.TestCase):
         with self.assertRaisesRegex(twin.NoTwin, "the file of left_mesh has other contents"):
             twin.check(self.hit, other)
 
+    def test_every_file_of_an_option_counts_and_those_of_either_run(self):
+        def beside(ours, theirs):
+            runs = [pounding.results.Result(run.folder, {**run.summary, "inputs": [
+                {"option": option, "file": "any", "sha256": value} for option, value in inputs]})
+                for run, inputs in ((self.hit, ours), (self.alone, theirs))]
+            twin.check(*runs)
+
+        matrices = [("left_matrices", "rows"), ("left_matrices", "stiffness"), ("left_matrices", "mass")]
+        beside(matrices, matrices)
+        for ours, theirs, part in (
+                (matrices, [matrices[0], ("left_matrices", "softer"), matrices[2]], "the file of left_matrices"),
+                ([("motion_x_record", "a")], [("motion_x_record", "a"), ("motion_y_record", "b")], "motion_y_record"),
+                ([("included", "a")], [("included", "b")], "a file that geometries include")):
+            with self.assertRaisesRegex(twin.NoTwin, part):
+                beside(ours, theirs)
+
     def test_one_that_is_found_but_unlike_is_left_out_with_a_word(self):
         place = self.place / "unlike"
         shutil.copytree(self.place / "hit", place / "hit")

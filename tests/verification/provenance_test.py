@@ -62,6 +62,23 @@ probes: post
         after = {one["file"]: one["sha256"] for one in self.run_case()["inputs"]}
         self.assertEqual([os.path.basename(path) for path in before if after[path] != before[path]], ["points.geo"])
 
+    def test_a_file_is_told_for_every_option_that_names_it(self):
+        record = os.path.join(self.folder, "record.txt")
+        inputs = self.run_case("-motion_y_record", record, "-motion_y_unit", "m/s2", "-motion_y_time_step", STEP)["inputs"]
+        told = [one for one in inputs if one["file"] == record]
+        self.assertEqual([one["option"] for one in told], ["motion_x_record", "motion_y_record"])
+        self.assertEqual(told[0]["sha256"], told[1]["sha256"])
+
+    def test_all_matrices_have_hashes(self):
+        self.run_case("-export_matrices", self.folder)
+        folder = os.path.join(self.folder, "stick")
+        with open(os.path.join(folder, "stiffness.mtx")) as file:
+            rows = next(line for line in file if not line.startswith("%")).split()[0]
+        self.write("stick/damping.mtx", f"%%MatrixMarket matrix coordinate real general\n{rows} {rows} 1\n1 1 0.5\n")
+        inputs = self.run_case("-stick_matrices", folder, ranks=2)["inputs"]
+        self.assertEqual(sorted(os.path.basename(one["file"]) for one in inputs if one["option"] == "stick_matrices"),
+                         ["damping.mtx", "dofs.csv", "mass.mtx", "stiffness.mtx"])
+
     def test_versions_are_those_that_the_program_prints(self):
         printed = program.run(["--version"], 2).stdout.splitlines()
         summary = self.run_case()

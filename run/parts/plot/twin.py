@@ -40,7 +40,12 @@ def _differing(run: dict, twin: dict) -> list:
 
 
 def _hashes(summary: dict) -> dict:
-    return {one["option"]: one["sha256"] for one in summary.get("inputs", []) if one["option"].endswith(READ)}
+    """Option -> hashes of its files, and "included" -> those of what geometries include."""
+    found = {}
+    for one in summary.get("inputs", []):
+        if one["option"].endswith(READ) or one["option"] == "included":
+            found.setdefault(one["option"], []).append(one["sha256"])
+    return found
 
 
 def check(run: Result, twin: Result) -> None:
@@ -54,10 +59,12 @@ def check(run: Result, twin: Result) -> None:
         raise NoTwin(f"{folder} is no run without pounding: its buildings touched {impacts} times")
     if list(ours.get("structures", {})) != list(theirs.get("structures", {})):
         raise NoTwin(f"{folder} is another model: its structures are {', '.join(theirs.get('structures', {})) or 'none'}")
-    hashes = _hashes(theirs)
-    for option, value in _hashes(ours).items():
-        if hashes.get(option, value) != value:
-            raise NoTwin(f"{folder} is another model: the file of {option} has other contents")
+    if "inputs" in ours and "inputs" in theirs:
+        before, after = _hashes(theirs), _hashes(ours)
+        for option in dict.fromkeys([*after, *before]):
+            if before.get(option) != after.get(option):
+                what = "a file that geometries include" if option == "included" else f"the file of {option}"
+                raise NoTwin(f"{folder} is another model: {what} has other contents")
     differing = _differing(ours.get("options", {}), theirs.get("options", {}))
     if differing:
         name = differing[0]
