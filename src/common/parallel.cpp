@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <new>
 #include <stdexcept>
-#include <sys/resource.h>
 
 #include "common/error.h"
+#include "common/memory_use.h"
 
 namespace pounding {
 namespace {
@@ -40,9 +40,7 @@ int rank_of(MPI_Comm comm) {
 }
 
 double peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);  // the kernel counts in KiB
+  return largest_memory();
 }
 
 std::string out_of_memory(int rank) {

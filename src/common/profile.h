@@ -1,34 +1,54 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include <mpi.h>
 
-/// Wall time by phase. `step`: stiffness product and update of velocity and displacement, fused.
+#include "common/memory_use.h"
+
+/// Wall time and memory by phase. `step`: stiffness product and update of the state, fused.
 namespace pounding {
 
 enum class Phase { mesh, partition, assembly, modes, step, contact, energy, output, count };
 
 const char* phase_name(Phase phase);
 
-/// Accumulated wall time of this rank [s].
+/// Whether a phase comes before the steps.
+constexpr bool is_start_up(Phase phase) {
+  return phase < Phase::step;
+}
+
+/// Accumulated wall time [s] and memory [bytes] of this rank.
 class Profile {
  public:
   void add(Phase phase, double seconds) { seconds_[static_cast<std::size_t>(phase)] += seconds; }
   double seconds(Phase phase) const { return seconds_[static_cast<std::size_t>(phase)]; }
+  /// Charges to a phase what was held since the phase noted before; opens files.
+  void note_memory(Phase phase) {
+    const MemoryUse use = take_memory_use();
+    MemoryUse& noted = memory_[static_cast<std::size_t>(phase)];
+    noted = {use.held, std::max(noted.peak, use.peak)};
+  }
+  /// Its largest memory and that at its end; zeros if it was not noted.
+  const MemoryUse& memory(Phase phase) const { return memory_[static_cast<std::size_t>(phase)]; }
 
  private:
   std::array<double, static_cast<std::size_t>(Phase::count)> seconds_{};
+  std::array<MemoryUse, static_cast<std::size_t>(Phase::count)> memory_{};
 };
 
-/// Charges its lifetime to a phase.
+/// Charges its lifetime to a phase, and the memory to one of the start-up.
 class ScopedTimer {
  public:
   ScopedTimer(Profile& profile, Phase phase)
       : profile_(profile), phase_(phase), start_(MPI_Wtime()) {}
   ScopedTimer(const ScopedTimer&) = delete;
   ScopedTimer& operator=(const ScopedTimer&) = delete;
-  ~ScopedTimer() { profile_.add(phase_, MPI_Wtime() - start_); }
+  ~ScopedTimer() {
+    profile_.add(phase_, MPI_Wtime() - start_);
+    if (is_start_up(phase_)) profile_.note_memory(phase_);
+  }
 
  private:
   Profile& profile_;

@@ -46,6 +46,12 @@ struct Model {
     return supports ? std::span<const SupportColumn>(supports->columns())
                     : std::span<const SupportColumn>();
   }
+  /// Free ones of all structures over all ranks.
+  std::size_t dofs() const {
+    std::size_t sum = 0;
+    for (const Mesh& mesh : meshes) sum += static_cast<std::size_t>(mesh.global_dofs);
+    return sum;
+  }
   double smallest_stable_time_step() const {
     const double smallest = std::ranges::min_element(buildings, {}, [](const Building& building) {
                               return building.limits.stable_time_step;

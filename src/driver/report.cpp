@@ -438,14 +438,10 @@ void print_results(const Scene& scene, const RunStatistics& statistics,
   }
   std::printf("  largest residual of the energy identity: %.2e of the largest term\n",
               statistics.energy_residual);
-  std::printf("\nwall time %.2f s, %.3f microseconds per step; by phase [s, largest over ranks]:\n",
-              statistics.wall_time,
+  std::printf("\nwall time %.2f s, %.3f microseconds per step\n", statistics.wall_time,
               1e6 * statistics.step_time /
                   static_cast<double>(std::max<std::int64_t>(1, statistics.steps)));
-  for (int phase = 0; phase < static_cast<int>(Phase::count); ++phase) {
-    std::printf("  %-22s %9.3f\n", phase_name(static_cast<Phase>(phase)),
-                statistics.phase_seconds[phase]);
-  }
+  print_phases(statistics.phases);
   std::printf("results in %s\n", scene.output.c_str());
 }
 

@@ -123,7 +123,12 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved, const Sc
   TimeLoop loop(comm, scene, model, profile);
   const double seconds = loop.measure(scene.dry_run ? 200 : 50);
   if (root) print_time_step(scene, model, seconds);
-  if (scene.dry_run) return;
+  if (scene.dry_run) {
+    profile.note_memory(Phase::step);
+    const PhaseReport phases = report_phases(comm, profile, model.dofs());
+    if (root) print_phases(phases);
+    return;
+  }
   const double step_start = MPI_Wtime();
   const int signal = loop.run(identity, restart ? &*restart : nullptr);
   RunStatistics statistics;

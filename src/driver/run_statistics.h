@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "common/profile.h"
 #include "contact/slide_watch.h"
 #include "driver/forces.h"
 #include "driver/loops.h"
+#include "driver/phase_report.h"
 #include "driver/stated_peaks.h"
 #include "driver/uplift_watch.h"
 #include "dynamics/energy_balance.h"
@@ -22,7 +22,6 @@ struct RunStatistics {
   double wall_time = 0;                 ///< of everything [s]
   double step_time = 0;                 ///< of the time loop [s]
   std::int64_t steps = 0;               ///< that it made: after the checkpoint if it continues one
-  double peak_memory = 0;               ///< largest resident memory, all ranks together [bytes]
   EnergyLine energy;                    ///< last line
   double energy_residual = 0;           ///< largest, relative to the largest term [-]
   double complementarity_residual = 0;  ///< largest [-]
@@ -40,7 +39,7 @@ struct RunStatistics {
   StatedPeaks peaks;                         ///< rank 0
   std::vector<std::string> overpressed;      ///< structures with a pendulum whose slope was cut
   std::vector<std::string> warnings;         ///< one line each: what the run came upon
-  std::vector<double> phase_seconds;         ///< largest over the ranks, per Phase
+  PhaseReport phases;                        ///< time and memory
 };
 
 }  // namespace pounding

@@ -20,6 +20,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Seconds, and memory in bytes, by phase.
+void describe_phases(const PhaseReport& report, Json& summary) {
+  summary["peak_memory"] = report.peak;
+  for (std::size_t number = 0; number < report.phases.size(); ++number) {
+    const PhaseUse& use = report.phases[number];
+    const char* const name = phase_name(static_cast<Phase>(number));
+    summary["phases"][name] = use.seconds;
+    if (use.peak == 0) continue;
+    summary["memory"][name] = {
+        {"peak", use.peak}, {"largest_rank", use.largest_rank}, {"at_end", use.held}};
+  }
+  summary["memory"]["mesher"] = report.mesher;
+}
+
 Json describe_damping(const Rayleigh& damping) {
   return {{"alpha", damping.alpha}, {"beta", damping.beta}};
 }
@@ -337,10 +351,7 @@ void write_summary(const std::string& path, const FinishedRun& run) {
   summary["wall_time"] = statistics.wall_time;
   summary["microseconds_per_step"] =
       1e6 * statistics.step_time / static_cast<double>(std::max<std::int64_t>(1, statistics.steps));
-  summary["peak_memory"] = statistics.peak_memory;
-  for (int phase = 0; phase < static_cast<int>(Phase::count); ++phase) {
-    summary["phases"][phase_name(static_cast<Phase>(phase))] = statistics.phase_seconds[phase];
-  }
+  describe_phases(statistics.phases, summary);
   summary["partition"] = {{"imbalance", model.partition_imbalance},
                           {"edge_cut", model.partition_edge_cut},
                           {"interface_ranks", statistics.interface_ranks}};

@@ -327,8 +327,6 @@ void TimeLoop::fill(RunStatistics& statistics) const {
   if (loops_) statistics.loops = loops_->report();
   if (forces_) statistics.forces = forces_->report();
   if (uplift_) statistics.contact_ratios = uplift_->ratios();
-  statistics.peak_memory = peak_memory();
-  MPI_Allreduce(MPI_IN_PLACE, &statistics.peak_memory, 1, MPI_DOUBLE, MPI_SUM, comm_);
   double residual = statistics.complementarity_residual;
   MPI_Allreduce(MPI_IN_PLACE, &residual, 1, MPI_DOUBLE, MPI_MAX, comm_);
   statistics.complementarity_residual = residual;
@@ -336,11 +334,8 @@ void TimeLoop::fill(RunStatistics& statistics) const {
     statistics.impacts.push_back(catalogue_.totals(static_cast<int>(c)));
   }
   statistics.all_impacts = catalogue_.totals();
-  for (int phase = 0; phase < static_cast<int>(Phase::count); ++phase) {
-    double seconds = profile_.seconds(static_cast<Phase>(phase));
-    MPI_Allreduce(MPI_IN_PLACE, &seconds, 1, MPI_DOUBLE, MPI_MAX, comm_);
-    statistics.phase_seconds.push_back(seconds);
-  }
+  profile_.note_memory(Phase::step);
+  statistics.phases = report_phases(comm_, profile_, model_.dofs());
 }
 
 }  // namespace pounding

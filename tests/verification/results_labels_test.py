@@ -288,6 +288,17 @@ class Labels(unittest.TestCase):
             self.assertEqual(summary["contacts"]["gap"]["initial_gap"], [0.02, 0.02])
             self.assertEqual(summary["contacts"]["gap"]["pairs"], 4)
 
+    def check_memory(self, memory, peak, ranks):
+        """Of the start-up and the steps, on all ranks and on the largest; the libraries alone take some megabytes."""
+        self.assertEqual(list(memory), ["mesh", "partition", "assembly", "modes", "step", "mesher"])
+        self.assertGreater(memory.pop("mesher"), 5e6)
+        for name, use in memory.items():
+            self.assertGreater(use["at_end"], 5e6 * ranks, name)
+            self.assertGreaterEqual(use["peak"], use["at_end"], name)
+            self.assertLessEqual(use["largest_rank"], use["peak"], name)
+            self.assertGreaterEqual(use["largest_rank"] * ranks, use["peak"], name)
+            self.assertLessEqual(use["peak"], peak, name)
+
     def test_summary_of_the_structures(self):
         for i, name in enumerate(("left", "right")):
             structure = self.fine.summary["structures"][name]
@@ -300,6 +311,8 @@ class Labels(unittest.TestCase):
         self.assertEqual(self.fine.summary["stable_time_step"], smallest)
         self.assertEqual((self.fine.summary["ranks"], self.coarse.summary["ranks"]), (2, 1))
         self.assertGreater(self.fine.summary["peak_memory"], 1.5 * self.coarse.summary["peak_memory"])
+        for summary in (self.fine.summary, self.coarse.summary):
+            self.check_memory(summary["memory"], summary["peak_memory"], summary["ranks"])
         self.assertEqual(self.coarse.summary["partition"]["edge_cut"], 0)
         self.assertGreaterEqual(self.coarse.summary["partition"]["imbalance"], 1)
 
