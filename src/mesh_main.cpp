@@ -2,6 +2,8 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <span>
+#include <stdexcept>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -34,13 +36,13 @@ void restrict_process(bool guarded) {
   }
 }
 
-bool write_answer(const std::vector<char>& bytes) {
+/// Answers; throws std::runtime_error when nobody listens any more.
+void send(std::span<const char> bytes) {
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t count = write(answer_descriptor, bytes.data() + done, bytes.size() - done);
-    if (count < 0 && errno != EINTR) return false;
+    if (count < 0 && errno != EINTR) throw std::runtime_error("the answer cannot be written");
     done += count > 0 ? static_cast<std::size_t>(count) : 0;
   }
-  return true;
 }
 
 }  // namespace
@@ -52,5 +54,10 @@ int main(int count, char** words) {
   }
   restrict_process(std::strcmp(words[3], "free") != 0);
   const bool make = std::strcmp(words[2], "make") == 0;
-  return write_answer(pounding::to_bytes(pounding::gmsh_mesh(words[1], make))) ? 0 : 1;
+  try {
+    pounding::write_answer(pounding::gmsh_mesh(words[1], make), send);
+  } catch (const std::runtime_error&) {
+    return 1;
+  }
+  return 0;
 }

@@ -5,10 +5,13 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <optional>
 #include <poll.h>
+#include <span>
 #include <spawn.h>
 #include <sstream>
 #include <stdexcept>
@@ -22,6 +25,9 @@ namespace {
 
 /// Where pounding-mesh writes its answer.
 constexpr int answer_descriptor = 3;
+
+constexpr double longest_wait = 1e9;             // [s]
+constexpr std::int64_t most_answer = 1LL << 46;  // above any memory of today [bytes]
 
 /// pounding-mesh, beside this program or in the folder above (tests are a folder below).
 std::string mesh_program() {
@@ -46,6 +52,11 @@ std::vector<char*> environment_without_mpi() {
   variables.push_back(nullptr);
   return variables;
 }
+
+using Clock = std::chrono::steady_clock;
+
+struct TimeIsUp {};
+struct AnswerCut {};
 
 /// A running pounding-mesh, which does not outlive this object.
 class GmshProcess {
@@ -90,25 +101,22 @@ class GmshProcess {
     close(answer_);
   }
 
-  /// Everything it writes until it closes its end; false if that takes longer than the limit.
-  bool read_all(double time_limit, std::vector<char>& bytes) const {
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point start = Clock::now();
-    std::vector<char> piece(1 << 20);
-    while (true) {
-      const double left = time_limit - std::chrono::duration<double>(Clock::now() - start).count();
-      if (left <= 0) return false;
+  /// The next bytes that it writes. Throws AnswerCut if it closes its end before, TimeIsUp.
+  void read_exactly(std::span<char> bytes, Clock::time_point deadline) const {
+    for (std::size_t done = 0; done < bytes.size();) {
+      const double left = std::chrono::duration<double>(deadline - Clock::now()).count();
+      if (left <= 0) throw TimeIsUp();
       pollfd waiting{answer_, POLLIN, 0};
       const int ready = poll(&waiting, 1, static_cast<int>(std::min(1e3 * left + 1, 1e4)));
       if (ready <= 0) {
         continue;  // a signal, or the next turn of a long wait
       }
-      const ssize_t count = read(answer_, piece.data(), piece.size());
-      if (count == 0) return true;
+      const ssize_t count = read(answer_, bytes.data() + done, bytes.size() - done);
+      if (count == 0) throw AnswerCut();
       if (count < 0 && errno != EINTR) {
         throw std::runtime_error("the pipe from the mesher cannot be read");
       }
-      bytes.insert(bytes.end(), piece.begin(), piece.begin() + std::max<ssize_t>(count, 0));
+      done += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
     }
   }
 
@@ -143,8 +151,15 @@ std::string describe_end(int status) {
 
 RawMesh run_gmsh(const MeshRequest& request) {
   GmshProcess process(request);
-  std::vector<char> bytes;
-  if (!process.read_all(request.time_limit, bytes)) {
+  const Clock::time_point deadline =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                         std::chrono::duration<double>(std::min(request.time_limit, longest_wait)));
+  std::optional<RawAnswer> answer;
+  try {
+    answer = read_answer([&](std::span<char> bytes) { process.read_exactly(bytes, deadline); },
+                         static_cast<std::size_t>(most_answer));
+  } catch (const AnswerCut&) {  // its exit status tells why
+  } catch (const TimeIsUp&) {
     std::ostringstream text;
     text << "option " << request.option << ": Gmsh was not done after " << request.time_limit
          << " s; look for a loop without end or too fine a mesh, or give a larger "
@@ -156,12 +171,13 @@ RawMesh run_gmsh(const MeshRequest& request) {
     throw UserError("option " + request.option + ": " + describe_end(status) +
                     "; look at the file and at the values of its parameters");
   }
-  RawAnswer answer = from_bytes(bytes);
-  if (!answer.error.empty()) {
-    std::ranges::replace(answer.error, '\n', ' ');
-    throw UserError("option " + request.option + ": Gmsh could not read it (" + answer.error + ")");
+  if (!answer) throw std::runtime_error("the answer about a mesh is cut");
+  if (!answer->error.empty()) {
+    std::ranges::replace(answer->error, '\n', ' ');
+    throw UserError("option " + request.option + ": Gmsh could not read it (" + answer->error +
+                    ")");
   }
-  return std::move(answer.mesh);
+  return std::move(answer->mesh);
 }
 
 }  // namespace pounding

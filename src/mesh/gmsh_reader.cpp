@@ -1,17 +1,17 @@
 #include "mesh/gmsh_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <set>
 #include <unistd.h>
-#include <unordered_map>
 
 #include "common/error.h"
+#include "common/number_set.h"
 #include "elements/element.h"
 #include "mesh/element_sizes.h"
 #include "mesh/geometry_file.h"
@@ -186,7 +186,7 @@ class MeshBuilder {
       ElementSet& set = set_of(region, *kind);
       for (const std::int64_t tag : part.tags) {
         // Springs may share lines and points with another region (a mass on a spring).
-        if (!seen_.insert({tag, is_spring(*kind)}).second) {
+        if (!seen_[is_spring(*kind) ? 1 : 0].insert(tag)) {
           throw UserError("option " + option + ": element " + std::to_string(tag) + " of group '" +
                           region.group +
                           "' stands twice in it, or already belongs to another region of " +
@@ -214,30 +214,23 @@ class MeshBuilder {
 
   /// File order of the nodes in use, and their coordinates.
   void number_nodes() {
-    std::set<GlobalIndex> used;
     for (const ElementSet& set : mesh_.regions) {
-      used.insert(set.connectivity.begin(), set.connectivity.end());
+      for (const GlobalIndex node : set.connectivity) used_.insert(node);
     }
-    mesh_.node_tags.assign(used.begin(), used.end());
-    index_.reserve(used.size());
-    for (std::size_t i = 0; i < mesh_.node_tags.size(); ++i) {
-      index_[mesh_.node_tags[i]] = static_cast<GlobalIndex>(i);
-    }
+    mesh_.node_tags = used_.sort();
     for (ElementSet& set : mesh_.regions) {
-      for (GlobalIndex& node : set.connectivity) node = index_.at(node);
+      for (GlobalIndex& node : set.connectivity) node = used_.place(node);
     }
     mesh_.coordinates.resize(3 * mesh_.node_tags.size());
     for (std::size_t i = 0; i < raw_.node_tags.size(); ++i) {
-      const auto found = index_.find(raw_.node_tags[i]);
-      if (found != index_.end()) {
-        std::copy_n(&raw_.coordinates[3 * i], 3, &mesh_.coordinates[3 * found->second]);
-      }
+      const GlobalIndex node = used_.place(raw_.node_tags[i]);
+      if (node >= 0) std::copy_n(&raw_.coordinates[3 * i], 3, &mesh_.coordinates[3 * node]);
     }
   }
 
   void read_group(const std::string& name, const std::vector<RawGroup>& parts) {
     NodeGroup& group = mesh_.groups[name];
-    std::set<GlobalIndex> nodes_in_use;
+    NumberSet nodes_in_use;
     for (const RawGroup& part : parts) {
       for (const int entity : part.entities) {
         for (const RawElements& elements : elements_on(part.dimension, entity)) {
@@ -245,24 +238,24 @@ class MeshBuilder {
         }
       }
     }
-    group.nodes.assign(nodes_in_use.begin(), nodes_in_use.end());
+    group.nodes = nodes_in_use.sort();
   }
 
   void add_elements(int dimension, const RawElements& elements, NodeGroup& group,
-                    std::set<GlobalIndex>& nodes_in_use) const {
+                    NumberSet& nodes_in_use) const {
     const std::size_t count = elements.tags.size();
     const std::size_t width = count == 0 ? 0 : elements.nodes.size() / count;
     for (std::size_t e = 0; e < count; ++e) {
       Facet facet;
       bool whole = (dimension == 1 || dimension == 2) && width <= 4;
       for (std::size_t a = 0; a < width; ++a) {
-        const auto found = index_.find(elements.nodes[e * width + a]);
-        if (found == index_.end()) {
+        const GlobalIndex node = used_.place(elements.nodes[e * width + a]);
+        if (node < 0) {
           whole = false;
           continue;
         }
-        nodes_in_use.insert(found->second);
-        if (a < 4) facet.nodes[a] = found->second;
+        nodes_in_use.insert(node);
+        if (a < 4) facet.nodes[a] = node;
       }
       if (whole) {
         facet.count = static_cast<int>(width);
@@ -312,8 +305,8 @@ class MeshBuilder {
   Groups groups_;
   std::map<std::pair<int, int>, const RawEntity*> entities_;  ///< by dimension and tag
   GlobalMesh mesh_;
-  std::unordered_map<std::int64_t, GlobalIndex> index_;
-  std::set<std::pair<std::int64_t, bool>> seen_;
+  NumberSet used_;                 ///< tags of nodes: the place of one is its number in mesh_
+  std::array<NumberSet, 2> seen_;  ///< tags of elements, of springs
 };
 
 }  // namespace

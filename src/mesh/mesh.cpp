@@ -49,28 +49,25 @@ class Cutter {
       : mesh_(mesh), parts_(partition.parts), node_owner_(partition.node_owner[structure]) {
     sort_nodes();
     number_dofs();
+    sort_elements();
   }
 
   Parcel parcel(int part) const {
     Parcel out;
     const auto begin = node_begin_[part];
     const auto end = node_begin_[part + 1];
-    std::vector<GlobalIndex> nodes(order_.begin() + begin, order_.begin() + end);
-    const std::vector<Element> elements = elements_of(part);
-    append_ghosts(part, elements, nodes);
-    std::unordered_map<GlobalIndex, LocalIndex> local;
-    for (std::size_t i = 0; i < nodes.size(); ++i) local[nodes[i]] = static_cast<LocalIndex>(i);
-    add_elements(part, elements, local, out);
-    const GlobalIndex owned = end - begin;
-    for (const GlobalIndex node : nodes) {
-      const std::size_t n = node;
-      out.file_node.push_back(node);
-      out.free_components.push_back(mesh_.free_components[n]);
-      out.global_dof.push_back(first_dof_[n]);
-      const Vector3 x = mesh_.position(node);
-      out.coordinates.insert(out.coordinates.end(), x.begin(), x.end());
-    }
-    out.sizes = {owned,           mesh_.node_count(),
+    const std::span<const Element> elements(elements_.data() + element_begin_[part],
+                                            element_begin_[part + 1] - element_begin_[part]);
+    const std::vector<GlobalIndex> ghosts = ghost_places(part, elements);
+    add_elements(part, elements, ghosts, out);
+    const std::size_t count = static_cast<std::size_t>(end - begin) + ghosts.size();
+    out.file_node.reserve(count);
+    out.free_components.reserve(count);
+    out.global_dof.reserve(count);
+    out.coordinates.reserve(3 * count);
+    for (GlobalIndex place = begin; place < end; ++place) add_node(order_[place], out);
+    for (const GlobalIndex place : ghosts) add_node(order_[place], out);
+    out.sizes = {end - begin,     mesh_.node_count(),
                  dofs_,           unclamped_dofs_,
                  part_dof_[part], static_cast<GlobalIndex>(mesh_.regions.size())};
     return out;
@@ -78,8 +75,8 @@ class Cutter {
 
  private:
   struct Element {
-    std::size_t set = 0;
-    std::size_t number = 0;  ///< in the set
+    std::uint32_t set = 0;
+    std::uint32_t number = 0;  ///< in the set
   };
 
   /// Per rank, those without rotations first, in the order of the planes: where beams meet bricks,
@@ -87,6 +84,7 @@ class Cutter {
   void sort_nodes() {
     const NodePlanes planes(mesh_);
     std::vector<std::tuple<int, bool, std::array<std::int64_t, 3>>> places;
+    places.reserve(mesh_.node_tags.size());
     for (GlobalIndex node = 0; node < mesh_.node_count(); ++node) {
       const std::size_t n = node;
       places.emplace_back(node_owner_[n], mesh_.components[n] >> 3 != 0,
@@ -125,46 +123,82 @@ class Cutter {
     return {&set.connectivity[element.number * width], width};
   }
 
-  /// Those that touch a node of a part, set after set.
-  std::vector<Element> elements_of(int part) const {
-    std::vector<Element> elements;
-    for (std::size_t s = 0; s < mesh_.regions.size(); ++s) {
-      for (std::size_t e = 0; e < mesh_.regions[s].tags.size(); ++e) {
+  /// Calls `visit(part, element)` for every part that owns a node of an element, set after set.
+  template <typename Visit>
+  void for_each_share(const Visit& visit) const {
+    for (std::uint32_t s = 0; s < mesh_.regions.size(); ++s) {
+      for (std::uint32_t e = 0; e < mesh_.regions[s].tags.size(); ++e) {
         const auto corners = corners_of({s, e});
-        if (std::any_of(corners.begin(), corners.end(),
-                        [&](GlobalIndex node) { return node_owner_[node] == part; })) {
-          elements.push_back({s, e});
+        for (std::size_t a = 0; a < corners.size(); ++a) {
+          const auto same_part = [&](GlobalIndex node) {
+            return node_owner_[node] == node_owner_[corners[a]];
+          };
+          if (std::ranges::none_of(corners.first(a), same_part)) {
+            visit(static_cast<std::size_t>(node_owner_[corners[a]]), Element{s, e});
+          }
         }
       }
     }
-    return elements;
   }
 
-  /// The other nodes of the elements, in the order in which their owners hold them.
-  void append_ghosts(int part, const std::vector<Element>& elements,
-                     std::vector<GlobalIndex>& nodes) const {
-    std::vector<GlobalIndex> ghosts;  // as places in order_
+  /// Elements of every part, in one pass however many parts there are.
+  void sort_elements() {
+    element_begin_.assign(static_cast<std::size_t>(parts_) + 1, 0);
+    for_each_share([&](std::size_t part, Element) { ++element_begin_[part + 1]; });
+    std::partial_sum(element_begin_.begin(), element_begin_.end(), element_begin_.begin());
+    elements_.resize(element_begin_.back());
+    std::vector<std::size_t> next(element_begin_.begin(), element_begin_.end() - 1);
+    for_each_share(
+        [&](std::size_t part, const Element& element) { elements_[next[part]++] = element; });
+  }
+
+  /// The other nodes of the elements, in the order in which their owners hold them, as places in
+  /// order_.
+  std::vector<GlobalIndex> ghost_places(int part, std::span<const Element> elements) const {
+    std::vector<GlobalIndex> ghosts;
     for (const Element& element : elements) {
       for (const GlobalIndex node : corners_of(element)) {
-        const std::size_t n = node;
-        if (node_owner_[n] != part) ghosts.push_back(place_[n]);
+        if (node_owner_[node] != part) ghosts.push_back(place_[node]);
       }
     }
-    std::sort(ghosts.begin(), ghosts.end());
-    ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
-    for (const GlobalIndex place : ghosts) nodes.push_back(order_[place]);
+    std::ranges::sort(ghosts);
+    const auto rest = std::ranges::unique(ghosts);
+    ghosts.erase(rest.begin(), rest.end());
+    return ghosts;
   }
 
-  void add_elements(int part, const std::vector<Element>& elements,
-                    const std::unordered_map<GlobalIndex, LocalIndex>& local, Parcel& out) const {
+  void add_node(GlobalIndex node, Parcel& out) const {
+    out.file_node.push_back(node);
+    out.free_components.push_back(mesh_.free_components[node]);
+    out.global_dof.push_back(first_dof_[node]);
+    const Vector3 x = mesh_.position(node);
+    out.coordinates.insert(out.coordinates.end(), x.begin(), x.end());
+  }
+
+  /// Number of a node on the rank of a part.
+  LocalIndex local(GlobalIndex node, int part, const std::vector<GlobalIndex>& ghosts) const {
+    const GlobalIndex begin = node_begin_[part];
+    const GlobalIndex place = place_[node];
+    if (node_owner_[node] == part) return static_cast<LocalIndex>(place - begin);
+    const auto found = std::ranges::lower_bound(ghosts, place);
+    return static_cast<LocalIndex>(node_begin_[part + 1] - begin + (found - ghosts.begin()));
+  }
+
+  void add_elements(int part, std::span<const Element> elements,
+                    const std::vector<GlobalIndex>& ghosts, Parcel& out) const {
     std::vector<GlobalIndex> here(mesh_.regions.size(), 0);
+    std::size_t corner_count = 0;
+    for (const Element& element : elements) corner_count += corners_of(element).size();
+    out.tags.reserve(elements.size());
+    out.counted.reserve(elements.size());
+    out.connectivity.reserve(corner_count);
     for (const Element& element : elements) {
       const auto corners = corners_of(element);
       ++here[element.set];
       out.tags.push_back(mesh_.regions[element.set].tags[element.number]);
       // Counted where its first node is owned: that rank surely holds the element.
       out.counted.push_back(node_owner_[corners[0]] == part ? 1 : 0);
-      for (const GlobalIndex node : corners) out.connectivity.push_back(local.at(node));
+      for (const GlobalIndex node : corners) out.connectivity.push_back(local(node, part, ghosts));
     }
     for (std::size_t s = 0; s < mesh_.regions.size(); ++s) {
       const ElementSet& set = mesh_.regions[s];
@@ -178,11 +212,13 @@ class Cutter {
   const GlobalMesh& mesh_;
   int parts_;
   const std::vector<int>& node_owner_;
-  std::vector<GlobalIndex> order_;       ///< nodes by rank, see sort_nodes
-  std::vector<GlobalIndex> place_;       ///< of each node in order_
-  std::vector<GlobalIndex> node_begin_;  ///< per rank, into order_
-  std::vector<GlobalIndex> part_dof_;    ///< per rank, first dof
-  std::vector<GlobalIndex> first_dof_;   ///< per node in file order
+  std::vector<GlobalIndex> order_;          ///< nodes by rank, see sort_nodes
+  std::vector<GlobalIndex> place_;          ///< of each node in order_
+  std::vector<GlobalIndex> node_begin_;     ///< per rank, into order_
+  std::vector<GlobalIndex> part_dof_;       ///< per rank, first dof
+  std::vector<GlobalIndex> first_dof_;      ///< per node in file order
+  std::vector<std::size_t> element_begin_;  ///< per rank, into elements_
+  std::vector<Element> elements_;           ///< that touch a node of a rank, rank by rank
   GlobalIndex dofs_ = 0;
   GlobalIndex unclamped_dofs_ = 0;
 };

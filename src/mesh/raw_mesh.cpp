@@ -1,6 +1,5 @@
 #include "mesh/raw_mesh.h"
 
-#include <cstring>
 #include <stdexcept>
 #include <type_traits>
 
@@ -12,79 +11,76 @@ constexpr std::uint64_t last_word = 0x31687365'6d646e65;   // "endmesh1"
 
 class Writer {
  public:
+  explicit Writer(const WriteBytes& write) : write_(write) {}
+
   template <typename Value>
   void operator()(const Value& value) {
     static_assert(std::is_trivially_copyable_v<Value>);
-    append(&value, sizeof(Value));
+    pass_on(&value, sizeof(Value));
   }
   void operator()(const std::string& text) {
     (*this)(static_cast<std::uint64_t>(text.size()));
-    append(text.data(), text.size());
+    pass_on(text.data(), text.size());
   }
   template <typename Value>
   void array(const std::vector<Value>& values) {
     static_assert(std::is_trivially_copyable_v<Value>);
     (*this)(static_cast<std::uint64_t>(values.size()));
-    append(values.data(), values.size() * sizeof(Value));
+    pass_on(values.data(), values.size() * sizeof(Value));
   }
   template <typename Value, typename Visit>
   void list(const std::vector<Value>& values, const Visit& visit) {
     (*this)(static_cast<std::uint64_t>(values.size()));
     for (const Value& value : values) visit(value);
   }
-  std::vector<char> bytes;
 
  private:
-  void append(const void* data, std::size_t count) {
-    const char* first = static_cast<const char*>(data);
-    bytes.insert(bytes.end(), first, first + count);
+  void pass_on(const void* data, std::size_t count) {
+    if (count > 0) write_({static_cast<const char*>(data), count});
   }
+  const WriteBytes& write_;
 };
 
 class Reader {
  public:
-  explicit Reader(std::span<const char> bytes) : bytes_(bytes) {}
+  Reader(const ReadBytes& read, std::size_t most) : read_(read), left_(most) {}
 
   template <typename Value>
   void operator()(Value& value) {
     static_assert(std::is_trivially_copyable_v<Value>);
-    std::memcpy(&value, take(1, sizeof(Value)), sizeof(Value));
+    take(&value, 1, sizeof(Value));
   }
   void operator()(std::string& text) {
-    const std::uint64_t size = count();
-    text.assign(take(size, 1), size);
+    text.resize(count(1));
+    take(text.data(), text.size(), 1);
   }
   template <typename Value>
   void array(std::vector<Value>& values) {
-    const std::uint64_t size = count();
-    const char* first = take(size, sizeof(Value));
-    values.resize(size);
-    if (size > 0) std::memcpy(values.data(), first, size * sizeof(Value));
+    values.resize(count(sizeof(Value)));
+    take(values.data(), values.size(), sizeof(Value));
   }
   template <typename Value, typename Visit>
   void list(std::vector<Value>& values, const Visit& visit) {
-    const std::uint64_t size = count();
-    take(size, 0);
-    for (std::uint64_t i = 0; i < size; ++i) visit(values.emplace_back());
+    // Every item of a list takes a byte at least.
+    const std::size_t size = count(1);
+    for (std::size_t i = 0; i < size; ++i) visit(values.emplace_back());
   }
 
  private:
-  std::uint64_t count() {
-    std::uint64_t size = 0;
-    (*this)(size);
-    return size;
+  /// A number of items of a size that the rest can hold.
+  std::size_t count(std::size_t size) {
+    std::uint64_t number = 0;
+    (*this)(number);
+    if (number > left_ / size) throw std::runtime_error("the answer about a mesh is cut");
+    return number;
   }
-  const char* take(std::uint64_t number, std::size_t size) {
-    // Every item of a list takes a byte at least: no count is larger than what is left.
-    if (number > bytes_.size() - at_ || number * size > bytes_.size() - at_) {
-      throw std::runtime_error("the answer about a mesh is cut");
-    }
-    const char* first = bytes_.data() + at_;
-    at_ += number * size;
-    return first;
+  void take(void* data, std::size_t number, std::size_t size) {
+    if (number > left_ / size) throw std::runtime_error("the answer about a mesh is cut");
+    if (number > 0) read_({static_cast<char*>(data), number * size});
+    left_ -= number * size;
   }
-  std::span<const char> bytes_;
-  std::size_t at_ = 0;
+  const ReadBytes& read_;
+  std::size_t left_;
 };
 
 /// The one description of the order of the bytes, for both directions.
@@ -118,16 +114,15 @@ void pass(Stream& stream, Answer& answer) {
 
 }  // namespace
 
-std::vector<char> to_bytes(const RawAnswer& answer) {
-  Writer writer;
+void write_answer(const RawAnswer& answer, const WriteBytes& write) {
+  Writer writer(write);
   writer(first_word);
   pass(writer, answer);
   writer(last_word);
-  return std::move(writer.bytes);
 }
 
-RawAnswer from_bytes(std::span<const char> bytes) {
-  Reader reader(bytes);
+RawAnswer read_answer(const ReadBytes& read, std::size_t most) {
+  Reader reader(read, most);
   std::uint64_t word = 0;
   reader(word);
   RawAnswer answer;

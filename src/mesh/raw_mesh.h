@@ -1,12 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 /// Content of a mesh file, before a scene gives its groups a meaning. It crosses from the program
-/// that runs Gmsh to the one that computes as a string of bytes.
+/// that runs Gmsh to the one that computes as a stream of bytes.
 namespace pounding {
 
 /// Elements of one Gmsh type on one entity.
@@ -52,10 +54,17 @@ struct RawAnswer {
   std::string error;
 };
 
-/// The answer as bytes, for the same machine to read.
-std::vector<char> to_bytes(const RawAnswer& answer);
+/// Takes bytes that come one after the other.
+using WriteBytes = std::function<void(std::span<const char>)>;
 
-/// The answer of such bytes. Throws std::runtime_error where they are cut or are no such answer.
-RawAnswer from_bytes(std::span<const char> bytes);
+/// Fills the whole span with the next bytes, or throws.
+using ReadBytes = std::function<void(std::span<char>)>;
+
+/// Writes the answer, for the same machine to read, array by array.
+void write_answer(const RawAnswer& answer, const WriteBytes& write);
+
+/// Reads such an answer, straight into its arrays. `most`: bytes that it cannot exceed. Throws
+/// std::runtime_error where it is none, and what `read` throws.
+RawAnswer read_answer(const ReadBytes& read, std::size_t most);
 
 }  // namespace pounding

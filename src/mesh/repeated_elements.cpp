@@ -35,7 +35,10 @@ std::uint64_t hash_of(const std::vector<GlobalIndex>& nodes) {
 
 /// Refuses two elements of some sets on the same nodes.
 void check(const std::string& structure, std::span<const ElementSet* const> sets) {
+  std::size_t count = 0;
+  for (const ElementSet* set : sets) count += set->tags.size();
   std::vector<Entry> entries;
+  entries.reserve(count);
   for (const ElementSet* set : sets) {
     for (std::size_t e = 0; e < set->tags.size(); ++e) {
       entries.push_back({hash_of(sorted_nodes(*set, e)), set, e});

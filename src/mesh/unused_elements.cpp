@@ -5,8 +5,8 @@
 #include <set>
 #include <span>
 #include <unordered_map>
-#include <unordered_set>
 
+#include "common/number_set.h"
 #include "elements/element.h"
 
 namespace pounding {
@@ -38,7 +38,7 @@ class Search {
   Search(const RawMesh& raw, const GlobalMesh& mesh) : raw_(raw), mesh_(mesh) {
     for (const ElementSet& set : mesh.regions) {
       regions_.insert(set.group);
-      in_use_.insert(set.tags.begin(), set.tags.end());
+      for (const std::int64_t tag : set.tags) in_use_.insert(tag);
     }
     for (const RawType& type : raw.types) types_[type.type] = &type;
   }
@@ -150,7 +150,7 @@ class Search {
   const RawMesh& raw_;
   const GlobalMesh& mesh_;
   std::set<std::string> regions_;
-  std::unordered_set<std::int64_t> in_use_;  ///< element tags
+  NumberSet in_use_;  ///< element tags
   std::map<int, const RawType*> types_;
   std::map<std::pair<int, int>, std::vector<const RawGroup*>> owners_;
   std::vector<Candidate> candidates_;

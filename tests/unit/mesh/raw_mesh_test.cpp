@@ -21,9 +21,26 @@ RawAnswer sample() {
   return answer;
 }
 
+std::vector<char> to_bytes(const RawAnswer& answer) {
+  std::vector<char> bytes;
+  write_answer(answer, [&](std::span<const char> piece) {
+    bytes.insert(bytes.end(), piece.begin(), piece.end());
+  });
+  return bytes;
+}
+
+/// What can be read of bytes that are followed by zeros, if `most` lets it.
+RawAnswer from_bytes(std::span<const char> bytes, std::size_t most) {
+  std::size_t at = 0;
+  const auto read = [&](std::span<char> piece) {
+    for (char& byte : piece) byte = at < bytes.size() ? bytes[at++] : '\0';
+  };
+  return read_answer(read, most);
+}
+
 TEST(RawMesh, ComesBackFromItsBytes) {
   const std::vector<char> bytes = to_bytes(sample());
-  const RawAnswer answer = from_bytes(bytes);
+  const RawAnswer answer = from_bytes(bytes, bytes.size());
   EXPECT_EQ(answer.mesh.node_tags, sample().mesh.node_tags);
   EXPECT_EQ(answer.mesh.coordinates, sample().mesh.coordinates);
   ASSERT_EQ(answer.mesh.entities.size(), 2U);
@@ -38,7 +55,9 @@ TEST(RawMesh, ComesBackFromItsBytes) {
 TEST(RawMesh, EveryCutIsRefused) {
   const std::vector<char> bytes = to_bytes(sample());
   for (std::size_t size = 0; size < bytes.size(); ++size) {
-    EXPECT_THROW(from_bytes(std::span(bytes).first(size)), std::runtime_error) << size;
+    const std::span<const char> cut = std::span(bytes).first(size);
+    EXPECT_THROW(from_bytes(cut, size), std::runtime_error) << size;
+    EXPECT_THROW(from_bytes(cut, 2 * bytes.size()), std::runtime_error) << size;
   }
 }
 
