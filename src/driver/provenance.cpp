@@ -12,6 +12,7 @@
 #include "common/error.h"
 #include "common/library_versions.h"
 #include "common/parallel.h"
+#include "common/version.h"
 #include "mesh/geometry_file.h"
 #include "scene/option_values.h"
 #include "scene/resolved_options.h"
@@ -115,6 +116,29 @@ Provenance note_provenance(MPI_Comm comm, const SceneOrigin& origin, const std::
     provenance.inputs = input_files(origin, resolved);
   });
   return provenance;
+}
+
+void note_bases(MPI_Comm comm, const Scene& scene, Provenance& provenance) {
+  on_rank0(comm, [&] {
+    Inputs inputs{std::move(provenance.inputs)};
+    for (const Structure& structure : scene.structures) {
+      if (structure.modal) inputs.add(structure.name + "_modal_basis", structure.modal->basis_file);
+    }
+    provenance.inputs = std::move(inputs.files);
+  });
+}
+
+std::string provenance_comment(const Provenance& provenance) {
+  std::string text = "# Begun " + provenance.started + " by pounding " + program_version() + " (" +
+                     program_commit() + ") on";
+  for (const std::string& machine : provenance.machines) text += " " + machine;
+  text += "; hashes (SHA-256) of the inputs:\n";
+  for (const InputFile& input : provenance.inputs) {
+    std::string path = input.path;
+    std::ranges::replace(path, '\n', ' ');  // else its rest were an option
+    text += "# " + input.digest.sha256 + "  " + path + "\n";
+  }
+  return text;
 }
 
 void add_provenance(const Provenance& provenance, nlohmann::ordered_json& summary) {

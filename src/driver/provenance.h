@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "io/file_digest.h"
+#include "scene/scene.h"
 #include "scene/scene_origin.h"
 
 namespace pounding {
@@ -35,6 +36,15 @@ struct Provenance {
 /// options in force. Files that are not there are left to who reads them. Rank 0 reads; the result
 /// is on rank 0. Throws UserError on every rank alike. Collective.
 Provenance note_provenance(MPI_Comm comm, const SceneOrigin& origin, const std::string& resolved);
+
+/// Adds the modal bases that the scene keeps in files, as they were taken up or written. Rank 0
+/// reads, after the model is built. Throws UserError on every rank alike. Collective.
+void note_bases(MPI_Comm comm, const Scene& scene, Provenance& provenance);
+
+/// Comment lines for the end of `resolved.yaml`, which is there before the first step: program, when
+/// and where the run began, and of every input a line that `sha256sum --check` understands behind
+/// its `# `. So a run that a signal stopped, or that was killed, has them too.
+std::string provenance_comment(const Provenance& provenance);
 
 /// Adds it to summary.json: `started`, `ended` (now), `machine`, `inputs`, `overrides`, `versions`.
 void add_provenance(const Provenance& provenance, nlohmann::ordered_json& summary);

@@ -39,11 +39,12 @@ void create_output(const Scene& scene) {
 
 /// Removes what an earlier run left; the resolved options are the first thing in the folder. Rank
 /// 0.
-void begin_results(const Scene& scene, const std::string& resolved, const ResultFolder& folder) {
+void begin_results(const Scene& scene, const std::string& resolved, const Provenance& provenance,
+                   const ResultFolder& folder) {
   const std::vector<std::string> removed = folder.clear(scene.restart);
   if (!removed.empty()) print_removed(scene, removed);
   std::ofstream file(scene.output + "/resolved.yaml");
-  file << resolved;
+  file << resolved << provenance_comment(provenance);
   file.close();
   if (!file) {
     throw UserError("option -output " + scene.output +
@@ -106,13 +107,14 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved, const Sc
   if (!scene.restart.empty()) check_checkpoint(comm, scene.restart, lasting_options(resolved));
   if (scene.dry_run && scene.write_model) on_rank0(comm, [&] { create_output(scene); });
   const Model model = build_model(comm, scene, profile);
+  if (!scene.dry_run) note_bases(comm, scene, provenance);
   return_freed_memory();
   if (root) print_model(scene, model);
   if (!scene.export_matrices.empty()) export_matrices(comm, scene, model);
   const RunIdentity identity = identity_of(resolved, model);
   const std::optional<SavedState> restart = read_restart(comm, scene, model, identity);
   if (!scene.dry_run) {
-    on_rank0(comm, [&] { begin_results(scene, resolved, *folder); });
+    on_rank0(comm, [&] { begin_results(scene, resolved, provenance, *folder); });
     if (scene.write_model) write_model(comm, scene, model);
   }
   if (scene.write_modes) {

@@ -6,7 +6,9 @@ record."""
 import datetime
 import hashlib
 import os
+import re
 import shutil
+import subprocess
 import tempfile
 import unittest
 
@@ -78,6 +80,41 @@ probes: post
         inputs = self.run_case("-stick_matrices", folder, ranks=2)["inputs"]
         self.assertEqual(sorted(os.path.basename(one["file"]) for one in inputs if one["option"] == "stick_matrices"),
                          ["damping.mtx", "dofs.csv", "mass.mtx", "stiffness.mtx"])
+
+    def reduced(self, *words, ranks=1):
+        words = ["-options_file", self.scene, "-stick_model", "modal", "-stick_modal_vectors", 4, "-stick_modal_basis",
+                 os.path.join(self.folder, "basis.h5"), *words]
+        return program.must_run(self, words, ranks)
+
+    def test_a_kept_basis_has_the_hash_of_what_was_used(self):
+        """Of the run that writes it as of one that takes it up."""
+        for ranks in (1, 2):
+            inputs = self.reduced(ranks=ranks)[1]["inputs"]
+            with open(os.path.join(self.folder, "basis.h5"), "rb") as file:
+                expected = hashlib.sha256(file.read()).hexdigest()
+            self.assertEqual([one["sha256"] for one in inputs if one["option"] == "stick_modal_basis"], [expected])
+
+    def test_a_run_that_did_not_end_has_the_hashes(self):
+        """They are there before the first step, as sha256sum reads them; the file still repeats the run."""
+        folder, summary = self.reduced()
+        with open(os.path.join(folder, "resolved.yaml")) as file:
+            lines = file.read().splitlines()
+        told = [line[2:] for line in lines if re.match("# [0-9a-f]{64}  ", line)]
+        self.assertEqual(told, [f"{one['sha256']}  {one['file']}" for one in summary["inputs"]])
+        check = subprocess.run(["sha256sum", "--check", "--strict"], input="\n".join(told) + "\n", text=True,
+                               cwd=program.SOURCE, capture_output=True)
+        self.assertEqual(check.returncode, 0, check.stderr)
+        self.assertIn(f"# Begun {summary['started']} by pounding {summary['version']} ({summary['commit']})", "\n".join(lines))
+        again = program.must_run(self, ["-options_file", os.path.join(folder, "resolved.yaml")], 1)[1]
+        self.assertEqual({**again["options"], "output": ""}, {**summary["options"], "output": ""})
+
+    def test_a_name_with_a_line_end_adds_no_option(self):
+        os.rename(os.path.join(self.folder, "record.txt"), os.path.join(self.folder, "a\nend_time: 9\n.txt"))
+        folder, summary = program.must_run(self, ["-options_file", self.scene, "-motion_x_record",
+                                                  os.path.join(self.folder, "a\nend_time: 9\n.txt")], 1)
+        with open(os.path.join(folder, "resolved.yaml")) as file:
+            self.assertNotIn("\nend_time: 9", file.read())
+        self.assertEqual(summary["end_time"], 0.1)
 
     def test_versions_are_those_that_the_program_prints(self):
         printed = program.run(["--version"], 2).stdout.splitlines()
