@@ -66,7 +66,7 @@ void check_seal(const std::string& path) {
   if (seal_of(file, readable) != written || !readable) {
     throw std::runtime_error(path +
                              ": its content is not what was sealed; it is damaged, or it was "
-                             "changed and not sealed anew (run/seal)");
+                             "changed and not sealed anew (run/seal; pounding-tools seal)");
   }
 }
 

@@ -52,8 +52,9 @@ Table read_table(const std::string& path) {
   constexpr std::string_view key = "# structures: ";
   std::ifstream file(path);
   if (!file) {
-    throw UserError("option -fidelity_table " + path +
-                    ": no such file; run/tradeoff writes one, fidelity.csv");
+    throw UserError(
+        "option -fidelity_table " + path +
+        ": no such file; run/tradeoff (pounding-tools tradeoff) writes one, fidelity.csv");
   }
   Table table;
   std::vector<Setting>& settings = table.settings;
@@ -76,8 +77,9 @@ void require_same_structures(const Table& table, const std::string& path,
                              const std::string& structures_key) {
   if (table.structures_key.empty()) {
     throw UserError("option -fidelity_table " + path +
-                    ": does not say on which structures it was measured; let run/tradeoff write "
-                    "it, or add a line '# structures: KEY' with structures_key of the summary.json "
+                    ": does not say on which structures it was measured; let run/tradeoff "
+                    "(pounding-tools tradeoff) write it, or add a line '# structures: KEY' with "
+                    "structures_key of the summary.json "
                     "of that study");
   }
   if (table.structures_key != structures_key) {

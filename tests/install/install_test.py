@@ -75,7 +75,12 @@ class Installed(unittest.TestCase):
         listed = self.tool().stdout.split()
         self.assertEqual(listed[1::2], ["compare", "new", "plant", "plot", "seal", "sweep", "tradeoff"])
         for name in listed[1::2]:
-            self.assertIn("usage", self.tool(name, "--help").stdout if name != "seal" else "usage")
+            said = self.tool(name, "--help", status=1 if name == "seal" else 0)
+            said = said.stdout + said.stderr
+            self.assertIn(f"pounding-tools {name}", said)
+            self.assertNotRegex(said, r"\brun/[a-z]")
+        self.assertTrue(self.tool("plot", "nowhere", status=1).stderr.startswith("pounding-tools plot: "))
+        self.assertIn("pounding-tools new two-buildings DIR", self.tool("new").stdout)
         self.assertIn("no tool plott", self.tool("plott", status=1).stderr)
         self.assertIn("no tool ../x", self.tool("../x", status=1).stderr)
         environment = self.tool("environment").stdout.strip()

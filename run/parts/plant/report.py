@@ -4,6 +4,7 @@ import subprocess
 from html import escape
 from pathlib import Path
 
+from parts import called
 from parts.benchmark.tables import markdown
 from parts.compare import page
 from parts.compare.runs import Runs
@@ -34,7 +35,7 @@ def text(runs: Runs) -> str:
 def draw(folder: Path) -> str:
     """Figures and page of one run by run/plot: '' or why there are none."""
     done = subprocess.run([str(SOURCE / "run" / "plot"), str(folder)], capture_output=True, text=True)
-    return "" if done.returncode == 0 else (done.stderr.strip().splitlines() or ["run/plot failed"])[-1]
+    return "" if done.returncode == 0 else (done.stderr.strip().splitlines() or [f"{called('run/plot')} failed"])[-1]
 
 
 def write(runs: Runs, folder: Path) -> Path:

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 
+from parts import INSTALLED
 from parts.compare.tables import same
 from pounding.results import Result, ResultError, load
-from pounding.runs import SOURCE
 
 SUFFIX = "-without"  # of the folder beside that of the run
 APART = "apart"      # the run without contacts of run/plant, beside its others
@@ -108,7 +108,7 @@ def command(run: Result) -> str:
     """The command that makes the run without pounding where `find` looks for it."""
     summary, place = run.summary, run.folder.resolve()
     options = summary.get("options", {})
-    program = "build/pounding" if (SOURCE / "CMakeLists.txt").exists() else "pounding"
+    program = "pounding" if INSTALLED else "build/pounding"
     words = ["mpirun", "-n", str(summary.get("ranks", 1)), program, "-options_file", str(place / "resolved.yaml"),
              "-contacts", "none", "-time_step", repr(summary.get('time_step', 0)), "-restart", "none",
              "-output", str(place.with_name(place.name + SUFFIX))]

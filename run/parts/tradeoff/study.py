@@ -2,6 +2,8 @@
 
 from statistics import median
 
+from parts import called
+
 from .metrics import class_of, compare
 from .runs import Case, Outcome, run
 from .settings import NOISE, REFERENCE, Setting
@@ -116,7 +118,7 @@ def fidelity_table(summary: list, settings: list, structures: tuple, what: tuple
     """What `-fidelity_table` reads: every setting that the structures share, with error and cost. `what`: on what it
     was measured, which spectra, and which structures, in words."""
     scene, spectra, key = what
-    lines = [f"# Settings measured by run/tradeoff on {scene}: rms of ln(floor spectrum / full order) on",
+    lines = [f"# Settings measured by {called('run/tradeoff')} on {scene}: rms of ln(floor spectrum / full order) on",
              f"# {spectra}, and wall time per second of motion. Read by -fidelity_target.",
              f"# structures: {summary[0]['structures_key']} {key}",
              "setting,rms,cost,options"]
