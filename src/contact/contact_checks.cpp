@@ -53,14 +53,16 @@ class ContactCheck {
     const double overlap = -report_.smallest_gap;
     const bool given = !contact_.gap.values.empty();
     if (overlap > deepest_overlap * model_size_) {
+      const double half = report_.half_thickness[0] + report_.half_thickness[1];
       std::ostringstream text;
       text.precision(4);
       if (given) {
-        text << "option -" << contact_.name << "_gap: a gap of " << report_.smallest_gap;
+        text << "option -" << contact_.name << "_gap: a gap of " << report_.smallest_gap << " m";
       } else {
-        text << "contact " << contact_.name << ": the meshes overlap by " << overlap;
+        text << "contact " << contact_.name << ": the meshes overlap by " << overlap << " m";
+        if (half > 0) text << ", their shells reaching " << half << " m beyond their nodes";
       }
-      text << " m, more than " << deepest_overlap << " of the model's " << model_size_
+      text << ", more than " << deepest_overlap << " of the model's " << model_size_
            << " m, cannot be meant: bodies stay as deep in each other as they begin; "
            << (given ? "give the gap that is open" : "move a mesh, or give the gap as a number");
       throw UserError(text.str());

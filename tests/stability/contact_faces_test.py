@@ -68,6 +68,12 @@ class Surfaces(unittest.TestCase):
         self.assertEqual(contact["half_thickness"], [THICKNESS / 2] * 2)
         self.assertAlmostEqual(contact["geometric_gap"][0], 0.05, delta=1e-12)
 
+    def test_an_overlap_by_thickness_is_said(self):
+        """Meshes that are 0.05 m apart overlap by what their shells are thicker."""
+        with tempfile.TemporaryDirectory() as folder:
+            refused(self, pair(folder, wall(0), wall(0.05), "body"), "the meshes overlap by 0.15 m, their shells reaching 0.2 m "
+                    "beyond their nodes")
+
     def test_report_tells_the_gap_of_the_meshes_beside_the_one_in_force(self):
         with tempfile.TemporaryDirectory() as folder:
             words = [*pair(folder, wall(0), wall(0.25), "body"), "-joint_gap", 0.03, "-dry_run"]
