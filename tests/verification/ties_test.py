@@ -416,6 +416,48 @@ class Struck(unittest.TestCase):
             self.assertLess(found[5], 1e-6 * found[6])
 
 
+class BesideOtherThings(unittest.TestCase):
+    """A tie beside friction and faces that absorb, under weight; and below a column with P-Delta."""
+
+    def test_friction_and_absorbing_faces(self):
+        """Two tied bricks, shaken: they stand on rough ground and slide; or on a smooth one, and waves leave through an
+        end."""
+        record = write_sine(8.0, 10.0, 0.1)
+        self.addCleanup(os.remove, record)
+        scene = [*BRICKS, *TIE, *mesh(m1=2, m2=3, gap=0.05), "-gravity", GRAVITY, "-preload", "static", "-motion_y_record",
+                 record, "-motion_y_unit", "m/s2", "-output_interval", 1e-3, "-end_time", 0.1, "-probes", "p",
+                 "-p_structure", "t", "-p_group", "edge"]
+        rough = ["-contacts", "w", "-w_secondary", "t:z_min", "-w_primary", "wall", "-w_gap", 0, "-w_friction", 0.3]
+        for more, lost in ((rough, "friction"), (["-t_absorbing", "x_min", "-t_clamp", "z_min:z"], "devices")):
+            values = []
+            for ranks in (1, 2, 3):
+                run = Recorded(self, [*scene, *more], ranks, identity=1e-11)
+                values.append(run.displacement("p.y"))
+                self.assertGreater(run.energy[lost], 1)
+                self.assertLess(run.summary["equilibrium"]["structures"]["t"]["imbalance"], 1e-10)
+                self.assertLess(abs(values[-1] - values[0]).max(), 1e-9 * abs(values[0]).max())
+
+    def test_column_with_p_delta(self):
+        """A weight on the beam softens it as it does the beam with a clamped foot."""
+        def frequency(p_delta, foot, ranks):
+            words = ["-structures", "b", "-b_mesh", "tests/meshes/planted_beam.geo", "-b_mesh_set", "m=2", "-b_body_element",
+                     "hex8", "-b_body_material", "c", *CONCRETE, "-material_c_poisson", POISSON, "-b_beam_element", "beam",
+                     "-b_beam_material", "steel", "-b_beam_section", "tube", *STEEL, "-b_tip_element", "point_mass",
+                     "-b_tip_mass", 5e4, "-b_gravity", f"{-GRAVITY},0,0", "-preload", "static", "-b_p_delta", p_delta,
+                     "-end_time", 1e-4, "-modes", 2, *foot]
+            run = Recorded(self, words, ranks)
+            self.assertLess(run.summary["equilibrium"]["structures"]["b"]["imbalance"], 1e-10)
+            return run.summary["structures"]["b"]["frequencies"][0]["frequency"]
+
+        tied, clamped = ["-b_tie", "foot:face", "-b_clamp", "back"], ["-b_clamp", "back,foot"]
+        falls = [frequency("true", foot, ranks) / frequency("false", foot, ranks)
+                 for foot, ranks in ((clamped, 1), (tied, 1), (tied, 2), (tied, 3))]
+        self.assertLess(falls[0], 0.95)
+        for fall in falls[1:]:
+            self.assertAlmostEqual(fall / falls[0], 1, delta=5e-3)
+            self.assertAlmostEqual(fall / falls[1], 1, delta=1e-9)
+
+
 class LinksOnATie(unittest.TestCase):
     """A spring with dashpots, which pushes only, below a corner that follows: solved for with the tie, or by modes."""
 

@@ -144,6 +144,87 @@ class Overturned(unittest.TestCase):
             os.remove(mesh)
 
 
+class SlabOnSprings(unittest.TestCase):
+    """Code_Aster's SSNL130A (V6.02.130): a stiff slab of 1 x 2 m, .3 m thick, on a carpet of unilateral springs, 1e4 N/m
+    in all, below a pressure 5 (y - 2)^2 N/m2. The pressure is the weight of masses on the nodes, shared out as an element
+    shares a pressure. The second load of that problem lifts what the springs stand on by 5 mm, which is no other state
+    here, where displacements are relative to it."""
+    ACROSS, ALONG, CARPET, PULL = 4, 16, 1e4, 0.1
+    CELL = 2 / ALONG
+
+    def loads(self):
+        """Force on each row of nodes [N]: integral of the pressure times the hat function of the row."""
+        points, weights = numpy.polynomial.legendre.leggauss(4)
+        force = numpy.zeros(self.ALONG + 1)
+        for row in range(self.ALONG):
+            y = (row + (1 + points) / 2) * self.CELL
+            pressure = 5 * (y - 2)**2 * weights / 2 * self.CELL
+            force[row] += (pressure * (1 - points) / 2).sum()
+            force[row + 1] += (pressure * (1 + points) / 2).sum()
+        return force
+
+    def scene(self):
+        """Text of the geometry and options of its groups: masses by row, springs by the area of the node."""
+        i, j = numpy.meshgrid(numpy.arange(self.ACROSS + 1), numpy.arange(self.ALONG + 1), indexing="ij")
+        on_side = (i == 0) | (i == self.ACROSS)
+        at_end = (j == 0) | (j == self.ALONG)
+        tags = 1 + i + (self.ACROSS + 1) * j
+        text = [f"Point({1 + a + (self.ACROSS + 1) * b}) = {{{a / self.ACROSS}, {b * self.CELL}, 0}};"
+                for b in range(self.ALONG + 1) for a in range(self.ACROSS + 1)]
+        text += [f"Line({1000 + tags[a, b]}) = {{{tags[a, b]}, {tags[a + 1, b]}}};"
+                 for b in range(self.ALONG + 1) for a in range(self.ACROSS)]
+        text += [f"Line({2000 + tags[a, b]}) = {{{tags[a, b]}, {tags[a, b + 1]}}};"
+                 for b in range(self.ALONG) for a in range(self.ACROSS + 1)]
+        cells = [(a, b) for b in range(self.ALONG) for a in range(self.ACROSS)]
+        for a, b in cells:
+            text += [f"Curve Loop({tags[a, b]}) = {{{1000 + tags[a, b]}, {2000 + tags[a + 1, b]}, {-1000 - tags[a, b + 1]}, "
+                     f"{-2000 - tags[a, b]}}};", f"Plane Surface({tags[a, b]}) = {{{tags[a, b]}}};"]
+        made = ", ".join(str(tags[a, b]) for a, b in cells)
+        text += ["Transfinite Curve {:} = 2;", "Transfinite Surface {:};", "Recombine Surface {:};",
+                 f'Physical Surface("plate") = {{{made}}};']
+        words = ["-slab_plate_element", "shell", "-slab_plate_material", "stiff", "-slab_plate_thickness", 0.3]
+
+        def group(name, chosen, *options):
+            nonlocal words
+            text.append(f'Physical Point("{name}") = {{{", ".join(map(str, tags[chosen]))}}};')
+            words += [f"-slab_{name}_{key}" if n % 2 == 0 else key for n, key in enumerate(options)]
+
+        for row, force in enumerate(self.loads()):
+            mass = force / self.PULL / self.ACROSS
+            for name, chosen, share in (("side", on_side, 0.5), ("inner", ~on_side, 1)):
+                group(f"{name}{row}", chosen & (j == row), "element", "point_mass", "mass", repr(share * mass),
+                      "rotary_inertia", ",".join(3 * [repr(share * mass)]))
+        for name, chosen, share in (("corners", on_side & at_end, 0.25), ("sides", on_side & ~at_end, 0.5),
+                                    ("ends", ~on_side & at_end, 0.5), ("middle", ~on_side & ~at_end, 1)):
+            stiffness = repr(share * self.CARPET / (self.ACROSS * self.ALONG))
+            group(name, chosen, "element", "grounded_spring", "stiffness", ",".join(3 * [stiffness]), "compression_only",
+                  "true")
+        return "\n".join(text) + "\n", words
+
+    def test_settles_and_lifts_off_as_published(self):
+        text, words = self.scene()
+        handle, mesh = tempfile.mkstemp(suffix=".geo")
+        with os.fdopen(handle, "w") as file:
+            file.write(text)
+        self.addCleanup(os.remove, mesh)
+        corners = [f"{x},{y},0" for y in (0, 2) for x in (0, 1)]
+        for ranks in (1, 2, 3):
+            run = Recorded(self, ["-structures", "slab", "-slab_mesh", mesh, *words, "-material_stiff_young", 2e11,
+                                  "-material_stiff_poisson", 0.3, "-material_stiff_density", 1e-6, "-gravity", self.PULL,
+                                  "-preload", "static", "-end_time", 1e-6, "-probes", "at", "-at_structure", "slab",
+                                  "-at_at", "; ".join(corners), "-at_average", "false"], ranks)
+            for corner, published, tolerance in ((1, -3.53291e-3, 4e-4), (2, -3.53291e-3, 4e-4), (3, 1.14976e-3, 7e-3),
+                                                 (4, 1.14976e-3, 7e-3)):
+                settled = run.displacement(f"at.{corner}.z")[0]
+                self.assertAlmostEqual(settled / published, 1, delta=tolerance, msg=f"corner {corner}")
+            rest = run.summary["equilibrium"]
+            self.assertEqual(rest["idle_links"], 4 * (self.ACROSS + 1))  # rows beyond y = 1.5 m
+            of = rest["structures"]["slab"]
+            self.assertAlmostEqual(of["weight"][2] / (-40 / 3), 1, delta=1e-8)  # and of the slab, next to nothing
+            self.assertAlmostEqual(of["support"][2] / -of["weight"][2], 1, delta=1e-10)
+            self.assertLess(of["imbalance"], 1e-10)
+
+
 class PlantPair(unittest.TestCase):
     def test_stands_on_all_of_its_springs(self):
         run = Recorded(self, ["-options_file", "petsc-options/plant/standing.yaml", "-block_mesh_set", "m=1",
