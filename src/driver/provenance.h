@@ -41,7 +41,7 @@ Provenance note_provenance(MPI_Comm comm, const SceneOrigin& origin, const std::
 /// reads, after the model is built. Throws UserError on every rank alike. Collective.
 void note_bases(MPI_Comm comm, const Scene& scene, Provenance& provenance);
 
-/// Comment lines for the end of `resolved.yaml`, which is there before the first step: program, when
+/// Comment lines for the end of `resolved.yaml`, there before the first step: the program, when
 /// and where the run began, and of every input a line that `sha256sum --check` understands behind
 /// its `# `. So a run that a signal stopped, or that was killed, has them too.
 std::string provenance_comment(const Provenance& provenance);

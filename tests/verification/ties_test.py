@@ -420,22 +420,22 @@ class BesideOtherThings(unittest.TestCase):
     """A tie beside friction and faces that absorb, under weight; and below a column with P-Delta."""
 
     def test_friction_and_absorbing_faces(self):
-        """Two tied bricks, shaken: they stand on rough ground and slide; or on a smooth one, and waves leave through an
-        end."""
+        """Two tied bricks, shaken: they stand on rough ground and slide, where nodes that follow and those that they follow
+        share what they carry in no unique way; or they are free, and waves leave through an end."""
         record = write_sine(8.0, 10.0, 0.1)
         self.addCleanup(os.remove, record)
-        scene = [*BRICKS, *TIE, *mesh(m1=2, m2=3, gap=0.05), "-gravity", GRAVITY, "-preload", "static", "-motion_y_record",
-                 record, "-motion_y_unit", "m/s2", "-output_interval", 1e-3, "-end_time", 0.1, "-probes", "p",
-                 "-p_structure", "t", "-p_group", "edge"]
-        rough = ["-contacts", "w", "-w_secondary", "t:z_min", "-w_primary", "wall", "-w_gap", 0, "-w_friction", 0.3]
-        for more, lost in ((rough, "friction"), (["-t_absorbing", "x_min", "-t_clamp", "z_min:z"], "devices")):
+        scene = [*BRICKS, *TIE, *mesh(m1=2, m2=3, gap=0.05), "-motion_y_record", record, "-motion_y_unit", "m/s2",
+                 "-output_interval", 1e-3, "-end_time", 0.05, "-probes", "p", "-p_structure", "t", "-p_group", "edge"]
+        rough = ["-gravity", GRAVITY, "-preload", "static", "-contacts", "w", "-w_secondary", "t:z_min", "-w_primary",
+                 "wall", "-w_gap", 0, "-w_friction", 0.3]
+        for more, lost, alike in ((rough, "friction", 1e-6), (["-t_absorbing", "x_min"], "devices", 1e-11)):
             values = []
             for ranks in (1, 2, 3):
                 run = Recorded(self, [*scene, *more], ranks, identity=1e-11)
                 values.append(run.displacement("p.y"))
                 self.assertGreater(run.energy[lost], 1)
-                self.assertLess(run.summary["equilibrium"]["structures"]["t"]["imbalance"], 1e-10)
-                self.assertLess(abs(values[-1] - values[0]).max(), 1e-9 * abs(values[0]).max())
+                self.assertLess(run.summary["impacts"]["complementarity_residual"], 1e-6)
+                self.assertLess(abs(values[-1] - values[0]).max() / abs(values[0]).max(), alike)
 
     def test_column_with_p_delta(self):
         """A weight on the beam softens it as it does the beam with a clamped foot."""

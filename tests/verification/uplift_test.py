@@ -213,14 +213,12 @@ class SlabOnSprings(unittest.TestCase):
                                   "-material_stiff_poisson", 0.3, "-material_stiff_density", 1e-6, "-gravity", self.PULL,
                                   "-preload", "static", "-end_time", 1e-6, "-probes", "at", "-at_structure", "slab",
                                   "-at_at", "; ".join(corners), "-at_average", "false"], ranks)
-            for corner, published, tolerance in ((1, -3.53291e-3, 4e-4), (2, -3.53291e-3, 4e-4), (3, 1.14976e-3, 7e-3),
-                                                 (4, 1.14976e-3, 7e-3)):
-                settled = run.displacement(f"at.{corner}.z")[0]
-                self.assertAlmostEqual(settled / published, 1, delta=tolerance, msg=f"corner {corner}")
+            for corner, published in ((1, -3.532908705e-3), (2, -3.532908705e-3), (3, 1.149763188e-3), (4, 1.149763188e-3)):
+                self.assertAlmostEqual(run.displacement(f"at.{corner}.z")[0] / published, 1, delta=1e-6, msg="corners")
             rest = run.summary["equilibrium"]
             self.assertEqual(rest["idle_links"], 4 * (self.ACROSS + 1))  # rows beyond y = 1.5 m
             of = rest["structures"]["slab"]
-            self.assertAlmostEqual(of["weight"][2] / (-40 / 3), 1, delta=1e-8)  # and of the slab, next to nothing
+            self.assertAlmostEqual(of["weight"][2] / (-40 / 3), 1, delta=1e-7)  # and of the slab, next to nothing
             self.assertAlmostEqual(of["support"][2] / -of["weight"][2], 1, delta=1e-10)
             self.assertLess(of["imbalance"], 1e-10)
 
