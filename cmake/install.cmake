@@ -9,7 +9,7 @@ install(TARGETS pounding pounding-mesh pounding-spectra RUNTIME DESTINATION ${CM
 install(PROGRAMS cmake/pounding-tools DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY meshes octave petsc-options python DESTINATION ${POUNDING_SHARE}
   PATTERN __pycache__ EXCLUDE)
-install(PROGRAMS run/compare run/new run/plant run/plot run/seal run/sweep run/tradeoff
+install(PROGRAMS run/compare run/fragility run/new run/plant run/plot run/seal run/sweep run/tradeoff
   DESTINATION ${POUNDING_SHARE}/run)
 install(FILES run/environment DESTINATION ${POUNDING_SHARE}/run)
 install(DIRECTORY run/parts DESTINATION ${POUNDING_SHARE}/run
@@ -37,7 +37,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
-  "openmpi-bin, python3, python3-h5py, python3-matplotlib, python3-numpy, python3-scipy")
+  "openmpi-bin, python3, python3-h5py, python3-matplotlib, python3-numpy, python3-scipy, python3-yaml")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS libopenblas0-serial)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 if(POUNDING_MACHINE STREQUAL native AND NOT POUNDING_PORTABLE)  # not to be taken for one that runs on other machines

@@ -1,0 +1,1 @@
+"""Parts of run/fragility: the study file, its members, their runs, what is told of them."""

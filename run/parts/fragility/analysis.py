@@ -1,0 +1,257 @@
+"""What the outcomes of a study say: moments of spectra by cell, probabilities, curves, joints, enough motions."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import stats
+
+from pounding.fragility import (Fragility, FitRefused, binomial_interval, fit_paired, members_needed, moments, widened)
+
+from .design import Design
+from .outcomes import Outcomes
+from .study import Study, StudyError
+
+CONTACT = "contact"
+ROUND_OFF = 1e-6  # of the largest spectrum: below it a channel stands still
+MAIN = 0.05  # of the largest spectrum of its probe: what a channel needs to count in errors and numbers of motions
+EXCEEDED = (0.5, 0.16, 0.05)
+TOLERANCE = 0.1  # of the mean that is to be known
+
+
+@dataclass
+class Analysis:
+    """A cell is a gap [m], or None of the runs apart, and a level [m/s2]."""
+
+    study: Study
+    design: Design
+    outcomes: Outcomes
+
+    def __post_init__(self):
+        self.index = {(one.gap, one.level, one.sample): number for number, one in enumerate(self.design.members)
+                      if not one.disturbed}
+        largest = self.outcomes.spectra.max((0, 2, 3))
+        of_probe = {}
+        for name, value in zip(self.outcomes.channels, largest):
+            of_probe[name.split()[0]] = max(value, of_probe.get(name.split()[0], 0.0))
+        self.main = [number for number, name in enumerate(self.outcomes.channels)
+                     if largest[number] > MAIN * of_probe[name.split()[0]] > 0]
+        if not self.main:
+            raise StudyError(f"{self.study.path}: no probe moves; has {self.study.scene.name} probes, and no record of "
+                             "its own along an axis of the study's targets, over which it wins?")
+        self.channels = [number for number in range(len(largest)) if largest[number] > ROUND_OFF * largest.max()]
+        self.cells = [(gap, level) for gap in [*self.study.gaps, None] for level in self.study.levels]
+
+    def of(self, gap: float | None, level: float) -> np.ndarray:
+        """Members of a cell, by sample."""
+        return np.array([self.index[gap, level, sample] for sample in range(self.study.samples)])
+
+    # Spectra.
+
+    def spectra_rows(self, gap: float | None, level: float) -> list:
+        """A row per channel that moves, damping ratio and frequency."""
+        rows, found = [], self.outcomes
+        values = found.spectra[self.of(gap, level)][:, self.channels]
+        one = moments(values, self.study.confidence)
+        broad = widened(found.frequency, one.mean), widened(found.frequency, one.high)
+        for c, channel in enumerate(self.channels):
+            for d, ratio in enumerate(found.damping):
+                for f, frequency in enumerate(found.frequency):
+                    at = c, d, f
+                    rows.append({"channel": found.channels[channel], "damping": f"{ratio:g}",
+                                 "frequency": f"{frequency:.9g}", "members": one.count,
+                                 **{name: f"{values[at]:.6g}" for name, values in (
+                                     ("mean", one.mean), ("median", one.median), ("p16", one.low), ("p84", one.high),
+                                     ("cov", one.cov), ("log_deviation", one.log_deviation),
+                                     ("half_width_of_mean", one.half_width), ("envelope", one.largest),
+                                     ("mean_widened", broad[0]), ("p84_widened", broad[1]))}})
+        return rows
+
+    # Probabilities.
+
+    def hits(self, event, gap: float | None) -> np.ndarray:
+        """Whether the event comes about (samples, levels)."""
+        members = np.stack([self.of(gap, level) for level in self.study.levels], 1)
+        found = self.outcomes
+        if event == CONTACT:
+            return found.episodes[members].sum(-1) > 0
+        inside = (found.frequency >= event.band[0]) & (found.frequency <= event.band[1])
+        channel = found.channels.index(f"{event.probe} {event.direction}")
+        damping = int(abs(found.damping - event.damping).argmin())
+        return found.spectra[members][:, :, channel, damping, inside].max(-1) > event.acceleration
+
+    @property
+    def events(self) -> list:
+        return [CONTACT, *self.study.capacities]
+
+    def gaps_of(self, event) -> list:
+        return list(self.study.gaps) if event == CONTACT else [*self.study.gaps, None]
+
+    def probability_rows(self) -> list:
+        rows = []
+        for event in self.events:
+            for gap in self.gaps_of(event):
+                counts = self.hits(event, gap).sum(0)
+                low, high = binomial_interval(counts, self.study.samples, self.study.confidence)
+                rows += [{"event": name_of(event), "gap [m]": gap_text(gap), "pga [m/s2]": level, "hits": int(count),
+                          "of": self.study.samples, "probability": count / self.study.samples, "low": float(a),
+                          "high": float(b)} for level, count, a, b in zip(self.study.levels, counts, low, high)]
+        return rows
+
+    def fits(self, event) -> dict:
+        """Gap -> Fragility, or the line why there is none."""
+        found = {}
+        for gap in self.gaps_of(event):
+            try:
+                found[gap] = fit_paired(self.study.levels, self.hits(event, gap), self.study.confidence)
+            except FitRefused as error:
+                found[gap] = str(error)
+        return found
+
+    # The joint that would be needed.
+
+    def needed(self, contact: int | None = None) -> np.ndarray:
+        """Nominal joint at which the contact (any: the worst) just does not close, of the runs apart [m]: their nominal
+        gap less the smallest that was left; (samples, levels)."""
+        members = np.stack([self.of(None, level) for level in self.study.levels], 1)
+        places = [self.outcomes.contacts.index(name) for name in self.study.joints]
+        left = self.outcomes.smallest_gap[members]
+        return self.study.apart - (left[..., places].min(-1) if contact is None else left[..., contact])
+
+    def joint_rows(self, rules: dict) -> list:
+        rows = []
+        for name in [*self.study.joints, "any"]:
+            needed = self.needed(None if name == "any" else self.outcomes.contacts.index(name))
+            for number, level in enumerate(self.study.levels):
+                row = {"joint": name, "pga [m/s2]": level}
+                for part in EXCEEDED:
+                    value, low, high = quantile(needed[:, number], 1 - part, self.study.confidence)
+                    name_of_part = f"{100 * part:g} %"
+                    row |= {f"{name_of_part} [m]": value, f"{name_of_part} low": low, f"{name_of_part} high": high}
+                row |= {f"{rule} [m]": value * level for rule, value in rules.get(name, {}).items()}
+                rows.append(row)
+        return rows
+
+    def first_contact(self) -> np.ndarray:
+        """Peak ground acceleration at which each sample first closes a joint of each gap (samples, gaps) [m/s2]: the
+        needed joint, linear between the levels and from zero, and on beyond the last level."""
+        needed = self.needed()
+        shapes = [min(joint.shape) for joint in self.study.joints.values()]
+        names = [one.name for one in self.study.variables]
+        drawn = np.stack([self.design.samples[:, names.index(f"{name}_gap")] if joint.deviation
+                          else np.zeros(self.study.samples) for name, joint in self.study.joints.items()], 1)
+        at_rest = -(drawn + np.array(shapes)).min(1)
+        levels = np.array([0.0, *self.study.levels])
+        result = np.empty((self.study.samples, len(self.study.gaps)))
+        for sample in range(self.study.samples):
+            path = np.array([at_rest[sample], *needed[sample]])
+            for place, gap in enumerate(self.study.gaps):
+                above = np.flatnonzero(path > gap)
+                if above.size and above[0] == 0:
+                    result[sample, place] = 0.0
+                    continue
+                k = min(above[0] if above.size else len(levels) - 1, len(levels) - 1)
+                slope = (path[k] - path[k - 1]) / (levels[k] - levels[k - 1])
+                result[sample, place] = levels[k] + (gap - path[k]) / slope if slope > 0 else np.inf
+        return result
+
+    def contradictions(self) -> int:
+        """Members that touched although the run apart says that the joint was wide enough, or the other way round."""
+        needed = self.needed()
+        return int(sum((self.hits(CONTACT, gap) != (needed > gap)).sum() for gap in self.study.gaps))
+
+    # How many motions were enough.
+
+    def enough_rows(self, band: tuple = (0.0, np.inf)) -> list:
+        """Per cell, channel and damping ratio the largest coefficient of variation, and how many members it asks for so
+        that the mean, and that of the logarithm, is known within TOLERANCE at 68 and 95 %."""
+        rows, found = [], self.outcomes
+        inside = (found.frequency >= band[0]) & (found.frequency <= band[1])
+        for gap, level in self.cells:
+            one = moments(found.spectra[self.of(gap, level)][:, self.main][..., inside])
+            for c, channel in enumerate(self.main):
+                for d, ratio in enumerate(found.damping):
+                    worst = int(one.cov[c, d].argmax())
+                    log_worst = float(np.nanmax(one.log_deviation[c, d]))
+                    row = {"gap [m]": gap_text(gap), "pga [m/s2]": level, "channel": found.channels[channel],
+                           "damping": f"{ratio:g}", "largest cov": float(one.cov[c, d, worst]),
+                           "at [Hz]": float(found.frequency[inside][worst]), "largest log deviation": log_worst}
+                    for confidence in (0.68, 0.95):
+                        row[f"mean {100 * confidence:g} %"] = int(
+                            members_needed(one.cov[c, d, worst], TOLERANCE, confidence))
+                        row[f"ln mean {100 * confidence:g} %"] = int(
+                            members_needed(log_worst, np.log(1 + TOLERANCE), confidence))
+                    rows.append(row)
+        return rows
+
+    # Repeats at full order.
+
+    def repeat_rows(self, full: Outcomes) -> list:
+        """Per repeated member rms and largest ln-ratio of its spectra to full order, of the main channels where they
+        are above a hundredth of their largest, beside those of a little more shaking."""
+        rows, found = [], self.outcomes
+        disturbed = [number for number, one in enumerate(self.design.members) if one.disturbed]
+        for place, number in enumerate(self.design.repeated):
+            one, exact = self.design.members[number], full.spectra[place][self.main]
+            mine, noise = (found.spectra[index][self.main] for index in (number, disturbed[place]))
+            held = exact > 0.01 * exact.max(-1, keepdims=True)
+            errors = [np.log(a[held] / b[held]) for a, b in ((mine, exact), (noise, mine))]
+            sums = [float(values.impulse_sum[index].sum()) for values, index in ((found, number), (full, place))]
+            rows.append({"sample": one.sample, "gap [m]": gap_text(one.gap), "pga [m/s2]": one.level,
+                         "rms": rms(errors[0]), "largest": float(abs(errors[0]).max()), "rms of noise": rms(errors[1]),
+                         "largest of noise": float(abs(errors[1]).max()), "impulses [N s]": sums[0],
+                         "at full order [N s]": sums[1], "touched": int(found.episodes[number].sum() > 0),
+                         "at full order": int(full.episodes[place].sum() > 0)})
+        return rows
+
+    def member_rows(self) -> list:
+        found, rows = self.outcomes, []
+        for number, one in enumerate(self.design.members):
+            touched = found.episodes[number].sum() > 0
+            rows.append({"sample": one.sample, "gap [m]": gap_text(one.gap), "pga [m/s2]": one.level,
+                         "disturbed": int(one.disturbed), "impacts": int(found.episodes[number].sum()),
+                         "first [s]": float(np.nanmin(found.first_time[number])) if touched else "",
+                         "impulses [N s]": float(found.impulse_sum[number].sum()),
+                         "largest impulse [N s]": float(found.impulse_largest[number].max(initial=0.0)),
+                         "peak force [N]": float(found.force_peak[number].max(initial=0.0)),
+                         **{f"smallest gap {name} [m]": float(found.smallest_gap[number, place])
+                            for place, name in enumerate(found.contacts)},
+                         "energy residual": float(found.residual[number])})
+        return rows
+
+
+def rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def gap_text(gap: float | None) -> str:
+    return "apart" if gap is None else f"{gap:g}"
+
+
+def name_of(event) -> str:
+    return event if event == CONTACT else event.name
+
+
+def quantile(values: np.ndarray, p: float, confidence: float) -> tuple:
+    """Quantile, and the order statistics between which it lies at this confidence, whatever the distribution; empty
+    where there are too few."""
+    ordered, count = np.sort(values), len(values)
+    tail = (1 - confidence) / 2
+    low, high = int(stats.binom.ppf(tail, count, p)), int(stats.binom.ppf(1 - tail, count, p)) + 1
+    return (float(np.quantile(values, p)), float(ordered[low - 1]) if low >= 1 else "",
+            float(ordered[high - 1]) if high <= count else "")
+
+
+def fit_row(event, gap: float | None, fit: Fragility | str, first: np.ndarray | None) -> dict:
+    """`first`: peak ground accelerations at first contact, whose median and deviation stand beside the fit."""
+    row = {"event": name_of(event), "gap [m]": gap_text(gap)}
+    if isinstance(fit, str):
+        row |= dict.fromkeys(("theta [m/s2]", "theta low", "theta high", "beta", "beta low", "beta high"), "")
+        row["refused"] = fit
+    else:
+        row |= {"theta [m/s2]": fit.theta, "theta low": fit.theta_interval[0], "theta high": fit.theta_interval[1],
+                "beta": fit.beta, "beta low": fit.beta_interval[0], "beta high": fit.beta_interval[1],
+                "refused": ""}
+    held = first is not None and (first > 0).all() and np.isfinite(first).all()
+    row["theta of first contacts"] = float(np.exp(np.log(first).mean())) if held else ""
+    row["beta of first contacts"] = float(np.log(first).std(ddof=1)) if held else ""
+    return row

@@ -1,0 +1,101 @@
+"""The members of a study: samples of motion and building, each put to every gap and level, and apart."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pounding.fragility import latin_hypercube
+
+from .study import Study, StudyError
+
+APART = "apart"  # the runs without pounding, whose gap is the study's `apart`
+
+
+@dataclass(frozen=True)
+class Member:
+    """`gap`: nominal [m], None of a run apart; `level`: peak ground acceleration [m/s2]; `values`: texts of the options
+    of the table's columns. `disturbed`: by the study's noise, beside a member that is repeated at full order."""
+
+    sample: int
+    gap: float | None
+    level: float
+    values: tuple
+    disturbed: bool = False
+
+
+@dataclass
+class Design:
+    columns: list  # names of options
+    members: list
+    samples: np.ndarray  # (samples, variables)
+    motions: list  # of each sample the number of its motion
+    repeated: list  # indices of members to be repeated at full order
+
+
+def text_of(value: float) -> str:
+    return f"{value:.9g}"
+
+
+def motion_columns(study: Study) -> list:
+    """Names of options, and of each motion their texts."""
+    names = []
+    for axis, one in study.axes.items():
+        names += [f"motion_{axis}_{'record' if one.records else 'seed'}", f"motion_{axis}_pga"]
+    return names
+
+
+def motion_values(study: Study, motion: int, level: float) -> tuple:
+    values = []
+    for one in study.axes.values():
+        values += [str((one.records or one.seeds)[motion]), text_of(level * one.ratio)]
+    return tuple(values)
+
+
+def build(study: Study) -> Design:
+    """All members, sample by sample, so that the first samples are whole where not all have been run. Throws StudyError
+    where a drawn value cannot be."""
+    count = len(next(iter(study.axes.values())).records or next(iter(study.axes.values())).seeds)
+    drawn = latin_hypercube(study.variables, study.samples, study.seed)
+    names = [one.name for one in study.variables]
+    for place, name in enumerate(names):
+        if name.endswith("_factor") and not (drawn[:, place] > 0).all():
+            raise StudyError(f"{study.path}: factors: {name}: a draw of {drawn[:, place].min():.3g} is not above 0; "
+                             "take a lognormal one")
+    motions = [sample % count for sample in range(study.samples)]
+
+    def member(sample: int, gap: float | None, level: float, disturbed: bool = False) -> Member:
+        shaken = level * (1 + study.noise) if disturbed else level
+        values = motion_values(study, motions[sample], shaken)
+        for contact, joint in study.joints.items():
+            off = drawn[sample, names.index(f"{contact}_gap")] if joint.deviation else 0.0
+            nominal = study.apart if gap is None else gap
+            values += (",".join(text_of(max(0.0, nominal + one + off)) for one in joint.shape),)
+        values += tuple(text_of(drawn[sample, names.index(one.name)]) for one in study.factors)
+        return Member(sample, gap, level, values, disturbed)
+
+    members = [member(sample, gap, level) for sample in range(study.samples) for gap in [None, *study.gaps]
+               for level in study.levels]
+    repeated = choose(study, members)
+    members += [member(one.sample, one.gap, one.level, True) for one in (members[index] for index in repeated)]
+    columns = motion_columns(study) + [f"{name}_gap" for name in study.joints] + [one.name for one in study.factors]
+    return Design(columns, members, drawn, motions, repeated)
+
+
+def choose(study: Study, members: list) -> list:
+    """Indices of members to be repeated at full order, spread over all cells by the seed; those apart are left out."""
+    cells = [index for index, one in enumerate(members) if one.gap is not None]
+    wanted = int(np.ceil(study.share * len(cells) - 1e-9))
+    generator = np.random.default_rng([study.seed, 1])
+    strata = np.array_split(np.array(cells), wanted) if wanted else []
+    return [int(generator.choice(stratum)) for stratum in strata]
+
+
+def clipped(study: Study, design: Design) -> int:
+    """How many gaps of the cells would be below zero, and are closed joints."""
+    names = [one.name for one in study.variables]
+    count = 0
+    for contact, joint in study.joints.items():
+        off = design.samples[:, names.index(f"{contact}_gap")] if joint.deviation else np.zeros(len(design.samples))
+        lowest = off[:, None] + min(joint.shape) + np.array(study.gaps)[None, :]
+        count += int((lowest < 0).sum())
+    return count

@@ -1,0 +1,182 @@
+"""Figures of a study."""
+
+from pathlib import Path
+
+import numpy as np
+from scipy import stats
+
+from parts.plot.style import WIDTH, log_scale, plt, save
+from pounding.fragility import Fragility, binomial_interval, moments
+
+from .analysis import CONTACT, EXCEEDED, Analysis, gap_text, name_of
+
+WITH, WITHOUT = "#B2182B", "#08519C"
+COLOURS = ("#08519C", "#0072B2", "#009E73", "#E69F00", "#D55E00", "#B2182B", "#762A83")
+STEPS = 40  # contours of the map between two levels
+
+
+def shown(analysis: Analysis) -> tuple:
+    """Gap, level, channel and damping ratio that figures of spectra show: those of `show`, else the cell that touches
+    in about half of its members, and there the channel whose mean pounding raises most."""
+    study, found = analysis.study, analysis.outcomes
+    share = {(gap, level): analysis.hits(CONTACT, gap)[:, k].mean() for gap in study.gaps
+             for k, level in enumerate(study.levels)}
+    best = max(share, key=lambda cell: (-abs(share[cell] - 0.5), cell[1]))
+    gap, level = (float(study.show.get(key, default)) for key, default in zip(("gap", "level"), best))
+    if (gap, level) not in share:
+        gap, level = best
+    damping = int(abs(found.damping - 0.05).argmin())
+    ratio = (found.spectra[analysis.of(gap, level)].mean(0)[:, damping].max(-1)
+             / np.maximum(found.spectra[analysis.of(None, level)].mean(0)[:, damping].max(-1), 1e-300))
+    channel = max(analysis.main, key=lambda number: ratio[number])
+    if study.show.get("channel") in found.channels:
+        channel = found.channels.index(study.show["channel"])
+    return gap, level, channel, damping
+
+
+def draw_floor(axes, analysis: Analysis) -> str:
+    """Median floor spectrum with its 16-84 % band, with and without pounding; returns its caption."""
+    gap, level, channel, damping = shown(analysis)
+    found = analysis.outcomes
+    for cell, colour, label in ((None, WITHOUT, "without pounding"), (gap, WITH, "with pounding")):
+        one = moments(found.spectra[analysis.of(cell, level)][:, channel, damping])
+        axes.fill_between(found.frequency, one.low, one.high, color=colour, alpha=0.25, lw=0)
+        axes.plot(found.frequency, one.median, color=colour, lw=1.5, label=label)
+    log_scale(axes, "x", found.frequency)
+    log_scale(axes, "y", found.spectra[analysis.of(gap, level)][:, channel, damping])
+    axes.set_xlim(found.frequency[0], found.frequency[-1])
+    axes.set_xlabel("frequency [Hz]")
+    axes.set_ylabel("pseudo-acceleration [m/s²]")
+    axes.set_title(f"{found.channels[channel]}, joint {1e3 * gap:g} mm, {level / 9.81:.2g} g")
+    axes.legend(loc="upper left")
+    return (f"Median and 16-84 % band of {analysis.study.samples} members, {100 * found.damping[damping]:g} % damping: "
+            f"{found.channels[channel]}, nominal joint of {1e3 * gap:g} mm, peak ground acceleration {level:g} m/s².")
+
+
+def _edges(values: list) -> np.ndarray:
+    """Edges of cells around values, halfway between them."""
+    values = np.asarray(values, float)
+    if len(values) == 1:
+        return np.array([0.5, 1.5]) * values[0] if values[0] > 0 else np.array([-0.5, 0.5])
+    middle = (values[1:] + values[:-1]) / 2
+    return np.concatenate([[max(0.0, 2 * values[0] - middle[0])], middle, [2 * values[-1] - middle[-1]]])
+
+
+def draw_map(axes, analysis: Analysis) -> str:
+    """P(contact) over gap and level, with its interval in every cell, and lines of the joints that runs apart need."""
+    study = analysis.study
+    counts = np.array([analysis.hits(CONTACT, gap).sum(0) for gap in study.gaps])
+    low, high = binomial_interval(counts, study.samples, study.confidence)
+    places, levels = 1e3 * np.array(study.gaps), np.array(study.levels) / 9.81
+    picture = axes.pcolormesh(_edges(places), _edges(levels), counts.T / study.samples, cmap="YlOrRd", vmin=0, vmax=1)
+    for i, gap in enumerate(places):
+        for k, level in enumerate(levels):
+            share = counts[i, k] / study.samples
+            axes.text(gap, level, f"{share:.2f}\n{low[i, k]:.2f}-{high[i, k]:.2f}", ha="center", va="center",
+                      fontsize=7, color="white" if share > 0.6 else "black")
+    needed = 1e3 * analysis.needed()
+    for part, style in zip(EXCEEDED, ("-", "--", ":")):
+        axes.plot(np.quantile(needed, 1 - part, axis=0), levels, color="#1B4F72", ls=style, lw=1.6,
+                  label=f"{100 * part:g} % would need more")
+    axes.set_xlim(*_edges(places)[[0, -1]])
+    axes.set_ylim(*_edges(levels)[[0, -1]])
+    axes.grid(False)
+    axes.set_xlabel("nominal joint [mm]")
+    axes.set_ylabel("peak ground acceleration [g]")
+    axes.set_title("Probability that the buildings touch")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), fontsize=8, ncol=3, columnspacing=1.0)
+    axes.figure.colorbar(picture, ax=axes, label="P(contact)")
+    return (f"{study.samples} members in each cell, with the {100 * study.confidence:g} % interval of Clopper and "
+            "Pearson; lines: joints beyond which so many of the runs without pounding would need to be apart.")
+
+
+def summary(analysis: Analysis, folder: Path) -> list:
+    figure, panels = plt.subplots(1, 2, figsize=(1.35 * WIDTH, 4.6))
+    captions = draw_floor(panels[0], analysis), draw_map(panels[1], analysis)
+    return save(figure, folder, "fragility.png", "Floor spectrum and probability of contact", " ".join(captions))
+
+
+def curves(analysis: Analysis, fits: dict, folder: Path) -> list:
+    """A panel per event: shares with their intervals, and the curves that fit."""
+    study, events = analysis.study, analysis.events
+    width = max(0.75 * WIDTH, 4.6 * len(events))
+    figure, panels = plt.subplots(1, len(events), figsize=(width, 4.2), squeeze=False, sharey=True)
+    levels = np.linspace(0.0, 1.15 * study.levels[-1], 300)[1:]
+    for axes, event in zip(panels[0], events):
+        for gap, colour in zip(analysis.gaps_of(event), COLOURS * 9):
+            counts = analysis.hits(event, gap).sum(0)
+            low, high = binomial_interval(counts, study.samples, study.confidence)
+            share = counts / study.samples
+            label = "apart" if gap is None else f"{1e3 * gap:g} mm"
+            axes.errorbar(np.array(study.levels) / 9.81, share, (share - low, high - share), fmt="o", ms=4,
+                          color=colour, lw=0.9, capsize=2, label=label)
+            fit = fits[event][gap]
+            if isinstance(fit, Fragility):
+                axes.plot(levels / 9.81, fit.probability(levels), color=colour, lw=1.4)
+        axes.set_title(name_of(event), fontsize=8)
+        axes.set_xlabel("peak ground acceleration [g]")
+        axes.set_ylim(-0.03, 1.03)
+        axes.legend(fontsize=8)
+    panels[0][0].set_ylabel("probability")
+    return save(figure, folder, "curves.png", "Fragility curves", "Shares with their intervals, and lognormal curves "
+                "of largest likelihood where the counts allow one, by joint.")
+
+
+def enough(analysis: Analysis, folder: Path) -> tuple:
+    """Half width of the interval of the mean over the number of members, with and without pounding; figure and rows."""
+    study, found = analysis.study, analysis.outcomes
+    gap, level, channel, damping = shown(analysis)
+    figure, panels = plt.subplots(1, 2, figsize=(WIDTH, 4.0), sharey=True)
+    rows, order = [], np.random.default_rng(study.seed).permutation(study.samples)
+    counts = range(3, study.samples + 1)
+    for axes, logs in zip(panels, (False, True)):
+        for cell, colour, label in ((None, WITHOUT, "without pounding"), (gap, WITH, "with pounding")):
+            values = found.spectra[analysis.of(cell, level)][order][:, channel, damping]
+            values = np.log(values) if logs else values
+            wide = []
+            for count in counts:
+                first = values[:count]
+                deviation = first.std(0, ddof=1) / (1.0 if logs else first.mean(0))
+                t = stats.t.ppf(0.5 + study.confidence / 2, count - 1) / np.sqrt(count)
+                half = np.expm1(t * deviation) if logs else t * deviation
+                wide.append((half.max(), np.median(half)))
+                rows.append({"mean of": "logarithms" if logs else "values", "gap [m]": gap_text(cell),
+                             "members": count, "half width, worst frequency": float(half.max()),
+                             "half width, median": float(np.median(half))})
+            axes.plot(counts, [one[0] for one in wide], color=colour, lw=1.5, label=f"{label}, worst frequency")
+            axes.plot(counts, [one[1] for one in wide], color=colour, lw=1.1, ls="--", label=f"{label}, median")
+        axes.axhline(0.1, color="#555555", lw=0.8)
+        axes.set_xlabel("members")
+        axes.set_title("of the mean of logarithms" if logs else "of the mean")
+        log_scale(axes, "y", [0.01, 1])
+    panels[0].set_ylabel(f"half width of the {100 * study.confidence:g} % interval")
+    panels[1].legend(fontsize=8)
+    pages = save(figure, folder, "enough.png", "How many motions were enough",
+                 f"{found.channels[channel]}, {100 * found.damping[damping]:g} % damping, joint of {1e3 * gap:g} mm, "
+                 f"{level:g} m/s², over the frequencies: the first members of an order drawn by the seed.")
+    return pages, rows
+
+
+def joints(analysis: Analysis, rules: dict, folder: Path) -> list:
+    """Part of the runs apart that need more than a joint, by level, and what rules say of the contact that needs
+    most."""
+    study, needed = analysis.study, 1e3 * analysis.needed()
+    figure, axes = plt.subplots(figsize=(WIDTH * 0.8, 4.2))
+    parts = 1 - (np.arange(study.samples) + 0.5) / study.samples
+    worst = max(rules, key=lambda name: rules[name]["SRSS"]) if rules else None
+    for number, (level, colour) in enumerate(zip(study.levels, COLOURS * 9)):
+        axes.step(np.sort(needed[:, number]), parts, color=colour, lw=1.5, label=f"{level / 9.81:.2g} g")
+        if worst:
+            for rule, style in (("ABS", ":"), ("SRSS", "--"), ("DDC", "-.")):
+                axes.axvline(1e3 * level * rules[worst][rule], color=colour, lw=0.9, ls=style,
+                             label=rule if number == 0 else None)
+    for part in EXCEEDED:
+        axes.axhline(part, color="#BBBBBB", lw=0.7)
+    axes.set_yscale("log")
+    axes.set_ylim(0.8 / study.samples / 2, 1.1)
+    axes.set_xlabel("nominal joint [mm]")
+    axes.set_ylabel("part of the members that need more")
+    axes.legend(fontsize=8, ncol=2)
+    return save(figure, folder, "joint.png", "The joint that is wide enough",
+                "Of the runs without pounding, by peak ground acceleration; vertical lines are what rules say"
+                + (f" of {worst}." if worst else "."))

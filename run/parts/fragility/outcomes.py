@@ -1,0 +1,149 @@
+"""What members of a study left, as arrays: those of ensemble.h5."""
+
+from dataclasses import dataclass, fields
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from pounding.results import Result
+
+from .study import StudyError
+
+FILE = "ensemble.h5"
+# Dataset of ensemble.h5 -> its name here; the first dimension is the member's.
+ARRAYS = {"spectra/pseudo_acceleration": "spectra", "impacts/episodes": "episodes", "impacts/first_time": "first_time",
+          "impacts/impulse_sum": "impulse_sum", "impacts/impulse_largest": "impulse_largest",
+          "impacts/force_peak": "force_peak", "gaps/smallest": "smallest_gap", "peaks/displacement": "displacement",
+          "peaks/acceleration": "acceleration", "energy/residual": "residual"}
+# What all members share.
+LABELS = {"spectra/frequency": "frequency", "spectra/damping": "damping", "spectra/channels": "channels",
+          "impacts/contacts": "contacts"}
+
+
+@dataclass
+class Outcomes:
+    """`spectra` (members, channels, damping ratios, frequencies) [m/s2]; impacts and gaps (members, contacts); peaks
+    (members, channels); SI units."""
+
+    frequency: np.ndarray
+    damping: np.ndarray
+    channels: list
+    contacts: list
+    spectra: np.ndarray
+    episodes: np.ndarray
+    first_time: np.ndarray
+    impulse_sum: np.ndarray
+    impulse_largest: np.ndarray
+    force_peak: np.ndarray
+    smallest_gap: np.ndarray
+    displacement: np.ndarray
+    acceleration: np.ndarray
+    residual: np.ndarray
+
+
+def _texts(values) -> list:
+    return [value.decode() if isinstance(value, bytes) else str(value) for value in np.ravel(values)]
+
+
+def read_rows(path: Path) -> tuple:
+    """Columns, and of each finished member its texts -> its number in the file. Throws StudyError."""
+    try:
+        with h5py.File(path, "r") as file:
+            table = file["members/table"]
+            columns = _texts(table.attrs["columns"])[0].split(",")
+            cells, done = np.array(_texts(table[()])).reshape(-1, len(columns)), np.ravel(file["done"][()])
+    except (OSError, KeyError, ValueError) as error:
+        raise StudyError(f"{path} cannot be read: {' '.join(str(error).split())}") from error
+    return columns, {tuple(row): index for index, row in enumerate(cells) if done[index]}
+
+
+def collect(files: list, members: list, columns: list) -> tuple:
+    """Outcomes of the members, and the indices of those that are in none of the files. The outcomes are of the members
+    that were found, in their order; None of none."""
+    found, shared, places = {}, None, {}
+    for path in files:
+        heads, rows = read_rows(path)
+        if heads != columns:
+            continue
+        for index, member in enumerate(members):
+            if index not in places and member.values in rows:
+                places[index] = (path, rows[member.values])
+    order = sorted(places)
+    for path in dict.fromkeys(place for place, _ in places.values()):
+        mine = [index for index in order if places[index][0] == path]
+        rows = np.array([places[index][1] for index in mine])
+        with h5py.File(path, "r") as file:
+            labels = {name: file[dataset][()] for dataset, name in LABELS.items()}
+            labels["channels"], labels["contacts"] = _texts(labels["channels"]), _texts(labels["contacts"])
+            shared = shared or labels
+            if labels["channels"] != shared["channels"] or not np.allclose(labels["frequency"], shared["frequency"]):
+                raise StudyError(f"{path}: other probes or frequencies than in the other parts")
+            for dataset, name in ARRAYS.items():
+                values = file[dataset][()][rows]
+                target = found.setdefault(name, np.empty((len(order), *values.shape[1:])))
+                target[[order.index(index) for index in mine]] = values
+    missing = [index for index in range(len(members)) if index not in places]
+    return (Outcomes(**shared, **found) if shared else None), missing
+
+
+def of_run(result: Result) -> Outcomes:
+    """The same arrays, of one member, from the result folder of an ordinary run."""
+    told, table = result.summary, result.spectra
+    contacts = list(told.get("contacts", {}))
+    probes = list(told.get("probes", {}))
+    channels = [f"{probe} {way}" for probe in probes for way in "xyz"]
+    damping, frequency = np.unique(table["damping"]), np.unique(table["frequency"])
+    spectra = np.array([[result.spectrum(*channel.rsplit(" ", 1), damping=ratio)[1] for ratio in damping]
+                        for channel in channels])
+    impacts = told.get("impacts", {})
+
+    def of_contact(key: str, default: float) -> np.ndarray:
+        return np.array([[impacts.get(name, {}).get(key) or default for name in contacts]], float)
+
+    struck = np.asarray(result.impacts.get("contact", []), dtype=str)
+
+    def of_impacts(column: str, smallest: bool) -> np.ndarray:
+        """Smallest or largest of a column by contact; none is nan or 0."""
+        found = [result.impacts[column][struck == name] for name in contacts]
+        if smallest:
+            return np.array([[one.min() if len(one) else np.nan for one in found]])
+        return np.array([[one.max() if len(one) else 0.0 for one in found]])
+
+    gaps = [np.nanmin(result.history["gap"], axis=0) if len(contacts) else []]
+    peaks = {key: [[value or 0.0 for probe in probes for value in told["probes"][probe][key]]]
+             for key in ("peak_displacement", "peak_acceleration")}
+    return Outcomes(frequency, damping, channels, contacts, spectra[None], of_contact("episodes", 0),
+                    of_impacts("start", True), of_contact("total_impulse", 0), of_contact("largest_impulse", 0),
+                    of_impacts("peak_force", False), np.array(gaps), np.array(peaks["peak_displacement"]),
+                    np.array(peaks["peak_acceleration"]),
+                    np.array([told["energy"]["relative_residual"] or 0.0]))
+
+
+def write(path: Path, columns: list, texts: list, parts: list) -> None:
+    """Writes outcomes of one member each as an ensemble.h5, in place at once."""
+    draft = path.with_suffix(".part")
+    with h5py.File(draft, "w") as file:
+        table = file.create_dataset("members/table", data=np.char.encode(np.array(texts).reshape(len(texts), -1)))
+        table.attrs["columns"] = ",".join(columns)
+        for dataset, name in LABELS.items():
+            values = getattr(parts[0], name)
+            file[dataset] = np.char.encode(values) if isinstance(values, list) else values
+        for dataset, name in ARRAYS.items():
+            file[dataset] = np.concatenate([getattr(part, name) for part in parts])
+        file["done"] = np.ones(len(parts), dtype="i4")
+    draft.replace(path)
+
+
+def save(path: Path, one: Outcomes) -> None:
+    """Keeps the outcome of one member."""
+    draft = path.with_suffix(".part.npz")
+    np.savez(draft, **{item.name: getattr(one, item.name) for item in fields(Outcomes)})
+    draft.replace(path)
+
+
+def restore(path: Path) -> Outcomes:
+    with np.load(path) as file:
+        values = {item.name: file[item.name] for item in fields(Outcomes)}
+    values["channels"], values["contacts"] = values["channels"].tolist(), values["contacts"].tolist()
+    return Outcomes(**values)

@@ -1,0 +1,123 @@
+"""Tables, figures and page of a study."""
+
+import csv
+from html import escape
+from pathlib import Path
+
+import numpy as np
+
+from parts.benchmark.tables import markdown, write_csv
+from parts.plot.markup import html_figure, html_table, paragraphs, write_page
+from pounding.fragility import Fragility
+
+from . import figures
+from .analysis import CONTACT, TOLERANCE, Analysis, fit_row, gap_text
+from .outcomes import Outcomes
+
+PLACES = ("gap [m]", "pga [m/s2]")
+
+
+def _cells(rows: list) -> tuple:
+    head = list(dict.fromkeys(name for row in rows for name in row))
+    return head, [[row.get(name, "") for name in head] for row in rows]
+
+
+def write_design(analysis: Analysis, folder: Path) -> None:
+    """design.csv: of each sample its motion and what was drawn."""
+    axes = analysis.study.axes
+    names = [one.name for one in analysis.study.variables]
+    with open(folder / "design.csv", "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["sample", *(f"motion {name}" for name in axes),
+                         *(f"{name} deviation [m]" if name.endswith("_gap") else name for name in names)])
+        for sample, motion in enumerate(analysis.design.motions):
+            writer.writerow([sample, *((one.records or one.seeds)[motion] for one in axes.values()),
+                             *(f"{value:.9g}" for value in analysis.design.samples[sample])])
+
+
+def write_spectra(analysis: Analysis, folder: Path) -> None:
+    """A table per cell in the folder spectra."""
+    place = folder / "spectra"
+    place.mkdir(exist_ok=True)
+    for gap, level in analysis.cells:
+        write_csv(place / f"gap-{gap_text(gap)}_pga-{level:g}.csv", analysis.spectra_rows(gap, level))
+
+
+def enough_summary(rows: list) -> list:
+    """The most that any channel and damping ratio asks for, of the runs apart and of each gap."""
+    found = []
+    for gap in dict.fromkeys(row["gap [m]"] for row in rows):
+        mine = [row for row in rows if row["gap [m]"] == gap]
+        worst = max(mine, key=lambda row: row["largest cov"])
+        keys = ("pga [m/s2]", "channel", "damping", "at [Hz]", "largest cov")
+        found.append({"gap [m]": gap, **{key: worst[key] for key in keys}, **{
+            key: max(row[key] for row in mine) for key in ("mean 68 %", "mean 95 %", "ln mean 68 %", "ln mean 95 %")}})
+    return found
+
+
+def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, folder: Path) -> tuple:
+    """Writes everything and returns the page's path and what the terminal shows."""
+    study = analysis.study
+    write_design(analysis, folder)
+    write_spectra(analysis, folder)
+    fits = {event: analysis.fits(event) for event in analysis.events}
+    first = analysis.first_contact()
+    fit_rows = [fit_row(event, gap, fit, first[:, study.gaps.index(gap)] if event == CONTACT else None)
+                for event in analysis.events for gap, fit in fits[event].items()]
+    enough_rows = analysis.enough_rows()
+    pages = figures.summary(analysis, folder) + figures.curves(analysis, fits, folder)
+    pages += figures.joints(analysis, rules, folder)
+    more, widths = figures.enough(analysis, folder)
+    pages += more
+    first_rows = [{"sample": sample, "motion": analysis.design.motions[sample],
+                   **{f"joint {gap:g} m: first contact at [m/s2]": float(first[sample, place])
+                      for place, gap in enumerate(study.gaps)}} for sample in range(study.samples)]
+    tables = {"members": analysis.member_rows(), "probability": analysis.probability_rows(), "curves": fit_rows,
+              "joint": analysis.joint_rows(rules), "first_contact": first_rows, "enough": enough_rows,
+              "confidence": widths, "full_order": analysis.repeat_rows(full) if full else []}
+    for name, rows in tables.items():
+        if rows:
+            write_csv(folder / f"{name}.csv", rows)
+        else:
+            (folder / f"{name}.csv").unlink(missing_ok=True)
+    parts = [("Probability", tables["probability"]), ("Lognormal curves", fit_rows),
+             ("Joint that would be needed [m]", tables["joint"]),
+             (f"Members that the mean of any spectrum needs, within {100 * TOLERANCE:g} %",
+              enough_summary(enough_rows)), ("Repeats at full order: ln-ratio of the spectra", tables["full_order"])]
+    lines = told(analysis, fits, full, tables) + notes
+    content = paragraphs(lines)
+    for caption, rows in parts:
+        content += html_table(caption, *_cells(rows), text=(0,))
+    content += "".join(html_figure(folder, page) for page in pages)
+    names = ", ".join(f"{name}.csv" for name, rows in tables.items() if rows)
+    content += (f"<p>Tables beside this page: {escape(names)}, design.csv, motions.csv, correlation.csv, "
+                "spectra/*.csv.</p>\n")
+    text = "\n".join(f"{line}" for line in lines) + "\n\n" + "\n".join(
+        markdown(caption, *_cells(rows)) for caption, rows in parts if rows)
+    return write_page(folder / "fragility.html", study.title, content, f"study {study.path.name}"), text
+
+
+def told(analysis: Analysis, fits: dict, full: Outcomes | None, tables: dict) -> list:
+    """The answer in sentences."""
+    study = analysis.study
+    cells = len(study.gaps) * len(study.levels) * study.samples
+    disturbed = f", and {len(analysis.design.repeated)} disturbed" if analysis.design.repeated else ""
+    lines = [f"{len(analysis.design.members)} runs: {study.samples} samples of motion and building at "
+             f"{len(study.levels)} levels, in {len(study.gaps)} joints ({cells}), apart "
+             f"({len(study.levels) * study.samples}){disturbed}."]
+    for gap, fit in fits[CONTACT].items():
+        if isinstance(fit, Fragility):
+            lines.append(f"Joint of {1e3 * gap:g} mm: touches in half of the cases at {fit.theta:.3g} m/s2 "
+                         f"({fit.theta_interval[0]:.3g} to {fit.theta_interval[1]:.3g}), beta {fit.beta:.2g} "
+                         f"({fit.beta_interval[0]:.2g} to {fit.beta_interval[1]:.2g}).")
+        else:
+            lines.append(f"Joint of {1e3 * gap:g} mm: no curve, {fit}.")
+    wrong = analysis.contradictions()
+    lines.append(f"The runs apart say of {cells - wrong} of {cells} runs with a joint whether they touch as these do.")
+    if full:
+        errors = [row["rms"] for row in tables["full_order"]]
+        noise = [row["rms of noise"] for row in tables["full_order"]]
+        lines.append(f"{len(errors)} members repeated at full order: rms of the spectra's ln-ratio "
+                     f"{np.median(errors):.2g} in the median and {max(errors):.2g} at worst, beside "
+                     f"{np.median(noise):.2g} and {max(noise):.2g} of {100 * study.noise:g} % more shaking.")
+    return lines

@@ -1,0 +1,315 @@
+"""The study file of run/fragility: which keys it may have, what they mean, and what is wrong with them."""
+
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import yaml
+
+from pounding.fragility import DISTRIBUTIONS, Variable
+from pounding.results import DIRECTIONS
+from pounding.scenes import SceneError, flatten
+
+KEYS = ("title", "scene", "output", "options", "reduction", "seed", "samples", "confidence", "motions", "levels",
+        "gaps", "apart", "joints", "factors", "capacities", "full_order", "frequencies", "dampings", "show")
+DAMPINGS = (0.02, 0.03, 0.04, 0.05, 0.07)
+SYNTHETIC = {"duration": "25", "envelope": "2,15"}
+RECORDED = {"unit": "auto", "time_step": "0", "column": "0"}
+FACTOR = re.compile(r"\w+_(stiffness|damping)_factor")
+
+
+class StudyError(Exception):
+    """One line for the user."""
+
+
+@dataclass(frozen=True)
+class Axis:
+    """The motions along one axis: `records`, or synthetic ones that match `target`, told apart by `seeds`. `ratio`: its
+    peak over that of the level; `options`: more options of the motion, as duration."""
+
+    records: tuple = ()
+    target: str = ""
+    seeds: tuple = ()
+    ratio: float = 1.0
+    options: tuple = ()
+
+    @property
+    def understood(self) -> dict:
+        """Options by which the motion is read or made, whatever the scene says of its own."""
+        return {**(SYNTHETIC if self.target else RECORDED), **dict(self.options)}
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A contact: by how much its gap differs from the nominal one, `shape` [m] (one value, two or four), and a
+    deviation that is drawn, of all values alike."""
+
+    shape: tuple = (0.0,)
+    deviation: Variable | None = None
+
+
+@dataclass(frozen=True)
+class Capacity:
+    """What a floor spectrum must not exceed [m/s2] at a frequency of the band [Hz]."""
+
+    probe: str
+    direction: str
+    band: tuple
+    damping: float
+    acceleration: float
+
+    @property
+    def name(self) -> str:
+        return (f"{self.probe} {self.direction} above {self.acceleration:g} m/s2 in {self.band[0]:g}-{self.band[1]:g} "
+                f"Hz, {100 * self.damping:g} %")
+
+
+@dataclass
+class Study:
+    path: Path
+    scene: Path
+    title: str
+    output: Path
+    options: dict
+    reduction: dict
+    seed: int
+    samples: int
+    confidence: float
+    axes: dict  # "x" -> Axis
+    correlation: float
+    wanted: int  # motions to be chosen from the first seed on; 0: those that are given
+    levels: list  # peak ground accelerations [m/s2]
+    gaps: list  # nominal [m]
+    apart: float  # of the runs without pounding [m]
+    joints: dict  # contact -> Joint
+    factors: list  # Variables, whose names are options
+    capacities: list
+    share: float  # of the members that are repeated at full order
+    full_options: dict
+    noise: float  # part by which their shaking is disturbed
+    frequencies: list = field(default_factory=list)
+    dampings: list = field(default_factory=list)
+    show: dict = field(default_factory=dict)
+
+    @property
+    def variables(self) -> list:
+        return self.factors + [joint.deviation for joint in self.joints.values() if joint.deviation]
+
+
+def standard_frequencies() -> list:
+    """301 from 0.1 to 100 Hz, evenly spaced in their logarithm, and on to 400 Hz [Hz]."""
+    return [float(f"{0.1 * 10 ** (k / 100):.6g}") for k in range(361)] + [400.0]
+
+
+class _Reader:
+    """A mapping of the file whose keys are taken one by one; what is wrong is told with its place."""
+
+    def __init__(self, values, path: Path, place: str, known: tuple):
+        self.path, self.place = path, place
+        if not isinstance(values, dict):
+            raise StudyError(f"{path}: {place or 'the file'} is no list of keys and values")
+        self.values = values
+        for key in values:
+            if key not in known:
+                raise StudyError(f"{path}: {self._at(key)} is unknown; {place or 'a study'} has {', '.join(known)}")
+
+    def _at(self, key) -> str:
+        return f"{self.place}: {key}" if self.place else str(key)
+
+    def fail(self, key: str, why: str):
+        raise StudyError(f"{self.path}: {self._at(key)}: {self.values.get(key)!r} {why}")
+
+    def number(self, key: str, default=None, above: float | None = None, below: float | None = None) -> float:
+        value = self.values.get(key, default)
+        if value is None:
+            raise StudyError(f"{self.path}: {self._at(key)} is missing")
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            self.fail(key, "is not a number")
+        if above is not None and not value > above:
+            self.fail(key, f"is not above {above:g}")
+        if below is not None and not value < below:
+            self.fail(key, f"is not below {below:g}")
+        return float(value)
+
+    def whole(self, key: str, default: int, least: int) -> int:
+        value = self.values.get(key, default)
+        if isinstance(value, bool) or not isinstance(value, int) or value < least:
+            self.fail(key, f"is not a whole number from {least} on")
+        return value
+
+    def numbers(self, key: str, default=None, least: float | None = None) -> list:
+        """A list, or text of numbers between commas."""
+        value = self.values.get(key, default)
+        if value is None:
+            raise StudyError(f"{self.path}: {self._at(key)} is missing")
+        items = value.split(",") if isinstance(value, str) else value if isinstance(value, (list, tuple)) else [value]
+        try:
+            found = [float(item) for item in items]
+        except (TypeError, ValueError):
+            self.fail(key, "is not a list of numbers")
+        if not found or any(not abs(one) < float("inf") for one in found):
+            self.fail(key, "is not a list of numbers")
+        if least is not None and any(not one > least for one in found):
+            self.fail(key, f"has a number that is not above {least:g}")
+        return found
+
+    def increasing(self, key: str, default=None, least: float = 0.0) -> list:
+        found = self.numbers(key, default, least)
+        if any(b <= a for a, b in zip(found, found[1:])):
+            self.fail(key, "does not increase")
+        return found
+
+    def options(self, key: str) -> dict:
+        values = self.values.get(key) or {}
+        if not isinstance(values, dict):
+            self.fail(key, "is no list of options")
+        try:
+            found = flatten(values)
+        except SceneError as error:
+            raise StudyError(f"{self.path}: {self._at(key)}: {error}") from error
+        for name in ("output", "dry_run", "restart", "ensemble", "include"):
+            if name in found:
+                raise StudyError(f"{self.path}: {self._at(key)}: {name} is the study's own")
+        return {name: beside(self.path, text) for name, text in found.items()}
+
+    def part(self, key: str, known: tuple) -> "_Reader":
+        return _Reader(self.values.get(key) or {}, self.path, self._at(key), known)
+
+
+def beside(study: Path, text: str) -> str:
+    """The absolute path of a file beside the study, where there is one; else the text."""
+    path = study.parent / text
+    return str(path.resolve()) if re.search(r"/|\.\w+$", text) and path.is_file() else text
+
+
+def _variable(reader: _Reader, name: str) -> Variable:
+    kind = reader.values.get("distribution", "normal")
+    if kind not in DISTRIBUTIONS:
+        reader.fail("distribution", f"is none of {', '.join(DISTRIBUTIONS)}")
+    centre_key, spread_key = ("median", "cov") if kind == "lognormal" else ("mean", "deviation")
+    wrong = [key for key in ("median", "mean", "cov", "deviation")
+             if key in reader.values and key not in (centre_key, spread_key)]
+    if wrong:
+        reader.fail(wrong[0], f"goes with another distribution; {kind} has {centre_key} and {spread_key}")
+    factor = bool(FACTOR.fullmatch(name))
+    centre = reader.number(centre_key, 1.0 if factor else 0.0, 0.0 if kind == "lognormal" or factor else None)
+    return Variable(name, kind, centre, reader.number(spread_key, None, 0.0))
+
+
+SPREAD = ("distribution", "median", "mean", "cov", "deviation")
+MOTION = ("records", "target", "seeds", "ratio", "options")
+
+
+def _axis(reader: _Reader, name: str) -> Axis:
+    one = reader.part(name, MOTION)
+    records, target = one.values.get("records"), one.values.get("target")
+    if (records is None) == (target is None):
+        raise StudyError(f"{reader.path}: motions: {name} needs either records or a target")
+    options = one.options("options")
+    ratio = one.number("ratio", 1.0, 0.0)
+    if records is not None:
+        if not isinstance(records, list) or not all(isinstance(item, str) for item in records):
+            one.fail("records", "is not a list of files")
+        paths = tuple(beside(reader.path, item) for item in records)
+        missing = [item for item in paths if not Path(item).is_file()]
+        if missing:
+            raise StudyError(f"{reader.path}: motions: {name}: {missing[0]}: no such file")
+        return Axis(paths, "", (), ratio, tuple((key, value) for key, value in options.items()))
+    path = beside(reader.path, str(target))
+    if not Path(path).is_file():
+        raise StudyError(f"{reader.path}: motions: {name}: {path}: no such file")
+    seeds = one.numbers("seeds", [], -1) if one.values.get("seeds") is not None else []
+    if any(not seed.is_integer() for seed in seeds) or len(set(seeds)) < len(seeds):
+        one.fail("seeds", "is not a list of different whole numbers")
+    return Axis((), path, tuple(int(seed) for seed in seeds), ratio, tuple(options.items()))
+
+
+def _motions(reader: _Reader) -> tuple:
+    """Axes, the limit of correlation, and how many motions are to be chosen."""
+    motions = reader.part("motions", ("x", "y", "z", "correlation", "choose"))
+    axes = {name: _axis(motions, name) for name in DIRECTIONS if name in motions.values}
+    if not axes:
+        raise StudyError(f"{reader.path}: motions has no axis x, y or z")
+    counts = {name: len(axis.records or axis.seeds) for name, axis in axes.items() if axis.records or axis.seeds}
+    wanted = motions.whole("choose", 0, 0)
+    if wanted and counts:
+        motions.fail("choose", "goes with targets without seeds, from which it takes the first independent ones")
+    if not wanted and (len(counts) < len(axes) or len(set(counts.values())) > 1):
+        raise StudyError(f"{reader.path}: motions: every axis needs as many records or seeds as the others, or "
+                         "`choose` says how many synthetic motions are wanted")
+    return axes, motions.number("correlation", 0.16, 0.0), wanted, wanted or next(iter(counts.values()))
+
+
+def _joints(reader: _Reader) -> dict:
+    values = reader.values.get("joints")
+    if not isinstance(values, dict) or not values:
+        raise StudyError(f"{reader.path}: joints is missing: the contacts whose gaps the study sets, as "
+                         "`joints: {roof: {}}`")
+    found = {}
+    for name in values:
+        one = _Reader(values[name] or {}, reader.path, f"joints: {name}", ("shape", "deviation"))
+        shape = tuple(one.numbers("shape", [0.0]))
+        if len(shape) not in (1, 2, 4):
+            one.fail("shape", "has neither one value nor two or four")
+        drawn = _variable(one.part("deviation", SPREAD), f"{name}_gap") if one.values.get("deviation") else None
+        found[name] = Joint(shape, drawn)
+    return found
+
+
+def _factors(reader: _Reader) -> list:
+    values = reader.values.get("factors") or {}
+    if not isinstance(values, dict):
+        reader.fail("factors", "is no list of factors")
+    for name in values:
+        if not FACTOR.fullmatch(str(name)):
+            raise StudyError(f"{reader.path}: factors: {name} is neither <structure>_stiffness_factor nor "
+                             "<structure>_damping_factor")
+    return [_variable(_Reader(one or {}, reader.path, f"factors: {name}", SPREAD), name)
+            for name, one in values.items()]
+
+
+def _capacities(reader: _Reader, frequencies: list, dampings: list) -> list:
+    found = []
+    for number, one in enumerate(reader.values.get("capacities") or [], 1):
+        part = _Reader(one, reader.path, f"capacities, number {number}",
+                       ("probe", "direction", "band", "damping", "acceleration"))
+        band, damping = part.increasing("band", [frequencies[0], frequencies[-1]]), part.number("damping", dampings[0])
+        if len(band) != 2 or not any(band[0] <= f <= band[1] for f in frequencies):
+            part.fail("band", "is not two frequencies with one of the study's between them")
+        if damping not in dampings:
+            part.fail("damping", f"is none of the study's {', '.join(f'{one:g}' for one in dampings)}")
+        if part.values.get("direction") not in DIRECTIONS:
+            part.fail("direction", "is not x, y or z")
+        found.append(Capacity(str(part.values.get("probe", "")), part.values["direction"], tuple(band), damping,
+                              part.number("acceleration", None, 0.0)))
+    return found
+
+
+def read(path: Path) -> Study:
+    """The study of a file. Throws StudyError."""
+    try:
+        values = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise StudyError(f"{path}: {error.strerror}") from error
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise StudyError(f"{path}: {' '.join(str(error).split())}") from error
+    if isinstance(values, dict) and set(values) == {"fragility"}:
+        values = values["fragility"]
+    reader = _Reader(values, path, "", KEYS)
+    scene = path.parent / str(reader.values.get("scene", ""))
+    if not scene.is_file():
+        raise StudyError(f"{path}: scene: {scene}: no such file")
+    axes, limit, wanted, motions = _motions(reader)
+    frequencies = reader.increasing("frequencies", standard_frequencies())
+    dampings = reader.increasing("dampings", DAMPINGS)
+    full = reader.part("full_order", ("share", "options", "noise"))
+    gaps = reader.increasing("gaps", None, -1e-12)
+    return Study(
+        path, scene.resolve(), str(reader.values.get("title", f"Study {path.stem}")),
+        Path(str(reader.values.get("output", Path("results") / f"fragility-{path.stem}"))), reader.options("options"),
+        reader.options("reduction"), reader.whole("seed", 1, 0), reader.whole("samples", motions, 2),
+        reader.number("confidence", 0.95, 0.0, 1.0), axes, limit, wanted, reader.increasing("levels"), gaps,
+        reader.number("apart", max(1.0, 20 * gaps[-1]), gaps[-1]), _joints(reader), _factors(reader),
+        _capacities(reader, frequencies, dampings), full.number("share", 0.0, -1e-12, 1.0 + 1e-12),
+        full.options("options"), full.number("noise", 1e-3, 0.0), frequencies, dampings,
+        reader.values.get("show") or {})

@@ -1,0 +1,157 @@
+"""run/fragility over two small buildings: members, tables, parts, going on, repeats at full order, mistakes."""
+import csv
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+import program
+import two_buildings
+import yaml
+from two_buildings import pounding
+from pounding import fragility
+
+STUDY = {
+    "scene": str(two_buildings.SCENE),
+    "options": {**two_buildings.SHORT, "probes": "left_roof", "output_interval": 2e-4},
+    "reduction": {name: {"model": "modal", "modal_vectors": 12} for name in ("left", "right")},
+    "motions": {"choose": 3, "correlation": 0.4,
+                "x": {"target": str(two_buildings.FOLDER / "ground.csv"),
+                      "options": {"duration": 6, "envelope": "0.3,4"}}},
+    "levels": [2.0, 5.0],
+    "gaps": [0.01],
+    "joints": {"floor1": {"shape": "0.001,0", "deviation": {"deviation": 0.001}}, "floor2": {}},
+    "capacities": [{"probe": "left_roof", "direction": "x", "band": "20,60", "damping": 0.05, "acceleration": 8}],
+    "full_order": {"share": 0.1},
+    "frequencies": [1, 2, 5, 10, 20, 50, 100],
+    "dampings": [0.02, 0.05],
+}
+MEMBERS = 3 * 2 * 2 + 1
+
+
+def rows_of(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+class Study(unittest.TestCase):
+    def setUp(self):
+        place = tempfile.TemporaryDirectory(prefix="pounding-")
+        self.addCleanup(place.cleanup)
+        self.place = Path(place.name)
+
+    def fragility(self, *words, status=0, **changes):
+        """Runs the command in the folder, with results in `out` there."""
+        (self.place / "study.yaml").write_text(yaml.safe_dump({**STUDY, **changes}))
+        line = [os.path.join(program.SOURCE, "run", "fragility"), "study.yaml", *words]
+        done = subprocess.run([*line, "--out", "out"], cwd=self.place, capture_output=True, text=True, timeout=600,
+                              check=False,
+                              env={**os.environ, "POUNDING_BUILD": os.path.abspath(program.BUILD)})
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done
+
+    def tables(self, folder="out"):
+        return {path.name: path.read_bytes() for path in sorted((self.place / folder).rglob("*.csv"))
+                if "runs" not in path.parts}
+
+    def refuse(self, part, *words, **changes):
+        done = self.fragility(*words, status=1, **changes)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn(part, done.stderr)
+
+    def test_parts_make_the_whole_and_tables_say_what_the_members_did(self):
+        self.fragility("--part", "1/2", "--runner", "single", "--jobs", "2")
+        self.refuse("are not there yet", "--collect")
+        self.fragility("--part", "2/2", "--runner", "single", "--jobs", "2")
+        said = self.fragility("--collect").stdout
+        self.assertIn(f"{MEMBERS} runs: 3 samples of motion and building at 2 levels", said)
+        self.check_tables()
+        self.check_full_order()
+        before = self.tables()
+        again = self.fragility("--runner", "single")  # nothing to do, and the same to the bit
+        self.assertNotIn("at a time", again.stdout)
+        self.assertEqual(self.tables(), before)
+        # Another level: its members only, and those of the two before stay.
+        more = self.fragility("--runner", "single", "--jobs", "2", levels=[2.0, 5.0, 6.0], full_order={"share": 0})
+        self.assertIn("6 runs, 0 finished before", more.stdout)
+        self.assertIn("The runs apart say of 9 of 9", more.stdout)
+
+    def check_tables(self):
+        out = self.place / "out"
+        members = [row for row in rows_of(out / "members.csv") if row["disturbed"] == "0"]
+        self.assertEqual(len(members), MEMBERS - 1)
+        for row in rows_of(out / "probability.csv"):
+            if row["event"] != "contact":
+                continue
+            hits = sum(int(one["impacts"]) > 0 for one in members
+                       if (one["gap [m]"], one["pga [m/s2]"]) == (row["gap [m]"], row["pga [m/s2]"]))
+            self.assertEqual((int(row["hits"]), int(row["of"])), (hits, 3))
+            low, high = fragility.binomial_interval(hits, 3)
+            self.assertAlmostEqual(float(row["low"]), low)
+            self.assertAlmostEqual(float(row["high"]), high)
+        touched = [int(row["impacts"]) > 0 for row in members if row["gap [m]"] == "0.01"]
+        self.assertTrue(any(touched))
+        self.assertFalse(any(int(row["impacts"]) for row in members if row["gap [m]"] == "apart"))
+        # Spectra: against single runs of the three samples, made here.
+        found = rows_of(out / "spectra" / "gap-0.01_pga-5.csv")
+        design = rows_of(out / "design.csv")
+        spectra = []
+        for sample, row in enumerate(design):
+            off = float(row["floor1_gap deviation [m]"])
+            options = {**STUDY["options"], "motion_x_seed": row["motion x"], "motion_x_duration": 6,
+                       "motion_x_envelope": "0.3,4", "motion_x_pga": 5,
+                       "floor1_gap": f"{0.011 + off:.9g},{0.01 + off:.9g}", "floor2_gap": 0.01,
+                       "spectra_frequencies": STUDY["frequencies"], "spectra_damping": STUDY["dampings"],
+                       **{f"{name}_{key}": value for name, one in STUDY["reduction"].items()
+                          for key, value in one.items()}}
+            run = pounding.run(two_buildings.SCENE, self.place / f"own-{sample}", 1, **options)
+            spectra.append(run.spectrum("left_roof", "x", 0.05)[1])
+        mine = [row for row in found if row["channel"] == "left_roof x" and row["damping"] == "0.05"]
+        for key, values in (("mean", np.mean(spectra, 0)), ("median", np.median(spectra, 0)),
+                            ("p84", np.quantile(spectra, 0.84, 0)), ("envelope", np.max(spectra, 0)),
+                            ("cov", np.std(spectra, 0, ddof=1) / np.mean(spectra, 0))):
+            np.testing.assert_allclose([float(row[key]) for row in mine], values, rtol=2e-5, err_msg=key)
+        # The joint that a run apart asks for is what its roofs moved towards each other.
+        joint = [row for row in rows_of(out / "joint.csv") if row["joint"] == "floor2"]
+        self.assertGreater(float(joint[1]["50 % [m]"]), 0.01)
+        self.assertAlmostEqual(float(joint[1]["50 % [m]"]) / float(joint[0]["50 % [m]"]), 2.5, delta=1e-3)
+        self.assertGreater(float(joint[1]["ABS [m]"]), float(joint[1]["SRSS [m]"]))
+        self.assertAlmostEqual(float(joint[1]["EN 1998-1, level floors [m]"]), 0.7 * float(joint[1]["SRSS [m]"]))
+        for name in ("fragility.png", "curves.png", "enough.png", "joint.png"):
+            self.assertTrue((out / name).read_bytes().startswith(b"\x89PNG"), name)
+        self.assertIn("<table", (out / "fragility.html").read_text())
+
+    def check_full_order(self):
+        rows = rows_of(self.place / "out" / "full_order.csv")
+        self.assertEqual(len(rows), 1)
+        self.assertGreater(float(rows[0]["rms"]), 1e-4)  # 12 modes are not the model
+        self.assertLess(float(rows[0]["rms"]), 0.5)
+        self.assertLess(float(rows[0]["rms of noise"]), 0.2)
+
+    def test_mistakes_are_one_line(self):
+        self.refuse("levls is unknown", levls=[1])
+        self.refuse("levels: [3, 2] does not increase", levels=[3, 2])
+        self.refuse("scene: nothing.yaml: no such file", scene="nothing.yaml")
+        self.refuse("band: '1000,2000' is not two frequencies",
+                    capacities=[{**STUDY["capacities"][0], "band": "1000,2000"}])
+        self.refuse("joints is missing", joints={})
+        self.refuse("output is the study's own", options={"output": "x"})
+        self.refuse("needs either records or a target", motions={"x": {}})
+        self.refuse("goes with another distribution", joints={"floor1": {"deviation": {"cov": 0.1}}})
+        self.refuse("neither <structure>_stiffness_factor", factors={"left_mass": {"deviation": 1}})
+        self.assertFalse((self.place / "out").exists())
+
+    def test_motions_that_depend_on_each_other_are_told(self):
+        seeds = {"correlation": 1e-4, "x": {**STUDY["motions"]["x"], "seeds": [1, 2]}}
+        self.refuse("1 of 1 pairs are correlated by 0.0001 or more, x 1 and x 2 by", "--dry-run", motions=seeds)
+        self.refuse("joints: roof", "--dry-run", joints={"roof": {"shape": "1,2,3"}})
+        record = program.write_samples(np.sin(np.arange(300) / 9), 0.01)
+        self.addCleanup(os.unlink, record)
+        twice = {"x": {"records": [record, record], "options": {"unit": "m/s2"}}}
+        self.refuse("x " + os.path.basename(record), "--dry-run", motions=twice)
+
+
+if __name__ == "__main__":
+    unittest.main()
