@@ -154,13 +154,20 @@ class Report(unittest.TestCase):
 
     def test_another_model_is_refused(self):
         hit = self.place / "hit"
-        for name, options, part in (("longer", {"end_time": 1.3}, "option end_time is 1.3"),
-                                    ("stronger", {"motion_x_pga": 3}, "option motion_x_pga is 3"),
-                                    ("stiffer", {"material_concrete_young": "34e9"}, "material_concrete_young"),
-                                    ("finer", {"time_step": 1e-5}, "has another time step: 1e-05 s"),
-                                    ("close", {"contacts": "floor1,floor2", "gap": 0.012}, "its buildings touched")):
-            two_buildings.run(self.place / name, 1, **{"contacts": "none", **MORE, "modes": 0, **options})
-            self.assertIn(part, self.refused(hit, "--without", self.place / name))
+        two_buildings.run(self.place / "stronger", 1, **{"contacts": "none", **MORE, "modes": 0, "motion_x_pga": 3,
+                                                         "end_time": 0.02})
+        self.assertRegex(self.refused(hit, "--without", self.place / "stronger"), "option (motion_x_pga is 3|end_time is 0.02),")
+        shutil.copytree(hit, self.place / "close")
+        self.assertIn("its buildings touched", self.refused(hit, "--without", self.place / "close"))
+        options = self.alone.summary["options"]
+        for changed, part in (({"options": {**options, "end_time": "1.3"}}, "option end_time is 1.3"),
+                              ({"options": {**options, "motion_x_pga": "3"}}, "option motion_x_pga is 3"),
+                              ({"options": {**options, "material_concrete_young": "34e9"}}, "material_concrete_young is 34e9"),
+                              ({"time_step": 1e-5}, "has another time step: 1e-05 s"),
+                              ({"end_time": 1.3}, "has another end time: 1.3 s")):
+            other = pounding.results.Result(self.alone.folder, {**self.alone.summary, **changed})
+            with self.assertRaisesRegex(twin.NoTwin, part):
+                twin.check(self.hit, other)
         self.assertIn("is the run itself", self.refused(hit, "--without", hit))
         self.assertIn("is not a folder", self.refused(hit, "--without", self.place / "nowhere"))
 
