@@ -94,13 +94,15 @@ class Outcome:
         return max(probe["peak_displacement"][axis] for probe in self.summary["probes"].values() for axis in self.axes)
 
     def moving(self) -> list:
-        """Names of the spectra with more than round-off beside the largest of their probe."""
+        """Names of the spectra whose largest value is above a thousandth of the largest of their probe, and none of
+        whose values is round-off beside it."""
         largest = {}
         for name, (_, values) in self.spectra.items():
             probe = name.rpartition(".")[0]
             largest[probe] = max(largest.get(probe, 0.0), *values)
         return [name for name, (_, values) in self.spectra.items()
-                if min(values) > 1e-6 * largest[name.rpartition(".")[0]]]
+                if max(values) > 1e-3 * largest[name.rpartition(".")[0]]
+                and min(values) > 1e-9 * largest[name.rpartition(".")[0]]]
 
 
 def run(case: Case | SceneCase, setting: Setting, ranks: int, folder: Path, log) -> Outcome | None:
