@@ -9,7 +9,7 @@
 #include "common/parallel.h"
 #include "common/petsc_session.h"
 #include "common/vector_unit.h"
-#include "driver/run_scene.h"
+#include "ensemble/run_ensemble.h"
 #include "scene/command_line.h"
 #include "scene/options_database.h"
 #include "scene/scene_origin.h"
@@ -35,7 +35,7 @@ void run_words(MPI_Comm comm, std::span<const std::string> words,
     read.scene.warnings.push_back(ignored);
   }
   petsc.emplace(pounding::petsc_options(database));
-  pounding::run_scene(comm, read.scene, read.resolved, pounding::origin_of(line, files));
+  pounding::run_as_asked(comm, read, database, pounding::origin_of(line, files));
 }
 
 /// Exit status of the job: 0, 1 after an error, 2 stopped by a signal; messages are one line from

@@ -8,9 +8,10 @@
 python/examples/gaps.py is a whole script. Put the folder python on PYTHONPATH, or on sys.path.
 """
 
+from .ensembles import Ensemble, load_ensemble
 from .results import Missing, Modes, Result, ResultError, load, load_modes
 from .runs import RunError, program, run
 from .scenes import SceneError, flatten, read_scene, write_scene
 
-__all__ = ["Missing", "Modes", "Result", "ResultError", "RunError", "SceneError", "flatten", "load", "load_modes",
-           "program", "read_scene", "run", "write_scene"]
+__all__ = ["Ensemble", "Missing", "Modes", "Result", "ResultError", "RunError", "SceneError", "flatten", "load",
+           "load_ensemble", "load_modes", "program", "read_scene", "run", "write_scene"]

@@ -24,8 +24,10 @@ namespace {
 /// Finds the pairs of one contact.
 class PairFinder {
  public:
-  PairFinder(const Scene& scene, std::span<const GlobalMesh> meshes, int contact)
-      : contact_(scene.contacts[contact]),
+  PairFinder(const Scene& scene, std::span<const GlobalMesh> meshes, int contact,
+             std::vector<GapShare>* shares)
+      : shares_(shares),
+        contact_(scene.contacts[contact]),
         number_(contact),
         sides_(find_sides(scene, meshes, contact_)) {
     report_.contact = contact_.name;
@@ -230,15 +232,6 @@ class PairFinder {
     interface.constraints.push_back(std::move(constraint));
   }
 
-  /// The gap that the user gave, interpolated between the corners of the secondary face.
-  double given_gap(const std::array<double, 2>& s) const {
-    const std::vector<double>& g = contact_.gap.values;
-    if (g.size() == 1) return g[0];
-    if (g.size() == 2) return g[0] * (1 - s[0]) + g[1] * s[0];
-    return (g[0] * (1 - s[0]) + g[1] * s[0]) * (1 - s[1]) +
-           (g[3] * (1 - s[0]) + g[2] * s[0]) * s[1];
-  }
-
   void set_gaps(std::span<Constraint> constraints) {
     std::array<double, 2> low{1e300, 1e300};
     std::array<double, 2> high{-1e300, -1e300};
@@ -258,8 +251,9 @@ class PairFinder {
       for (std::size_t t = 0; t < 2; ++t) {
         s[t] = high[t] > low[t] ? (constraint.place[t] - low[t]) / (high[t] - low[t]) : 0;
       }
-      constraint.initial_gap =
-          contact_.gap.values.empty() ? constraint.geometric_gap : given_gap(s);
+      constraint.initial_gap = contact_.gap.values.empty() ? constraint.geometric_gap
+                                                           : given_gap(contact_.gap.values, s);
+      if (shares_ != nullptr) shares_->push_back(s);
       if (constraint.geometric_gap == open_gap) continue;
       report_.smallest_gap = std::min(report_.smallest_gap, constraint.initial_gap);
       report_.largest_gap = std::max(report_.largest_gap, constraint.initial_gap);
@@ -292,6 +286,7 @@ class PairFinder {
     }
   }
 
+  std::vector<GapShare>* shares_;  ///< of all constraints; null: not wanted
   const Contact& contact_;
   int number_;
   std::size_t first_row_ = 0;  ///< of the contact, in the interface
@@ -302,11 +297,18 @@ class PairFinder {
 
 }  // namespace
 
-Interface find_interface(const Scene& scene, std::span<const GlobalMesh> meshes) {
+double given_gap(const std::vector<double>& g, const GapShare& s) {
+  if (g.size() == 1) return g[0];
+  if (g.size() == 2) return g[0] * (1 - s[0]) + g[1] * s[0];
+  return (g[0] * (1 - s[0]) + g[1] * s[0]) * (1 - s[1]) + (g[3] * (1 - s[0]) + g[2] * s[0]) * s[1];
+}
+
+Interface find_interface(const Scene& scene, std::span<const GlobalMesh> meshes,
+                         std::vector<GapShare>* shares) {
   Interface interface;
   interface.model_size = bounding_box(meshes).longest_side();
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
-    PairFinder(scene, meshes, static_cast<int>(c)).find(interface);
+    PairFinder(scene, meshes, static_cast<int>(c), shares).find(interface);
   }
   check_contacts(scene, interface);
   return interface;

@@ -71,7 +71,8 @@ void share_foundation(MPI_Comm comm, Structure& structure, const GlobalMesh& mes
 
 /// Rank 0 reads the meshes and finds who faces whom; every rank gets its part. Bases of reduced
 /// structures come from the whole meshes.
-void build_meshes(MPI_Comm comm, Scene& scene, Profile& profile, Model& model) {
+void build_meshes(MPI_Comm comm, Scene& scene, std::span<const double> stiffness_factors,
+                  Profile& profile, std::vector<GapShare>* gap_shares, Model& model) {
   std::vector<GlobalMesh> meshes(scene.structures.size());
   {
     const ScopedTimer timer(profile, Phase::mesh);
@@ -88,7 +89,7 @@ void build_meshes(MPI_Comm comm, Scene& scene, Profile& profile, Model& model) {
         meshes[s].supported = find_supported_nodes(scene, scene.structures[s], meshes[s]);
       }
       const Progress progress(comm, "faces in contact and probes", scene.progress_interval);
-      model.interface = find_interface(scene, meshes);
+      model.interface = find_interface(scene, meshes, gap_shares);
       model.probes = resolve_probes(scene, meshes);
       model.forces = resolve_forces(scene, meshes);
       append(probe_warnings(model.probes, meshes, model.interface), model.warnings);
@@ -97,6 +98,7 @@ void build_meshes(MPI_Comm comm, Scene& scene, Profile& profile, Model& model) {
       share_foundation(comm, scene.structures[s], meshes[s]);
     }
     broadcast_interface(comm, model.interface);
+    if (gap_shares != nullptr) broadcast_array(comm, *gap_shares);
     broadcast_probes(comm, model.probes);
     broadcast_forces(comm, model.forces);
   }
@@ -133,7 +135,10 @@ void build_meshes(MPI_Comm comm, Scene& scene, Profile& profile, Model& model) {
   progress.emplace(comm, "modal bases", scene.progress_interval);
   auto bases = find_bases(comm, scene, meshes, model.interface, model.probes, model.forces,
                           model.support_columns(), profile);
-  for (std::size_t s = 0; s < meshes.size(); ++s) model.buildings[s].basis = std::move(bases[s]);
+  for (std::size_t s = 0; s < meshes.size(); ++s) {
+    if (bases[s]) scale_stiffness(stiffness_factors[s], *bases[s]);
+    model.buildings[s].basis = std::move(bases[s]);
+  }
 }
 
 /// A fraction of the stable one. A reduced structure may allow more than its records resolve: then
@@ -143,30 +148,6 @@ double automatic_time_step(const Scene& scene, double stable) {
   const bool reduced = std::ranges::any_of(
       scene.structures, [](const Structure& structure) { return structure.modal.has_value(); });
   return reduced ? std::min(fraction, scene.output_interval) : fraction;
-}
-
-void choose_time_step(const Scene& scene, Model& model) {
-  const double stable = model.smallest_stable_time_step();
-  if (!std::isfinite(stable) && !(scene.time_step > 0)) {
-    throw UserError(
-        "nothing in the scene vibrates, so nothing limits the time step: give -time_step");
-  }
-  model.time_step = scene.time_step > 0 ? scene.time_step : automatic_time_step(scene, stable);
-  if (model.time_step > stable && !scene.allow_unstable) {
-    std::ostringstream text;
-    text << "option -time_step " << model.time_step << " s: above the stable time step " << stable
-         << " s; give a smaller one (or leave it out), or -allow_unstable for a study";
-    throw UserError(text.str());
-  }
-  constexpr double most_steps = 1e12;
-  if (scene.end_time / model.time_step > most_steps) {
-    std::ostringstream text;
-    text << "option -end_time " << scene.end_time << " s: " << scene.end_time / model.time_step
-         << " steps of " << model.time_step << " s, above " << most_steps << "; give a shorter time"
-         << (scene.time_step > 0 ? ", or a longer -time_step" : "");
-    throw UserError(text.str());
-  }
-  model.steps = static_cast<std::int64_t>(std::ceil(scene.end_time / model.time_step - 1e-9));
 }
 
 EigenvalueEffort effort_of(const Scene& scene, Progress& progress) {
@@ -294,7 +275,31 @@ void add_warnings(MPI_Comm comm, const Scene& scene, Model& model) {
 
 }  // namespace
 
-Model build_model(MPI_Comm comm, Scene& scene, Profile& profile) {
+void choose_time_step(const Scene& scene, double stable, Model& model) {
+  if (!std::isfinite(stable) && !(scene.time_step > 0)) {
+    throw UserError(
+        "nothing in the scene vibrates, so nothing limits the time step: give -time_step");
+  }
+  model.time_step = scene.time_step > 0 ? scene.time_step : automatic_time_step(scene, stable);
+  if (model.time_step > stable && !scene.allow_unstable) {
+    std::ostringstream text;
+    text << "option -time_step " << model.time_step << " s: above the stable time step " << stable
+         << " s; give a smaller one (or leave it out), or -allow_unstable for a study";
+    throw UserError(text.str());
+  }
+  constexpr double most_steps = 1e12;
+  if (scene.end_time / model.time_step > most_steps) {
+    std::ostringstream text;
+    text << "option -end_time " << scene.end_time << " s: " << scene.end_time / model.time_step
+         << " steps of " << model.time_step << " s, above " << most_steps << "; give a shorter time"
+         << (scene.time_step > 0 ? ", or a longer -time_step" : "");
+    throw UserError(text.str());
+  }
+  model.steps = static_cast<std::int64_t>(std::ceil(scene.end_time / model.time_step - 1e-9));
+}
+
+Model build_model(MPI_Comm comm, Scene& scene, std::span<const double> stiffness_factors,
+                  Profile& profile, std::vector<GapShare>* gap_shares) {
   Model model;
   model.buildings.resize(scene.structures.size());
   model.systems.resize(scene.structures.size());
@@ -306,7 +311,7 @@ Model build_model(MPI_Comm comm, Scene& scene, Profile& profile) {
           std::make_unique<SupportMotion>(scene.supports, *model.motion, scene.resampling);
     }
   });
-  build_meshes(comm, scene, profile, model);
+  build_meshes(comm, scene, stiffness_factors, profile, gap_shares, model);
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     build_structure(comm, scene, s, profile, model, leans(scene.structures[s]));
   }
@@ -315,7 +320,7 @@ Model build_model(MPI_Comm comm, Scene& scene, Profile& profile) {
   on_rank0(comm, [&] { model.separations = find_separations(scene, model); });
   add_warnings(comm, scene, model);
   model.filler_time_step = filler_limit(comm, scene, model);
-  choose_time_step(scene, model);
+  choose_time_step(scene, model.smallest_stable_time_step(), model);
   append(run_warnings(scene, model), model.warnings);
   const ScopedTimer timer(profile, Phase::modes);
   find_energy_margins(comm, scene, model);

@@ -85,7 +85,9 @@ std::optional<SavedState> read_restart(MPI_Comm comm, const Scene& scene, const 
 
 }  // namespace
 
-void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved, const SceneOrigin& origin) {
+void run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
+  Scene& scene = read.scene;
+  const std::string& resolved = read.resolved;
   flush_subnormal_numbers();
   return_large_arrays();
   const double start = MPI_Wtime();
@@ -106,7 +108,7 @@ void run_scene(MPI_Comm comm, Scene scene, const std::string& resolved, const Sc
   if (!scene.dry_run) provenance = note_provenance(comm, origin, resolved);
   if (!scene.restart.empty()) check_checkpoint(comm, scene.restart, lasting_options(resolved));
   if (scene.dry_run && scene.write_model) on_rank0(comm, [&] { create_output(scene); });
-  const Model model = build_model(comm, scene, profile);
+  const Model model = build_model(comm, scene, read.stiffness_factors, profile);
   if (!scene.dry_run) note_bases(comm, scene, provenance);
   return_freed_memory();
   if (root) print_model(scene, model);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "driver/stated_peak.h"
 #include "motion/low_pass.h"
 
 namespace pounding {
@@ -25,19 +26,28 @@ double excess(const StatedPeaks& peaks, const Recorder& recorder, std::size_t pr
 
 }  // namespace
 
+double stated_frequency(const Scene& scene, double interval) {
+  return std::min(scene.spectra.peak_frequency, low_pass_limit / interval);
+}
+
+double stated_peak(std::span<const double> acceleration, double interval, double frequency,
+                   std::size_t first) {
+  const std::vector<double> filtered = low_pass(acceleration, interval, frequency);
+  double peak = 0;
+  for (std::size_t i = first; i < filtered.size(); ++i) {
+    peak = std::max(peak, std::abs(filtered[i]));
+  }
+  return peak;
+}
+
 StatedPeaks stated_peaks(const Scene& scene, const Recorder& recorder) {
-  const double highest = low_pass_limit / recorder.interval();
   StatedPeaks peaks;
-  peaks.lowered = !(scene.spectra.peak_frequency <= highest);
-  peaks.frequency = peaks.lowered ? highest : scene.spectra.peak_frequency;
+  peaks.frequency = stated_frequency(scene, recorder.interval());
+  peaks.lowered = peaks.frequency < scene.spectra.peak_frequency;
   const std::size_t first = recorder.first_record_from(scene.spectra.start);
   for (std::size_t channel = 0; channel < recorder.channels().size(); ++channel) {
-    const std::vector<double> filtered =
-        low_pass(recorder.acceleration(channel), recorder.interval(), peaks.frequency);
-    double& peak = peaks.acceleration.emplace_back(0);
-    for (std::size_t i = first; i < filtered.size(); ++i) {
-      peak = std::max(peak, std::abs(filtered[i]));
-    }
+    peaks.acceleration.push_back(
+        stated_peak(recorder.acceleration(channel), recorder.interval(), peaks.frequency, first));
   }
   return peaks;
 }

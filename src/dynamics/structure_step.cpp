@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "dynamics/contact_correction.h"
 #include "dynamics/step_policies.h"
 #include "system/support_shapes.h"
 
@@ -309,11 +310,8 @@ void StructureStep::complete() {
 
 double StructureStep::filtered_part(std::size_t dof) const {
   if (!system_.uniform_damping) return 0;
-  double part = (filters_.at_once - 1) * state_.stiffness_displacement[dof];
-  for (std::size_t k = 0; k < filters_.count; ++k) {
-    subtract_product(filters_.filters[k].weight, state_.filtered[k][dof], part);
-  }
-  return part;
+  return pounding::filtered_part(filters_, state_.stiffness_displacement[dof],
+                                 [&](std::size_t k) { return state_.filtered[k][dof]; });
 }
 
 void StructureStep::remember(std::span<const LocalIndex> dofs, Before& before) const {
@@ -329,21 +327,17 @@ void StructureStep::correct(std::span<const LocalIndex> dofs, const Before& befo
                             std::span<const double> velocity) {
   for (std::size_t k = 0; k < dofs.size(); ++k) {
     const std::size_t i = dofs[k];
-    const double free = state_.velocity[i];
-    const double change = velocity[k] - free;
-    const double mass = system_.lumped_mass[i];
-    const double kv = terms_.inverse > 0
-                          ? (state_.stiffness_displacement[i] - before.stiffness_displacement[k]) /
-                                terms_.time_step
-                          : 0;
-    dof_sums_.stiffness_across += change * kv;
-    dof_sums_.mass_sum += mass * change * (2 * (free + before.velocity[k]) + change);
-    add_momentum(i, mass * change);
-    dof_sums_.filtered += filtered_part(i) * change;
-    if (!state_.extra_force.empty()) sums_.device += state_.extra_force[i] * change;
-    state_.velocity[i] = velocity[k];
-    state_.displacement[i] = before.displacement[k];
-    add_product(terms_.time_step, velocity[k], state_.displacement[i]);
+    const DofState<double> old{before.displacement[k], before.velocity[k],
+                               before.stiffness_displacement[k]};
+    DofState<double> dof{state_.displacement[i], state_.velocity[i],
+                         state_.stiffness_displacement[i]};
+    if (!state_.extra_force.empty()) {
+      sums_.device += state_.extra_force[i] * (velocity[k] - dof.velocity);
+    }
+    add_momentum(i, correct_dof(terms_, system_.lumped_mass[i], old, velocity[k], filtered_part(i),
+                                dof, dof_sums_));
+    state_.velocity[i] = dof.velocity;
+    state_.displacement[i] = dof.displacement;
   }
 }
 

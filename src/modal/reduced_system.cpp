@@ -155,6 +155,10 @@ LinearSystem build_reduced_system(MPI_Comm comm, int owner, const Structure& str
   return system;
 }
 
+void scale_stiffness(double factor, ModalBasis& basis) {
+  for (double& square : basis.squared_frequency) square *= factor;
+}
+
 ModalResult modes_of_basis(const ModalBasis& basis, int count) {
   ModalResult result;
   result.mass = basis.mass;

@@ -24,6 +24,9 @@ LinearSystem build_reduced_system(MPI_Comm comm, int owner, const Structure& str
                                   const Mesh& mesh, ModalBasis& basis,
                                   std::span<const SupportColumn> columns = {});
 
+/// K times a factor: the vectors stay, their squared frequencies follow.
+void scale_stiffness(double factor, ModalBasis& basis);
+
 /// The lowest `count` modes of the basis, for the report.
 ModalResult modes_of_basis(const ModalBasis& basis, int count);
 

@@ -5,6 +5,7 @@
 
 #include "common/parallel.h"
 #include "common/row_products.h"
+#include "output/probe_rows.h"
 #include "system/support_shapes.h"
 
 namespace pounding {
@@ -84,17 +85,12 @@ Recorder::StructureNodes Recorder::find_nodes(const LinearSystem& system, const 
   StructureNodes nodes{structure, Trace(system, mesh, places, false), {}, {}, nodes_, {}};
   nodes.values.resize(system.generalised ? 3 * counts.size() : places.size());
   if (system.generalised) {
-    const std::size_t width = nodes.trace.dofs().size();
+    nodes.mean_rows = probe_rows(nodes.trace, counts);
     const std::size_t columns = system.supports ? system.supports->columns.size() : 0;
-    nodes.mean_rows.assign(nodes.values.size() * width, 0.0);
     nodes.mean_carried.assign(nodes.values.size() * columns, 0.0);
     std::size_t place = 0;
     for (std::size_t p = 0; p < counts.size(); ++p) {
       for (std::size_t k = 0; k < 3 * counts[p]; ++k, ++place) {
-        double* const mean = &nodes.mean_rows[(3 * p + k % 3) * width];
-        for (std::size_t i = 0; i < width; ++i) {
-          mean[i] += nodes.trace.row(place)[i] / static_cast<double>(counts[p]);
-        }
         for (std::size_t c = 0; c < columns; ++c) {
           nodes.mean_carried[(3 * p + k % 3) * columns + c] +=
               nodes.trace.carried(place)[c] / static_cast<double>(counts[p]);
@@ -318,8 +314,7 @@ void Recorder::count_rows() {
 }
 
 std::size_t Recorder::first_record_from(double start) const {
-  const double middle = (layout_.time_step - interval()) / 2;  // of the first record's interval
-  return start > 0 ? static_cast<std::size_t>(std::ceil((start - middle) / interval() - 1e-6)) : 0;
+  return pounding::first_record_from(start, layout_.time_step, interval());
 }
 
 void Recorder::note_peaks(std::size_t first_record, std::span<const double> displacement,

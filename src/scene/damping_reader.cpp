@@ -3,6 +3,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "scene/factor_reader.h"
+
 namespace pounding {
 namespace {
 
@@ -61,7 +63,9 @@ bool gives_rayleigh(OptionReader& options, const Names& names) {
 }  // namespace
 
 Rayleigh read_structure_damping(OptionReader& options, const std::string& structure) {
-  return read_damping(options, structure_damping, {structure}, {});
+  const Rayleigh damping = read_damping(options, structure_damping, {structure}, {});
+  const double factor = read_damping_factor(options, structure);
+  return {factor * damping.alpha, factor * damping.beta};
 }
 
 std::optional<UniformDamping> read_uniform_damping(OptionReader& options,
@@ -91,8 +95,12 @@ std::optional<UniformDamping> read_uniform_damping(OptionReader& options,
   if (!(ends[0] < ends[1])) {
     options.refuse(band, names, "the lower frequency first, then the higher one");
   }
-  UniformDamping damping = fit_uniform_damping(options.real(uniform, names), ends[0], ends[1],
-                                               options.integer(filters, names));
+  const double ratio = read_damping_factor(options, structure) * options.real(uniform, names);
+  if (!option_row(uniform).range.contains(ratio)) {
+    options.refuse(uniform, names, "times -" + structure + "_damping_factor it is too large");
+  }
+  UniformDamping damping =
+      fit_uniform_damping(ratio, ends[0], ends[1], options.integer(filters, names));
   if (options.given(reference, names)) damping.reference = options.real(reference, names);
   return damping;
 }

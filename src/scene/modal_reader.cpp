@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/error.h"
+#include "scene/factor_reader.h"
 
 namespace pounding {
 namespace {
@@ -79,6 +80,14 @@ std::optional<ModalModel> read_modal_model(OptionReader& options, const Structur
       options.forbid(damping, names, "not with -" + structure.name + "_damping_uniform");
     }
     modal.damping_ratios = options.reals(damping, names);
+    const double factor = read_damping_factor(options, structure.name);
+    for (double& ratio : modal.damping_ratios) {
+      ratio *= factor;
+      if (!option_row(damping).range.contains(ratio)) {
+        options.refuse(damping, names,
+                       "times -" + structure.name + "_damping_factor it is too large");
+      }
+    }
   }
   const std::string file = options.text(basis, names);
   modal.basis_file = file == "none" ? "" : file;

@@ -54,7 +54,15 @@ bool names_input(std::string_view option) {
   });
 }
 
-/// Finds what the options of a file name beside that file. Collective.
+/// A file of options to be read.
+struct Waiting {
+  std::string option;  ///< that names it
+  std::string file;
+  std::filesystem::path folder;  ///< of the file that includes it
+};
+
+}  // namespace
+
 void find_inputs(MPI_Comm comm, const std::string& file, OptionsDatabase& options) {
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   for (auto& [name, value] : options) {
@@ -66,15 +74,6 @@ void find_inputs(MPI_Comm comm, const std::string& file, OptionsDatabase& option
     value = found;
   }
 }
-
-/// A file of options to be read.
-struct Waiting {
-  std::string option;  ///< that names it
-  std::string file;
-  std::filesystem::path folder;  ///< of the file that includes it
-};
-
-}  // namespace
 
 OptionsDatabase read_options_database(MPI_Comm comm, const CommandLine& line,
                                       std::vector<std::string>* files) {

@@ -16,6 +16,10 @@ namespace pounding {
 OptionsDatabase read_options_database(MPI_Comm comm, const CommandLine& line,
                                       std::vector<std::string>* files = nullptr);
 
+/// Finds what options of a file name beside that file: their values become paths that the program
+/// can open. Collective.
+void find_inputs(MPI_Comm comm, const std::string& file, OptionsDatabase& options);
+
 /// The options in it that are meant for PETSc and SLEPc.
 OptionsDatabase petsc_options(const OptionsDatabase& database);
 

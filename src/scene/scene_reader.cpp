@@ -7,6 +7,7 @@
 #include "common/error.h"
 #include "scene/absorbing_reader.h"
 #include "scene/doubts.h"
+#include "scene/factor_reader.h"
 #include "scene/fidelity_target.h"
 #include "scene/filler_reader.h"
 #include "scene/force_reader.h"
@@ -42,6 +43,7 @@ class SceneReader {
     read_run();
     for (const std::string& name : listed_.structures) {
       scene_.structures.push_back(read_structure(options_, name));
+      stiffness_factors_.push_back(read_stiffness_factor(options_, scene_.structures.back()));
       if (!options_.given("<structure>_gravity", {name})) {
         scene_.structures.back().gravity = {0, 0, -gravity_};
       }
@@ -53,6 +55,8 @@ class SceneReader {
     for (const std::string& name : listed_.contacts) scene_.contacts.push_back(read_contact(name));
     for (std::size_t d = 0; d < 3; ++d) {
       scene_.motion[d] = read_motion(options_, direction_names[d]);
+      if (!scene_.motion[d]) continue;
+      (scene_.motion[d]->pga > 0 ? scene_.motion[d]->pga : scene_.motion[d]->scale) *= level_;
     }
     check_absorbing(options_, scene_);
     for (const std::string& name : listed_.supports) {
@@ -68,7 +72,7 @@ class SceneReader {
     const std::vector<std::string> doubts = scene_doubts(scene_);
     scene_.warnings.insert(scene_.warnings.end(), doubts.begin(), doubts.end());
     scene_.structures_key = structures_key(options_.in_force());
-    return {scene_, resolved_yaml(options_)};
+    return {scene_, resolved_yaml(options_), stiffness_factors_, ensemble_};
   }
 
  private:
@@ -113,6 +117,8 @@ class SceneReader {
     scene_.fields_end = options_.real("fields_end");
     scene_.checkpoint_interval = options_.real("checkpoint_interval");
     scene_.checkpoint_steps = options_.integer("checkpoint_steps");
+    const std::string table = options_.text("ensemble");
+    ensemble_ = table == "none" ? "" : table;
     const std::string folder = options_.text("export_matrices");
     scene_.export_matrices = folder == "none" ? "" : folder;
     const std::string restart = options_.text("restart");
@@ -126,6 +132,7 @@ class SceneReader {
                        : method == "assembled" ? StiffnessMethod::assembled
                                                : StiffnessMethod::element;
     scene_.motion_from_below = options_.choice("motion_input") == "below";
+    level_ = options_.real("motion_level");
     scene_.resampling =
         options_.choice("resampling") == "linear" ? Resampling::linear : Resampling::band_limited;
   }
@@ -338,6 +345,9 @@ class SceneReader {
   Scene scene_;
   ListedNames listed_;
   double gravity_ = 0;  ///< of structures without their own [m/s2]
+  std::string ensemble_;
+  std::vector<double> stiffness_factors_;
+  double level_ = 1;  ///< of the motion along all axes [-]
   std::set<std::string> used_names_;
 };
 

@@ -10,6 +10,8 @@ namespace pounding {
 struct ReadScene {
   Scene scene;
   std::string resolved;  ///< all options in force, defaults included, as YAML that reads back alike
+  std::vector<double> stiffness_factors;  ///< per structure; those at full order have them already
+  std::string ensemble;                   ///< table of runs to be made at once; empty: one run
 };
 
 /// The scene that the options describe. Throws UserError: an option missing, unknown (with the

@@ -128,7 +128,8 @@ SteppedModel scene_model(MPI_Comm comm, const ModelRequest& request, StiffnessMe
   scene.stiffness = method;
   scene.modes = 0;
   Profile profile;
-  Model built = build_model(comm, scene, profile);
+  Model built =
+      build_model(comm, scene, std::vector<double>(scene.structures.size(), 1.0), profile);
   SteppedModel model;
   model.comm = comm;
   model.structures = std::move(scene.structures);

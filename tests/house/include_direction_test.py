@@ -32,8 +32,10 @@ MAY_INCLUDE = {
     "output": {"common", "io", "scene", "mesh", "system", "motion", "dynamics"},
     "driver": {"common", "io", "scene", "soil", "elements", "mesh", "system", "modal", "stability", "motion",
                "contact", "statics", "dynamics", "output"},
+    "ensemble": {"common", "io", "scene", "mesh", "system", "modal", "stability", "motion", "contact",
+                 "dynamics", "output", "driver"},
     "spectra": {"common", "io", "scene", "motion", "output"},
-    "main.cpp": {"common", "scene", "driver"},
+    "main.cpp": {"common", "scene", "ensemble"},
     "spectra_main.cpp": {"spectra"},
     "mesh_main.cpp": {"mesh"},
 }

@@ -1,0 +1,219 @@
+#include "ensemble/ensemble_file.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <numeric>
+
+#include "common/error.h"
+#include "io/hdf5_file.h"
+#include "io/hdf5_reader.h"
+#include "io/text_table.h"
+#include "output/result_folder.h"
+
+namespace pounding {
+namespace {
+
+constexpr const char* identity_name = "identity";
+
+/// A dataset with a row per member.
+struct Quantity {
+  const char* name;
+  const char* unit;
+  std::vector<std::size_t> shape;  ///< of one member
+  std::vector<double> MemberResult::*values;
+
+  std::size_t size() const {
+    std::size_t product = 1;
+    for (const std::size_t extent : shape) product *= extent;
+    return product;
+  }
+};
+
+std::vector<Quantity> quantities(const EnsembleLayout& layout) {
+  const std::size_t channels = layout.channels.size();
+  const std::size_t contacts = layout.contacts.size();
+  std::vector<Quantity> list{
+      {"spectra/pseudo_acceleration",
+       "m/s2",
+       {channels, layout.damping_ratios.size(), layout.frequencies.size()},
+       &MemberResult::spectra},
+      {"peaks/displacement", "m", {channels}, &MemberResult::displacement},
+      {"peaks/acceleration", "m/s2", {channels}, &MemberResult::acceleration},
+      {"energy/residual", "-", {}, &MemberResult::energy_residual}};
+  if (contacts == 0) return list;
+  list.insert(list.end(),
+              {{"impacts/episodes", "-", {contacts}, &MemberResult::episodes},
+               {"impacts/first_time", "s", {contacts}, &MemberResult::first_time},
+               {"impacts/impulse_sum", "N s", {contacts}, &MemberResult::impulse_sum},
+               {"impacts/impulse_largest", "N s", {contacts}, &MemberResult::impulse_largest},
+               {"impacts/force_peak", "N", {contacts}, &MemberResult::force_peak},
+               {"gaps/smallest", "m", {contacts}, &MemberResult::smallest_gap}});
+  return list;
+}
+
+/// Numbers that say that nothing is there yet.
+void fill(const PlacedFile& file, std::int64_t place, std::size_t count, double value) {
+  const std::vector<double> block(std::min<std::size_t>(count, 1 << 17), value);
+  for (std::size_t done = 0; done < count; done += block.size()) {
+    file.write(place + static_cast<std::int64_t>(done * sizeof(double)),
+               std::span(block).first(std::min(block.size(), count - done)));
+  }
+}
+
+void create(const std::string& path, const EnsembleLayout& layout) {
+  const std::size_t members = layout.table->members();
+  const std::string draft = path + ".new";
+  std::vector<std::pair<std::int64_t, std::size_t>> places;
+  {
+    Hdf5File file(draft);
+    std::vector<double> numbers(members);
+    std::iota(numbers.begin(), numbers.end(), 1.0);
+    file.write_array("members/number", 0, numbers);
+    file.write_array("spectra/damping", 0, layout.damping_ratios);
+    file.write_array("spectra/frequency", 0, layout.frequencies);
+    file.write_attribute("spectra/frequency", "unit", "Hz");
+    for (const Quantity& quantity : quantities(layout)) {
+      std::vector<std::size_t> shape = quantity.shape;
+      shape.insert(shape.begin(), members);
+      places.emplace_back(file.reserve(quantity.name, shape), members * quantity.size());
+      file.write_attribute(quantity.name, "unit", quantity.unit);
+    }
+    places.emplace_back(file.reserve("done", {members}), members);
+    file.write_strings(identity_name, layout.identity);  // where there are groups for them
+    file.write_strings("spectra/channels", layout.channels);
+    if (!layout.contacts.empty()) file.write_strings("impacts/contacts", layout.contacts);
+    file.close();
+  }
+  add_text_table(draft, "members/table", layout.table->columns, layout.table->values);
+  {
+    const PlacedFile file(draft, PlacedFile::Access::write);
+    for (const auto& [place, count] : places) {
+      const bool flags = place == places.back().first;
+      fill(file, place, count, flags ? 0 : std::numeric_limits<double>::quiet_NaN());
+    }
+    file.sync();
+  }
+  std::error_code failure;
+  std::filesystem::rename(draft, path, failure);
+  if (failure) throw UserError(path + ": could not be written (is the disk full?)");
+}
+
+/// The first difference between two identities; empty if there is none.
+std::string difference(const std::vector<std::string>& before,
+                       const std::vector<std::string>& now) {
+  for (std::size_t i = 0; i < std::max(before.size(), now.size()); ++i) {
+    const std::string was = i < before.size() ? before[i] : "nothing";
+    const std::string is = i < now.size() ? now[i] : "nothing";
+    if (was != is) return "there: " + was + "; now: " + is;
+  }
+  return "";
+}
+
+}  // namespace
+
+void EnsembleFile::prepare(const std::string& path, const EnsembleLayout& layout) {
+  if (!std::filesystem::exists(path)) create(path, layout);
+  const std::string remedy = "; give another -output, or remove that file to begin anew";
+  std::string found;
+  try {
+    found = difference(Hdf5Reader(path).strings(identity_name), layout.identity);
+  } catch (const std::runtime_error& error) {
+    throw UserError(std::string(error.what()) + remedy);
+  }
+  if (!found.empty()) {
+    throw UserError(path + " holds another ensemble (" + found + ")" + remedy);
+  }
+}
+
+EnsembleFile::EnsembleFile(const std::string& path, const EnsembleLayout& layout)
+    : layout_(layout),
+      reader_(path, PlacedFile::Access::read),
+      writer_(path, PlacedFile::Access::write) {
+  try {
+    const Hdf5Reader file(path);
+    for (const Quantity& quantity : quantities(layout)) {
+      places_.push_back(file.place(quantity.name));
+    }
+    done_ = file.place("done");
+  } catch (const std::runtime_error& error) {
+    throw UserError(std::string(error.what()) + "; remove that file to begin anew");
+  }
+}
+
+std::vector<bool> EnsembleFile::done() const {
+  std::vector<double> flags(layout_.table->members());
+  reader_.read(done_, flags);
+  std::vector<bool> done;
+  for (const double flag : flags) done.push_back(flag == 1);
+  return done;
+}
+
+void EnsembleFile::write(std::size_t member, const MemberResult& result) {
+  const std::vector<Quantity> list = quantities(layout_);
+  for (std::size_t q = 0; q < list.size(); ++q) {
+    const auto offset = static_cast<std::int64_t>(member * list[q].size() * sizeof(double));
+    writer_.write(places_[q] + offset, result.*list[q].values);
+  }
+  writer_.sync();
+  const double flag = 1;
+  writer_.write(done_ + static_cast<std::int64_t>(member * sizeof(double)), {&flag, 1});
+  writer_.sync();
+}
+
+MemberResult EnsembleFile::read(std::size_t member) const {
+  const std::vector<Quantity> list = quantities(layout_);
+  MemberResult result;
+  for (std::size_t q = 0; q < list.size(); ++q) {
+    std::vector<double>& values = result.*list[q].values;
+    values.resize(list[q].size());
+    reader_.read(places_[q] + static_cast<std::int64_t>(member * values.size() * sizeof(double)),
+                 values);
+  }
+  return result;
+}
+
+void write_ensemble_table(const std::string& path, const EnsembleLayout& layout,
+                          const EnsembleFile& file, int digits) {
+  const MemberTable& table = *layout.table;
+  const std::vector<bool> done = file.done();
+  std::vector<Quantity> list = quantities(layout);
+  list.erase(list.begin());  // spectra have no place in a line
+  std::string text = "member,done";
+  for (const std::string& column : table.columns) text += "," + column;
+  const auto name = [](std::string quantity) {
+    std::ranges::replace(quantity, '/', '_');
+    return quantity;
+  };
+  for (const Quantity& quantity : list) {
+    const bool channels = std::string_view(quantity.name).starts_with("peaks/");
+    const std::vector<std::string>& owners = channels ? layout.channels : layout.contacts;
+    if (quantity.shape.empty()) text += "," + name(quantity.name);
+    for (std::size_t i = 0; i < (quantity.shape.empty() ? 0 : quantity.size()); ++i) {
+      text += "," + name(quantity.name) + " " + owners[i];
+    }
+  }
+  text += "\n";
+  for (std::size_t m = 0; m < table.members(); ++m) {
+    text += std::to_string(m + 1) + (done[m] ? ",1" : ",0");
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      const std::string& value = table.value(m, c);
+      text += value.find(',') == std::string::npos ? "," + value : ",\"" + value + "\"";
+    }
+    const MemberResult result = done[m] ? file.read(m) : MemberResult{};
+    for (const Quantity& quantity : list) {
+      for (std::size_t i = 0; i < quantity.size(); ++i) {
+        char number[40] = "";
+        const double value =
+            done[m] ? (result.*quantity.values)[i] : std::numeric_limits<double>::quiet_NaN();
+        if (value == value) std::snprintf(number, sizeof number, "%.*g", digits, value);
+        text += std::string(",") + number;
+      }
+    }
+    text += "\n";
+  }
+  write_whole_file(path, text);
+}
+
+}  // namespace pounding

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ensemble/member_run.h"
+#include "io/placed_file.h"
+#include "scene/member_table.h"
+
+namespace pounding {
+
+/// Contents of ensemble.h5, results apart; alike on every rank.
+struct EnsembleLayout {
+  const MemberTable* table = nullptr;
+  std::vector<std::string> channels;  ///< "probe direction"
+  std::vector<double> damping_ratios;
+  std::vector<double> frequencies;  ///< [Hz]
+  std::vector<std::string> contacts;
+  /// Lines that tell whence the results are: a file of other ones is of another ensemble.
+  std::vector<std::string> identity;
+};
+
+/// The file of the results of an ensemble: every member has a place of its own in it, taken when
+/// the file is made, which any process may fill at any time. A member's flag `done` is set once its
+/// numbers stand on the disk, so that a run that was killed is continued with what is missing.
+class EnsembleFile {
+ public:
+  /// Makes the file if there is none; else throws UserError unless it is that of `layout`. Serial.
+  static void prepare(const std::string& path, const EnsembleLayout& layout);
+
+  /// Opens a prepared file. Throws UserError. Each rank on its own.
+  EnsembleFile(const std::string& path, const EnsembleLayout& layout);
+
+  /// Per member, whether it is done.
+  std::vector<bool> done() const;
+  /// Writes a member and sets its flag.
+  void write(std::size_t member, const MemberResult& result);
+  /// A member that is done.
+  MemberResult read(std::size_t member) const;
+
+ private:
+  const EnsembleLayout& layout_;
+  PlacedFile reader_;
+  PlacedFile writer_;
+  std::vector<std::int64_t> places_;  ///< per quantity
+  std::int64_t done_ = 0;
+};
+
+/// ensemble.csv: a line per member, its options and main numbers. Throws UserError.
+void write_ensemble_table(const std::string& path, const EnsembleLayout& layout,
+                          const EnsembleFile& file, int digits);
+
+}  // namespace pounding

@@ -1,0 +1,76 @@
+#include "ensemble/ensemble_identity.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+
+#include "common/parallel.h"
+#include "io/file_digest.h"
+#include "scene/resolved_options.h"
+
+namespace pounding {
+namespace {
+
+/// Options that leave the numbers of an ensemble as they are.
+constexpr auto of_no_effect = std::to_array<std::string_view>(
+    {"title", "output", "ensemble", "dry_run", "progress_interval", "mesh_time_limit", "modes",
+     "modes_solver", "partition", "csv_digits", "checkpoint_interval", "checkpoint_steps",
+     "allow_geo_commands", "fidelity_target", "fidelity_table"});
+
+bool counts(const std::string& name) {
+  return std::ranges::find(of_no_effect, name) == of_no_effect.end() &&
+         !name.ends_with("_modal_basis") && !is_petsc_option(name);
+}
+
+bool names_content(const std::string& name) {
+  return name.ends_with("_mesh") || name.ends_with("_record") || name.ends_with("_target");
+}
+
+}  // namespace
+
+std::vector<std::string> ensemble_identity(MPI_Comm comm, const std::string& resolved,
+                                           const MemberTable& table, double time_step) {
+  std::vector<std::string> lines;
+  std::set<std::string> files;
+  const auto take_file = [&](const std::string& name, const std::string& value) {
+    if (names_content(name) && !value.empty() && value != "none") files.insert(value);
+  };
+  for (const auto& [name, value] : resolved_values(resolved)) {
+    if (!counts(name)) continue;
+    lines.push_back("option " + name + " " + value);
+    take_file(name, value);
+  }
+  std::string columns = "columns";
+  for (const std::string& column : table.columns) columns += " " + column;
+  lines.push_back(columns);
+  for (std::size_t m = 0; m < table.members(); ++m) {
+    std::string line = "member " + std::to_string(m + 1);
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      line += " | " + table.value(m, c);
+      take_file(table.columns[c], table.value(m, c));
+    }
+    lines.push_back(line);
+  }
+  std::string digests;
+  on_rank0(comm, [&] {
+    for (const std::string& file : files) {
+      std::error_code failure;
+      if (!std::filesystem::is_regular_file(file, failure)) continue;
+      digests += "file " + file + " " + digest_of_file(file).sha256 + "\n";
+    }
+  });
+  broadcast(comm, digests);
+  for (std::size_t begin = 0; begin < digests.size();) {
+    const std::size_t end = digests.find('\n', begin);
+    lines.push_back(digests.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  char step[60];
+  std::snprintf(step, sizeof step, "time step %.17g s", time_step);
+  lines.emplace_back(step);
+  return lines;
+}
+
+}  // namespace pounding

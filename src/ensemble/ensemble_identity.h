@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <mpi.h>
+
+#include "scene/member_table.h"
+
+namespace pounding {
+
+/// Lines that tell what the results of an ensemble follow from: the scene's options but those that
+/// leave them as they are, the table, the files that both name (by their content) and the time step
+/// [s]. `resolved`: options in force. Rank 0 reads the files. Throws UserError. Collective.
+std::vector<std::string> ensemble_identity(MPI_Comm comm, const std::string& resolved,
+                                           const MemberTable& table, double time_step);
+
+}  // namespace pounding

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contact/find_interface.h"
+#include "driver/model.h"
+#include "modal/modal_basis.h"
+#include "scene/member_table.h"
+#include "scene/scene_reader.h"
+
+/// The scenes of the members of an ensemble, and what of the model is their own.
+namespace pounding {
+
+/// Scene of one member.
+struct MemberScene {
+  Scene scene;
+  std::vector<double> stiffness_factors;  ///< per structure
+};
+
+/// Refuses scenes that cannot be stepped together: structures at full order, links, supports of
+/// their own, records beside those of probes. Throws UserError.
+void require_ensemble_scene(const Scene& scene);
+
+/// The scene of a member. Throws UserError with the line of the table.
+MemberScene read_member(const OptionsDatabase& scene, const MemberTable& table, std::size_t member);
+
+/// Model that the members share on a rank.
+struct EnsembleModel {
+  const Model* model = nullptr;      ///< of the ensemble's scene, on this rank alone
+  std::vector<ModalBasis> bases;     ///< of every structure, with rows, without a factor
+  std::vector<GapShare> gap_shares;  ///< of the rows of its interface
+};
+
+/// The part of the model that is a member's own, for this process alone: systems and limits of its
+/// structures, gaps, motion. It borrows from both.
+Model member_model(const MemberScene& member, const EnsembleModel& shared);
+
+/// The stable time step of a member [s].
+double member_time_step(const MemberScene& member, const std::vector<ModalBasis>& bases);
+
+}  // namespace pounding

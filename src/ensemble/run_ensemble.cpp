@@ -1,0 +1,284 @@
+#include "ensemble/run_ensemble.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "common/error.h"
+#include "common/floating_point.h"
+#include "common/memory.h"
+#include "common/parallel.h"
+#include "driver/build_model.h"
+#include "driver/field_plan.h"
+#include "driver/folder_checks.h"
+#include "driver/report.h"
+#include "driver/run_progress.h"
+#include "driver/run_scene.h"
+#include "driver/stop_signal.h"
+#include "ensemble/ensemble_file.h"
+#include "ensemble/ensemble_identity.h"
+#include "ensemble/octet_group.h"
+#include "ensemble/stop_together.h"
+#include "motion/synthetic.h"
+#include "output/result_folder.h"
+
+namespace pounding {
+namespace {
+
+/// One ensemble from its options to its files.
+class Ensemble {
+ public:
+  Ensemble(MPI_Comm comm, ReadScene read, const OptionsDatabase& database)
+      : comm_(comm), read_(std::move(read)), database_(database), scene_(read_.scene) {}
+
+  void run(const SceneOrigin& origin) {
+    require_ensemble_scene(scene_);
+    std::optional<ResultFolder> folder;  // of rank 0
+    on_rank0(comm_, [&] {
+      try_folder("output", scene_.output);
+      if (!scene_.dry_run) folder.emplace(scene_.output);
+    });
+    if (root()) print_title(scene_, overrides_text(origin), size_of(comm_));
+    read_members();
+    build();
+    choose_step();
+    check_memory();
+    if (root()) print_plan();
+    if (scene_.dry_run) return;
+    open_file();
+    step_groups();
+    finish();
+  }
+
+ private:
+  bool root() const { return rank_of(comm_) == 0; }
+  std::string path(const char* name) const { return scene_.output + "/" + name; }
+
+  void read_members() {
+    std::vector<std::string> structures;
+    for (const Structure& structure : scene_.structures) structures.push_back(structure.name);
+    for (const Contact& contact : scene_.contacts) layout_.contacts.push_back(contact.name);
+    table_ = read_member_table(comm_, read_.ensemble, structures, layout_.contacts);
+    layout_.table = &table_;
+    for (std::size_t m = 0; m < table_.members(); ++m) {
+      members_.push_back(read_member(database_, table_, m));
+    }
+    on_every_rank(comm_, [&] { check_motions(); });
+  }
+
+  /// Records must be there and synthetic motions have a target, before hours are spent on others.
+  void check_motions() const {
+    for (std::size_t m = rank_of(comm_); m < members_.size(); m += size_of(comm_)) {
+      std::array<std::optional<MotionComponent>, 3> recorded;
+      try {
+        for (std::size_t d = 0; d < 3; ++d) {
+          const std::optional<MotionComponent>& component = members_[m].scene.motion[d];
+          if (!component) continue;
+          if (const auto* synthetic = std::get_if<SyntheticMotion>(&component->source)) {
+            read_target_spectrum(synthetic->target);
+          } else {
+            recorded[d] = component;
+          }
+        }
+        const GroundMotion motion(recorded, Resampling::linear);
+      } catch (const UserError& error) {
+        throw UserError(table_.place(m) + error.what());
+      }
+    }
+  }
+
+  /// The model of the whole job, which computes the bases, and that of this rank alone.
+  void build() {
+    for (Structure& structure : scene_.structures) {
+      std::string& file = structure.modal->basis_file;
+      if (file.empty() && !scene_.dry_run) file = path(("basis_" + structure.name + ".h5").c_str());
+    }
+    Profile profile;
+    const std::vector<double> ones(scene_.structures.size(), 1.0);
+    shared_ = build_model(comm_, scene_, ones, profile, &parts_.gap_shares);
+    if (root()) print_model(scene_, shared_);
+    if (size_of(comm_) > 1 && !scene_.dry_run) {
+      MPI_Barrier(comm_);  // the bases are in their files
+      own_scene_ = scene_;
+      own_scene_.progress_interval = std::numeric_limits<double>::infinity();
+      own_ = build_model(MPI_COMM_SELF, own_scene_, ones, profile);
+    }
+    parts_.model = &model();
+    for (std::size_t s = 0; s < model().systems.size(); ++s) {
+      parts_.bases.push_back(*model().buildings[s].basis);
+      parts_.bases[s].rows = model().systems[s].generalised->rows;
+    }
+  }
+
+  /// The model of this rank alone.
+  Model& model() { return own_ ? *own_ : shared_; }
+
+  /// One time step for all members: that of the one whose stable step is the smallest.
+  void choose_step() {
+    double stable = std::numeric_limits<double>::infinity();
+    for (std::size_t m = 0; m < members_.size(); ++m) {
+      const double own = member_time_step(members_[m], parts_.bases);
+      stable = std::min(stable, own);
+      if (scene_.time_step > own) {
+        char text[160];
+        std::snprintf(
+            text, sizeof text,
+            "option -time_step %g s: above its stable time step %g s; give a smaller one, "
+            "or leave it out",
+            scene_.time_step, own);
+        throw UserError(table_.place(m) + text);
+      }
+    }
+    choose_time_step(scene_, stable, shared_);
+    choose_time_step(scene_, stable, model());
+    times_ = {shared_.time_step, record_stride(scene_, shared_), shared_.steps,
+              scene_.spectra.start};
+    for (const ResolvedProbe& probe : shared_.probes) {
+      for (const char* direction : direction_names) {
+        layout_.channels.push_back(probe.name + " " + direction);
+      }
+    }
+    layout_.damping_ratios = scene_.spectra.damping_ratios;
+    layout_.frequencies = scene_.spectra.frequencies;
+    layout_.identity = ensemble_identity(comm_, read_.resolved, table_, shared_.time_step);
+  }
+
+  void check_memory() const {
+    const double wanted = OctetRecorder::memory(layout_.channels.size(), times_) * size_of(comm_);
+    double available = available_memory();
+    MPI_Bcast(&available, 1, MPI_DOUBLE, 0, comm_);
+    if (wanted <= available) return;
+    char text[300];
+    std::snprintf(text, sizeof text,
+                  "option -ensemble: eight histories of %zu channels on each of %d ranks take %.1f "
+                  "GB, %.1f are free; give a larger -output_interval, fewer probes, or fewer ranks",
+                  layout_.channels.size(), size_of(comm_), wanted / 1e9, available / 1e9);
+    throw UserError(text);
+  }
+
+  void print_plan() const {
+    std::printf(
+        "ensemble %s: %zu members, %zu at a time on each rank; time step %.6g s, %lld steps\n",
+        table_.file.c_str(), members_.size(), octet_size, shared_.time_step,
+        static_cast<long long>(shared_.steps));
+    std::printf("  histories in memory: %.0f MB per rank\n",
+                OctetRecorder::memory(layout_.channels.size(), times_) / 1e6);
+  }
+
+  void open_file() {
+    on_rank0(comm_, [&] {
+      EnsembleFile::prepare(path("ensemble.h5"), layout_);
+      write_whole_file(path("resolved.yaml"), read_.resolved);
+    });
+    on_every_rank(comm_, [&] { file_.emplace(path("ensemble.h5"), layout_); });
+    const std::vector<bool> done = file_->done();
+    for (std::size_t m = 0; m < done.size(); ++m) {
+      if (!done[m]) missing_.push_back(m);
+    }
+    MPI_Barrier(comm_);  // nobody writes before all have read
+    if (root() && missing_.size() < done.size()) {
+      std::printf("  %zu of %zu members are done already\n", done.size() - missing_.size(),
+                  done.size());
+    }
+  }
+
+  void step_groups() {
+    const StopSignal signals;
+    StopTogether stop(comm_);
+    const double start = MPI_Wtime();
+    on_every_rank(comm_, [&] {
+      if (missing_.empty()) return;
+      OctetRecorder recorder(model().probes, model().systems, model().meshes, times_);
+      const std::size_t stride = octet_size * static_cast<std::size_t>(size_of(comm_));
+      const std::size_t begin = octet_size * static_cast<std::size_t>(rank_of(comm_));
+      for (std::size_t first = begin; first < missing_.size(); first += stride) {
+        const std::size_t count = std::min(octet_size, missing_.size() - first);
+        if (!step_group({&missing_[first], count}, recorder, stop)) return;
+        if (root()) show(std::min(first + stride, missing_.size()), MPI_Wtime() - start);
+      }
+    });
+    signal_ = stop.finish();
+    seconds_ = MPI_Wtime() - start;
+  }
+
+  bool step_group(std::span<const std::size_t> numbers, OctetRecorder& recorder,
+                  StopTogether& stop) {
+    std::vector<const MemberScene*> scenes;
+    for (const std::size_t number : numbers) scenes.push_back(&members_[number]);
+    OctetGroup group(scenes, scene_, parts_, recorder);
+    try {
+      if (!group.run([&] { return stop.ask(); })) return false;
+    } catch (const DivergenceError& error) {
+      throw UserError(table_.place(numbers[group.failed_lane()]) + error.what());
+    }
+    for (std::size_t lane = 0; lane < numbers.size(); ++lane) {
+      file_->write(numbers[lane], group.result(lane));
+    }
+    return !stop.ask();
+  }
+
+  void show(std::size_t done, double seconds) const {
+    const double left =
+        seconds / static_cast<double>(done) * static_cast<double>(missing_.size() - done);
+    std::printf("  about %zu of %zu members, %s, %s left\n", done, missing_.size(),
+                duration_text(seconds).c_str(), duration_text(left).c_str());
+  }
+
+  void finish() {
+    bool all = false;
+    on_rank0(comm_, [&] {
+      write_ensemble_table(path("ensemble.csv"), layout_, *file_, scene_.csv_digits);
+      const std::vector<bool> flags = file_->done();
+      const auto done = static_cast<std::size_t>(std::ranges::count(flags, true));
+      all = done == flags.size();
+      std::printf("ensemble: %zu of %zu members in %s, stepped in %.2f s\n", done, flags.size(),
+                  path("ensemble.h5").c_str(), seconds_);
+    });
+    MPI_Bcast(&all, 1, MPI_C_BOOL, 0, comm_);
+    if (signal_ != 0 && !all) {
+      throw StoppedBySignal("stopped by " + signal_name(signal_) +
+                            "; the same command goes on with the members that are missing");
+    }
+  }
+
+  MPI_Comm comm_;
+  ReadScene read_;
+  const OptionsDatabase& database_;
+  Scene& scene_;
+  MemberTable table_;
+  std::vector<MemberScene> members_;
+  EnsembleLayout layout_;
+  Model shared_;
+  Scene own_scene_;
+  std::optional<Model>
+      own_;  ///< of this rank alone; none on one rank, where the shared one is that
+  EnsembleModel parts_;
+  OctetRecorder::Times times_;
+  std::optional<EnsembleFile> file_;
+  std::vector<std::size_t> missing_;
+  int signal_ = 0;
+  double seconds_ = 0;
+};
+
+}  // namespace
+
+void run_ensemble(MPI_Comm comm, ReadScene read, const OptionsDatabase& database,
+                  const SceneOrigin& origin) {
+  flush_subnormal_numbers();
+  return_large_arrays();
+  Ensemble(comm, std::move(read), database).run(origin);
+}
+
+void run_as_asked(MPI_Comm comm, ReadScene read, const OptionsDatabase& database,
+                  const SceneOrigin& origin) {
+  if (read.ensemble.empty()) {
+    run_scene(comm, std::move(read), origin);
+  } else {
+    run_ensemble(comm, std::move(read), database, origin);
+  }
+}
+
+}  // namespace pounding

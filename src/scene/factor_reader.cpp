@@ -1,0 +1,43 @@
+#include "scene/factor_reader.h"
+
+#include <algorithm>
+
+namespace pounding {
+namespace {
+
+constexpr std::string_view damping_factor = "<structure>_damping_factor";
+constexpr std::string_view stiffness_factor = "<structure>_stiffness_factor";
+
+/// Part of the stiffness that a factor on K would leave out; empty if there is none.
+std::string left_out(const Structure& structure) {
+  if (structure.soil) return "its soil has a stiffness of its own";
+  if (structure.p_delta) return "not with -" + structure.name + "_p_delta";
+  if (!structure.matrices.empty() && !structure.modal) {
+    return "not with -" + structure.name + "_matrices at full order; scale stiffness.mtx";
+  }
+  const auto law = std::ranges::find_if(structure.regions, follows_law);
+  if (law == structure.regions.end()) return "";
+  return "not with -" + option_name(law_option(*law), {structure.name, law->group});
+}
+
+}  // namespace
+
+double read_damping_factor(OptionReader& options, const std::string& structure) {
+  return options.real(damping_factor, {structure});
+}
+
+double read_stiffness_factor(OptionReader& options, Structure& structure) {
+  const double factor = options.real(stiffness_factor, {structure.name});
+  if (factor == 1) return factor;
+  if (const std::string why = left_out(structure); !why.empty()) {
+    options.refuse(stiffness_factor, {structure.name}, why);
+  }
+  if (structure.modal) return factor;
+  for (Region& region : structure.regions) {
+    region.material.young *= factor;
+    for (double& stiffness : region.stiffness) stiffness *= factor;
+  }
+  return factor;
+}
+
+}  // namespace pounding

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "scene/option_reader.h"
+#include "scene/scene.h"
+
+/// Factors by which a study varies structures that are otherwise the same.
+namespace pounding {
+
+/// Factor on the damping of a structure: its readers multiply what they read by it.
+double read_damping_factor(OptionReader& options, const std::string& structure);
+
+/// The factor on the stiffness of a structure whose other options are read. Its regions get it at
+/// full order; the frequencies of a reduction get it once the basis is known. Throws UserError
+/// where part of the stiffness would not follow: links, soil, files of matrices, P-Delta.
+double read_stiffness_factor(OptionReader& options, Structure& structure);
+
+}  // namespace pounding

@@ -1,0 +1,158 @@
+#include "scene/member_table.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+#include "common/error.h"
+#include "common/parallel.h"
+#include "scene/nearest_name.h"
+#include "scene/option_values.h"
+#include "scene/options_database.h"
+
+namespace pounding {
+namespace {
+
+/// Options that members may have of their own: what changes neither meshes nor modes.
+std::vector<std::string> free_options(const std::vector<std::string>& structures,
+                                      const std::vector<std::string>& contacts) {
+  std::vector<std::string> names{"motion_level"};
+  for (const OptionRow& row : option_table()) {
+    if (row.block != OptionBlock::motion) continue;
+    for (const char* axis : {"x", "y", "z"}) names.push_back(option_name(row.pattern, {axis}));
+  }
+  for (const std::string& structure : structures) {
+    for (const char* pattern : {"<structure>_damping_factor", "<structure>_stiffness_factor",
+                                "<structure>_modal_damping"}) {
+      names.push_back(option_name(pattern, {structure}));
+    }
+  }
+  for (const std::string& contact : contacts) {
+    names.push_back(option_name("<contact>_gap", {contact}));
+  }
+  return names;
+}
+
+/// Fields of a line; quotes around a field are taken off.
+std::vector<std::string> fields_of(const std::string& line, char separator) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
+      fields.back() += line[++i];
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (c == separator && !quoted) {
+      fields.emplace_back();
+    } else {
+      fields.back() += c;
+    }
+  }
+  for (std::string& field : fields) field = trimmed(field);
+  return fields;
+}
+
+std::string read_text(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (!stream.is_open() || stream.bad()) {
+    throw UserError("option -ensemble " + file + ": no such file, or it cannot be read");
+  }
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
+  return text;
+}
+
+void check_columns(const MemberTable& table, const std::vector<std::string>& structures,
+                   const std::vector<std::string>& contacts) {
+  const std::vector<std::string> free = free_options(structures, contacts);
+  std::set<std::string> seen;
+  for (const std::string& column : table.columns) {
+    if (std::ranges::find(free, column) == free.end()) {
+      throw UserError(table.file + ": column '" + column +
+                      "' is no option that may differ from run to run; those are motion_..., "
+                      "motion_level, <contact>_gap, <structure>_damping_factor, _stiffness_factor "
+                      "and _modal_damping" +
+                      suggestion(column, free));
+    }
+    if (!seen.insert(column).second) {
+      throw UserError(table.file + ": two columns are called '" + column + "'");
+    }
+  }
+}
+
+MemberTable parse_table(const std::string& file, const std::string& text) {
+  MemberTable table;
+  table.file = file;
+  std::istringstream stream(text);
+  char separator = ',';
+  int number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++number;
+    if (trimmed(line).empty() || line.starts_with('#')) continue;
+    if (table.columns.empty()) {
+      if (line.find(';') != std::string::npos) separator = ';';
+      table.columns = fields_of(line, separator);
+      continue;
+    }
+    const std::vector<std::string> fields = fields_of(line, separator);
+    if (fields.size() != table.columns.size()) {
+      throw UserError(file + ", line " + std::to_string(number) + ": " +
+                      std::to_string(fields.size()) + " values, " +
+                      std::to_string(table.columns.size()) +
+                      " columns; a value that holds the separator stands in double quotes");
+    }
+    table.lines.push_back(number);
+    table.values.insert(table.values.end(), fields.begin(), fields.end());
+  }
+  if (table.members() == 0) {
+    throw UserError("option -ensemble " + file +
+                    ": no runs in it; the first line names options, every other one is a run");
+  }
+  return table;
+}
+
+}  // namespace
+
+std::string MemberTable::place(std::size_t member) const {
+  return file + ", line " + std::to_string(lines[member]) + " (member " +
+         std::to_string(member + 1) + "): ";
+}
+
+MemberTable read_member_table(MPI_Comm comm, const std::string& file,
+                              const std::vector<std::string>& structures,
+                              const std::vector<std::string>& contacts) {
+  std::string text;
+  on_rank0(comm, [&] { text = read_text(file); });
+  broadcast(comm, text);
+  MemberTable table = parse_table(file, text);
+  check_columns(table, structures, contacts);
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    std::map<std::string, std::string> found;  // each path is looked for once
+    for (std::size_t m = 0; m < table.members(); ++m) {
+      std::string& value = table.values[m * table.columns.size() + c];
+      const auto [entry, is_new] = found.try_emplace(value, value);
+      if (is_new) {
+        OptionsDatabase options{{table.columns[c], value}};
+        find_inputs(comm, file, options);
+        entry->second = options.begin()->second;
+      }
+      value = entry->second;
+    }
+  }
+  return table;
+}
+
+OptionsDatabase member_options(const OptionsDatabase& scene, const MemberTable& table,
+                               std::size_t member) {
+  OptionsDatabase options = scene;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    if (!table.value(member, c).empty()) options[table.columns[c]] = table.value(member, c);
+  }
+  return options;
+}
+
+}  // namespace pounding

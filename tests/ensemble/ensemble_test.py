@@ -1,0 +1,173 @@
+"""Many runs at once are what single runs are: every member of an ensemble beside the run of its own, on one rank and
+two, interrupted and continued; and what an ensemble refuses."""
+import os
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import h5py
+import numpy as np
+
+import program
+import two_buildings  # noqa: F401  (puts python on the path)
+
+import pounding
+
+SCENE = ["-options_file", str(two_buildings.SCENE), "-end_time", "1.2", "-modes", "0", "-csv_digits", "17",
+         "-left_damping_reference", "3", "-right_damping_reference", "4", "-spectra_damping", "0.02,0.05",
+         "-gap_interval", "0.01"]
+MODAL = [word for name in ("left", "right")
+         for word in (f"-{name}_model", "modal", f"-{name}_modal_vectors", "12", f"-{name}_mass_scaling", "5e-5")]
+COLUMNS = "motion_x_seed,motion_x_pga,motion_level,floor1_gap,floor2_gap,left_damping_factor,right_stiffness_factor"
+ROWS = ["1,3.5,1,0.01,0.01,1,1", "2,3.5,1,0.01,0.012,1,1", "3,3.5,1.4,\"0.008,0.011\",0.01,1,1",
+        "1,2,1,0.01,0.01,1,1", "1,3.5,1,0.005,0.004,0.5,1.2", "4,6,0.7,0.02,0.015,2,0.9", "2,0.1,1,0.01,0.01,1,1",
+        "5,4,1,0.003,0.003,1,1", "6,3.5,1,0.01,0.01,1,0.8", "7,5,1,,0.01,1,1"]
+
+
+def table(rows, columns=COLUMNS):
+    handle, path = tempfile.mkstemp(suffix=".csv")
+    with os.fdopen(handle, "w") as file:
+        file.write("\n".join([columns, *rows]) + "\n")
+    return path
+
+
+def overrides(row):
+    """The words of a single run of a row."""
+    fields, quoted = [""], False
+    for c in row:
+        if c == '"':
+            quoted = not quoted
+        elif c == "," and not quoted:
+            fields.append("")
+        else:
+            fields[-1] += c
+    return [word for name, value in zip(COLUMNS.split(","), fields) if value for word in (f"-{name}", value)]
+
+
+class Members(unittest.TestCase):
+    """One ensemble of ten members, of two groups."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.table = table(ROWS)
+        cls.folder = tempfile.mkdtemp(prefix="pounding-ensemble-")
+        cls.words = [*SCENE, *MODAL, "-ensemble", cls.table]
+        cls.job = program.run([*cls.words, "-output", cls.folder], 1)
+        cls.result = pounding.load_ensemble(cls.folder) if cls.job.returncode == 0 else None
+
+    def setUp(self):
+        self.assertEqual(self.job.returncode, 0, self.job.stdout[-2000:] + self.job.stderr[-2000:])
+
+    def test_each_is_its_single_run(self):
+        with h5py.File(os.path.join(self.folder, "ensemble.h5")) as file:
+            step = [line for line in np.char.decode(file["identity"][:]) if line.startswith("time step")]
+        struck = 0
+        for member in (0, 2, 4, 7, 9):
+            folder, summary = program.must_run(
+                self, [*SCENE, *MODAL, "-time_step", step[0].split()[2], *overrides(ROWS[member])], 1)
+            single = pounding.load(folder)
+            spectra = np.array([single.spectrum(*channel.split(), damping)[1]
+                                for channel in self.result.channels for damping in self.result.damping])
+            own = self.result.pseudo_acceleration[member].reshape(spectra.shape)
+            self.assertLess(np.abs(own / spectra - 1).max(), 1e-9)
+            for c, contact in enumerate(summary["impacts"]["by_contact"]
+                                        if "by_contact" in summary["impacts"] else []):
+                self.assertEqual(self.result.impacts["episodes"][member, c], contact["episodes"])
+            impulses = {}
+            for name, impulse in zip(single.impacts["contact"], single.impacts["impulse"]):
+                impulses.setdefault(str(name), []).append(impulse)
+            for c, contact in enumerate(self.result.contacts):
+                found = impulses.get(contact, [])
+                self.assertEqual(self.result.impacts["episodes"][member, c], len(found))
+                self.assertAlmostEqual(self.result.impacts["impulse_sum"][member, c], sum(found),
+                                       delta=1e-9 * max(sum(found), 1e-9))
+                self.assertEqual(np.isnan(self.result.impacts["first_time"][member, c]), not found)
+                gaps = single.history["gap"][:, c]
+                self.assertAlmostEqual(self.result.smallest_gap[member, c], np.nanmin(gaps), delta=1e-11)
+                struck += len(found)
+            for c, channel in enumerate(self.result.channels):
+                peak = np.abs(single.series("displacement", *channel.split())[1]).max()
+                self.assertAlmostEqual(self.result.displacement[member, c], peak, delta=1e-9 * peak)
+        self.assertGreater(struck, 5)
+
+    def test_ledgers_close(self):
+        self.assertTrue(self.result.done.all())
+        self.assertLess(np.abs(self.result.residual).max(), 1e-9)
+
+    def test_summary_for_a_spreadsheet(self):
+        with open(os.path.join(self.folder, "ensemble.csv")) as file:
+            rows = file.read().splitlines()
+        self.assertEqual(len(rows), 1 + len(ROWS))
+        self.assertTrue(rows[0].startswith("member,done,motion_x_seed"))
+
+    def same_as(self, folder):
+        with h5py.File(os.path.join(self.folder, "ensemble.h5")) as one, \
+                h5py.File(os.path.join(folder, "ensemble.h5")) as other:
+            for name in ("spectra/pseudo_acceleration", "impacts/impulse_sum", "peaks/displacement", "energy/residual",
+                         "peaks/acceleration", "impacts/first_time", "gaps/smallest", "done"):
+                np.testing.assert_array_equal(one[name][:], other[name][:], name)
+
+    def test_two_ranks_and_another_order_of_groups(self):
+        folder = tempfile.mkdtemp(prefix="pounding-ensemble-")
+        run = program.run([*self.words, "-output", folder], 2)
+        self.assertEqual(run.returncode, 0, run.stderr[-2000:])
+        self.same_as(folder)
+        with h5py.File(os.path.join(folder, "ensemble.h5"), "r+") as file:  # as if killed
+            for member in (1, 4, 9):
+                file["done"][member] = 0
+                file["spectra/pseudo_acceleration"][member] = np.nan
+        run = program.run([*self.words, "-output", folder], 1)
+        self.assertEqual(run.returncode, 0, run.stderr[-2000:])
+        self.assertIn("7 of 10 members are done already", run.stdout)
+        self.same_as(folder)
+
+    def test_a_signal_stops_it_and_the_same_command_goes_on(self):
+        folder = tempfile.mkdtemp(prefix="pounding-ensemble-")
+        words = [*self.words, "-output", folder]
+        job = subprocess.Popen([program.PROGRAM, *words], cwd=program.SOURCE, env=program.ENVIRONMENT,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        for line in job.stdout:
+            if "about 8 of 10" in line or "histories in memory" in line:
+                break
+        time.sleep(0.2)
+        job.send_signal(signal.SIGTERM)
+        _, errors = job.communicate(timeout=600)
+        self.assertIn(job.returncode, (0, 2), errors)
+        if job.returncode == 2:
+            self.assertIn("stopped by SIGTERM", errors)
+            self.assertFalse(pounding.load_ensemble(folder).done.all())
+        run = program.run(words, 1)
+        self.assertEqual(run.returncode, 0, run.stderr[-2000:])
+        self.same_as(folder)
+
+    def test_another_table_or_scene_is_refused(self):
+        program.must_refuse(self, [*SCENE, *MODAL, "-ensemble", table(ROWS[:9]), "-output", self.folder],
+                            "holds another ensemble", "member 10", "give another -output", ranks=1)
+        program.must_refuse(self, [*self.words, "-end_time", "1.1", "-output", self.folder],
+                            "holds another ensemble", "end_time", ranks=2)
+
+
+class Refusals(unittest.TestCase):
+    def refuse(self, words, *parts, rows=("1",), columns="motion_x_seed"):
+        output = tempfile.mkdtemp(prefix="pounding-ensemble-")
+        program.must_refuse(self, [*SCENE, *words, "-ensemble", table(rows, columns), "-output", output], *parts,
+                            ranks=2)
+
+    def test_what_it_cannot_do(self):
+        self.refuse([], "structure left is not reduced", "-left_model modal")
+        self.refuse([*MODAL, "-floor1_sliding", "0.05"], "floor1_sliding out")
+        self.refuse([*MODAL, "-gravity", "9.81", "-preload", "static"], "-preload none")
+
+    def test_mistakes_in_the_table(self):
+        self.refuse(MODAL, "column 'end_time'", "no option that may differ", columns="end_time", rows=["2"])
+        self.refuse(MODAL, "did you mean floor1_gap", columns="floor_gap", rows=["2"])
+        self.refuse(MODAL, "line 3 (member 2)", "motion_x_pga", columns="motion_x_pga", rows=["2", "-1"])
+        self.refuse(MODAL, "line 2", "2 values, 1 columns", rows=["1,2"])
+        self.refuse(MODAL, "no runs in it", rows=[])
+        self.refuse(MODAL, "line 2 (member 1)", "nowhere.txt", columns="motion_x_record", rows=["nowhere.txt"])
+
+
+if __name__ == "__main__":
+    unittest.main()
