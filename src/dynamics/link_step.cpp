@@ -53,6 +53,10 @@ LinkStep::LinkStep(const LinearSystem& system, const StructureState& state, Stru
     laws_.push_back(law_of(link.origin, time_step));
     memory_.emplace_back(laws_.back()->memory_size(), 0.0);
   }
+  if (are_dashpots(system)) {
+    make_modes(system);
+    return;
+  }
   if (system.supports) find_carried();
   find_bodies(system);
   find_couplings();
@@ -320,6 +324,7 @@ void LinkStep::begin(const Vector3& incident) {
   step_.remember(trace_.dofs(), held_);
   if (!others_.empty()) measure(state_.displacement, supports_.displacement, now_);
   if (!records_.empty()) measure(state_.displacement, supports_.displacement, recorded_);
+  if (modes_) return;
   for (const Block& block : blocks_) {
     for (const std::size_t b : block.links) now_[b] = 0;
   }
@@ -405,6 +410,10 @@ double LinkStep::sweep() {
 }
 
 void LinkStep::pull(bool first) {
+  if (modes_) {
+    brake(first);
+    return;
+  }
   std::fill(force_.begin(), force_.end(), 0.0);
   std::fill(pull_.begin(), pull_.end(), Motion{});
   std::fill(block_pull_.begin(), block_pull_.end(), Motion{});
@@ -459,6 +468,10 @@ LinkStep::Bedding LinkStep::bedding() const {
 }
 
 void LinkStep::finish(StepSums& sums) {
+  if (modes_) {
+    finish_modes(sums);
+    return;
+  }
   measure(state_.velocity, supports_.velocity, rate_);
   rates_known_ = true;
   add_rates(time_step_, after_);

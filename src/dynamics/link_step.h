@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/saved_state.h"
+#include "dynamics/dashpot_modes.h"
 #include "dynamics/link_records.h"
 #include "dynamics/state.h"
 #include "dynamics/step_sums.h"
@@ -21,7 +22,8 @@ namespace pounding {
 /// Links' part of a step of their structure, on the rank that owns their nodes: once the step
 /// without them is made, their forces are solved for (LinkLaw; dashpots that move each other
 /// directly, other links by Gauss-Seidel sweeps, which converge since no force falls as its
-/// elongation grows) and v+ and u_{n+1} corrected at the dofs that they move. Contact comes after
+/// elongation grows; dashpots alone in generalised coordinates by DashpotModes) and v+ and u_{n+1}
+/// corrected at the dofs that they move. Contact comes after
 /// them; where it acts on the nodes of a dashpot, or of a link that switches in the same step, the
 /// link's work differs from what its law tells by what contact changed, and the ledger shows it as
 /// loss. Local.
@@ -53,7 +55,7 @@ class LinkStep {
   bool overpressed() const;
   const LinkRecords& records() const { return records_; }
   /// Force N_n of a link of this rank in the step just made [N, N m].
-  double force(std::size_t link) const { return force_[link]; }
+  double force(std::size_t link) const;
 
   /// Saves what the links remember, link by link. `structure`: its number.
   void save(int structure, SavedState& saved) const;
@@ -88,6 +90,12 @@ class LinkStep {
     double friction = 0;  ///< of such a bearing: capacity over minus the gauge's elongation [N/m]
     double pressing = 0;  ///< likewise what presses on it [N/m]
   };
+  /// All that there is are dashpots of a structure in generalised coordinates.
+  bool are_dashpots(const LinearSystem& system) const;
+  void make_modes(const LinearSystem& system);
+  /// `pull` and `finish` of these.
+  void brake(bool first);
+  void finish_modes(StepSums& sums);
   void find_carried();
   void find_yielding();
   /// Yields from e_n, before any force of the step is known.
@@ -126,6 +134,7 @@ class LinkStep {
   std::vector<std::unique_ptr<LinkLaw>> laws_;  ///< per link
   std::vector<std::vector<double>> memory_;     ///< per link; see LinkLaw
   std::vector<OnBody> on_body_;                 ///< per link
+  std::unique_ptr<DashpotModes> modes_;         ///< null: link by link
   std::vector<Motion> pull_;        ///< per body: sum of W^T b N of links without a rate on it
   std::vector<Motion> block_pull_;  ///< likewise of those with a rate
   /// Per link: itself first, none of its block, none on the same body.

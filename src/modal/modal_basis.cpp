@@ -9,9 +9,9 @@
 #include <set>
 #include <sstream>
 
+#include "common/dense_matrix.h"
 #include "common/error.h"
 #include "common/parallel.h"
-#include "modal/dense_matrix.h"
 #include "modal/eigen_solver.h"
 #include "modal/rigid_motions.h"
 #include "modal/shifted_solver.h"

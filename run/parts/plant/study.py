@@ -11,6 +11,7 @@ APART = "apart"  # the run without contacts
 JOINTS = ("floor1", "floor2")
 DEVIATION = 0.005  # by which the joint is narrower at one end [m]
 BUILDINGS = ("block", "frame")
+RARE_GAPS = "0.01"  # time between two samples of the gaps of a reduced run [s]
 
 
 class StudyError(Exception):
@@ -25,7 +26,7 @@ def options_of(fidelity: str, modes: int, folder: Path) -> dict:
     """Options of a fidelity; bases are kept in the folder of the run, with what its contacts ask of them."""
     if fidelity == "full":
         return {}
-    found = {}
+    found = {"gap_interval": RARE_GAPS}  # to look at gaps costs a reduced step more than its coordinates do
     for building in BUILDINGS:
         found |= {f"{building}_model": "modal", f"{building}_modal_vectors": str(modes),
                   f"{building}_modal_basis": str((folder / f"{building}.basis").absolute())}

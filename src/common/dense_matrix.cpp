@@ -1,4 +1,4 @@
-#include "modal/dense_matrix.h"
+#include "common/dense_matrix.h"
 
 #include <stdexcept>
 #include <string>
