@@ -30,13 +30,13 @@ constexpr std::array<std::array<double, 8>, 8> signs() {
 }
 
 /// Sums of one component over the signs but the first: xi, eta, zeta, then the modes.
-inline __attribute__((always_inline)) void sums_of(const Lanes* v, Lanes* sums) {
-  const Lanes b01 = v[0] + v[3], b23 = v[6] + v[9];      // sums along xi of bottom edges
-  const Lanes t01 = v[12] + v[15], t23 = v[18] + v[21];  // and of top edges
-  const Lanes d01 = v[3] - v[0], d23 = v[6] - v[9];      // differences along xi
-  const Lanes e01 = v[15] - v[12], e23 = v[18] - v[21];
-  const Lanes d = d01 + d23, dd = d23 - d01, e = e01 + e23, ee = e23 - e01;
-  const Lanes b = b01 + b23, bb = b23 - b01, t = t01 + t23, tt = t23 - t01;
+inline __attribute__((always_inline)) void sums_of(const ElementLanes* v, ElementLanes* sums) {
+  const ElementLanes b01 = v[0] + v[3], b23 = v[6] + v[9];      // sums along xi of bottom edges
+  const ElementLanes t01 = v[12] + v[15], t23 = v[18] + v[21];  // and of top edges
+  const ElementLanes d01 = v[3] - v[0], d23 = v[6] - v[9];      // differences along xi
+  const ElementLanes e01 = v[15] - v[12], e23 = v[18] - v[21];
+  const ElementLanes d = d01 + d23, dd = d23 - d01, e = e01 + e23, ee = e23 - e01;
+  const ElementLanes b = b01 + b23, bb = b23 - b01, t = t01 + t23, tt = t23 - t01;
   sums[0] = d + e;
   sums[1] = bb + tt;
   sums[2] = t - b;
@@ -47,13 +47,13 @@ inline __attribute__((always_inline)) void sums_of(const Lanes* v, Lanes* sums) 
 }
 
 /// Forces at the corners of what works on the sums.
-inline __attribute__((always_inline)) void corners_of(const Lanes* s, Lanes* v) {
-  const Lanes d = s[0] - s[4], e = s[0] + s[4];
-  const Lanes bb = s[1] - s[3], tt = s[1] + s[3];
-  const Lanes dd = s[5] - s[6], ee = s[5] + s[6];
-  const Lanes d01 = d - dd, d23 = d + dd, e01 = e - ee, e23 = e + ee;
-  const Lanes b01 = -(s[2] + bb), b23 = bb - s[2];
-  const Lanes t01 = s[2] - tt, t23 = s[2] + tt;
+inline __attribute__((always_inline)) void corners_of(const ElementLanes* s, ElementLanes* v) {
+  const ElementLanes d = s[0] - s[4], e = s[0] + s[4];
+  const ElementLanes bb = s[1] - s[3], tt = s[1] + s[3];
+  const ElementLanes dd = s[5] - s[6], ee = s[5] + s[6];
+  const ElementLanes d01 = d - dd, d23 = d + dd, e01 = e - ee, e23 = e + ee;
+  const ElementLanes b01 = -(s[2] + bb), b23 = bb - s[2];
+  const ElementLanes t01 = s[2] - tt, t23 = s[2] + tt;
   v[0] = b01 - d01;
   v[3] = b01 + d01;
   v[6] = b23 + d23;
@@ -106,26 +106,26 @@ constexpr std::array<std::size_t, strain_count> grouped_strains() {
 }
 
 /// value += number * other, unless the number is zero for all such elements.
-inline __attribute__((always_inline)) void add(const Lanes* n, int place, const Lanes& other,
-                                               Lanes& value) {
+inline __attribute__((always_inline)) void add(const ElementLanes* n, int place,
+                                               const ElementLanes& other, ElementLanes& value) {
   if (place != none) value = plus(value, n[place], other);
 }
-inline __attribute__((always_inline)) void take(const Lanes* n, int place, const Lanes& other,
-                                                Lanes& value) {
+inline __attribute__((always_inline)) void take(const ElementLanes* n, int place,
+                                                const ElementLanes& other, ElementLanes& value) {
   if (place != none) value = less(value, n[place], other);
 }
 
 }  // namespace
 
 template <bool extruded>
-void HexahedronStrains<extruded>::product(const Lanes* n, Lanes* values) {
+void HexahedronStrains<extruded>::product(const ElementLanes* n, ElementLanes* values) {
   constexpr Places places = number_places<extruded>();
   constexpr auto order = grouped_strains<extruded>();
-  Lanes c[strain_count];
-  Lanes g[3][3];  // of component i along j
+  ElementLanes c[strain_count];
+  ElementLanes g[3][3];  // of component i along j
 #pragma GCC unroll 4
   for (std::size_t i = 0; i < 3; ++i) {
-    Lanes sums[7];
+    ElementLanes sums[7];
     sums_of(values + i, sums);
 #pragma GCC unroll 4
     for (std::size_t m = 0; m < mode_count; ++m) {
@@ -135,7 +135,7 @@ void HexahedronStrains<extruded>::product(const Lanes* n, Lanes* values) {
     }
 #pragma GCC unroll 4
     for (std::size_t j = 0; j < 3; ++j) {
-      g[i][j] = Lanes{};
+      g[i][j] = ElementLanes{};
 #pragma GCC unroll 4
       for (std::size_t k = 0; k < 3; ++k) add(n, places.inverse[j][k], sums[k], g[i][j]);
 #pragma GCC unroll 4
@@ -144,16 +144,16 @@ void HexahedronStrains<extruded>::product(const Lanes* n, Lanes* values) {
       }
     }
   }
-  const Lanes pressure = n[lame] * (g[0][0] + g[1][1] + g[2][2]);
-  const Lanes shear = n[lame + 1];
-  Lanes stress[3][3];
+  const ElementLanes pressure = n[lame] * (g[0][0] + g[1][1] + g[2][2]);
+  const ElementLanes shear = n[lame + 1];
+  ElementLanes stress[3][3];
 #pragma GCC unroll 4
   for (std::size_t i = 0; i < 3; ++i) stress[i][i] = plus(pressure, shear + shear, g[i][i]);
   stress[0][1] = stress[1][0] = shear * (g[0][1] + g[1][0]);
   stress[1][2] = stress[2][1] = shear * (g[1][2] + g[2][1]);
   stress[2][0] = stress[0][2] = shear * (g[2][0] + g[0][2]);
-  Lanes strain[strain_count];
-  Lanes work[strain_count];
+  ElementLanes strain[strain_count];
+  ElementLanes work[strain_count];
 #pragma GCC unroll 16
   for (std::size_t s = 0; s < strain_count; ++s) strain[s] = c[order[s]];
   packed_product<even_count>(n + modes, strain, work);
@@ -163,7 +163,7 @@ void HexahedronStrains<extruded>::product(const Lanes* n, Lanes* values) {
   for (std::size_t s = 0; s < strain_count; ++s) c[order[s]] = work[s];
 #pragma GCC unroll 4
   for (std::size_t i = 0; i < 3; ++i) {
-    Lanes s[7] = {};
+    ElementLanes s[7] = {};
 #pragma GCC unroll 4
     for (std::size_t j = 0; j < 3; ++j) {
 #pragma GCC unroll 4

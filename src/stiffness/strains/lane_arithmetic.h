@@ -2,19 +2,23 @@
 
 #include <cstddef>
 
-#include "common/lanes.h"
+#include "stiffness/strains/element_lanes.h"
 
-/// Sums of products of four elements at once, rounded once per product where the machine can.
+/// Sums of products of a batch of elements, rounded once per product where the machine can.
 namespace pounding {
 
 /// a b + c
-static inline __attribute__((always_inline)) Lanes plus(Lanes c, const Lanes& a, const Lanes& b) {
+static inline __attribute__((always_inline)) ElementLanes plus(ElementLanes c,
+                                                               const ElementLanes& a,
+                                                               const ElementLanes& b) {
   add_product(a, b, c);
   return c;
 }
 
 /// c - a b
-static inline __attribute__((always_inline)) Lanes less(Lanes c, const Lanes& a, const Lanes& b) {
+static inline __attribute__((always_inline)) ElementLanes less(ElementLanes c,
+                                                               const ElementLanes& a,
+                                                               const ElementLanes& b) {
   subtract_product(a, b, c);
   return c;
 }
@@ -26,13 +30,13 @@ constexpr std::size_t packed_size(std::size_t size) {
 
 /// force = S strain; S row by row of its lower triangle.
 template <std::size_t size>
-static inline __attribute__((always_inline)) void packed_product(const Lanes* matrix,
-                                                                 const Lanes* strain,
-                                                                 Lanes* force) {
+static inline __attribute__((always_inline)) void packed_product(const ElementLanes* matrix,
+                                                                 const ElementLanes* strain,
+                                                                 ElementLanes* force) {
 #pragma GCC unroll 16
   for (std::size_t i = 0; i < size; ++i) {
-    const Lanes* const row = matrix + packed_size(i);
-    Lanes sum = row[i] * strain[i];
+    const ElementLanes* const row = matrix + packed_size(i);
+    ElementLanes sum = row[i] * strain[i];
 #pragma GCC unroll 16
     for (std::size_t j = 0; j < i; ++j) {
       sum = plus(sum, row[j], strain[j]);
@@ -44,10 +48,11 @@ static inline __attribute__((always_inline)) void packed_product(const Lanes* ma
 
 /// Turns vectors of three components into axes (three rows of three numbers).
 template <std::size_t count>
-static inline __attribute__((always_inline)) void turn_into(const Lanes* axes, Lanes* vectors) {
+static inline __attribute__((always_inline)) void turn_into(const ElementLanes* axes,
+                                                            ElementLanes* vectors) {
 #pragma GCC unroll 8
   for (std::size_t v = 0; v < 3 * count; v += 3) {
-    const Lanes x = vectors[v], y = vectors[v + 1], z = vectors[v + 2];
+    const ElementLanes x = vectors[v], y = vectors[v + 1], z = vectors[v + 2];
     vectors[v] = plus(plus(axes[0] * x, axes[1], y), axes[2], z);
     vectors[v + 1] = plus(plus(axes[3] * x, axes[4], y), axes[5], z);
     vectors[v + 2] = plus(plus(axes[6] * x, axes[7], y), axes[8], z);
@@ -56,10 +61,11 @@ static inline __attribute__((always_inline)) void turn_into(const Lanes* axes, L
 
 /// Turns them back.
 template <std::size_t count>
-static inline __attribute__((always_inline)) void turn_back(const Lanes* axes, Lanes* vectors) {
+static inline __attribute__((always_inline)) void turn_back(const ElementLanes* axes,
+                                                            ElementLanes* vectors) {
 #pragma GCC unroll 8
   for (std::size_t v = 0; v < 3 * count; v += 3) {
-    const Lanes x = vectors[v], y = vectors[v + 1], z = vectors[v + 2];
+    const ElementLanes x = vectors[v], y = vectors[v + 1], z = vectors[v + 2];
     vectors[v] = plus(plus(axes[0] * x, axes[3], y), axes[6], z);
     vectors[v + 1] = plus(plus(axes[1] * x, axes[4], y), axes[7], z);
     vectors[v + 2] = plus(plus(axes[2] * x, axes[5], y), axes[8], z);

@@ -10,21 +10,9 @@
 #include "common/lanes.h"
 #include "common/memory.h"
 #include "common/types.h"
+#include "stiffness/strains/element_lanes.h"
 
 namespace pounding {
-
-/// Four rows become four columns.
-static inline __attribute__((always_inline)) void transpose(Lanes& a, Lanes& b, Lanes& c,
-                                                            Lanes& d) {
-  const Lanes ab_low = __builtin_shufflevector(a, b, 0, 4, 2, 6);
-  const Lanes ab_high = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const Lanes cd_low = __builtin_shufflevector(c, d, 0, 4, 2, 6);
-  const Lanes cd_high = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-  a = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
-  b = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
-  c = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
-  d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
-}
 
 /// Copies of nodes with 3 or 6 components, in the order in which elements ask for them first, 4 or
 /// 8 values apart: what neighbours share is close, and no node crosses a cache line. The values and
@@ -34,6 +22,9 @@ static inline __attribute__((always_inline)) void transpose(Lanes& a, Lanes& b, 
 template <std::size_t components>
 class NodeSlots {
  public:
+  /// Starts of the slots of one node of each of the elements of a batch.
+  using Starts = std::array<std::uint32_t, element_lane_count>;
+
   /// `owned_dofs` as in DofPlaces.
   NodeSlots(LocalIndex owned_dofs, std::size_t nodes)
       : owned_dofs_(owned_dofs), slot_of_node_(nodes, 0), start_(1, -1) {}
@@ -99,54 +90,43 @@ class NodeSlots {
     std::fill(forces_.begin(), forces_.end(), 0.0);
   }
 
-  /// The components of one node of each of four elements.
-  __attribute__((always_inline)) void gather(const std::array<std::uint32_t, lane_count>& start,
-                                             Lanes* values) const {
+  /// The components of one node of each of the elements of a batch.
+  __attribute__((always_inline)) void gather(const Starts& start, ElementLanes* values) const {
     const double* const w = values_.data();
-    Lanes fourth;
-    Lanes& last = components == 3 ? fourth : values[3];
-    load(w + start[0], values[0]);
-    load(w + start[1], values[1]);
-    load(w + start[2], values[2]);
-    load(w + start[3], last);
+    ElementLanes fourth;
+    ElementLanes& last = components == 3 ? fourth : values[3];
+    for (std::size_t row = 0; row < 3; ++row) values[row] = load_rows(w, start, row);
+    last = load_rows(w, start, 3);
     transpose(values[0], values[1], values[2], last);
     if constexpr (components == 6) {
-      HalfLanes half[lane_count];
-      for (std::size_t lane = 0; lane < lane_count; ++lane) load(w + start[lane] + 4, half[lane]);
-      const Lanes even = __builtin_shufflevector(half[0], half[2], 0, 1, 2, 3);
-      const Lanes odd = __builtin_shufflevector(half[1], half[3], 0, 1, 2, 3);
-      values[4] = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
-      values[5] = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+      const ElementLanes even = load_half_rows(w + 4, start, 0);
+      const ElementLanes odd = load_half_rows(w + 4, start, 1);
+      values[4] = even_pairs(even, odd);
+      values[5] = odd_pairs(even, odd);
     }
   }
 
-  /// Adds to the forces of one node of each of four elements, one after the other: they may be the
+  /// Adds to the forces of one node of each of the elements, one after the other: they may be the
   /// same node.
-  __attribute__((always_inline)) void scatter(
-      const Lanes* values, const std::array<std::uint32_t, lane_count>& start) const {
-    Lanes first[lane_count] = {values[0], values[1], values[2],
-                               components == 3 ? Lanes{} : values[3]};
-    transpose(first[0], first[1], first[2], first[3]);
-    HalfLanes rest[lane_count];
+  __attribute__((always_inline)) void scatter(const ElementLanes* values,
+                                              const Starts& start) const {
+    ElementLanes rows[4] = {values[0], values[1], values[2],
+                            components == 3 ? ElementLanes{} : values[3]};
+    transpose(rows[0], rows[1], rows[2], rows[3]);
+    ElementLanes rest[2];  // of even and of odd lanes
     if constexpr (components == 6) {
-      const Lanes even = __builtin_shufflevector(values[4], values[5], 0, 4, 2, 6);
-      const Lanes odd = __builtin_shufflevector(values[4], values[5], 1, 5, 3, 7);
-      rest[0] = __builtin_shufflevector(even, even, 0, 1);
-      rest[1] = __builtin_shufflevector(odd, odd, 0, 1);
-      rest[2] = __builtin_shufflevector(even, even, 2, 3);
-      rest[3] = __builtin_shufflevector(odd, odd, 2, 3);
+      rest[0] = even_pairs(values[4], values[5]);
+      rest[1] = odd_pairs(values[4], values[5]);
     }
-    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const auto add = [&]<std::size_t lane>() __attribute__((always_inline)) {
       double* const node = forces_.data() + start[lane];
-      Lanes sum;
-      load(node, sum);
-      store(node, sum + first[lane]);
-      if constexpr (components == 6) {
-        HalfLanes sum_of_rest;
-        load(node + 4, sum_of_rest);
-        store(node + 4, sum_of_rest + rest[lane]);
-      }
+      add_part<lane / 4 * 4, Lanes>(rows[lane % 4], node);
+      if constexpr (components == 6) add_part<lane / 2 * 2, HalfLanes>(rest[lane % 2], node + 4);
+    };
+    [&]<std::size_t... lane>(std::index_sequence<lane...>) __attribute__((always_inline)) {
+      (add.template operator()<lane>(), ...);
     }
+    (std::make_index_sequence<element_lane_count>());
   }
 
  private:

@@ -10,20 +10,22 @@ using Quadrangle = QuadrangleStrains;
 
 /// A field of the plane: its part in f_p, f_r and f_h.
 struct Differences {
-  Lanes p, r, h;
+  ElementLanes p, r, h;
 };
 
-inline __attribute__((always_inline)) Differences differences(const Lanes* skew, const Lanes& f1,
-                                                              const Lanes& f2, const Lanes& f3,
-                                                              const Lanes& f4) {
-  const Lanes p = f3 - f1;
-  const Lanes r = f4 - f2;
+inline __attribute__((always_inline)) Differences differences(const ElementLanes* skew,
+                                                              const ElementLanes& f1,
+                                                              const ElementLanes& f2,
+                                                              const ElementLanes& f3,
+                                                              const ElementLanes& f4) {
+  const ElementLanes p = f3 - f1;
+  const ElementLanes r = f4 - f2;
   return {p, r, less(less((f1 + f3) - (f2 + f4), skew[0], p), skew[1], r)};
 }
 
 /// Forces at the four nodes of what works on the differences.
-inline __attribute__((always_inline)) void nodal_forces(const Lanes* skew, Differences work,
-                                                        Lanes* force) {
+inline __attribute__((always_inline)) void nodal_forces(const ElementLanes* skew, Differences work,
+                                                        ElementLanes* force) {
   work.p = less(work.p, skew[0], work.h);
   work.r = less(work.r, skew[1], work.h);
   force[0] = work.h - work.p;
@@ -33,23 +35,24 @@ inline __attribute__((always_inline)) void nodal_forces(const Lanes* skew, Diffe
 }
 
 /// u_x, u_y, r_z of the nodes become forces.
-inline __attribute__((always_inline)) void apply_membrane(const Lanes* n, const PlaneFrame& frame,
-                                                          Lanes* values) {
-  const Lanes* const skew = n + Quadrangle::skew;
+inline __attribute__((always_inline)) void apply_membrane(const ElementLanes* n,
+                                                          const PlaneFrame& frame,
+                                                          ElementLanes* values) {
+  const ElementLanes* const skew = n + Quadrangle::skew;
   Differences u = differences(skew, values[0], values[6], values[12], values[18]);
   Differences v = differences(skew, values[1], values[7], values[13], values[19]);
   PlaneGradient of_u = frame.gradient(u.p, u.r);
   PlaneGradient of_v = frame.gradient(v.p, v.r);
-  const Lanes spin = n[Quadrangle::spin] * (of_v.x - of_u.y);
-  const Lanes strain[6] = {
+  const ElementLanes spin = n[Quadrangle::spin] * (of_v.x - of_u.y);
+  const ElementLanes strain[6] = {
       u.h, v.h, values[5] - spin, values[11] - spin, values[17] - spin, values[23] - spin};
-  Lanes work[6];
+  ElementLanes work[6];
   packed_product<6>(n + Quadrangle::membrane, strain, work);
   plane_stress(n + Quadrangle::stretch, of_u, of_v);
-  const Lanes moment = (work[2] + work[3]) + (work[4] + work[5]);
+  const ElementLanes moment = (work[2] + work[3]) + (work[4] + work[5]);
   of_u.y = plus(of_u.y, n[Quadrangle::spin], moment);
   of_v.x = less(of_v.x, n[Quadrangle::spin], moment);
-  Lanes force[4];
+  ElementLanes force[4];
   nodal_forces(skew, {frame.along_p(of_u), frame.along_r(of_u), work[0]}, force);
   for (std::size_t a = 0; a < 4; ++a) values[6 * a] = force[a];
   nodal_forces(skew, {frame.along_p(of_v), frame.along_r(of_v), work[1]}, force);
@@ -58,38 +61,42 @@ inline __attribute__((always_inline)) void apply_membrane(const Lanes* n, const 
 }
 
 /// u_z, r_x, r_y of the nodes become forces.
-inline __attribute__((always_inline)) void apply_plate(const Lanes* n, const PlaneFrame& frame,
-                                                       Lanes* values) {
-  const Lanes* const skew = n + Quadrangle::skew;
-  const Lanes* const edge = n + Quadrangle::edges;
-  const Lanes x41 = -(edge[0] + edge[2] + edge[4]);
-  const Lanes y41 = -(edge[1] + edge[3] + edge[5]);
-  const auto shear = [&](std::size_t a, std::size_t b, const Lanes& x, const Lanes& y) {
-    const Lanes w = values[6 * b + 2] - values[6 * a + 2];
+inline __attribute__((always_inline)) void apply_plate(const ElementLanes* n,
+                                                       const PlaneFrame& frame,
+                                                       ElementLanes* values) {
+  const ElementLanes* const skew = n + Quadrangle::skew;
+  const ElementLanes* const edge = n + Quadrangle::edges;
+  const ElementLanes x41 = -(edge[0] + edge[2] + edge[4]);
+  const ElementLanes y41 = -(edge[1] + edge[3] + edge[5]);
+  const auto shear = [&](std::size_t a, std::size_t b, const ElementLanes& x,
+                         const ElementLanes& y) {
+    const ElementLanes w = values[6 * b + 2] - values[6 * a + 2];
     return less(plus(w + w, values[6 * a + 4] + values[6 * b + 4], x),
                 values[6 * a + 3] + values[6 * b + 3], y);
   };
-  const Lanes shears[4] = {shear(0, 1, edge[0], edge[1]), shear(1, 2, edge[2], edge[3]),
-                           shear(2, 3, edge[4], edge[5]), shear(3, 0, x41, y41)};
-  Lanes along[4];
+  const ElementLanes shears[4] = {shear(0, 1, edge[0], edge[1]), shear(1, 2, edge[2], edge[3]),
+                                  shear(2, 3, edge[4], edge[5]), shear(3, 0, x41, y41)};
+  ElementLanes along[4];
   packed_product<4>(n + Quadrangle::shear, shears, along);
   const Differences bx = differences(skew, values[4], values[10], values[16], values[22]);
   const Differences by = differences(skew, -values[3], -values[9], -values[15], -values[21]);
   PlaneGradient of_x = frame.gradient(bx.p, bx.r);
   PlaneGradient of_y = frame.gradient(by.p, by.r);
   plane_stress(n + Quadrangle::bend, of_x, of_y);
-  const Lanes strain[2] = {bx.h, by.h};
-  Lanes work[2];
+  const ElementLanes strain[2] = {bx.h, by.h};
+  ElementLanes work[2];
   packed_product<2>(n + Quadrangle::twist, strain, work);
-  Lanes moment_x[4];
-  Lanes moment_y[4];
+  ElementLanes moment_x[4];
+  ElementLanes moment_y[4];
   nodal_forces(skew, {frame.along_p(of_x), frame.along_r(of_x), work[0]}, moment_x);
   nodal_forces(skew, {frame.along_p(of_y), frame.along_r(of_y), work[1]}, moment_y);
-  const Lanes x[4] = {edge[0] * along[0], edge[2] * along[1], edge[4] * along[2], x41 * along[3]};
-  const Lanes y[4] = {edge[1] * along[0], edge[3] * along[1], edge[5] * along[2], y41 * along[3]};
+  const ElementLanes x[4] = {edge[0] * along[0], edge[2] * along[1], edge[4] * along[2],
+                             x41 * along[3]};
+  const ElementLanes y[4] = {edge[1] * along[0], edge[3] * along[1], edge[5] * along[2],
+                             y41 * along[3]};
   for (std::size_t a = 0; a < 4; ++a) {
     const std::size_t last = (a + 3) % 4;
-    const Lanes w = along[last] - along[a];
+    const ElementLanes w = along[last] - along[a];
     values[6 * a + 2] = w + w;
     values[6 * a + 3] = -(moment_y[a] + (y[a] + y[last]));
     values[6 * a + 4] = moment_x[a] + (x[a] + x[last]);
@@ -98,21 +105,21 @@ inline __attribute__((always_inline)) void apply_plate(const Lanes* n, const Pla
 
 }  // namespace
 
-void QuadrangleStrains::product(const Lanes* n, Lanes* values) {
+void QuadrangleStrains::product(const ElementLanes* n, ElementLanes* values) {
   turn_into<8>(n + axes, values);
-  const Lanes heights[4] = {-n[height], n[height], -n[height], n[height]};
+  const ElementLanes heights[4] = {-n[height], n[height], -n[height], n[height]};
   for (std::size_t a = 0; a < 4; ++a) {
-    Lanes* const node = values + 6 * a;
+    ElementLanes* const node = values + 6 * a;
     node[0] = less(node[0], heights[a], node[4]);
     node[1] = plus(node[1], heights[a], node[3]);
   }
-  const Lanes* const edge = n + edges;
+  const ElementLanes* const edge = n + edges;
   const PlaneFrame frame{edge[0] + edge[2], edge[1] + edge[3], edge[2] + edge[4],
                          edge[3] + edge[5]};
   apply_membrane(n, frame, values);
   apply_plate(n, frame, values);
   for (std::size_t a = 0; a < 4; ++a) {
-    Lanes* const node = values + 6 * a;
+    ElementLanes* const node = values + 6 * a;
     node[4] = less(node[4], heights[a], node[0]);
     node[3] = plus(node[3], heights[a], node[1]);
   }

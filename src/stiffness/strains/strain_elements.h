@@ -15,15 +15,15 @@
 
 namespace pounding {
 
-/// Elements of general shape, four at a time, by their strains: K = B' S B, where B takes the
-/// displacements to those strains that are not rigid motions. An element keeps the few numbers of
-/// its B and S, `Shape::Numbers`, instead of a matrix. S is symmetric to the bit, and B' applies
-/// the very numbers of B: so is K, and rigid motions give nothing beyond the round-off of their
-/// differences. Nodes have copies in the order of the elements, see NodeSlots.
+/// Elements of general shape by their strains, a batch of four or eight at a time: K = B' S B,
+/// where B takes the displacements to those strains that are not rigid motions. An element keeps
+/// the few numbers of its B and S, `Shape::Numbers`, instead of a matrix. S is symmetric to the
+/// bit, and B' applies the very numbers of B: so is K, and rigid motions give nothing beyond the
+/// round-off of their differences. Nodes have copies in the order of the elements, see NodeSlots.
 ///
 /// `Shape`: node_count, components (3 or 6 per node), number_count, and
-/// `static void product(const Lanes* numbers, Lanes* values)`, which puts forces in the place of
-/// displacements, node by node.
+/// `static void product(const ElementLanes* numbers, ElementLanes* values)`, which puts forces in
+/// the place of displacements, node by node.
 template <typename Shape>
 class StrainElements {
  public:
@@ -44,12 +44,12 @@ class StrainElements {
   void apply(const double* w, double* q) const;
 
  private:
-  /// Shapes with so many elements have lanes of their own; of others, four share their lanes.
+  /// Shapes with so many elements have lanes of their own; others share their lanes.
   static constexpr std::size_t many = 16;
 
   struct Batch {
-    std::array<std::array<std::uint32_t, lane_count>, Shape::node_count> start{};
-    std::size_t numbers = 0;  ///< where they begin, in Lanes
+    std::array<typename NodeSlots<Shape::components>::Starts, Shape::node_count> start{};
+    std::size_t numbers = 0;  ///< where they begin, in ElementLanes
   };
 
   void begin_numbers(std::span<const Numbers* const> lanes);
@@ -57,7 +57,7 @@ class StrainElements {
            const std::vector<std::array<LocalIndex, 6>>& of_node);
 
   std::vector<Batch> batches_;
-  std::vector<Lanes, CacheLineAllocator<Lanes>> numbers_;
+  std::vector<ElementLanes, CacheLineAllocator<ElementLanes>> numbers_;
   NodeSlots<Shape::components> slots_;
 };
 
@@ -80,16 +80,18 @@ StrainElements<Shape>::StrainElements(const std::vector<Numbers>& shapes,
       continue;
     }
     const Numbers* const numbers = &shapes[shape];
-    begin_numbers(std::array{numbers, numbers, numbers, numbers});
+    std::array<const Numbers*, element_lane_count> same{};
+    same.fill(numbers);
+    begin_numbers(same);
     const std::size_t begin = numbers_.size() - Shape::number_count;
     for (std::size_t e = 0; e < alike.size(); ++e) {
-      if (e % lane_count == 0) batches_.push_back({{}, begin});
-      put(*alike[e], e % lane_count, of_node);
+      if (e % element_lane_count == 0) batches_.push_back({{}, begin});
+      put(*alike[e], e % element_lane_count, of_node);
     }
   }
   for (const auto& [count, alike] : by_count) {
-    for (std::size_t first = 0; first < alike.size(); first += lane_count) {
-      const std::size_t used = std::min<std::size_t>(lane_count, alike.size() - first);
+    for (std::size_t first = 0; first < alike.size(); first += element_lane_count) {
+      const std::size_t used = std::min(element_lane_count, alike.size() - first);
       std::vector<const Numbers*> lanes;
       for (std::size_t lane = 0; lane < used; ++lane) lanes.push_back(&shapes[alike[first + lane]]);
       begin_numbers(lanes);
@@ -108,7 +110,7 @@ StrainElements<Shape>::StrainElements(const std::vector<Numbers>& shapes,
 template <typename Shape>
 void StrainElements<Shape>::begin_numbers(std::span<const Numbers* const> lanes) {
   for (std::size_t k = 0; k < Shape::number_count; ++k) {
-    Lanes values{};
+    ElementLanes values{};
     for (std::size_t lane = 0; lane < lanes.size(); ++lane) values[lane] = (*lanes[lane])[k];
     numbers_.push_back(values);
   }
@@ -127,7 +129,7 @@ template <typename Shape>
 void StrainElements<Shape>::apply(const double* w, double* q) const {
   if (batches_.empty()) return;
   slots_.read(w);
-  Lanes values[Shape::node_count * Shape::components];
+  ElementLanes values[Shape::node_count * Shape::components];
   for (const Batch& batch : batches_) {
     for (std::size_t a = 0; a < Shape::node_count; ++a) {
       slots_.gather(batch.start[a], values + a * Shape::components);

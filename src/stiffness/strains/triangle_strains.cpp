@@ -9,17 +9,18 @@ namespace {
 using Triangle = TriangleStrains;
 
 /// u_x, u_y, r_z of the nodes become forces.
-inline __attribute__((always_inline)) void apply_membrane(const Lanes* n, const PlaneFrame& frame,
-                                                          Lanes* values) {
+inline __attribute__((always_inline)) void apply_membrane(const ElementLanes* n,
+                                                          const PlaneFrame& frame,
+                                                          ElementLanes* values) {
   PlaneGradient of_u = frame.gradient(values[6] - values[0], values[12] - values[0]);
   PlaneGradient of_v = frame.gradient(values[7] - values[1], values[13] - values[1]);
-  const Lanes& spin = n[Triangle::spin];
-  const Lanes angle = spin * (of_v.x - of_u.y);
-  const Lanes strain[3] = {values[5] - angle, values[11] - angle, values[17] - angle};
-  const Lanes sum = strain[0] + strain[1] + strain[2];
-  const Lanes& drilling = n[Triangle::drilling];
+  const ElementLanes& spin = n[Triangle::spin];
+  const ElementLanes angle = spin * (of_v.x - of_u.y);
+  const ElementLanes strain[3] = {values[5] - angle, values[11] - angle, values[17] - angle};
+  const ElementLanes sum = strain[0] + strain[1] + strain[2];
+  const ElementLanes& drilling = n[Triangle::drilling];
   for (std::size_t a = 0; a < 3; ++a) values[6 * a + 5] = drilling * (strain[a] + sum);
-  const Lanes moment = values[5] + values[11] + values[17];
+  const ElementLanes moment = values[5] + values[11] + values[17];
   plane_stress(n + Triangle::stretch, of_u, of_v);
   of_u.y = plus(of_u.y, spin, moment);
   of_v.x = less(of_v.x, spin, moment);
@@ -32,29 +33,30 @@ inline __attribute__((always_inline)) void apply_membrane(const Lanes* n, const 
 }
 
 /// u_z, r_x, r_y of the nodes become forces.
-inline __attribute__((always_inline)) void apply_plate(const Lanes* n, const PlaneFrame& frame,
-                                                       Lanes* values) {
-  const Lanes x[3] = {frame.x_p, frame.x_r - frame.x_p, -frame.x_r};
-  const Lanes y[3] = {frame.y_p, frame.y_r - frame.y_p, -frame.y_r};
-  Lanes shear[3];
+inline __attribute__((always_inline)) void apply_plate(const ElementLanes* n,
+                                                       const PlaneFrame& frame,
+                                                       ElementLanes* values) {
+  const ElementLanes x[3] = {frame.x_p, frame.x_r - frame.x_p, -frame.x_r};
+  const ElementLanes y[3] = {frame.y_p, frame.y_r - frame.y_p, -frame.y_r};
+  ElementLanes shear[3];
   for (std::size_t a = 0; a < 3; ++a) {
-    const Lanes* const here = values + 6 * a;
-    const Lanes* const next = values + 6 * ((a + 1) % 3);
-    const Lanes w = next[2] - here[2];
+    const ElementLanes* const here = values + 6 * a;
+    const ElementLanes* const next = values + 6 * ((a + 1) % 3);
+    const ElementLanes w = next[2] - here[2];
     shear[a] = less(plus(w + w, here[4] + next[4], x[a]), here[3] + next[3], y[a]);
   }
-  Lanes along[3];
+  ElementLanes along[3];
   packed_product<3>(n + Triangle::shear, shear, along);
   PlaneGradient of_x = frame.gradient(values[10] - values[4], values[16] - values[4]);
   PlaneGradient of_y = frame.gradient(values[3] - values[9], values[3] - values[15]);
   plane_stress(n + Triangle::bend, of_x, of_y);
-  const Lanes x_p = frame.along_p(of_x), x_r = frame.along_r(of_x);
-  const Lanes y_p = frame.along_p(of_y), y_r = frame.along_r(of_y);
-  const Lanes moment_x[3] = {-(x_p + x_r), x_p, x_r};
-  const Lanes moment_y[3] = {-(y_p + y_r), y_p, y_r};
+  const ElementLanes x_p = frame.along_p(of_x), x_r = frame.along_r(of_x);
+  const ElementLanes y_p = frame.along_p(of_y), y_r = frame.along_r(of_y);
+  const ElementLanes moment_x[3] = {-(x_p + x_r), x_p, x_r};
+  const ElementLanes moment_y[3] = {-(y_p + y_r), y_p, y_r};
   for (std::size_t a = 0; a < 3; ++a) {
     const std::size_t last = (a + 2) % 3;
-    const Lanes w = along[last] - along[a];
+    const ElementLanes w = along[last] - along[a];
     values[6 * a + 2] = w + w;
     values[6 * a + 3] = -plus(plus(moment_y[a], y[a], along[a]), y[last], along[last]);
     values[6 * a + 4] = plus(plus(moment_x[a], x[a], along[a]), x[last], along[last]);
@@ -63,9 +65,9 @@ inline __attribute__((always_inline)) void apply_plate(const Lanes* n, const Pla
 
 }  // namespace
 
-void TriangleStrains::product(const Lanes* n, Lanes* values) {
+void TriangleStrains::product(const ElementLanes* n, ElementLanes* values) {
   turn_into<6>(n + axes, values);
-  const PlaneFrame frame{n[edges], Lanes{}, n[edges + 1], n[edges + 2]};
+  const PlaneFrame frame{n[edges], ElementLanes{}, n[edges + 1], n[edges + 2]};
   apply_membrane(n, frame, values);
   apply_plate(n, frame, values);
   turn_back<6>(n + axes, values);

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "common/lanes.h"
+#include "stiffness/strains/element_lanes.h"
 #include "stiffness/strains/lane_arithmetic.h"
 
 namespace pounding {
@@ -32,8 +32,8 @@ struct TriangleStrains {
   static std::array<double, number_count> numbers(std::span<const double> coordinates,
                                                   std::span<const double> stiffness);
 
-  /// Forces in the place of displacements, of four elements.
-  static void product(const Lanes* numbers, Lanes* values);
+  /// Forces in the place of displacements, of a batch of elements.
+  static void product(const ElementLanes* numbers, ElementLanes* values);
 };
 
 }  // namespace pounding
