@@ -30,7 +30,7 @@ static inline __attribute__((always_inline)) void subtract_product(const Element
   c = _mm512_fnmadd_pd(a, b, c);
 }
 
-// Of every four lanes a0 a1 a2 a3 and b0 b1 b2 b3 likewise:
+// Lanes a0 a1 a2 a3 and b0 b1 b2 b3 become those named behind, and so every next four:
 static inline __attribute__((always_inline)) ElementLanes even_pairs(const ElementLanes& a,
                                                                      const ElementLanes& b) {
   return __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);  // a0 b0 a2 b2
