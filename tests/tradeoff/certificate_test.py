@@ -126,7 +126,8 @@ class OwnScene(unittest.TestCase):
         words = ["-options_file", self.scene, "-fidelity_table", os.path.join(self.out, "fidelity.csv"),
                  "-fidelity_target", 0.9, "-end_time", 0.01]
         summary = program.must_run(self, words, 2)[1]
-        self.assertEqual(summary["options"]["left_modal_vectors"], self.found["options"]["left_modal_vectors"])
+        within = [row["rung"].removeprefix("modal-") for row in self.rows() if float(row["error 1-400"]) <= 0.9]
+        self.assertIn(summary["options"]["left_modal_vectors"], within)  # the fastest of them: their times are close
 
     def test_with_full_order_it_is_measured(self):
         done = program.command(*self.words)
