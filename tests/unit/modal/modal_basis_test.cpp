@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
 #include "common/dense_matrix.h"
+#include "common/error.h"
 #include "modal/modal_analysis.h"
 #include "modal/reduced_system.h"
 #include "modal/shifted_solver.h"
