@@ -28,8 +28,8 @@ def rows_of(found: Certificate, folder: Path) -> list:
     return rows
 
 
-def text_of(found: Certificate, scene: str, folder: Path) -> str:
-    """Markdown: the answer first, then the ladder, the noise floor, the parts of the error."""
+def text_of(found: Certificate, scene: str, ladder: list) -> str:
+    """Markdown: the answer first, then the ladder (rows_of), the noise floor, the parts of the error."""
     window = found.window or found.end_time
     sure = "full order itself, run over the window" if found.full else "its neighbours on the ladder"
     cost = found.outcome.per_second()
@@ -52,7 +52,7 @@ def text_of(found: Certificate, scene: str, folder: Path) -> str:
     head = ["rung", "s per s", "set-up s", "impacts", "lacks of an impulse", *(f"{band} Hz" for band in BAND_NAMES), ""]
     rows = [[row["rung"], row["seconds per second"], row["set-up"], row["impacts"], percent(row["lacking"]),
              *(percent(row[f"error {band}"]) for band in BAND_NAMES), "taken" if row["chosen"] else ""]
-            for row in rows_of(found, folder)]
+            for row in ladder]
     title = f"Ladder over {window:g} of {found.end_time:g} s: error, " + ("measured" if found.full else "estimated")
     parts = [[what, *(percent(values[band]) for band in BAND_NAMES)]
              for what, values in [*((f"noise: {name}", one) for name, one in found.floor.items()),
@@ -77,9 +77,9 @@ def _words(name: str) -> str:
 
 def write(found: Certificate, scene: str, folder: Path) -> str:
     """Writes certificate.md, certificate.json, ladder.csv and fidelity.csv into the folder; returns the text."""
-    text = text_of(found, scene, folder)
-    (folder / "certificate.md").write_text(text)
     rows = rows_of(found, folder)
+    text = text_of(found, scene, rows)
+    (folder / "certificate.md").write_text(text)
     tables.write_csv(folder / "ladder.csv", rows)
     (folder / "certificate.json").write_text(json.dumps({
         "scene": scene, "target": found.target, "reached": found.reached, "setting": found.setting.name,
