@@ -6,157 +6,14 @@
 #include <string>
 
 #include "common/error.h"
-#include "common/lanes.h"
 #include "motion/oscillator_motion.h"
+#include "motion/peak_displacements.h"
 
 namespace pounding {
 
 namespace {
 
 using namespace oscillator;
-
-/// Oscillators whose steps are summed as series, side by side: their chains of sums hide each
-/// other's latency.
-struct OscillatorBlock {
-  static constexpr std::size_t vectors = 3;
-  static constexpr std::size_t size = vectors * lane_count;
-
-  explicit OscillatorBlock(std::span<const Oscillator> some) : oscillators(some) {
-    for (std::size_t i = 0; i < size; ++i) {
-      const Oscillator& o = some[std::min(i, some.size() - 1)];  // the last one fills up
-      const auto [state_part, load_part] = oscillator_step(o.theta, o.xi);
-      const std::size_t b = i / lane_count, l = i % lane_count;
-      for (std::size_t r = 0; r < 2; ++r) {
-        for (std::size_t c = 0; c < 2; ++c) {
-          A[r][c][b][l] = state_part[r][c];
-          B[r][c][b][l] = load_part[r][c];
-        }
-      }
-      k[b][l] = o.theta * o.theta;
-      damping[b][l] = 2 * o.xi * o.theta;
-    }
-  }
-
-  std::span<const Oscillator> oscillators;
-  Lanes A[2][2][vectors], B[2][2][vectors], k[vectors], damping[vectors];
-};
-
-Lanes magnitude(const Lanes& x) {
-  return x < 0 ? -x : x;
-}
-Lanes larger(const Lanes& a, const Lanes& b) {
-  return a > b ? a : b;
-}
-
-/// Largest |u| of each oscillator of a block.
-std::vector<double> peak_displacements(std::span<const double> acceleration, double time_step,
-                                       const OscillatorBlock& block, AfterRecord after) {
-  constexpr std::size_t vectors = OscillatorBlock::vectors;
-  const double h2 = time_step * time_step;
-  double a = h2 * acceleration[0];
-  Lanes u[vectors]{}, v[vectors]{}, w[vectors], peak[vectors]{};
-  Lanes size[vectors]{}, slope[vectors];  // |u| and |v| + |w| at the start of the step
-  for (std::size_t b = 0; b < vectors; ++b) {
-    w[b] = Lanes{} - a;
-    slope[b] = magnitude(w[b]);
-  }
-  for (std::size_t n = 1; n < acceleration.size(); ++n) {
-    const double a1 = h2 * acceleration[n];
-    for (std::size_t b = 0; b < vectors; ++b) {
-      const auto& A = block.A;
-      const auto& B = block.B;
-      const Lanes before = all_lanes(a), after_it = all_lanes(a1);
-      Lanes u1 = B[0][0][b] * before, v1 = B[1][0][b] * before, w1 = Lanes{} - after_it;
-      add_product(B[0][1][b], after_it, u1);
-      add_product(B[1][1][b], after_it, v1);
-      add_product(A[0][1][b], v[b], u1);
-      add_product(A[1][1][b], v[b], v1);
-      add_product(A[0][0][b], u[b], u1);
-      add_product(A[1][0][b], u[b], v1);
-      subtract_product(block.damping[b], v1, w1);
-      subtract_product(block.k[b], u1, w1);  // h^2 u''
-      // An extremum lies within half a step of an end, so it cannot exceed this.
-      const Lanes size1 = magnitude(u1), slope1 = magnitude(v1) + magnitude(w1);
-      const Lanes bound = larger(size[b], size1) + (slope[b] + slope1);
-      peak[b] = larger(peak[b], size1);
-      const LaneMask may_be_higher = bound > peak[b];
-      if (any(may_be_higher)) {
-        const LaneMask turns = (v[b] * v1 <= 0) | ((v[b] * w[b] < 0) & (v1 * w1 > 0));
-        const LaneMask higher = may_be_higher & turns;
-        for (std::size_t l = 0; l < lane_count; ++l) {
-          const std::size_t i = b * lane_count + l;
-          if (higher[l] != 0 && i < block.oscillators.size()) {
-            peak[b][l] =
-                std::max(peak[b][l],
-                         interior_peak(StepSeries(block.oscillators[i], u[b][l], v[b][l], a, a1)));
-          }
-        }
-      }
-      // Rest after a long silence: subnormal numbers would only cost time.
-      u[b] = bound < 1e-250 ? Lanes{} : u1;
-      v[b] = bound < 1e-250 ? Lanes{} : v1;
-      w[b] = w1;
-      size[b] = size1;
-      slope[b] = slope1;
-    }
-    a = a1;
-  }
-  std::vector<double> peaks;
-  for (std::size_t i = 0; i < block.oscillators.size(); ++i) {
-    const std::size_t b = i / lane_count, l = i % lane_count;
-    peaks.push_back(peak[b][l]);
-    if (after == AfterRecord::free_vibration) {
-      peaks.back() =
-          std::max(peaks.back(), free_vibration_peak(block.oscillators[i], u[b][l], v[b][l]));
-    }
-  }
-  return peaks;
-}
-
-/// Largest |u| of an oscillator whose step is taken in closed form.
-double peak_displacement(std::span<const double> acceleration, double time_step,
-                         const Oscillator& o, AfterRecord after) {
-  const double h2 = time_step * time_step;
-  const auto [A, B] = oscillator_step(o.theta, o.xi);
-  double u = 0, v = 0, a = h2 * acceleration[0], peak = 0;
-  for (std::size_t n = 1; n < acceleration.size(); ++n) {
-    const double a1 = h2 * acceleration[n];
-    const double u1 = A[0][0] * u + (A[0][1] * v + (B[0][0] * a + B[0][1] * a1));
-    const double v1 = A[1][0] * u + (A[1][1] * v + (B[1][0] * a + B[1][1] * a1));
-    peak = std::max(peak, std::abs(u1));
-    const StepClosedForm step(o, u, v, a, a1);
-    if (step.bound(0) > peak) peak = interior_peak(step, peak);
-    u = u1, v = v1, a = a1;
-  }
-  if (after == AfterRecord::ignored) return peak;
-  return std::max(peak, free_vibration_peak(o, u, v));
-}
-
-/// Largest |u| of every oscillator, in their order.
-std::vector<double> all_peaks(std::span<const double> acceleration, double time_step,
-                              std::span<const Oscillator> oscillators, AfterRecord after) {
-  std::vector<double> peaks(oscillators.size(), 0.0);
-  std::vector<Oscillator> slow;
-  std::vector<std::size_t> place;
-  const auto finish_block = [&] {
-    const std::vector<double> found =
-        peak_displacements(acceleration, time_step, OscillatorBlock(slow), after);
-    for (std::size_t i = 0; i < found.size(); ++i) peaks[place[i]] = found[i];
-    slow.clear();
-    place.clear();
-  };
-  for (std::size_t i = 0; i < oscillators.size(); ++i) {
-    if (oscillators[i].theta >= series_limit) {
-      peaks[i] = peak_displacement(acceleration, time_step, oscillators[i], after);
-      continue;
-    }
-    slow.push_back(oscillators[i]);
-    place.push_back(i);
-    if (slow.size() == OscillatorBlock::size) finish_block();
-  }
-  if (!slow.empty()) finish_block();
-  return peaks;
-}
 
 void check(bool ok, const char* what, double seen) {
   if (!ok) {
@@ -305,9 +162,9 @@ std::vector<SpectrumPoint> response_spectrum(std::span<const double> acceleratio
     oscillators.push_back(
         make_oscillator(2 * std::numbers::pi * frequency * time_step, damping_ratio));
   }
-  const std::vector<double> peaks = acceleration.empty()
-                                        ? std::vector<double>(frequencies.size(), 0.0)
-                                        : all_peaks(acceleration, time_step, oscillators, after);
+  const std::vector<double> peaks =
+      acceleration.empty() ? std::vector<double>(frequencies.size(), 0.0)
+                           : peak_displacements(acceleration, time_step, oscillators, after);
   std::vector<SpectrumPoint> spectrum;
   for (std::size_t i = 0; i < frequencies.size(); ++i) {
     const double omega = 2 * std::numbers::pi * frequencies[i];

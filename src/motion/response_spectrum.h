@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "motion/after_record.h"
+
 namespace pounding {
 
 /// One line of a response spectrum, omega = 2 pi frequency.
@@ -37,9 +39,6 @@ struct OscillatorStep {
 /// 0 <= xi < 1. Below theta = 1 they are summed as power series of the step, because the closed
 /// form divides differences of nearly equal numbers by theta^3; above it is used.
 OscillatorStep oscillator_step(double theta, double damping_ratio);
-
-/// Whether the maximum extends to the free vibration that follows the last sample.
-enum class AfterRecord { free_vibration, ignored };
 
 /// Response spectrum of an acceleration sampled every `time_step` [s] from t = 0, linear between
 /// samples and zero after the last one; the oscillators start at rest. The maxima are exact:

@@ -1,5 +1,6 @@
 #include "motion/response_spectrum.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -37,6 +38,47 @@ std::vector<double> refine(const std::vector<double>& coarse, int parts) {
       fine.push_back(coarse[i] + (coarse[i + 1] - coarse[i]) * k / parts);
   fine.push_back(coarse.back());
   return fine;
+}
+
+// Largest |u| of an oscillator, with every step looked at in 64 places: from below, and nearer than
+// (theta / 64)^2 / 8 of it.
+double looked_at_everywhere(const std::vector<double>& a, double theta, double xi) {
+  constexpr int parts = 64;
+  const OscillatorStep step = oscillator_step(theta / parts, xi);
+  const std::vector<double> fine = refine(a, parts);
+  double u = 0, v = 0, largest = 0;
+  for (std::size_t n = 1; n < fine.size(); ++n) {
+    const auto& [A, B] = step;
+    const double u1 = A[0][0] * u + A[0][1] * v + B[0][0] * fine[n - 1] + B[0][1] * fine[n];
+    v = A[1][0] * u + A[1][1] * v + B[1][0] * fine[n - 1] + B[1][1] * fine[n];
+    u = u1;
+    largest = std::max(largest, std::abs(u));
+  }
+  return largest * theta * theta / (parts * parts);  // u is in units of the fine step's square
+}
+
+TEST(ResponseSpectrum, MissesNoExtremumWhereverItLies) {
+  // Records of one stretch and of several, whose largest value is anywhere, also in the last step,
+  // and dampings of which some allow no stretch to be left out.
+  for (const std::size_t size : {3, 128, 129, 130, 700})
+    for (const std::size_t shift : {0, 1, 5, 127, 128, 300, 571})
+      for (const double theta : {0.003, 0.1, 0.45, 0.97}) {
+        std::vector<double> a = noise(size);
+        std::rotate(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(shift % size), a.end());
+        a[shift % size] *= 20;
+        a[0] = 0;
+        for (const double xi : {0.0, 0.02, 0.3, 0.95}) {
+          const double h = 0.01, frequency = theta / (2 * pi * h);
+          const std::vector<double> one{frequency};
+          const double found =
+              response_spectrum(a, h, one, xi, AfterRecord::ignored)[0].pseudo_acceleration;
+          const double expected = looked_at_everywhere(a, theta, xi);
+          EXPECT_GE(found, expected * (1 - 1e-9))
+              << size << " " << shift << " " << theta << " " << xi;
+          EXPECT_LE(found, expected * (1 + 1e-3))
+              << size << " " << shift << " " << theta << " " << xi;
+        }
+      }
 }
 
 TEST(ResponseSpectrum, StepOvershootsByTheDampedHalfCycle) {
