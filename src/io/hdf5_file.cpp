@@ -9,6 +9,7 @@
 #include "common/error.h"
 #include "io/file_seal.h"
 #include "io/hdf5_library.h"
+#include "io/padded_texts.h"
 
 namespace pounding {
 
@@ -182,23 +183,16 @@ std::int64_t Hdf5File::reserve(const std::string& name, const std::vector<std::s
 }
 
 void Hdf5File::write_strings(const std::string& name, const std::vector<std::string>& values) {
-  std::size_t width = 1;
-  for (const std::string& value : values) width = std::max(width, value.size());
-  std::string block;
-  for (std::string value : values) {
-    value.resize(width, '\0');
-    block += value;
-  }
-  const hid_t type = H5Tcopy(H5T_C_S1);
-  H5Tset_size(type, width);
-  H5Tset_strpad(type, H5T_STR_NULLPAD);
+  const PaddedTexts texts(values);
+  const hid_t type = texts.type();
   const hsize_t count = values.size();
   const hid_t space = H5Screate_simple(1, &count, nullptr);
   const hid_t dataset =
       checked(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
               "create " + name);
   const herr_t status =
-      values.empty() ? 0 : H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, block.data());
+      values.empty() ? 0
+                     : H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.block.data());
   H5Dclose(dataset);
   H5Sclose(space);
   H5Tclose(type);

@@ -1,30 +1,22 @@
 #include "io/text_table.h"
 
-#include <algorithm>
-
 #include <hdf5.h>
 
 #include "common/error.h"
+#include "io/padded_texts.h"
 
 namespace pounding {
 namespace {
-
-/// A text of fixed length as HDF5 describes it.
-hid_t text_type(std::size_t width) {
-  const hid_t type = H5Tcopy(H5T_C_S1);
-  H5Tset_size(type, width);
-  H5Tset_strpad(type, H5T_STR_NULLPAD);
-  return type;
-}
 
 /// The names between commas as an attribute. Returns a negative number on failure.
 herr_t name_columns(hid_t dataset, const std::vector<std::string>& columns) {
   std::string names;
   for (const std::string& column : columns) names += (names.empty() ? "" : ",") + column;
-  const hid_t type = text_type(names.size());
+  const PaddedTexts texts({names});
+  const hid_t type = texts.type();
   const hid_t space = H5Screate(H5S_SCALAR);
   const hid_t attribute = H5Acreate2(dataset, "columns", type, space, H5P_DEFAULT, H5P_DEFAULT);
-  const herr_t status = attribute < 0 ? -1 : H5Awrite(attribute, type, names.data());
+  const herr_t status = attribute < 0 ? -1 : H5Awrite(attribute, type, texts.block.data());
   if (attribute >= 0) H5Aclose(attribute);
   H5Sclose(space);
   H5Tclose(type);
@@ -36,15 +28,9 @@ herr_t name_columns(hid_t dataset, const std::vector<std::string>& columns) {
 void add_text_table(const std::string& path, const std::string& name,
                     const std::vector<std::string>& columns,
                     const std::vector<std::string>& values) {
-  std::size_t width = 1;
-  for (const std::string& value : values) width = std::max(width, value.size());
-  std::string block;
-  for (std::string value : values) {
-    value.resize(width, '\0');
-    block += value;
-  }
+  const PaddedTexts texts(values);
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  const hid_t type = text_type(width);
+  const hid_t type = texts.type();
   const hsize_t size[2] = {values.size() / columns.size(), columns.size()};
   const hid_t space = H5Screate_simple(2, size, nullptr);
   const hid_t dataset =
@@ -52,7 +38,7 @@ void add_text_table(const std::string& path, const std::string& name,
                : H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   herr_t status = dataset < 0 ? -1 : name_columns(dataset, columns);
   if (status >= 0) {
-    status = H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, block.data());
+    status = H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.block.data());
   }
   if (dataset >= 0) H5Dclose(dataset);
   H5Sclose(space);
