@@ -2,6 +2,7 @@
 other people's scripts is the package `pounding` of the folder python."""
 
 import re
+import signal
 import sys
 from pathlib import Path
 
@@ -14,3 +15,8 @@ INSTALLED = not (Path(__file__).resolve().parents[2] / "CMakeLists.txt").exists(
 def called(text: str) -> str:
     """A text about commands with their names as they are called here: `run/plot` or `pounding-tools plot`."""
     return re.sub(r"\brun/(?=[a-z])", "pounding-tools ", text) if INSTALLED else text
+
+
+def stop_when_terminated() -> None:
+    """SIGTERM, as a batch system sends it, stops a command as Ctrl-C does: its runs with it."""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
