@@ -30,16 +30,21 @@ class Analysis:
         self.index = {(one.gap, one.level, one.sample): number for number, one in enumerate(self.design.members)
                       if not one.disturbed}
         largest = self.outcomes.spectra.max((0, 2, 3))
-        of_probe = {}
-        for name, value in zip(self.outcomes.channels, largest):
-            of_probe[name.split()[0]] = max(value, of_probe.get(name.split()[0], 0.0))
-        self.main = [number for number, name in enumerate(self.outcomes.channels)
-                     if largest[number] > MAIN * of_probe[name.split()[0]] > 0]
-        if not self.main:
+        if not self.main(self.outcomes.spectra):
             raise StudyError(f"{self.study.path}: no probe moves; has {self.study.scene.name} probes, and no record of "
                              "its own along an axis of the study's targets, over which it wins?")
         self.channels = [number for number in range(len(largest)) if largest[number] > ROUND_OFF * largest.max()]
         self.cells = [(gap, level) for gap in [*self.study.gaps, None] for level in self.study.levels]
+
+    def main(self, spectra: np.ndarray) -> list:
+        """Numbers of the channels whose largest of these spectra (members, channels, ...) is not small beside that of
+        their probe."""
+        largest = spectra.max((0, *range(2, spectra.ndim)))
+        of_probe = {}
+        for name, value in zip(self.outcomes.channels, largest):
+            of_probe[name.split()[0]] = max(value, of_probe.get(name.split()[0], 0.0))
+        return [number for number, name in enumerate(self.outcomes.channels)
+                if largest[number] > MAIN * of_probe[name.split()[0]] > 0]
 
     def of(self, gap: float | None, level: float) -> np.ndarray:
         """Members of a cell, by sample."""
@@ -167,8 +172,10 @@ class Analysis:
         rows, found = [], self.outcomes
         inside = (found.frequency >= band[0]) & (found.frequency <= band[1])
         for gap, level in self.cells:
-            one = moments(found.spectra[self.of(gap, level)][:, self.main][..., inside])
-            for c, channel in enumerate(self.main):
+            spectra = found.spectra[self.of(gap, level)]
+            main = self.main(spectra)
+            one = moments(spectra[:, main][..., inside])
+            for c, channel in enumerate(main):
                 for d, ratio in enumerate(found.damping):
                     worst = int(one.cov[c, d].argmax())
                     log_worst = float(np.nanmax(one.log_deviation[c, d]))
@@ -186,21 +193,24 @@ class Analysis:
     # Repeats at full order.
 
     def repeat_rows(self, full: Outcomes) -> list:
-        """Per repeated member rms and largest ln-ratio of its spectra to full order, of the main channels where they
+        """Per repeated member and main channel of it rms and largest ln-ratio of its spectra to full order, where they
         are above a hundredth of their largest, beside those of a little more shaking."""
         rows, found = [], self.outcomes
         disturbed = [number for number, one in enumerate(self.design.members) if one.disturbed]
         for place, number in enumerate(self.design.repeated):
-            one, exact = self.design.members[number], full.spectra[place][self.main]
-            mine, noise = (found.spectra[index][self.main] for index in (number, disturbed[place]))
-            held = exact > 0.01 * exact.max(-1, keepdims=True)
-            errors = [np.log(a[held] / b[held]) for a, b in ((mine, exact), (noise, mine))]
+            one = self.design.members[number]
             sums = [float(values.impulse_sum[index].sum()) for values, index in ((found, number), (full, place))]
-            rows.append({"sample": one.sample, "gap [m]": gap_text(one.gap), "pga [m/s2]": one.level,
-                         "rms": rms(errors[0]), "largest": float(abs(errors[0]).max()), "rms of noise": rms(errors[1]),
-                         "largest of noise": float(abs(errors[1]).max()), "impulses [N s]": sums[0],
-                         "at full order [N s]": sums[1], "touched": int(found.episodes[number].sum() > 0),
-                         "at full order": int(full.episodes[place].sum() > 0)})
+            for channel in self.main(full.spectra[place:place + 1]):
+                exact = full.spectra[place][channel]
+                mine, noise = (found.spectra[index][channel] for index in (number, disturbed[place]))
+                held = exact > 0.01 * exact.max(-1, keepdims=True)
+                errors = [np.log(a[held] / b[held]) for a, b in ((mine, exact), (noise, mine))]
+                rows.append({"sample": one.sample, "gap [m]": gap_text(one.gap), "pga [m/s2]": one.level,
+                             "channel": found.channels[channel], "rms": rms(errors[0]),
+                             "largest": float(abs(errors[0]).max()), "rms of noise": rms(errors[1]),
+                             "largest of noise": float(abs(errors[1]).max()), "impulses [N s]": sums[0],
+                             "at full order [N s]": sums[1], "touched": int(found.episodes[number].sum() > 0),
+                             "at full order": int(full.episodes[place].sum() > 0)})
         return rows
 
     def member_rows(self) -> list:

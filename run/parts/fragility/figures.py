@@ -26,9 +26,9 @@ def shown(analysis: Analysis) -> tuple:
     if (gap, level) not in share:
         gap, level = best
     damping = int(abs(found.damping - 0.05).argmin())
-    ratio = (found.spectra[analysis.of(gap, level)].mean(0)[:, damping].max(-1)
-             / np.maximum(found.spectra[analysis.of(None, level)].mean(0)[:, damping].max(-1), 1e-300))
-    channel = max(analysis.main, key=lambda number: ratio[number])
+    raised = (found.spectra[analysis.of(gap, level)].mean(0)[:, damping].max(-1)
+              - found.spectra[analysis.of(None, level)].mean(0)[:, damping].max(-1))
+    channel = int(raised.argmax())
     if study.show.get("channel") in found.channels:
         channel = found.channels.index(study.show["channel"])
     return gap, level, channel, damping

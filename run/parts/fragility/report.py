@@ -55,6 +55,19 @@ def enough_summary(rows: list) -> list:
     return found
 
 
+def repeats_summary(rows: list) -> list:
+    """Of each channel the errors of its repeats and what a little more shaking does."""
+    found = []
+    for channel in dict.fromkeys(row["channel"] for row in rows):
+        mine = [row for row in rows if row["channel"] == channel]
+        one = {"channel": channel, "repeats": len(mine)}
+        for key in ("rms", "rms of noise"):
+            values = [row[key] for row in mine]
+            one |= {f"{key}, median": float(np.median(values)), f"{key}, worst": max(values)}
+        found.append(one)
+    return found
+
+
 def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, folder: Path) -> tuple:
     """Writes everything and returns the page's path and what the terminal shows."""
     study = analysis.study
@@ -83,7 +96,7 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
     parts = [("Probability", tables["probability"]), ("Lognormal curves", fit_rows),
              ("Joint that would be needed [m]", tables["joint"]),
              (f"Members that the mean of any spectrum needs, within {100 * TOLERANCE:g} %",
-              enough_summary(enough_rows)), ("Repeats at full order: ln-ratio of the spectra", tables["full_order"])]
+              enough_summary(enough_rows)), ("Repeats at full order: ln-ratio of the spectra", repeats_summary(tables["full_order"]))]
     lines = told(analysis, fits, full, tables) + notes
     content = paragraphs(lines)
     for caption, rows in parts:
@@ -115,9 +128,10 @@ def told(analysis: Analysis, fits: dict, full: Outcomes | None, tables: dict) ->
     wrong = analysis.contradictions()
     lines.append(f"The runs apart say of {cells - wrong} of {cells} runs with a joint whether they touch as these do.")
     if full:
-        errors = [row["rms"] for row in tables["full_order"]]
-        noise = [row["rms of noise"] for row in tables["full_order"]]
-        lines.append(f"{len(errors)} members repeated at full order: rms of the spectra's ln-ratio "
-                     f"{np.median(errors):.2g} in the median and {max(errors):.2g} at worst, beside "
+        rows = tables["full_order"]
+        worst = max(rows, key=lambda row: row["rms"])
+        errors, noise = ([row[key] for row in rows] for key in ("rms", "rms of noise"))
+        lines.append(f"{len(analysis.design.repeated)} members repeated at full order: rms of a spectrum's ln-ratio "
+                     f"{np.median(errors):.2g} in the median and {worst['rms']:.2g} at worst ({worst['channel']}), beside "
                      f"{np.median(noise):.2g} and {max(noise):.2g} of {100 * study.noise:g} % more shaking.")
     return lines
