@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/octet.h"
-#include "motion/response_spectrum.h"
+#include "motion/oscillator_step.h"
 
 namespace pounding {
 
@@ -61,11 +61,11 @@ struct OscillatorBlock {
   std::span<const Oscillator> oscillators;
   Octet A[2][2][vectors], B[2][2][vectors], stiffness[vectors], damping[vectors];
 
-  /// With U and a the largest |u| and |h^2 acceleration| at the samples of a stretch, no |u| between
-  /// them exceeds of_displacement U + of_load a. For an extremum lies within half a step of a
-  /// sample, |u| <= U + W / 8, W the largest |h^2 u''| within the steps; |h u'| <= 2 U + W, as it
-  /// is |u1 - u0| somewhere in the step; and the equation of motion bounds W by
-  /// a + d (2 U + W) + k (U + W / 8). Where damping is too large for that nothing is left out.
+  /// Bound of the displacement between samples: with U and a the largest |u| and |h^2 acceleration|
+  /// at the samples of a stretch it is of_displacement U + of_load a. An extremum lies within half
+  /// a step of a sample, so |u| <= U + W / 8, W the largest |h^2 u''| within the steps; and
+  /// |h u'| <= 2 U + W, as it is |u1 - u0| somewhere in the step; the equation of motion bounds W
+  /// by a + d (2 U + W) + k (U + W / 8). Where damping is too large for that nothing is left out.
   Octet of_displacement[vectors], of_load[vectors];
 };
 

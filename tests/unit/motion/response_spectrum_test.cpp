@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "motion/oscillator_step.h"
 #include "motion_files.h"
 
 namespace pounding {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "motion/accelerogram.h"
+#include "motion/oscillator_step.h"
 #include "motion/response_spectrum.h"
 #include "motion_files.h"
 

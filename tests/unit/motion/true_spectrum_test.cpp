@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "motion/oscillator_step.h"
 #include "motion/response_spectrum.h"
 
 namespace pounding {
