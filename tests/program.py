@@ -8,6 +8,7 @@ import tempfile
 SOURCE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BUILD = os.environ.get("POUNDING_BUILD", os.path.join(SOURCE, "build"))
 PROGRAM = os.path.abspath(os.path.join(BUILD, "pounding"))
+RANKS = int(os.environ.get("POUNDING_RANKS", 2))  # of a run whose test does not ask for another number
 SHARED = os.environ.get("POUNDING_SHARED", os.path.join(os.path.dirname(SOURCE), "shared"))
 
 
@@ -32,7 +33,7 @@ def words(arguments, ranks):
 NOTING = '"$@"; status=$?; echo $status > "$0/$OMPI_COMM_WORLD_RANK"; [ $status -le 2 ] || exit $status'
 
 
-def run(arguments, ranks=2, timeout=900, folder=SOURCE, environment=None):
+def run(arguments, ranks=RANKS, timeout=900, folder=SOURCE, environment=None):
     """Runs `pounding` to its end; the exit status is that of every rank, or it raises AssertionError."""
     line = words(arguments, ranks)
     at = line.index(PROGRAM)
@@ -63,7 +64,7 @@ def summary(folder):
         return json.load(file)
 
 
-def must_run(test, arguments, ranks=2, timeout=900):
+def must_run(test, arguments, ranks=RANKS, timeout=900):
     """Runs into a fresh folder and returns it with the summary; fails the test on an error. Numbers in tables have all
     their digits unless the arguments say otherwise."""
     folder = tempfile.mkdtemp(prefix="pounding-")
@@ -72,7 +73,7 @@ def must_run(test, arguments, ranks=2, timeout=900):
     return folder, summary(folder)
 
 
-def must_refuse(test, arguments, *parts, ranks=2, timeout=900):
+def must_refuse(test, arguments, *parts, ranks=RANKS, timeout=900):
     """A run that ends with exit status 1 and one line that holds all the parts; returns the line."""
     result = run(arguments, ranks, timeout)
     test.assertEqual(result.returncode, 1, result.stdout[-2000:] + result.stderr[-2000:])

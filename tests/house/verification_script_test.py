@@ -53,6 +53,12 @@ class Verification(unittest.TestCase):
         self.assertEqual(self.rows(), [["good", "of closeness", "2", "0.25", "0.5", "height"],
                                        ["good", "of order", "1", "0.03", "0.04", "loss"]])
 
+    def test_ranks_reach_the_tests(self):
+        text = PROBLEM.format(delta=0.5).replace("assertEqual(2, 2)", "assertEqual(program.RANKS, 3)")
+        self.write("good", text.replace("import unittest", "import unittest\n\nimport program"))
+        self.assertEqual(self.verify("--ranks", "3").returncode, 0)
+        self.assertEqual(self.verify().returncode, 1)
+
     def test_failing_assertion_fails(self):
         self.write("bad", PROBLEM.format(delta=0.1))
         self.write("good", PROBLEM.format(delta=0.5))

@@ -15,6 +15,7 @@ import unittest
 
 import numpy
 
+import program
 from recorded import IDENTITY, IDENTITY_OF_A_FLIGHT, Recorded, assert_follows
 from references import chains
 
@@ -104,7 +105,7 @@ def dropped(elements, courant, end_time, *more, ratio=0.0, height=5.0):
                  "-bar_gravity", "0,0,-10", "-impact_merge_time", 0.1, *more)
 
 
-def fall(test, elements, arguments, ranks=2):
+def fall(test, elements, arguments, ranks=program.RANKS):
     return Recorded(test, arguments, ranks, IDENTITY if elements <= 50 else IDENTITY_OF_A_FLIGHT)
 
 

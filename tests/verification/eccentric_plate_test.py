@@ -9,6 +9,7 @@ import unittest
 
 import numpy
 
+import program
 from recorded import Recorded, all_nodes, assert_follows, lumped_fractions, reference
 
 LENGTH, WIDTH, THICKNESS, DENSITY, SPEED = 3.0, 2.0, 0.22, 2400.0, 0.5
@@ -66,7 +67,7 @@ def centre_and_spin(run, cells):
 
 
 class EccentricPlate(unittest.TestCase):
-    def hit(self, case, ranks=2, end_time=0.0045):
+    def hit(self, case, ranks=program.RANKS, end_time=0.0045):
         stop, cells, element, ratio, omega, time_step = case[:6]
         run = Recorded(self, scene(stop, cells, element, ratio, omega, time_step, end_time), ranks)
         velocity, spin, inertia, exact = centre_and_spin(run, cells)

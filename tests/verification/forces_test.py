@@ -24,7 +24,7 @@ POINT = (0.3, -0.2, 0.1)
 class Forces:
     """What a run records, and what its files say of it."""
 
-    def __init__(self, test, words, ranks=2):
+    def __init__(self, test, words, ranks=program.RANKS):
         folder, self.summary = program.must_run(test, ["-modes", 1, "-spectra_frequencies", 10, *words], ranks)
         with h5py.File(os.path.join(folder, "history.h5"), "r") as file:
             names = [name.decode() for name in file["forces"]] if "forces" in file else []

@@ -28,7 +28,7 @@ BRACE = ["-chain_clamp", "ground", "-chain_link1_element", "bar", "-chain_link1_
 class Loops:
     """Recorded links of a run, with the ledger line by line."""
 
-    def __init__(self, test, words, ranks=2):
+    def __init__(self, test, words, ranks=program.RANKS):
         folder, self.summary = program.must_run(test, [*words, "-modes", 0, "-spectra_frequencies", 10], ranks)
         with h5py.File(os.path.join(folder, "history.h5"), "r") as file:
             self.names = [name.decode() for name in file["links"]]

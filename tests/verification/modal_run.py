@@ -36,7 +36,7 @@ def case(mesh, words, **parameters):
     return words
 
 
-def structures(test, cases, modes=1, ranks=2, mechanisms=None):
+def structures(test, cases, modes=1, ranks=program.RANKS, mechanisms=None):
     """What summary.json says of each structure, in the order of the cases. `mechanisms`: whether each of them, or
     none, has to be called one."""
     names = [f"b{number}" for number in range(len(cases))]

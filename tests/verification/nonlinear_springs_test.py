@@ -33,7 +33,7 @@ def spring(stiffness, **options):
 class Bilinear(unittest.TestCase):
     SPEED, YIELD = 1.0, 2000.0  # it would stretch by 15.8 mm, and yields at 10 mm
 
-    def run_(self, hardening, ranks=2, *more, time_step=2e-5):
+    def run_(self, hardening, ranks=program.RANKS, *more, time_step=2e-5):
         return Recorded(self, mass(time_step, 0.2, "-chain_initial_velocity", f"{self.SPEED},0,0",
                                    *spring(f"{STIFFNESS},0,0", yield_force=f"{self.YIELD},0,0", hardening=hardening),
                                    *more), ranks)

@@ -54,7 +54,7 @@ def hexahedra(cells, size, poisson, element="hex8_full"):
 
 
 class OmegaMax(unittest.TestCase):
-    def check(self, cases, expected, tolerance=TOLERANCE, ranks=2):
+    def check(self, cases, expected, tolerance=TOLERANCE, ranks=program.RANKS):
         results = modal_run.structures(self, cases, ranks=ranks)
         for number, (result, omega) in enumerate(zip(results, expected)):
             self.assertAlmostEqual(result["omega_max"] / omega, 1, delta=tolerance, msg=(number, omega))

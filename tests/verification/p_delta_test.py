@@ -32,7 +32,7 @@ def column(cells, mass, *more, density=1e-1, gravity=-GRAVITY, height=HEIGHT):
             "-preload", "static", "-it_p_delta", "true", "-modes", 2, "-end_time", 1e-4, *more]
 
 
-def frequency(test, words, ranks=2):
+def frequency(test, words, ranks=program.RANKS):
     _, summary = program.must_run(test, words, ranks)
     return summary["structures"]["it"]["frequencies"][0]["frequency"]
 

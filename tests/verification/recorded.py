@@ -54,7 +54,7 @@ class Recorded:
     Every run must close the energy identity. Arguments win over the cheap settings made here.
     """
 
-    def __init__(self, test, arguments, ranks=2, identity=IDENTITY):
+    def __init__(self, test, arguments, ranks=program.RANKS, identity=IDENTITY):
         cheap = ["-modes", 1, "-spectra_frequencies", 10]
         folder, self.summary = program.must_run(test, cheap + list(arguments), ranks)
         self.time_step = self.summary["time_step"]
@@ -133,7 +133,7 @@ def assert_follows(test, found, reference, tolerance, label):
     test.assertLessEqual(abs(found[:len(reference)] - reference).max() / scale, tolerance, label)
 
 
-def assert_continues(test, arguments, stop, checkpoint, ranks=2):
+def assert_continues(test, arguments, stop, checkpoint, ranks=program.RANKS):
     """A run that stops at a time, with its last checkpoint at a step, and is continued from there leaves what the
     uninterrupted one leaves: every field of the history to the last bit, impacts and the end of the ledger."""
     folder, _ = program.must_run(test, arguments, ranks)

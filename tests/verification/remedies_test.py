@@ -12,7 +12,7 @@ SCALING = re.compile(r"(\d+) elements of (.+) hold the step: -(\w+)_mass_scaling
 
 
 class Remedies(unittest.TestCase):
-    def dry_run(self, *words, ranks=2):
+    def dry_run(self, *words, ranks=program.RANKS):
         result = program.run(program.COARSE_PAIR + ["-dry_run", *words], ranks)
         self.assertEqual(result.returncode, 0, result.stderr)
         steps = re.findall(r"stable time step (\S+) s \(bound.*without damping (\S+) s", result.stdout)

@@ -10,6 +10,7 @@ the static state is reached by damping. Figures of the discrete solution: an ind
 import math
 import unittest
 
+import program
 from recorded import Recorded
 
 GRAVITY, YOUNG, DENSITY = 9.81, 30e9, 2400.0
@@ -48,7 +49,7 @@ class RestingBar(unittest.TestCase):
     STATIC = -DENSITY * GRAVITY * LENGTH**2 / (2 * YOUNG)
     TIME_STEP = 0.9 * LENGTH / ELEMENTS / SOUND
 
-    def stand(self, end_time, *more, ranks=2):
+    def stand(self, end_time, *more, ranks=program.RANKS):
         return Recorded(self, scene(f"lz={self.LENGTH},nz={self.ELEMENTS}", self.TIME_STEP,
                                     end_time, *more), ranks)
 

@@ -16,6 +16,7 @@ import unittest
 
 import numpy
 
+import program
 from recorded import Recorded, write_samples
 
 GRAVITY, HALF_WIDTH, LAYERS = 9.81, 0.5, 16
@@ -32,7 +33,7 @@ class Rocking(unittest.TestCase):
     # A block that moves as a whole keeps its momentum about the edge that stays down.
     SPEED = RATE * ABOUT_EDGE / (HEIGHT / 2)
 
-    def rock(self, time_step, ranks=2):
+    def rock(self, time_step, ranks=program.RANKS):
         return Recorded(self, [
             "-structures", "block", "-block_mesh", "tests/meshes/box.geo", "-block_mesh_set",
             f"x0={-HALF_WIDTH},lx={2 * HALF_WIDTH},ly=1,lz={HEIGHT!r},nz={LAYERS}", "-block_clamp", "z_min:x+y",

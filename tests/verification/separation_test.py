@@ -65,7 +65,7 @@ class Oscillators(unittest.TestCase):
     def words(self, *more):
         return oscillators.scene(0.4, 1e-3, self.file, 0.01) + ["-modes", 12, "-resampling", "linear", *more]
 
-    def found(self, *more, ranks=2):
+    def found(self, *more, ranks=program.RANKS):
         _, summary = program.must_run(self, self.words(*more), ranks)
         return summary["separations"]["gap"]
 

@@ -35,7 +35,7 @@ def spring(group, element, stiffness, dashpot="0,0,0,0,0,0"):
             f"-chain_{group}_dashpot", dashpot]
 
 
-def frequencies(test, arguments, count, ranks=2):
+def frequencies(test, arguments, count, ranks=program.RANKS):
     """The lowest natural frequencies, with their directions."""
     _, summary = program.must_run(test, list(arguments) + ["-modes", count], ranks)
     modes = next(iter(summary["structures"].values()))["frequencies"]

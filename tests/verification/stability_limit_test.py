@@ -96,11 +96,11 @@ DAMPINGS = [((0, 2e-6), {"right": (0, 3e-5)}), ((0, 3e-5), {"right": (0, 0)}),
 
 
 class StableTimeStep(unittest.TestCase):
-    def summary(self, bar, ranks=2):
+    def summary(self, bar, ranks=program.RANKS):
         words = bar.words + ["-time_step", 1e-12, "-end_time", 1e-12, "-modes", 0]
         return program.must_run(self, words, ranks)[1]["structures"]["bar"]
 
-    def check(self, bar, expected, ranks=2):
+    def check(self, bar, expected, ranks=program.RANKS):
         found = self.summary(bar, ranks)
         self.assertAlmostEqual(found["stable_time_step"] / expected, 1, delta=TOLERANCE)
         bound = found["element_time_step_bound"]

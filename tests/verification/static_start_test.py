@@ -38,7 +38,7 @@ class HungBar(unittest.TestCase):
     WEIGHT = DENSITY * GRAVITY * LENGTH * AREA
     SIZES = "lx=0.5,ly=0.5,lz=5,nz=10"
 
-    def hang(self, *more, ranks=2, steps=50):
+    def hang(self, *more, ranks=program.RANKS, steps=50):
         step = 5e-5
         return Recorded(self, ["-structures", "bar", *box("bar", self.SIZES, "-bar_clamp", "z_max"), "-time_step",
                                step, "-end_time", steps * step, "-output_interval", step, "-probes", "foot",
@@ -295,7 +295,7 @@ class Portal(unittest.TestCase):
              "-corner_structure", "frame", "-corner_at", "0,3,0"]
     WEIGHT = ["-frame_gravity", f"0,{-GRAVITY},0", "-preload", "static"]
 
-    def shake(self, *more, ranks=2):
+    def shake(self, *more, ranks=program.RANKS):
         record = write_sine(2.0, 3.0, 0.3)
         words = [*self.SCENE, "-motion_x_record", record, "-motion_x_unit", "m/s2", "-end_time", 0.3,
                  "-frame_damping_alpha", 1]

@@ -156,7 +156,7 @@ class Frequencies(unittest.TestCase):
 
 
 class Refusals(unittest.TestCase):
-    def asked(self, words, ranks=2):
+    def asked(self, words, ranks=program.RANKS):
         names = [str(word).replace("@", "b0") for word in words]
         with tempfile.TemporaryDirectory() as folder:
             return program.run(["-structures", "b0", *names, "-modes", 2, "-end_time", 1e-12, "-output", folder], ranks)

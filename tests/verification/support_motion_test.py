@@ -368,7 +368,7 @@ class MovedApart(unittest.TestCase):
                       f"-{name}_body_element", "hex8", f"-{name}_body_material", "stuff"]
         return words + list(more)
 
-    def approach(self, acceleration, step, *more, ranks=2):
+    def approach(self, acceleration, step, *more, ranks=program.RANKS):
         """Support b comes towards a by this acceleration."""
         path = write_samples(-acceleration / 2, step)
         other = write_samples(acceleration / 2, step)

@@ -10,6 +10,7 @@ import numpy
 import scipy.sparse
 import scipy.sparse.csgraph
 
+import program
 from recorded import Recorded, all_nodes, assert_continues, write_sine
 from rigid_groups_test import Dense
 
@@ -232,7 +233,7 @@ class PatchTest(unittest.TestCase):
     # The same where it does not pass, and the largest force left on a node of bricks and of plates, over a facet's.
     APART = {(2, 3): (0.22, 0.12), (4, 5): (0.08, 0.07), (2, 5): (0.08, 0.05)}
 
-    def hung(self, m1, m2, tie, ranks=2):
+    def hung(self, m1, m2, tie, ranks=program.RANKS):
         """Error of the displacements of bricks that hang from x_min without lateral strain, over the largest one."""
         scene = [*BRICKS[:-2], "-material_c_poisson", 0, *HELD, "-t_tie", tie, *mesh(m1=m1, m2=m2), "-t_gravity",
                  f"{GRAVITY},0,0", "-preload", "static", "-end_time", 1e-4, "-output_interval", 1e-4, "-probes", "p,q",
@@ -289,7 +290,7 @@ class PatchTest(unittest.TestCase):
 class BesideMatchedMeshes(unittest.TestCase):
     """A cantilever of two parts whose meshes do not match, and of one mesh: frequencies, and the sag of its end."""
 
-    def measured(self, scene, ranks=2):
+    def measured(self, scene, ranks=program.RANKS):
         more = [*TIE, *scene, "-gravity", GRAVITY, "-preload", "static", "-end_time", 1e-4, "-output_interval", 1e-4,
                 "-modes", 3, "-probes", "p", "-p_structure", "t", "-p_group", "x_max"]
         run = Recorded(self, more, ranks, identity=1e-9)

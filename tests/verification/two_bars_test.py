@@ -13,6 +13,7 @@ import unittest
 
 import numpy
 
+import program
 from recorded import IDENTITY_OF_A_FLIGHT, Recorded, assert_follows
 from references import chains
 
@@ -70,7 +71,7 @@ def scene(bars, time_step, end_time, gap=GAP, area=0.01, more=(), abreast=1):
     return words + list(more)
 
 
-def collide(test, arguments, ranks=2):
+def collide(test, arguments, ranks=program.RANKS):
     return Recorded(test, arguments, ranks, IDENTITY_OF_A_FLIGHT)
 
 
@@ -81,7 +82,7 @@ def velocities(run, bars):
 
 
 class TwoBars(unittest.TestCase):
-    def compare(self, case, ranks=2):
+    def compare(self, case, ranks=program.RANKS):
         one, two, theory, discrete = CASES[case]
         run = collide(self, scene((one, two), step_of((one, two), 0.9), 0.0024), ranks)
         masses = [0.01 * length * material[1] for length, material, _ in (one, two)]

@@ -8,6 +8,7 @@ plateau and duration leave open how they are cut out of the history, the impulse
 import math
 import unittest
 
+import program
 from recorded import Recorded, all_nodes
 
 LENGTH, SIDE, YOUNG, DENSITY = 2.0, 0.3, 30e9, 2400.0
@@ -55,7 +56,7 @@ def scene(poisson, meshes, secondary, beta, time_step, passes):
 
 
 class UnmatchedFaces(unittest.TestCase):
-    def collide(self, poisson, first, second, secondary, beta, time_step, passes=1, ranks=2):
+    def collide(self, poisson, first, second, secondary, beta, time_step, passes=1, ranks=program.RANKS):
         run = Recorded(self, scene(poisson, (first, second), secondary, beta, time_step, passes),
                        ranks)
         start = run.column("start")[0]
