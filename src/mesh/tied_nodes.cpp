@@ -2,51 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <sstream>
 
 #include "common/disjoint_sets.h"
 #include "common/error.h"
 #include "common/matrix3.h"
-#include "elements/element.h"
-#include "mesh/bounding_box.h"
-#include "mesh/facet_place.h"
+#include "mesh/followed_facets.h"
+#include "mesh/mortar.h"
 
 namespace pounding {
 namespace {
 
 constexpr std::uint8_t rotations = 0x38;
 
-/// Parts of a facet's longest edge: offsets up to `nothing` are none; places nearer to each other
-/// than `same` are one; a node farther than `beside` over the border is doubted.
-constexpr double nothing = 1e-13;
+/// Parts of a facet's longest edge: a node farther than `beside` over the border is doubted; beside
+/// a line farther than `same` it is refused.
 constexpr double same = 1e-6;
 constexpr double beside = 1e-2;
 
-/// Where a facet turns, arms up to this length are eccentricities of beams and slabs, however fine
-/// the mesh [m].
-constexpr double longest_arm = 1;
-
-/// Facets of what follows are doubted if so many times longer than those followed.
+/// Facets of nodes that follow at their places are doubted if so many times longer than those
+/// followed.
 constexpr double coarser = 1.5;
-
-struct Candidate {
-  const Facet* facet = nullptr;
-  FacetPlace at;
-};
 
 std::string place_text(const Vector3& x) {
   std::ostringstream text;
   text << "(" << x[0] << ", " << x[1] << ", " << x[2] << ")";
   return text.str();
 }
-
-/// Elements that bend along a line.
-struct Bending {
-  bool beam = false;
-  std::vector<Vector3> normals;  ///< of shells
-};
 
 /// One tie of a structure.
 class Tie {
@@ -56,20 +39,26 @@ class Tie {
         number_(number),
         mesh_(mesh),
         option_("option -" + structure.name + "_tie " + rigid_.name()),
-        facets_(mesh.groups.at(rigid_.other).facets) {
-    if (facets_.empty()) {
+        facets_(mesh, mesh.groups.at(rigid_.other).facets) {
+    if (facets_.all().empty()) {
       throw UserError(option_ + ": group '" + rigid_.other +
                       "' has no faces or lines of elements to follow");
     }
-    for (const Facet& facet : facets_) boxes_.push_back(box_of(facet));
-    find_bending();
   }
 
   std::vector<TiedNode> run() {
+    const NodeGroup& group = mesh_.groups.at(rigid_.group);
+    std::map<GlobalIndex, TiedNode> places;
+    for (const GlobalIndex node : group.nodes) places[node] = at_place(node);
+    const auto means = mortar_rows(mesh_, group.facets, facets_, places);
     std::vector<TiedNode> found;
-    for (const GlobalIndex node : mesh_.groups.at(rigid_.group).nodes) found.push_back(tie(node));
+    for (const auto& [node, place] : places) {
+      const auto mean = means.find(node);
+      found.push_back(mean == means.end() ? place : joined(place, mean->second));
+      check_clamps(found.back());
+    }
     doubt_overhang();
-    doubt_coarse_nodes();
+    doubt_coarse_nodes(means);
     return found;
   }
 
@@ -78,86 +67,40 @@ class Tie {
   }
 
  private:
-  std::vector<Vector3> corners_of(const Facet& facet) const {
-    std::vector<Vector3> corners;
-    for (const GlobalIndex node : facet.corners()) corners.push_back(mesh_.position(node));
-    return corners;
-  }
-
-  BoundingBox box_of(const Facet& facet) const {
-    BoundingBox box;
-    for (const Vector3& x : corners_of(facet)) {
-      for (std::size_t d = 0; d < 3; ++d) {
-        box.low[d] = std::min(box.low[d], x[d]);
-        box.high[d] = std::max(box.high[d], x[d]);
-      }
-    }
-    return box;
-  }
-
-  double longest_edge(const Facet& facet) const {
-    const std::vector<Vector3> corners = corners_of(facet);
-    double longest = 0;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      longest = std::max(longest, distance(corners[i], corners[(i + 1) % corners.size()]));
-    }
-    return longest;
-  }
-
-  bool turns(const Facet& facet) const {
-    return std::ranges::all_of(facet.corners(), [this](GlobalIndex node) {
-      return (mesh_.components[node] & rotations) == rotations;
-    });
-  }
-
-  /// The facet that is nearest, and those that meet it at the place that is nearest.
-  std::vector<Candidate> nearest(const Vector3& x) const {
-    std::vector<Candidate> found;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t f = 0; f < facets_.size(); ++f) {
-      double square = 0;  // of the distance from the box
-      for (std::size_t d = 0; d < 3; ++d) {
-        const double out = std::max({boxes_[f].low[d] - x[d], x[d] - boxes_[f].high[d], 0.0});
-        square += out * out;
-      }
-      const double margin = same * boxes_[f].diagonal();
-      if (std::sqrt(square) > least + margin) continue;
-      const Candidate candidate{&facets_[f], nearest_place(corners_of(facets_[f]), x)};
-      if (candidate.at.distance > least + margin) continue;
-      found.push_back(candidate);
-      least = std::min(least, candidate.at.distance);
-    }
-    const Candidate best = *std::ranges::min_element(
-        found, {}, [](const Candidate& candidate) { return candidate.at.distance; });
-    const double margin = same * longest_edge(*best.facet);
-    std::erase_if(found, [&](const Candidate& candidate) {
-      return distance(candidate.at.place, best.at.place) > margin ||
-             turns(*candidate.facet) != turns(*best.facet) ||
-             candidate.facet->count != best.facet->count;
-    });
-    return found;
-  }
-
-  TiedNode tie(GlobalIndex node) {
+  /// The row of a node that follows at its place.
+  TiedNode at_place(GlobalIndex node) {
     const Vector3 x = mesh_.position(node);
-    const std::vector<Candidate> facets = nearest(x);
+    const std::vector<FollowedPlace> facets = facets_.nearest(x);
     check_distance(node, facets.front());
     TiedNode tied{node, number_, {}};
     double size = 0;
-    for (const Candidate& candidate : facets) size += candidate.at.size;
-    for (const Candidate& candidate : facets) {
-      add(candidate, x, candidate.at.size / size, tied);
-      longest_followed_ = std::max(longest_followed_, longest_edge(*candidate.facet));
+    for (const FollowedPlace& followed : facets) size += followed.at.size;
+    for (const FollowedPlace& followed : facets) {
+      facets_.follow(followed, x, followed.at.size / size, tied.carriers);
+      longest_followed_ = std::max(longest_followed_, facets_.longest_edge(*followed.facet));
     }
     std::erase_if(tied.carriers, [&](const Carrier& carrier) { return is_idle(carrier, node); });
-    check_clamps(tied);
     watch_overhang(facets.front(), x);
     return tied;
   }
 
-  void check_distance(GlobalIndex node, const Candidate& facet) const {
-    const double edge = longest_edge(*facet.facet);
-    const double reach = turns(*facet.facet) ? std::max(edge, longest_arm) : edge;
+  /// The row `mean`, but what is clamped follows at its place: what stands on one plane of symmetry
+  /// follows what stands on it.
+  TiedNode joined(const TiedNode& place, TiedNode mean) const {
+    for (std::size_t c = 0; c < 6; ++c) {
+      if ((clamped(place.node) >> c & 1) == 0) continue;
+      for (Carrier& carrier : mean.carriers) std::fill_n(&carrier.block[6 * c], 6, 0.0);
+      for (const Carrier& carrier : place.carriers) {
+        std::copy_n(&carrier.block[6 * c], 6,
+                    &carrier_of(carrier.node, mean.carriers).block[6 * c]);
+      }
+    }
+    return mean;
+  }
+
+  void check_distance(GlobalIndex node, const FollowedPlace& facet) const {
+    const double edge = facets_.longest_edge(*facet.facet);
+    const double reach = facets_.reach(*facet.facet);
     const std::string whose = "the nearest facet of '" + rigid_.other + "'";
     std::ostringstream text;
     if (facet.at.distance > reach) {
@@ -173,119 +116,11 @@ class Tie {
       return;
     }
     const bool node_turns = (mesh_.components[node] & rotations) != 0;
-    if (!turns(*facet.facet) && (node_turns || facet.at.distance > same * edge)) {
+    if (!facets_.turns(*facet.facet) && (node_turns || facet.at.distance > same * edge)) {
       refuse(node, std::string(node_turns ? "turns" : "lies beside its line") +
                        ", but the line of '" + rigid_.other +
                        "' that it would follow has no rotations; name a face");
     }
-  }
-
-  /// Adds what the node at x follows of one of several facets that have `weight` together.
-  void add(const Candidate& candidate, const Vector3& x, double weight, TiedNode& tied) const {
-    Vector3 arm = minus(x, candidate.at.place);
-    if (candidate.at.distance <= nothing * longest_edge(*candidate.facet)) arm = {0, 0, 0};
-    const bool facet_turns = turns(*candidate.facet);
-    for (std::size_t i = 0; i < candidate.facet->corners().size(); ++i) {
-      const GlobalIndex corner = candidate.facet->nodes[i];
-      auto carrier = std::ranges::find(tied.carriers, corner, &Carrier::node);
-      if (carrier == tied.carriers.end()) carrier = tied.carriers.insert(carrier, {corner, {}});
-      for (std::size_t j = 0; j < 3; ++j) {
-        Vector3 unit{0, 0, 0};
-        unit[j] = weight;
-        const double share = candidate.at.shares[i];
-        carrier->block[6 * j + j] += share * weight;
-        const Vector3 turn = facet_turns
-                                 ? Vector3{share * unit[0], share * unit[1], share * unit[2]}
-                                 : turn_of(candidate.at, i, unit);
-        const Vector3 shift = cross(turn, arm);
-        const std::size_t column = facet_turns ? 3 + j : j;
-        for (std::size_t d = 0; d < 3; ++d) {
-          carrier->block[6 * d + column] += shift[d];
-          carrier->block[6 * (3 + d) + column] += turn[d];
-        }
-      }
-    }
-    if (facet_turns) add_bulges(candidate, weight, tied);
-  }
-
-  /// Notes in which directions the lines of the facets bend.
-  void find_bending() {
-    std::map<std::pair<GlobalIndex, GlobalIndex>, Bending*> bending;
-    for (const Facet& facet : facets_) {
-      if (facet.count == 2 && turns(facet)) {
-        bending[std::minmax(facet.nodes[0], facet.nodes[1])] = &bending_[&facet];
-      }
-    }
-    for (const ElementSet& set : mesh_.regions) {
-      const std::size_t width = element_layout(set.type).nodes;
-      if (bending.empty() || !(is_beam(set.type) || is_shell(set.type))) continue;
-      for (std::size_t first = 0; first < set.connectivity.size(); first += width) {
-        const GlobalIndex* const nodes = &set.connectivity[first];
-        for (std::size_t a = 0; a < width; ++a) {
-          const auto found = bending.find(std::minmax(nodes[a], nodes[(a + 1) % width]));
-          if (found == bending.end()) continue;
-          if (is_beam(set.type)) found->second->beam = true;
-          if (is_shell(set.type)) found->second->normals.push_back(normal_of(nodes, width));
-        }
-      }
-    }
-  }
-
-  Vector3 normal_of(const GlobalIndex* nodes, std::size_t width) const {
-    const Vector3 x = mesh_.position(nodes[0]);
-    return normalised(
-        cross(minus(mesh_.position(nodes[1]), x), minus(mesh_.position(nodes[width - 1]), x)));
-  }
-
-  /// Part of a bulge that is followed: beams bend in every direction, shells out of their planes.
-  Vector3 bent(const Facet& facet, const FacetPlace& at, const Vector3& bulge) const {
-    constexpr double parallel = 0.99;
-    Vector3 normal = at.normal;
-    if (facet.count == 2) {
-      const Bending& bending = bending_.at(&facet);
-      if (bending.beam) return bulge;
-      if (bending.normals.empty()) return {0, 0, 0};
-      normal = bending.normals.front();
-      if (std::ranges::any_of(bending.normals, [&](const Vector3& other) {
-            return std::abs(dot(normal, other)) < parallel;
-          })) {
-        return bulge;
-      }
-    }
-    const double out = dot(normal, bulge);
-    return {out * normal[0], out * normal[1], out * normal[2]};
-  }
-
-  /// How far the edges of a facet that turns bend beside their chords.
-  void add_bulges(const Candidate& candidate, double weight, TiedNode& tied) const {
-    const auto corners = candidate.facet->corners();
-    const std::size_t edges = corners.size() == 2 ? 1 : corners.size();
-    for (std::size_t i = 0; i < edges; ++i) {
-      const double bulge = weight * candidate.at.bulges[i] / 8;
-      if (bulge == 0) continue;
-      const GlobalIndex from = corners[i];
-      const GlobalIndex to = corners[(i + 1) % corners.size()];
-      const Vector3 edge = minus(mesh_.position(to), mesh_.position(from));
-      for (const GlobalIndex corner : {from, to}) {
-        Carrier& carrier = *std::ranges::find(tied.carriers, corner, &Carrier::node);
-        for (std::size_t j = 0; j < 3; ++j) {
-          Vector3 turn{0, 0, 0};
-          turn[j] = corner == from ? bulge : -bulge;
-          const Vector3 shift = bent(*candidate.facet, candidate.at, cross(turn, edge));
-          for (std::size_t d = 0; d < 3; ++d) carrier.block[6 * d + 3 + j] += shift[d];
-        }
-      }
-    }
-  }
-
-  /// Turn of a face, at its place, for a displacement of corner i.
-  static Vector3 turn_of(const FacetPlace& at, std::size_t i, const Vector3& u) {
-    const Vector3 tilt = cross(at.gradients[i], at.normal);
-    const double out = dot(at.normal, u);
-    const double drill = dot(cross(at.normal, at.gradients[i]), u) / 2;
-    Vector3 turn{};
-    for (std::size_t d = 0; d < 3; ++d) turn[d] = tilt[d] * out + at.normal[d] * drill;
-    return turn;
   }
 
   /// Whether nothing of a carrier reaches a node.
@@ -295,11 +130,14 @@ class Tie {
                        [](double value) { return value == 0; });
   }
 
+  unsigned clamped(GlobalIndex node) const {
+    return mesh_.components[node] & ~static_cast<unsigned>(mesh_.free_components[node]);
+  }
+
   /// A clamped component may follow clamped ones alone.
   void check_clamps(const TiedNode& tied) const {
-    const unsigned clamped = mesh_.components[tied.node] & ~mesh_.free_components[tied.node];
     for (std::size_t c = 0; c < 6; ++c) {
-      if ((clamped >> c & 1) == 0) continue;
+      if ((clamped(tied.node) >> c & 1) == 0) continue;
       for (const Carrier& carrier : tied.carriers) {
         for (std::size_t k = 0; k < 6; ++k) {
           if ((mesh_.free_components[carrier.node] >> k & 1) != 0 &&
@@ -313,12 +151,12 @@ class Tie {
     }
   }
 
-  void watch_overhang(const Candidate& facet, const Vector3& x) {
+  void watch_overhang(const FollowedPlace& facet, const Vector3& x) {
     if (facet.facet->count == 2) return;
     const Vector3 arm = minus(x, facet.at.place);
     const double up = dot(arm, facet.at.normal);
     const double out = std::sqrt(std::max(0.0, dot(arm, arm) - up * up));
-    if (out > beside * longest_edge(*facet.facet)) {
+    if (out > beside * facets_.longest_edge(*facet.facet)) {
       if (overhanging_++ == 0) first_over_ = x;
     }
   }
@@ -331,11 +169,16 @@ class Tie {
                            ", and follow it over that distance");
   }
 
-  void doubt_coarse_nodes() const {
+  /// Doubts facets of nodes that follow at their places.
+  void doubt_coarse_nodes(const std::map<GlobalIndex, TiedNode>& means) const {
     double longest = 0;
     for (const Facet& facet : mesh_.groups.at(rigid_.group).facets) {
-      if (facet.count > 2 && facets_.front().count == 2) continue;  // it is followed along a line
-      longest = std::max(longest, longest_edge(facet));
+      // It is followed along a line, or follows as a whole.
+      if (facet.count > 2 && facets_.all().front().count == 2) continue;
+      if (std::ranges::all_of(facet.corners(), [&](auto node) { return means.contains(node); })) {
+        continue;
+      }
+      longest = std::max(longest, facets_.longest_edge(facet));
     }
     if (longest <= coarser * longest_followed_) return;
     std::ostringstream text;
@@ -349,11 +192,9 @@ class Tie {
   int number_;
   GlobalMesh& mesh_;
   std::string option_;
-  const std::vector<Facet>& facets_;
-  std::vector<BoundingBox> boxes_;           ///< of the facets
-  std::map<const Facet*, Bending> bending_;  ///< of lines that turn
-  double longest_followed_ = 0;              ///< edge of a facet that a node follows [m]
-  GlobalIndex overhanging_ = 0;              ///< nodes beside the border
+  FollowedFacets facets_;
+  double longest_followed_ = 0;  ///< edge of a facet that a node follows [m]
+  GlobalIndex overhanging_ = 0;  ///< nodes beside the border
   Vector3 first_over_{0, 0, 0};
 };
 

@@ -6,13 +6,14 @@
 namespace pounding {
 
 /// Adds the ties of a structure to the rigid parts of its mesh, one for all nodes that ties join
-/// with each other, and their doubts. Every node of a tie's first group follows the nearest facet
-/// of the second: of one with rotations at all corners
+/// with each other, and their doubts. The nodes of a tie's first group follow facets of the second,
+/// as means over their own facets where these lie over those (see mortar_rows), elsewhere the facet
+/// that is nearest to them. A place follows, of a facet with rotations at all corners,
 ///
 ///     u = sum N_i (u_i + theta_i x d) + sum b_ij (theta_i - theta_j) x (x_j - x_i) / 8
 ///     theta = sum N_i theta_i
 ///
-/// d from the nearest place of the facet to the node, N_i the corners' shares there, b_ij the
+/// d from the nearest place of the facet to it, N_i the corners' shares there, b_ij the
 /// bulge of the edge from i to j, so that beams and plates of constant curvature are followed
 /// exactly; of edges of shells only what is out of their plane. Faces of solids turn by theta:
 ///

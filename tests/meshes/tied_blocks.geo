@@ -1,9 +1,10 @@
 // Two bricks of hexahedra of 1 x 1 in section, one behind the other along x, with nodes of their own where they meet; or
 // two plates of quadrangles likewise.  l1, l2: lengths;  gap: between them;  shift: of the second along y;  n1, n2: cells
-// along x;  m1, m2: cells across;  plates 1: of shells, from y = 0 to 1;  plates 2: the second is a plate, at level.
+// along x;  m1, m2: cells across;  plates 1: of shells, from y = 0 to 1;  plates 2: the second is a plate, at level;
+// tets 1: the second brick is of tetrahedra.
 // Groups: first, second, x_min, x_max (ends), face, edge (where first and second meet), y_min, z_min (of both),
 // corner (of the second, at y = 1); with rims 1: rim (of the face, at y = 1).
-DefineConstant[ l1 = 1, l2 = 1, gap = 0, shift = 0, n1 = 2, n2 = 2, m1 = 2, m2 = 3, plates = 0, level = 0.3, rims = 0 ];
+DefineConstant[ l1 = 1, l2 = 1, gap = 0, shift = 0, n1 = 2, n2 = 2, m1 = 2, m2 = 3, plates = 0, level = 0.3, rims = 0, tets = 0 ];
 For k In {1 : 2}
   x = (k == 1) ? 0 : l1 + gap;
   y = (k == 1) ? 0 : shift;
@@ -57,12 +58,16 @@ For k In {1 : 2}
     For i In {0 : 5}
       Plane Surface(s + i) = {s + i};
       Transfinite Surface {s + i};
-      Recombine Surface {s + i};
+      If (tets == 0 || k == 1)
+        Recombine Surface {s + i};
+      EndIf
     EndFor
     v = newv;
     Surface Loop(v) = {s : s + 5};
     Volume(v) = {v};
-    Transfinite Volume {v};
+    If (tets == 0 || k == 1)
+      Transfinite Volume {v};
+    EndIf
     rim~{k} = c + 5;
     body~{k} = v;
     low~{k} = s;

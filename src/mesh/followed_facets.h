@@ -1,0 +1,70 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "mesh/bounding_box.h"
+#include "mesh/facet_place.h"
+#include "mesh/global_mesh.h"
+#include "mesh/tied_node.h"
+
+namespace pounding {
+
+/// A facet that may be followed, and where.
+struct FollowedPlace {
+  const Facet* facet = nullptr;
+  FacetPlace at;
+};
+
+/// Places of a facet's corners [m].
+std::vector<Vector3> corners_of(const GlobalMesh& mesh, const Facet& facet);
+
+/// Facets that nodes of a tie follow, and what they follow of one: see add_tied_nodes. Serial; mesh
+/// and facets must outlive it.
+class FollowedFacets {
+ public:
+  FollowedFacets(const GlobalMesh& mesh, const std::vector<Facet>& facets);
+
+  const std::vector<Facet>& all() const { return facets_; }
+  double longest_edge(const Facet& facet) const;  ///< [m]
+  /// Whether all corners have rotations.
+  bool turns(const Facet& facet) const;
+  /// Distance up to which a facet is followed [m].
+  double reach(const Facet& facet) const;
+
+  /// The facet that is nearest to a place, and those that meet it at the place that is nearest.
+  std::vector<FollowedPlace> nearest(const Vector3& x) const;
+  /// Facets whose boxes come as near to a box as they are followed at most.
+  std::vector<const Facet*> near(const BoundingBox& box) const;
+
+  /// Adds `weight` times what x follows of a facet to the blocks of a node's carriers, rows of
+  /// rotations as well.
+  void follow(const FollowedPlace& followed, const Vector3& x, double weight,
+              std::vector<Carrier>& carriers) const;
+  /// Part of a bulge that is followed: beams bend in every direction, shells out of their planes.
+  Vector3 bent(const FollowedPlace& followed, const Vector3& bulge) const;
+
+ private:
+  /// Elements that bend along a line.
+  struct Bending {
+    bool beam = false;
+    std::vector<Vector3> normals;  ///< of shells
+  };
+  void find_bending();
+  Vector3 normal_of(const GlobalIndex* nodes, std::size_t width) const;
+  void add_bulges(const FollowedPlace& followed, double weight,
+                  std::vector<Carrier>& carriers) const;
+
+  const GlobalMesh& mesh_;
+  const std::vector<Facet>& facets_;
+  std::vector<BoundingBox> boxes_;           ///< of the facets
+  std::map<const Facet*, Bending> bending_;  ///< of lines that turn
+};
+
+/// The carrier of a node among those of a tied one, made if there is none.
+Carrier& carrier_of(GlobalIndex node, std::vector<Carrier>& carriers);
+
+/// Box of some places.
+BoundingBox box_of(const std::vector<Vector3>& places);
+
+}  // namespace pounding
