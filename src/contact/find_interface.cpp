@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/error.h"
+#include "contact/carried_nodes.h"
 #include "contact/contact_checks.h"
 #include "contact/contact_sides.h"
 #include "contact/crossing.h"
@@ -153,10 +154,21 @@ class PairFinder {
     if (contact_.sliding > 0) {
       sliding.emplace(contact_, number_, nodes, facets, finder, interface.sliding);
     }
+    std::vector<FacetFinder::Result> results;
+    std::vector<char> has_row;
     for (std::size_t i = 0; i < nodes.face.nodes.size(); ++i) {
-      const FacetFinder::Result result =
-          finder.find(nodes.mesh->position(nodes.face.nodes[i]), nodes.face.node_normals[i],
-                      nodes.face.node_half_thickness[i], nodes.face.node_depth[i]);
+      results.push_back(finder.find(nodes.mesh->position(nodes.face.nodes[i]),
+                                    nodes.face.node_normals[i], nodes.face.node_half_thickness[i],
+                                    nodes.face.node_depth[i]));
+      has_row.push_back(results.back().faced || (sliding && sliding->may_face(i)) ? 1 : 0);
+    }
+    const std::vector<char> is_left_out = left_out(nodes, has_row);
+    for (std::size_t i = 0; i < nodes.face.nodes.size(); ++i) {
+      if (is_left_out[i] != 0) {
+        ++report_.carried;
+        continue;
+      }
+      const FacetFinder::Result& result = results[i];
       if (result.faced) {
         add_pair(nodes, i, facets, *result.faced, reach, interface);
         if (sliding) sliding->add_row(i, interface.constraints);
@@ -176,8 +188,20 @@ class PairFinder {
     }
   }
 
+  /// Nodes without friction of their own, since those that they follow have it.
+  std::vector<char> left_out(const FaceSide& nodes, const std::vector<char>& has_row) const {
+    if (contact_.friction == 0 || contact_.filler) return std::vector<char>(has_row.size(), 0);
+    return carried_nodes(*nodes.mesh, nodes.face, has_row);
+  }
+
   void pair_with_wall(Interface& interface) {
+    const std::vector<char> all(sides_.secondary.face.nodes.size(), 1);
+    const std::vector<char> is_left_out = left_out(sides_.secondary, all);
     for (std::size_t i = 0; i < sides_.secondary.face.nodes.size(); ++i) {
+      if (is_left_out[i] != 0) {
+        ++report_.carried;
+        continue;
+      }
       Constraint constraint;
       constraint.matched = true;
       finish(sides_.secondary, i, std::move(constraint), interface);

@@ -63,6 +63,8 @@ struct InterfaceReport {
   std::array<double, 2> half_thickness{};    ///< of the shells at the faces of the secondary and of
                                              ///< the primary, the largest [m]
   int overlapping = 0;                       ///< pairs whose initial gap is negative
+  int carried = 0;                           ///< nodes without a row, which ties let follow others
+                                             ///< of the face that have friction
   int left_behind = 0;                       ///< of the unmatched nodes, those with a facet too far
                                              ///< behind them
   double farthest_behind = 0;                ///< how far that is at most [m]

@@ -12,6 +12,10 @@ void print_contact(const InterfaceReport& report) {
       report.contact.c_str(), report.pairs, report.matched, report.unmatched_nodes,
       1000 * report.smallest_gap, 1000 * report.largest_gap, report.normal[0], report.normal[1],
       report.normal[2]);
+  if (report.carried > 0) {
+    std::printf("  %d more nodes are held by those of the face that they follow in a tie\n",
+                report.carried);
+  }
   const auto [secondary, primary] = report.half_thickness;
   if (secondary > 0 || primary > 0) {
     std::printf(

@@ -316,6 +316,7 @@ Json describe_contact(const InterfaceReport& report, const Slide& slide) {
   return {{"pairs", report.pairs},
           {"matched", report.matched},
           {"unmatched_nodes", report.unmatched_nodes},
+          {"carried_nodes", report.carried},
           {"initial_gap", {report.smallest_gap, report.largest_gap}},
           {"geometric_gap", report.geometric_gap},
           {"overlapping_pairs", report.overlapping},
