@@ -86,13 +86,4 @@ static inline __attribute__((always_inline)) void subtract_product(const Lanes& 
 #endif
 }
 
-/// Whether a comparison holds in any lane.
-static inline __attribute__((always_inline)) bool any(const LaneMask& mask) {
-#ifdef __AVX__
-  return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) != 0;
-#else
-  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
-#endif
-}
-
 }  // namespace pounding

@@ -1,6 +1,7 @@
 #include "contact/carried_nodes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 

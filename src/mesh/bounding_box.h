@@ -14,6 +14,7 @@ struct BoundingBox {
   Vector3 low{1e300, 1e300, 1e300};      ///< [m]
   Vector3 high{-1e300, -1e300, -1e300};  ///< [m]
 
+  void include(const Vector3& x);
   double diagonal() const { return distance(low, high); }
   double longest_side() const;
 };

@@ -7,14 +7,13 @@
 #include "common/disjoint_sets.h"
 #include "elements/element.h"
 #include "mesh/bounding_box.h"
+#include "mesh/component_bits.h"
 #include "mesh/near_nodes.h"
 #include "mesh/point_in_element.h"
 #include "mesh/rigid_rank.h"
 
 namespace pounding {
 namespace {
-
-constexpr std::uint8_t rotations = 0x38;
 
 /// Elements that meet at a node, counted by kind.
 struct Meeting {

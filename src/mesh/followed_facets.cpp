@@ -6,11 +6,10 @@
 
 #include "common/matrix3.h"
 #include "elements/element.h"
+#include "mesh/component_bits.h"
 
 namespace pounding {
 namespace {
-
-constexpr std::uint8_t rotations = 0x38;
 
 /// Parts of a facet's longest edge: offsets up to `nothing` are none; places nearer to each other
 /// than `same` are one.
@@ -55,12 +54,7 @@ std::vector<Vector3> corners_of(const GlobalMesh& mesh, const Facet& facet) {
 
 BoundingBox box_of(const std::vector<Vector3>& places) {
   BoundingBox box;
-  for (const Vector3& x : places) {
-    for (std::size_t d = 0; d < 3; ++d) {
-      box.low[d] = std::min(box.low[d], x[d]);
-      box.high[d] = std::max(box.high[d], x[d]);
-    }
-  }
+  for (const Vector3& x : places) box.include(x);
   return box;
 }
 
@@ -71,7 +65,10 @@ Carrier& carrier_of(GlobalIndex node, std::vector<Carrier>& carriers) {
 
 FollowedFacets::FollowedFacets(const GlobalMesh& mesh, const std::vector<Facet>& facets)
     : mesh_(mesh), facets_(facets) {
-  for (const Facet& facet : facets_) boxes_.push_back(box_of(corners_of(mesh_, facet)));
+  for (const Facet& facet : facets_) {
+    boxes_.push_back(box_of(corners_of(mesh_, facet)));
+    reaches_.push_back(reach(facet));
+  }
   find_bending();
 }
 
@@ -120,7 +117,7 @@ std::vector<FollowedPlace> FollowedFacets::nearest(const Vector3& x) const {
 std::vector<const Facet*> FollowedFacets::near(const BoundingBox& box) const {
   std::vector<const Facet*> found;
   for (std::size_t f = 0; f < facets_.size(); ++f) {
-    if (distance(boxes_[f], box) <= reach(facets_[f])) found.push_back(&facets_[f]);
+    if (distance(boxes_[f], box) <= reaches_[f]) found.push_back(&facets_[f]);
   }
   return found;
 }

@@ -58,6 +58,7 @@ class FollowedFacets {
   const GlobalMesh& mesh_;
   const std::vector<Facet>& facets_;
   std::vector<BoundingBox> boxes_;           ///< of the facets
+  std::vector<double> reaches_;              ///< likewise [m]
   std::map<const Facet*, Bending> bending_;  ///< of lines that turn
 };
 

@@ -6,12 +6,11 @@
 
 #include "common/dense_solver.h"
 #include "common/matrix3.h"
+#include "mesh/component_bits.h"
 #include "mesh/facet_overlap.h"
 
 namespace pounding {
 namespace {
-
-constexpr std::uint8_t rotations = 0x38;
 
 /// Parts of a facet: more than this beyond all of it is covered twice; less than `hardly` of it is
 /// not covered.
@@ -24,17 +23,18 @@ constexpr double mostly = 0.5;
 /// Parts of a node's largest entry that are round-off.
 constexpr double round_off = 1e-12;
 
+double size_of(const std::vector<OverlapPlace>& places) {
+  double sum = 0;
+  for (const OverlapPlace& place : places) sum += place.weight;
+  return sum;
+}
+
 /// Part that a facet has in common with one that it follows.
 struct Piece {
   const Facet* followed = nullptr;
   std::vector<OverlapPlace> places;
-  double size() const {
-    double sum = 0;
-    for (const OverlapPlace& place : places) sum += place.weight;
-    return sum;
-  }
   Vector3 middle() const {
-    const double whole = size();
+    const double whole = size_of(places);
     Vector3 mean{0, 0, 0};
     for (const OverlapPlace& place : places) {
       for (std::size_t d = 0; d < 3; ++d) mean[d] += place.weight / whole * place.place[d];
@@ -45,7 +45,7 @@ struct Piece {
 
 double size_of(const std::vector<Piece>& pieces) {
   double sum = 0;
-  for (const Piece& piece : pieces) sum += piece.size();
+  for (const Piece& piece : pieces) sum += size_of(piece.places);
   return sum;
 }
 
@@ -88,7 +88,7 @@ class Mortar {
     const std::vector<OverlapPlace> whole = overlap_places(corners, corners);
     const std::array<double, 4> sums = sums_of(whole);
     for (std::size_t i = 0; i < corners.size(); ++i) rows_[facet.nodes[i]].whole += sums[i];
-    const std::vector<Piece> pieces = pieces_of(corners, Piece{nullptr, whole}.size());
+    const std::vector<Piece> pieces = pieces_of(corners, size_of(whole));
     const std::vector<double> factors = dual_factors(pieces, corners.size());
     if (factors.empty()) return;
     for (const Piece& piece : pieces) add(facet, piece, factors);

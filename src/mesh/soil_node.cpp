@@ -6,11 +6,10 @@
 
 #include "common/error.h"
 #include "mesh/bounding_box.h"
+#include "mesh/component_bits.h"
 
 namespace pounding {
 namespace {
-
-constexpr std::uint8_t rotations = 0x38;
 
 [[noreturn]] void refuse(const Structure& structure, const std::string& why) {
   throw UserError("option -" + structure.name + "_soil_mat " + structure.soil->mat + ": " + why);

@@ -8,13 +8,12 @@
 #include "common/disjoint_sets.h"
 #include "common/error.h"
 #include "common/matrix3.h"
+#include "mesh/component_bits.h"
 #include "mesh/followed_facets.h"
 #include "mesh/mortar.h"
 
 namespace pounding {
 namespace {
-
-constexpr std::uint8_t rotations = 0x38;
 
 /// Parts of a facet's longest edge: a node farther than `beside` over the border is doubted; beside
 /// a line farther than `same` it is refused.

@@ -35,12 +35,6 @@ struct OscillatorBlock {
           B[r][c][b].set(l, load_part[r][c]);
         }
       }
-      const double k = o.theta * o.theta, d = 2 * o.xi * o.theta;
-      const double left = 1 - d - k / 8;
-      stiffness[b].set(l, k);
-      damping[b].set(l, d);
-      of_load[b].set(l, left > 0.1 ? 1.001 / (8 * left) : 1e100);
-      of_displacement[b].set(l, 1 + of_load[b][l] * (2 * d + k));
     }
   }
 
@@ -59,14 +53,29 @@ struct OscillatorBlock {
   }
 
   std::span<const Oscillator> oscillators;
-  Octet A[2][2][vectors], B[2][2][vectors], stiffness[vectors], damping[vectors];
+  Octet A[2][2][vectors], B[2][2][vectors];
+};
 
-  /// Bound of the displacement between samples: with U and a the largest |u| and |h^2 acceleration|
-  /// at the samples of a stretch it is of_displacement U + of_load a. An extremum lies within half
-  /// a step of a sample, so |u| <= U + W / 8, W the largest |h^2 u''| within the steps; and
-  /// |h u'| <= 2 U + W, as it is |u1 - u0| somewhere in the step; the equation of motion bounds W
-  /// by a + d (2 U + W) + k (U + W / 8). Where damping is too large for that nothing is left out.
-  Octet of_displacement[vectors], of_load[vectors];
+double stiffness_of(const Oscillator& o) {
+  return o.theta * o.theta;
+}
+double damping_of(const Oscillator& o) {
+  return 2 * o.xi * o.theta;
+}
+
+/// Bound of the displacement between samples: with U and a the largest |u| and |h^2 acceleration|
+/// at the samples of a stretch it is of_displacement U + of_load a. An extremum lies within half a
+/// step of a sample, so |u| <= U + W / 8, W the largest |h^2 u''| within the steps; and
+/// |h u'| <= 2 U + W, as it is |u1 - u0| somewhere in the step; the equation of motion bounds W
+/// by a + d (2 U + W) + k (U + W / 8). Where damping is too large for that nothing is left out.
+struct StretchBound {
+  explicit StretchBound(const Oscillator& o) {
+    const double k = stiffness_of(o), d = damping_of(o);
+    const double left = 1 - d - k / 8;
+    of_load = left > 0.1 ? 1.001 / (8 * left) : 1e100;
+    of_displacement = 1 + of_load * (2 * d + k);
+  }
+  double of_load, of_displacement;
 };
 
 /// Samples `first` to `last` of the record, both of which are looked at.
@@ -154,7 +163,7 @@ class CloseLook {
 
   const Oscillator& oscillator() const { return block_.oscillators[b_ * octet_size + lane_]; }
   double curvature(const End& at) const {  // h^2 u''
-    return -(at.a + block_.damping[b_][lane_] * at.v + block_.stiffness[b_][lane_] * at.u);
+    return -(at.a + damping_of(oscillator()) * at.v + stiffness_of(oscillator()) * at.u);
   }
 
   /// Whether u may turn within a step, and beyond the peak there.
@@ -181,11 +190,10 @@ std::vector<double> peaks_of_block(std::span<const double> acceleration, double 
     for (std::size_t s = 0; s < stretches.size(); ++s) {
       peak = std::max(peak, passages[s].largest[b][l]);
     }
-    const double of_displacement = block.of_displacement[b][l], of_load = block.of_load[b][l];
+    const StretchBound bound(block.oscillators[i]);
     for (std::size_t s = 0; s < stretches.size(); ++s) {
-      const double bound =
-          of_displacement * passages[s].largest[b][l] + of_load * stretches[s].load;
-      if (bound > peak) {
+      if (bound.of_displacement * passages[s].largest[b][l] + bound.of_load * stretches[s].load >
+          peak) {
         CloseLook(block, b, l).raise(peak, passages[s], acceleration, h2, stretches[s]);
       }
     }
