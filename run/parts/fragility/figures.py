@@ -17,7 +17,7 @@ STEPS = 40  # contours of the map between two levels
 
 def shown(analysis: Analysis) -> tuple:
     """Gap, level, channel and damping ratio that figures of spectra show: those of `show`, else the cell that touches
-    in about half of its members, and there the channel whose mean pounding raises most."""
+    in about half of its members, and there the channel whose mean pounding raises most, of those that move without."""
     study, found = analysis.study, analysis.outcomes
     share = {(gap, level): analysis.hits(CONTACT, gap)[:, k].mean() for gap in study.gaps
              for k, level in enumerate(study.levels)}
@@ -28,7 +28,7 @@ def shown(analysis: Analysis) -> tuple:
     damping = int(abs(found.damping - 0.05).argmin())
     raised = (found.spectra[analysis.of(gap, level)].mean(0)[:, damping].max(-1)
               - found.spectra[analysis.of(None, level)].mean(0)[:, damping].max(-1))
-    channel = int(raised.argmax())
+    channel = max(analysis.main(found.spectra[analysis.of(None, level)]), key=lambda number: raised[number])
     if study.show.get("channel") in found.channels:
         channel = found.channels.index(study.show["channel"])
     return gap, level, channel, damping
