@@ -72,7 +72,9 @@ TEST(OptionValues, FrequenciesIncrease) {
 TEST(OptionValues, ShownValuesFitInALine) {
   EXPECT_EQ(shown_value("a\nb"), "a b");
   EXPECT_EQ(shown_value(" "), "(no value)");
-  EXPECT_EQ(shown_value(std::string(500, 'x')), std::string(80, 'x') + "...");
+  std::string shortened(80, 'x');
+  shortened += "...";
+  EXPECT_EQ(shown_value(std::string(500, 'x')), shortened);
 }
 
 TEST(OptionValues, PiecesAreTrimmed) {
