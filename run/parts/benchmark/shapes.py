@@ -1,4 +1,4 @@
-"""Steps of plates of one kind of element and mesh: by elements, and with PETSc's matrices, in turns."""
+"""Steps of plates and lattices of one kind of element and mesh: by elements, and with PETSc's matrices, in turns."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,7 +11,7 @@ from .workers import SOURCE, Stepper, slab_cells, step_benchmark
 
 WAYS = ["element", "assembled", "aij", "sbaij"]
 CELLS = slab_cells(60_000)
-# One scene for the meshes of tests/meshes/holes.geo.
+# One scene for the meshes of tests/meshes.
 SCENE = """\
 structures: plate
 plate:
@@ -21,6 +21,8 @@ plate:
   damping: {{alpha: 0.1562, beta: 1.2557e-5}}
   body: {element}
 material: {{concrete: {{young: 30e9, poisson: 0.2, density: 2400}}}}
+section:
+  tube: {{area: 0.01, inertia_y: 1e-4, inertia_z: 2e-4, torsion: 2e-4, z_axis: "1,2,3"}}
 motion:
   x: {{record: {motion}, unit: m/s2, time_step: 2e-3}}
 end_time: 0.001
@@ -28,22 +30,24 @@ output: none
 """
 SHELL = "{element: shell, material: concrete, thickness: 0.22}"
 SOLID = "{element: hex8, material: concrete}"
+BEAM = "{element: beam, material: concrete, section: tube}"
 
 
 @dataclass(frozen=True)
 class Shape:
-    """A kind of element and mesh: cells of the benchmark's own, or parameters of holes.geo."""
+    """A kind of element and mesh: cells of the benchmark's own, or a mesh of tests/meshes with parameters."""
 
     label: str
     cells: tuple = ()
     parameters: str = ""
     element: str = SOLID
+    mesh: str = "holes.geo"
 
     def model(self, scratch: Path, motion: Path) -> list:
         if self.cells:
             return ["-cells", ",".join(str(n) for n in self.cells)]
         scene = scratch / "shape.yaml"
-        scene.write_text(SCENE.format(mesh=SOURCE / "tests" / "meshes" / "holes.geo", motion=motion,
+        scene.write_text(SCENE.format(mesh=SOURCE / "tests" / "meshes" / self.mesh, motion=motion,
                                       parameters=self.parameters, element=self.element))
         return ["-scene", scene]
 
@@ -58,6 +62,9 @@ SHAPES = {
                       parameters="kind=2,size=0.1"),
     "layers": Shape("the same in four layers", parameters="kind=2,size=0.15,layers=4"),
     "split": Shape("hexahedra made from tetrahedra", parameters="kind=3,size=0.45,thickness=0.5"),
+    "lattice": Shape("beams along three axes", parameters="n=20", element=BEAM, mesh="lattice.geo"),
+    "skewed": Shape("beams, each of a length and direction of its own", parameters="n=20,skew=0.1", element=BEAM,
+                    mesh="lattice.geo"),
 }
 
 
@@ -105,7 +112,7 @@ def write(folder: Path, measured: list) -> str:
         element = found[*case, "element"]
         ratios = [ratio(found[*case, way], element) for way in WAYS[1:]]
         rows.append([SHAPES[case[0]].label, element.dofs, case[1], element.nanoseconds_per_dof, *ratios])
-    text = markdown("Steps of concrete plates by kind of element and mesh: element by element, and times "
+    text = markdown("Steps of concrete plates and lattices by kind of element and mesh: element by element, and times "
                     "over that", ["elements", "dofs", "ranks", "ns per dof",
                                   *(f"{LABELS[way]}, ×" for way in WAYS[1:])], rows)
     (folder / "shapes.md").write_text(text)
