@@ -133,14 +133,14 @@ class Faces(unittest.TestCase):
 class Shapes(unittest.TestCase):
     def test_a_general_mesh_beside_one_in_rows(self):
         folder = tempfile.mkdtemp(prefix="pounding-")
-        result = script("benchmark", "--shapes", "rectangles,skewed", "--ranks", 1, "--rounds", 1,
+        result = script("benchmark", "--shapes", "rectangles,triangles,skewed", "--ranks", 1, "--rounds", 1,
                         "--seconds", 0.01, "--output", folder)
         self.assertEqual(result.returncode, 0, result.stderr[-3000:])
         with open(os.path.join(folder, "shapes.md")) as file:
             self.assertIn(file.read(), result.stdout)
         rows = rows_of(os.path.join(folder, "shapes.csv"))
         self.assertEqual([(row["shape"], row["way"]) for row in rows],
-                         [(shape, way) for shape in ("rectangles", "skewed")
+                         [(shape, way) for shape in ("rectangles", "triangles", "skewed")
                           for way in ("element", "assembled", "aij", "sbaij")])
         for row in rows:
             self.assertGreater(float(row["nanoseconds_per_dof"]), 0, row)
