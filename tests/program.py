@@ -39,10 +39,9 @@ def run(arguments, ranks=RANKS, timeout=900, folder=SOURCE, environment=None):
     without mpirun, which takes longer to start than many a scene to run."""
     line = words(arguments, ranks)
     at = line.index(PROGRAM)
-    if ranks == 1:
-        line, at = line[at:], 0
+    start = line[:at] if ranks > 1 else []
     with tempfile.TemporaryDirectory(prefix="pounding-ranks-") as notes:
-        result = subprocess.run([*line[:at], "bash", "-c", NOTING, notes, *line[at:]], cwd=folder,
+        result = subprocess.run([*start, "bash", "-c", NOTING, notes, *line[at:]], cwd=folder,
                                 env=environment or ENVIRONMENT, capture_output=True, text=True, timeout=timeout)
         noted = [int(pathlib.Path(notes, name).read_text()) for name in sorted(os.listdir(notes))]
     if result.returncode == 0:
