@@ -31,6 +31,17 @@ void multiply_together(const double* rows, std::size_t n, const double* x, doubl
   }
 }
 
+template <std::size_t count>
+void multiply_together(const double* rows, std::size_t n, const Octet* x, Octet* out) {
+  Octet sums[count]{};
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t r = 0; r < count; ++r) {
+      add_product(all_octet(rows[r * n + i]), x[i], sums[r]);
+    }
+  }
+  for (std::size_t r = 0; r < count; ++r) out[r] = sums[r];
+}
+
 }  // namespace
 
 void multiply_rows(const double* rows, std::size_t count, std::size_t n, const double* x,
@@ -38,6 +49,14 @@ void multiply_rows(const double* rows, std::size_t count, std::size_t n, const d
   std::size_t r = 0;
   for (; r + 4 <= count; r += 4) multiply_together<4>(rows + r * n, n, x, out + stride * r, stride);
   for (; r < count; ++r) multiply_together<1>(rows + r * n, n, x, out + stride * r, stride);
+}
+
+void multiply_rows(const double* rows, std::size_t count, std::size_t n, const Octet* x,
+                   Octet* out) {
+  std::size_t r = 0;
+  for (; r + 8 <= count; r += 8) multiply_together<8>(rows + r * n, n, x, out + r);
+  for (; r + 3 <= count; r += 3) multiply_together<3>(rows + r * n, n, x, out + r);
+  for (; r < count; ++r) multiply_together<1>(rows + r * n, n, x, out + r);
 }
 
 }  // namespace pounding

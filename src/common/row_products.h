@@ -2,11 +2,17 @@
 
 #include <cstddef>
 
+#include "common/octet.h"
+
 namespace pounding {
 
 /// out[stride * r] = sum over k of rows[r * n + k] x[k], for `count` dense rows of length n that
 /// lie one after the other. Local; allocates nothing.
 void multiply_rows(const double* rows, std::size_t count, std::size_t n, const double* x,
                    double* out, std::size_t stride);
+
+/// out[r] = sum over k of rows[r * n + k] x[k] in every lane, likewise.
+void multiply_rows(const double* rows, std::size_t count, std::size_t n, const Octet* x,
+                   Octet* out);
 
 }  // namespace pounding

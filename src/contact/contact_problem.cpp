@@ -163,6 +163,11 @@ void ContactProblem::set_displacement(std::size_t structure, const double* displ
   traces_[structure].apply(displacement, mine_.data() + first_known_[structure], 1, supports);
 }
 
+void ContactProblem::set_place_displacement(std::size_t structure, std::span<const double> places) {
+  std::copy(places.begin(), places.end(),
+            mine_.begin() + static_cast<std::ptrdiff_t>(first_known_[structure]));
+}
+
 void ContactProblem::gather_displacements() {
   gather_.gather(1, {mine_.data(), mine_.size() / InterfaceGather::max_fields}, displacement_);
   if (sliding_.any() && sliding_.find(displacement_, constraints_)) take_new_pairs();

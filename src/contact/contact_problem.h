@@ -47,6 +47,9 @@ class ContactProblem {
   /// u_n over the owned dofs of the structure; `supports`: that of the supports, see Trace::apply.
   void set_displacement(std::size_t structure, const double* displacement,
                         std::span<const double> supports = {});
+  /// u_n at the known places of the structure's trace, where it is at hand, in place of that over
+  /// the dofs.
+  void set_place_displacement(std::size_t structure, std::span<const double> places);
   /// Gathers the displacements, finds sliding pairs anew and computes the gaps. Members only,
   /// collective over them.
   void gather_displacements();

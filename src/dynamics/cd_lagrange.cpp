@@ -91,6 +91,7 @@ void CdLagrange::detect_contact(bool look_at_gap) {
   }
   if (!touching_) {
     contact_->clear_impulse();
+    if (!watch_.needs_look(state_.step)) return;
     if (watch_.measures()) contact_->add_over_members(watch_.measure(state_.structures));
   }
   watch_.looked(state_.step, contact_->smallest_gap() - contact_->gap_tolerance(), touching_);

@@ -55,6 +55,10 @@ class GapWatch {
   void looked(std::int64_t step, double clearance, bool touching);
 
   bool due(std::int64_t step) const { return step >= next_look_; }
+  /// Whether a look that finds nothing closed is worth `measure` and `looked`: one that was made
+  /// for another reason, before it was due, leaves the last bound in force where to measure costs
+  /// as much as to look.
+  bool needs_look(std::int64_t step) const { return !measures_ || due(step); }
 
   void save(SavedState& saved) const;
   void load(const SavedState& saved);

@@ -71,17 +71,20 @@ const std::array<double, 3>& MemberRun::begin(double time) {
   return acceleration_;
 }
 
-void MemberRun::look(std::int64_t step, bool recorded, std::span<const OctetStep> steps,
-                     std::span<const OctetState> states) {
+std::span<const double> MemberRun::interface_rows(std::size_t structure) const {
+  if (!contact_) return {};
+  const Trace& trace = contact_->trace(structure);
+  if (trace.known().empty()) return {};
+  return {trace.row(0).data(), trace.known().size() * trace.dofs().size()};
+}
+
+void MemberRun::look(std::int64_t step, std::span<const std::vector<Octet>> places,
+                     std::span<const OctetStep> steps, std::span<const OctetState> states) {
   touching_ = false;
-  known_ = contact_ && (recorded || watch_->due(step));
+  known_ = contact_ && (!places.empty() || watch_->due(step));
   if (!known_) return;
   ++looks_;
-  for (std::size_t s = 0; s < states.size(); ++s) {
-    StructureState& own = state_.structures[s];
-    OctetState::take(states[s].displacement, lane_, own.displacement);
-    contact_->set_displacement(s, own.displacement.data());
-  }
+  for (std::size_t s = 0; s < states.size(); ++s) set_displacement(s, places, states[s]);
   contact_->gather_displacements();
   touching_ = contact_->detect_contact();
   for (std::size_t s = 0; touching_ && s < states.size(); ++s) {
@@ -90,16 +93,35 @@ void MemberRun::look(std::int64_t step, bool recorded, std::span<const OctetStep
   }
   if (!touching_) {
     contact_->clear_impulse();
-    for (std::size_t s = 0; watch_->measures() && s < states.size(); ++s) {
-      StructureState& own = state_.structures[s];
-      OctetState::take(states[s].velocity, lane_, own.velocity);
-      for (std::size_t k = 0; k < own.filtered.size(); ++k) {
-        OctetState::take(states[s].filtered[k], lane_, own.filtered[k]);
-      }
-    }
-    if (watch_->measures()) watch_->measure(state_.structures);
+    if (!watch_->needs_look(step)) return;
+    if (watch_->measures()) measure(states);
   }
   watch_->looked(step, contact_->smallest_gap() - contact_->gap_tolerance(), touching_);
+}
+
+void MemberRun::set_displacement(std::size_t structure, std::span<const std::vector<Octet>> places,
+                                 const OctetState& state) {
+  if (places.empty()) {
+    StructureState& own = state_.structures[structure];
+    OctetState::take(state.displacement, lane_, own.displacement);
+    contact_->set_displacement(structure, own.displacement.data());
+  } else {
+    places_.resize(places[structure].size());
+    OctetState::take(places[structure], lane_, places_);
+    contact_->set_place_displacement(structure, places_);
+  }
+}
+
+void MemberRun::measure(std::span<const OctetState> states) {
+  for (std::size_t s = 0; s < states.size(); ++s) {
+    StructureState& own = state_.structures[s];
+    OctetState::take(states[s].displacement, lane_, own.displacement);
+    OctetState::take(states[s].velocity, lane_, own.velocity);
+    for (std::size_t k = 0; k < own.filtered.size(); ++k) {
+      OctetState::take(states[s].filtered[k], lane_, own.filtered[k]);
+    }
+  }
+  watch_->measure(state_.structures);
 }
 
 void MemberRun::resolve(std::span<OctetStep> steps, std::span<OctetState> states) {

@@ -43,9 +43,12 @@ class MemberRun {
 
   /// The ground at t_n [m/s2].
   const std::array<double, 3>& begin(double time);
-  /// Gaps of u_n, if the bound asks for it or `recorded` says so.
-  void look(std::int64_t step, bool recorded, std::span<const OctetStep> steps,
-            std::span<const OctetState> states);
+  /// Rows of the interface of a structure, shape (places, coordinates); none without contacts.
+  std::span<const double> interface_rows(std::size_t structure) const;
+  /// Gaps of u_n, if the bound asks for it or if they are to be recorded: then `places` holds, per
+  /// structure, the displacements at the places of all lanes; else it is empty.
+  void look(std::int64_t step, std::span<const std::vector<Octet>> places,
+            std::span<const OctetStep> steps, std::span<const OctetState> states);
   /// Contact impulses after the free step, if gaps are closed.
   void resolve(std::span<OctetStep> steps, std::span<OctetState> states);
   /// The ledger of the step, and its impulses; `records`: the gaps count as recorded ones.
@@ -60,6 +63,10 @@ class MemberRun {
 
  private:
   std::size_t contacts() const { return smallest_gaps_.size(); }
+  void set_displacement(std::size_t structure, std::span<const std::vector<Octet>> places,
+                        const OctetState& state);
+  /// Brings the state of this member to the bound of its gap rates.
+  void measure(std::span<const OctetState> states);
   void note_gaps();
 
   std::size_t lane_;
@@ -68,7 +75,8 @@ class MemberRun {
   std::unique_ptr<GapWatch> watch_;
   EnergyBalance energy_;
   ImpactCatalogue catalogue_;
-  State state_;  ///< of this member alone, as far as it was last looked at
+  State state_;                 ///< of this member alone, as far as it was last looked at
+  std::vector<double> places_;  ///< displacements at the places of one structure
   std::vector<OctetStep::Before> before_;
   std::vector<std::vector<double>> velocity_;  ///< per structure, after contact
   std::vector<StepSums> sums_;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/error.h"
+#include "common/row_products.h"
 #include "driver/stated_peak.h"
 #include "motion/response_spectrum.h"
 
@@ -42,6 +43,7 @@ OctetGroup::OctetGroup(std::span<const MemberScene* const> members, const Scene&
     for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
       states_[s].put(lane, runs_[lane]->initial().structures[s]);
     }
+    places_.emplace_back(runs_[0]->interface_rows(s).size() / steps_[s].coordinates());
     velocity.push_back(shared_.systems[s].initial_velocity);
   }
   recorder_.restart(velocity);
@@ -65,8 +67,12 @@ void OctetGroup::step(std::int64_t n) {
     const std::array<double, 3>& ground = runs_[lane]->begin(time);
     for (std::size_t d = 0; d < 3; ++d) acceleration_[d].set(lane, ground[d]);
   }
-  const bool looks = records && n % gap_stride_ == 0;
-  for (auto& run : runs_) run->look(n, looks, steps_, states_);
+  std::span<const std::vector<Octet>> places;
+  if (records && n % gap_stride_ == 0) {
+    find_places();
+    places = places_;
+  }
+  for (auto& run : runs_) run->look(n, places, steps_, states_);
   const bool with_energies = ledger || runs_[0]->needs_energies();
   for (std::size_t s = 0; s < steps_.size(); ++s) {
     steps_[s].step(duration, acceleration_, n == 0, with_energies, states_[s]);
@@ -78,6 +84,14 @@ void OctetGroup::step(std::int64_t n) {
   recorder_.add_step(gained);
   if (records) recorder_.record(states_);
   if (ledger) close_lines(n);
+}
+
+void OctetGroup::find_places() {
+  for (std::size_t s = 0; s < places_.size(); ++s) {
+    const std::span<const double> rows = runs_[0]->interface_rows(s);
+    multiply_rows(rows.data(), places_[s].size(), steps_[s].coordinates(),
+                  states_[s].displacement.data(), places_[s].data());
+  }
 }
 
 void OctetGroup::close_lines(std::int64_t n) {

@@ -30,15 +30,18 @@ class OctetGroup {
 
  private:
   void step(std::int64_t n);
+  /// Displacements of all lanes at the places of the interface.
+  void find_places();
   void close_lines(std::int64_t n);
 
   const Scene& scene_;
   const Model& shared_;
   OctetRecorder& recorder_;
   std::vector<std::unique_ptr<MemberRun>> runs_;
-  std::vector<OctetStep> steps_;    ///< per structure
-  std::vector<OctetState> states_;  ///< likewise
-  std::int64_t gap_stride_ = 1;     ///< steps between two samples of the gaps
+  std::vector<OctetStep> steps_;            ///< per structure
+  std::vector<OctetState> states_;          ///< likewise
+  std::vector<std::vector<Octet>> places_;  ///< likewise, of the interface
+  std::int64_t gap_stride_ = 1;             ///< steps between two samples of the gaps
   std::array<Octet, 3> acceleration_{};
   std::size_t failed_lane_ = 0;
 };

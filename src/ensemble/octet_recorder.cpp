@@ -1,5 +1,6 @@
 #include "ensemble/octet_recorder.h"
 
+#include "common/row_products.h"
 #include "output/probe_rows.h"
 
 namespace pounding {
@@ -7,18 +8,6 @@ namespace {
 
 std::size_t records_of(const OctetRecorder::Times& times) {
   return static_cast<std::size_t>(times.steps / times.stride) + 1;
-}
-
-/// out[r] = row r times x, `count` <= 4 rows: each value of x is read once.
-template <std::size_t count>
-void multiply_together(const double* rows, std::size_t width, const Octet* x, Octet* out) {
-  Octet sums[count]{};
-  for (std::size_t i = 0; i < width; ++i) {
-    for (std::size_t r = 0; r < count; ++r) {
-      add_product(all_octet(rows[r * width + i]), x[i], sums[r]);
-    }
-  }
-  for (std::size_t r = 0; r < count; ++r) out[r] = sums[r];
 }
 
 }  // namespace
@@ -55,6 +44,7 @@ OctetRecorder::OctetRecorder(std::span<const ResolvedProbe> probes,
     rows_.push_back(std::move(rows));
   }
   values_.assign(channels_, Octet{});
+  products_.assign(channels_, Octet{});
   block_.assign(block_records * channels_, Octet{});
   history_.resize(channels_ * octet_size * capacity_);
 }
@@ -77,11 +67,8 @@ void OctetRecorder::multiply(std::span<const OctetState> states,
                              std::vector<Octet> OctetState::*quantity) {
   for (const Rows& rows : rows_) {
     const Octet* const x = (states[rows.structure].*quantity).data();
-    Octet out[4];
-    for (std::size_t r = 0; r < rows.channels.size(); r += 3) {  // of one probe
-      multiply_together<3>(&rows.values[r * rows.width], rows.width, x, out);
-      for (std::size_t d = 0; d < 3; ++d) values_[rows.channels[r + d]] = out[d];
-    }
+    multiply_rows(rows.values.data(), rows.channels.size(), rows.width, x, products_.data());
+    for (std::size_t r = 0; r < rows.channels.size(); ++r) values_[rows.channels[r]] = products_[r];
   }
 }
 

@@ -73,6 +73,7 @@ class OctetRecorder {
   std::size_t capacity_;  ///< records of a run
   std::vector<Rows> rows_;
   std::vector<Octet> values_;         ///< per channel
+  std::vector<Octet> products_;       ///< of the channels of one structure
   std::vector<Octet> last_velocity_;  ///< likewise
   std::vector<Octet> displacement_;   ///< likewise, largest
   std::array<Octet, 3> ground_{};

@@ -154,6 +154,8 @@ TEST(CoordinateRates, LetTheWatchWaitWithoutEnergies) {
   EXPECT_LT(moved(static_cast<double>(next - 1)), clearance);
   EXPECT_GE(moved(static_cast<double>(next)), clearance);
   EXPECT_GT(next, 5);
+  EXPECT_FALSE(watch.needs_look(next - 1));  // a record falls there: the bound stays in force
+  EXPECT_TRUE(watch.needs_look(next));
   watch.looked(next, clearance, true);  // what contact does to the motion is known afterwards
   EXPECT_TRUE(watch.due(next + 1));
   watch.looked(next + 1, clearance, false);

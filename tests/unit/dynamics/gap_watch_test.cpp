@@ -29,6 +29,7 @@ std::int64_t next_look(double norm, const std::array<double, 3>& force_norm = {}
   watch.looked(1, clearance, false);
   std::int64_t step = 2;
   while (!watch.due(step)) {
+    EXPECT_TRUE(watch.needs_look(step));  // energies cost nothing: each look may widen the bound
     ++step;
   }
   return step;
