@@ -51,10 +51,11 @@ std::vector<ProbeSpectrum> compute_floor_spectra(MPI_Comm comm, const Scene& sce
   std::vector<std::vector<SpectrumPoint>> mine;  // per channel and damping ratio
   on_every_rank(comm, [&] {
     for (const std::vector<double>& acceleration : accelerations) {
-      for (const double ratio : ratios) {
-        // A run is cut, it does not end: the floor still moves, so nothing is said of what follows.
-        mine.push_back(response_spectrum(acceleration, recorder.interval(),
-                                         scene.spectra.frequencies, ratio, AfterRecord::ignored));
+      // A run is cut, it does not end: the floor still moves, so nothing is said of what follows.
+      for (auto& spectrum :
+           response_spectra(acceleration, recorder.interval(), scene.spectra.frequencies, ratios,
+                            AfterRecord::ignored)) {
+        mine.push_back(std::move(spectrum));
       }
     }
   });
@@ -95,10 +96,12 @@ std::vector<ProbeSpectrum> compute_ground_spectra(const Scene& scene, const Grou
       samples.push_back(motion.acceleration(static_cast<int>(d), static_cast<double>(k) * step));
     }
     if (samples.size() < 2) continue;
-    for (const double ratio : scene.spectra.damping_ratios) {
-      spectra.push_back({ground_name, direction_names[d], ratio, step, 0.5 / step,
-                         response_spectrum(samples, step, scene.spectra.frequencies, ratio,
-                                           AfterRecord::ignored)});
+    const std::vector<double>& ratios = scene.spectra.damping_ratios;
+    auto points =
+        response_spectra(samples, step, scene.spectra.frequencies, ratios, AfterRecord::ignored);
+    for (std::size_t r = 0; r < ratios.size(); ++r) {
+      spectra.push_back(
+          {ground_name, direction_names[d], ratios[r], step, 0.5 / step, std::move(points[r])});
     }
   }
   return spectra;

@@ -108,10 +108,10 @@ MemberResult OctetGroup::result(std::size_t lane) {
     const std::span<const double> history = recorder_.acceleration(c, lane);
     const std::span<const double> counted =
         history.subspan(std::min(recorder_.first(), history.size()));
-    for (const double ratio : scene_.spectra.damping_ratios) {
-      for (const SpectrumPoint& point :
-           response_spectrum(counted, recorder_.interval(), scene_.spectra.frequencies, ratio,
-                             AfterRecord::ignored)) {
+    for (const auto& spectrum :
+         response_spectra(counted, recorder_.interval(), scene_.spectra.frequencies,
+                          scene_.spectra.damping_ratios, AfterRecord::ignored)) {
+      for (const SpectrumPoint& point : spectrum) {
         result.spectra.push_back(point.pseudo_acceleration);
       }
     }

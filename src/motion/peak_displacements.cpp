@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/octet.h"
-#include "motion/oscillator_step.h"
+#include "motion/oscillator_block.h"
+#include "motion/oscillator_rest.h"
+#include "motion/record_stretch.h"
+#include "motion/stretch_bound.h"
+#include "motion/stretch_jump.h"
 
 namespace pounding {
 
@@ -12,49 +15,8 @@ namespace {
 
 using namespace oscillator;
 
-/// Samples of a stretch of the record.
-constexpr std::size_t stretch_size = 128;
-
-/// Below it an oscillator is at rest: subnormal numbers would only cost time.
-constexpr double rest = 1e-250;
-
-/// Oscillators whose steps are summed as series, side by side: their chains of sums hide each
-/// other's latency.
-struct OscillatorBlock {
-  static constexpr std::size_t vectors = 3;
-  static constexpr std::size_t size = vectors * octet_size;
-
-  explicit OscillatorBlock(std::span<const Oscillator> some) : oscillators(some) {
-    for (std::size_t i = 0; i < size; ++i) {
-      const Oscillator& o = some[std::min(i, some.size() - 1)];  // the last one fills up
-      const auto [state_part, load_part] = oscillator_step(o.theta, o.xi);
-      const std::size_t b = i / octet_size, l = i % octet_size;
-      for (std::size_t r = 0; r < 2; ++r) {
-        for (std::size_t c = 0; c < 2; ++c) {
-          A[r][c][b].set(l, state_part[r][c]);
-          B[r][c][b].set(l, load_part[r][c]);
-        }
-      }
-    }
-  }
-
-  /// (u, h u') of vector b at the end of a step from those at its start and h^2 times the
-  /// acceleration at both ends.
-  void step(std::size_t b, const Octet& before, const Octet& behind, Octet& u, Octet& v) const {
-    Octet u1 = B[0][0][b] * before, v1 = B[1][0][b] * before;
-    add_product(B[0][1][b], behind, u1);
-    add_product(B[1][1][b], behind, v1);
-    add_product(A[0][1][b], v, u1);
-    add_product(A[1][1][b], v, v1);
-    add_product(A[0][0][b], u, u1);
-    add_product(A[1][0][b], u, v1);
-    u = u1;
-    v = v1;
-  }
-
-  std::span<const Oscillator> oscillators;
-  Octet A[2][2][vectors], B[2][2][vectors];
-};
+/// Angle that an oscillator may turn in a stretch so that a bound from its ends tells anything.
+constexpr double widest_turn = 8;
 
 double stiffness_of(const Oscillator& o) {
   return o.theta * o.theta;
@@ -68,8 +30,8 @@ double damping_of(const Oscillator& o) {
 /// step of a sample, so |u| <= U + W / 8, W the largest |h^2 u''| within the steps; and
 /// |h u'| <= 2 U + W, as it is |u1 - u0| somewhere in the step; the equation of motion bounds W
 /// by a + d (2 U + W) + k (U + W / 8). Where damping is too large for that nothing is left out.
-struct StretchBound {
-  explicit StretchBound(const Oscillator& o) {
+struct BetweenSamples {
+  explicit BetweenSamples(const Oscillator& o) {
     const double k = stiffness_of(o), d = damping_of(o);
     const double left = 1 - d - k / 8;
     of_load = left > 0.1 ? 1.001 / (8 * left) : 1e100;
@@ -78,62 +40,87 @@ struct StretchBound {
   double of_load, of_displacement;
 };
 
-/// Samples `first` to `last` of the record, both of which are looked at.
-struct Stretch {
-  std::size_t first, last;
-  double load;  ///< largest |h^2 acceleration|
+/// The stretches of the record that a block is stepped through, and how far it comes in each.
+class Passages {
+ public:
+  struct Passage {
+    const Stretch* stretch;
+    BlockState start;
+    OscillatorBlock::Vector largest;  ///< |u| at the samples
+  };
+
+  /// The arguments must outlive this object.
+  Passages(std::span<const double> acceleration, double h2, std::span<const Stretch> stretches)
+      : acceleration_(acceleration), h2_(h2), stretches_(stretches), starts_(stretches.size()) {}
+
+  /// Steps a block through every stretch in which some oscillator may come further than at the
+  /// starts of all others and in the stretches before.
+  void go_where_it_may_peak(const OscillatorBlock& block);
+  /// Steps a block through all of them.
+  void go_everywhere(const OscillatorBlock& block);
+
+  const std::vector<Passage>& passages() const { return passages_; }
+  /// After the record.
+  const BlockState& end() const { return end_; }
+
+ private:
+  /// Goes through a stretch and returns the state at its end.
+  BlockState pass(const OscillatorBlock& block, const Stretch& stretch, const BlockState& start);
+
+  std::span<const double> acceleration_;
+  double h2_;
+  std::span<const Stretch> stretches_;
+  std::vector<BlockState> starts_;
+  std::vector<Passage> passages_;
+  BlockState end_{};
 };
 
-std::vector<Stretch> stretches_of(std::span<const double> acceleration, double h2) {
-  std::vector<Stretch> stretches;
-  for (std::size_t first = 0; first + 1 < acceleration.size(); first += stretch_size) {
-    const std::size_t last = std::min(first + stretch_size, acceleration.size() - 1);
-    double load = 0;
-    for (std::size_t n = first; n <= last; ++n) {
-      load = std::max(load, std::abs(h2 * acceleration[n]));
-    }
-    stretches.push_back({first, last, load});
-  }
-  return stretches;
+void Passages::go_everywhere(const OscillatorBlock& block) {
+  passages_.clear();
+  end_ = {};
+  for (const Stretch& stretch : stretches_) end_ = pass(block, stretch, BlockState(end_));
 }
 
-/// The oscillators of a block at the start of a stretch, and the largest |u| at its samples.
-struct Passage {
-  Octet u[OscillatorBlock::vectors], v[OscillatorBlock::vectors], largest[OscillatorBlock::vectors];
-};
+void Passages::go_where_it_may_peak(const OscillatorBlock& block) {
+  passages_.clear();
+  end_ = {};
+  StretchJump(block).find_starts(acceleration_, h2_, stretches_, starts_);
+  OscillatorBlock::Vector peak{};
+  for (const BlockState& start : starts_) {
+    for (std::size_t b = 0; b < OscillatorBlock::vectors; ++b) {
+      peak[b] = larger(peak[b], magnitude(start.u[b]));
+    }
+  }
+  const StretchBound bound(block);
+  for (std::size_t s = 0; s < stretches_.size(); ++s) {
+    const bool last = s + 1 == stretches_.size();
+    if (!last && !bound.may_exceed(starts_[s], starts_[s + 1], stretches_[s], peak)) continue;
+    end_ = pass(block, stretches_[s], starts_[s]);
+    for (std::size_t b = 0; b < OscillatorBlock::vectors; ++b) {
+      peak[b] = larger(peak[b], passages_.back().largest[b]);
+    }
+  }
+}
 
-/// Fills a passage for each stretch, and one more: the state after the last.
-void pass(std::span<const double> acceleration, double h2, std::span<const Stretch> stretches,
-          const OscillatorBlock& block, std::span<Passage> passages) {
+BlockState Passages::pass(const OscillatorBlock& block, const Stretch& stretch,
+                          const BlockState& start) {
   constexpr std::size_t vectors = OscillatorBlock::vectors;
-  Octet u[vectors]{}, v[vectors]{}, largest[vectors];
-  for (std::size_t s = 0; s < stretches.size(); ++s) {
-    const Stretch& stretch = stretches[s];
+  BlockState at = start;
+  OscillatorBlock::Vector largest;
+  for (std::size_t b = 0; b < vectors; ++b) largest[b] = magnitude(at.u[b]);
+  Octet before = all_octet(h2_ * acceleration_[stretch.first]);
+  for (std::size_t n = stretch.first + 1; n <= stretch.last; ++n) {
+    const Octet behind = all_octet(h2_ * acceleration_[n]);
     for (std::size_t b = 0; b < vectors; ++b) {
-      passages[s].u[b] = u[b];
-      passages[s].v[b] = v[b];
-      largest[b] = magnitude(u[b]);
+      block.step(b, before, behind, at.u[b], at.v[b]);
+      largest[b] = larger(largest[b], magnitude(at.u[b]));
     }
-    Octet before = all_octet(h2 * acceleration[stretch.first]);
-    for (std::size_t n = stretch.first + 1; n <= stretch.last; ++n) {
-      const Octet behind = all_octet(h2 * acceleration[n]);
-      for (std::size_t b = 0; b < vectors; ++b) {
-        block.step(b, before, behind, u[b], v[b]);
-        largest[b] = larger(largest[b], magnitude(u[b]));
-      }
-      before = behind;
-    }
-    for (std::size_t b = 0; b < vectors; ++b) {
-      passages[s].largest[b] = largest[b];
-      const Octet size = magnitude(u[b]) + magnitude(v[b]) + all_octet(stretch.load);
-      u[b].lanes = size.lanes < rest ? Octet::Lanes8{} : u[b].lanes;
-      v[b].lanes = size.lanes < rest ? Octet::Lanes8{} : v[b].lanes;
-    }
+    before = behind;
   }
-  for (std::size_t b = 0; b < vectors; ++b) {
-    passages.back().u[b] = u[b];
-    passages.back().v[b] = v[b];
-  }
+  for (std::size_t b = 0; b < vectors; ++b) come_to_rest(stretch.load, at.u[b], at.v[b]);
+  Passage& passage = passages_.emplace_back(Passage{&stretch, start, {}});
+  std::copy(std::begin(largest), std::end(largest), std::begin(passage.largest));
+  return at;
 }
 
 /// Raises the peak of one oscillator by the extrema inside the steps of a stretch.
@@ -142,9 +129,10 @@ class CloseLook {
   CloseLook(const OscillatorBlock& block, std::size_t b, std::size_t lane)
       : block_(block), b_(b), lane_(lane) {}
 
-  void raise(double& peak, const Passage& start, std::span<const double> acceleration, double h2,
-             const Stretch& stretch) const {
-    Octet u = start.u[b_], v = start.v[b_];
+  void raise(double& peak, const Passages::Passage& passage, std::span<const double> acceleration,
+             double h2) const {
+    const Stretch& stretch = *passage.stretch;
+    Octet u = passage.start.u[b_], v = passage.start.v[b_];
     double a = h2 * acceleration[stretch.first];
     for (std::size_t n = stretch.first + 1; n <= stretch.last; ++n) {
       const double u0 = u[lane_], v0 = v[lane_], a1 = h2 * acceleration[n];
@@ -161,7 +149,7 @@ class CloseLook {
     double u, v, a;
   };
 
-  const Oscillator& oscillator() const { return block_.oscillators[b_ * octet_size + lane_]; }
+  const Oscillator& oscillator() const { return block_.of(b_ * octet_size + lane_); }
   double curvature(const End& at) const {  // h^2 u''
     return -(at.a + damping_of(oscillator()) * at.v + stiffness_of(oscillator()) * at.u);
   }
@@ -179,26 +167,30 @@ class CloseLook {
   std::size_t b_, lane_;
 };
 
-/// Largest |u| of each oscillator of a block, of which the passages are known.
+/// Largest |u| of each oscillator of a block.
 std::vector<double> peaks_of_block(std::span<const double> acceleration, double h2,
-                                   std::span<const Stretch> stretches, const OscillatorBlock& block,
-                                   std::span<const Passage> passages, AfterRecord after) {
+                                   Passages& passages, const OscillatorBlock& block,
+                                   AfterRecord after) {
+  double turn = 0;
+  for (const Oscillator& o : block.oscillators) {
+    turn = std::max(turn, o.theta * static_cast<double>(stretch_size));
+  }
+  turn < widest_turn ? passages.go_where_it_may_peak(block) : passages.go_everywhere(block);
   std::vector<double> peaks;
   for (std::size_t i = 0; i < block.oscillators.size(); ++i) {
     const std::size_t b = i / octet_size, l = i % octet_size;
     double peak = 0;
-    for (std::size_t s = 0; s < stretches.size(); ++s) {
-      peak = std::max(peak, passages[s].largest[b][l]);
+    for (const Passages::Passage& one : passages.passages()) {
+      peak = std::max(peak, one.largest[b][l]);
     }
-    const StretchBound bound(block.oscillators[i]);
-    for (std::size_t s = 0; s < stretches.size(); ++s) {
-      if (bound.of_displacement * passages[s].largest[b][l] + bound.of_load * stretches[s].load >
-          peak) {
-        CloseLook(block, b, l).raise(peak, passages[s], acceleration, h2, stretches[s]);
+    const BetweenSamples bound(block.oscillators[i]);
+    for (const Passages::Passage& one : passages.passages()) {
+      if (bound.of_displacement * one.largest[b][l] + bound.of_load * one.stretch->load > peak) {
+        CloseLook(block, b, l).raise(peak, one, acceleration, h2);
       }
     }
     if (after == AfterRecord::free_vibration) {
-      const Passage& end = passages.back();
+      const BlockState& end = passages.end();
       peak = std::max(peak, free_vibration_peak(block.oscillators[i], end.u[b][l], end.v[b][l]));
     }
     peaks.push_back(peak);
@@ -230,15 +222,13 @@ std::vector<double> peak_displacements(std::span<const double> acceleration, dou
                                        std::span<const Oscillator> oscillators, AfterRecord after) {
   const double h2 = time_step * time_step;
   const std::vector<Stretch> stretches = stretches_of(acceleration, h2);
-  std::vector<Passage> passages(stretches.size() + 1);
+  Passages passages(acceleration, h2, stretches);
   std::vector<double> peaks(oscillators.size(), 0.0);
   std::vector<Oscillator> slow;
   std::vector<std::size_t> place;
   const auto finish_block = [&] {
-    const OscillatorBlock block(slow);
-    pass(acceleration, h2, stretches, block, passages);
     const std::vector<double> found =
-        peaks_of_block(acceleration, h2, stretches, block, passages, after);
+        peaks_of_block(acceleration, h2, passages, OscillatorBlock(slow), after);
     for (std::size_t i = 0; i < found.size(); ++i) peaks[place[i]] = found[i];
     slow.clear();
     place.clear();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "common/error.h"
 #include "motion/oscillator_motion.h"
@@ -133,24 +134,38 @@ std::array<double, 3> true_peaks(std::span<const double> acceleration, double ti
 
 }  // namespace
 
+std::vector<std::vector<SpectrumPoint>> response_spectra(std::span<const double> acceleration,
+                                                         double time_step,
+                                                         std::span<const double> frequencies,
+                                                         std::span<const double> damping_ratios,
+                                                         AfterRecord after) {
+  std::vector<Oscillator> oscillators;  // those of a frequency move much alike: side by side
+  for (const double ratio : damping_ratios) {
+    check_arguments(acceleration, time_step, frequencies, ratio);
+  }
+  for (const double frequency : frequencies) {
+    for (const double ratio : damping_ratios) {
+      oscillators.push_back(make_oscillator(2 * std::numbers::pi * frequency * time_step, ratio));
+    }
+  }
+  const std::vector<double> peaks =
+      acceleration.empty() ? std::vector<double>(oscillators.size(), 0.0)
+                           : peak_displacements(acceleration, time_step, oscillators, after);
+  std::vector<std::vector<SpectrumPoint>> spectra(damping_ratios.size());
+  for (std::size_t i = 0; i < oscillators.size(); ++i) {
+    const double frequency = frequencies[i / spectra.size()];
+    const double omega = 2 * std::numbers::pi * frequency;
+    spectra[i % spectra.size()].push_back(
+        {frequency, peaks[i], omega * peaks[i], omega * omega * peaks[i]});
+  }
+  return spectra;
+}
+
 std::vector<SpectrumPoint> response_spectrum(std::span<const double> acceleration, double time_step,
                                              std::span<const double> frequencies,
                                              double damping_ratio, AfterRecord after) {
-  check_arguments(acceleration, time_step, frequencies, damping_ratio);
-  std::vector<Oscillator> oscillators;
-  for (const double frequency : frequencies) {
-    oscillators.push_back(
-        make_oscillator(2 * std::numbers::pi * frequency * time_step, damping_ratio));
-  }
-  const std::vector<double> peaks =
-      acceleration.empty() ? std::vector<double>(frequencies.size(), 0.0)
-                           : peak_displacements(acceleration, time_step, oscillators, after);
-  std::vector<SpectrumPoint> spectrum;
-  for (std::size_t i = 0; i < frequencies.size(); ++i) {
-    const double omega = 2 * std::numbers::pi * frequencies[i];
-    spectrum.push_back({frequencies[i], peaks[i], omega * peaks[i], omega * omega * peaks[i]});
-  }
-  return spectrum;
+  return std::move(
+      response_spectra(acceleration, time_step, frequencies, {&damping_ratio, 1}, after)[0]);
 }
 
 std::vector<TrueSpectrumPoint> true_response_spectrum(std::span<const double> acceleration,
