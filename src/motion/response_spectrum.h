@@ -34,7 +34,8 @@ std::vector<SpectrumPoint> response_spectrum(std::span<const double> acceleratio
                                              double damping_ratio,
                                              AfterRecord after = AfterRecord::free_vibration);
 
-/// The same for several damping ratios, in their order: cheaper than one after the other.
+/// Response spectra of several damping ratios, in their order: as response_spectrum gives them one
+/// after the other, at less cost.
 std::vector<std::vector<SpectrumPoint>> response_spectra(
     std::span<const double> acceleration, double time_step, std::span<const double> frequencies,
     std::span<const double> damping_ratios, AfterRecord after = AfterRecord::free_vibration);
