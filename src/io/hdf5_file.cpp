@@ -51,8 +51,12 @@ void Hdf5File::move_to(const std::string& path) {
   path_ = path;
 }
 
-void Hdf5File::close() {
+void Hdf5File::let_others_write() {
   checked(close_handles(), "write (is the disk full?)");
+}
+
+void Hdf5File::close() {
+  let_others_write();
   if (kind_ == Kind::sealed) {
     seal_file(path_);
   } else {

@@ -52,6 +52,8 @@ class Hdf5File {
   void flush();
   /// Another name in the same file system.
   void move_to(const std::string& path);
+  /// Nothing more is written here, but others may fill places that were reserved, until close().
+  void let_others_write();
   /// Everything stands on the disk, or this throws.
   void close();
   /// Sets an attribute of a whole closed file that is there already.

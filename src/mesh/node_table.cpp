@@ -11,32 +11,6 @@ std::vector<GlobalIndex> owned_file_nodes(const Mesh& mesh) {
   return {mesh.file_node.begin(), mesh.file_node.begin() + mesh.owned_nodes};
 }
 
-/// The rows of this rank's owned nodes out of rank 0's table.
-std::vector<double> scatter_rows(const Mesh& mesh, const std::vector<double>& table,
-                                 std::size_t columns) {
-  const auto select = [&](const std::vector<GlobalIndex>& nodes) {
-    std::vector<double> rows;
-    rows.reserve(nodes.size() * columns);
-    for (const GlobalIndex node : nodes) {
-      const auto row = table.begin() + node * static_cast<std::ptrdiff_t>(columns);
-      rows.insert(rows.end(), row, row + static_cast<std::ptrdiff_t>(columns));
-    }
-    return rows;
-  };
-  std::vector<double> rows;
-  if (rank_of(mesh.comm) != 0) {
-    send_array(mesh.comm, 0, owned_file_nodes(mesh));
-    receive_array(mesh.comm, 0, rows);
-    return rows;
-  }
-  for (int rank = 1; rank < size_of(mesh.comm); ++rank) {
-    std::vector<GlobalIndex> nodes;
-    receive_array(mesh.comm, rank, nodes);
-    send_array(mesh.comm, rank, select(nodes));
-  }
-  return select(owned_file_nodes(mesh));
-}
-
 /// Calls `function(owned dof, place in the rows)` for every owned dof.
 template <typename Function>
 void for_each_owned_dof(const Mesh& mesh, std::size_t columns, Function&& function) {
@@ -82,21 +56,25 @@ std::size_t component_columns(const Mesh& mesh) {
   return rotates != 0 ? 6 : 3;
 }
 
-std::vector<double> gather_by_node(const Mesh& mesh, std::span<const double> values,
-                                   std::size_t columns) {
+std::vector<double> node_rows(const Mesh& mesh, std::span<const double> values,
+                              std::size_t columns) {
   std::vector<double> rows(static_cast<std::size_t>(mesh.owned_nodes) * columns, 0.0);
   for_each_owned_dof(mesh, columns,
                      [&](std::size_t dof, std::size_t place) { rows[place] = values[dof]; });
-  return gather_node_rows(mesh, std::move(rows), columns);
+  return rows;
 }
 
-std::vector<double> scatter_by_node(const Mesh& mesh, const std::vector<double>& table,
-                                    std::size_t columns) {
-  const std::vector<double> rows = scatter_rows(mesh, table, columns);
+std::vector<double> dof_values(const Mesh& mesh, std::span<const double> rows,
+                               std::size_t columns) {
   std::vector<double> values(mesh.owned_dofs);
   for_each_owned_dof(mesh, columns,
                      [&](std::size_t dof, std::size_t place) { values[dof] = rows[place]; });
   return values;
+}
+
+std::vector<double> gather_by_node(const Mesh& mesh, std::span<const double> values,
+                                   std::size_t columns) {
+  return gather_node_rows(mesh, node_rows(mesh, values, columns), columns);
 }
 
 std::vector<double> gather_coordinates(const Mesh& mesh) {

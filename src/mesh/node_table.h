@@ -17,9 +17,13 @@ std::size_t component_columns(const Mesh& mesh);
 std::vector<double> gather_by_node(const Mesh& mesh, std::span<const double> values,
                                    std::size_t columns);
 
-/// Values over owned dofs from a table, which is read on rank 0 only. Collective.
-std::vector<double> scatter_by_node(const Mesh& mesh, const std::vector<double>& table,
-                                    std::size_t columns);
+/// Values over owned dofs as rows per owned node, shape (owned_nodes, columns), 0 where there is no
+/// free dof. Local.
+std::vector<double> node_rows(const Mesh& mesh, std::span<const double> values,
+                              std::size_t columns);
+
+/// Values over owned dofs out of such rows. Local.
+std::vector<double> dof_values(const Mesh& mesh, std::span<const double> rows, std::size_t columns);
 
 /// The table of rows per owned node, shape (owned_nodes, columns); empty on the other ranks.
 /// Collective.

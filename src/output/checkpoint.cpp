@@ -7,22 +7,38 @@
 #include "common/parallel.h"
 #include "common/version.h"
 #include "io/hdf5_file.h"
+#include "io/placed_file.h"
 #include "mesh/node_table.h"
 #include "output/checkpoint_format.h"
+#include "output/file_blocks.h"
 #include "output/saved_state_exchange.h"
 
 namespace pounding {
 namespace checkpoint_format {
 
-void on_rank0_for_user(MPI_Comm comm, const std::string& prefix,
-                       const std::function<void()>& work) {
-  on_rank0(comm, [&] {
+namespace {
+
+/// `work`, whose failures become UserErrors that begin with `prefix`.
+std::function<void()> for_user(const std::string& prefix, const std::function<void()>& work) {
+  return [&] {
     try {
       work();
     } catch (const std::exception& error) {
       throw UserError(prefix + error.what());
     }
-  });
+  };
+}
+
+}  // namespace
+
+void on_rank0_for_user(MPI_Comm comm, const std::string& prefix,
+                       const std::function<void()>& work) {
+  on_rank0(comm, for_user(prefix, work));
+}
+
+void on_every_rank_for_user(MPI_Comm comm, const std::string& prefix,
+                            const std::function<void()>& work) {
+  on_every_rank(comm, for_user(prefix, work));
 }
 
 std::vector<double> basis_check(const LinearSystem& system) {
@@ -46,7 +62,8 @@ namespace {
 
 namespace format = checkpoint_format;
 
-/// A file in the making on rank 0; every method is collective.
+/// A file in the making on rank 0, where others have their places to fill in the end; every method
+/// is collective.
 class CheckpointWriter {
  public:
   CheckpointWriter(MPI_Comm comm, const std::string& path) : comm_(comm), path_(path) {
@@ -69,7 +86,7 @@ class CheckpointWriter {
   void write_structure(int structure, const Mesh& mesh, const LinearSystem& system,
                        const SavedState& saved) {
     const std::string folder = format::folder(mesh);
-    write_table(folder + "/coordinates", 3, gather_coordinates(mesh));
+    reserve(folder + "/coordinates", {&mesh, 3, nullptr});
     if (system.generalised) {
       write_table(folder + "/basis_check", 0, gather_owned(comm_, format::basis_check(system)));
     }
@@ -79,7 +96,7 @@ class CheckpointWriter {
       if (key.first == structure && system.generalised) {
         write_table(name, 0, gather_owned(comm_, values));
       } else if (key.first == structure) {
-        write_table(name, columns, gather_by_node(mesh, values, columns));
+        reserve(name, {&mesh, columns, &values});
       }
     }
     on_root([&] {
@@ -101,8 +118,11 @@ class CheckpointWriter {
     }
   }
 
-  /// The file stands on the disk under its final name.
+  /// Every rank fills its places, and the file stands on the disk under its final name.
   void finish() {
+    on_root([&] { file_->let_others_write(); });
+    broadcast_array(comm_, places_);
+    fill();
     on_root([&] {
       file_->close();
       file_->move_to(path_);
@@ -110,16 +130,57 @@ class CheckpointWriter {
   }
 
  private:
+  /// A dataset with a row per node of a structure, in file order.
+  struct NodeTable {
+    const Mesh* mesh;
+    std::size_t columns;
+    const std::vector<double>* values;  ///< over owned dofs; null: coordinates
+  };
+
+  void reserve(const std::string& name, const NodeTable& table) {
+    on_root([&] {
+      const auto nodes = static_cast<std::size_t>(table.mesh->global_nodes);
+      places_.push_back(file_->reserve(name, {nodes, table.columns}));
+    });
+    tables_.push_back(table);
+  }
+
+  void fill() {
+    std::optional<PlacedFile> file;
+    on_every_rank([&] { file.emplace(path_ + ".new", PlacedFile::Access::write); });
+    std::optional<FileBlocks> blocks;
+    for (std::size_t i = 0; i < tables_.size(); ++i) {
+      const auto& [mesh, columns, values] = tables_[i];
+      if (i == 0 || mesh != tables_[i - 1].mesh) blocks.emplace(*mesh);
+      std::vector<double> block(columns * blocks->count());
+      if (values == nullptr) {
+        blocks->to_file(format::owned_coordinates(*mesh), columns, block);
+      } else {
+        blocks->to_file(node_rows(*mesh, *values, columns), columns, block);
+      }
+      const auto before = static_cast<std::int64_t>(columns * sizeof(double)) * blocks->first();
+      on_every_rank([&] { file->write(places_[i] + before, block); });
+    }
+    on_every_rank([&] { file->sync(); });
+  }
+
+  void on_every_rank(const std::function<void()>& work) {
+    format::on_every_rank_for_user(comm_, failure, work);
+  }
   void on_root(const std::function<void()>& work) {
-    format::on_rank0_for_user(comm_, "the checkpoint cannot be written: ", work);
+    format::on_rank0_for_user(comm_, failure, work);
   }
   void write_table(const std::string& name, std::size_t columns, const std::vector<double>& table) {
     on_root([&] { file_->write_array(name, columns, table); });
   }
 
+  static constexpr const char* failure = "the checkpoint cannot be written: ";
+
   MPI_Comm comm_;
   std::string path_;
   std::optional<Hdf5File> file_;  ///< rank 0
+  std::vector<NodeTable> tables_;
+  std::vector<std::int64_t> places_;  ///< of the tables, in the file [bytes]
 };
 
 }  // namespace

@@ -11,7 +11,8 @@
 #include "system/linear_system.h"
 
 /// `checkpoint.h5`: all that a run needs to go on as if it had never stopped. The file says nothing
-/// about ranks but for the parts of sums, so any number of them may read it.
+/// about ranks but for the parts of sums, so any number of them may read it. What nodes have is
+/// written and read by all ranks, a block of nodes each (file_blocks.h), the rest by rank 0.
 ///
 ///     /                            attributes: format "pounding checkpoint", version 2, program,
 ///                                  time_step [s], ground_motion (hash of its samples)
@@ -30,12 +31,12 @@
 ///
 /// S is the name of a structure. Nodes come in the order of their tags in the mesh, of those that
 /// the scene uses; columns are x, y, z and, if a node of the structure rotates, the rotations about
-/// them; the value of a clamped or missing component is 0 and not read. Datasets carry checksums.
+/// them; the value of a clamped or missing component is 0 and not read.
 /// Python reads and writes it:
 ///
 ///     with h5py.File("results/checkpoint.h5", "r+") as file:
 ///         x = file["structures/left/coordinates"][:]
-///         file["structures/left/velocity"][x[:, 2] > 5, 0] += 0.1      # dataset[...] = keeps sums
+///         file["structures/left/velocity"][x[:, 2] > 5, 0] += 0.1
 ///
 /// The file is sealed (output/file_seal.h): after such a change, run/seal results/checkpoint.h5.
 /// `stiffness_displacement` is K u_n: whoever changes a displacement has to change it alike. Energy

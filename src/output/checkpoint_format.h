@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,5 +38,15 @@ inline constexpr double basis_tolerance = 1e-6;
 /// Runs `work` on rank 0; what goes wrong becomes one UserError that begins with `prefix`, on every
 /// rank. Collective.
 void on_rank0_for_user(MPI_Comm comm, const std::string& prefix, const std::function<void()>& work);
+
+/// Runs `work`, which must not communicate, on every rank; failures as of on_rank0_for_user.
+/// Collective.
+void on_every_rank_for_user(MPI_Comm comm, const std::string& prefix,
+                            const std::function<void()>& work);
+
+/// Positions of the owned nodes [m], shape (owned_nodes, 3).
+inline std::span<const double> owned_coordinates(const Mesh& mesh) {
+  return std::span(mesh.coordinates).first(3 * static_cast<std::size_t>(mesh.owned_nodes));
+}
 
 }  // namespace pounding::checkpoint_format

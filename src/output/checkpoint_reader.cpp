@@ -8,6 +8,7 @@
 #include "mesh/node_table.h"
 #include "output/checkpoint.h"
 #include "output/checkpoint_format.h"
+#include "output/file_blocks.h"
 #include "output/saved_state_exchange.h"
 
 namespace pounding {
@@ -19,7 +20,8 @@ const std::string option = "option -restart ";
 
 using Options = std::map<std::string, std::string>;
 
-/// A file that was written by the program; its methods are collective, the file is on rank 0.
+/// A file that was written by the program. Rank 0 looks at it, every rank reads its part of what
+/// nodes have. The methods are collective.
 class CheckpointReader {
  public:
   CheckpointReader(MPI_Comm comm, const std::string& path) : comm_(comm), path_(path) {
@@ -79,33 +81,22 @@ class CheckpointReader {
   void read_structure(int structure, const Mesh& mesh, const LinearSystem& system,
                       SavedState& saved) {
     const std::string folder = format::folder(mesh);
-    const std::size_t columns = system.generalised ? 0 : component_columns(mesh);
     const GlobalIndex dofs = system.generalised ? system.global_dofs : mesh.global_dofs;
-    const GlobalIndex rows = system.generalised ? dofs : mesh.global_nodes;
-    const std::vector<double> coordinates = gather_coordinates(mesh);
     on_root([&] {
       check_count(mesh, "nodes", file_->shape(folder + "/coordinates").rows, mesh.global_nodes);
       check_count(mesh, "free dofs", file_->number(folder, "dofs"), dofs);
       check_count(mesh, "elements", file_->number(folder, "elements"), format::element_count(mesh));
-      if (file_->array(folder + "/coordinates") != coordinates) {
-        refuse("structure " + mesh.structure + " has its nodes elsewhere: another mesh");
-      }
     });
+    FileBlocks blocks(mesh);
+    check_coordinates(folder, mesh, blocks);
     if (system.generalised) check_basis(folder, system);
+    const std::size_t columns = system.generalised ? 0 : component_columns(mesh);
     for (const std::string& name : names(folder)) {
       if (name == "coordinates" || name == "basis_check") continue;
-      std::vector<double> table;
-      on_root([&] {
-        const std::string place = folder + "/" + name;
-        table = finite_array(place);
-        if (table.size() != static_cast<std::size_t>(rows) * std::max<std::size_t>(columns, 1)) {
-          refuse("'" + place + "' does not have one row per " +
-                 (system.generalised ? "generalised coordinate" : "node"));
-        }
-      });
+      const std::string place = folder + "/" + name;
       saved.put_dofs(structure, name,
-                     system.generalised ? scatter_owned(comm_, table, system.lumped_mass.size())
-                                        : scatter_by_node(mesh, table, columns));
+                     system.generalised ? read_coordinates(place, system)
+                                        : read_nodes(place, mesh, columns, blocks));
     }
   }
 
@@ -153,6 +144,9 @@ class CheckpointReader {
   void on_root(const std::function<void()>& work) {
     format::on_rank0_for_user(comm_, option, work);
   }
+  void on_every_rank(const std::function<void()>& work) {
+    format::on_every_rank_for_user(comm_, option, work);
+  }
   [[noreturn]] void refuse(const std::string& why) const {
     throw std::runtime_error(path_ + ": " + why);
   }
@@ -160,14 +154,69 @@ class CheckpointReader {
   /// A dataset without infinities and NaN.
   std::vector<double> finite_array(const std::string& place) const {
     std::vector<double> values = file_->array(place);
-    const auto bad = std::ranges::find_if(values, [](double v) { return !std::isfinite(v); });
-    if (bad != values.end()) {
-      const std::size_t columns = std::max<std::size_t>(1, file_->shape(place).columns);
-      refuse("'" + place + "' holds " + std::to_string(*bad) + " in row " +
-             std::to_string(static_cast<std::size_t>(bad - values.begin()) / columns + 1) +
-             "; the file was changed");
-    }
+    require_finite(place, values, 0);
     return values;
+  }
+
+  /// `values`: whole rows of a dataset, from row `first` on.
+  void require_finite(const std::string& place, std::span<const double> values,
+                      std::size_t first) const {
+    const auto bad = std::ranges::find_if(values, [](double v) { return !std::isfinite(v); });
+    if (bad == values.end()) return;
+    const Hdf5Reader& file = file_ ? *file_ : *mine_;
+    const std::size_t columns = std::max<std::size_t>(1, file.shape(place).columns);
+    refuse("'" + place + "' holds " + std::to_string(*bad) + " in row " +
+           std::to_string(first + static_cast<std::size_t>(bad - values.begin()) / columns + 1) +
+           "; the file was changed");
+  }
+
+  /// Rows of a dataset per node of this rank's block.
+  std::vector<double> read_block(const std::string& place, const FileBlocks& blocks) {
+    std::vector<double> block;
+    on_every_rank([&] {
+      if (!mine_) mine_.emplace(path_);
+      block = mine_->rows(place, static_cast<std::size_t>(blocks.first()), blocks.count());
+      require_finite(place, block, static_cast<std::size_t>(blocks.first()));
+    });
+    return block;
+  }
+
+  void check_coordinates(const std::string& folder, const Mesh& mesh, FileBlocks& blocks) {
+    const std::string place = folder + "/coordinates";
+    check_rows(place, 3, mesh.global_nodes, "node");
+    std::vector<double> now(3 * blocks.count());
+    blocks.to_file(format::owned_coordinates(mesh), 3, now);
+    const std::vector<double> written = read_block(place, blocks);
+    on_every_rank([&] {
+      if (written != now) {
+        refuse("structure " + mesh.structure + " has its nodes elsewhere: another mesh");
+      }
+    });
+  }
+
+  std::vector<double> read_nodes(const std::string& place, const Mesh& mesh, std::size_t columns,
+                                 FileBlocks& blocks) {
+    check_rows(place, columns, mesh.global_nodes, "node");
+    const std::vector<double> block = read_block(place, blocks);
+    std::vector<double> rows(columns * static_cast<std::size_t>(mesh.owned_nodes));
+    blocks.to_owners(block, columns, rows);
+    return dof_values(mesh, rows, columns);
+  }
+
+  std::vector<double> read_coordinates(const std::string& place, const LinearSystem& system) {
+    check_rows(place, 0, system.global_dofs, "generalised coordinate");
+    std::vector<double> values;
+    on_root([&] { values = finite_array(place); });
+    return scatter_owned(comm_, values, system.lumped_mass.size());
+  }
+
+  void check_rows(const std::string& place, std::size_t columns, GlobalIndex rows, const char* of) {
+    on_root([&] {
+      const Hdf5Reader::Shape shape = file_->shape(place);
+      if (shape.columns != columns || static_cast<GlobalIndex>(shape.rows) != rows) {
+        refuse("'" + place + "' does not have one row per " + of);
+      }
+    });
   }
 
   bool is_checkpoint() const {
@@ -201,7 +250,8 @@ class CheckpointReader {
 
   MPI_Comm comm_;
   std::string path_;
-  std::optional<Hdf5Reader> file_;
+  std::optional<Hdf5Reader> file_;  ///< on rank 0, which found it sound
+  std::optional<Hdf5Reader> mine_;  ///< on every rank that read of it
 };
 
 }  // namespace

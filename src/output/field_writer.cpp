@@ -207,7 +207,7 @@ void FieldWriter::record(const State& state) {
       fields.quantities.back().owned[value] = impulses_[place];
     }
     for (Quantity& quantity : fields.quantities) {
-      fields.blocks.exchange(quantity.owned, fields.block);
+      fields.blocks.to_file(quantity.owned, 3, fields.block);
       on_every_rank(layout_.comm, [&] {  // what nothing is written to is 0
         if (!has_value(fields.block)) return;
         constexpr std::int64_t bytes = 3 * sizeof(double);

@@ -7,8 +7,6 @@
 namespace pounding {
 namespace {
 
-constexpr int components = 3;
-
 std::vector<int> offsets_of(const std::vector<int>& counts) {
   std::vector<int> offsets;
   int total = 0;
@@ -19,9 +17,21 @@ std::vector<int> offsets_of(const std::vector<int>& counts) {
   return offsets;
 }
 
-void multiply(std::vector<int>& counts, int factor) {
-  for (int& count : counts) count *= factor;
-}
+/// A row of so many doubles, as MPI counts them.
+class RowType {
+ public:
+  explicit RowType(std::size_t columns) {
+    MPI_Type_contiguous(static_cast<int>(columns), MPI_DOUBLE, &type_);
+    MPI_Type_commit(&type_);
+  }
+  RowType(const RowType&) = delete;
+  RowType& operator=(const RowType&) = delete;
+  ~RowType() { MPI_Type_free(&type_); }
+  MPI_Datatype get() const { return type_; }
+
+ private:
+  MPI_Datatype type_ = MPI_DATATYPE_NULL;
+};
 
 }  // namespace
 
@@ -47,21 +57,39 @@ FileBlocks::FileBlocks(const Mesh& mesh)
                 arrived.data(), receive_counts_.data(), receive_offsets_.data(), MPI_INT64_T,
                 comm_);
   for (const GlobalIndex node : arrived) places_.push_back(static_cast<std::size_t>(node - first_));
-  for (auto* counts : {&send_counts_, &send_offsets_, &receive_counts_, &receive_offsets_}) {
-    multiply(*counts, components);
-  }
-  sent_.resize(components * order_.size());
-  received_.resize(components * places_.size());
 }
 
-void FileBlocks::exchange(std::span<const double> owned, std::span<double> block) {
-  double* to = sent_.data();
-  for (const LocalIndex node : order_) to = std::copy_n(&owned[components * node], components, to);
-  MPI_Alltoallv(sent_.data(), send_counts_.data(), send_offsets_.data(), MPI_DOUBLE,
-                received_.data(), receive_counts_.data(), receive_offsets_.data(), MPI_DOUBLE,
+void FileBlocks::to_file(std::span<const double> owned, std::size_t columns,
+                         std::span<double> block) {
+  of_owned_.resize(columns * order_.size());
+  of_block_.resize(columns * places_.size());
+  double* to = of_owned_.data();
+  for (const LocalIndex node : order_) {
+    to = std::copy_n(&owned[columns * static_cast<std::size_t>(node)], columns, to);
+  }
+  const RowType row(columns);
+  MPI_Alltoallv(of_owned_.data(), send_counts_.data(), send_offsets_.data(), row.get(),
+                of_block_.data(), receive_counts_.data(), receive_offsets_.data(), row.get(),
                 comm_);
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    std::copy_n(&received_[components * i], components, &block[components * places_[i]]);
+    std::copy_n(&of_block_[columns * i], columns, &block[columns * places_[i]]);
+  }
+}
+
+void FileBlocks::to_owners(std::span<const double> block, std::size_t columns,
+                           std::span<double> owned) {
+  of_owned_.resize(columns * order_.size());
+  of_block_.resize(columns * places_.size());
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    std::copy_n(&block[columns * places_[i]], columns, &of_block_[columns * i]);
+  }
+  const RowType row(columns);
+  MPI_Alltoallv(of_block_.data(), receive_counts_.data(), receive_offsets_.data(), row.get(),
+                of_owned_.data(), send_counts_.data(), send_offsets_.data(), row.get(), comm_);
+  const double* from = of_owned_.data();
+  for (const LocalIndex node : order_) {
+    std::copy_n(from, columns, &owned[columns * static_cast<std::size_t>(node)]);
+    from += columns;
   }
 }
 

@@ -1,5 +1,6 @@
 #include "output/checkpoint.h"
 
+#include <cmath>
 #include <filesystem>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include "common/parallel.h"
 #include "common/petsc.h"
 #include "mesh/node_table.h"
+#include "output/file_blocks.h"
 #include "support/box_mesh.h"
 
 namespace pounding {
@@ -194,6 +196,48 @@ TEST_F(CheckpointFile, ThatCannotBeWrittenIsReportedOnEveryRank) {
   EXPECT_THROW(write_checkpoint(comm, path() + "/nowhere.h5", identity, {&mesh, 1}, {&full, 1},
                                 SavedState("here")),
                UserError);
+}
+
+TEST_F(CheckpointFile, TellsTheRowOfAValueThatCannotBe) {
+  // A row of the last block: that of the last rank, which rank 0 does not read.
+  const Mesh mesh = distribute(comm, mixed_box());
+  SavedState saved("here");
+  std::vector<double> values = labels(mesh, 0);
+  const LocalIndex node = mesh.owned_node(mesh.global_nodes - 1);
+  if (node >= 0) values[static_cast<std::size_t>(mesh.dof(node, 2))] = NAN;
+  saved.put_dofs(0, "velocity", values);
+  write_checkpoint(comm, path(), identity, {&mesh, 1}, {&full, 1}, saved);
+  const std::string message = refusal(identity, mesh);
+  EXPECT_NE(message.find("structures/box/velocity' holds nan in row " +
+                         std::to_string(mesh.global_nodes) + ";"),
+            std::string::npos)
+      << message;
+}
+
+TEST(FileBlocks, RowsComeToTheirPlacesAndBack) {
+  const Mesh mesh = distribute(PETSC_COMM_WORLD, mixed_box());
+  FileBlocks blocks(mesh);
+  GlobalIndex nodes = static_cast<GlobalIndex>(blocks.count());
+  EXPECT_LE(nodes, (mesh.global_nodes + size_of(mesh.comm) - 1) / size_of(mesh.comm));
+  MPI_Allreduce(MPI_IN_PLACE, &nodes, 1, MPI_INT64_T, MPI_SUM, mesh.comm);
+  EXPECT_EQ(nodes, mesh.global_nodes);
+  for (const std::size_t columns : {6, 3, 1, 6}) {  // one after the other: room is used again
+    std::vector<double> owned;
+    for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
+      for (std::size_t c = 0; c < columns; ++c) {
+        owned.push_back(static_cast<double>(mesh.file_node[node]) + 0.1 * static_cast<double>(c));
+      }
+    }
+    std::vector<double> block(columns * blocks.count());
+    blocks.to_file(owned, columns, block);
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      EXPECT_EQ(block[i], static_cast<double>(blocks.first()) + static_cast<double>(i / columns) +
+                              0.1 * static_cast<double>(i % columns));
+    }
+    std::vector<double> back(owned.size());
+    blocks.to_owners(block, columns, back);
+    EXPECT_EQ(back, owned);
+  }
 }
 
 TEST(NodeTable, ColumnsFollowFromTheRotations) {
