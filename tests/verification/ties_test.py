@@ -362,6 +362,21 @@ class BesideMatchedMeshes(unittest.TestCase):
             found = self.measured([*scene, *mesh(m1=m1, m2=m2, n1=12, n2=12, plates=1)], ranks)
             self.assertLess(abs(found / matched - 1).max(), 2e-3)
 
+    def test_sag_converges_as_one_mesh(self):
+        """2 beside 3 cells, 4 beside 6, 8 beside 12: the error falls as that of one mesh of the coarser cells, and is
+        smaller."""
+        for parts, kind, sizes, fine in ((BRICKS, {}, (1, 2, 4), 18), (PLATES, {"plates": 1}, (2, 4, 8), 48)):
+            def sag(m1, m2, ranks=1, parts=parts, kind=kind):
+                return self.measured([*parts, *HELD, *mesh(m1=m1, m2=m2, n1=m1, n2=m2, **kind)], ranks)[-1]
+
+            exact = sag(fine, fine)
+            tied = [abs(sag(2 * k, 3 * k, 2) / exact - 1) for k in sizes]
+            coarse = [abs(sag(2 * k, 2 * k) / exact - 1) for k in sizes]
+            for k, size in enumerate(sizes):
+                self.assertLess(tied[k], coarse[k], (kind, size))
+            for before, after in zip(tied, tied[1:]):
+                self.assertGreater(before / after, 2.7, kind)  # 4 of second order, where cells are small
+
 
 class PlantedBeam(unittest.TestCase):
     """A steel beam whose foot follows the face of a concrete cube: nearly a clamped cantilever, if the facets are not
