@@ -69,6 +69,8 @@ COARSE = (("s1_mesh_set", "cells_x=14,cells_y=10,column_elements=5"),
           ("s2_mesh_set", "cells_x=9,cells_y=10,column_elements=5"))
 COARSER = (("s1_mesh_set", "cells_x=7,cells_y=5,column_elements=2"),
            ("s2_mesh_set", "cells_x=5,cells_y=5,column_elements=2"))
+FINE = (("s1_mesh_set", "cells_x=56,cells_y=38,column_elements=20"),
+        ("s2_mesh_set", "cells_x=36,cells_y=38,column_elements=20"))
 # Gaps recorded more rarely than the probes, and the mass of fast coordinates scaled.
 RARE = ("gap_interval", 0.01)
 FAST = (*both("mass_scaling", 5.5e-5), ("courant", 0.99), RARE)
@@ -90,6 +92,8 @@ SAVINGS = [
     Setting("slab-beta", "beta in the slabs only", SLAB_BETA),
     Setting("uniform", "uniform damping of 0.6 % from 1 to 400 Hz", UNIFORM),
     Setting("shells", "slabs of shells (Model B)", shells=True),
+    Setting("fine", "6 cm mesh, stiff frames scaled for a step of 6.5e-6 s", (*FINE, *both("mass_scaling", 6.5e-6))),
+    Setting("two-layers", "two elements through the slabs", both("mesh_set", "layers=2")),
     Setting("coarse", "24 cm mesh", COARSE),
     Setting("coarser", "48 cm mesh", COARSER),
     Setting("mass-1e-5", "stiff frames scaled for a step of 1e-5 s", both("mass_scaling", 1e-5)),
