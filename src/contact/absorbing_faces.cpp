@@ -11,6 +11,7 @@
 #include "contact/facet_backing.h"
 #include "mesh/bounding_box.h"
 #include "mesh/connectivity.h"
+#include "mesh/facet_shares.h"
 
 namespace pounding {
 namespace {
@@ -35,35 +36,6 @@ std::string place_of(const GlobalMesh& mesh, const Facet& facet) {
   std::ostringstream text;
   text << "its facet at (" << x[0] << ", " << x[1] << ", " << x[2] << ")";
   return text.str();
-}
-
-/// Each corner's share of a facet's area: integrals of the shape functions [m2].
-std::array<double, 4> area_shares(const GlobalMesh& mesh, const Facet& facet) {
-  const auto at = [&](std::size_t i) { return mesh.position(facet.nodes[i]); };
-  std::array<double, 4> shares{};
-  if (facet.count == 3) {
-    const double area = norm(cross(minus(at(1), at(0)), minus(at(2), at(0)))) / 2;
-    return {area / 3, area / 3, area / 3, 0};
-  }
-  constexpr std::array<std::array<double, 2>, 4> corner{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-  const double gauss = 1 / std::sqrt(3.0);
-  for (const auto& point : corner) {
-    Vector3 along[2]{};
-    std::array<double, 4> shape{};
-    for (std::size_t a = 0; a < 4; ++a) {
-      const Vector3 x = minus(at(a), at(0));
-      const double s = 1 + gauss * point[0] * corner[a][0];
-      const double t = 1 + gauss * point[1] * corner[a][1];
-      shape[a] = s * t / 4;
-      for (std::size_t d = 0; d < 3; ++d) {
-        along[0][d] += corner[a][0] * t / 4 * x[d];
-        along[1][d] += corner[a][1] * s / 4 * x[d];
-      }
-    }
-    const double area = norm(cross(along[0], along[1]));
-    for (std::size_t a = 0; a < 4; ++a) shares[a] += shape[a] * area;
-  }
-  return shares;
 }
 
 /// rho (V_p n n^T + V_s (I - n n^T)) [N s/m3].
@@ -180,7 +152,7 @@ AbsorbingReport find_absorbing_nodes(const Scene& scene, const Structure& struct
       }
       const Matrix3 impedance =
           impedance_per_area(structure.regions[behind.region].material, normal);
-      const std::array<double, 4> shares = area_shares(mesh, facet);
+      const std::array<double, 4> shares = facet_shares(mesh, facet);
       for (std::size_t a = 0; a < facet.corners().size(); ++a) {
         NodeSums& sums = nodes[facet.nodes[a]];
         report.area += shares[a];

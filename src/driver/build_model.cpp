@@ -85,6 +85,7 @@ void build_meshes(MPI_Comm comm, Scene& scene, std::span<const double> stiffness
           lay_foundation(mat_place(scene.structures[s], meshes[s]), scene.structures[s]);
         }
         model.buildings[s].absorbing = find_absorbing_nodes(scene, scene.structures[s], meshes[s]);
+        model.buildings[s].spread = find_spread_springs(scene.structures[s], meshes[s]);
         check_mesh(scene, s, meshes[s], model);
         meshes[s].supported = find_supported_nodes(scene, scene.structures[s], meshes[s]);
       }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/absorbing_faces.h"
+#include "driver/soil_report.h"
 #include "mesh/connectivity.h"
 #include "mesh/mesh.h"
 #include "modal/modal_analysis.h"
@@ -32,6 +32,7 @@ struct Building {
   const LinearSystem* system = nullptr;  ///< likewise
   MeshFindings findings;                 ///< on rank 0 only
   AbsorbingReport absorbing;             ///< likewise
+  std::vector<SpreadReport> spread;      ///< likewise
   std::optional<ModalBasis> basis;       ///< if the structure is reduced; no rows
   ModalResult modal;
   std::vector<double> mode_gaps;     ///< of each mode, what it adds to the gap of each contact row,

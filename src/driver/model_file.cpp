@@ -87,9 +87,17 @@ void add_properties(Hdf5File& file, const Structure& structure, const CellTable&
   values.add("young", [](const Region& region) { return region.material.young; });
   values.add("density", [](const Region& region) { return region.material.density; });
   values.add("mass", [](const Region& region) { return region.mass; });
-  values.add_vectors("spring_stiffness", 3, [](const Region& region) {
-    return Vector3{region.stiffness[0], region.stiffness[1], region.stiffness[2]};
-  });
+  const auto add_springs = [&](const char* name, bool spread) {
+    values.add_vectors(name, 3, [&](const Region& region) {
+      if ((region.spread != Spread::none) != spread) return Vector3{0, 0, 0};
+      return Vector3{region.stiffness[0], region.stiffness[1], region.stiffness[2]};
+    });
+  };
+  add_springs("spring_stiffness", false);
+  if (std::ranges::any_of(structure.regions,
+                          [](const Region& region) { return region.spread != Spread::none; })) {
+    add_springs("spring_stiffness_spread", true);  // per length or area
+  }
 }
 
 /// Points and cells beside the structures, on rank 0.

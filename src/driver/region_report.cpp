@@ -48,8 +48,11 @@ Json describe_regions(const Structure& structure) {
     add_number("added_mass", region.added_mass, of);
     add_number("mass", region.mass, of);
     add_numbers("rotary_inertia", region.rotary_inertia, of);
-    add_numbers("stiffness", region.stiffness, of);
-    add_numbers("dashpot", region.dashpot, of);
+    const std::string per = region.spread == Spread::none   ? ""
+                            : region.spread == Spread::area ? "_per_area"
+                                                            : "_per_length";
+    add_numbers(("stiffness" + per).c_str(), region.stiffness, of);
+    add_numbers(("dashpot" + per).c_str(), region.dashpot, of);
     add_numbers("yield_force", region.nonlinear.yield_force, of);
     add_number("sliding_friction", region.nonlinear.friction, of);
     if (is_one_way(region)) of["one_way"] = true;

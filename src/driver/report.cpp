@@ -274,6 +274,7 @@ void print_structure(const Building& building) {
   }
   print_soil(*building.structure);
   print_absorbing(*building.structure, building.absorbing);
+  print_spread_springs(building.spread);
   if (!building.modal.method.empty()) {
     std::printf("  modes by %s\n", building.modal.method.c_str());
   }

@@ -47,6 +47,44 @@ nlohmann::ordered_json describe_absorbing(const Structure& structure,
           {"base_area", report.base_area}};
 }
 
+std::vector<SpreadReport> find_spread_springs(const Structure& structure, const GlobalMesh& mesh) {
+  std::vector<SpreadReport> found;
+  for (const ElementSet& set : mesh.regions) {
+    if (set.share.empty()) continue;
+    SpreadReport& report = found.emplace_back();
+    report.region = &structure.regions[set.region];
+    report.nodes = static_cast<std::int64_t>(set.tags.size());
+    for (const double share : set.share) report.extent += share;
+  }
+  return found;
+}
+
+void print_spread_springs(std::span<const SpreadReport> groups) {
+  for (const SpreadReport& group : groups) {
+    const Region& region = *group.region;
+    const auto& k = region.stiffness;
+    std::printf("  springs of %s, %lld nodes, spread over %.6g %s: %.4g, %.4g, %.4g N/m in all\n",
+                region.group.c_str(), static_cast<long long>(group.nodes), group.extent,
+                region.spread == Spread::area ? "m2" : "m", group.extent * k[0],
+                group.extent * k[1], group.extent * k[2]);
+  }
+}
+
+nlohmann::ordered_json describe_spread_springs(std::span<const SpreadReport> groups) {
+  nlohmann::ordered_json description = nlohmann::ordered_json::array();
+  for (const SpreadReport& group : groups) {
+    const Region& region = *group.region;
+    nlohmann::ordered_json& of = description.emplace_back(
+        nlohmann::ordered_json{{"group", region.group}, {"nodes", group.nodes}});
+    of[region.spread == Spread::area ? "area" : "length"] = group.extent;
+    for (std::size_t d = 0; d < 3; ++d) {
+      of["stiffness"].push_back(group.extent * region.stiffness[d]);
+      of["dashpot"].push_back(group.extent * region.dashpot[d]);
+    }
+  }
+  return description;
+}
+
 double largest_soil_frequency(const Soil& soil, const Foundation& foundation) {
   return largest_a0 * soil.ground.shear_velocity /
          (2 * std::numbers::pi * foundation.footprint.half_width());

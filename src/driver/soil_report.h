@@ -1,8 +1,13 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include <nlohmann/json_fwd.hpp>
 
 #include "contact/absorbing_faces.h"
+#include "mesh/global_mesh.h"
 #include "scene/scene.h"
 
 namespace pounding {
@@ -14,6 +19,22 @@ void print_absorbing(const Structure& structure, const AbsorbingReport& report);
 /// Absorbing faces of a structure for the summary, in SI.
 nlohmann::ordered_json describe_absorbing(const Structure& structure,
                                           const AbsorbingReport& report);
+
+/// A group of springs that are spread over an area or along lines.
+struct SpreadReport {
+  const Region* region = nullptr;  ///< borrowed from the structure
+  std::int64_t nodes = 0;
+  double extent = 0;  ///< [m2] or [m]
+};
+
+/// The groups of a structure whose springs are spread, in the order of its regions.
+std::vector<SpreadReport> find_spread_springs(const Structure& structure, const GlobalMesh& mesh);
+
+/// Prints over what each group is spread and its stiffness as a whole; nothing without such groups.
+void print_spread_springs(std::span<const SpreadReport> groups);
+
+/// Groups of spread springs for the summary, in SI.
+nlohmann::ordered_json describe_spread_springs(std::span<const SpreadReport> groups);
 
 /// Frequency of a0 = 2, up to which the impedances of a mat's soil are meant to hold [Hz].
 double largest_soil_frequency(const Soil& soil, const Foundation& foundation);

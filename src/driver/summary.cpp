@@ -110,6 +110,9 @@ Json describe_structure(const Building& building) {
                             {"place", building.compression->place}};
   }
   if (building.structure->soil) structure["soil"] = describe_soil(*building.structure);
+  if (!building.spread.empty()) {
+    structure["spread_springs"] = describe_spread_springs(building.spread);
+  }
   if (!building.structure->absorbing.empty()) {
     structure["absorbing"] = describe_absorbing(*building.structure, building.absorbing);
   }

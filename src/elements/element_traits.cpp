@@ -67,7 +67,8 @@ constexpr std::string_view of_spring =
     "pendulum_radius";
 constexpr std::string_view of_ground =
     "stiffness dashpot dashpot_exponent yield_force hardening yield_circle sliding_friction "
-    "pendulum_radius compression_only";
+    "pendulum_radius compression_only stiffness_per_area dashpot_per_area stiffness_per_length "
+    "dashpot_per_length";
 
 // clang-format off
 constexpr std::array table{

@@ -28,8 +28,9 @@ bool is_pressed(const LinkOrigin& origin) {
 
 namespace {
 
-std::unique_ptr<LinkLaw> dashpot_of(const Region& region, int component, double time_step) {
-  const double strength = region.dashpot[component];
+std::unique_ptr<LinkLaw> dashpot_of(const LinkOrigin& origin, double time_step) {
+  const Region& region = *origin.region;
+  const double strength = origin.share * region.dashpot[origin.component];
   const double exponent = region.nonlinear.dashpot_exponent;
   if (exponent != 1) return std::make_unique<DamperLaw>(strength, exponent, time_step);
   return std::make_unique<DashpotLaw>(strength / (2 * time_step));
@@ -39,7 +40,7 @@ std::unique_ptr<LinkLaw> dashpot_of(const Region& region, int component, double 
 std::unique_ptr<LinkLaw> stiff_law(const LinkOrigin& origin, double time_step) {
   const Region& region = *origin.region;
   const bool spring = is_spring(region.element);
-  const double stiffness = spring ? region.stiffness[origin.component]
+  const double stiffness = spring ? origin.share * region.stiffness[origin.component]
                                   : region.material.young * region.area / origin.length;
   if (region.nonlinear.radius > 0 && region.nonlinear.is_in_circle(origin.component)) {
     return std::make_unique<PendulumLaw>(stiffness, region.nonlinear.hardening,
@@ -50,7 +51,7 @@ std::unique_ptr<LinkLaw> stiff_law(const LinkOrigin& origin, double time_step) {
                                       region.nonlinear.yield_force[origin.component]);
   }
   // The elongation of a compression-only spring is how far it is pressed down.
-  const double damping = origin.beta * stiffness + (spring ? region.dashpot[2] : 0);
+  const double damping = origin.beta * stiffness + (spring ? origin.share * region.dashpot[2] : 0);
   return std::make_unique<TensionLaw>(stiffness, damping / (2 * time_step), region.nonlinear.slack);
 }
 
@@ -66,7 +67,7 @@ std::unique_ptr<LinkLaw> law_of(const LinkOrigin& origin, double time_step) {
   }
   if (origin.part == SpringPart::gauge) return std::make_unique<GaugeLaw>();
   if (is_spring(region.element) && origin.part == SpringPart::dashpot) {
-    return dashpot_of(region, origin.component, time_step);
+    return dashpot_of(origin, time_step);
   }
   auto law = stiff_law(origin, time_step);
   if (!origin.in_stiffness) return law;

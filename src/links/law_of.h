@@ -23,6 +23,7 @@ struct LinkOrigin {
   double beta = 0;            ///< stiffness damping of its structure [s]
   bool in_stiffness = false;  ///< K of its structure holds it at its tangent already
   SpringPart part = SpringPart::dashpot;
+  double share = 1;      ///< of a grounded spring, see ElementSet
   double absorbing = 0;  ///< dashpot of an absorbing face [N s/m]
 };
 

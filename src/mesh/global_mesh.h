@@ -38,6 +38,10 @@ struct ElementSet {
   ElementType type = ElementType::hex8;
   std::vector<std::int64_t> tags;         ///< as in the file
   std::vector<GlobalIndex> connectivity;  ///< shape (n_elements, nodes of the type)
+  /// Share of each element in the length [m] or area [m2] over which its region is spread; empty
+  /// where it is not. Then elements are nodes, and have their tags.
+  std::vector<double> share;
+  double share_of(std::size_t element) const { return share.empty() ? 1 : share[element]; }
 };
 
 /// Elements of a physical group, or of none (""), that are in no region of the scene.

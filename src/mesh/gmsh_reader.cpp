@@ -14,6 +14,7 @@
 #include "common/number_set.h"
 #include "elements/element.h"
 #include "mesh/element_sizes.h"
+#include "mesh/facet_shares.h"
 #include "mesh/geometry_file.h"
 #include "mesh/gmsh_process.h"
 #include "mesh/repeated_elements.h"
@@ -131,6 +132,7 @@ class MeshBuilder {
       if (!region.foundation) read_region(region);
     }
     number_nodes();
+    share_out();
     for (const auto& [name, parts] : groups_) read_group(name, parts);
     mark_components();
     add_soil(structure_, mesh_);
@@ -154,7 +156,12 @@ class MeshBuilder {
     const std::size_t before = mesh_.regions.size();
     for (const RawGroup& part : found->second) {
       for (const int entity : part.entities) {
-        read_entity(region, option, elements_on(part.dimension, entity));
+        const std::vector<RawElements>& elements = elements_on(part.dimension, entity);
+        if (region.spread == Spread::none) {
+          read_entity(region, option, elements);
+        } else {
+          read_spread(region, elements);
+        }
       }
     }
     if (mesh_.regions.size() == before) {
@@ -181,7 +188,11 @@ class MeshBuilder {
       if (!kind) {
         throw UserError("option " + option + ": group '" + region.group + "' of " +
                         structure_.mesh + " holds " + kind_of(part.type) +
-                        " elements, which do not become " + element_name(region.element));
+                        " elements, which do not become " + element_name(region.element) +
+                        (is_grounded(region.element)
+                             ? "; spread it, -" + structure_.name + "_" + region.group +
+                                   "_stiffness_per_area or _per_length"
+                             : ""));
       }
       ElementSet& set = set_of(region, *kind);
       for (const std::int64_t tag : part.tags) {
@@ -196,6 +207,63 @@ class MeshBuilder {
       }
       set.connectivity.insert(set.connectivity.end(), part.nodes.begin(), part.nodes.end());
     }
+  }
+
+  /// Facets or edges over which a region is spread, by the tags of their nodes.
+  void read_spread(const Region& region, const std::vector<RawElements>& parts) {
+    const bool area = region.spread == Spread::area;
+    const std::string option = "-" + structure_.name + "_" + region.group +
+                               (area ? "_stiffness_per_area" : "_stiffness_per_length");
+    for (const RawElements& part : parts) {
+      if (area ? part.type != 2 && part.type != 3 : part.type != 1) {
+        throw UserError(
+            "option " + option + ": group '" + region.group + "' of " + structure_.mesh +
+            " holds " + kind_of(part.type) + " elements; " +
+            (area ? "it takes triangles and quadrangles" : "it takes lines of two nodes"));
+      }
+      ElementSet& set = set_of(region, region.element);
+      SpreadFacets& spread = spread_[&set - mesh_.regions.data()];
+      const std::size_t width = part.nodes.size() / std::max<std::size_t>(1, part.tags.size());
+      for (std::size_t e = 0; e < part.tags.size(); ++e) {
+        if (!seen_[1].insert(part.tags[e])) {
+          throw UserError("option " + option + ": element " + std::to_string(part.tags[e]) +
+                          " of group '" + region.group +
+                          "' stands twice in it, or already carries springs of another region of " +
+                          structure_.name + "; name each element once");
+        }
+        Facet facet;
+        facet.count = static_cast<int>(width);
+        std::copy_n(&part.nodes[e * width], width, facet.nodes.begin());
+        spread.push_back(facet);
+      }
+      set.tags.insert(set.tags.end(), part.nodes.begin(), part.nodes.end());
+      std::ranges::sort(set.tags);
+      const auto rest = std::ranges::unique(set.tags);
+      set.tags.erase(rest.begin(), rest.end());
+      set.connectivity.assign(set.tags.begin(), set.tags.end());
+    }
+  }
+
+  /// Share of each node in the length or area over which its region is spread.
+  void share_out() {
+    for (auto& [number, facets] : spread_) {
+      ElementSet& set = mesh_.regions[static_cast<std::size_t>(number)];
+      set.share.assign(set.tags.size(), 0.0);
+      for (Facet& facet : facets) {
+        std::array<std::size_t, 4> places{};
+        for (int a = 0; a < facet.count; ++a) {
+          GlobalIndex& node = facet.nodes[static_cast<std::size_t>(a)];
+          const auto found = std::ranges::lower_bound(set.tags, node);
+          places[static_cast<std::size_t>(a)] = static_cast<std::size_t>(found - set.tags.begin());
+          node = used_.place(node);
+        }
+        const std::array<double, 4> shares = facet_shares(mesh_, facet);
+        for (std::size_t a = 0; a < static_cast<std::size_t>(facet.count); ++a) {
+          set.share[places[a]] += shares[a];
+        }
+      }
+    }
+    spread_.clear();
   }
 
   /// The set of this kind in the region that is being read.
@@ -305,6 +373,8 @@ class MeshBuilder {
   Groups groups_;
   std::map<std::pair<int, int>, const RawEntity*> entities_;  ///< by dimension and tag
   GlobalMesh mesh_;
+  using SpreadFacets = std::vector<Facet>;
+  std::map<std::ptrdiff_t, SpreadFacets> spread_;  ///< by set; nodes by their tags as yet
   NumberSet used_;                 ///< tags of nodes: the place of one is its number in mesh_
   std::array<NumberSet, 2> seen_;  ///< tags of elements, of springs
 };

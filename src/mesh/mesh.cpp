@@ -21,7 +21,9 @@ struct Parcel {
   std::vector<double> coordinates;
   std::vector<std::uint8_t> free_components;
   std::vector<GlobalIndex> global_dof;
-  std::vector<GlobalIndex> region;  ///< per set: type, region, global count, elements here
+  std::vector<GlobalIndex> region;  ///< per set: type, region, global count, elements here,
+                                    ///< whether these have a share
+  std::vector<double> share;        ///< of the elements of sets that have one
   std::vector<char> names;          ///< of the regions, zero-terminated
   std::vector<std::int64_t> tags;
   std::vector<LocalIndex> connectivity;
@@ -35,6 +37,7 @@ struct Parcel {
     function(free_components);
     function(global_dof);
     function(region);
+    function(share);
     function(names);
     function(tags);
     function(connectivity);
@@ -195,7 +198,9 @@ class Cutter {
     for (const Element& element : elements) {
       const auto corners = corners_of(element);
       ++here[element.set];
-      out.tags.push_back(mesh_.regions[element.set].tags[element.number]);
+      const ElementSet& set = mesh_.regions[element.set];
+      out.tags.push_back(set.tags[element.number]);
+      if (!set.share.empty()) out.share.push_back(set.share[element.number]);
       // Counted where its first node is owned: that rank surely holds the element.
       out.counted.push_back(node_owner_[corners[0]] == part ? 1 : 0);
       for (const GlobalIndex node : corners) out.connectivity.push_back(local(node, part, ghosts));
@@ -203,7 +208,8 @@ class Cutter {
     for (std::size_t s = 0; s < mesh_.regions.size(); ++s) {
       const ElementSet& set = mesh_.regions[s];
       out.region.insert(out.region.end(), {static_cast<GlobalIndex>(set.type), set.region,
-                                           static_cast<GlobalIndex>(set.tags.size()), here[s]});
+                                           static_cast<GlobalIndex>(set.tags.size()), here[s],
+                                           static_cast<GlobalIndex>(set.share.empty() ? 0 : 1)});
       out.names.insert(out.names.end(), set.group.begin(), set.group.end());
       out.names.push_back('\0');
     }
@@ -249,8 +255,9 @@ Mesh unpack(MPI_Comm comm, const std::string& name, Parcel&& parcel) {
             [&](LocalIndex a, LocalIndex b) { return mesh.file_node[a] < mesh.file_node[b]; });
   std::size_t element = 0;
   std::size_t corner = 0;
+  std::size_t shared = 0;
   const char* text = parcel.names.data();
-  for (std::size_t r = 0; r < parcel.region.size(); r += 4) {
+  for (std::size_t r = 0; r < parcel.region.size(); r += 5) {
     ElementBlock block;
     block.group = text;
     text += block.group.size() + 1;
@@ -266,6 +273,10 @@ Mesh unpack(MPI_Comm comm, const std::string& name, Parcel&& parcel) {
     block.tags = from(parcel.tags, element, count);
     block.counted = from(parcel.counted, element, count);
     block.connectivity = from(parcel.connectivity, corner, corners);
+    if (parcel.region[r + 4] != 0) {
+      block.share = from(parcel.share, shared, count);
+      shared += count;
+    }
     element += count;
     corner += corners;
     mesh.blocks.push_back(std::move(block));

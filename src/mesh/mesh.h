@@ -20,9 +20,11 @@ struct ElementBlock {
   std::vector<LocalIndex> connectivity;  ///< shape (n_elements, nodes of the type), local nodes
   std::vector<std::uint8_t> counted;     ///< 1 on the one rank that counts the element
   GlobalIndex global_count = 0;          ///< elements of the region over all ranks
+  std::vector<double> share;             ///< of each element, see ElementSet
   /// Axial force at rest of each beam or bar, tension above 0 [N]; empty without P-Delta.
   std::vector<double> axial_force;
   std::size_t count() const { return tags.size(); }
+  double share_of(std::size_t element) const { return share.empty() ? 1 : share[element]; }
 };
 
 /// Nodes that move together. One rank owns them all.

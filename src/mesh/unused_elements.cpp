@@ -38,6 +38,7 @@ class Search {
   Search(const RawMesh& raw, const GlobalMesh& mesh) : raw_(raw), mesh_(mesh) {
     for (const ElementSet& set : mesh.regions) {
       regions_.insert(set.group);
+      if (!set.share.empty()) continue;  // these are nodes
       for (const std::int64_t tag : set.tags) in_use_.insert(tag);
     }
     for (const RawType& type : raw.types) types_[type.type] = &type;

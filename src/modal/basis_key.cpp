@@ -29,6 +29,7 @@ std::string hash_of(const GlobalMesh& mesh) {
     hash.add(set.group);
     hash.add(static_cast<double>(set.type));
     hash.add_all(set.connectivity);
+    if (!set.share.empty()) hash.add_all(set.share);
   }
   return hash.text();
 }

@@ -43,18 +43,24 @@ struct Rayleigh {
   double beta = 0;   ///< [s]
 };
 
+/// Extent over which a region spreads what it gives: at each of its points all of it, or per length
+/// of its lines or area of its surfaces.
+enum class Spread : std::uint8_t { none, length, area };
+
 /// A physical group of the mesh and the element that the user gives it.
 struct Region {
   std::string group;
   ElementType element = ElementType::hex8;
   Material material;
-  std::optional<Section> section;        ///< beams
-  double area = 0;                       ///< bars [m2]
-  double thickness = 0;                  ///< shells [m]
-  double rotary_inertia_factor = 0;      ///< shells [-], see elements/flat_shell.h
-  double added_mass = 0;                 ///< shells [kg/m2], beams and bars [kg/m]
-  double mass = 0;                       ///< point masses, at each node of the group [kg]
-  Vector3 rotary_inertia{0, 0, 0};       ///< point masses [kg m2]
+  std::optional<Section> section;    ///< beams
+  double area = 0;                   ///< bars [m2]
+  double thickness = 0;              ///< shells [m]
+  double rotary_inertia_factor = 0;  ///< shells [-], see elements/flat_shell.h
+  double added_mass = 0;             ///< shells [kg/m2], beams and bars [kg/m]
+  double mass = 0;                   ///< point masses, at each node of the group [kg]
+  Vector3 rotary_inertia{0, 0, 0};   ///< point masses [kg m2]
+  /// Grounded springs: `stiffness` and `dashpot` are per length or area then.
+  Spread spread = Spread::none;
   std::array<double, 6> stiffness{};     ///< springs: along and about x, y, z [N/m, N m]
   std::array<double, 6> dashpot{};       ///< springs [N s/m, N m s]
   bool compression_only = false;         ///< grounded springs: along z they push up only

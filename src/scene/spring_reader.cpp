@@ -82,6 +82,40 @@ std::array<double, 6> read_six(OptionReader& options, std::string_view pattern,
   return result;
 }
 
+/// How springs are spread, by the options given.
+Spread spread_of(const OptionReader& options, const Names& names) {
+  const auto has = [&](const std::string& extent) {
+    return options.given("<structure>_<group>_stiffness_per_" + extent, names) ||
+           options.given("<structure>_<group>_dashpot_per_" + extent, names);
+  };
+  if (has("area") && has("length")) {
+    options.refuse("<structure>_<group>_stiffness_per_length", names,
+                   "not beside those per area; a group is of lines or of surfaces");
+  }
+  if (has("area")) return Spread::area;
+  return has("length") ? Spread::length : Spread::none;
+}
+
+/// Stiffness and dashpots per length or area: of linear springs along x, y, z.
+void read_spread(OptionReader& options, const Names& names, Region& region) {
+  const std::string extent = region.spread == Spread::area ? "area" : "length";
+  const std::string stiffness = "<structure>_<group>_stiffness_per_" + extent;
+  for (const std::string_view other :
+       {std::string_view("<structure>_<group>_stiffness"),
+        std::string_view("<structure>_<group>_dashpot"), yield_force, hardening, yield_circle,
+        sliding_friction, radius, exponent}) {
+    options.forbid(other, names, "not beside -" + option_name(stiffness, names));
+  }
+  std::ranges::copy(options.reals(stiffness, names, 3), region.stiffness.begin());
+  std::ranges::copy(options.reals("<structure>_<group>_dashpot_per_" + extent, names, 3),
+                    region.dashpot.begin());
+  const auto is_zero = [](double value) { return value == 0; };
+  if (std::ranges::all_of(region.stiffness, is_zero) &&
+      std::ranges::all_of(region.dashpot, is_zero)) {
+    options.refuse(stiffness, names, "all zero, and no dashpots; leave the group out");
+  }
+}
+
 /// Where a spring yields and how its dashpots go, beside stiffness and dashpots read already.
 void read_nonlinear_spring(OptionReader& options, const Names& names, Region& region) {
   NonlinearSpring& spring = region.nonlinear;
@@ -108,9 +142,14 @@ void read_nonlinear_spring(OptionReader& options, const Names& names, Region& re
 }  // namespace
 
 void read_spring(OptionReader& options, const Names& names, Region& region) {
-  region.stiffness = read_six(options, "<structure>_<group>_stiffness", names);
-  region.dashpot = read_six(options, "<structure>_<group>_dashpot", names);
-  read_nonlinear_spring(options, names, region);
+  region.spread = spread_of(options, names);
+  if (region.spread != Spread::none) {
+    read_spread(options, names, region);
+  } else {
+    region.stiffness = read_six(options, "<structure>_<group>_stiffness", names);
+    region.dashpot = read_six(options, "<structure>_<group>_dashpot", names);
+    read_nonlinear_spring(options, names, region);
+  }
   if (takes(traits_of(region.element), "compression_only")) {
     region.compression_only = options.boolean("<structure>_<group>_compression_only", names);
   }

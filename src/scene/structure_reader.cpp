@@ -30,7 +30,8 @@ void forbid_others(const OptionReader& options, const std::string& element, cons
   constexpr std::string_view properties =
       "area dashpot dashpot_exponent hardening mass mass_per_area mass_per_length material "
       "rotary_inertia rotary_inertia_factor section compression_only slack sliding_friction "
-      "pendulum_radius stiffness tension_only thickness yield_circle yield_force";
+      "pendulum_radius stiffness stiffness_per_area stiffness_per_length dashpot_per_area "
+      "dashpot_per_length tension_only thickness yield_circle yield_force";
   for (const std::string& property : split(properties, ' ')) {
     if (!takes(traits_of(element_of_word(element)), property)) {
       options.forbid("<structure>_<group>_" + property, names,
@@ -297,8 +298,10 @@ void forbid_damping_of_regions(const OptionReader& options, const Structure& str
   for (const Region& region : structure.regions) {
     const OptionReader::Names names{structure.name, region.group};
     const bool dashpot = std::ranges::any_of(region.dashpot, [](double rate) { return rate > 0; });
-    if (dashpot) {
-      options.forbid("<structure>_<group>_dashpot", names, remedy + "give 0 or nothing here");
+    for (const char* option : {"dashpot", "dashpot_per_area", "dashpot_per_length"}) {
+      if (!dashpot) break;
+      options.forbid(std::string("<structure>_<group>_") + option, names,
+                     remedy + "give 0 or nothing here");
     }
     const Rayleigh own = structure.damping_of(region);
     if (own.alpha != structure.damping.alpha || own.beta != structure.damping.beta) {

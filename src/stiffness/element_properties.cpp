@@ -2,7 +2,7 @@
 
 namespace pounding {
 
-ElementProperties element_properties(const Region& region) {
+ElementProperties element_properties(const Region& region, double share) {
   ElementProperties properties;
   properties.young = region.material.young;
   properties.poisson = region.material.poisson;
@@ -13,8 +13,10 @@ ElementProperties element_properties(const Region& region) {
   properties.added_mass = region.added_mass;
   properties.mass = region.mass;
   properties.rotary_inertia = region.rotary_inertia;
-  properties.stiffness = region.stiffness;
-  properties.dashpot = region.dashpot;
+  for (std::size_t c = 0; c < region.stiffness.size(); ++c) {
+    properties.stiffness[c] = share * region.stiffness[c];
+    properties.dashpot[c] = share * region.dashpot[c];
+  }
   if (region.foundation) properties.arm = region.foundation->arm;
   for (std::size_t c = 0; is_spring(region.element) && c < properties.stiffness.size(); ++c) {
     if (region.nonlinear.yields(c)) properties.stiffness[c] = 0;  // a law holds it

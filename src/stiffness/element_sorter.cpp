@@ -233,8 +233,8 @@ SparseRows ElementSorter::sparse_rows() const {
     }
     const std::size_t nodes = element_layout(block.type).nodes;
     element_matrices(block.type, {work_.coordinates.data(), 3 * nodes},
-                     element_properties(structure_.regions[block.region]), stiffness,
-                     {work_.mass.data(), size});
+                     element_properties(structure_.regions[block.region], block.share_of(e)),
+                     stiffness, {work_.mass.data(), size});
     if (!block.axial_force.empty()) {
       add_geometric_stiffness(block.type, {work_.coordinates.data(), 3 * nodes},
                               element_properties(structure_.regions[block.region]),

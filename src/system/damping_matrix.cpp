@@ -25,9 +25,10 @@ MatHandle dashpot_matrix(const Structure& structure, const Mesh& mesh) {
     if (!has_dashpots(block)) continue;
     const ElementLayout layout = element_layout(block.type);
     const std::size_t size = layout.size();
-    element_dashpots(block.type, element_properties(structure.regions[block.region]),
-                     {values.data(), size * size});
     for (std::size_t e = 0; e < block.count(); ++e) {
+      element_dashpots(block.type,
+                       element_properties(structure.regions[block.region], block.share_of(e)),
+                       {values.data(), size * size});
       const auto dofs = element_dofs(mesh, block, e, layout);
       std::array<PetscInt, max_element_size> rows{};
       std::array<PetscInt, max_element_size> columns{};

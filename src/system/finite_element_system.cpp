@@ -91,7 +91,7 @@ class Assembly {
     };
     if (matrix_.get() != nullptr && is_linear(block.type)) insert(matrix_, work.stiffness.data());
     const Region& region = structure_.regions[block.region];
-    add_law_stiffness(region, layout, work);
+    add_law_stiffness(region, block.share_of(element), layout, work);
     if (taut_.get() != nullptr) insert(taut_, work.stiffness.data());
     const double scaling = added_mass_.add(block, element, region, stiffness, mass);
     // Elements that a rigid body holds altogether never strain.
@@ -113,7 +113,7 @@ class Assembly {
   }
 
   /// Adds the stiffness that laws of springs hold, at its largest.
-  static void add_law_stiffness(const Region& region, const ElementLayout& layout,
+  static void add_law_stiffness(const Region& region, double share, const ElementLayout& layout,
                                 ElementWork& work) {
     if (!is_spring(region.element)) return;
     const std::size_t size = layout.size();
@@ -123,7 +123,7 @@ class Assembly {
       if (!pressed && !region.nonlinear.yields(c)) continue;
       for (std::size_t i = c; i < size; i += components) {
         for (std::size_t j = c; j < size; j += components) {
-          work.stiffness[i * size + j] += (i == j ? 1 : -1) * region.stiffness[c];
+          work.stiffness[i * size + j] += (i == j ? share : -share) * region.stiffness[c];
         }
       }
     }

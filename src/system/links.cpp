@@ -112,6 +112,7 @@ void Links::add_springs(const Structure& structure, const Mesh& mesh, const Elem
     Link link;
     link.number = block.tags[element];
     link.origin = {&region, static_cast<int>(c), 0, 0, false, part};
+    link.origin.share = block.share_of(element);
     const bool pressed = is_pressed(link.origin);
     if (pressed) link.origin.beta = reduced ? 0 : structure.damping.beta;
     link.origin.in_stiffness = reduced && part == SpringPart::stiffness;

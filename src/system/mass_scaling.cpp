@@ -109,9 +109,9 @@ class Decision {
   Decision(const Structure& structure, const GlobalMesh& mesh)
       : structure_(structure), mesh_(mesh) {}
 
-  bool scales(const ElementSet& set, std::span<const GlobalIndex> nodes) {
+  bool scales(const ElementSet& set, std::size_t element, std::span<const GlobalIndex> nodes) {
     const Region& region = structure_.regions[set.region];
-    const ElementProperties properties = element_properties(region);
+    const ElementProperties properties = element_properties(region, set.share_of(element));
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       const Vector3 x = mesh_.position(nodes[a]);
       std::copy(x.begin(), x.end(), &coordinates_[3 * a]);
@@ -179,7 +179,7 @@ std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalM
     for (std::size_t e = 0; looked_at && e < set.tags.size(); ++e) {
       const std::span<const GlobalIndex> nodes(&set.connectivity[e * width], width);
       const bool scaled =
-          is_linear(set.type) && scaling && !meets_rigid(nodes) && decision.scales(set, nodes);
+          is_linear(set.type) && scaling && !meets_rigid(nodes) && decision.scales(set, e, nodes);
       if (links || scaled) couplings.join(nodes, scaled);
     }
   }

@@ -223,14 +223,13 @@ StepPlan plan_step(const Structure& structure, const Mesh& mesh) {
   bool feasible = true;
   for (const ElementBlock& block : mesh.blocks) {
     const Region& region = structure.regions[block.region];
-    const ElementProperties properties = element_properties(region);
     const std::size_t size = element_layout(block.type).size();
     feasible = feasible && structure.mass_scaling * structure.damping_of(region).alpha < 2;
     for (std::size_t e = 0; feasible && e < block.count(); ++e) {
       const std::span<double> stiffness(work.stiffness.data(), size * size);
       const std::span<double> mass(work.mass.data(), size);
-      element_matrices(block.type, gather_coordinates(mesh, block, e, work), properties, stiffness,
-                       mass);
+      element_matrices(block.type, gather_coordinates(mesh, block, e, work),
+                       element_properties(region, block.share_of(e)), stiffness, mass);
       if (is_shell(block.type)) {
         feasible = inertia.add(block, e, work);
       } else if (traits_of(block.type).scalable) {
