@@ -6,8 +6,8 @@
 namespace pounding::oscillator {
 namespace {
 
-/// Of an acceleration that is linear between samples, the velocity between them exceeds that at
-/// both by no more than an eighth of the change of the acceleration.
+/// Part of the largest |h^2 a| by which the velocity between two samples may exceed that at both:
+/// an eighth of the change of an acceleration that is linear between them.
 constexpr double between_samples = 0.25;
 
 Stretch stretch_of(std::span<const double> acceleration, double h2, std::size_t first,
