@@ -163,8 +163,7 @@ class CheckpointReader {
                       std::size_t first) const {
     const auto bad = std::ranges::find_if(values, [](double v) { return !std::isfinite(v); });
     if (bad == values.end()) return;
-    const Hdf5Reader& file = file_ ? *file_ : *mine_;
-    const std::size_t columns = std::max<std::size_t>(1, file.shape(place).columns);
+    const std::size_t columns = std::max<std::size_t>(1, file_->shape(place).columns);
     refuse("'" + place + "' holds " + std::to_string(*bad) + " in row " +
            std::to_string(first + static_cast<std::size_t>(bad - values.begin()) / columns + 1) +
            "; the file was changed");
@@ -174,8 +173,8 @@ class CheckpointReader {
   std::vector<double> read_block(const std::string& place, const FileBlocks& blocks) {
     std::vector<double> block;
     on_every_rank([&] {
-      if (!mine_) mine_.emplace(path_);
-      block = mine_->rows(place, static_cast<std::size_t>(blocks.first()), blocks.count());
+      if (!file_) file_.emplace(path_);
+      block = file_->rows(place, static_cast<std::size_t>(blocks.first()), blocks.count());
       require_finite(place, block, static_cast<std::size_t>(blocks.first()));
     });
     return block;
@@ -250,8 +249,7 @@ class CheckpointReader {
 
   MPI_Comm comm_;
   std::string path_;
-  std::optional<Hdf5Reader> file_;  ///< on rank 0, which found it sound
-  std::optional<Hdf5Reader> mine_;  ///< on every rank that read of it
+  std::optional<Hdf5Reader> file_;  ///< on rank 0, which found it sound, then where it is read
 };
 
 }  // namespace
