@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "elements/element_traits.h"
+#include "scene/spread_words.h"
 
 namespace pounding {
 namespace {
@@ -48,9 +49,7 @@ Json describe_regions(const Structure& structure) {
     add_number("added_mass", region.added_mass, of);
     add_number("mass", region.mass, of);
     add_numbers("rotary_inertia", region.rotary_inertia, of);
-    const std::string per = region.spread == Spread::none   ? ""
-                            : region.spread == Spread::area ? "_per_area"
-                                                            : "_per_length";
+    const std::string per = per_extent(region.spread);
     add_numbers(("stiffness" + per).c_str(), region.stiffness, of);
     add_numbers(("dashpot" + per).c_str(), region.dashpot, of);
     add_numbers("yield_force", region.nonlinear.yield_force, of);

@@ -22,6 +22,7 @@
 #include "mesh/soil_node.h"
 #include "mesh/tied_nodes.h"
 #include "mesh/unused_elements.h"
+#include "scene/spread_words.h"
 
 namespace pounding {
 namespace {
@@ -212,8 +213,8 @@ class MeshBuilder {
   /// Facets or edges over which a region is spread, by the tags of their nodes.
   void read_spread(const Region& region, const std::vector<RawElements>& parts) {
     const bool area = region.spread == Spread::area;
-    const std::string option = "-" + structure_.name + "_" + region.group +
-                               (area ? "_stiffness_per_area" : "_stiffness_per_length");
+    const std::string option =
+        "-" + structure_.name + "_" + region.group + "_stiffness" + per_extent(region.spread);
     for (const RawElements& part : parts) {
       if (area ? part.type != 2 && part.type != 3 : part.type != 1) {
         throw UserError(

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene/option_table.h"
+#include "scene/spread_words.h"
 
 namespace pounding {
 namespace {
@@ -84,22 +85,22 @@ std::array<double, 6> read_six(OptionReader& options, std::string_view pattern,
 
 /// How springs are spread, by the options given.
 Spread spread_of(const OptionReader& options, const Names& names) {
-  const auto has = [&](const std::string& extent) {
-    return options.given("<structure>_<group>_stiffness_per_" + extent, names) ||
-           options.given("<structure>_<group>_dashpot_per_" + extent, names);
+  const auto has = [&](Spread spread) {
+    return options.given("<structure>_<group>_stiffness" + per_extent(spread), names) ||
+           options.given("<structure>_<group>_dashpot" + per_extent(spread), names);
   };
-  if (has("area") && has("length")) {
+  if (has(Spread::area) && has(Spread::length)) {
     options.refuse("<structure>_<group>_stiffness_per_length", names,
                    "not beside those per area; a group is of lines or of surfaces");
   }
-  if (has("area")) return Spread::area;
-  return has("length") ? Spread::length : Spread::none;
+  if (has(Spread::area)) return Spread::area;
+  return has(Spread::length) ? Spread::length : Spread::none;
 }
 
 /// Stiffness and dashpots per length or area: of linear springs along x, y, z.
 void read_spread(OptionReader& options, const Names& names, Region& region) {
-  const std::string extent = region.spread == Spread::area ? "area" : "length";
-  const std::string stiffness = "<structure>_<group>_stiffness_per_" + extent;
+  const std::string per = per_extent(region.spread);
+  const std::string stiffness = "<structure>_<group>_stiffness" + per;
   for (const std::string_view other :
        {std::string_view("<structure>_<group>_stiffness"),
         std::string_view("<structure>_<group>_dashpot"), yield_force, hardening, yield_circle,
@@ -107,7 +108,7 @@ void read_spread(OptionReader& options, const Names& names, Region& region) {
     options.forbid(other, names, "not beside -" + option_name(stiffness, names));
   }
   std::ranges::copy(options.reals(stiffness, names, 3), region.stiffness.begin());
-  std::ranges::copy(options.reals("<structure>_<group>_dashpot_per_" + extent, names, 3),
+  std::ranges::copy(options.reals("<structure>_<group>_dashpot" + per, names, 3),
                     region.dashpot.begin());
   const auto is_zero = [](double value) { return value == 0; };
   if (std::ranges::all_of(region.stiffness, is_zero) &&
