@@ -78,9 +78,8 @@ Forces::Forces(MPI_Comm comm, const Scene& scene, const Model& model)
           add(total_rows(scene.structures[s], model.meshes[s], force, model.forces[i], first));
         }
         if (cut) continue;
-        totals_.push_back({s, first,
-                           std::make_unique<TotalForce>(force, model.systems[s], model.meshes[s],
-                                                        model.time_step)});
+        totals_.push_back(
+            {s, first, std::make_unique<TotalForce>(force, model.systems[s], model.meshes[s])});
       }
     });
     if (rows.empty()) continue;
@@ -127,9 +126,12 @@ void Forces::lay_out(const Scene& scene, const Model& model) {
   peaks_.assign(next, {});
 }
 
+void Forces::watch(CdLagrange& stepper) const {
+  for (const Total& total : totals_) stepper.watch_forces(total.structure, total.force->dofs());
+}
+
 void Forces::begin(const State& state) {
   std::ranges::fill(part_, 0.0);
-  for (Total& total : totals_) total.force->begin(state.structures[total.structure]);
   for (Elements& of : elements_) {
     of.forces->add(state.structures[of.structure].displacement, state.supports.displacement, part_);
   }
@@ -138,7 +140,7 @@ void Forces::begin(const State& state) {
 void Forces::end(const CdLagrange& stepper) {
   for (const Total& total : totals_) {
     Wrench sum{};
-    total.force->add(stepper.state().structures[total.structure],
+    total.force->add(stepper.state().structures[total.structure], stepper.forces(total.structure),
                      stepper.link_step(total.structure), sum);
     for (std::size_t k = 0; k < sum.size(); ++k) part_[total.first + k] += sum[k];
   }

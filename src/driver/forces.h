@@ -44,7 +44,9 @@ class Forces {
   /// Their unit, in words.
   const std::string& unit() const { return unit_; }
 
-  /// Before the step to t_n that is sampled. Local.
+  /// Tells the stepper whose forces are asked for. Before the first step. Local.
+  void watch(CdLagrange& stepper) const;
+  /// Before the step to t_n that is sampled, which is asked for forces. Local.
   void begin(const State& state);
   /// After it; on rank 0 `values` has the columns with a history then. Collective.
   void end(const CdLagrange& stepper);

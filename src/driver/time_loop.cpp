@@ -131,7 +131,10 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
   const StopSignal stop_signal;
   progress_ = std::make_unique<RunProgress>(is_watched(), scene_.progress_interval);
   if (!scene_.loops.empty()) loops_ = std::make_unique<Loops>(comm_, scene_, model_, solver_);
-  if (!scene_.forces.empty()) forces_ = std::make_unique<Forces>(comm_, scene_, model_);
+  if (!scene_.forces.empty()) {
+    forces_ = std::make_unique<Forces>(comm_, scene_, model_);
+    forces_->watch(solver_.stepper());
+  }
   create_recorder(restart != nullptr);
   fields_ = make_field_writer(comm_, scene_, model_, solver_.contact(), restart != nullptr);
   if (restart != nullptr) load(*restart);
@@ -147,7 +150,7 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
     if (fields_ && fields_->due(n)) fields_->take_displacements(solver_.stepper().state());
     if (records && forces_) forces_->begin(solver_.stepper().state());
     watch_slides(n);
-    solver_.stepper().step(records && n % gap_stride_ == 0, ledger);
+    solver_.stepper().step(records && n % gap_stride_ == 0, ledger, records && forces_);
     observe(n);
     if (fields_) observe_fields(n);
     if (ledger) close_ledger_line();

@@ -1,13 +1,11 @@
 #include "driver/total_forces.h"
 
-#include "dynamics/structure_step.h"
 #include "system/links.h"
 
 namespace pounding {
 
-TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const Mesh& mesh,
-                       double time_step)
-    : system_(system), time_step_(time_step), point_(item.point()) {
+TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const Mesh& mesh)
+    : point_(item.point()) {
   std::vector<Counted> of_dof(mesh.owned_dofs, {-1, 0, {}});
   for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
     const Vector3 x = mesh.position(node);
@@ -32,37 +30,22 @@ TotalForce::TotalForce(const ForceItem& item, const LinearSystem& system, const 
   }
 }
 
-Wrench TotalForce::sum(std::span<const double> force) const {
-  Wrench total{};
-  for (const Counted& counted : counted_) add_force(counted, force[counted.dof], total);
-  return total;
+std::vector<LocalIndex> TotalForce::dofs() const {
+  std::vector<LocalIndex> dofs;
+  for (const Counted& counted : counted_) dofs.push_back(counted.dof);
+  return dofs;
 }
 
-void TotalForce::begin(const StructureState& state) {
-  before_ = sum(state.stiffness_displacement);
-}
-
-void TotalForce::add(const StructureState& state, const LinkStep* links, Wrench& total) const {
-  const auto take = [&total](double factor, const Wrench& part) {
-    for (std::size_t k = 0; k < part.size(); ++k) total[k] -= factor * part[k];
-  };
-  if (!counted_.empty()) {
-    const Wrench now = sum(state.stiffness_displacement);
-    if (state.filtered.empty()) {
-      const double share = system_.damping.beta / time_step_;  // K v- = (K u_n - K u_{n-1}) / dt
-      take(1 + share, now);
-      take(-share, before_);
-    } else {
-      const Filters<double> filters = filters_of(system_, time_step_);
-      take(filters.at_once, now);
-      for (std::size_t i = 0; i < filters.count; ++i) {
-        take(-filters.filters[i].weight, sum(state.filtered[i]));
-      }
-    }
-    if (!state.extra_force.empty()) take(1, sum(state.extra_force));
+void TotalForce::add(const StructureState& state, const KeptForces& forces, const LinkStep* links,
+                     Wrench& total) const {
+  for (const Counted& counted : counted_) {
+    double force = forces.at(counted.dof).acting;
+    if (!state.extra_force.empty()) force += state.extra_force[counted.dof];
+    add_force(counted, -force, total);
   }
   for (std::size_t b = 0; links != nullptr && b < links_.size(); ++b) {
-    take(links->force(b), links_[b]);
+    const double force = links->force(b);
+    for (std::size_t k = 0; k < total.size(); ++k) total[k] -= force * links_[b][k];
   }
 }
 

@@ -25,12 +25,14 @@ class TotalForce {
  public:
   /// Finds what it counts at full order; of a structure in generalised coordinates only what links
   /// do. References must outlive this object. Local.
-  TotalForce(const ForceItem& item, const LinearSystem& system, const Mesh& mesh, double time_step);
+  TotalForce(const ForceItem& item, const LinearSystem& system, const Mesh& mesh);
 
-  /// Before the step to t_n.
-  void begin(const StructureState& state);
-  /// Adds this rank's part of R after it; `links` may be null.
-  void add(const StructureState& state, const LinkStep* links, Wrench& total) const;
+  /// The owned dofs whose forces `add` asks for.
+  std::vector<LocalIndex> dofs() const;
+  /// Adds this rank's part of R after the step to t_n; `forces`: those of the step; `links` may be
+  /// null.
+  void add(const StructureState& state, const KeptForces& forces, const LinkStep* links,
+           Wrench& total) const;
 
  private:
   /// A dof that is counted, and where it is.
@@ -42,15 +44,9 @@ class TotalForce {
   void add_force(const Counted& counted, double force, Wrench& total) const {
     add_unit_force(point_, counted.place, counted.component, force, total);
   }
-  /// Sum over the counted dofs of a nodal force.
-  Wrench sum(std::span<const double> force) const;
-
-  const LinearSystem& system_;
-  double time_step_;
   Vector3 point_;
   std::vector<Counted> counted_;  ///< empty in generalised coordinates
   std::vector<Wrench> links_;     ///< per link of this rank, of a unit force of it
-  Wrench before_{};               ///< of K u_{n-1}
 };
 
 }  // namespace pounding

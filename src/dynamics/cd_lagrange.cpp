@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "common/memory.h"
 #include "common/parallel.h"
 
 namespace pounding {
@@ -37,11 +38,10 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
                               ? std::make_unique<LinkStep>(systems_[s], state, structure_steps_[s],
                                                            supports_, time_step)
                               : nullptr);
-    StoredForces store(state.stiffness_displacement.data());  // K u_0
-    systems_[s].stiffness->apply({state.displacement.data(), state.displacement.data(), 0}, store);
-    for (std::vector<double>& filtered : state.filtered) {
-      filtered = state.stiffness_displacement;  // as after standing like this for ever
-    }
+    stiffness_velocity_.push_back(zeros_on_large_pages(state.velocity.size()));
+    start_filters(systems_[s], time_step, state);
+    if (fillers_ != nullptr) structure_steps_[s].watch(fillers_->rows().trace(s).dofs(), true);
+    if (contact_ != nullptr) structure_steps_[s].watch(contact_->trace(s).dofs(), false);
   }
   for (std::size_t s = 0; contact_ != nullptr && s < systems_.size(); ++s) {
     const std::size_t dofs = contact_->trace(s).dofs().size();
@@ -50,7 +50,7 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
   }
 }
 
-void CdLagrange::step(bool look_at_gap, bool with_energies) {
+void CdLagrange::step(bool look_at_gap, bool with_energies, bool with_forces) {
   force_duration_ = state_.step == 0 ? time_step_ / 2 : time_step_;
   const double time = static_cast<double>(state_.step) * time_step_;
   motion_.evaluate(time, acceleration_);
@@ -60,7 +60,8 @@ void CdLagrange::step(bool look_at_gap, bool with_energies) {
 
   detect_contact(look_at_gap);  // A = { i : g_i(u_n) <= g_tol }
   if (fillers_ != nullptr) measure_fillers();
-  free_velocity(with_energies);  // v_free = v- + dt (g - iota a_g - alpha v-) - dt M^-1 (K w + x)
+  free_velocity(with_energies,  // v_free = v- + dt (g - iota a_g - alpha v-) - dt M^-1 (K w + x)
+                with_forces || touching_);
   if (fillers_ != nullptr) press_fillers();
   if (touching_) {
     solve_impulse();     // 0 <= lambda _|_ H lambda + L v_free >= 0   on A
@@ -97,16 +98,23 @@ void CdLagrange::detect_contact(bool look_at_gap) {
   watch_.looked(state_.step, contact_->smallest_gap() - contact_->gap_tolerance(), touching_);
 }
 
-void CdLagrange::free_velocity(bool with_energies) {
+void CdLagrange::free_velocity(bool with_energies, bool with_forces) {
   const ScopedEvent event(events_.free_velocity);
   const ScopedTimer timer(profile_, Phase::step);
   const bool first = state_.step == 0;
+  with_energies = with_energies || energy_.needs_energies();
+  for (std::size_t s = 0; with_energies && s < systems_.size(); ++s) {
+    const double* const velocity = state_.structures[s].velocity.data();
+    StoredForces store(stiffness_velocity_[s].data());
+    systems_[s].stiffness->apply({velocity, velocity, 0}, store);
+  }
   for (std::size_t s = 0; s < systems_.size(); ++s) systems_[s].stiffness->start(argument(s));
   for (std::size_t s = 0; s < systems_.size(); ++s) {
     sums_[s].extra_damping_before = apply_extra_damping(s);
     if (link_steps_[s]) link_steps_[s]->begin(incident_);
-    structure_steps_[s].begin(force_duration_, acceleration_, first,
-                              with_energies || energy_.needs_energies(), supports_.acceleration);
+    const double* const rate = with_energies ? stiffness_velocity_[s].data() : nullptr;
+    structure_steps_[s].begin(force_duration_, acceleration_, {rate, with_forces},
+                              supports_.acceleration);
     systems_[s].stiffness->finish(argument(s), structure_steps_[s]);
     structure_steps_[s].complete();
     if (link_steps_[s]) link_steps_[s]->pull(first);

@@ -51,8 +51,18 @@ class CdLagrange {
 
   /// The step to t_n, n = state().step; the start at t_0 on the first call. `look_at_gap` makes the
   /// interface gather whatever its distance; `with_energies`: the ledger's line before this step
-  /// will be asked for. Collective.
-  void step(bool look_at_gap, bool with_energies);
+  /// will be asked for, which takes one more product, K v-; `with_forces`: those at watched dofs
+  /// will. Collective; every rank asks alike for energies.
+  void step(bool look_at_gap, bool with_energies, bool with_forces = false);
+
+  /// Owned dofs of a structure whose forces a step can be asked for. Before the first step.
+  void watch_forces(std::size_t structure, std::span<const LocalIndex> dofs) {
+    structure_steps_[structure].watch(dofs, false);
+  }
+  /// Forces of the last step at watched dofs, if they were asked for.
+  const KeptForces& forces(std::size_t structure) const {
+    return structure_steps_[structure].forces();
+  }
 
   /// Everything that the next step needs, contact and ledger included, between two steps.
   void save(SavedState& saved) const;
@@ -93,7 +103,7 @@ class CdLagrange {
   /// Adds what fillers press to v_free.
   void press_fillers();
   /// v_free and the u_{n+1} that it leads to; sums for the ledger.
-  void free_velocity(bool with_energies);
+  void free_velocity(bool with_energies, bool with_forces);
   /// lambda on A.
   void solve_impulse();
   /// v_{n+1/2}, u_{n+1} at the dofs that contact moves.
@@ -128,6 +138,7 @@ class CdLagrange {
   EnergyBalance energy_;
   bool counts_work_;  ///< this rank adds the contact work to the ledger
   std::vector<StepSums> sums_;
+  std::vector<std::vector<double>> stiffness_velocity_;  ///< K v-, where energies are asked for
   /// Per structure, the dofs that move its interface: what they held before the step, and their
   /// velocity in it.
   std::vector<StructureStep::Before> before_;

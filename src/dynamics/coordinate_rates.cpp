@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/row_products.h"
+#include "dynamics/structure_step.h"
 
 namespace pounding {
 namespace {
@@ -15,7 +16,7 @@ constexpr double above_round_off = 1 + 1e-9;
 
 CoordinateRates::CoordinateRates(const LinearSystem& system, std::vector<double> rows,
                                  double ground_acceleration, double time_step)
-    : time_step_(time_step), rows_(std::move(rows)) {
+    : time_step_(time_step), filters_(filters_of(system, time_step)), rows_(std::move(rows)) {
   const std::size_t size = system.lumped_mass.size();
   std::vector<double> stiffness(size);
   const VecHandle diagonal = wrap_vector(system, stiffness);
@@ -48,8 +49,13 @@ double CoordinateRates::rate(const StructureState& state) {
     const double v = state.velocity[i];
     const double mean = state.displacement[i] - time_step_ / 2 * v;
     double square = v * v + stiffness_over_a_[i] * (mean * mean);
+    const double before = state.displacement[i] - time_step_ * v;  // u_{n-1}
     for (std::size_t b = 0; b < branch_over_a_.size(); ++b) {
-      const double branch = mean - state.filtered[b][i] * compliance_[i];
+      // Z^n = k W^{n-1} + t Q_{n-1}; what W^{n-1} was does not matter if k is zero.
+      const double keep = filters_.filters[b].keep;
+      if (keep == 0) continue;
+      const double take = (1 - keep) / 2;  // t
+      const double branch = mean - (state.filtered[b][i] * compliance_[i] - take * before) / keep;
       square += branch_over_a_[b][i] * (branch * branch);
     }
     speeds_[i] = std::sqrt(square);

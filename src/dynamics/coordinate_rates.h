@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "dynamics/state.h"
+#include "dynamics/update.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -37,6 +38,7 @@ class CoordinateRates {
   std::vector<double> stiffness_over_a_;  ///< k / a, softened [1/s2]
   /// Stiffness of each branch over the coordinates, s a_i k / a [1/s2], and 1 / k [m/N].
   std::vector<std::vector<double>> branch_over_a_;
+  Filters<double> filters_;
   std::vector<double> compliance_;
   std::vector<double> rows_;    ///< |L T|
   std::vector<double> speeds_;  ///< r

@@ -46,9 +46,10 @@ void CoupledStep::keep(std::size_t place, std::size_t count, const double* force
 }
 
 void CoupledStep::advance(const StepTerms<double>& terms, const std::array<double, 3>& ground_step,
-                          std::span<const double> support_step, bool with_energies,
+                          std::span<const double> support_step, const double* stiffness_velocity,
                           DofSums<double>& dof_sums, DofEnergies<double>& dof_energies,
                           StepSums& sums) {
+  const bool with_energies = stiffness_velocity != nullptr;
   if (with_energies) {
     sums.added_kinetic_before += system_.coupled_mass->added_product(state_.velocity.data());
   }
@@ -57,9 +58,9 @@ void CoupledStep::advance(const StepTerms<double>& terms, const std::array<doubl
   if (!support_step.empty()) add_support_loads(support_step);
   system_.coupled_mass->solve(field_.data());
   if (with_energies) {
-    settle_nodes<true>(terms, dof_sums, dof_energies, sums);
+    settle_nodes<true>(terms, stiffness_velocity, dof_sums, dof_energies, sums);
   } else {
-    settle_nodes<false>(terms, dof_sums, dof_energies, sums);
+    settle_nodes<false>(terms, stiffness_velocity, dof_sums, dof_energies, sums);
   }
   sums.filtered += filtered_work();
   if (!support_step.empty()) sums.support_input += support_work(support_step);
@@ -92,15 +93,13 @@ void CoupledStep::filter_forces() {
   const auto filter = [this]<typename Value>(const Node& node, std::size_t c,
                                              const Filters<Value>& filters) {
     const std::size_t i = node.begin + c;
-    Value q, before;
+    Value q;
     load(&force_[node.force + c], q);
-    load(&state_.stiffness_displacement[i], before);
-    const Value both = q + before;
-    Value f = filters.at_once * q;
+    Value f = filters.passing * q;
     for (std::size_t k = 0; k < filters.count; ++k) {
       Value memory;
       load(&state_.filtered[k][i], memory);
-      pass_filter(filters.filters[k], both, memory, f);
+      pass_filter(filters.filters[k], q, memory, f);
       store(&state_.filtered[k][i], memory);
     }
     store(&filtered_[node.force + c], f);
@@ -166,8 +165,9 @@ void CoupledStep::form_impulses(const StepTerms<double>& terms,
 }
 
 template <bool with_energies>
-void CoupledStep::settle_nodes(const StepTerms<double>& terms, DofSums<double>& dof_sums,
-                               DofEnergies<double>& dof_energies, StepSums& sums) {
+void CoupledStep::settle_nodes(const StepTerms<double>& terms, const double* stiffness_velocity,
+                               DofSums<double>& dof_sums, DofEnergies<double>& dof_energies,
+                               StepSums& sums) {
   DofSums<Lanes> low_sums;
   DofSums<HalfLanes> high_sums;
   DofEnergies<Lanes> low_energies;
@@ -184,12 +184,14 @@ void CoupledStep::settle_nodes(const StepTerms<double>& terms, DofSums<double>& 
     load(&system_.lumped_mass[i], mass);
     load(&state_.displacement[i], dof.displacement);
     load(&state_.velocity[i], dof.velocity);
-    load(&state_.stiffness_displacement[i], dof.stiffness_displacement);
-    if constexpr (with_energies) add_energies(mass, dof, part_energies);
+    if constexpr (with_energies) {
+      Vector rate;
+      load(stiffness_velocity + i, rate);
+      add_energies(all, mass, q, rate, dof, part_energies);
+    }
     const Vector both = settle(all, q, Vector(dof.velocity + change), mass, dof, part_sums);
     store(&state_.displacement[i], dof.displacement);
     store(&state_.velocity[i], dof.velocity);
-    store(&state_.stiffness_displacement[i], dof.stiffness_displacement);
     return both;
   };
   const auto low = in_lanes<Lanes>(terms);
@@ -199,7 +201,7 @@ void CoupledStep::settle_nodes(const StepTerms<double>& terms, DofSums<double>& 
       momentum += settle_part(node, 0, low, low_sums, low_energies);
       settle_part(node, lane_count, high, high_sums, high_energies);
     } else {
-      settle_dofs<with_energies>(node, terms, dof_sums, dof_energies, sums);
+      settle_dofs<with_energies>(node, terms, stiffness_velocity, dof_sums, dof_energies, sums);
     }
   }
   add_to(low_sums, sums);
@@ -211,20 +213,21 @@ void CoupledStep::settle_nodes(const StepTerms<double>& terms, DofSums<double>& 
 
 template <bool with_energies>
 void CoupledStep::settle_dofs(const Node& node, const StepTerms<double>& terms,
-                              DofSums<double>& dof_sums, DofEnergies<double>& dof_energies,
-                              StepSums& sums) {
+                              const double* stiffness_velocity, DofSums<double>& dof_sums,
+                              DofEnergies<double>& dof_energies, StepSums& sums) {
   for (std::size_t c = 0; c < node.count; ++c) {
     const std::size_t i = node.begin + c;
-    DofState<double> dof{state_.displacement[i], state_.velocity[i],
-                         state_.stiffness_displacement[i]};
+    DofState<double> dof{state_.displacement[i], state_.velocity[i]};
     const double mass = system_.lumped_mass[i];
     const double before = dof.velocity;
     const double after = before + field_[node.field + c];
-    if constexpr (with_energies) add_energies(mass, dof, dof_energies);
-    const double momentum = settle(terms, force_[node.force + c], after, mass, dof, dof_sums);
+    const double q = force_[node.force + c];
+    if constexpr (with_energies) {
+      add_energies(terms, mass, q, stiffness_velocity[i], dof, dof_energies);
+    }
+    const double momentum = settle(terms, q, after, mass, dof, dof_sums);
     state_.displacement[i] = dof.displacement;
     state_.velocity[i] = dof.velocity;
-    state_.stiffness_displacement[i] = dof.stiffness_displacement;
     if (system_.direction[i] >= 0) sums.momentum[system_.direction[i]] += momentum;
     if (!state_.extra_force.empty()) sums.device += state_.extra_force[i] * (after + before);
   }

@@ -26,10 +26,11 @@ class CoupledStep {
   /// q of coupled dofs that follow each other, `place` the number of the first among them all.
   void keep(std::size_t place, std::size_t count, const double* force);
   /// After every force of the step. `ground_step`: h (a_g - g) [m/s]; `support_step`: what supports
-  /// that move on their own add to it per owned dof, empty without. Adds to the sums.
+  /// that move on their own add to it per owned dof, empty without; `stiffness_velocity`: see
+  /// StepRequest. Adds to the sums.
   void advance(const StepTerms<double>& terms, const std::array<double, 3>& ground_step,
-               std::span<const double> support_step, bool with_energies, DofSums<double>& dof_sums,
-               DofEnergies<double>& dof_energies, StepSums& sums);
+               std::span<const double> support_step, const double* stiffness_velocity,
+               DofSums<double>& dof_sums, DofEnergies<double>& dof_energies, StepSums& sums);
 
  private:
   struct Node {
@@ -52,10 +53,11 @@ class CoupledStep {
   /// The part of the energy balance that stems from f - q.
   double filtered_work() const;
   template <bool with_energies>
-  void settle_nodes(const StepTerms<double>& terms, DofSums<double>& dof_sums,
-                    DofEnergies<double>& dof_energies, StepSums& sums);
+  void settle_nodes(const StepTerms<double>& terms, const double* stiffness_velocity,
+                    DofSums<double>& dof_sums, DofEnergies<double>& dof_energies, StepSums& sums);
   template <bool with_energies>
-  void settle_dofs(const Node& node, const StepTerms<double>& terms, DofSums<double>& dof_sums,
+  void settle_dofs(const Node& node, const StepTerms<double>& terms,
+                   const double* stiffness_velocity, DofSums<double>& dof_sums,
                    DofEnergies<double>& dof_energies, StepSums& sums);
 
   const LinearSystem& system_;

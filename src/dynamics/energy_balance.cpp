@@ -37,11 +37,12 @@ void EnergyBalance::add_step(std::span<const StepSums> sums,
     lagged_damping_ += time_step_ / 4 * sums[b].extra_damping_before;
     energies_[b] = energy(b, sums[b]);
     if (steps_ == 1) initial_ += energies_[b].energy();
-    open_.damping += time_step_ * systems_[b].damping.beta / 4 * sums[b].stiffness_before;
     open_.links += sums[b].link_loss_before;
   }
+  stored_work_ = stored_work(sums);
   if (steps_ == 1) {
     initial_lagged_damping_ = lagged_damping_;
+    initial_stored_work_ = stored_work_;
     initial_ -= open_.contact - open_.friction + open_.contact_supports;
     contact_.add(open_.contact);
     friction_.add(open_.friction);
@@ -67,7 +68,16 @@ void EnergyBalance::add_step(std::span<const StepSums> sums,
   ++steps_;
 }
 
-/// Works of the step just made; the last quarter of its damping is known one step later.
+double EnergyBalance::stored_work(std::span<const StepSums> sums) const {
+  double stored = 0;
+  for (std::size_t b = 0; b < systems_.size(); ++b) {
+    const double beta = systems_[b].damping.beta;
+    if (beta == 0) continue;
+    stored += sums[b].strain_back / 2 - time_step_ / 4 * beta * sums[b].stiffness_before;
+  }
+  return stored;
+}
+
 EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
                                           const std::array<double, 3>& ground_acceleration,
                                           const ContactWork& contact) const {
@@ -76,9 +86,8 @@ EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
   result.friction = contact.friction_loss;
   for (std::size_t b = 0; b < systems_.size(); ++b) {
     const Rayleigh& damping = systems_[b].damping;
-    result.damping += time_step_ / 4 *
-                      (mass_damping(systems_[b]) * sums[b].mass_sum +
-                       damping.beta * (sums[b].stiffness_before + 2 * sums[b].stiffness_across));
+    result.damping += time_step_ / 4 * mass_damping(systems_[b]) * sums[b].mass_sum;
+    if (damping.beta != 0) result.damping += time_step_ / 2 * sums[b].stiffness_work;
     for (std::size_t d = 0; d < 3; ++d) {
       result.input +=
           time_step_ / 2 * (systems_[b].gravity[d] - ground_acceleration[d]) * sums[b].momentum[d];
@@ -116,7 +125,7 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   MPI_Allreduce(MPI_IN_PLACE, structures.data(), static_cast<int>(values * structures.size()),
                 MPI_DOUBLE, MPI_SUM, comm_);
   std::array<double, 8> sums{initial_,
-                             damping_.total(),
+                             damping_.total() - (stored_work_ - initial_stored_work_),
                              contact_.total(),
                              input_.total(),
                              device_.total() + lagged_damping_ - initial_lagged_damping_,
@@ -152,6 +161,7 @@ void EnergyBalance::for_each_sum(Balance& balance, Function&& function) {
   }
   function(balance.initial_);
   function(balance.initial_lagged_damping_);
+  function(balance.initial_stored_work_);
   for (auto* work : {&balance.open_.damping, &balance.open_.input, &balance.open_.contact,
                      &balance.open_.device, &balance.open_.links, &balance.open_.gravity,
                      &balance.open_.friction, &balance.open_.contact_supports}) {

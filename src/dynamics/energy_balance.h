@@ -70,10 +70,14 @@ struct ContactWork {
 ///
 ///     vbar^T D vbar = vbar^T D v- + (v+^T D v+ - v-^T D v-) / 4
 ///
-/// The steps leave all terms as sums over dofs;
-/// v_{n+1/2}^T K v_{n+1/2} comes with the step after, and so does the balance of step n:
+/// The steps leave all terms as sums over dofs; the energies of E_{n+1/2} come with the step after,
+/// and so does the balance of step n. The work of q = K (u_n + beta v-) goes into strain energy and
+/// damping, so that what beta took up to a line follows from it and from the energies there,
 ///
-///     4 vbar^T K vbar = v+^T K v+ + 2 v+^T K v- + v-^T K v-
+///     dt beta sum vbar^T K vbar = dt sum vbar^T q - [ 1/2 u_n^T K u_{n+1} - dt/4 beta v+^T K v+ ]
+///
+/// the strain energy here from the other side of K than in E_{n+1/2}. No step needs K u or K v by
+/// themselves for that; without beta nothing is taken from the work of q.
 ///
 /// A contact's work is that of its normal impulses; its friction loses -1/2 lambda_t L_t (v- + v+).
 /// Uniform damping replaces K u_n by a filtered force f_n; then C = D and the damping loss is
@@ -119,7 +123,7 @@ class EnergyBalance {
   };
   /// Works of a step that is not closed yet.
   struct Works {
-    double damping = 0;
+    double damping = 0;  ///< of alpha, and of q of structures with beta
     double input = 0;
     double contact = 0;
     double device = 0;
@@ -137,6 +141,8 @@ class EnergyBalance {
   double mass_damping(const LinearSystem& system) const;
   Works works(std::span<const StepSums> sums, const std::array<double, 3>& ground_acceleration,
               const ContactWork& contact) const;
+  /// Stored part of the work of q at a line, of structures with beta: above, in brackets [J].
+  double stored_work(std::span<const StepSums> sums) const;
   StructureEnergy energy(std::size_t structure, const StepSums& sums) const;
 
   MPI_Comm comm_;
@@ -148,6 +154,8 @@ class EnergyBalance {
   double initial_ = 0;
   double lagged_damping_ = 0;  ///< dt/4 v^T D v now and at the start [J]
   double initial_lagged_damping_ = 0;
+  double stored_work_ = 0;  ///< of q, where energies are asked for, and at the start [J]
+  double initial_stored_work_ = 0;
   Works open_;
   Sum damping_;
   Sum input_;

@@ -49,6 +49,7 @@ LinkStep::LinkStep(const LinearSystem& system, const StructureState& state, Stru
       field_(trace_.known().size(), 0.0),
       velocity_(trace_.dofs().size(), 0.0),
       rate_(links_.size(), 0.0) {
+  step.watch(trace_.dofs(), true);
   for (const Link& link : links_) {
     laws_.push_back(law_of(link.origin, time_step));
     memory_.emplace_back(laws_.back()->memory_size(), 0.0);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "dynamics/contact_correction.h"
 #include "dynamics/structure_step.h"
 
 namespace pounding {
@@ -11,7 +10,7 @@ namespace {
 /// The filters of one run in lane `lane`; those that it lacks let everything pass.
 void put_filters(const Filters<double>& from, std::size_t lane, Filters<Octet>& to) {
   to.count = std::max(to.count, from.count);
-  to.at_once.set(lane, from.at_once);
+  to.passing.set(lane, from.passing);
   for (std::size_t i = 0; i < from.count; ++i) {
     to.filters[i].weight.set(lane, from.filters[i].weight);
     to.filters[i].keep.set(lane, from.filters[i].keep);
@@ -21,7 +20,7 @@ void put_filters(const Filters<double>& from, std::size_t lane, Filters<Octet>& 
 
 /// The filters of one run out of those of all.
 Filters<double> take_filters(const Filters<Octet>& from, std::size_t lane) {
-  Filters<double> to{from.count, from.at_once[lane], {}};
+  Filters<double> to{from.count, from.passing[lane], {}};
   for (std::size_t i = 0; i < from.count; ++i) {
     const auto& [weight, keep, take] = from.filters[i];
     to.filters[i] = {weight[lane], keep[lane], take[lane]};
@@ -30,7 +29,7 @@ Filters<double> take_filters(const Filters<Octet>& from, std::size_t lane) {
 }
 
 StepTerms<double> take_terms(const StepTerms<Octet>& from, std::size_t lane) {
-  return {from.time_step[lane], from.duration[lane], from.decay[lane], from.inverse[lane]};
+  return {from.time_step[lane], from.duration[lane], from.decay[lane], from.beta[lane]};
 }
 
 /// Diagonal of a matrix that is nothing else.
@@ -46,14 +45,12 @@ std::vector<double> diagonal_of(const LinearSystem& system, const Stiffness& mat
 OctetState::OctetState(std::size_t coordinates, std::size_t filters)
     : displacement(coordinates, Octet{}),
       velocity(coordinates, Octet{}),
-      stiffness_displacement(coordinates, Octet{}),
       filtered(filters, std::vector<Octet>(coordinates, Octet{})) {}
 
 void OctetState::put(std::size_t lane, const StructureState& state) {
   for (std::size_t i = 0; i < displacement.size(); ++i) {
     displacement[i].set(lane, state.displacement[i]);
     velocity[i].set(lane, state.velocity[i]);
-    stiffness_displacement[i].set(lane, state.stiffness_displacement[i]);
     for (std::size_t k = 0; k < state.filtered.size(); ++k) {
       filtered[k][i].set(lane, state.filtered[k][i]);
     }
@@ -66,7 +63,7 @@ void OctetState::take(const std::vector<Octet>& values, std::size_t lane, std::s
 
 OctetStep::OctetStep(std::span<const LinearSystem* const> systems, double time_step)
     : time_step_(time_step) {
-  filters_.at_once = all_octet(1);
+  filters_.passing = all_octet(1);
   for (auto& [weight, keep, take] : filters_.filters) weight = keep = take = Octet{};
   for (std::size_t lane = 0; lane < systems.size(); ++lane) {
     if (systems[lane] != nullptr) take_system(*systems[lane], time_step, lane);
@@ -92,11 +89,10 @@ void OctetStep::take_system(const LinearSystem& system, double time_step, std::s
   put_filters(filters_of(system, time_step), lane, filters_);
 }
 
-void OctetStep::step(double duration, const std::array<Octet, 3>& ground_acceleration, bool first,
+void OctetStep::step(double duration, const std::array<Octet, 3>& ground_acceleration,
                      bool with_energies, OctetState& state) {
   const Octet h = all_octet(duration);
-  terms_ = {all_octet(time_step_), h, all_octet(1) - h * alpha_, Octet{}};
-  if (!first) terms_.inverse.lanes = 1 / (beta_.lanes + time_step_);
+  terms_ = {all_octet(time_step_), h, all_octet(1) - h * alpha_, beta_};
   for (std::size_t d = 0; d < 3; ++d) {
     ground_step_[d] = h * (ground_acceleration[d] - gravity_[d]);
     shaken_[d] = false;
@@ -124,22 +120,21 @@ void OctetStep::advance(OctetState& state) {
   const StepTerms<Octet> terms = terms_;
   const std::array<Octet, 3> ground_step = ground_step_;
   const std::array<bool, 3> shaken = shaken_;
-  const Octet beta = beta_;
   const bool has_extra = !extra_damping_.empty();
   Octet* const displacement = state.displacement.data();
   Octet* const velocity = state.velocity.data();
-  Octet* const stiffness_displacement = state.stiffness_displacement.data();
   for (std::size_t i = 0; i < stiffness_.size(); ++i) {
-    DofState<Octet> dof{displacement[i], velocity[i], stiffness_displacement[i]};
-    if constexpr (with_energies) add_energies(mass_[i], dof, energies_);
+    DofState<Octet> dof{displacement[i], velocity[i]};
     const Octet before = dof.velocity;
-    const Octet q = stiffness_[i] * (dof.displacement + beta * before);
+    const Octet q = stiffness_[i] * (dof.displacement + terms.beta * before);
+    if constexpr (with_energies) {
+      add_energies(terms, mass_[i], q, stiffness_[i] * before, dof, energies_);
+    }
     Octet f = q;
     if constexpr (filtered) {
-      const Octet both = q + dof.stiffness_displacement;
-      f = filters_.at_once * q;
+      f = filters_.passing * q;
       for (std::size_t k = 0; k < filters_.count; ++k) {
-        pass_filter(filters_.filters[k], both, state.filtered[k][i], f);
+        pass_filter(filters_.filters[k], q, state.filtered[k][i], f);
       }
     }
     Octet ground{};
@@ -160,7 +155,6 @@ void OctetStep::advance(OctetState& state) {
     }
     displacement[i] = dof.displacement;
     velocity[i] = dof.velocity;
-    stiffness_displacement[i] = dof.stiffness_displacement;
   }
   sums_ = sums;
   momentum_ = momentum;
@@ -169,29 +163,30 @@ void OctetStep::advance(OctetState& state) {
 void OctetStep::remember(const OctetState& state, std::size_t lane, Before& before) const {
   OctetState::take(state.displacement, lane, before.displacement);
   OctetState::take(state.velocity, lane, before.velocity);
-  OctetState::take(state.stiffness_displacement, lane, before.stiffness_displacement);
+  const Filters<double> filters = take_filters(filters_, lane);
+  for (std::size_t i = 0; i < stiffness_.size(); ++i) {
+    const double q =
+        stiffness_[i][lane] * (before.displacement[i] + beta_[lane] * before.velocity[i]);
+    const double f =
+        filtered_force(filters, q, [&](std::size_t k) { return state.filtered[k][i][lane]; });
+    before.forces[i] = {q, f};
+  }
 }
 
 void OctetStep::correct(std::size_t lane, const Before& before, std::span<const double> velocity,
                         OctetState& state) {
   const StepTerms<double> terms = take_terms(terms_, lane);
-  const Filters<double> filters = take_filters(filters_, lane);
   DofSums<double> sums;
   StepSums& correction = corrections_[lane];
   for (std::size_t i = 0; i < stiffness_.size(); ++i) {
-    const DofState<double> old{before.displacement[i], before.velocity[i],
-                               before.stiffness_displacement[i]};
-    DofState<double> dof{state.displacement[i][lane], state.velocity[i][lane],
-                         state.stiffness_displacement[i][lane]};
+    const DofState<double> old{before.displacement[i], before.velocity[i]};
+    DofState<double> dof{state.displacement[i][lane], state.velocity[i][lane]};
     if (!extra_damping_.empty()) {
       correction.device +=
           extra_damping_[i][lane] * before.velocity[i] * (velocity[i] - dof.velocity);
     }
-    const double filtered = filtered_part(filters, dof.stiffness_displacement, [&](std::size_t k) {
-      return state.filtered[k][i][lane];
-    });
-    const double gained = correct_dof(terms, mass_[i][lane], old, velocity[i],
-                                      filters.count > 0 ? filtered : 0, dof, sums);
+    const double gained =
+        correct_dof(terms, mass_[i][lane], old, velocity[i], before.forces[i], dof, sums);
     for (std::size_t d = 0; d < 3; ++d) correction.momentum[d] += influence_[d][i][lane] * gained;
     state.velocity[i].set(lane, dof.velocity);
     state.displacement[i].set(lane, dof.displacement);
@@ -201,12 +196,13 @@ void OctetStep::correct(std::size_t lane, const Before& before, std::span<const 
 
 StepSums OctetStep::sums(std::size_t lane) const {
   StepSums total = corrections_[lane];
-  total.stiffness_before += sums_.stiffness_before[lane];
-  total.stiffness_across += sums_.stiffness_across[lane];
+  total.stiffness_work += sums_.stiffness_work[lane];
   total.mass_sum += sums_.mass_sum[lane];
   total.filtered += sums_.filtered[lane];
   total.kinetic_before = energies_.kinetic_before[lane];
+  total.stiffness_before = energies_.stiffness_before[lane];
   total.strain_before = energies_.strain_before[lane];
+  total.strain_back = energies_.strain_back[lane];
   total.displacement_mass = energies_.displacement_mass[lane];
   for (std::size_t d = 0; d < 3; ++d) total.momentum[d] += momentum_[d][lane];
   total.extra_damping_before = extra_before_[lane];

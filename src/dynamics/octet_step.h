@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/octet.h"
+#include "dynamics/contact_correction.h"
 #include "dynamics/state.h"
 #include "dynamics/step_sums.h"
 #include "dynamics/update.h"
@@ -16,7 +17,6 @@ namespace pounding {
 struct OctetState {
   std::vector<Octet> displacement;
   std::vector<Octet> velocity;
-  std::vector<Octet> stiffness_displacement;
   std::vector<std::vector<Octet>> filtered;  ///< by filter
 
   /// Room for a structure with so many coordinates and filters, all zero.
@@ -39,16 +39,18 @@ class OctetStep {
   std::size_t coordinates() const { return stiffness_.size(); }
   std::size_t filters() const { return filters_.count; }
 
-  /// The step with the ground's acceleration [m/s2], gravity apart; `first` and `duration`: see
-  /// StructureStep::begin.
-  void step(double duration, const std::array<Octet, 3>& ground_acceleration, bool first,
-            bool with_energies, OctetState& state);
+  /// The step with the ground's acceleration [m/s2], gravity apart; `duration`: see
+  /// StructureStep::begin; `with_energies`: those before the step are asked for.
+  void step(double duration, const std::array<Octet, 3>& ground_acceleration, bool with_energies,
+            OctetState& state);
 
-  /// One run's state before a step: displacement, velocity and K u_{n-1}.
+  /// One run's state before a step, and the forces of the step.
   struct Before {
+    explicit Before(std::size_t coordinates)
+        : displacement(coordinates), velocity(coordinates), forces(coordinates) {}
     std::vector<double> displacement;
     std::vector<double> velocity;
-    std::vector<double> stiffness_displacement;
+    std::vector<DofForces> forces;
   };
   void remember(const OctetState& state, std::size_t lane, Before& before) const;
   /// v+ = `velocity` of one run, after contact; sums and displacement follow.

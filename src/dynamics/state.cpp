@@ -37,8 +37,7 @@ State::State(std::span<const LinearSystem> systems, std::size_t support_columns)
   for (const LinearSystem& system : systems) {
     const std::size_t dofs = system.lumped_mass.size();
     const std::vector<double> extra_force(system.has_extra_damping() ? dofs : 0, 0.0);
-    structures.push_back({zeros_on_large_pages(dofs), zeros_on_large_pages(dofs),
-                          zeros_on_large_pages(dofs), extra_force});
+    structures.push_back({zeros_on_large_pages(dofs), zeros_on_large_pages(dofs), extra_force});
     StructureState& structure = structures.back();
     if (system.uniform_damping) {
       for (std::size_t i = 0; i < system.uniform_damping->filters.size(); ++i) {
@@ -67,7 +66,6 @@ void State::save(SavedState& saved) const {
     const auto number = static_cast<int>(s);
     saved.put_dofs(number, "displacement", structures[s].displacement);
     saved.put_dofs(number, "velocity", structures[s].velocity);
-    saved.put_dofs(number, "stiffness_displacement", structures[s].stiffness_displacement);
     for (std::size_t i = 0; i < structures[s].filtered.size(); ++i) {
       saved.put_dofs(number, filter_name(i), structures[s].filtered[i]);
     }
@@ -84,7 +82,6 @@ void State::load(const SavedState& saved) {
     const auto number = static_cast<int>(s);
     saved.get_dofs(number, "displacement", structures[s].displacement);
     saved.get_dofs(number, "velocity", structures[s].velocity);
-    saved.get_dofs(number, "stiffness_displacement", structures[s].stiffness_displacement);
     for (std::size_t i = 0; i < structures[s].filtered.size(); ++i) {
       saved.get_dofs(number, filter_name(i), structures[s].filtered[i]);
     }

@@ -186,7 +186,7 @@ class SupportedGround {
 struct Unfiltered {
   static constexpr bool acts = false;
   template <typename Count>
-  Lanes force(std::size_t, Count, const Lanes& q, const Lanes&) const {
+  Lanes force(std::size_t, Count, const Lanes& q) const {
     return q;
   }
 };
@@ -201,13 +201,12 @@ class Filtered {
   }
 
   template <typename Count>
-  Lanes force(std::size_t i, Count count, const Lanes& q, const Lanes& before) const {
-    const Lanes both = q + before;
-    Lanes force = filters_.at_once * q;
+  Lanes force(std::size_t i, Count count, const Lanes& q) const {
+    Lanes force = filters_.passing * q;
     for (std::size_t k = 0; k < filters_.count; ++k) {
       Lanes memory;
       load_first(memory_[k] + i, count, memory);
-      pass_filter(filters_.filters[k], both, memory, force);
+      pass_filter(filters_.filters[k], q, memory, force);
       store_first(memory, count, memory_[k] + i);
     }
     return force;

@@ -27,17 +27,35 @@ Filters<double> filters_of(const LinearSystem& system, double time_step) {
   Filters<double> result{0, 1, {}};
   if (system.uniform_damping) {
     const double at_rest = system.uniform_damping->at_rest();
-    result.at_once = system.uniform_damping->at_once();
+    result.passing = at_rest;
     for (const DampingFilter& filter : system.uniform_damping->filters) {
       const double c = filter.rate * time_step / 2;
-      result.filters.at(result.count++) = {at_rest * filter.weight, (1 - c) / (1 + c), c / (1 + c)};
+      const double weight = at_rest * filter.weight;
+      result.passing += weight / (1 + c);
+      result.filters.at(result.count++) = {weight, (1 - c) / (1 + c), 2 * c / ((1 + c) * (1 + c))};
     }
   }
   return result;
 }
 
+void start_filters(const LinearSystem& system, double time_step, StructureState& state) {
+  if (!system.uniform_damping) return;
+  std::vector<double> force(state.displacement.size());
+  StoredForces store(force.data());
+  system.stiffness->apply({state.displacement.data(), state.displacement.data(), 0}, store);
+  const Filters<double> filters = filters_of(system, time_step);
+  for (std::size_t k = 0; k < filters.count; ++k) {
+    const auto& [weight, keep, take] = filters.filters[k];
+    const double share = (1 + keep) / 2;  // 1 - t: Z = W - t Q of W = Q
+    for (std::size_t i = 0; i < force.size(); ++i) state.filtered[k][i] = share * force[i];
+  }
+}
+
 StructureStep::StructureStep(const LinearSystem& system, StructureState& state, double time_step)
-    : system_(system), state_(state), filters_(filters_of(system, time_step)) {
+    : system_(system),
+      state_(state),
+      filters_(filters_of(system, time_step)),
+      forces_(system.lumped_mass.size()) {
   terms_.time_step = time_step;
   if (system.supports) support_step_.assign(system.lumped_mass.size(), 0.0);
   find_segments(damped_dofs(system));
@@ -127,12 +145,17 @@ void StructureStep::find_segments(const std::vector<char>& damped) {
   node_inverse_mass_.resize(node_mass_.size(), 0.0);
 }
 
+void StructureStep::watch(std::span<const LocalIndex> dofs, bool always) {
+  forces_.watch(dofs);
+  const bool needed = system_.damping.beta != 0 || system_.uniform_damping;
+  always_keeps_ = always_keeps_ || (always && needed);
+}
+
 void StructureStep::begin(double duration, const std::array<double, 3>& ground_acceleration,
-                          bool first, bool with_energies, std::span<const double> supports) {
-  const double dt = terms_.time_step;
-  terms_ = {dt, duration, 1 - duration * system_.damping.alpha,
-            first ? 0 : 1 / (system_.damping.beta + dt)};
-  with_energies_ = with_energies;
+                          const StepRequest& request, std::span<const double> supports) {
+  terms_ = {terms_.time_step, duration, 1 - duration * system_.damping.alpha, system_.damping.beta};
+  stiffness_velocity_ = request.stiffness_velocity;
+  keeps_ = (request.forces || always_keeps_) && !forces_.none();
   for (std::size_t d = 0; d < 3; ++d) {
     ground_step_[d] = duration * (ground_acceleration[d] - system_.gravity[d]);
   }
@@ -158,14 +181,15 @@ void StructureStep::begin(double duration, const std::array<double, 3>& ground_a
 }
 
 void StructureStep::receive(LocalIndex begin, LocalIndex end, const double* force) {
+  if (keeps_) forces_.take(begin, end, force, filters_, state_.filtered);
   auto segment = std::upper_bound(segments_.begin(), segments_.end(), begin,
                                   [](LocalIndex dof, const Segment& s) { return dof < s.end; });
   for (LocalIndex dof = begin; dof < end; ++segment) {
     const LocalIndex stop = std::min(end, segment->end);
     const double* const from = force + (dof - begin);
     const auto advance_with = [&](const auto& damping) {
-      with_energies_ ? advance<true>(*segment, dof, stop, from, damping)
-                     : advance<false>(*segment, dof, stop, from, damping);
+      stiffness_velocity_ != nullptr ? advance<true>(*segment, dof, stop, from, damping)
+                                     : advance<false>(*segment, dof, stop, from, damping);
     };
     if (system_.uniform_damping) {
       advance_with(Filtered(filters_, state_.filtered));
@@ -181,7 +205,6 @@ void StructureStep::advance_vectors(std::size_t first, std::size_t end, const do
                                     const Damping& damping, Masses masses, Ground& ground) {
   double* const displacement = state_.displacement.data();
   double* const velocity = state_.velocity.data();
-  double* const stiffness = state_.stiffness_displacement.data();
   const StepTerms<Lanes> terms = in_lanes<Lanes>(terms_);
   DofSums<Lanes> sums = vector_sums_;
   const auto advance_vector = [&]<int k>(std::size_t i, const double* from, auto count)
@@ -191,16 +214,18 @@ void StructureStep::advance_vectors(std::size_t first, std::size_t end, const do
     load_first(from, count, q);
     load_first(displacement + i, count, dof.displacement);
     load_first(velocity + i, count, dof.velocity);
-    load_first(stiffness + i, count, dof.stiffness_displacement);
     masses.template at<k>(count, mass, inverse_mass);
-    if constexpr (with_energies) add_energies(mass, dof, vector_energies_);
+    if constexpr (with_energies) {
+      Lanes rate;
+      load_first(stiffness_velocity_ + i, count, rate);
+      add_energies(terms, mass, q, rate, dof, vector_energies_);
+    }
     const Lanes before = dof.velocity;
-    const Lanes f = damping.force(i, count, q, dof.stiffness_displacement);
+    const Lanes f = damping.force(i, count, q);
     const Lanes free =
         free_velocity(terms, before, f, inverse_mass, ground.template step<k>(i, count));
     if constexpr (Damping::acts) sums.filtered += (f - q) * (free + before);
     ground.template add<k>(i, count, settle(terms, q, free, mass, dof, sums));
-    store_first(dof.stiffness_displacement, count, stiffness + i);
     store_first(dof.velocity, count, velocity + i);
     store_first(dof.displacement, count, displacement + i);
   };
@@ -241,17 +266,17 @@ void StructureStep::advance_on_supports(std::size_t first, std::size_t end, cons
 template <bool with_energies>
 void StructureStep::advance_dofs(std::size_t first, std::size_t end, const double* force) {
   for (std::size_t i = first; i < end; ++i, ++force) {
-    DofState<double> dof{state_.displacement[i], state_.velocity[i],
-                         state_.stiffness_displacement[i]};
+    DofState<double> dof{state_.displacement[i], state_.velocity[i]};
     const double mass = system_.lumped_mass[i];
     const double before = dof.velocity;
-    if constexpr (with_energies) add_energies(mass, dof, dof_energies_);
+    if constexpr (with_energies) {
+      add_energies(terms_, mass, *force, stiffness_velocity_[i], dof, dof_energies_);
+    }
     double f = *force;
     if (system_.uniform_damping) {
-      const double both = f + dof.stiffness_displacement;
-      f *= filters_.at_once;
+      f *= filters_.passing;
       for (std::size_t k = 0; k < filters_.count; ++k) {
-        pass_filter(filters_.filters[k], both, state_.filtered[k][i], f);
+        pass_filter(filters_.filters[k], *force, state_.filtered[k][i], f);
       }
     }
     double after = free_velocity(terms_, before, f, system_.inverse_mass[i], ground_step_at(i));
@@ -263,7 +288,6 @@ void StructureStep::advance_dofs(std::size_t first, std::size_t end, const doubl
     add_momentum(i, settle(terms_, *force, after, mass, dof, dof_sums_));
     state_.displacement[i] = dof.displacement;
     state_.velocity[i] = dof.velocity;
-    state_.stiffness_displacement[i] = dof.stiffness_displacement;
   }
 }
 
@@ -303,15 +327,9 @@ void StructureStep::advance(const Segment& segment, LocalIndex begin, LocalIndex
 
 void StructureStep::complete() {
   if (coupled_) {
-    coupled_->advance(terms_, ground_step_, support_step_, with_energies_, dof_sums_, dof_energies_,
-                      sums_);
+    coupled_->advance(terms_, ground_step_, support_step_, stiffness_velocity_, dof_sums_,
+                      dof_energies_, sums_);
   }
-}
-
-double StructureStep::filtered_part(std::size_t dof) const {
-  if (!system_.uniform_damping) return 0;
-  return pounding::filtered_part(filters_, state_.stiffness_displacement[dof],
-                                 [&](std::size_t k) { return state_.filtered[k][dof]; });
 }
 
 void StructureStep::remember(std::span<const LocalIndex> dofs, Before& before) const {
@@ -319,7 +337,6 @@ void StructureStep::remember(std::span<const LocalIndex> dofs, Before& before) c
     const std::size_t i = dofs[k];
     before.displacement[k] = state_.displacement[i];
     before.velocity[k] = state_.velocity[i];
-    before.stiffness_displacement[k] = state_.stiffness_displacement[i];
   }
 }
 
@@ -327,15 +344,14 @@ void StructureStep::correct(std::span<const LocalIndex> dofs, const Before& befo
                             std::span<const double> velocity) {
   for (std::size_t k = 0; k < dofs.size(); ++k) {
     const std::size_t i = dofs[k];
-    const DofState<double> old{before.displacement[k], before.velocity[k],
-                               before.stiffness_displacement[k]};
-    DofState<double> dof{state_.displacement[i], state_.velocity[i],
-                         state_.stiffness_displacement[i]};
+    const DofState<double> old{before.displacement[k], before.velocity[k]};
+    DofState<double> dof{state_.displacement[i], state_.velocity[i]};
+    const DofForces forces = keeps_ ? forces_.at(dofs[k]) : DofForces{};
     if (!state_.extra_force.empty()) {
       sums_.device += state_.extra_force[i] * (velocity[k] - dof.velocity);
     }
-    add_momentum(i, correct_dof(terms_, system_.lumped_mass[i], old, velocity[k], filtered_part(i),
-                                dof, dof_sums_));
+    add_momentum(
+        i, correct_dof(terms_, system_.lumped_mass[i], old, velocity[k], forces, dof, dof_sums_));
     state_.velocity[i] = dof.velocity;
     state_.displacement[i] = dof.displacement;
   }

@@ -7,6 +7,7 @@
 
 #include "common/lanes.h"
 #include "dynamics/coupled_step.h"
+#include "dynamics/kept_forces.h"
 #include "dynamics/state.h"
 #include "dynamics/step_sums.h"
 #include "dynamics/update.h"
@@ -17,6 +18,18 @@ namespace pounding {
 /// Numbers of the filters of a system's uniform damping; none without.
 Filters<double> filters_of(const LinearSystem& system, double time_step);
 
+/// Memories of the filters of a structure that has stood at u_0 for ever: W_i = K u_0. Collective
+/// over the system's communicator.
+void start_filters(const LinearSystem& system, double time_step, StructureState& state);
+
+/// Wishes for a step beside the motion.
+struct StepRequest {
+  /// K v- of the owned dofs [N/s, N m/s], where the energies before the step are asked for; else
+  /// null.
+  const double* stiffness_velocity = nullptr;
+  bool forces = false;  ///< at the dofs that are watched
+};
+
 /// Takes the forces q = K (u_n + beta v-) of a structure range by range and brings the state there
 /// one step on (update.h) while the range is in the nearest cache; the sums for the energy balance
 /// are taken on the way. Dofs whose mass is coupled wait for `complete`. v+ is free of contact
@@ -26,23 +39,27 @@ class StructureStep final : public ForceReceiver {
   /// References must outlive this object.
   StructureStep(const LinearSystem& system, StructureState& state, double time_step);
 
-  /// `duration`: of the velocity's step [s]; `first`: K u_{n-1} holds K u_n already and stays;
-  /// `supports`: r_c'' of every column of SupportShapes [m/s2, rad/s2].
-  void begin(double duration, const std::array<double, 3>& ground_acceleration, bool first,
-             bool with_energies, std::span<const double> supports = {});
+  /// Dofs whose forces a step can be asked for, and whose velocity `correct` may change. Allocates;
+  /// before the first step. `always`: they are kept in every step in which a correction needs them.
+  void watch(std::span<const LocalIndex> dofs, bool always);
+  /// `duration`: of the velocity's step [s]; `supports`: r_c'' of every column of SupportShapes
+  /// [m/s2, rad/s2].
+  void begin(double duration, const std::array<double, 3>& ground_acceleration,
+             const StepRequest& request, std::span<const double> supports = {});
   void receive(LocalIndex begin, LocalIndex end, const double* force) override;
   /// After every range of the step.
   void complete();
   /// State of some dofs before the step.
   struct Before {
-    explicit Before(std::size_t dofs)
-        : displacement(dofs), velocity(dofs), stiffness_displacement(dofs) {}
+    explicit Before(std::size_t dofs) : displacement(dofs), velocity(dofs) {}
     std::vector<double> displacement;
     std::vector<double> velocity;
-    std::vector<double> stiffness_displacement;
   };
   void remember(std::span<const LocalIndex> dofs, Before& before) const;
-  /// v+ = `velocity` at these dofs, after contact; sums and displacement follow.
+  /// Forces of this step at the watched dofs, where they were asked for.
+  const KeptForces& forces() const { return forces_; }
+  /// v+ = `velocity` at these dofs, after contact; sums and displacement follow. The dofs are
+  /// watched, and their forces were asked for.
   void correct(std::span<const LocalIndex> dofs, const Before& before,
                std::span<const double> velocity);
   /// Sums of the whole step.
@@ -80,8 +97,6 @@ class StructureStep final : public ForceReceiver {
   /// Dofs one by one.
   template <bool with_energies>
   void advance_dofs(std::size_t first, std::size_t end, const double* force);
-  /// f - q of a dof after the step.
-  double filtered_part(std::size_t dof) const;
   /// h ((a_g - g) iota + sum_c iota_c r_c'') of a dof.
   double ground_step_at(std::size_t dof) const;
   /// Adds to iota_d^T M s, and to the work of supports, what M s is at a dof.
@@ -95,7 +110,10 @@ class StructureStep final : public ForceReceiver {
   std::unique_ptr<CoupledStep> coupled_;  ///< null if no mass is coupled here
   StepTerms<double> terms_{};
   Filters<double> filters_{};  ///< none without uniform damping
-  bool with_energies_ = false;
+  KeptForces forces_;
+  bool always_keeps_ = false;                   ///< forces at watched dofs
+  bool keeps_ = false;                          ///< in this step
+  const double* stiffness_velocity_ = nullptr;  ///< see StepRequest
   std::array<double, 3> ground_step_{};
   std::vector<double> support_step_;  ///< h sum_c iota_c r_c'' per owned dof; empty without
   Lanes support_work_{};              ///< sum of support_step_ times M s

@@ -11,8 +11,6 @@
 ///
 ///     q       = K w,  given
 ///     v_free  = v- - h alpha v- - h (a_g - g) iota - h M^-1 q
-///     K v-    = (q - K u_{n-1}) / (beta + dt)
-///     K u_n   = K u_{n-1} + dt K v-
 ///     u_{n+1} = u_n + dt v+
 ///
 /// with f in place of q in v_free where uniform damping filters it (Filters), v+ = v_free where
@@ -26,14 +24,14 @@ struct StepTerms {
   Value time_step;  ///< dt [s]
   Value duration;   ///< h: how long forces act on the velocity [s]
   Value decay;      ///< 1 - h alpha
-  Value inverse;    ///< 1 / (beta + dt) [1/s]; 0 in the first step, whose K u_{n-1} is K u_n
+  Value beta;       ///< [s]
 };
 
 /// Copies the terms into every lane of `Value`.
 template <typename Value>
 StepTerms<Value> in_lanes(const StepTerms<double>& terms) {
   const Value zero{};
-  return {zero + terms.time_step, zero + terms.duration, zero + terms.decay, zero + terms.inverse};
+  return {zero + terms.time_step, zero + terms.duration, zero + terms.decay, zero + terms.beta};
 }
 
 /// State of dofs between two steps; see StructureState.
@@ -41,14 +39,12 @@ template <typename Value>
 struct DofState {
   Value displacement;
   Value velocity;
-  Value stiffness_displacement;
 };
 
 /// Sums that a step leaves for the energy balance, lane by lane; see StepSums.
 template <typename Value>
 struct DofSums {
-  Value stiffness_before{};
-  Value stiffness_across{};
+  Value stiffness_work{};  ///< of q (v+ + v-)
   Value mass_sum{};
   Value filtered{};  ///< of (f - q) (v+ + v-)
 };
@@ -57,21 +53,27 @@ struct DofSums {
 constexpr std::size_t max_filters = 8;
 
 /// Numbers of the filters of uniform damping that all dofs of a structure share. With Q_n = K u_n,
-/// beta = 0 and W_i the memory of filter i,
+/// beta = 0, c_i = omega_i dt / 2 and W_i what filter i passes,
 ///
-///     W_i <- ((1 - c_i) W_i + c_i (Q_n + Q_{n-1})) / (1 + c_i),      c_i = omega_i dt / 2
-///     f   = s ( Q_n + sum_i a_i (Q_n - W_i) )
+///     W_i^n = k_i W_i^{n-1} + t_i (Q_n + Q_{n-1}),      k_i = (1 - c_i) / (1 + c_i)
+///     f     = s ( Q_n + sum_i a_i (Q_n - W_i^n) ),      t_i = c_i / (1 + c_i)
 ///
-/// the trapezoidal rule for dW/dt = omega_i (Q - W). Stable if and only if M - dt^2/4 s (1 + sum
-/// a_i) K is positive definite; docs/theory.md has the energy that proves it.
+/// the trapezoidal rule for dW/dt = omega_i (Q - W). A filter keeps between steps its memory
+/// Z_i^n = W_i^n - t_i Q_n, known before Q_n is:
+///
+///     f         = s (1 + sum_i a_i (1 - t_i)) Q_n - sum_i s a_i Z_i^n
+///     Z_i^{n+1} = k_i Z_i^n + t_i (1 + k_i) Q_n
+///
+/// Stable if and only if M - dt^2/4 s (1 + sum a_i) K is positive definite; docs/theory.md has the
+/// energy that proves it.
 template <typename Value>
 struct Filters {
   std::size_t count = 0;
-  Value at_once;  ///< s (1 + sum a_i)
+  Value passing;  ///< s (1 + sum a_i (1 - t_i))
   struct Filter {
     Value weight;  ///< s a_i
-    Value keep;    ///< (1 - c_i) / (1 + c_i)
-    Value take;    ///< c_i / (1 + c_i)
+    Value keep;    ///< k_i
+    Value take;    ///< t_i (1 + k_i)
   };
   std::array<Filter, max_filters> filters;
 };
@@ -80,7 +82,7 @@ struct Filters {
 template <typename Value>
 Filters<Value> in_lanes(const Filters<double>& filters) {
   const Value zero{};
-  Filters<Value> copy{filters.count, zero + filters.at_once, {}};
+  Filters<Value> copy{filters.count, zero + filters.passing, {}};
   for (std::size_t i = 0; i < filters.count; ++i) {
     const auto& [weight, keep, take] = filters.filters[i];
     copy.filters[i] = {zero + weight, zero + keep, zero + take};
@@ -88,22 +90,35 @@ Filters<Value> in_lanes(const Filters<double>& filters) {
   return copy;
 }
 
-/// Brings the memory of one filter from n - 1 to n, and takes its part off the force f.
+/// Takes the part of one filter off the force f, and brings its memory from n to n + 1.
 template <typename Value>
 [[gnu::always_inline]] inline void pass_filter(const typename Filters<Value>::Filter& filter,
-                                               Value both, Value& memory, Value& force) {
-  Value passed{};
-  add_product(filter.keep, memory, passed);
-  add_product(filter.take, both, passed);
-  memory = passed;
-  subtract_product(filter.weight, passed, force);
+                                               Value stiffness_force, Value& memory, Value& force) {
+  subtract_product(filter.weight, memory, force);
+  Value next{};
+  add_product(filter.keep, memory, next);
+  add_product(filter.take, stiffness_force, next);
+  memory = next;
+}
+
+/// f of one dof from q and the memories before the step: `memory(i)` that of filter i [N, N m].
+template <typename Memory>
+double filtered_force(const Filters<double>& filters, double stiffness_force,
+                      const Memory& memory) {
+  double force = filters.passing * stiffness_force;
+  for (std::size_t i = 0; i < filters.count; ++i) {
+    subtract_product(filters.filters[i].weight, memory(i), force);
+  }
+  return force;
 }
 
 /// Energies before the step likewise, where they are asked for.
 template <typename Value>
 struct DofEnergies {
   Value kinetic_before{};
+  Value stiffness_before{};
   Value strain_before{};
+  Value strain_back{};
   Value displacement_mass{};
 };
 
@@ -118,12 +133,19 @@ template <typename Value>
   return after;
 }
 
-/// Adds the energies before the step: v-^T M v-, u_n^T K u_{n-1}, u_n^T M u_n.
+/// Adds the energies before the step: v-^T M v-, v-^T K v-, u_n^T K u_{n-1}, u_{n-1}^T K u_n,
+/// u_n^T M u_n. With `rate` = K v-, K u_n = q - beta K v- and u_{n-1} = u_n - dt v-.
 template <typename Value>
-[[gnu::always_inline]] inline void add_energies(Value mass, const DofState<Value>& dof,
+[[gnu::always_inline]] inline void add_energies(const StepTerms<Value>& terms, Value mass,
+                                                Value force, Value rate, const DofState<Value>& dof,
                                                 DofEnergies<Value>& energies) {
+  const Value now = force - terms.beta * rate;
+  const Value before = now - terms.time_step * rate;
+  const Value displacement_before = dof.displacement - terms.time_step * dof.velocity;
   energies.kinetic_before += mass * dof.velocity * dof.velocity;
-  energies.strain_before += dof.displacement * dof.stiffness_displacement;
+  energies.stiffness_before += dof.velocity * rate;
+  energies.strain_before += dof.displacement * before;
+  energies.strain_back += displacement_before * now;
   energies.displacement_mass += mass * dof.displacement * dof.displacement;
 }
 
@@ -132,14 +154,10 @@ template <typename Value>
 template <typename Value>
 [[gnu::always_inline]] inline Value settle(const StepTerms<Value>& terms, Value force, Value after,
                                            Value mass, DofState<Value>& dof, DofSums<Value>& sums) {
-  const Value before = dof.velocity;
-  const Value rate = (force - dof.stiffness_displacement) * terms.inverse;  // K v-
-  add_product(terms.time_step, rate, dof.stiffness_displacement);
+  const Value sum = after + dof.velocity;
   add_product(terms.time_step, after, dof.displacement);
   dof.velocity = after;
-  add_product(before, rate, sums.stiffness_before);
-  add_product(after, rate, sums.stiffness_across);
-  const Value sum = after + before;
+  add_product(force, sum, sums.stiffness_work);
   const Value momentum = mass * sum;
   add_product(momentum, sum, sums.mass_sum);
   return momentum;

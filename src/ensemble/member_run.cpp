@@ -5,6 +5,7 @@
 
 #include "driver/gap_bounds.h"
 #include "driver/watchdog.h"
+#include "dynamics/structure_step.h"
 
 namespace pounding {
 namespace {
@@ -55,14 +56,10 @@ MemberRun::MemberRun(const MemberScene& member, const EnsembleModel& shared, std
       smallest_gaps_(member.scene.contacts.size(), std::numeric_limits<double>::infinity()) {
   for (std::size_t s = 0; s < model_.systems.size(); ++s) {
     const LinearSystem& system = model_.systems[s];
-    StructureState& state = state_.structures[s];
-    StoredForces store(state.stiffness_displacement.data());  // K u_0
-    system.stiffness->apply({state.displacement.data(), state.displacement.data(), 0}, store);
-    for (std::vector<double>& filtered : state.filtered) filtered = state.stiffness_displacement;
+    start_filters(system, model_.time_step, state_.structures[s]);
     const std::size_t size = system.lumped_mass.size();
-    const std::vector<double> zeros(size, 0.0);
-    before_.push_back({zeros, zeros, zeros});
-    velocity_.push_back(zeros);
+    before_.emplace_back(size);
+    velocity_.emplace_back(size, 0.0);
   }
 }
 

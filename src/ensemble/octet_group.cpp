@@ -75,7 +75,7 @@ void OctetGroup::step(std::int64_t n) {
   for (auto& run : runs_) run->look(n, places, steps_, states_);
   const bool with_energies = ledger || runs_[0]->needs_energies();
   for (std::size_t s = 0; s < steps_.size(); ++s) {
-    steps_[s].step(duration, acceleration_, n == 0, with_energies, states_[s]);
+    steps_[s].step(duration, acceleration_, with_energies, states_[s]);
   }
   for (auto& run : runs_) run->resolve(steps_, states_);
   for (auto& run : runs_) run->close(time, duration, records, steps_);

@@ -39,9 +39,8 @@
 ///         file["structures/left/velocity"][x[:, 2] > 5, 0] += 0.1
 ///
 /// The file is sealed (output/file_seal.h): after such a change, run/seal results/checkpoint.h5.
-/// `stiffness_displacement` is K u_n: whoever changes a displacement has to change it alike. Energy
-/// that a change brings in is in no ledger: beyond round-off the identity no longer closes and the
-/// run stops, unless the initial energy in sums/energy follows.
+/// Energy that a change brings in is in no ledger: beyond round-off the identity no longer closes
+/// and the run stops, unless the initial energy in sums/energy follows.
 namespace pounding {
 
 /// Identity that a checkpoint shares with the runs that may continue it, beside the meshes.

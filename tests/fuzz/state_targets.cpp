@@ -50,7 +50,7 @@ const RunIdentity& identity() {
 std::string checkpoint_seed(const BoxModel& box, const std::string& folder) {
   SavedState saved;
   const std::vector<double> values(static_cast<std::size_t>(box.mesh.owned_dofs), 0.5);
-  for (const char* name : {"displacement", "velocity", "stiffness_displacement"}) {
+  for (const char* name : {"displacement", "velocity"}) {
     saved.put_dofs(0, name, values);
   }
   saved.put_sums("energy", std::vector<double>{1, 2, 3});

@@ -48,7 +48,6 @@ class Motion {
   explicit Motion(const LinearSystem& system) : system_(system) {
     state.displacement = {0, 0.03, 1e-3, 2e-4};
     state.velocity = {0.5, 0, -0.2, 0.1};
-    state.stiffness_displacement.assign(4, 0.0);
     if (system.uniform_damping) state.filtered.assign(3, std::vector<double>(4, 0.0));
   }
   void step(double ground_acceleration) {
@@ -80,12 +79,12 @@ class Motion {
     const double q = stiffness[i] * state.displacement[i];
     double force = q;
     for (std::size_t k = 0; k < 3; ++k) {
-      double& w = state.filtered[k][i];
+      double& memory = state.filtered[k][i];
       const double c = damping.filters[k].rate * time_step / 2;
-      w = ((1 - c) * w + c * (q + state.stiffness_displacement[i])) / (1 + c);
+      const double w = memory + c / (1 + c) * q;
+      memory = ((1 - c) * w + c * q) / (1 + c);
       force += damping.filters[k].weight * (q - w);
     }
-    state.stiffness_displacement[i] = q;
     return damping.at_rest() * force;
   }
 

@@ -1,0 +1,37 @@
+#include "dynamics/kept_forces.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace pounding {
+
+void KeptForces::watch(std::span<const LocalIndex> dofs) {
+  if (dofs.empty()) return;
+  if (!dofs_.empty()) dofs_.pop_back();
+  dofs_.insert(dofs_.end(), dofs.begin(), dofs.end());
+  std::ranges::sort(dofs_);
+  dofs_.erase(std::ranges::unique(dofs_).begin(), dofs_.end());
+  forces_.assign(dofs_.size(), {});
+  first_.assign(dof_count_ / block + 1, 0);
+  std::size_t k = 0;
+  for (std::size_t b = 0; b < first_.size(); ++b) {
+    while (k < dofs_.size() && static_cast<std::size_t>(dofs_[k]) < b * block) ++k;
+    first_[b] = static_cast<std::int32_t>(k);
+  }
+  dofs_.push_back(std::numeric_limits<LocalIndex>::max());
+}
+
+void KeptForces::take(LocalIndex begin, LocalIndex end, const double* force,
+                      const Filters<double>& filters,
+                      std::span<const std::vector<double>> memories) {
+  for (std::size_t k = place(begin); dofs_[k] < end; ++k) {
+    const auto dof = static_cast<std::size_t>(dofs_[k]);
+    const double q = force[dofs_[k] - begin];
+    forces_[k].stiffness = q;
+    forces_[k].acting = memories.empty() ? q : filtered_force(filters, q, [&](std::size_t i) {
+      return memories[i][dof];
+    });
+  }
+}
+
+}  // namespace pounding
