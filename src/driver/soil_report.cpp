@@ -62,11 +62,15 @@ std::vector<SpreadReport> find_spread_springs(const Structure& structure, const 
 void print_spread_springs(std::span<const SpreadReport> groups) {
   for (const SpreadReport& group : groups) {
     const Region& region = *group.region;
-    const auto& k = region.stiffness;
-    std::printf("  springs of %s, %lld nodes, spread over %.6g %s: %.4g, %.4g, %.4g N/m in all\n",
-                region.group.c_str(), static_cast<long long>(group.nodes), group.extent,
-                region.spread == Spread::area ? "m2" : "m", group.extent * k[0],
-                group.extent * k[1], group.extent * k[2]);
+    const auto print = [&](const char* what, const auto& along, const char* unit) {
+      if (along[0] == 0 && along[1] == 0 && along[2] == 0) return;
+      std::printf("  %s of %s, %lld nodes, spread over %.6g %s: %.4g, %.4g, %.4g %s in all\n", what,
+                  region.group.c_str(), static_cast<long long>(group.nodes), group.extent,
+                  region.spread == Spread::area ? "m2" : "m", group.extent * along[0],
+                  group.extent * along[1], group.extent * along[2], unit);
+    };
+    print("springs", region.stiffness, "N/m");
+    print("dashpots", region.dashpot, "N s/m");
   }
 }
 
