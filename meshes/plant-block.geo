@@ -57,7 +57,7 @@ For k In {0:levels-1}
 EndFor
 
 mat() = {}; slabs() = {}; roofs() = {};
-basement() = {}; inner() = {}; outer() = {}; tower() = {}; east() = {}; west() = {};
+basement() = {}; sides_x() = {}; sides_y() = {}; inner() = {}; outer() = {}; tower() = {}; east() = {}; west() = {};
 For k In {0:levels-1}
   For j In {0:count-1}
     For i In {0:count-1}
@@ -93,7 +93,9 @@ For k In {0:levels-2}
         Transfinite Surface{s}; Recombine Surface{s};
         edge = line == 0 || line == count;
         If (k >= tower_from) tower() += s;
-        ElseIf (k == 0 && edge) basement() += s;
+        ElseIf (k == 0 && edge)
+          basement() += s;
+          If (way == 0) sides_y() += s; Else sides_x() += s; EndIf
         ElseIf (edge) outer() += s;
         Else inner() += s; EndIf
         If (way == 1 && k > 0 && k < tower_from)
@@ -113,6 +115,9 @@ Physical Surface("outer_walls") = outer();
 Physical Surface("tower_walls") = tower();
 Physical Surface("east_face") = east();
 Physical Surface("west_face") = west();
+// Where the soil meets the basement, by the axis that the walls face.
+Physical Surface("embedded_x") = sides_x();
+Physical Surface("embedded_y") = sides_y();
 // The soil holds the mat at the corners of its modules.
 soil() = {};
 For n In {0:level-1}
