@@ -42,6 +42,14 @@ void add_short_record(const Scene& scene, const Model& model, int direction,
   }
 }
 
+/// Between the samples of a direction as they are given: resampling adds nothing to step over.
+double given_interval(const Model& model, int direction) {
+  for (const MotionDescription& description : model.motion->descriptions()) {
+    if (description.direction == direction_names[direction]) return description.time_step;
+  }
+  return samples(model, direction).time_step;
+}
+
 void add_long_step(const std::string& of, double sample, double step,
                    std::vector<std::string>& warnings) {
   if (step > sample * round_off) {
@@ -66,7 +74,7 @@ std::vector<std::string> run_warnings(const Scene& scene, const Model& model) {
     if (!samples(model, direction).acceleration.empty()) {
       add_short_record(scene, model, direction, warnings);
       add_long_step("a sample of the motion along " + std::string(direction_names[direction]),
-                    samples(model, direction).time_step, model.time_step, warnings);
+                    given_interval(model, direction), model.time_step, warnings);
     }
   }
   // The interval that nobody asked for is as short as the step where that is longer.

@@ -89,6 +89,13 @@ class Time(Run):
         self.doubt([*CHAIN, *motion, "-time_step", "0.001"], "time step 0.001 s", "motion along y, 0.0005 s")
         self.doubt([*CHAIN, *PROBE, "1,0,0", "-time_step", "0.002"], "-output_interval, 0.001 s", "-time_step 0.001")
 
+    def test_step_longer_than_those_of_a_resampled_record(self):
+        """Points of the band-limited signal between the samples may be stepped over."""
+        resampled = ["-motion_y_unit", "m/s2", "-resampling", "band_limited", "-motion_y_record",
+                     self.record(0.005, 21), "-time_step"]
+        self.assertEqual(self.doubts([*CHAIN, *resampled, "0.002"]), [])
+        self.doubt([*CHAIN, *resampled, "0.01"], "time step 0.01 s", "motion along y, 0.005 s")
+
 
 class Displacements(Run):
     def test_above_a_twentieth_of_the_model(self):
