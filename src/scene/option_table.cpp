@@ -63,7 +63,7 @@ constexpr std::array table{
     OptionRow{Block::run, "force_window", Kind::real, "s", value("1e-3"), positive, "", "time over which the largest force of an impact is taken: its largest impulse within it, over it"},
     OptionRow{Block::run, "output_interval", Kind::real, "s", value("5e-5"), positive, "", "time between two samples of the probes"},
     OptionRow{Block::run, "gap_interval", Kind::real, "s", value("0"), not_negative, "", "time between two samples of the gaps, not a number in between unless they were looked at anyway; 0: with every sample of the probes"},
-    OptionRow{Block::run, "energy_interval", Kind::integer, "steps", value("100"), at_least_1, "", "steps between two lines of the energy balance"},
+    OptionRow{Block::run, "energy_interval", Kind::integer, "steps", value("100"), at_least_1, "", "steps between two lines of the energy balance; each takes one more product with the stiffness"},
     OptionRow{Block::run, "mesh_time_limit", Kind::real, "s", value("600"), positive, "", "time that Gmsh may take for one mesh"},
     OptionRow{Block::run, "allow_geo_commands", Kind::boolean, "flag", value("false"), any, "", "let .geo files run commands and write files, as Gmsh itself does"},
     OptionRow{Block::run, "dry_run", Kind::boolean, "flag", value("false"), any, "", "check the model, print what a run would cost, and stop"},
