@@ -28,6 +28,7 @@ struct ElementProperties {
   Vector3 z_axis{0, 0, 1};
   double thickness = 0;
   double rotary_inertia_factor = 0;   ///< of shells, see flat_shell.h
+  double drilling_factor = 1;         ///< of shells, likewise
   double added_mass = 0;              ///< of a shell [kg/m2], of a beam or bar [kg/m]
   double mass = 0;                    ///< of a point
   Vector3 rotary_inertia{0, 0, 0};    ///< of a point, about x, y, z

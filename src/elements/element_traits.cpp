@@ -36,7 +36,8 @@ using ShellFunction = void (*)(Coordinates, const ShellProperties&, Matrix);
 template <ShellFunction function>
 void of_shell(Coordinates coordinates, const Properties& p, Matrix result) {
   function(coordinates,
-           {p.young, p.poisson, p.density, p.thickness, p.rotary_inertia_factor, p.added_mass},
+           {p.young, p.poisson, p.density, p.thickness, p.rotary_inertia_factor, p.added_mass,
+            p.drilling_factor},
            result);
 }
 
@@ -60,7 +61,8 @@ void nothing(Coordinates, const Properties&, Matrix result) {
 constexpr std::string_view of_solid = "material";
 constexpr std::string_view of_bar =
     "material area tension_only slack yield_force hardening mass_per_length";
-constexpr std::string_view of_plate = "material thickness rotary_inertia_factor mass_per_area";
+constexpr std::string_view of_plate =
+    "material thickness rotary_inertia_factor drilling_factor mass_per_area";
 constexpr std::string_view of_point = "mass rotary_inertia";
 constexpr std::string_view of_spring =
     "stiffness dashpot dashpot_exponent yield_force hardening yield_circle sliding_friction "

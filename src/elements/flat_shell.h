@@ -11,10 +11,10 @@
 /// Flat shells: the common part of shell3 and shell4. In local axes (z normal to the plane) a node
 /// moves by (ux, uy, uz) and turns by (rx, ry, rz). A fibre follows u + z ry, v - z rx; rz, the
 /// drilling rotation, is tied to the rotation of the plane by the functional of Hughes and Brezzi
-/// (Comput. Methods Appl. Mech. Eng. 72, 1989) with gamma = G t:
+/// (Comput. Methods Appl. Mech. Eng. 72, 1989):
 ///   W = t W_p(u, v) + t^3/12 W_p(ry, -rx) + kappa G t |grad w + (ry, -rx)|^2 / 2
-///       + G t (rz - (dv/dx - du/dy)/2)^2 / 2                    per unit area, W_p in plane
-///       stress.
+///       + gamma (rz - (dv/dx - du/dy)/2)^2 / 2                  per unit area, W_p in plane
+///       stress, gamma = G t times the drilling factor.
 namespace pounding {
 
 /// Properties of a shell beside its coordinates. [SI]
@@ -29,7 +29,8 @@ struct ShellProperties {
   /// longer for h / t = 10 to 25), and the first six frequencies of a square plate in 16 x 16
   /// elements fall by 0.1 to 2.5 %.
   double rotary_inertia_factor = 0;
-  double added_mass = 0;  ///< per area, as if spread through the thickness [kg/m2]
+  double added_mass = 0;       ///< per area, as if spread through the thickness [kg/m2]
+  double drilling_factor = 1;  ///< gamma / (G t), positive
 };
 
 inline constexpr double shear_correction = 5.0 / 6;  // kappa

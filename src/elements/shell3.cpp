@@ -69,7 +69,7 @@ std::array<double, node_count> edge_middle(std::size_t g) {
 
 /// Constant-strain membrane with linear drilling rotation, dofs (ux, uy, rz) per node.
 PlaneMatrix membrane_stiffness(const FlatTriangle& triangle, const PlaneModuli& moduli,
-                               double thickness) {
+                               const ShellProperties& properties) {
   PlaneMatrix matrix{};
   std::array<StrainRow<plane_size>, 2> grad_x{}, grad_y{};
   for (std::size_t a = 0; a < node_count; ++a) {
@@ -77,14 +77,15 @@ PlaneMatrix membrane_stiffness(const FlatTriangle& triangle, const PlaneModuli& 
       grad_x[i][3 * a] = grad_y[i][3 * a + 1] = triangle.gradients[a][i];
     }
   }
-  const double volume = triangle.area * thickness;
+  const double volume = triangle.area * properties.thickness;
   add_plane_energy<plane_size>(grad_x, grad_y, moduli, volume, matrix);
   for (std::size_t g = 0; g < node_count; ++g) {
     StrainRow<plane_size> drilling{};
     const auto values = edge_middle(g);
     for (std::size_t i = 0; i < plane_size; ++i) drilling[i] = (grad_x[1][i] - grad_y[0][i]) / 2;
     for (std::size_t a = 0; a < node_count; ++a) drilling[3 * a + 2] = values[a];
-    add_square<plane_size>(drilling, volume / 3 * moduli.shear, matrix);
+    add_square<plane_size>(drilling, volume / 3 * properties.drilling_factor * moduli.shear,
+                           matrix);
   }
   return matrix;
 }
@@ -158,7 +159,7 @@ void shell3_stiffness(std::span<const double> coordinates, const ShellProperties
   const PlaneModuli moduli = checked_plane_moduli(properties);
   const FlatTriangle triangle = checked_triangle(coordinates);
   const std::array<double, node_count> heights{};
-  assemble_shell(membrane_stiffness(triangle, moduli, properties.thickness),
+  assemble_shell(membrane_stiffness(triangle, moduli, properties),
                  plate_stiffness(triangle, moduli, properties.thickness), heights, triangle.frame,
                  stiffness);
 }

@@ -144,7 +144,8 @@ Vector2 to_space(const Map& map, const Vector2& natural) {
 /// gradients of the modes carry the centre's map and det J0 / det J: they integrate to zero, so a
 /// constant stress does no work on them.
 void add_membrane(const Shape& shape, const Map& map, const Map& centre, const Vector2& point,
-                  const PlaneModuli& moduli, double thickness, std::span<double> matrix) {
+                  const PlaneModuli& moduli, const ShellProperties& properties,
+                  std::span<double> matrix) {
   std::array<StrainRow<membrane_size>, 2> grad_x{}, grad_y{};
   StrainRow<membrane_size> drilling{};
   for (std::size_t a = 0; a < node_count; ++a) {
@@ -162,9 +163,9 @@ void add_membrane(const Shape& shape, const Map& map, const Map& centre, const V
     }
   }
   for (std::size_t i = 0; i < membrane_size; ++i) drilling[i] -= (grad_y[0][i] - grad_x[1][i]) / 2;
-  const double weight = thickness * map.determinant;
+  const double weight = properties.thickness * map.determinant;
   add_plane_energy<membrane_size>(grad_x, grad_y, moduli, weight, matrix);
-  add_square<membrane_size>(drilling, weight * moduli.shear, matrix);
+  add_square<membrane_size>(drilling, weight * properties.drilling_factor * moduli.shear, matrix);
 }
 
 /// Natural shear strain along the edge from node a to node b, dofs (uz, rx, ry) per node: half of
@@ -233,7 +234,7 @@ void shell4_stiffness(std::span<const double> coordinates, const ShellProperties
     const Vector2 point = gauss_point(g);
     const Shape shape = shape_at(point);
     const Map map = map_at(quad, shape);
-    add_membrane(shape, map, centre, point, moduli, properties.thickness, with_modes);
+    add_membrane(shape, map, centre, point, moduli, properties, with_modes);
     add_plate(quad, shape, map, point, moduli, properties.thickness, plate);
   }
   condense_last(with_modes, membrane_size, plane_size, membrane);

@@ -64,6 +64,7 @@ std::string hash_of(const std::vector<Region>& regions) {
     hash.add_all(p.rotary_inertia);
     hash.add_all(region.stiffness);
     if (p.added_mass != 0) hash.add(p.added_mass);
+    if (p.drilling_factor != 1) hash.add(p.drilling_factor);
     if (region.foundation) hash.add_all(region.foundation->arm);
   }
   return hash.text();

@@ -141,6 +141,7 @@ constexpr std::array table{
     OptionRow{Block::region, "<structure>_<group>_tension_only", Kind::boolean, "flag", value("false"), any, "", "bar that buckles: it resists stretching only"},
     OptionRow{Block::region, "<structure>_<group>_thickness", Kind::real, "m", absent("required for shell"), positive, "", "its thickness (shell only)"},
     OptionRow{Block::region, "<structure>_<group>_rotary_inertia_factor", Kind::real, "-", value("0"), not_negative, "", "shell: rotary inertia of a node at least its mass x this x element area; 0.125 frees the step from thin shells"},
+    OptionRow{Block::region, "<structure>_<group>_drilling_factor", Kind::real, "-", value("1"), positive, "", "shell: stiffness against turning about the normal, over G t; 0.1 is closer and has a longer step"},
     OptionRow{Block::region, "<structure>_<group>_mass_per_area", Kind::real, "kg/m2", value("0"), not_negative, "", "what a shell carries that has no stiffness"},
     OptionRow{Block::region, "<structure>_<group>_mass_per_length", Kind::real, "kg/m", value("0"), not_negative, "", "what a beam or bar carries that has no stiffness"},
     OptionRow{Block::region, "<structure>_<group>_mass", Kind::real, "kg", absent("required for point_mass"), positive, "", "mass added at each point of the group"},

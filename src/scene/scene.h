@@ -56,6 +56,7 @@ struct Region {
   double area = 0;                   ///< bars [m2]
   double thickness = 0;              ///< shells [m]
   double rotary_inertia_factor = 0;  ///< shells [-], see elements/flat_shell.h
+  double drilling_factor = 1;        ///< shells [-], likewise
   double added_mass = 0;             ///< shells [kg/m2], beams and bars [kg/m]
   double mass = 0;                   ///< point masses, at each node of the group [kg]
   Vector3 rotary_inertia{0, 0, 0};   ///< point masses [kg m2]

@@ -28,7 +28,8 @@ using Names = OptionReader::Names;
 /// Options that belong to some elements only: refused beside the others.
 void forbid_others(const OptionReader& options, const std::string& element, const Names& names) {
   constexpr std::string_view properties =
-      "area dashpot dashpot_exponent hardening mass mass_per_area mass_per_length material "
+      "area dashpot dashpot_exponent drilling_factor hardening mass mass_per_area mass_per_length "
+      "material "
       "rotary_inertia rotary_inertia_factor section compression_only slack sliding_friction "
       "pendulum_radius stiffness stiffness_per_area stiffness_per_length dashpot_per_area "
       "dashpot_per_length tension_only thickness yield_circle yield_force";
@@ -156,6 +157,7 @@ void read_solid(OptionReader& options, const Names& names, Region& region) {
     region.thickness = options.real("<structure>_<group>_thickness", names);
     region.added_mass = options.real("<structure>_<group>_mass_per_area", names);
     region.rotary_inertia_factor = options.real("<structure>_<group>_rotary_inertia_factor", names);
+    region.drilling_factor = options.real("<structure>_<group>_drilling_factor", names);
   }
 }
 

@@ -10,6 +10,7 @@ ElementProperties element_properties(const Region& region, double share) {
   properties.area = region.area;
   properties.thickness = region.thickness;
   properties.rotary_inertia_factor = region.rotary_inertia_factor;
+  properties.drilling_factor = region.drilling_factor;
   properties.added_mass = region.added_mass;
   properties.mass = region.mass;
   properties.rotary_inertia = region.rotary_inertia;

@@ -48,6 +48,7 @@ NUMBERS = [
     refused("-mast_tip_dashpot", "-1,0,0,0,0,0", ">= 0", scene="frame.yaml"),
     refused("-panel_plate_thickness", "0", "> 0", scene="frame.yaml"),
     refused("-panel_plate_rotary_inertia_factor", "-1", ">= 0", scene="frame.yaml"),
+    refused("-panel_plate_drilling_factor", "0", "> 0", scene="frame.yaml"),
     refused("-panel_plate_mass_per_area", "-1", ">= 0", scene="frame.yaml"),
     refused("-section_tube_area", "0", "> 0", scene="frame.yaml"),
     refused("-section_tube_inertia_y", "-2e-5", "> 0", scene="frame.yaml"),

@@ -97,6 +97,11 @@ TEST(Shell4, ThinElementIsGovernedByItsShearCutOff) {
   EXPECT_NEAR(std::sqrt(shear) / 1019291.2415538952, 1, 1e-12);
   const double drilling = g / 7800 * (12 / (t * t) + 2 / (h * h));
   EXPECT_NEAR(values.back() / drilling, 1, 1e-9);
+  ShellProperties softer = p;
+  softer.drilling_factor = 0.5;  // the shear cut-off is the largest then
+  const auto half = dense_shell(square(h), softer);
+  EXPECT_NEAR(squared_circular_frequencies(half.stiffness, half.lumped_mass).back() / shear, 1,
+              1e-9);
 }
 
 TEST(Shell4, ScaledRotaryInertiaLeavesTheMembraneInCharge) {

@@ -23,6 +23,7 @@ TEST(ElementOptions, Shell) {
   EXPECT_EQ(shell.element, ElementType::shell4);
   EXPECT_EQ(shell.thickness, 0.22);
   EXPECT_EQ(shell.rotary_inertia_factor, 0);
+  EXPECT_EQ(shell.drilling_factor, 1);
   EXPECT_EQ(shell.added_mass, 0);
   expect_refused(
       with_group({{"tower_extra_element", "shell"}, {"tower_extra_material", "concrete"}}),

@@ -26,6 +26,7 @@ ElementProperties concrete() {
   properties.poisson = 0.27;
   properties.density = 2400;
   properties.thickness = 0.2;
+  properties.drilling_factor = 0.3;
   return properties;
 }
 
