@@ -44,6 +44,7 @@ class TotalForce {
   void add_force(const Counted& counted, double force, Wrench& total) const {
     add_unit_force(point_, counted.place, counted.component, force, total);
   }
+
   Vector3 point_;
   std::vector<Counted> counted_;  ///< empty in generalised coordinates
   std::vector<Wrench> links_;     ///< per link of this rank, of a unit force of it

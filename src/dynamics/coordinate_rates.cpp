@@ -52,10 +52,11 @@ double CoordinateRates::rate(const StructureState& state) {
     const double before = state.displacement[i] - time_step_ * v;  // u_{n-1}
     for (std::size_t b = 0; b < branch_over_a_.size(); ++b) {
       // Z^n = k W^{n-1} + t Q_{n-1}; what W^{n-1} was does not matter if k is zero.
-      const double keep = filters_.filters[b].keep;
-      if (keep == 0) continue;
-      const double take = (1 - keep) / 2;  // t
-      const double branch = mean - (state.filtered[b][i] * compliance_[i] - take * before) / keep;
+      const auto& filter = filters_.filters[b];
+      if (filter.keep == 0) continue;
+      const double passed =
+          (state.filtered[b][i] * compliance_[i] - filter.newest() * before) / filter.keep;
+      const double branch = mean - passed;
       square += branch_over_a_[b][i] * (branch * branch);
     }
     speeds_[i] = std::sqrt(square);

@@ -78,6 +78,7 @@ double EnergyBalance::stored_work(std::span<const StepSums> sums) const {
   return stored;
 }
 
+/// Works of the step just made.
 EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
                                           const std::array<double, 3>& ground_acceleration,
                                           const ContactWork& contact) const {

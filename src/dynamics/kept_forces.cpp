@@ -27,10 +27,8 @@ void KeptForces::take(LocalIndex begin, LocalIndex end, const double* force,
   for (std::size_t k = place(begin); dofs_[k] < end; ++k) {
     const auto dof = static_cast<std::size_t>(dofs_[k]);
     const double q = force[dofs_[k] - begin];
-    forces_[k].stiffness = q;
-    forces_[k].acting = memories.empty() ? q : filtered_force(filters, q, [&](std::size_t i) {
-      return memories[i][dof];
-    });
+    const auto memory = [&](std::size_t i) { return memories[i][dof]; };
+    forces_[k] = {q, filtered_force(filters, q, memory)};
   }
 }
 

@@ -45,8 +45,7 @@ void start_filters(const LinearSystem& system, double time_step, StructureState&
   system.stiffness->apply({state.displacement.data(), state.displacement.data(), 0}, store);
   const Filters<double> filters = filters_of(system, time_step);
   for (std::size_t k = 0; k < filters.count; ++k) {
-    const auto& [weight, keep, take] = filters.filters[k];
-    const double share = (1 + keep) / 2;  // 1 - t: Z = W - t Q of W = Q
+    const double share = 1 - filters.filters[k].newest();  // Z = W - t Q of W = Q
     for (std::size_t i = 0; i < force.size(); ++i) state.filtered[k][i] = share * force[i];
   }
 }

@@ -71,9 +71,10 @@ struct Filters {
   std::size_t count = 0;
   Value passing;  ///< s (1 + sum a_i (1 - t_i))
   struct Filter {
-    Value weight;  ///< s a_i
-    Value keep;    ///< k_i
-    Value take;    ///< t_i (1 + k_i)
+    Value weight;                                    ///< s a_i
+    Value keep;                                      ///< k_i
+    Value take;                                      ///< t_i (1 + k_i)
+    Value newest() const { return (1 - keep) / 2; }  ///< t_i
   };
   std::array<Filter, max_filters> filters;
 };
