@@ -3,7 +3,10 @@
 import os
 import signal
 import subprocess
+import threading
 import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from .results import Result, load
@@ -57,6 +60,27 @@ def complaint(text: str) -> str:
     return said[0] if said else ""
 
 
+@contextmanager
+def interrupts_held() -> Iterator[None]:
+    """Holds SIGINT and SIGTERM back until the block ends, where the last of them acts: a run that starts in the block
+    is known when Ctrl-C comes, and can be stopped. Outside the main thread, which alone receives signals, nothing is
+    held."""
+    held: list = []
+    before = {}
+    if threading.current_thread() is threading.main_thread():
+        before = {number: handler for number in (signal.SIGINT, signal.SIGTERM)
+                  if (handler := signal.getsignal(number)) not in (None, signal.SIG_IGN)}
+    try:
+        for number in before:
+            signal.signal(number, lambda got, _frame: held.append(got))
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        if held:
+            signal.raise_signal(held[-1])
+
+
 class Job:
     """A run that goes on now, in a session of its own: what it prints goes to `log.txt` in `output`."""
 
@@ -94,17 +118,27 @@ class Job:
         return said or f"exit status {self.process.returncode}, see {self.output / LOG}"
 
 
+def finish(start: Callable[[], Job]) -> str:
+    """Waits for the end of the run that `start` starts: '' if all went well, else one line. Stops the run if the wait
+    is interrupted."""
+    job = None
+    try:
+        with interrupts_held():
+            job = start()
+        return job.outcome()
+    finally:
+        if job:
+            job.stop()
+
+
 def run(scene: Path | str | None, output: Path | str, ranks: int = 1, folder: Path | str | None = None,
         **options) -> Result:
     """Runs a scene into the folder `output`, with more options as names and values, and reads what it left; what
     it printed is in `log.txt` there. `folder`: where the program runs and the paths of its command line begin
     (default: here). Throws RunError, or ResultError."""
     base = Path(folder or ".").absolute()
-    job = Job(words_of(scene, options), (base / output).absolute(), ranks, base, environment())
-    try:
-        failure = job.outcome()
-    finally:
-        job.stop()
+    place, variables = (base / output).absolute(), environment()
+    failure = finish(lambda: Job(words_of(scene, options), place, ranks, base, variables))
     if failure:
         raise RunError(failure)
-    return load(job.output)
+    return load(place)

@@ -3,6 +3,8 @@
 import time
 from typing import Callable
 
+from pounding.runs import interrupts_held
+
 
 def run_side_by_side(waiting: list, jobs: int, start: Callable, ended: Callable, look: Callable | None = None) -> None:
     """Starts what waits, `jobs` at a time: `start(item)` gives a pounding.runs.Job. Calls `ended(item, job, waiting,
@@ -13,9 +15,10 @@ def run_side_by_side(waiting: list, jobs: int, start: Callable, ended: Callable,
         while waiting or running:
             while waiting and len(running) < jobs:
                 item = waiting.pop(0)
-                job = start(item)
-                running.append(job)
-                item_of[job] = item
+                with interrupts_held():
+                    job = start(item)
+                    running.append(job)
+                    item_of[job] = item
             if look:
                 look(waiting, running)
             time.sleep(0.1)

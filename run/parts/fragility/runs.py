@@ -9,7 +9,7 @@ from pathlib import Path
 from parts.side_by_side import run_side_by_side
 from parts.sweep.members import scene_files
 from pounding.results import ResultError, load
-from pounding.runs import LOG, Job, environment
+from pounding.runs import LOG, Job, environment, finish
 from pounding.scenes import write_scene
 
 from . import outcomes
@@ -131,11 +131,7 @@ class Runner:
         print(f"fragility: ensemble {place.name} on {ranks}; progress in {place / LOG}", flush=True)
         words = ["-options_file", str(self.scene(True).absolute()), "-ensemble",
                  str((place / "members.csv").absolute())]
-        job = Job(words, place.absolute(), self.ranks, Path.cwd(), self.variables)
-        try:
-            return job.outcome()
-        finally:
-            job.stop()
+        return finish(lambda: Job(words, place.absolute(), self.ranks, Path.cwd(), self.variables))
 
     def _singles(self, members: list, reduced: bool, name: str) -> None:
         """Each member a run of its own; what is finished is kept and not repeated. Throws StudyError at the first that

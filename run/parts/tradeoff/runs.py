@@ -6,7 +6,7 @@ from pathlib import Path
 
 from parts.sweep.members import file_hashes
 from pounding.results import DIRECTIONS, load
-from pounding.runs import Job, environment, words_of
+from pounding.runs import Job, environment, finish, words_of
 
 from .metrics import GRID
 from .settings import Setting
@@ -118,11 +118,8 @@ def run(case: Case | SceneCase, setting: Setting, ranks: int, folder: Path, log)
 
     if not (mark.exists() and mark.read_text() == signature()):
         shutil.rmtree(place, ignore_errors=True)
-        job = Job(words, place, ranks, case.folder, environment())
-        try:
-            failure = job.outcome()
-        finally:
-            job.stop()
+        variables = environment()
+        failure = finish(lambda: Job(words, place, ranks, case.folder, variables))
         if failure:
             log(f"  {setting.name}: {failure}")
             return None
