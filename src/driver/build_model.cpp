@@ -51,7 +51,7 @@ void check_mesh(const Scene& scene, std::size_t s, const GlobalMesh& mesh, Model
                         check_unused(scene, structure, mesh)};
   check_export(scene, structure, mesh);
   if (structure.matrices.empty()) check_connectivity(scene, structure, findings.connectivity);
-  append(mesh_warnings(structure, mesh, findings.connectivity), model.warnings);
+  append(mesh_warnings(scene, structure, mesh, findings.connectivity), model.warnings);
   model.buildings[s].findings = std::move(findings);
 }
 
@@ -87,7 +87,7 @@ void build_meshes(MPI_Comm comm, Scene& scene, std::span<const double> stiffness
         model.buildings[s].absorbing = find_absorbing_nodes(scene, scene.structures[s], meshes[s]);
         model.buildings[s].spread = find_spread_springs(scene.structures[s], meshes[s]);
         check_mesh(scene, s, meshes[s], model);
-        meshes[s].supported = find_supported_nodes(scene, scene.structures[s], meshes[s]);
+        find_supported_nodes(scene, scene.structures[s], meshes[s]);
       }
       const Progress progress(comm, "faces in contact and probes", scene.progress_interval);
       model.interface = find_interface(scene, meshes, gap_shares);

@@ -17,6 +17,9 @@ constexpr const char* ungrouped = "ungrouped";
 /// Longer structures are meshes in millimetres, or in feet.
 constexpr double longest_structure = 500;  // m
 
+/// Part of the diagonal of a structure by which a point may lie outside of it.
+constexpr double outside = 0.05;
+
 /// Joins are beams and slabs that lie on each other.
 constexpr double longest_join = 1;  // m
 
@@ -48,7 +51,7 @@ std::set<std::string> named_groups(const Scene& scene, const Structure& structur
   }
   for (const Support& support : scene.supports) {
     for (const SupportedGroup& group : support.groups) {
-      if (group.structure == structure.name) names.insert(group.group);
+      if (group.structure == structure.name && !group.is_all_ground()) names.insert(group.group);
     }
   }
   for (const Probe& probe : scene.probes) {
@@ -193,10 +196,33 @@ void doubt_long_joins(const Structure& structure, const GlobalMesh& mesh,
   warnings.push_back(text.str());
 }
 
+/// Doubt about embedded foundations of this structure alone that turn about a point outside of it.
+void doubt_turning_points(const Scene& scene, const Structure& structure, const GlobalMesh& mesh,
+                          std::vector<std::string>& warnings) {
+  const BoundingBox box = bounding_box({&mesh, 1});
+  const double reach = outside * box.diagonal();
+  for (const Support& support : scene.supports) {
+    if (!support.embedment) continue;
+    bool is_out = false;
+    for (std::size_t d = 0; d < 3; ++d) {
+      is_out =
+          is_out || support.point[d] < box.low[d] - reach || support.point[d] > box.high[d] + reach;
+    }
+    const bool alone = std::ranges::all_of(support.groups, [&](const SupportedGroup& group) {
+      return group.structure == structure.name;
+    });
+    if (!alone || !is_out) continue;
+    warnings.push_back("support " + support.name + ": it turns about " + place_text(support.point) +
+                       ", outside of structure " + structure.name + ", which lies between " +
+                       place_text(box.low) + " and " + place_text(box.high) + "; give -" +
+                       support.name + "_point the middle of its underside");
+  }
+}
+
 }  // namespace
 
-std::vector<std::string> mesh_warnings(const Structure& structure, const GlobalMesh& mesh,
-                                       const Connectivity& connectivity) {
+std::vector<std::string> mesh_warnings(const Scene& scene, const Structure& structure,
+                                       const GlobalMesh& mesh, const Connectivity& connectivity) {
   std::vector<std::string> warnings;
   if (connectivity.coincident_inside.count > 0 && !structure.allow_loose) {
     warnings.push_back(
@@ -205,6 +231,7 @@ std::vector<std::string> mesh_warnings(const Structure& structure, const GlobalM
                  " pairs of nodes lie on each other and are not one, the first at "));
   }
   doubt_long_joins(structure, mesh, warnings);
+  doubt_turning_points(scene, structure, mesh, warnings);
   warnings.insert(warnings.end(), mesh.doubts.begin(), mesh.doubts.end());
   const double longest = bounding_box({&mesh, 1}).longest_side();
   if (longest > longest_structure) {

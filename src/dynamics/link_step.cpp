@@ -17,6 +17,7 @@ namespace pounding {
 namespace {
 
 constexpr int most_sweeps = 1000;
+constexpr double unstretched = 1e-9;  ///< elongation per unit of a support's motion, round-off
 constexpr double converged = 1e-15;  ///< change of a tension over the largest
 
 /// Links with a rate on one body from which on they are solved for by its motions, and how strong
@@ -54,11 +55,11 @@ LinkStep::LinkStep(const LinearSystem& system, const StructureState& state, Stru
     laws_.push_back(law_of(link.origin, time_step));
     memory_.emplace_back(laws_.back()->memory_size(), 0.0);
   }
+  if (system.supports) find_carried();
   if (are_dashpots(system)) {
     make_modes(system);
     return;
   }
-  if (system.supports) find_carried();
   find_bodies(system);
   find_couplings();
   find_blocks();
@@ -76,6 +77,10 @@ void LinkStep::find_carried() {
       for (std::size_t c = 0; c < columns; ++c) row[c] += link.weight[i] * of_place[c];
     }
   }
+  const auto is_stretched = [](const std::vector<double>& row) {
+    return std::ranges::any_of(row, [](double part) { return std::abs(part) > unstretched; });
+  };
+  if (std::ranges::none_of(carried_, is_stretched)) carried_.clear();
 }
 
 void LinkStep::find_yielding() {

@@ -6,7 +6,7 @@
 namespace pounding {
 
 bool LinkStep::are_dashpots(const LinearSystem& system) const {
-  if (!system.generalised || system.supports || links_.empty()) return false;
+  if (!system.generalised || !carried_.empty() || links_.empty()) return false;
   const bool driven = std::ranges::any_of(links_, [](const Link& link) {
     return link.incident != Vector3{0, 0, 0};
   });

@@ -77,12 +77,18 @@ std::map<GlobalIndex, int> support_of_nodes(const Scene& scene, const Structure&
 
 }  // namespace
 
-std::vector<SupportedNode> find_supported_nodes(const Scene& scene, const Structure& structure,
-                                                const GlobalMesh& mesh) {
-  const std::map<GlobalIndex, int> found = support_of_nodes(scene, structure, mesh);
+void find_supported_nodes(const Scene& scene, const Structure& structure, GlobalMesh& mesh) {
+  const int all_ground = support_of_all_ground(scene, structure);
+  std::map<GlobalIndex, int> found;
+  if (all_ground < 0) found = support_of_nodes(scene, structure, mesh);
   std::vector<SupportedNode> nodes;
-  for (GlobalIndex node = 0; !found.empty() && node < mesh.node_count(); ++node) {
+  for (GlobalIndex node = 0; node < mesh.node_count(); ++node) {
     if (clamped(mesh, node) == 0) continue;
+    if (all_ground >= 0) {
+      nodes.push_back({node, all_ground, clamped(mesh, node)});
+      continue;
+    }
+    if (found.empty()) break;
     const auto at = found.find(node);
     if (at == found.end()) {
       throw UserError("structure " + structure.name + ": its clamped node at " +
@@ -92,9 +98,10 @@ std::vector<SupportedNode> find_supported_nodes(const Scene& scene, const Struct
     }
     nodes.push_back({node, at->second, clamped(mesh, node)});
   }
-  if (!stands_on_moving_support(scene, structure)) return {};
+  if (!stands_on_moving_support(scene, structure)) return;
   refuse_ties(structure, mesh);
-  return nodes;
+  mesh.supported = std::move(nodes);
+  mesh.ground_support = all_ground;
 }
 
 }  // namespace pounding

@@ -74,6 +74,8 @@ struct GlobalMesh {
   /// Nodes of absorbing faces; found after reading, with the elements behind these faces.
   std::vector<AbsorbingNode> absorbing;
   std::vector<SupportedNode> supported;  ///< sorted; empty where the ground moves as one
+  /// The support with which all the ground moves, into the scene's supports; -1: there is none.
+  int ground_support = -1;
   /// One bit per free component of a node: 0-2 translations, 3-5 rotations. Rotations exist where
   /// an element asks for them; what is clamped is not free.
   std::vector<std::uint8_t> free_components;

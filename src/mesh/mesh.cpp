@@ -398,7 +398,10 @@ void share_absorbing_nodes(MPI_Comm comm, std::vector<AbsorbingNode> nodes, Mesh
 }
 
 /// Tells every rank the nodes on supports; each keeps those that it has, ghosts as well.
-void share_supported_nodes(MPI_Comm comm, std::vector<SupportedNode> nodes, Mesh& mesh) {
+void share_supported_nodes(MPI_Comm comm, const GlobalMesh& global, Mesh& mesh) {
+  mesh.ground_support = global.ground_support;
+  MPI_Bcast(&mesh.ground_support, 1, MPI_INT, 0, comm);
+  std::vector<SupportedNode> nodes = global.supported;
   broadcast_array(comm, nodes, 0);
   if (nodes.empty()) return;
   std::vector<GlobalIndex> local = mesh.file_node;
@@ -444,7 +447,7 @@ Mesh distribute_mesh(MPI_Comm comm, const std::string& name, const GlobalMesh& g
   Mesh mesh = unpack(comm, name, std::move(mine));
   share_rigid_parts(comm, global.rigid, mesh);
   share_absorbing_nodes(comm, global.absorbing, mesh);
-  share_supported_nodes(comm, global.supported, mesh);
+  share_supported_nodes(comm, global, mesh);
   return mesh;
 }
 

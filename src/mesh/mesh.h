@@ -67,6 +67,8 @@ struct Mesh {
   std::vector<LocalIndex> by_file_node;  ///< owned nodes in file order
   std::vector<AbsorbingNode> absorbing;  ///< at owned nodes, in file order
   std::vector<SupportedNode> supported;  ///< of the local nodes, in file order
+  /// The support with which all the ground of the structure moves; -1: there is none.
+  int ground_support = -1;
 
   LocalIndex node_count() const { return static_cast<LocalIndex>(file_node.size()); }
   /// Local dof of a component (0-5) at a local node, -1 if it is clamped or does not exist.

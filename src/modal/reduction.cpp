@@ -165,7 +165,7 @@ void compute(const Structure& structure, std::span<const SupportColumn> columns,
   }
   const ScopedTimer timer(profile, Phase::modes);
   require_passive_matrices(structure, *system);
-  if (!reduction.mesh.supported.empty()) {
+  if (!reduction.mesh.supported.empty() || reduction.mesh.ground_support >= 0) {
     system->supports =
         find_support_shapes(structure, reduction.mesh, *system, columns, SolverChoice::automatic);
   }

@@ -5,6 +5,7 @@
 
 #include "common/component_names.h"
 #include "common/error.h"
+#include "motion/kinematic_interaction.h"
 #include "motion/record_text.h"
 #include "motion/resampling.h"
 #include "scene/support_reader.h"
@@ -73,10 +74,18 @@ void SupportMotion::add(std::size_t number, const Support& support, Resampling r
   for (const std::string& doubt : translations.doubts()) doubts_.push_back(doubt);
   auto description = translations.descriptions().begin();
   for (std::size_t c = 0; c < 6; ++c) {
-    if (!moves_otherwise(support, c, ground_.active(static_cast<int>(c % 3)))) continue;
+    const auto axis = static_cast<int>(axis_of_motion(c));
+    if (!moves_otherwise(support, c, ground_.active(axis))) continue;
     columns_.push_back({static_cast<int>(number), static_cast<int>(c), support.point});
     Source& source = sources_.emplace_back();
-    if (c < 3 && !support.motion[c]) {
+    if (support.embedment && axis < 2) {
+      source.own = c < 3 ? embedded_translation(ground_.component(axis), *support.embedment)
+                         : embedded_rotation(ground_.component(axis), *support.embedment);
+      if (c == 3) {  // about x: the top goes with -y
+        for (double& a : source.own.acceleration) a = -a;
+      }
+      source.text = "ground motion at a depth of " + text_of(support.embedment->depth) + " m";
+    } else if (c < 3 && !support.motion[c]) {
       source.delay = support.delay;
       source.factor = support.factor[c];
       source.text = ground_text(support, c);

@@ -236,13 +236,24 @@ struct MotionComponent {
   double scale = 1;  ///< [-]
 };
 
-/// A physical group of a structure whose clamped nodes stand on a support.
+/// A physical group of a structure whose clamped nodes stand on a support, or all ground of the
+/// structure.
 struct SupportedGroup {
   std::string structure;
-  std::string group;
+  std::string group;  ///< empty: what is clamped, and the ground of its springs, dashpots and soil
+
+  bool is_all_ground() const { return group.empty(); }
 };
 
-/// A part of the ground that moves on its own, as one rigid body, with all that is clamped to it.
+/// Soil around a rigid foundation that lies below the surface.
+struct Embedment {
+  double depth = 0;       ///< of its underside [m]
+  double velocity = 0;    ///< of shear waves in the soil around it [m/s]
+  double half_width = 0;  ///< half a side of it, or its radius [m]
+};
+
+/// A part of the ground that moves on its own, as one rigid body, with all that is clamped to it;
+/// or all the ground of a structure, springs included.
 struct Support {
   std::string name;
   std::vector<SupportedGroup> groups;
@@ -251,6 +262,8 @@ struct Support {
   /// Motion of its own along x, y, z, in place of that; rotations about them [rad/s2].
   std::array<std::optional<MotionComponent>, 6> motion;
   Vector3 point{0, 0, 0};  ///< about which it turns [m]
+  /// It moves as a massless embedded foundation does in the waves that move the surface.
+  std::optional<Embedment> embedment;
 };
 
 /// One component of the motion of a support beside that of the scene's ground: displacement along

@@ -1,6 +1,8 @@
 #include "scene/support_reader.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <set>
 
 #include "scene/motion_reader.h"
@@ -13,7 +15,8 @@ namespace {
 constexpr std::string_view groups_option = "<support>_groups";
 
 bool turns(const Support& support) {
-  return std::any_of(support.motion.begin() + 3, support.motion.end(),
+  return support.embedment.has_value() ||
+         std::any_of(support.motion.begin() + 3, support.motion.end(),
                      [](const auto& rotation) { return rotation.has_value(); });
 }
 
@@ -21,10 +24,11 @@ std::vector<SupportedGroup> read_groups(OptionReader& options, const std::string
   std::vector<SupportedGroup> groups;
   for (const std::string& item : split(options.text(groups_option, {name}), ',')) {
     const std::vector<std::string> words = split(item, ':');
-    if (words.size() != 2 || words[0].empty() || words[1].empty()) {
-      options.refuse(groups_option, {name}, "'" + item + "' is not structure:group");
+    if (words.empty() || words.size() > 2 || words.front().empty() || words.back().empty()) {
+      options.refuse(groups_option, {name},
+                     "'" + item + "' is neither structure:group nor a structure");
     }
-    groups.push_back({words[0], words[1]});
+    groups.push_back({words[0], words.size() == 2 ? words[1] : ""});
   }
   return groups;
 }
@@ -50,12 +54,46 @@ std::optional<MotionComponent> read_rotation(OptionReader& options, const std::s
   return component;
 }
 
+/// Embedment of a foundation that moves as its soil lets it, and that has no other motion.
+std::optional<Embedment> read_embedment(OptionReader& options, const Support& support) {
+  constexpr std::array<std::string_view, 2> parts{"<support>_vs", "<support>_half_width"};
+  Embedment embedment;
+  embedment.depth = options.real("<support>_embedment", {support.name});
+  if (embedment.depth == 0) {
+    for (const std::string_view part : parts) {
+      options.forbid(part, {support.name},
+                     "goes with -" + support.name + "_embedment, which is not given");
+    }
+    return std::nullopt;
+  }
+  embedment.velocity = options.real(parts[0], {support.name});
+  embedment.half_width = options.real(parts[1], {support.name});
+  for (std::size_t c = 0; c < support.motion.size(); ++c) {
+    if (c == 2 || !support.motion[c]) continue;
+    options.refuse("<support>_embedment", {support.name},
+                   "its motion follows from that of the surface; not with a " +
+                       std::string(c < 3 ? "motion along x or y" : "rotation") + " of its own");
+  }
+  for (const char* what : {"<support>_delay", "<support>_factor"}) {
+    options.forbid(what, {support.name},
+                   "not with -" + support.name +
+                       "_embedment: its motion follows from that of the "
+                       "surface, as it is");
+  }
+  return embedment;
+}
+
 void refuse(const OptionReader& options, const Support& support, const std::string& why) {
   options.refuse(groups_option, {support.name}, why);
 }
 
-/// Delay and factor act on the motion of the ground, along axes without a record.
+/// Delay and factor act on the motion of the ground, along axes without a record; an embedment on
+/// that along x and y.
 void require_effect(const OptionReader& options, const Scene& scene, const Support& support) {
+  if (support.embedment && !scene.motion[0] && !scene.motion[1]) {
+    options.refuse("<support>_embedment", {support.name},
+                   "no effect: there is no -motion_x or -motion_y");
+  }
   bool acts = false;
   for (std::size_t d = 0; d < 3; ++d) acts = acts || (scene.motion[d] && !support.motion[d]);
   if (acts) return;
@@ -66,9 +104,9 @@ void require_effect(const OptionReader& options, const Scene& scene, const Suppo
 }
 
 /// Refuses what nobody has worked out, or tested, for a structure on supports that move on their
-/// own.
+/// own; `all_ground`: with all its ground on one of them.
 void require_plain(const OptionReader& options, const Scene& scene, const Support& support,
-                   const Structure& structure) {
+                   const Structure& structure, bool all_ground) {
   const auto refuse_with = [&](const std::string& option) {
     refuse(options, support,
            "structure " + structure.name + ": not with -" + structure.name + option);
@@ -78,13 +116,19 @@ void require_plain(const OptionReader& options, const Scene& scene, const Suppor
            "structure " + structure.name + ": -" + structure.name +
                "_matrices do not tell what its clamped dofs do to the others");
   }
-  if (structure.soil) refuse_with("_soil_mat");
+  if (structure.soil && !all_ground) refuse_with("_soil_mat, unless all its ground moves with one");
   if (!structure.absorbing.empty()) refuse_with("_absorbing");
+  if (all_ground && turns(support) && structure.p_delta) {
+    refuse(options, support,
+           "structure " + structure.name +
+               ": its weight would not turn with its ground; not with -" + structure.name +
+               "_p_delta");
+  }
   if (!scene.export_matrices.empty()) {
     refuse(options, support, "not with -export_matrices: no matrix tells how supports move");
   }
   for (const Region& region : structure.regions) {
-    if (!region.nonlinear.yields()) continue;
+    if (!region.nonlinear.yields() || all_ground) continue;
     if (std::ranges::any_of(structure.regions, [&](const Region& other) {
           return structure.damping_of(other).alpha > 0;
         })) {
@@ -123,6 +167,7 @@ Support read_support(OptionReader& options, const std::string& name) {
     }
     support.motion[3 + d] = read_rotation(options, name, axis);
   }
+  support.embedment = read_embedment(options, support);
   if (turns(support)) {
     const std::vector<double> point = options.reals("<support>_point", {name}, 3);
     std::copy(point.begin(), point.end(), support.point.begin());
@@ -134,18 +179,30 @@ Support read_support(OptionReader& options, const std::string& name) {
 
 void check_supports(const OptionReader& options, const Scene& scene) {
   std::set<std::pair<std::string, std::string>> seen;
+  std::map<std::string, bool> all_ground;  // of a structure that some support names
   std::vector<std::string> known;
   for (const Structure& structure : scene.structures) known.push_back(structure.name);
   for (const Support& support : scene.supports) {
-    for (const auto& [name, group] : support.groups) {
+    for (const SupportedGroup& item : support.groups) {
+      const auto& [name, group] = item;
       const auto structure = std::ranges::find(scene.structures, name, &Structure::name);
       if (structure == scene.structures.end()) {
-        refuse(options, support, "there is no structure '" + name + "'" + suggestion(name, known));
+        refuse(options, support,
+               "there is no structure '" + name + "'" + suggestion(name, known) +
+                   (item.is_all_ground() ? "; a group is named with its structure before it" : ""));
       }
       if (!seen.emplace(name, group).second) {
-        refuse(options, support, "'" + name + ":" + group + "' stands on a support already");
+        refuse(options, support,
+               "'" + name + (group.empty() ? "" : ":" + group) + "' stands on a support already");
       }
-      require_plain(options, scene, support, *structure);
+      const auto [other, first] = all_ground.try_emplace(name, item.is_all_ground());
+      if (!first && (other->second || item.is_all_ground())) {
+        refuse(options, support,
+               "'" + name +
+                   "' means all ground of the structure, and another support, or another " +
+                   "name here, has a group of it");
+      }
+      require_plain(options, scene, support, *structure, item.is_all_ground());
     }
     if (scene.motion_from_below) {
       refuse(options, support, "not with -motion_input below");
@@ -154,8 +211,23 @@ void check_supports(const OptionReader& options, const Scene& scene) {
   }
 }
 
+int support_of_all_ground(const Scene& scene, const Structure& structure) {
+  for (std::size_t s = 0; s < scene.supports.size(); ++s) {
+    for (const SupportedGroup& item : scene.supports[s].groups) {
+      if (item.structure == structure.name && item.is_all_ground()) return static_cast<int>(s);
+    }
+  }
+  return -1;
+}
+
+std::size_t axis_of_motion(std::size_t component) {
+  constexpr std::array<std::size_t, 6> axes{0, 1, 2, 1, 0, 2};
+  return axes[component];
+}
+
 bool moves_otherwise(const Support& support, std::size_t component, bool ground_moves) {
   if (support.motion[component]) return true;
+  if (support.embedment && axis_of_motion(component) < 2) return ground_moves;
   return component < 3 && ground_moves && (support.delay > 0 || support.factor[component] != 1);
 }
 
@@ -163,7 +235,7 @@ bool stands_on_moving_support(const Scene& scene, const Structure& structure) {
   return std::ranges::any_of(scene.supports, [&](const Support& support) {
     bool moves = false;
     for (std::size_t c = 0; c < 6; ++c) {
-      moves = moves || moves_otherwise(support, c, c < 3 && scene.motion[c].has_value());
+      moves = moves || moves_otherwise(support, c, scene.motion[axis_of_motion(c)].has_value());
     }
     return moves &&
            std::ranges::count(support.groups, structure.name, &SupportedGroup::structure) > 0;

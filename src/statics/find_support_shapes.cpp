@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "common/error.h"
 #include "common/parallel.h"
@@ -27,10 +28,9 @@ double square(const LinearSystem& system, const std::vector<double>& u) {
   return sum;
 }
 
-/// Solves K u = -force.
+/// Solves K u = -force, from a first guess on.
 std::vector<double> follow(const LinearSystem& system, const AssembledStatics& statics,
-                           const std::vector<double>& force) {
-  std::vector<double> u(force.size(), 0.0);
+                           const std::vector<double>& force, std::vector<double> u) {
   std::vector<double> correction;
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_corrections; ++i) {
@@ -48,6 +48,18 @@ std::vector<double> follow(const LinearSystem& system, const AssembledStatics& s
       std::to_string(most_corrections) + " corrections; is part of it held by almost nothing?");
 }
 
+/// The rigid motion of a column at the owned dofs.
+std::vector<double> rigid_shape(const Mesh& mesh, const SupportColumn& column) {
+  std::vector<double> shape(static_cast<std::size_t>(mesh.owned_dofs), 0.0);
+  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
+    for (int component = 0; component < 6; ++component) {
+      const LocalIndex dof = mesh.dof(node, component);
+      if (dof >= 0) shape[dof] = rigid_displacement(column, mesh, node, component);
+    }
+  }
+  return shape;
+}
+
 }  // namespace
 
 std::shared_ptr<SupportShapes> find_support_shapes(const Structure& structure, const Mesh& mesh,
@@ -58,18 +70,24 @@ std::shared_ptr<SupportShapes> find_support_shapes(const Structure& structure, c
   shapes->columns.assign(columns.begin(), columns.end());
   std::vector<int> stands(columns.size(), 0);
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    stands[c] = std::ranges::count(mesh.supported, columns[c].support, &SupportedNode::support) > 0;
+    stands[c] = mesh.ground_support == columns[c].support ||
+                std::ranges::count(mesh.supported, columns[c].support, &SupportedNode::support) > 0;
   }
   MPI_Allreduce(MPI_IN_PLACE, stands.data(), static_cast<int>(stands.size()), MPI_INT, MPI_MAX,
                 mesh.comm);
   if (std::ranges::count(stands, 1) == 0) return nullptr;
-  const AssembledStatics statics(system, mesh, shift, solver, AssembledStatics::Held::elements);
+  std::optional<AssembledStatics> statics;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     std::vector<double>& shape = shapes->shape.emplace_back();
     if (stands[c] == 0) continue;
+    shape.assign(static_cast<std::size_t>(mesh.owned_dofs), 0.0);
+    if (mesh.ground_support >= 0) shape = rigid_shape(mesh, columns[c]);
+    // A displacement of all nodes and of the ground strains nothing.
+    if (mesh.ground_support >= 0 && columns[c].component < 3) continue;
+    if (!statics) statics.emplace(system, mesh, shift, solver, AssembledStatics::Held::elements);
     std::vector<double> force;
     on_every_rank(mesh.comm, [&] { force = support_force(structure, mesh, columns[c]); });
-    shape = follow(system, statics, force);
+    shape = follow(system, *statics, force, std::move(shape));
   }
   return shapes;
 }

@@ -7,6 +7,7 @@
 #include "elements/shell_forces.h"
 #include "stiffness/element_properties.h"
 #include "system/each_element.h"
+#include "system/support_shapes.h"
 #include "system/wrench.h"
 
 namespace pounding {
@@ -79,11 +80,19 @@ ElementForces::ElementForces(const LinearSystem& system, const Mesh& mesh,
   }
   trace_ = std::make_unique<Trace>(system, mesh, places, false);
   field_.assign(places.size(), 0.0);
+  std::vector<SupportColumn> columns;
+  if (system.supports) columns = system.supports->columns;
   for (const Row& row : rows) {
     for (std::size_t i = 0; i < row.points.size(); ++i) {
       const auto found = number.find(row.points[i]);
       if (found == number.end() || row.coefficients[i] == 0) continue;
       terms_.push_back({row.column, found->second, row.coefficients[i]});
+      for (std::size_t c = 0; row.grounded && c < columns.size(); ++c) {
+        const TracePoint& point = row.points[i];
+        const double moved =
+            ground_displacement(columns[c], mesh, mesh.owned_node(point.node), point.component);
+        if (moved != 0) ground_.push_back({row.column, c, -row.coefficients[i] * moved});
+      }
     }
   }
   if (!system.uniform_damping || system.rest_displacement.empty()) return;
@@ -97,6 +106,9 @@ void ElementForces::add(std::span<const double> owned, std::span<const double> s
   trace_->apply(owned.data(), field_.data(), 1, supports);
   for (std::size_t i = 0; i < rest_.size(); ++i) field_[i] -= relaxed_ * rest_[i];
   for (const Term& term : terms_) columns[term.column] += term.coefficient * field_[term.place];
+  for (const GroundTerm& term : ground_) {
+    columns[term.column] += term.coefficient * supports[term.support];
+  }
 }
 
 std::span<const std::string_view> element_force_names(ElementType type) {
@@ -117,8 +129,10 @@ std::vector<ElementForces::Row> member_rows(const Structure& structure, const Me
                        : end_force_rows(type, element.coordinates, properties, element.stiffness);
     for (std::size_t k = 0; k < count; ++k) {
       const double* const row = &forces[k * element.points.size()];
-      rows.push_back(
-          {first + count * element.place + k, element.points, {row, row + element.points.size()}});
+      rows.push_back({first + count * element.place + k,
+                      element.points,
+                      {row, row + element.points.size()},
+                      is_grounded(type)});
     }
   });
   return rows;
@@ -145,7 +159,8 @@ std::vector<ElementForces::Row> total_rows(const Structure& structure, const Mes
       }
     }
     for (std::size_t k = 0; k < sums.size(); ++k) {
-      rows.push_back({first + k, element.points, std::move(sums[k])});
+      rows.push_back(
+          {first + k, element.points, std::move(sums[k]), is_grounded(element.block.type)});
     }
   });
   return rows;

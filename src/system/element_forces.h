@@ -23,6 +23,7 @@ class ElementForces {
     std::size_t column = 0;
     std::vector<TracePoint> points;
     std::vector<double> coefficients;  ///< per point [N/m, N, N m]
+    bool grounded = false;             ///< of an element whose other end is the ground
   };
 
   /// The part of these rows that hangs on this rank's nodes. References must outlive this object.
@@ -40,8 +41,15 @@ class ElementForces {
     std::size_t place = 0;  ///< among the known ones of the trace
     double coefficient = 0;
   };
+  /// Force by which a column lessens as the ground under a grounded element moves.
+  struct GroundTerm {
+    std::size_t column = 0;
+    std::size_t support = 0;  ///< column of SupportShapes
+    double coefficient = 0;
+  };
   std::unique_ptr<Trace> trace_;
   std::vector<Term> terms_;
+  std::vector<GroundTerm> ground_;
   std::vector<double> field_;
   std::vector<double> rest_;  ///< field of the rest before the run; empty without uniform damping
   double relaxed_ = 0;        ///< part of it that is not held

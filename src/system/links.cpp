@@ -128,6 +128,9 @@ void Links::add_springs(const Structure& structure, const Mesh& mesh, const Elem
       if (link.place[end] < 0) {
         link.held.push_back({nodes[end], static_cast<int>(c), link.weight[end]});
       }
+      if (ends == 1) {
+        link.held.push_back({nodes[end], static_cast<int>(c), -link.weight[end], true});
+      }
     }
     keep(mesh, block, element, link);
   };
@@ -151,8 +154,11 @@ void Links::add_soil(const Structure& structure, const Mesh& mesh, const Element
     link.origin = {&region, static_cast<int>(c), 0, 0, false};
     for (std::size_t i = 0; i < motion.size(); ++i) {
       if (motion[c][i] == 0) continue;
-      link.place[i] = mesh.dof(block.connectivity[element], static_cast<int>(i));
+      const LocalIndex node = block.connectivity[element];
+      const auto component = static_cast<int>(i);
+      link.place[i] = mesh.dof(node, component);
       link.weight[i] = motion[c][i];
+      if (link.place[i] >= 0) link.held.push_back({node, component, -motion[c][i], true});
     }
     keep(mesh, block, element, link);
   }
@@ -207,10 +213,12 @@ void Links::find_trace(const LinearSystem& system, const Mesh& mesh) {
   for (Link& link : links_) {
     link.supports.clear();
     for (std::size_t c = 0; system.supports && c < system.supports->columns.size(); ++c) {
+      const SupportColumn& column = system.supports->columns[c];
       double& sum = link.supports.emplace_back(0.0);
       for (const HeldEnd& end : link.held) {
-        sum += end.weight *
-               support_displacement(system.supports->columns[c], mesh, end.node, end.component);
+        sum +=
+            end.weight * (end.ground ? ground_displacement(column, mesh, end.node, end.component)
+                                     : support_displacement(column, mesh, end.node, end.component));
       }
     }
   }

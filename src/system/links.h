@@ -15,11 +15,12 @@
 
 namespace pounding {
 
-/// End of a link that is held in a component.
+/// End of a link that is held in a component, or that the ground is under a node.
 struct HeldEnd {
   LocalIndex node = 0;
   int component = 0;
-  double weight = 0;  ///< in the elongation
+  double weight = 0;    ///< in the elongation
+  bool ground = false;  ///< it is the ground itself, at the place of the node
 };
 
 /// A link between two nodes, or from one to the ground. This rank owns those that can move.

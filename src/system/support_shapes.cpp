@@ -7,14 +7,25 @@
 
 namespace pounding {
 
-double support_displacement(const SupportColumn& column, const Mesh& mesh, LocalIndex node,
-                            int component) {
-  const SupportedNode* const at = mesh.support_at(node);
-  if (at == nullptr || at->support != column.support || !at->holds(component)) return 0;
+double rigid_displacement(const SupportColumn& column, const Mesh& mesh, LocalIndex node,
+                          int component) {
   const Vector3 x = mesh.position(node);
   const Vector3& p = column.point;
   return rigid_motion_row(static_cast<std::size_t>(component),
                           {x[0] - p[0], x[1] - p[1], x[2] - p[2]})[column.component];
+}
+
+double support_displacement(const SupportColumn& column, const Mesh& mesh, LocalIndex node,
+                            int component) {
+  const SupportedNode* const at = mesh.support_at(node);
+  if (at == nullptr || at->support != column.support || !at->holds(component)) return 0;
+  return rigid_displacement(column, mesh, node, component);
+}
+
+double ground_displacement(const SupportColumn& column, const Mesh& mesh, LocalIndex node,
+                           int component) {
+  if (mesh.ground_support != column.support) return 0;
+  return rigid_displacement(column, mesh, node, component);
 }
 
 std::vector<double> support_force(const Structure& structure, const Mesh& mesh,
@@ -30,7 +41,9 @@ std::vector<double> support_force(const Structure& structure, const Mesh& mesh,
     for (std::size_t i = 0; i < size; ++i) {
       const LocalIndex node =
           block.connectivity[element * static_cast<std::size_t>(layout.nodes) + i / width];
-      moved[i] = support_displacement(column, mesh, node, static_cast<int>(i % width));
+      const auto component = static_cast<int>(i % width);
+      moved[i] = support_displacement(column, mesh, node, component);
+      if (layout.nodes == 1) moved[i] -= ground_displacement(column, mesh, node, component);
       any = any || moved[i] != 0;
     }
     return any;

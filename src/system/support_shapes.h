@@ -32,9 +32,19 @@ struct SupportShapes {
 double support_displacement(const SupportColumn& column, const Mesh& mesh, LocalIndex node,
                             int component);
 
+/// Displacement or rotation of a component of any node under a unit of a column, had it the motion
+/// of the support.
+double rigid_displacement(const SupportColumn& column, const Mesh& mesh, LocalIndex node,
+                          int component);
+
+/// Displacement or rotation of the ground under a grounded spring, dashpot or soil at a node, under
+/// a unit of a column: that of the node itself where all the ground moves with the support, else 0.
+double ground_displacement(const SupportColumn& column, const Mesh& mesh, LocalIndex node,
+                           int component);
+
 /// K_s w of a column over the owned dofs [N, N m]: forces that the free nodes' neighbours on the
-/// support put on them, of linear elements only. Sums run over the elements in file order. Throws
-/// UserError naming an element that is impossible. Local.
+/// support, and its ground under springs, put on them, of linear elements only. Sums run over the
+/// elements in file order. Throws UserError naming an element that is impossible. Local.
 std::vector<double> support_force(const Structure& structure, const Mesh& mesh,
                                   const SupportColumn& column);
 

@@ -38,7 +38,10 @@ class Refused(WithRecord):
 
     def test_groups(self):
         self.refuse("-west_groups", "there is no structure 'w'", groups=("w:foot0", "v:foot1"))
-        self.refuse("-west_groups", "'foot0' is not structure:group", groups=("foot0", "v:foot1"))
+        self.refuse("-west_groups", "there is no structure 'foot0'; a group is named with its structure",
+                    groups=("foot0", "v:foot1"))
+        self.refuse("-west_groups", "'v:' is neither structure:group nor a structure", groups=("v:", "v:foot1"))
+        self.refuse("-east_groups", "'v' means all ground of the structure", groups=("v:foot0", "v"))
         self.refuse("-west_groups v:abutment", "no such group", "foot0", groups=("v:abutment", "v:foot1"))
         self.refuse("-west_groups v:deck", "no node of it is clamped", groups=("v:deck", "v:foot1"))
         self.refuse("stands on a support already", groups=("v:foot0", "v:foot0"))

@@ -73,6 +73,11 @@ class Recorded:
         self._place = {name.decode(): i for i, name in enumerate(data["channels"])}
         self._displacement = data.get("displacement")
         self._velocity = data.get("velocity")
+        self._members = {name.decode(): data["force"][:, i] for i, name in enumerate(data.get("forces", []))}
+
+    def members(self, item):
+        """What `forces` records of an item, shape (samples, columns)."""
+        return numpy.stack([values for name, values in self._members.items() if name.split(".")[0] == item], 1)
 
     def force(self, contact):
         return self._force[:, self.contacts.index(contact)]

@@ -15,7 +15,7 @@ import numpy
 import scipy.io
 
 import program
-from recorded import Recorded, assert_continues, assert_follows, write_samples
+from recorded import Recorded, assert_continues, assert_follows, write_samples, write_sine
 
 STEEL = ["-material_steel_young", "2.1e11", "-material_steel_poisson", 0.3, "-material_steel_density", 7850]
 SECTION = ["-section_leg_area", 0.04, "-section_leg_inertia_y", "4e-4", "-section_leg_inertia_z", "2e-4",
@@ -194,33 +194,60 @@ class Tower(WithPulses):
     and on top of that as an oscillator under the inertia of that motion."""
     MASS, YOUNG, INERTIA, HEIGHT, POINT = 2000.0, 3e10, 1e-3, 8.0, (1.5, 0.0, -2.0)
 
-    def test_rocking(self):
-        step = 2e-4
+    def rock(self, density, step, *foot):
+        """The run with what holds its foot, and the tower's steps by hand for a stiffness of the top [N/m]: angle of
+        the support, u of the top beside the rigid motion."""
         words = ["-structures", "t", "-t_mesh", "tests/meshes/cantilever.geo", "-t_mesh_set",
-                 f"height={self.HEIGHT!r},n=1", "-t_clamp", "base", "-t_stem_element", "beam", "-t_stem_material", "stuff",
+                 f"height={self.HEIGHT!r},n=1", *foot, "-t_stem_element", "beam", "-t_stem_material", "stuff",
                  "-t_stem_section", "pipe", "-material_stuff_young", self.YOUNG, "-material_stuff_poisson", 0.2,
-                 "-material_stuff_density", 1e-3, "-section_pipe_area", 0.1, "-section_pipe_inertia_y", self.INERTIA,
+                 "-material_stuff_density", density, "-section_pipe_area", 0.1, "-section_pipe_inertia_y", self.INERTIA,
                  "-section_pipe_inertia_z", self.INERTIA, "-section_pipe_torsion", self.INERTIA,
                  "-section_pipe_z_axis", "1,0,0", "-t_top_element", "point_mass", "-t_top_mass", self.MASS,
-                 "-t_top_rotary_inertia", "1,1,1", "-supports", "s", "-s_groups", "t:base", "-s_rotation_y_record",
+                 "-t_top_rotary_inertia", "1,1,1", "-supports", "s", "-s_rotation_y_record",
                  self.x.file, "-s_rotation_y_scale", 0.1, "-s_point", ",".join(map(repr, self.POINT)), "-time_step", step,
                  "-end_time", 1, "-output_interval", step, *probes(("top", "t", "top"), ("foot", "t", "base"))]
         run = Recorded(self, words, 2)
-        up, stiffness = self.HEIGHT - self.POINT[2], 3 * self.YOUNG * self.INERTIA / self.HEIGHT**3
-        u = v = angle = rate = 0.0
-        exact = []
-        for n in range(len(run.time)):
-            exact.append((angle, u))
-            h, turn = (step if n else step / 2), 0.1 * self.x.at(n * step)
-            v += h * (-stiffness / self.MASS * u - up * turn)
-            rate += h * turn
-            u, angle = u + step * v, angle + step * rate
-        angle, u = numpy.array(exact).T
+
+        def by_hand(stiffness):
+            u = v = angle = rate = 0.0
+            exact = []
+            for n in range(len(run.time)):
+                exact.append((angle, u))
+                h, turn = (step if n else step / 2), 0.1 * self.x.at(n * step)
+                v += h * (-stiffness / self.MASS * u - self.up() * turn)
+                rate += h * turn
+                u, angle = u + step * v, angle + step * rate
+            return numpy.array(exact).T
+        return run, by_hand
+
+    def up(self):
+        return self.HEIGHT - self.POINT[2]
+
+    def compliance(self):
+        return self.HEIGHT**3 / (3 * self.YOUNG * self.INERTIA)
+
+    def test_rocking(self):
+        run, steps = self.rock(1e-3, 2e-4, "-t_clamp", "base", "-s_groups", "t:base")
+        up, (angle, u) = self.up(), steps(1 / self.compliance())
         self.assertGreater(abs(u).max(), 0.1 * abs(up * angle).max())
         for found, by_hand, tolerance in (("top.x", up * angle + u, 2e-3), ("top.z", self.POINT[0] * angle, 5e-3),
                                           ("foot.x", -self.POINT[2] * angle, 1e-12),
                                           ("foot.z", self.POINT[0] * angle, 1e-12)):
             assert_follows(self, run.displacement(found), by_hand, tolerance, found)
+
+    def test_rocking_on_springs(self):
+        """The ground under a spring turns with the support; springs and column make the top less stiff. The foot goes
+        where the column's shear and moment push it."""
+        side, turn = 2e6, 1e8
+        spring = [f"-t_base_{word}" for word in ("element", "stiffness")]
+        run, steps = self.rock(10.0, 4e-5, spring[0], "grounded_spring", spring[1],
+                               f"{side},{side},{side},{turn},{turn},{turn}", "-s_groups", "t")
+        whole = self.compliance() + 1 / side + self.HEIGHT**2 / turn
+        self.assertGreater(whole / self.compliance(), 1.15)
+        up, (angle, u) = self.up(), steps(1 / whole)
+        assert_follows(self, run.displacement("top.x"), up * angle + u, 1e-2, "top.x")
+        foot = -self.POINT[2] * angle + u / whole / side
+        assert_follows(self, run.displacement("foot.x"), foot, 1e-2, "foot.x")
 
 
 def read_matrices(folder, structure):
@@ -351,6 +378,130 @@ class TravellingWave(WithPulses):
                 assert_follows(self, run.displacement(channel), runs[0].displacement(channel), 1e-11, channel)
                 self.assertTrue(numpy.array_equal(runs[1].velocity(channel), runs[3].velocity(channel)), channel)
         assert_continues(self, words, 0.15, 2500)
+
+
+class AllGround(WithPulses):
+    """A structure named without a group: what is clamped and the ground of its springs, dashpots and soil move with
+    the support."""
+    END = 0.3
+
+    def viaduct(self, groups, *more):
+        words = ["-structures", "v", *viaduct("v", 2, 0.0), *STEEL, *SECTION, *self.ground(), "-end_time", self.END,
+                 "-supports", "s", "-s_groups", groups, "-s_delay", 0.02, "-s_factor", "1,1,0.5",
+                 *self.z.words("s_motion_y"), "-s_rotation_y_record", self.z.file, "-s_rotation_y_scale", 0.05,
+                 "-s_point", "4,0.5,-1", "-output_interval", 1e-3, *probes(("deck", "v", "deck"), ("feet", "v", "feet"))]
+        return words + list(more)
+
+    def test_clamped_feet_alone(self):
+        """No other way than naming the feet: the shapes that were solved for are rigid motions."""
+        for ranks, more in ((1, ["-v_damping_alpha", 0.5, "-v_damping_beta", 1e-5]), (3, braces("v")),
+                            (2, ["-v_bearings_dashpot", "1e5,1e5,1e5,0,0,0", "-v_damping_uniform", 0.03]),
+                            (2, ["-v_bearings_yield_force", "5e3,5e3,0", "-v_bearings_hardening", 0.1]),
+                            (2, ["-v_model", "modal", "-v_modal_vectors", 10000, "-v_damping_beta", 1e-5])):
+            feet = Recorded(self, self.viaduct("v:feet", *more), ranks)
+            whole = Recorded(self, self.viaduct("v", *more), ranks)
+            for channel in ("deck.1.x", "deck.5.y", "deck.7.z", "feet.3.x", "feet.3.z"):
+                assert_follows(self, whole.displacement(channel), feet.displacement(channel), 1e-9, channel)
+
+    def plant(self, *more):
+        """The plant on layered soil, its joint of 1 mm: a mat of soil with internal masses, springs at nodes, dashpots
+        over walls, no clamp."""
+        return ["-options_file", "petsc-options/plant/layered_soil.yaml", "-block_mesh_set", "m=1", "-frame_mesh_set",
+                "m=1,x0=24.801", "-floor1_gap", 1e-3, "-floor2_gap", 1e-3, "-end_time", 0.4, "-output_interval", 1e-3,
+                "-motion_y_record", "none", "-motion_z_record", "none", "-motion_x_pga", 0, "-supports", "none", *more]
+
+    FORCES = ["-forces", "base,springs", "-base_kind", "reactions", "-base_structure", "frame", "-springs_kind",
+              "members", "-springs_structure", "frame", "-springs_group", "soil", "-springs_at",
+              "30.897,12.192,0; 36.993,12.192,0"]
+
+    def on_two(self):
+        words = ["-motion_x_record", "none", "-supports", "one,two", "-one_groups", "block", "-two_groups", "frame"]
+        return words + self.x.words("one_motion_x") + self.x.words("two_motion_x")
+
+    def compare(self, ranks, *more):
+        common = Recorded(self, self.plant(*self.x.words("motion_x"), *more), ranks, identity=1e-10)
+        moved = Recorded(self, self.plant(*self.on_two(), *more), ranks, identity=1e-10)
+        self.assertGreater(sum(common.column("impulse")), 0, "it pounds")
+        for roof, mat in (("tower_roof", "block_mat"), ("frame_roof", "frame_mat")):
+            found, wanted = (run.displacement(f"{roof}.x") - run.displacement(f"{mat}.x") for run in (moved, common))
+            assert_follows(self, found, wanted, 1e-7, roof)
+        assert_follows(self, moved.force("floor1") + moved.force("floor2"), common.force("floor1") + common.force("floor2"),
+                       1e-6, "force")
+        for item in ("base", "springs") if "-forces" in more else ():
+            assert_follows(self, moved.members(item), common.members(item), 1e-6, item)
+
+    def test_springs_dashpots_and_soil(self):
+        for ranks in (1, 2):
+            self.compare(ranks, *self.FORCES)
+
+    def test_soil_that_only_presses(self):
+        self.compare(2, "-frame_soil_compression_only", "true", "-gravity", 9.81, "-preload", "static")
+
+    def test_reduced(self):
+        self.compare(2, "-block_model", "modal", "-block_modal_vectors", 40, "-frame_model", "modal",
+                     "-frame_modal_vectors", 40)
+
+    def test_continues(self):
+        assert_continues(self, self.plant(*self.x.words("motion_x"), "-supports", "one", "-one_groups", "block",
+                                          "-one_delay", 0.03), 0.3, 2000)
+
+    EMBEDDED = ["-supports", "s", "-s_groups", "v", "-s_embedment", 5, "-s_vs", 300, "-s_half_width", 9, "-s_point",
+                "3,0,0"]
+
+    def test_a_point_elsewhere_is_doubted(self):
+        for point, doubted in (("3,0,0", False), ("30,0,0", True), ("3,0,-5", True)):
+            done = program.run(["-structures", "v", *viaduct("v", 1, 0.0), *STEEL, *SECTION, *self.ground(), "-end_time",
+                                1e-3, "-dry_run", *self.EMBEDDED[:-1], point], 2)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual("outside of structure v" in done.stdout + done.stderr, doubted, point)
+
+    def test_mistakes(self):
+        for more, part in ((["-supports", "s", "-s_groups", "v,v:feet"], "means all ground"),
+                           (["-supports", "s,t", "-s_groups", "v:feet", "-t_groups", "v"], "means all ground"),
+                           (["-supports", "s", "-s_groups", "v,v"], "stands on a support already"),
+                           (["-supports", "s", "-s_groups", "v:"], "neither structure:group nor a structure"),
+                           (["-supports", "s", "-s_groups", "viaduct"], "there is no structure 'viaduct'"),
+                           (["-supports", "s", "-s_groups", "v", "-s_vs", 300], "goes with -s_embedment"),
+                           ([*self.EMBEDDED, "-gravity", 9.81, "-preload", "static", "-v_p_delta", "true"],
+                            "its weight would not turn with its ground"),
+                           ([*self.EMBEDDED, "-motion_x_record", "none"], "there is no -motion_x or -motion_y"),
+                           (self.EMBEDDED[:-2], "s_point"), ([*self.EMBEDDED, "-s_delay", 0.1], "not with -s_embedment"),
+                           ([*self.EMBEDDED, *self.x.words("s_motion_x")], "follows from that of the surface")):
+            program.must_refuse(self, ["-structures", "v", *viaduct("v", 1, 0.0), *STEEL, *SECTION, *self.ground(),
+                                       "-end_time", 1e-3, *more], part)
+
+
+class Embedded(unittest.TestCase):
+    """A foundation 8 m below a surface that moves as a sine along x and y: where it stands against the surface, by the
+    published factors and by the rule for a rigid body that turns about its underside."""
+    DEPTH, VELOCITY, HALF, POINT = 8.0, 320.0, 12.0, (0.0, 0.0, -8.0)
+
+    def test_foot_of_a_column(self):
+        for frequency in (2.0, 6.5, 12.0):
+            path = write_sine(1.0, frequency, 6.0, 1e-3)
+            try:
+                run = Recorded(self, ["-structures", "t", "-t_mesh", "tests/meshes/cantilever.geo", "-t_mesh_set",
+                                      "height=8.0,n=2", "-t_clamp", "base", "-t_stem_element", "beam", "-t_stem_material",
+                                      "steel", "-t_stem_section", "leg", *STEEL, *SECTION, "-t_ignore", "top",
+                                      "-motion_x_record", path, "-motion_y_record", path, "-motion_y_scale", 2,
+                                      "-motion_x_unit", "m/s2", "-motion_y_unit", "m/s2",
+                                      "-supports", "s", "-s_groups", "t", "-s_embedment", self.DEPTH, "-s_vs",
+                                      self.VELOCITY, "-s_half_width", self.HALF, "-s_point",
+                                      ",".join(map(repr, self.POINT)), "-time_step", 1e-4, "-end_time", 6,
+                                      "-output_interval", 1e-3, *probes(("foot", "t", "base"))], 2)
+            finally:
+                os.remove(path)
+            a0 = 2 * math.pi * frequency * self.DEPTH / self.VELOCITY
+            along, about = math.cos(min(a0, 1.1)), 0.26 / self.HALF * (1 - math.cos(min(a0, math.pi / 2)))
+            arm = -self.POINT[2]
+            steady = (run.time > 2) & (run.time < 5)
+            surface = numpy.sin(2 * math.pi * frequency * run.time[steady]) * -1 / (2 * math.pi * frequency)**2
+            for axis, scale in (("x", 1), ("y", 2)):
+                found = run.displacement(f"foot.{axis}")[steady]
+                wanted = scale * (along - 1 + about * arm) * surface
+                t = run.time[steady]
+                found = found - numpy.polyval(numpy.polyfit(t, found - wanted, 1), t)  # what the start left
+                self.assertLess(abs(found - wanted).max(), 3e-3 * scale * abs(surface).max(), (frequency, axis))
 
 
 class MovedApart(unittest.TestCase):
