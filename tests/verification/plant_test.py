@@ -55,7 +55,7 @@ class Frame(Plant):
             self.close(strongest(coarse, axis)[0], strongest(fine, axis)[0], 0.002)
 
     def test_on_soil(self):
-        self.close(strongest(self.modes_of("layered_soil", "frame", 3), X)[0], 3.98, 0.05)
+        self.close(strongest(self.modes_of("layered_soil", "frame", 3, "-supports", "none"), X)[0], 3.98, 0.05)
 
 
 class Block(Plant):
@@ -100,10 +100,10 @@ class Block(Plant):
 
 class Shaken(unittest.TestCase):
     """On layered soil, 20 s at .324 g, apart from each other: what is published at that level."""
-    def run_of(self, structure, probes):
+    def run_of(self, structure, probes, *more):
         return Recorded(self, ["-options_file", "petsc-options/plant/layered_soil.yaml", "-structures", structure,
                                "-contacts", "none", "-probes", ",".join(probes), f"-{structure}_mesh_set",
-                               MESHES[structure].format(1), "-modes", 0, "-spectra_frequencies", "5,400"]).summary
+                               MESHES[structure].format(1), "-modes", 0, "-spectra_frequencies", "5,400", *more]).summary
 
     def peaks(self, summary, probes):
         """Peak accelerations along x [g]."""
@@ -112,7 +112,7 @@ class Shaken(unittest.TestCase):
     def test_frame(self):
         """ZPAs of the mat and three floors, drifts of three storeys."""
         probes = ["frame_mat", "frame_floor1", "frame_floor2", "frame_roof"]
-        summary = self.run_of("frame", probes)
+        summary = self.run_of("frame", probes, "-supports", "none")
         found = self.peaks(summary, probes)
         for zpa, published, tolerance in zip(found, (.363, .654, 1.008, 1.623), (.1, .1, .1, .18), strict=True):
             self.assertAlmostEqual(zpa / published, 1, delta=tolerance)
@@ -121,12 +121,16 @@ class Shaken(unittest.TestCase):
             self.assertAlmostEqual(drift / published, 1, delta=.15)
 
     def test_block(self):
-        """ZPAs of the roofs over that of the mat, which here does not lie in the soil's motion at its depth."""
-        probes = ["block_mat", "block_roof", "tower_roof"]
-        mat, roof, tower = self.peaks(self.run_of("block", probes), probes)
+        """ZPAs of the mat, the main roof and the tower; with the motion of the surface under the basement they are a
+        quarter too large, over that of the mat as published."""
+        probes, published = ["block_mat", "block_roof", "tower_roof"], (.283, .361, .451)
+        found = self.peaks(self.run_of("block", probes), probes)
+        for zpa, wanted in zip(found, published, strict=True):
+            self.assertAlmostEqual(zpa / wanted, 1, delta=.1)
+        mat, roof, tower = self.peaks(self.run_of("block", probes, "-supports", "none"), probes)
+        self.assertGreater(mat / published[0], 1.15)
         self.assertAlmostEqual(roof / mat / (.361 / .283), 1, delta=.05)
         self.assertAlmostEqual(tower / mat / (.451 / .283), 1, delta=.05)
-        self.assertAlmostEqual(mat / .324, 1, delta=.1)
 
 
 class ThreeInARow(unittest.TestCase):
