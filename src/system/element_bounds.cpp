@@ -73,7 +73,8 @@ void ElementBounds::add(const ElementBlock& block, std::span<const double> stiff
     frequencies_.push_back(frequency(stiffness, mass));
     return;
   }
-  frequencies_.push_back(infinity);
+  const bool strains = std::ranges::any_of(stiffness, [](double k) { return k != 0; });
+  frequencies_.push_back(strains ? infinity : -infinity);  // a dashpot bounds nothing
   if (mass_scaling > 0) {
     return;  // not without mass any more
   }

@@ -49,10 +49,11 @@ class ElementBounds {
   const Mesh& mesh_;
   const double stiffening_;                        ///< of the structure, which iterates for it
   std::unordered_map<std::string, double> known_;  ///< frequency by shape
-  std::vector<double> frequencies_;                ///< per element [rad/s]; infinite without mass
-  std::vector<double> mass_scaling_;               ///< c per element [s2]
-  std::vector<double> device_damping_;             ///< row sums over elements without mass [N s/m]
-  std::vector<double> device_stiffness_;           ///< likewise [N/m]
+  std::vector<double> frequencies_;       ///< per element [rad/s]; infinite without mass, -infinite
+                                          ///< without stiffness as well
+  std::vector<double> mass_scaling_;      ///< c per element [s2]
+  std::vector<double> device_damping_;    ///< row sums over elements without mass [N s/m]
+  std::vector<double> device_stiffness_;  ///< likewise [N/m]
 };
 
 }  // namespace pounding

@@ -129,6 +129,9 @@ class AtAContact(unittest.TestCase):
             self.assertGreater(len(total), 100)
             self.assertTrue(all(b <= a * (1 + 1e-9) for a, b in zip(total, total[1:])), dashpot)
             self.assertGreater(summary["impacts"]["hit"]["episodes"], 0)
+            bar = summary["structures"]["bar"]  # a dashpot is not the stiffest element
+            self.assertIn("body", bar["stiffest_element"])
+            self.assertLess(bar["element_frequency_bound"], 2 * bar["omega_max"])
 
 
 class Braces(unittest.TestCase):
