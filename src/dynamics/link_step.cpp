@@ -18,7 +18,7 @@ namespace {
 
 constexpr int most_sweeps = 1000;
 constexpr double unstretched = 1e-9;  ///< elongation per unit of a support's motion, round-off
-constexpr double converged = 1e-15;  ///< change of a tension over the largest
+constexpr double converged = 1e-15;   ///< change of a tension over the largest
 
 /// Links with a rate on one body from which on they are solved for by its motions, and how strong
 /// they may be all together, dt^2 B^T M^-1 B rate, for that to keep ten digits.
