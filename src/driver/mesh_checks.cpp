@@ -197,9 +197,8 @@ void doubt_long_joins(const Structure& structure, const GlobalMesh& mesh,
 }
 
 /// Doubt about embedded foundations of this structure alone that turn about a point outside of it.
-void doubt_turning_points(const Scene& scene, const Structure& structure, const GlobalMesh& mesh,
+void doubt_turning_points(const Scene& scene, const Structure& structure, const BoundingBox& box,
                           std::vector<std::string>& warnings) {
-  const BoundingBox box = bounding_box({&mesh, 1});
   const double reach = outside * box.diagonal();
   for (const Support& support : scene.supports) {
     if (!support.embedment) continue;
@@ -231,9 +230,10 @@ std::vector<std::string> mesh_warnings(const Scene& scene, const Structure& stru
                  " pairs of nodes lie on each other and are not one, the first at "));
   }
   doubt_long_joins(structure, mesh, warnings);
-  doubt_turning_points(scene, structure, mesh, warnings);
+  const BoundingBox box = bounding_box({&mesh, 1});
+  doubt_turning_points(scene, structure, box, warnings);
   warnings.insert(warnings.end(), mesh.doubts.begin(), mesh.doubts.end());
-  const double longest = bounding_box({&mesh, 1}).longest_side();
+  const double longest = box.longest_side();
   if (longest > longest_structure) {
     std::ostringstream text;
     text << "structure " << structure.name << ": its mesh is " << longest

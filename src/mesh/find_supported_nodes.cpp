@@ -43,10 +43,14 @@ void refuse_ties(const Structure& structure, const GlobalMesh& mesh) {
   }
 }
 
-/// Which support each clamped node stands on.
+/// Which support each clamped node stands on; `all_ground`: that of all of them, or -1.
 std::map<GlobalIndex, int> support_of_nodes(const Scene& scene, const Structure& structure,
-                                            const GlobalMesh& mesh) {
+                                            const GlobalMesh& mesh, int all_ground) {
   std::map<GlobalIndex, int> found;
+  for (GlobalIndex node = 0; all_ground >= 0 && node < mesh.node_count(); ++node) {
+    if (clamped(mesh, node) != 0) found.emplace(node, all_ground);
+  }
+  if (all_ground >= 0) return found;
   for (std::size_t s = 0; s < scene.supports.size(); ++s) {
     const Support& support = scene.supports[s];
     for (const SupportedGroup& group : support.groups) {
@@ -79,16 +83,10 @@ std::map<GlobalIndex, int> support_of_nodes(const Scene& scene, const Structure&
 
 void find_supported_nodes(const Scene& scene, const Structure& structure, GlobalMesh& mesh) {
   const int all_ground = support_of_all_ground(scene, structure);
-  std::map<GlobalIndex, int> found;
-  if (all_ground < 0) found = support_of_nodes(scene, structure, mesh);
+  const std::map<GlobalIndex, int> found = support_of_nodes(scene, structure, mesh, all_ground);
   std::vector<SupportedNode> nodes;
-  for (GlobalIndex node = 0; node < mesh.node_count(); ++node) {
+  for (GlobalIndex node = 0; !found.empty() && node < mesh.node_count(); ++node) {
     if (clamped(mesh, node) == 0) continue;
-    if (all_ground >= 0) {
-      nodes.push_back({node, all_ground, clamped(mesh, node)});
-      continue;
-    }
-    if (found.empty()) break;
     const auto at = found.find(node);
     if (at == found.end()) {
       throw UserError("structure " + structure.name + ": its clamped node at " +

@@ -165,10 +165,8 @@ void compute(const Structure& structure, std::span<const SupportColumn> columns,
   }
   const ScopedTimer timer(profile, Phase::modes);
   require_passive_matrices(structure, *system);
-  if (!reduction.mesh.supported.empty() || reduction.mesh.ground_support >= 0) {
-    system->supports =
-        find_support_shapes(structure, reduction.mesh, *system, columns, SolverChoice::automatic);
-  }
+  system->supports =
+      find_support_shapes(structure, reduction.mesh, *system, columns, SolverChoice::automatic);
   reduction.basis = compute_modal_basis(*system, reduction.mesh, reduction.request);
 }
 

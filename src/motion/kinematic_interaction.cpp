@@ -60,21 +60,16 @@ Accelerogram filtered(const Accelerogram& signal, double travel, const Factor& f
 
 }  // namespace
 
-double embedded_translation_factor(double a0) {
-  return std::cos(std::min(a0, end_of_translation));
-}
-
-double embedded_rotation_factor(double a0) {
-  return largest_rotation * (1 - std::cos(std::min(a0, end_of_rotation)));
-}
-
 Accelerogram embedded_translation(const Accelerogram& surface, const Embedment& embedment) {
-  return filtered(surface, embedment.depth / embedment.velocity, embedded_translation_factor);
+  return filtered(surface, embedment.travel(),
+                  [](double a0) { return std::cos(std::min(a0, end_of_translation)); });
 }
 
 Accelerogram embedded_rotation(const Accelerogram& surface, const Embedment& embedment) {
-  return filtered(surface, embedment.depth / embedment.velocity,
-                  [&](double a0) { return embedded_rotation_factor(a0) / embedment.half_width; });
+  const double largest = largest_rotation / embedment.half_width;
+  return filtered(surface, embedment.travel(), [largest](double a0) {
+    return largest * (1 - std::cos(std::min(a0, end_of_rotation)));
+  });
 }
 
 }  // namespace pounding

@@ -4,19 +4,14 @@
 #include "scene/scene.h"
 
 /// Kinematic interaction: how a rigid foundation without mass moves that lies in soil which
-/// vertical shear waves pass through. With a0 = omega D / V_s and a level motion a_g of the surface
+/// vertical shear waves pass through. With a0 = omega D / V_s and a level motion u_g of the surface
 /// there are, for D the depth of the underside and L half a side of it,
 ///
 ///     u / u_g = cos min(a0, 1.1),      theta / u_g = 0.26 / L (1 - cos min(a0, pi / 2))
 ///
-/// NIST GCR 12-917-21, section 3.2.2, after
-/// Kausel, Whitman, Elsabee and Morray (1978). The factors are real, so nothing is late.
+/// NIST GCR 12-917-21, section 3.2.2, after Kausel, Whitman, Elsabee and Morray (1978). The factors
+/// are real, so nothing is late.
 namespace pounding {
-
-/// u / u_g at a0 >= 0.
-double embedded_translation_factor(double a0);
-/// L theta / u_g at a0 >= 0.
-double embedded_rotation_factor(double a0);
 
 /// Level acceleration of the underside [m/s2], from that of the surface. It goes on until nothing
 /// is left of the filter; what this would put before t = 0 comes after it, so that the underside

@@ -250,6 +250,8 @@ struct Embedment {
   double depth = 0;       ///< of its underside [m]
   double velocity = 0;    ///< of shear waves in the soil around it [m/s]
   double half_width = 0;  ///< half a side of it, or its radius [m]
+
+  double travel() const { return depth / velocity; }  ///< of a wave from it to the surface [s]
 };
 
 /// A part of the ground that moves on its own, as one rigid body, with all that is clamped to it;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <set>
 
 #include "scene/motion_reader.h"
@@ -179,7 +178,6 @@ Support read_support(OptionReader& options, const std::string& name) {
 
 void check_supports(const OptionReader& options, const Scene& scene) {
   std::set<std::pair<std::string, std::string>> seen;
-  std::map<std::string, bool> all_ground;  // of a structure that some support names
   std::vector<std::string> known;
   for (const Structure& structure : scene.structures) known.push_back(structure.name);
   for (const Support& support : scene.supports) {
@@ -191,17 +189,19 @@ void check_supports(const OptionReader& options, const Scene& scene) {
                "there is no structure '" + name + "'" + suggestion(name, known) +
                    (item.is_all_ground() ? "; a group is named with its structure before it" : ""));
       }
-      if (!seen.emplace(name, group).second) {
+      if (seen.contains({name, group})) {
         refuse(options, support,
                "'" + name + (group.empty() ? "" : ":" + group) + "' stands on a support already");
       }
-      const auto [other, first] = all_ground.try_emplace(name, item.is_all_ground());
-      if (!first && (other->second || item.is_all_ground())) {
+      const auto first = seen.lower_bound({name, ""});  // all ground stands before groups
+      if (first != seen.end() && first->first == name &&
+          (first->second.empty() || item.is_all_ground())) {
         refuse(options, support,
                "'" + name +
                    "' means all ground of the structure, and another support, or another " +
                    "name here, has a group of it");
       }
+      seen.emplace(name, group);
       require_plain(options, scene, support, *structure, item.is_all_ground());
     }
     if (scene.motion_from_below) {

@@ -7,6 +7,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "statics/assembled_statics.h"
+#include "system/near_null_space.h"
 
 namespace pounding {
 namespace {
@@ -48,18 +49,6 @@ std::vector<double> follow(const LinearSystem& system, const AssembledStatics& s
       std::to_string(most_corrections) + " corrections; is part of it held by almost nothing?");
 }
 
-/// The rigid motion of a column at the owned dofs.
-std::vector<double> rigid_shape(const Mesh& mesh, const SupportColumn& column) {
-  std::vector<double> shape(static_cast<std::size_t>(mesh.owned_dofs), 0.0);
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    for (int component = 0; component < 6; ++component) {
-      const LocalIndex dof = mesh.dof(node, component);
-      if (dof >= 0) shape[dof] = rigid_displacement(column, mesh, node, component);
-    }
-  }
-  return shape;
-}
-
 }  // namespace
 
 std::shared_ptr<SupportShapes> find_support_shapes(const Structure& structure, const Mesh& mesh,
@@ -80,10 +69,12 @@ std::shared_ptr<SupportShapes> find_support_shapes(const Structure& structure, c
   for (std::size_t c = 0; c < columns.size(); ++c) {
     std::vector<double>& shape = shapes->shape.emplace_back();
     if (stands[c] == 0) continue;
-    shape.assign(static_cast<std::size_t>(mesh.owned_dofs), 0.0);
-    if (mesh.ground_support >= 0) shape = rigid_shape(mesh, columns[c]);
-    // A displacement of all nodes and of the ground strains nothing.
-    if (mesh.ground_support >= 0 && columns[c].component < 3) continue;
+    if (mesh.ground_support >= 0) {
+      shape = rigid_motion(mesh, columns[c].component, columns[c].point);
+      if (columns[c].component < 3) continue;  // nodes and ground displaced alike: no strain
+    } else {
+      shape.assign(static_cast<std::size_t>(mesh.owned_dofs), 0.0);
+    }
     if (!statics) statics.emplace(system, mesh, shift, solver, AssembledStatics::Held::elements);
     std::vector<double> force;
     on_every_rank(mesh.comm, [&] { force = support_force(structure, mesh, columns[c]); });

@@ -80,7 +80,7 @@ ElementForces::ElementForces(const LinearSystem& system, const Mesh& mesh,
   }
   trace_ = std::make_unique<Trace>(system, mesh, places, false);
   field_.assign(places.size(), 0.0);
-  std::vector<SupportColumn> columns;
+  std::span<const SupportColumn> columns;
   if (system.supports) columns = system.supports->columns;
   for (const Row& row : rows) {
     for (std::size_t i = 0; i < row.points.size(); ++i) {

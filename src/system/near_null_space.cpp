@@ -5,30 +5,27 @@
 #include "common/rigid_motion.h"
 
 namespace pounding {
-namespace {
 
-/// Displacement of the free dofs in a rigid motion, along (0-2) or about (3-5) an axis through the
-/// origin.
-std::vector<double> rigid_motion(const Mesh& mesh, int motion) {
+std::vector<double> rigid_motion(const Mesh& mesh, int motion, const Vector3& point) {
   std::vector<double> field(mesh.owned_dofs, 0.0);
   for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
     for (int c = 0; c < 6; ++c) {
       const LocalIndex dof = mesh.dof(node, c);
       if (dof < 0) continue;
-      field[dof] = rigid_motion_row(static_cast<std::size_t>(c), mesh.position(node))[motion];
+      const Vector3 x = mesh.position(node);
+      const Vector3 arm{x[0] - point[0], x[1] - point[1], x[2] - point[2]};
+      field[dof] = rigid_motion_row(static_cast<std::size_t>(c), arm)[motion];
     }
   }
   return field;
 }
-
-}  // namespace
 
 void set_near_null_space(const LinearSystem& system, const Mesh& mesh, Mat matrix,
                          const std::function<void(std::vector<double>&)>& to_coordinates) {
   std::array<VecHandle, 6> motions;
   std::vector<Vec> kept;
   for (int m = 0; m < 6; ++m) {
-    std::vector<double> field = rigid_motion(mesh, m);
+    std::vector<double> field = rigid_motion(mesh, m, {0, 0, 0});
     to_coordinates(field);
     const VecHandle wrapped = wrap_vector(system, field);
     POUNDING_PETSC(VecDuplicate(wrapped.get(), motions[m].out()));

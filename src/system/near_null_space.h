@@ -9,6 +9,10 @@
 
 namespace pounding {
 
+/// Displacement of the owned dofs in a rigid motion, along (0-2) or about (3-5) an axis through a
+/// point. Local.
+std::vector<double> rigid_motion(const Mesh& mesh, int motion, const Vector3& point);
+
 /// Rigid motions of a structure as the near null space of a matrix of its owned dofs, from which
 /// algebraic multigrid makes its coarse grids; `to_coordinates` takes a field of displacements to
 /// the coordinates of the matrix. Motions that a row of nodes does not have are left out.

@@ -6,7 +6,9 @@
 #include "system/each_element.h"
 
 namespace pounding {
+namespace {
 
+/// Displacement or rotation of a component of a node that has the motion of the support.
 double rigid_displacement(const SupportColumn& column, const Mesh& mesh, LocalIndex node,
                           int component) {
   const Vector3 x = mesh.position(node);
@@ -14,6 +16,8 @@ double rigid_displacement(const SupportColumn& column, const Mesh& mesh, LocalIn
   return rigid_motion_row(static_cast<std::size_t>(component),
                           {x[0] - p[0], x[1] - p[1], x[2] - p[2]})[column.component];
 }
+
+}  // namespace
 
 double support_displacement(const SupportColumn& column, const Mesh& mesh, LocalIndex node,
                             int component) {

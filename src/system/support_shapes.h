@@ -32,11 +32,6 @@ struct SupportShapes {
 double support_displacement(const SupportColumn& column, const Mesh& mesh, LocalIndex node,
                             int component);
 
-/// Displacement or rotation of a component of any node under a unit of a column, had it the motion
-/// of the support.
-double rigid_displacement(const SupportColumn& column, const Mesh& mesh, LocalIndex node,
-                          int component);
-
 /// Displacement or rotation of the ground under a grounded spring, dashpot or soil at a node, under
 /// a unit of a column: that of the node itself where all the ground moves with the support, else 0.
 double ground_displacement(const SupportColumn& column, const Mesh& mesh, LocalIndex node,
