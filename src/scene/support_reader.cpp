@@ -13,6 +13,9 @@ namespace {
 
 constexpr std::string_view groups_option = "<support>_groups";
 
+/// Beyond that of any foundation from its underside to the surface [s].
+constexpr double longest_travel = 1;
+
 bool turns(const Support& support) {
   return support.embedment.has_value() ||
          std::any_of(support.motion.begin() + 3, support.motion.end(),
@@ -67,6 +70,12 @@ std::optional<Embedment> read_embedment(OptionReader& options, const Support& su
   }
   embedment.velocity = options.real(parts[0], {support.name});
   embedment.half_width = options.real(parts[1], {support.name});
+  if (!(embedment.travel() <= longest_travel)) {
+    options.refuse(parts[0], {support.name},
+                   "a wave would take more than a second from the foundation to the surface; is it "
+                   "in m/s, and -" +
+                       support.name + "_embedment in m?");
+  }
   for (std::size_t c = 0; c < support.motion.size(); ++c) {
     if (c == 2 || !support.motion[c]) continue;
     options.refuse("<support>_embedment", {support.name},

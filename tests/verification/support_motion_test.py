@@ -465,7 +465,7 @@ class AllGround(WithPulses):
                            ([*self.EMBEDDED, "-gravity", 9.81, "-preload", "static", "-v_p_delta", "true"],
                             "its weight would not turn with its ground"),
                            ([*self.EMBEDDED, "-motion_x_record", "none"], "there is no -motion_x or -motion_y"),
-                           (self.EMBEDDED[:-2], "s_point"), ([*self.EMBEDDED, "-s_delay", 0.1], "not with -s_embedment"),
+                           ([*self.EMBEDDED, "-s_vs", 0.3], "is it in m/s"), (self.EMBEDDED[:-2], "s_point"), ([*self.EMBEDDED, "-s_delay", 0.1], "not with -s_embedment"),
                            ([*self.EMBEDDED, *self.x.words("s_motion_x")], "follows from that of the surface")):
             program.must_refuse(self, ["-structures", "v", *viaduct("v", 1, 0.0), *STEEL, *SECTION, *self.ground(),
                                        "-end_time", 1e-3, *more], part)
