@@ -35,6 +35,8 @@ enum class ElementType {
   yielding_bar
 };
 
+inline constexpr int element_type_count = static_cast<int>(ElementType::yielding_bar) + 1;
+
 /// Words of the option, separated by '|'.
 inline constexpr std::string_view element_words =
     "hex8|hex8_full|wedge6|tet4|shell|beam|bar|point_mass|grounded_spring|spring";

@@ -63,19 +63,23 @@ struct RigidNodes {
   std::vector<TiedNode> tied;      ///< of ties
 };
 
-struct GlobalMesh {
-  std::vector<double> coordinates;      ///< shape (n_nodes, 3) [m]
-  std::vector<std::int64_t> node_tags;  ///< as in the file
-  std::vector<ElementSet> regions;      ///< in the order of the structure's regions
-  std::map<std::string, NodeGroup> groups;
-  std::vector<RigidNodes> rigid;       ///< no node is in two of them; ties are the last
-  std::vector<std::string> doubts;     ///< of ties, one line each
-  std::vector<UnusedElements> unused;  ///< points do not count
+/// Marks of nodes of a structure beside its elements; every rank learns them.
+struct NodeMarks {
+  std::vector<RigidNodes> rigid;  ///< no node is in two of them; ties are the last
   /// Nodes of absorbing faces; found after reading, with the elements behind these faces.
   std::vector<AbsorbingNode> absorbing;
   std::vector<SupportedNode> supported;  ///< sorted; empty where the ground moves as one
   /// The support with which all the ground moves, into the scene's supports; -1: there is none.
   int ground_support = -1;
+};
+
+struct GlobalMesh : NodeMarks {
+  std::vector<double> coordinates;      ///< shape (n_nodes, 3) [m]
+  std::vector<std::int64_t> node_tags;  ///< as in the file
+  std::vector<ElementSet> regions;      ///< in the order of the structure's regions
+  std::map<std::string, NodeGroup> groups;
+  std::vector<std::string> doubts;     ///< of ties, one line each
+  std::vector<UnusedElements> unused;  ///< points do not count
   /// One bit per free component of a node: 0-2 translations, 3-5 rotations. Rotations exist where
   /// an element asks for them; what is clamped is not free.
   std::vector<std::uint8_t> free_components;

@@ -3,233 +3,15 @@
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
-#include <tuple>
 #include <unordered_map>
 
 #include "common/parallel.h"
 #include "elements/element.h"
-#include "mesh/node_planes.h"
 
 namespace pounding {
 namespace {
 
-/// Arrays of a mesh that travel to one rank.
-struct Parcel {
-  std::vector<GlobalIndex>
-      sizes;  ///< owned nodes, global nodes, dofs, unclamped dofs, first dof, regions
-  std::vector<GlobalIndex> file_node;
-  std::vector<double> coordinates;
-  std::vector<std::uint8_t> free_components;
-  std::vector<GlobalIndex> global_dof;
-  std::vector<GlobalIndex> region;  ///< per set: type, region, global count, elements here,
-                                    ///< whether these have a share
-  std::vector<double> share;        ///< of the elements of sets that have one
-  std::vector<char> names;          ///< of the regions, zero-terminated
-  std::vector<std::int64_t> tags;
-  std::vector<LocalIndex> connectivity;
-  std::vector<std::uint8_t> counted;
-
-  template <typename Function>
-  void for_each_array(Function&& function) {
-    function(sizes);
-    function(file_node);
-    function(coordinates);
-    function(free_components);
-    function(global_dof);
-    function(region);
-    function(share);
-    function(names);
-    function(tags);
-    function(connectivity);
-    function(counted);
-  }
-};
-
-/// Numbers nodes and dofs rank by rank and cuts the parcels; lives on rank 0.
-class Cutter {
- public:
-  Cutter(const GlobalMesh& mesh, const Partition& partition, int structure)
-      : mesh_(mesh), parts_(partition.parts), node_owner_(partition.node_owner[structure]) {
-    sort_nodes();
-    number_dofs();
-    sort_elements();
-  }
-
-  Parcel parcel(int part) const {
-    Parcel out;
-    const auto begin = node_begin_[part];
-    const auto end = node_begin_[part + 1];
-    const std::span<const Element> elements(elements_.data() + element_begin_[part],
-                                            element_begin_[part + 1] - element_begin_[part]);
-    const std::vector<GlobalIndex> ghosts = ghost_places(part, elements);
-    add_elements(part, elements, ghosts, out);
-    const std::size_t count = static_cast<std::size_t>(end - begin) + ghosts.size();
-    out.file_node.reserve(count);
-    out.free_components.reserve(count);
-    out.global_dof.reserve(count);
-    out.coordinates.reserve(3 * count);
-    for (GlobalIndex place = begin; place < end; ++place) add_node(order_[place], out);
-    for (const GlobalIndex place : ghosts) add_node(order_[place], out);
-    out.sizes = {end - begin,     mesh_.node_count(),
-                 dofs_,           unclamped_dofs_,
-                 part_dof_[part], static_cast<GlobalIndex>(mesh_.regions.size())};
-    return out;
-  }
-
- private:
-  struct Element {
-    std::uint32_t set = 0;
-    std::uint32_t number = 0;  ///< in the set
-  };
-
-  /// Per rank, those without rotations first, in the order of the planes: where beams meet bricks,
-  /// the bricks' other nodes still follow each other.
-  void sort_nodes() {
-    const NodePlanes planes(mesh_);
-    std::vector<std::tuple<int, bool, std::array<std::int64_t, 3>>> places;
-    places.reserve(mesh_.node_tags.size());
-    for (GlobalIndex node = 0; node < mesh_.node_count(); ++node) {
-      const std::size_t n = node;
-      places.emplace_back(node_owner_[n], mesh_.components[n] >> 3 != 0,
-                          planes.place(mesh_.position(node)));
-    }
-    order_.resize(places.size());
-    std::iota(order_.begin(), order_.end(), GlobalIndex{0});
-    std::stable_sort(order_.begin(), order_.end(),
-                     [&](GlobalIndex a, GlobalIndex b) { return places[a] < places[b]; });
-    place_.resize(order_.size());
-    for (std::size_t i = 0; i < order_.size(); ++i) place_[order_[i]] = static_cast<GlobalIndex>(i);
-  }
-
-  void number_dofs() {
-    node_begin_.assign(static_cast<std::size_t>(parts_) + 1, 0);
-    part_dof_.assign(static_cast<std::size_t>(parts_) + 1, 0);
-    first_dof_.resize(order_.size());
-    for (const GlobalIndex node : order_) {
-      const std::size_t n = node;
-      const std::size_t part = node_owner_[n];
-      first_dof_[n] = dofs_;
-      dofs_ += component_count(mesh_.free_components[n]);
-      unclamped_dofs_ += component_count(mesh_.components[n]);
-      ++node_begin_[part + 1];
-      part_dof_[part + 1] = dofs_;
-    }
-    for (std::size_t p = 1; p < node_begin_.size(); ++p) {
-      node_begin_[p] += node_begin_[p - 1];
-      part_dof_[p] = std::max(part_dof_[p], part_dof_[p - 1]);
-    }
-  }
-
-  std::span<const GlobalIndex> corners_of(const Element& element) const {
-    const ElementSet& set = mesh_.regions[element.set];
-    const std::size_t width = element_layout(set.type).nodes;
-    return {&set.connectivity[element.number * width], width};
-  }
-
-  /// Calls `visit(part, element)` for every part that owns a node of an element, set after set.
-  template <typename Visit>
-  void for_each_share(const Visit& visit) const {
-    for (std::uint32_t s = 0; s < mesh_.regions.size(); ++s) {
-      for (std::uint32_t e = 0; e < mesh_.regions[s].tags.size(); ++e) {
-        const auto corners = corners_of({s, e});
-        for (std::size_t a = 0; a < corners.size(); ++a) {
-          const auto same_part = [&](GlobalIndex node) {
-            return node_owner_[node] == node_owner_[corners[a]];
-          };
-          if (std::ranges::none_of(corners.first(a), same_part)) {
-            visit(static_cast<std::size_t>(node_owner_[corners[a]]), Element{s, e});
-          }
-        }
-      }
-    }
-  }
-
-  /// Elements of every part, in one pass however many parts there are.
-  void sort_elements() {
-    element_begin_.assign(static_cast<std::size_t>(parts_) + 1, 0);
-    for_each_share([&](std::size_t part, Element) { ++element_begin_[part + 1]; });
-    std::partial_sum(element_begin_.begin(), element_begin_.end(), element_begin_.begin());
-    elements_.resize(element_begin_.back());
-    std::vector<std::size_t> next(element_begin_.begin(), element_begin_.end() - 1);
-    for_each_share(
-        [&](std::size_t part, const Element& element) { elements_[next[part]++] = element; });
-  }
-
-  /// The other nodes of the elements, in the order in which their owners hold them, as places in
-  /// order_.
-  std::vector<GlobalIndex> ghost_places(int part, std::span<const Element> elements) const {
-    std::vector<GlobalIndex> ghosts;
-    for (const Element& element : elements) {
-      for (const GlobalIndex node : corners_of(element)) {
-        if (node_owner_[node] != part) ghosts.push_back(place_[node]);
-      }
-    }
-    std::ranges::sort(ghosts);
-    const auto rest = std::ranges::unique(ghosts);
-    ghosts.erase(rest.begin(), rest.end());
-    return ghosts;
-  }
-
-  void add_node(GlobalIndex node, Parcel& out) const {
-    out.file_node.push_back(node);
-    out.free_components.push_back(mesh_.free_components[node]);
-    out.global_dof.push_back(first_dof_[node]);
-    const Vector3 x = mesh_.position(node);
-    out.coordinates.insert(out.coordinates.end(), x.begin(), x.end());
-  }
-
-  /// Number of a node on the rank of a part.
-  LocalIndex local(GlobalIndex node, int part, const std::vector<GlobalIndex>& ghosts) const {
-    const GlobalIndex begin = node_begin_[part];
-    const GlobalIndex place = place_[node];
-    if (node_owner_[node] == part) return static_cast<LocalIndex>(place - begin);
-    const auto found = std::ranges::lower_bound(ghosts, place);
-    return static_cast<LocalIndex>(node_begin_[part + 1] - begin + (found - ghosts.begin()));
-  }
-
-  void add_elements(int part, std::span<const Element> elements,
-                    const std::vector<GlobalIndex>& ghosts, Parcel& out) const {
-    std::vector<GlobalIndex> here(mesh_.regions.size(), 0);
-    std::size_t corner_count = 0;
-    for (const Element& element : elements) corner_count += corners_of(element).size();
-    out.tags.reserve(elements.size());
-    out.counted.reserve(elements.size());
-    out.connectivity.reserve(corner_count);
-    for (const Element& element : elements) {
-      const auto corners = corners_of(element);
-      ++here[element.set];
-      const ElementSet& set = mesh_.regions[element.set];
-      out.tags.push_back(set.tags[element.number]);
-      if (!set.share.empty()) out.share.push_back(set.share[element.number]);
-      // Counted where its first node is owned: that rank surely holds the element.
-      out.counted.push_back(node_owner_[corners[0]] == part ? 1 : 0);
-      for (const GlobalIndex node : corners) out.connectivity.push_back(local(node, part, ghosts));
-    }
-    for (std::size_t s = 0; s < mesh_.regions.size(); ++s) {
-      const ElementSet& set = mesh_.regions[s];
-      out.region.insert(out.region.end(), {static_cast<GlobalIndex>(set.type), set.region,
-                                           static_cast<GlobalIndex>(set.tags.size()), here[s],
-                                           static_cast<GlobalIndex>(set.share.empty() ? 0 : 1)});
-      out.names.insert(out.names.end(), set.group.begin(), set.group.end());
-      out.names.push_back('\0');
-    }
-  }
-
-  const GlobalMesh& mesh_;
-  int parts_;
-  const std::vector<int>& node_owner_;
-  std::vector<GlobalIndex> order_;          ///< nodes by rank, see sort_nodes
-  std::vector<GlobalIndex> place_;          ///< of each node in order_
-  std::vector<GlobalIndex> node_begin_;     ///< per rank, into order_
-  std::vector<GlobalIndex> part_dof_;       ///< per rank, first dof
-  std::vector<GlobalIndex> first_dof_;      ///< per node in file order
-  std::vector<std::size_t> element_begin_;  ///< per rank, into elements_
-  std::vector<Element> elements_;           ///< that touch a node of a rank, rank by rank
-  GlobalIndex dofs_ = 0;
-  GlobalIndex unclamped_dofs_ = 0;
-};
-
-Mesh unpack(MPI_Comm comm, const std::string& name, Parcel&& parcel) {
+Mesh unpack(MPI_Comm comm, const std::string& name, MeshParcel&& parcel) {
   Mesh mesh;
   mesh.comm = comm;
   mesh.structure = name;
@@ -398,10 +180,10 @@ void share_absorbing_nodes(MPI_Comm comm, std::vector<AbsorbingNode> nodes, Mesh
 }
 
 /// Tells every rank the nodes on supports; each keeps those that it has, ghosts as well.
-void share_supported_nodes(MPI_Comm comm, const GlobalMesh& global, Mesh& mesh) {
-  mesh.ground_support = global.ground_support;
+void share_supported_nodes(MPI_Comm comm, const NodeMarks& marks, Mesh& mesh) {
+  mesh.ground_support = marks.ground_support;
   MPI_Bcast(&mesh.ground_support, 1, MPI_INT, 0, comm);
-  std::vector<SupportedNode> nodes = global.supported;
+  std::vector<SupportedNode> nodes = marks.supported;
   broadcast_array(comm, nodes, 0);
   if (nodes.empty()) return;
   std::vector<GlobalIndex> local = mesh.file_node;
@@ -431,24 +213,29 @@ bool is_in_rigid_body(const Mesh& mesh, const ElementBlock& block, std::size_t e
                      [&](LocalIndex node) { return mesh.rigid_of[node] == part; });
 }
 
+Mesh join_parcel(MPI_Comm comm, const std::string& name, MeshParcel&& parcel,
+                 const NodeMarks& marks) {
+  Mesh mesh = unpack(comm, name, std::move(parcel));
+  share_rigid_parts(comm, marks.rigid, mesh);
+  share_absorbing_nodes(comm, marks.absorbing, mesh);
+  share_supported_nodes(comm, marks, mesh);
+  return mesh;
+}
+
 Mesh distribute_mesh(MPI_Comm comm, const std::string& name, const GlobalMesh& global,
                      const Partition& partition, int structure) {
-  Parcel mine;
+  MeshParcel mine;
   if (rank_of(comm) == 0) {
-    const Cutter cutter(global, partition, structure);
+    const MeshCutter cutter(global, partition, structure);
     mine = cutter.parcel(0);
     for (int rank = 1; rank < size_of(comm); ++rank) {
-      Parcel parcel = cutter.parcel(rank);
+      MeshParcel parcel = cutter.parcel(rank);
       parcel.for_each_array([&](const auto& array) { send_array(comm, rank, array); });
     }
   } else {
     mine.for_each_array([&](auto& array) { receive_array(comm, 0, array); });
   }
-  Mesh mesh = unpack(comm, name, std::move(mine));
-  share_rigid_parts(comm, global.rigid, mesh);
-  share_absorbing_nodes(comm, global.absorbing, mesh);
-  share_supported_nodes(comm, global, mesh);
-  return mesh;
+  return join_parcel(comm, name, std::move(mine), global);
 }
 
 }  // namespace pounding

@@ -6,6 +6,7 @@
 #include <mpi.h>
 
 #include "mesh/global_mesh.h"
+#include "mesh/mesh_parcel.h"
 #include "mesh/partition.h"
 
 namespace pounding {
@@ -110,6 +111,10 @@ bool meets_rigid_body(const Mesh& mesh, const ElementBlock& block, std::size_t e
 
 /// Whether a rigid body holds an element altogether, so that it never strains.
 bool is_in_rigid_body(const Mesh& mesh, const ElementBlock& block, std::size_t element);
+
+/// One rank's part of a structure out of its parcel. `marks` are read on rank 0 only. Collective.
+Mesh join_parcel(MPI_Comm comm, const std::string& name, MeshParcel&& parcel,
+                 const NodeMarks& marks);
 
 /// Sends each rank its part of a structure. `global` and `partition` are read on rank 0 only;
 /// `structure` is the index into the partition. Collective.

@@ -2,10 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <span>
 #include <string>
 #include <vector>
+
+#include "common/byte_stream.h"
 
 /// Content of a mesh file, before a scene gives its groups a meaning. It crosses from the program
 /// that runs Gmsh to the one that computes as a stream of bytes.
@@ -53,12 +53,6 @@ struct RawAnswer {
   RawMesh mesh;
   std::string error;
 };
-
-/// Takes bytes that come one after the other.
-using WriteBytes = std::function<void(std::span<const char>)>;
-
-/// Fills the whole span with the next bytes, or throws.
-using ReadBytes = std::function<void(std::span<char>)>;
 
 /// Writes the answer, for the same machine to read, array by array.
 void write_answer(const RawAnswer& answer, const WriteBytes& write);

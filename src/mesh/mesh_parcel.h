@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/global_mesh.h"
+#include "mesh/partition.h"
+
+namespace pounding {
+
+/// One rank's part of a structure's mesh, as arrays that travel.
+struct MeshParcel {
+  std::vector<GlobalIndex>
+      sizes;  ///< owned nodes, global nodes, dofs, unclamped dofs, first dof, regions
+  std::vector<GlobalIndex> file_node;
+  std::vector<double> coordinates;
+  std::vector<std::uint8_t> free_components;
+  std::vector<GlobalIndex> global_dof;
+  std::vector<GlobalIndex> region;  ///< per set: type, region, global count, elements here,
+                                    ///< whether these have a share
+  std::vector<double> share;        ///< of the elements of sets that have one
+  std::vector<char> names;          ///< of the regions, zero-terminated
+  std::vector<std::int64_t> tags;
+  std::vector<LocalIndex> connectivity;
+  std::vector<std::uint8_t> counted;
+
+  template <typename Function>
+  void for_each_array(Function&& function) {
+    function(sizes);
+    function(file_node);
+    function(coordinates);
+    function(free_components);
+    function(global_dof);
+    function(region);
+    function(share);
+    function(names);
+    function(tags);
+    function(connectivity);
+    function(counted);
+  }
+};
+
+/// Throws std::runtime_error where sizes or numbers in a parcel do not belong together, or to a
+/// structure of `regions` regions.
+void check_parcel(const MeshParcel& parcel, std::size_t regions);
+
+/// Numbers nodes and dofs of a structure rank by rank and cuts its mesh into parcels. Serial; mesh
+/// and partition must outlive it.
+class MeshCutter {
+ public:
+  MeshCutter(const GlobalMesh& mesh, const Partition& partition, int structure);
+
+  /// Part of one rank: every element that touches a node which the rank owns.
+  MeshParcel parcel(int part) const;
+
+ private:
+  struct Element {
+    std::uint32_t set = 0;
+    std::uint32_t number = 0;  ///< in the set
+  };
+
+  void sort_nodes();
+  void number_dofs();
+  void sort_elements();
+  std::span<const GlobalIndex> corners_of(const Element& element) const;
+  template <typename Visit>
+  void for_each_share(const Visit& visit) const;
+  std::vector<GlobalIndex> ghost_places(int part, std::span<const Element> elements) const;
+  void add_node(GlobalIndex node, MeshParcel& out) const;
+  LocalIndex local(GlobalIndex node, int part, const std::vector<GlobalIndex>& ghosts) const;
+  void add_elements(int part, std::span<const Element> elements,
+                    const std::vector<GlobalIndex>& ghosts, MeshParcel& out) const;
+
+  const GlobalMesh& mesh_;
+  int parts_;
+  const std::vector<int>& node_owner_;
+  std::vector<GlobalIndex> order_;          ///< nodes by rank, see sort_nodes
+  std::vector<GlobalIndex> place_;          ///< of each node in order_
+  std::vector<GlobalIndex> node_begin_;     ///< per rank, into order_
+  std::vector<GlobalIndex> part_dof_;       ///< per rank, first dof
+  std::vector<GlobalIndex> first_dof_;      ///< per node in file order
+  std::vector<std::size_t> element_begin_;  ///< per rank, into elements_
+  std::vector<Element> elements_;           ///< that touch a node of a rank, rank by rank
+  GlobalIndex dofs_ = 0;
+  GlobalIndex unclamped_dofs_ = 0;
+};
+
+}  // namespace pounding
