@@ -7,19 +7,14 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "common/progress.h"
-#include "contact/absorbing_faces.h"
-#include "contact/find_interface.h"
 #include "driver/filler_limit.h"
-#include "driver/mesh_checks.h"
+#include "driver/mesh_pieces.h"
 #include "driver/model_file.h"
-#include "driver/probe_warnings.h"
 #include "driver/rest.h"
 #include "driver/run_warnings.h"
 #include "driver/separation.h"
 #include "driver/warnings.h"
-#include "mesh/find_supported_nodes.h"
-#include "mesh/gmsh_reader.h"
-#include "mesh/soil_node.h"
+#include "driver/whole_meshes.h"
 #include "modal/buckling.h"
 #include "modal/definiteness.h"
 #include "modal/reduced_system.h"
@@ -33,7 +28,6 @@
 #include "system/axial_forces.h"
 #include "system/build_system.h"
 #include "system/links.h"
-#include "system/mass_scaling.h"
 
 namespace pounding {
 namespace {
@@ -43,23 +37,9 @@ Progress begin(MPI_Comm comm, const Scene& scene, const Structure& structure, co
   return Progress(comm, structure.name + ": " + what, scene.progress_interval);
 }
 
-/// Refuses what cannot be meant in a mesh, keeps what is to be reported of it. Matrices from files
-/// hold and join as they like.
-void check_mesh(const Scene& scene, std::size_t s, const GlobalMesh& mesh, Model& model) {
-  const Structure& structure = scene.structures[s];
-  MeshFindings findings{examine_connectivity(structure, mesh),
-                        check_unused(scene, structure, mesh)};
-  check_export(scene, structure, mesh);
-  if (structure.matrices.empty()) check_connectivity(scene, structure, findings.connectivity);
-  append(mesh_warnings(scene, structure, mesh, findings.connectivity), model.warnings);
-  model.buildings[s].findings = std::move(findings);
-}
-
 /// Tells every rank what rank 0 knows of the mat of a structure on soil. Collective.
-void share_foundation(MPI_Comm comm, Structure& structure, const GlobalMesh& mesh) {
+void share_foundation(MPI_Comm comm, MatPlace place, Structure& structure) {
   if (!structure.soil) return;
-  MatPlace place;
-  if (rank_of(comm) == 0) place = mat_place(structure, mesh);
   std::vector<double> numbers{place.node[0],   place.node[1],   place.node[2],  place.centre[0],
                               place.centre[1], place.centre[2], place.sides[0], place.sides[1]};
   broadcast_array(comm, numbers, 0);
@@ -69,74 +49,90 @@ void share_foundation(MPI_Comm comm, Structure& structure, const GlobalMesh& mes
   lay_foundation(place, structure);
 }
 
-/// Rank 0 reads the meshes and finds who faces whom; every rank gets its part. Bases of reduced
-/// structures come from the whole meshes.
-void build_meshes(MPI_Comm comm, Scene& scene, std::span<const double> stiffness_factors,
-                  Profile& profile, std::vector<GapShare>* gap_shares, Model& model) {
-  std::vector<GlobalMesh> meshes(scene.structures.size());
+/// Tells every rank what rank 0 found in the whole meshes. Collective.
+void share_findings(MPI_Comm comm, Scene& scene, WholeMeshes& whole,
+                    std::vector<GapShare>* gap_shares, Model& model) {
+  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+    share_foundation(comm, whole.mats[s], scene.structures[s]);
+  }
+  broadcast_interface(comm, model.interface);
+  if (gap_shares != nullptr) {
+    broadcast_array(comm, whole.gap_shares);
+    *gap_shares = std::move(whole.gap_shares);
+  }
+  broadcast_probes(comm, model.probes);
+  broadcast_forces(comm, model.forces);
+}
+
+/// Rank 0 reads the meshes, finds who faces whom, and sends every rank its part.
+void share_meshes(MPI_Comm comm, Scene& scene, Profile& profile, std::vector<GapShare>* gap_shares,
+                  WholeMeshes& whole, Model& model) {
   {
     const ScopedTimer timer(profile, Phase::mesh);
-    const MeshLimits limits{scene.mesh_time_limit, scene.allow_geo_commands};
-    on_rank0(comm, [&] {
-      for (std::size_t s = 0; s < meshes.size(); ++s) {
-        const Progress progress = begin(comm, scene, scene.structures[s], "mesh");
-        meshes[s] = read_mesh(scene.structures[s], limits);
-        if (scene.structures[s].soil) {
-          lay_foundation(mat_place(scene.structures[s], meshes[s]), scene.structures[s]);
-        }
-        model.buildings[s].absorbing = find_absorbing_nodes(scene, scene.structures[s], meshes[s]);
-        model.buildings[s].spread = find_spread_springs(scene.structures[s], meshes[s]);
-        check_mesh(scene, s, meshes[s], model);
-        find_supported_nodes(scene, scene.structures[s], meshes[s]);
-      }
-      const Progress progress(comm, "faces in contact and probes", scene.progress_interval);
-      model.interface = find_interface(scene, meshes, gap_shares);
-      model.probes = resolve_probes(scene, meshes);
-      model.forces = resolve_forces(scene, meshes);
-      append(probe_warnings(model.probes, meshes, model.interface), model.warnings);
-    });
-    for (std::size_t s = 0; s < meshes.size(); ++s) {
-      share_foundation(comm, scene.structures[s], meshes[s]);
-    }
-    broadcast_interface(comm, model.interface);
-    if (gap_shares != nullptr) broadcast_array(comm, *gap_shares);
-    broadcast_probes(comm, model.probes);
-    broadcast_forces(comm, model.forces);
+    on_rank0(comm, [&] { whole = read_whole_meshes(comm, scene, model); });
+    share_findings(comm, scene, whole, gap_shares, model);
   }
-  std::optional<ScopedTimer> timer(std::in_place, profile, Phase::partition);
-  std::optional<Progress> progress(std::in_place, comm, "partition", scene.progress_interval);
+  const ScopedTimer timer(profile, Phase::partition);
+  const Progress progress(comm, "partition", scene.progress_interval);
   Partition partition;
-  const std::vector<int> whole = owners_of_reduced(comm, scene);
-  on_rank0(comm, [&] {
-    std::vector<NodeCluster> clusters;
-    for (std::size_t s = 0; s < meshes.size(); ++s) {
-      if (scene.structures[s].modal) {
-        continue;  // coordinates are scaled, not elements
-      }
-      const auto more = coupled_nodes(scene.structures[s], meshes[s], static_cast<int>(s));
-      clusters.insert(clusters.end(), more.begin(), more.end());
-    }
-    partition = partition_meshes(meshes, facing_nodes(model.interface), size_of(comm), whole,
-                                 clusters, scene.partition_by);
-  });
+  on_rank0(comm,
+           [&] { partition = cut_meshes(scene, whole.meshes, model.interface, size_of(comm)); });
   model.partition_imbalance = partition.imbalance;
   model.partition_edge_cut = partition.edge_cut;
-  for (std::size_t s = 0; s < meshes.size(); ++s) {
-    model.meshes.push_back(
-        distribute_mesh(comm, scene.structures[s].name, meshes[s], partition, static_cast<int>(s)));
-    if (model.meshes[s].global_dofs == 0) {
-      throw UserError("structure " + scene.structures[s].name +
-                      ": every node is clamped, nothing can move; look at -" +
-                      scene.structures[s].name + "_clamp");
-    }
+  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+    model.meshes.push_back(distribute_mesh(comm, scene.structures[s].name, whole.meshes[s],
+                                           partition, static_cast<int>(s)));
   }
-  timer.reset();
-  progress.reset();
+}
+
+/// Every rank reads its piece of meshes that were cut before; rank 0 reads the meshes of reduced
+/// structures as well, of which bases are made.
+void read_meshes(MPI_Comm comm, Scene& scene, Profile& profile, std::vector<GapShare>* gap_shares,
+                 WholeMeshes& whole, Model& model) {
+  std::string identity;
+  {
+    const ScopedTimer timer(profile, Phase::mesh);
+    on_rank0(comm, [&] {
+      CommonPiece common = read_common_piece(scene, size_of(comm), model);
+      whole = std::move(common.whole);
+      identity = common.identity;
+    });
+    broadcast(comm, identity);
+    share_findings(comm, scene, whole, gap_shares, model);
+  }
+  const ScopedTimer timer(profile, Phase::partition);
+  const Progress progress(comm, "pieces of meshes", scene.progress_interval);
+  std::vector<MeshParcel> parcels;
+  on_every_rank(comm, [&] { parcels = read_mesh_piece(scene, rank_of(comm), identity); });
+  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+    model.meshes.push_back(
+        join_parcel(comm, scene.structures[s].name, std::move(parcels[s]), whole.meshes[s]));
+  }
+  on_rank0(comm, [&] {
+    for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+      if (scene.structures[s].modal) read_whole_mesh(comm, scene, s, whole, model);
+    }
+  });
+}
+
+/// Every rank gets its part of the meshes. Bases of reduced structures come from the whole ones.
+void build_meshes(MPI_Comm comm, Scene& scene, std::span<const double> stiffness_factors,
+                  Profile& profile, std::vector<GapShare>* gap_shares, Model& model) {
+  const std::size_t count = scene.structures.size();
+  WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatPlace>(count), {}};
+  (scene.mesh_pieces.empty() ? share_meshes : read_meshes)(comm, scene, profile, gap_shares, whole,
+                                                           model);
+  for (const Mesh& mesh : model.meshes) {
+    if (mesh.global_dofs > 0) continue;
+    throw UserError("structure " + mesh.structure +
+                    ": every node is clamped, nothing can move; look at -" + mesh.structure +
+                    "_clamp");
+  }
   if (scene.dry_run && scene.write_model) write_model(comm, scene, model);
-  progress.emplace(comm, "modal bases", scene.progress_interval);
-  auto bases = find_bases(comm, scene, meshes, model.interface, model.probes, model.forces,
+  const Progress progress(comm, "modal bases", scene.progress_interval);
+  auto bases = find_bases(comm, scene, whole.meshes, model.interface, model.probes, model.forces,
                           model.support_columns(), profile);
-  for (std::size_t s = 0; s < meshes.size(); ++s) {
+  for (std::size_t s = 0; s < count; ++s) {
     if (bases[s]) scale_stiffness(stiffness_factors[s], *bases[s]);
     model.buildings[s].basis = std::move(bases[s]);
   }
@@ -199,7 +195,7 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
   if (building.basis) {
     building.modal = modes_of_basis(*building.basis, scene.modes);
     building.mode_gaps = modes_at_contacts(comm, model, s);  // before its rows go into the system
-    system = build_reduced_system(comm, owners_of_reduced(comm, scene)[s], wanted, mesh,
+    system = build_reduced_system(comm, owners_of_reduced(size_of(comm), scene)[s], wanted, mesh,
                                   *building.basis, model.support_columns());
     building.limits = limits_of(wanted, system, mesh, building.basis_or_null(), {});
     return;

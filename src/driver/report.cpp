@@ -348,11 +348,11 @@ void print_probe_places(const Scene& scene, const std::vector<ResolvedProbe>& pr
   if (probes.size() > shown) std::printf("  ... and %zu more probes\n", probes.size() - shown);
 }
 
+}  // namespace
+
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) std::printf("warning: %s\n", warning.c_str());
 }
-
-}  // namespace
 
 void print_title(const Scene& scene, const std::string& overrides, int ranks) {
   int major = 0;

@@ -16,6 +16,7 @@
 #include "driver/floor_spectra.h"
 #include "driver/folder_checks.h"
 #include "driver/matrix_export.h"
+#include "driver/mesh_pieces.h"
 #include "driver/mode_shapes.h"
 #include "driver/model_file.h"
 #include "driver/provenance.h"
@@ -93,17 +94,19 @@ void run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
   const double start = MPI_Wtime();
   const bool root = rank_of(comm) == 0;
   Profile profile;
-  const bool writes = !scene.dry_run || scene.write_modes || scene.write_model;
+  const bool runs = !scene.dry_run && scene.write_mesh_pieces == 0;
+  const bool writes = runs || scene.write_modes || scene.write_model;
   std::optional<ResultFolder> folder;  // of rank 0
   on_rank0(comm, [&] {
     if (writes) try_folder("output", scene.output);
     if (!scene.export_matrices.empty()) try_folder("export_matrices", scene.export_matrices);
-    if (!scene.dry_run) {
+    if (runs) {
       folder.emplace(scene.output);
       std::ranges::copy(replaced_results(scene, resolved), std::back_inserter(scene.warnings));
     }
   });
   if (root) print_title(scene, overrides_text(origin), size_of(comm));
+  if (scene.write_mesh_pieces > 0) return write_mesh_pieces(comm, scene, profile);
   Provenance provenance;  // a dry run leaves no summary to tell it
   if (!scene.dry_run) provenance = note_provenance(comm, origin, resolved);
   if (!scene.restart.empty()) check_checkpoint(comm, scene.restart, lasting_options(resolved));

@@ -59,8 +59,8 @@ void check_seal(const std::string& path) {
       std::string(written.data(), 13) != "pounding seal") {
     throw std::runtime_error(
         path +
-        ": not a checkpoint or modal basis: it does not begin with the seal of "
-        "one; another file, of an older version, or damaged");
+        ": not a checkpoint, modal basis or piece of a mesh: it does not begin with "
+        "the seal of one; another file, of an older version, or damaged");
   }
   bool readable = false;
   if (seal_of(file, readable) != written || !readable) {

@@ -183,10 +183,10 @@ void bring_mesh(MPI_Comm comm, const Structure& structure, std::span<const Globa
 
 }  // namespace
 
-std::vector<int> owners_of_reduced(MPI_Comm comm, const Scene& scene) {
+std::vector<int> owners_of_reduced(int ranks, const Scene& scene) {
   const auto count = static_cast<int>(std::ranges::count_if(
       scene.structures, [](const Structure& structure) { return structure.modal.has_value(); }));
-  const int block = (count + size_of(comm) - 1) / size_of(comm);
+  const int block = (count + ranks - 1) / ranks;
   std::vector<int> owners;
   int reduced = 0;
   for (const Structure& structure : scene.structures) {

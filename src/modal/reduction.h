@@ -14,9 +14,9 @@
 
 namespace pounding {
 
-/// Per structure the rank that has all generalised coordinates of a reduced one, else -1. No rank
-/// takes more than it must; neighbours in the scene's list stay together.
-std::vector<int> owners_of_reduced(MPI_Comm comm, const Scene& scene);
+/// Per structure the one of `ranks` ranks that has all generalised coordinates of a reduced one,
+/// else -1. No rank takes more than it must; neighbours in the scene's list stay together.
+std::vector<int> owners_of_reduced(int ranks, const Scene& scene);
 
 /// Per structure the basis of a reduced one, nothing for the others: out of its file if that still
 /// belongs to the structure, else computed, several structures at a time, and written there. A

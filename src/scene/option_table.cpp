@@ -22,6 +22,7 @@ constexpr Range damping_ratio{0, 1, false, true};
 constexpr Range uniform_ratio{0, 0.3, false, false};
 constexpr Range eigen_tolerance{1e-10, 0.1, false, false};
 constexpr Range csv_digits{6, 17, false, false};
+constexpr Range rank_count{0, 99999, false, false};
 constexpr Range filter_count{1, 8, false, false};
 constexpr Range dashpot_power{0.05, 2, false, false};
 constexpr Range below_1{0, 1, false, true};
@@ -79,6 +80,8 @@ constexpr std::array table{
     OptionRow{Block::run, "export_matrices", Kind::text, "folder", value("none"), any, "a folder or none", "writes the matrices of every structure there, with contact, influence and probe rows"},
     OptionRow{Block::run, "restart", Kind::text, "file", value("none"), any, "a checkpoint.h5 or none", "checkpoint to continue from, with the history.h5 beside it"},
     OptionRow{Block::run, "partition", Kind::choice, "word", value("auto"), any, "auto|elements|structures", "what is shared out among the ranks: elements, whole structures, or whichever costs a step less"},
+    OptionRow{Block::run, "mesh_pieces", Kind::text, "folder", value("none"), any, "a folder or none", "meshes cut before, of which every rank reads its piece alone"},
+    OptionRow{Block::run, "write_mesh_pieces", Kind::integer, "ranks", value("0"), rank_count, "", "cuts the meshes for so many ranks into the folder mesh_pieces, and stops; 0: does not"},
     OptionRow{Block::run, "stiffness", Kind::choice, "word", value("auto"), any, "auto|assembled|element", "how K is applied: as a matrix, element by element, or by what the mesh is"},
     OptionRow{Block::run, "fidelity_target", Kind::real, "-", absent("optional"), positive, "", "rms error of the floor spectra that is accepted (0.05: 5 %); takes the fastest setting of the table within it"},
     OptionRow{Block::run, "fidelity_table", Kind::text, "file", value("petsc-options/azalee/fidelity.csv"), any, "a CSV file from run/tradeoff", "settings with their measured error and cost, and the structures that these were measured on"},
@@ -243,7 +246,7 @@ constexpr std::array table{
 // Options that touch neither motion nor records; the time step itself is compared, not its options.
 constexpr std::array changeable_on_restart = std::to_array<std::string_view>({
     "title", "end_time", "courant", "time_step", "allow_unstable", "omega_max_tolerance", "progress_interval", "modes", "modes_solver", "write_modes", "write_model", "mesh_time_limit", "dry_run", "output",
-    "checkpoint_interval", "checkpoint_steps", "export_matrices", "partition", "restart", "spectra_damping",
+    "checkpoint_interval", "checkpoint_steps", "export_matrices", "partition", "mesh_pieces", "write_mesh_pieces", "restart", "spectra_damping",
     "spectra_frequencies", "spectra_start", "peak_frequency", "csv_digits"});
 // clang-format on
 

@@ -318,8 +318,10 @@ struct SpectraRequest {
 
 struct Scene {
   std::string title;
-  std::string fidelity_note;          ///< what -fidelity_target chose; empty without it
-  std::string structures_key;         ///< see scene/structures_key.h
+  std::string fidelity_note;   ///< what -fidelity_target chose; empty without it
+  std::string structures_key;  ///< see scene/structures_key.h
+  /// Options that cut meshes depend on, see scene/mesh_options.h.
+  std::vector<std::pair<std::string, std::string>> mesh_options;
   std::vector<std::string> warnings;  ///< one line each: options that may not be meant
   std::vector<Structure> structures;
   std::vector<Contact> contacts;
@@ -329,6 +331,8 @@ struct Scene {
   Resampling resampling = Resampling::linear;
   StiffnessMethod stiffness = StiffnessMethod::automatic;
   PartitionBy partition_by = PartitionBy::automatic;
+  std::string mesh_pieces;    ///< folder of meshes cut before; empty: none
+  int write_mesh_pieces = 0;  ///< number of ranks to cut them for; 0: they are read
   std::vector<Probe> probes;
   std::vector<Loop> loops;
   std::vector<ForceItem> forces;

@@ -11,6 +11,7 @@
 #include "scene/fidelity_target.h"
 #include "scene/filler_reader.h"
 #include "scene/force_reader.h"
+#include "scene/mesh_options.h"
 #include "scene/motion_reader.h"
 #include "scene/nearest_name.h"
 #include "scene/option_blocks.h"
@@ -72,6 +73,8 @@ class SceneReader {
     const std::vector<std::string> doubts = scene_doubts(scene_);
     scene_.warnings.insert(scene_.warnings.end(), doubts.begin(), doubts.end());
     scene_.structures_key = structures_key(options_.in_force());
+    scene_.mesh_options = mesh_options(options_.in_force(), scene_);
+    check_pieces();
     return {scene_, resolved_yaml(options_), stiffness_factors_, ensemble_};
   }
 
@@ -127,6 +130,9 @@ class SceneReader {
     scene_.partition_by = shared == "auto"       ? PartitionBy::automatic
                           : shared == "elements" ? PartitionBy::elements
                                                  : PartitionBy::structures;
+    const std::string pieces = options_.text("mesh_pieces");
+    scene_.mesh_pieces = pieces == "none" ? "" : pieces;
+    scene_.write_mesh_pieces = options_.integer("write_mesh_pieces");
     const std::string method = options_.choice("stiffness");
     scene_.stiffness = method == "auto"        ? StiffnessMethod::automatic
                        : method == "assembled" ? StiffnessMethod::assembled
@@ -152,6 +158,21 @@ class SceneReader {
       }
     }
     return list;
+  }
+
+  /// Meshes are cut into a folder, and reduced structures are not cut.
+  void check_pieces() const {
+    if (scene_.write_mesh_pieces > 0 && scene_.mesh_pieces.empty()) {
+      options_.refuse("write_mesh_pieces", {}, "give the folder for them (-mesh_pieces)");
+    }
+    if (scene_.write_mesh_pieces > 0 && scene_.dry_run) {
+      options_.refuse("write_mesh_pieces", {}, "it writes; not with -dry_run");
+    }
+    if (!scene_.mesh_pieces.empty() &&
+        std::ranges::all_of(scene_.structures,
+                            [](const Structure& s) { return s.modal.has_value(); })) {
+      options_.refuse("mesh_pieces", {}, "every structure is reduced, whose meshes are not cut");
+    }
   }
 
   /// A run starts from the equilibrium or from a given place.

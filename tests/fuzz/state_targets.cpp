@@ -7,6 +7,7 @@
 
 #include "common/error.h"
 #include "common/petsc.h"
+#include "driver/mesh_pieces.h"
 #include "fuzz/target.h"
 #include "io/file_seal.h"
 #include "io/matrix_market.h"
@@ -105,6 +106,33 @@ void read_basis(const std::string& path, Random&) {
     read_modal_basis(path, key());
   } catch (const std::runtime_error& error) {
     throw UserError(error.what());
+  }
+}
+
+/// A scene of one structure whose piece lies in a folder.
+Scene scene_in_pieces(const std::string& folder) {
+  Scene scene;
+  scene.mesh_pieces = folder;
+  scene.structures.resize(1);
+  scene.structures[0].regions.resize(1);
+  return scene;
+}
+
+std::string piece_seed(const std::string& folder) {
+  GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
+  testing::clamp(mesh, "x_min");
+  const Partition partition = partition_meshes({&mesh, 1}, {}, 2);
+  const MeshCutter cutter(mesh, partition, 0);
+  write_mesh_piece(scene_in_pieces(folder), 0, "cut",
+                   [&](std::size_t) { return cutter.parcel(0); });
+  return content_of(folder + "/piece-00000.bin");
+}
+
+void read_piece(const std::string& path, Random&) {
+  seal_file(path);
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  for (MeshParcel& parcel : read_mesh_piece(scene_in_pieces(folder), 0, "cut")) {
+    join_parcel(MPI_COMM_SELF, "box", std::move(parcel), NodeMarks{});
   }
 }
 
@@ -234,6 +262,7 @@ std::vector<Target> state_targets(const std::string& folder) {
                      "checkpoint.h5",
                      true});
   targets.push_back({"basis", {basis_seed(folder)}, {}, read_basis, "basis.h5", true});
+  targets.push_back({"piece", {piece_seed(folder)}, {}, read_piece, "piece-00000.bin"});
   return targets;
 }
 

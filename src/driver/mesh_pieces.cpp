@@ -1,0 +1,449 @@
+#include "driver/mesh_pieces.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <memory>
+
+#include "common/byte_stream.h"
+#include "common/error.h"
+#include "common/hash.h"
+#include "common/parallel.h"
+#include "common/progress.h"
+#include "common/version.h"
+#include "driver/folder_checks.h"
+#include "driver/phase_report.h"
+#include "driver/report.h"
+#include "io/file_digest.h"
+#include "io/file_seal.h"
+#include "mesh/geometry_file.h"
+
+namespace pounding {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* common_kind = "pounding mesh pieces 1";
+constexpr const char* piece_kind = "pounding mesh piece 1";
+
+std::string common_path(const Scene& scene) {
+  return scene.mesh_pieces + "/common.piece";
+}
+
+std::string piece_path(const Scene& scene, int rank) {
+  std::array<char, 40> name{};
+  std::snprintf(name.data(), name.size(), "/piece-%05d.bin", rank);
+  return scene.mesh_pieces + name.data();
+}
+
+[[noreturn]] void refuse(const Scene& scene, const std::string& why) {
+  throw UserError("option -mesh_pieces " + scene.mesh_pieces + ": " + why);
+}
+
+/// A thing that meshes are made of, and its value.
+struct Ingredient {
+  std::string name;
+  std::string value;
+};
+
+/// Everything on which the pieces depend but the number of ranks.
+std::vector<Ingredient> ingredients_of(const Scene& scene) {
+  std::vector<Ingredient> list{
+      {"program", std::string(program_version()) + " (" + program_commit() + ")"}};
+  for (const auto& [name, value] : scene.mesh_options) list.push_back({"option " + name, value});
+  for (const Structure& structure : scene.structures) {
+    list.push_back({"mesh of " + structure.name, digest_of_file(structure.mesh).sha256});
+    for (const fs::path& included : files_included_in(structure.mesh)) {
+      std::error_code failure;
+      if (!fs::is_regular_file(included, failure)) continue;
+      list.push_back({"files that the mesh of " + structure.name + " includes",
+                      digest_of_file(included.string()).sha256});
+    }
+  }
+  return list;
+}
+
+/// Names of what one list has and the other has not, "option a, mesh of b"; empty if none.
+std::string differences(const std::vector<Ingredient>& one, const std::vector<Ingredient>& other) {
+  std::string text;
+  const auto add_missing = [&](const std::vector<Ingredient>& from,
+                               const std::vector<Ingredient>& in) {
+    for (const Ingredient& each : from) {
+      const bool there = std::ranges::any_of(
+          in, [&](const Ingredient& i) { return i.name == each.name && i.value == each.value; });
+      if (there || text.find(each.name) != std::string::npos) continue;
+      text += (text.empty() ? "" : ", ") + each.name;
+    }
+  };
+  add_missing(one, other);
+  add_missing(other, one);
+  return text;
+}
+
+/// Identity of a cut: of what the pieces are made and for how many ranks.
+std::string identity_of(const std::vector<Ingredient>& ingredients, int ranks) {
+  Hash hash;
+  hash.add(static_cast<double>(ranks));
+  for (const Ingredient& each : ingredients) {
+    hash.add(each.name);
+    hash.add(each.value);
+  }
+  return hash.text();
+}
+
+template <typename Stream, typename Head>
+void pass_head(Stream& stream, Head& head) {
+  stream(head.kind);
+  stream(head.ranks);
+  stream.list(head.ingredients, [&](auto& each) {
+    stream(each.name);
+    stream(each.value);
+  });
+}
+
+struct Head {
+  std::string kind = common_kind;
+  std::int32_t ranks = 0;
+  std::vector<Ingredient> ingredients;
+};
+
+template <typename Stream, typename Marks>
+void pass_marks(Stream& stream, Marks& marks) {
+  stream.list(marks.rigid, [&](auto& part) {
+    stream(part.group);
+    stream(part.kind);
+    stream(part.components);
+    stream.array(part.nodes);
+    stream.list(part.tied, [&](auto& tied) {
+      stream(tied.node);
+      stream(tied.group);
+      stream.array(tied.carriers);
+    });
+  });
+  stream.array(marks.absorbing);
+  stream.array(marks.supported);
+  stream(marks.ground_support);
+}
+
+template <typename Stream, typename AnyInterface>
+void pass_interface(Stream& stream, AnyInterface& interface) {
+  stream.list(interface.constraints, [&](auto& row) {
+    stream(row.contact);
+    stream.array(row.terms);
+    stream(row.initial_gap);
+    stream(row.geometric_gap);
+    stream(row.facet_size);
+    stream(row.place);
+    stream(row.matched);
+    stream(row.friction);
+    stream(row.filler);
+  });
+  stream.list(interface.reports, [&](auto& report) {
+    stream(report.contact);
+    stream(report.pairs);
+    stream(report.matched);
+    stream(report.unmatched_nodes);
+    stream(report.smallest_gap);
+    stream(report.largest_gap);
+    stream(report.geometric_gap);
+    stream(report.half_thickness);
+    stream(report.overlapping);
+    stream(report.carried);
+    stream(report.left_behind);
+    stream(report.farthest_behind);
+    stream(report.inner_facets);
+    stream(report.normal);
+    stream(report.tangent_axes);
+    stream(report.filler_area);
+    stream(report.filler_thickness);
+  });
+  auto& sliding = interface.sliding;
+  stream.array(sliding.nodes);
+  stream.array(sliding.facets);
+  stream.array(sliding.rows);
+  stream.array(sliding.candidates);
+  stream(interface.model_size);
+  stream.list(interface.warnings, [&](auto& warning) { stream(warning); });
+}
+
+template <typename Stream, typename Findings>
+void pass_findings(Stream& stream, Findings& findings) {
+  auto& connectivity = findings.connectivity;
+  stream.array(connectivity.pieces);
+  stream(connectivity.coincident_inside);
+  stream(connectivity.coincident_apart);
+  stream(connectivity.ends_inside);
+  stream(connectivity.hinges);
+  stream(connectivity.lone_hinges);
+  stream.list(findings.unused, [&](auto& unused) {
+    stream(unused.group);
+    stream(unused.kind);
+    stream(unused.count);
+    stream(unused.left_out);
+    stream(unused.place);
+  });
+}
+
+/// Groups of spread springs, by the numbers of their regions.
+struct SpreadRecord {
+  std::int32_t region = 0;
+  std::int64_t nodes = 0;
+  double extent = 0;
+};
+
+std::vector<SpreadRecord> records_of(const std::vector<SpreadReport>& spread,
+                                     const Structure& structure) {
+  std::vector<SpreadRecord> records;
+  for (const SpreadReport& report : spread) {
+    records.push_back({static_cast<std::int32_t>(report.region - structure.regions.data()),
+                       report.nodes, report.extent});
+  }
+  return records;
+}
+
+std::vector<SpreadReport> reports_of(const std::vector<SpreadRecord>& records,
+                                     const Structure& structure) {
+  std::vector<SpreadReport> spread;
+  for (const SpreadRecord& record : records) {
+    spread.push_back({&structure.regions.at(record.region), record.nodes, record.extent});
+  }
+  return spread;
+}
+
+/// The one description of the common piece behind its head, for both directions.
+template <typename Stream, typename Whole, typename AnyModel>
+void pass_common(Stream& stream, Whole& whole, AnyModel& model,
+                 std::vector<std::vector<SpreadRecord>>& spread) {
+  for (auto& mesh : whole.meshes) pass_marks(stream, mesh);
+  stream.array(whole.mats);
+  stream.array(whole.gap_shares);
+  for (auto& building : model.buildings) {
+    pass_findings(stream, building.findings);
+    stream(building.absorbing);
+  }
+  for (auto& records : spread) stream.array(records);
+  pass_interface(stream, model.interface);
+  stream.list(model.probes, [&](auto& probe) {
+    stream(probe.name);
+    stream(probe.structure);
+    stream.array(probe.nodes);
+    stream(probe.position);
+    stream(probe.snap_distance);
+    stream(probe.element_size);
+  });
+  stream.list(model.forces, [&](auto& force) {
+    stream(force.structure);
+    stream.array(force.elements);
+    stream.array(force.regions);
+    stream.array(force.nodes);
+  });
+  stream.list(model.warnings, [&](auto& warning) { stream(warning); });
+  stream(model.partition_imbalance);
+  stream(model.partition_edge_cut);
+}
+
+/// Writes a sealed file. Throws UserError.
+void write_sealed(const std::string& path, const std::function<void(ByteWriter&)>& write) {
+  std::ofstream file(path, std::ios::binary);
+  const std::array<char, seal_size> place{};
+  file.write(place.data(), place.size());
+  const WriteBytes bytes = [&](std::span<const char> values) {
+    file.write(values.data(), static_cast<std::streamsize>(values.size()));
+  };
+  ByteWriter writer(bytes);
+  write(writer);
+  file.close();
+  if (!file) throw UserError(path + ": could not be written completely (is the disk full?)");
+  seal_file(path);
+}
+
+/// Reads a sealed file. Throws std::runtime_error that begins with its path.
+void read_sealed(const std::string& path, const std::function<void(ByteReader&)>& read) {
+  check_seal(path);
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(seal_size);
+  const ReadBytes bytes = [&](std::span<char> values) {
+    file.read(values.data(), static_cast<std::streamsize>(values.size()));
+    if (!file) throw std::runtime_error("it cannot be read");
+  };
+  ByteReader reader(bytes, fs::file_size(path) - seal_size);
+  try {
+    read(reader);
+  } catch (const UserError&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw std::runtime_error(path + ": no piece of a mesh, or a damaged one (" + error.what() +
+                             ")");
+  }
+}
+
+void read_sealed_of(const Scene& scene, const std::string& path,
+                    const std::function<void(ByteReader&)>& read) {
+  if (std::error_code failure; !fs::is_regular_file(path, failure)) {
+    refuse(scene, path + " is not there; cut the meshes first (-write_mesh_pieces RANKS)");
+  }
+  try {
+    read_sealed(path, read);
+  } catch (const UserError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    refuse(scene, std::string(error.what()) + "; cut the meshes anew (-write_mesh_pieces RANKS)");
+  }
+}
+
+/// Removes an earlier cut: what tells of it first, so that no half of one is taken for a whole.
+void remove_pieces(const Scene& scene) {
+  fs::remove(common_path(scene));
+  for (const fs::directory_entry& entry : fs::directory_iterator(scene.mesh_pieces)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("piece-") && name.ends_with(".bin")) fs::remove(entry.path());
+  }
+}
+
+/// Account of one structure in pieces.
+void print_pieces(const Structure& structure, const MeshParcel& first,
+                  const std::vector<GlobalIndex>& nodes) {
+  const auto [least, most] = std::ranges::minmax(nodes);
+  std::printf("structure %s: %lld nodes, %lld dofs; %lld to %lld nodes in a piece\n",
+              structure.name.c_str(), static_cast<long long>(first.sizes[1]),
+              static_cast<long long>(first.sizes[2]), static_cast<long long>(least),
+              static_cast<long long>(most));
+}
+
+/// Cuts the meshes and writes all files. Rank 0.
+void cut_and_write(const Scene& scene, const WholeMeshes& whole, Model& model) {
+  const int ranks = scene.write_mesh_pieces;
+  const Partition partition = cut_meshes(scene, whole.meshes, model.interface, ranks);
+  model.partition_imbalance = partition.imbalance;
+  model.partition_edge_cut = partition.edge_cut;
+  const Head head{common_kind, ranks, ingredients_of(scene)};
+  const std::string identity = identity_of(head.ingredients, ranks);
+  std::vector<std::unique_ptr<MeshCutter>> cutters;
+  for (std::size_t s = 0; s < whole.meshes.size(); ++s) {
+    cutters.push_back(
+        std::make_unique<MeshCutter>(whole.meshes[s], partition, static_cast<int>(s)));
+  }
+  fs::create_directories(scene.mesh_pieces);
+  remove_pieces(scene);
+  std::vector<std::vector<GlobalIndex>> nodes(cutters.size());
+  std::vector<MeshParcel> first(cutters.size());
+  double bytes = 0;
+  for (int rank = 0; rank < ranks; ++rank) {
+    const auto parcel_of = [&](std::size_t s) {
+      MeshParcel parcel = cutters[s]->parcel(rank);
+      nodes[s].push_back(parcel.sizes[0]);
+      if (rank == 0) first[s].sizes = parcel.sizes;
+      return parcel;
+    };
+    bytes += write_mesh_piece(scene, rank, identity, parcel_of);
+  }
+  std::vector<std::vector<SpreadRecord>> spread;
+  for (std::size_t s = 0; s < whole.meshes.size(); ++s) {
+    spread.push_back(records_of(model.buildings[s].spread, scene.structures[s]));
+  }
+  const std::string fresh = common_path(scene) + ".new";
+  write_sealed(fresh, [&](ByteWriter& stream) {
+    pass_head(stream, head);
+    pass_common(stream, whole, std::as_const(model), spread);
+  });
+  fs::rename(fresh, common_path(scene));
+  for (std::size_t s = 0; s < nodes.size(); ++s) {
+    print_pieces(scene.structures[s], first[s], nodes[s]);
+  }
+  std::printf("\npartition: imbalance %.3f, cut edges %ld\n", model.partition_imbalance,
+              model.partition_edge_cut);
+  std::printf("pieces: %d in %s, %.4g MB, for runs on as many ranks with -mesh_pieces %s\n", ranks,
+              scene.mesh_pieces.c_str(), bytes / 1e6, scene.mesh_pieces.c_str());
+}
+
+}  // namespace
+
+void write_mesh_pieces(MPI_Comm comm, Scene& scene, Profile& profile) {
+  Model model;
+  model.buildings.resize(scene.structures.size());
+  on_rank0(comm, [&] { try_folder("mesh_pieces", scene.mesh_pieces); });
+  WholeMeshes whole;
+  {
+    const ScopedTimer timer(profile, Phase::mesh);
+    on_rank0(comm, [&] { whole = read_whole_meshes(comm, scene, model); });
+  }
+  std::size_t dofs = 0;
+  {
+    const ScopedTimer timer(profile, Phase::partition);
+    on_rank0(comm, [&] {
+      const Progress progress(comm, "partition", scene.progress_interval);
+      cut_and_write(scene, whole, model);
+    });
+  }
+  for (const GlobalMesh& mesh : whole.meshes) {
+    for (const std::uint8_t mask : mesh.free_components) dofs += component_count(mask);
+  }
+  if (rank_of(comm) == 0) print_warnings(model.warnings);
+  const PhaseReport phases = report_phases(comm, profile, dofs);
+  if (rank_of(comm) == 0) print_phases(phases);
+}
+
+double write_mesh_piece(const Scene& scene, int rank, const std::string& identity,
+                        const std::function<MeshParcel(std::size_t)>& parcel_of) {
+  const std::string path = piece_path(scene, rank);
+  write_sealed(path, [&](ByteWriter& stream) {
+    stream(std::string(piece_kind));
+    stream(identity);
+    for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+      parcel_of(s).for_each_array([&](const auto& array) { stream.array(array); });
+    }
+  });
+  return static_cast<double>(fs::file_size(path));
+}
+
+CommonPiece read_common_piece(const Scene& scene, int ranks, Model& model) {
+  const std::size_t count = scene.structures.size();
+  CommonPiece common;
+  common.whole.meshes.resize(count);
+  read_sealed_of(scene, common_path(scene), [&](ByteReader& stream) {
+    Head head;
+    pass_head(stream, head);
+    if (head.kind != common_kind) throw std::runtime_error("another format");
+    const std::vector<Ingredient> now = ingredients_of(scene);
+    const std::string differ = differences(head.ingredients, now);
+    if (!differ.empty()) {
+      refuse(scene, "the pieces are of another model (" + differ +
+                        "); cut the meshes anew (-write_mesh_pieces " + std::to_string(ranks) +
+                        ")");
+    }
+    if (head.ranks != ranks) {
+      refuse(scene, "the meshes are cut for " + std::to_string(head.ranks) +
+                        " ranks, and this run has " + std::to_string(ranks) + "; run it on " +
+                        std::to_string(head.ranks) + ", or cut them anew (-write_mesh_pieces " +
+                        std::to_string(ranks) + ")");
+    }
+    common.identity = identity_of(now, ranks);
+    std::vector<std::vector<SpreadRecord>> spread(count);
+    pass_common(stream, common.whole, model, spread);
+    for (std::size_t s = 0; s < count; ++s) {
+      model.buildings[s].spread = reports_of(spread[s], scene.structures[s]);
+    }
+  });
+  return common;
+}
+
+std::vector<MeshParcel> read_mesh_piece(const Scene& scene, int rank, const std::string& identity) {
+  std::vector<MeshParcel> parcels(scene.structures.size());
+  read_sealed_of(scene, piece_path(scene, rank), [&](ByteReader& stream) {
+    std::string kind;
+    std::string cut;
+    stream(kind);
+    stream(cut);
+    if (kind != piece_kind || cut != identity) throw std::runtime_error("of another cut");
+    for (MeshParcel& parcel : parcels) {
+      parcel.for_each_array([&](auto& array) { stream.array(array); });
+      check_parcel(parcel, scene.structures[&parcel - parcels.data()].regions.size());
+    }
+  });
+  return parcels;
+}
+
+}  // namespace pounding

@@ -1,0 +1,73 @@
+#include "driver/whole_meshes.h"
+
+#include "common/progress.h"
+#include "contact/absorbing_faces.h"
+#include "driver/mesh_checks.h"
+#include "driver/probe_warnings.h"
+#include "driver/warnings.h"
+#include "mesh/find_supported_nodes.h"
+#include "mesh/gmsh_reader.h"
+#include "mesh/soil_node.h"
+#include "modal/reduction.h"
+#include "scene/soil_reader.h"
+#include "system/mass_scaling.h"
+
+namespace pounding {
+namespace {
+
+/// Refuses what cannot be meant in a mesh, keeps what is to be reported of it. Matrices from files
+/// hold and join as they like.
+void check_mesh(const Scene& scene, std::size_t s, const GlobalMesh& mesh, Model& model) {
+  const Structure& structure = scene.structures[s];
+  MeshFindings findings{examine_connectivity(structure, mesh),
+                        check_unused(scene, structure, mesh)};
+  check_export(scene, structure, mesh);
+  if (structure.matrices.empty()) check_connectivity(scene, structure, findings.connectivity);
+  append(mesh_warnings(scene, structure, mesh, findings.connectivity), model.warnings);
+  model.buildings[s].findings = std::move(findings);
+}
+
+}  // namespace
+
+void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, WholeMeshes& whole, Model& model) {
+  Structure& structure = scene.structures[s];
+  GlobalMesh& mesh = whole.meshes[s];
+  const Progress progress(comm, structure.name + ": mesh", scene.progress_interval);
+  mesh = read_mesh(structure, {scene.mesh_time_limit, scene.allow_geo_commands});
+  if (structure.soil) {
+    whole.mats[s] = mat_place(structure, mesh);
+    lay_foundation(whole.mats[s], structure);
+  }
+  model.buildings[s].absorbing = find_absorbing_nodes(scene, structure, mesh);
+  model.buildings[s].spread = find_spread_springs(structure, mesh);
+  find_supported_nodes(scene, structure, mesh);
+}
+
+WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model) {
+  const std::size_t count = scene.structures.size();
+  WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatPlace>(count), {}};
+  for (std::size_t s = 0; s < count; ++s) {
+    read_whole_mesh(comm, scene, s, whole, model);
+    check_mesh(scene, s, whole.meshes[s], model);
+  }
+  const Progress progress(comm, "faces in contact and probes", scene.progress_interval);
+  model.interface = find_interface(scene, whole.meshes, &whole.gap_shares);
+  model.probes = resolve_probes(scene, whole.meshes);
+  model.forces = resolve_forces(scene, whole.meshes);
+  append(probe_warnings(model.probes, whole.meshes, model.interface), model.warnings);
+  return whole;
+}
+
+Partition cut_meshes(const Scene& scene, std::span<const GlobalMesh> meshes,
+                     const Interface& interface, int parts) {
+  std::vector<NodeCluster> clusters;
+  for (std::size_t s = 0; s < meshes.size(); ++s) {
+    if (scene.structures[s].modal) continue;  // coordinates are scaled, not elements
+    const auto more = coupled_nodes(scene.structures[s], meshes[s], static_cast<int>(s));
+    clusters.insert(clusters.end(), more.begin(), more.end());
+  }
+  return partition_meshes(meshes, facing_nodes(interface), parts, owners_of_reduced(parts, scene),
+                          clusters, scene.partition_by);
+}
+
+}  // namespace pounding

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <mpi.h>
+
+#include "contact/find_interface.h"
+#include "driver/model.h"
+#include "mesh/global_mesh.h"
+#include "mesh/partition.h"
+#include "scene/scene.h"
+
+namespace pounding {
+
+/// The meshes of a scene as they stand on rank 0 before they are cut, and what they tell beside the
+/// model's own part.
+struct WholeMeshes {
+  std::vector<GlobalMesh> meshes;    ///< per structure
+  std::vector<MatPlace> mats;        ///< likewise, of those on soil
+  std::vector<GapShare> gap_shares;  ///< of the rows of the interface
+};
+
+/// Reads the mesh of a structure, lays its soil under the mat and finds what stands on absorbing
+/// faces, spread springs and supports. `comm`: for lines of progress, rank 0 alone calls. Serial.
+/// Throws UserError.
+void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, WholeMeshes& whole, Model& model);
+
+/// The meshes of all structures, checked, with contacts, probes and forces found in them. Throws
+/// UserError for what cannot be meant. Rank 0.
+WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model);
+
+/// Shares the meshes out among `parts` ranks. Rank 0.
+Partition cut_meshes(const Scene& scene, std::span<const GlobalMesh> meshes,
+                     const Interface& interface, int parts);
+
+}  // namespace pounding
