@@ -9,18 +9,40 @@
 
 namespace pounding {
 
-DenseMatrix transposed_product(const DenseMatrix& a, const DenseMatrix& b) {
-  DenseMatrix c(a.columns, b.columns);
-  const auto m = static_cast<PetscBLASInt>(a.columns);
+DenseMatrix transposed_product(const DenseMatrix& a, const DenseMatrix& b, std::size_t first) {
+  DenseMatrix c(a.columns - first, b.columns);
+  const auto m = static_cast<PetscBLASInt>(a.columns - first);
   const auto n = static_cast<PetscBLASInt>(b.columns);
   const auto k = static_cast<PetscBLASInt>(a.rows);
   const double one = 1;
   const double zero = 0;
   if (m > 0 && n > 0 && k > 0) {
-    BLASgemm_("T", "N", &m, &n, &k, &one, a.values.data(), &k, b.values.data(), &k, &zero,
+    BLASgemm_("T", "N", &m, &n, &k, &one, a.column(first), &k, b.values.data(), &k, &zero,
               c.values.data(), &m);
   }
   return c;
+}
+
+void add_product(double factor, const DenseMatrix& a, const DenseMatrix& b, DenseMatrix& c,
+                 std::size_t first) {
+  const auto m = static_cast<PetscBLASInt>(a.rows);
+  const auto n = static_cast<PetscBLASInt>(b.columns);
+  const auto k = static_cast<PetscBLASInt>(a.columns - first);
+  const double one = 1;
+  if (m > 0 && n > 0 && k > 0) {
+    BLASgemm_("N", "N", &m, &n, &k, &factor, a.column(first), &m, b.values.data(), &k, &one,
+              c.values.data(), &m);
+  }
+}
+
+std::vector<double> squared_norms(const DenseMatrix& a) {
+  std::vector<double> squares;
+  const auto n = static_cast<PetscBLASInt>(a.rows);
+  const PetscBLASInt stride = 1;
+  for (std::size_t j = 0; j < a.columns; ++j) {
+    squares.push_back(BLASdot_(&n, a.column(j), &stride, a.column(j), &stride));
+  }
+  return squares;
 }
 
 std::vector<double> symmetric_eigenvalues(DenseMatrix& matrix) {

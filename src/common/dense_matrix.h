@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 namespace pounding {
@@ -20,10 +22,23 @@ struct DenseMatrix {
     values.insert(values.end(), column.begin(), column.end());
     ++columns;
   }
+  /// Takes a column out; the last one takes its place.
+  void remove(std::size_t j) {
+    std::copy_n(column(columns - 1), rows, column(j));
+    --columns;
+    values.resize(columns * rows);
+  }
 };
 
-/// A^T B.
-DenseMatrix transposed_product(const DenseMatrix& a, const DenseMatrix& b);
+/// A^T B of the columns of A from `first` on.
+DenseMatrix transposed_product(const DenseMatrix& a, const DenseMatrix& b, std::size_t first = 0);
+
+/// C += factor A B of the columns of A from `first` on.
+void add_product(double factor, const DenseMatrix& a, const DenseMatrix& b, DenseMatrix& c,
+                 std::size_t first = 0);
+
+/// Squared length of each column.
+std::vector<double> squared_norms(const DenseMatrix& a);
 
 /// Eigenvalues of a symmetric matrix, increasing; its eigenvectors take the matrix' place. Throws
 /// std::runtime_error if LAPACK fails.

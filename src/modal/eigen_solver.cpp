@@ -52,11 +52,8 @@ void solve(EPS solver) {
   POUNDING_PETSC(error);
 }
 
-void require_converged(EPS solver, const LinearSystem& system, const Mesh& mesh, int count) {
-  PetscInt found = 0;
-  POUNDING_PETSC(EPSGetConverged(solver, &found));
-  if (found >= count) return;
-  const std::string option = given_option(solver);
+void refuse_modes(const LinearSystem& system, const Mesh& mesh, int found, int count,
+                  const std::string& option) {
   std::ostringstream text;
   text << "structure " << system.name << ": only " << found << " of " << count
        << " modes converged; its mesh is " << longest_side(system, mesh)
@@ -64,6 +61,14 @@ void require_converged(EPS solver, const LinearSystem& system, const Mesh& mesh,
           "leave the modes out with -modes 0"
        << (option.empty() ? "" : "; leave option " + option + " out");
   throw UserError(text.str());
+}
+
+void require_converged(EPS solver, const LinearSystem& system, const Mesh& mesh, int count) {
+  PetscInt found = 0;
+  POUNDING_PETSC(EPSGetConverged(solver, &found));
+  if (found < count) {
+    refuse_modes(system, mesh, static_cast<int>(found), count, given_option(solver));
+  }
 }
 
 MatHandle mass_scaled(const LinearSystem& system, Mat matrix) {

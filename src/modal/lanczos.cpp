@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 #include <petscblaslapack.h>
 
 #include "common/error.h"
+#include "common/scattered_number.h"
 
 namespace pounding {
 namespace {
@@ -21,21 +21,6 @@ constexpr double miss_probability = 1e-9;
 constexpr std::size_t most_products = 200000;
 constexpr double shape_residual = 1e-4;  // tells where a mode is
 constexpr std::size_t shape_products = 100;
-
-/// A number in (0, 1) for each n.
-double scattered(std::uint64_t n) {
-  n += 0x9e3779b97f4a7c15u;
-  n = (n ^ (n >> 30)) * 0xbf58476d1ce4e5b9u;
-  n = (n ^ (n >> 27)) * 0x94d049bb133111ebu;
-  n ^= n >> 31;
-  return (static_cast<double>(n >> 11) + 0.5) * 0x1p-53;
-}
-
-/// Normally distributed, by Box and Muller: a vector of these has no preferred direction.
-double normal(std::uint64_t n) {
-  return std::sqrt(-2 * std::log(scattered(2 * n))) *
-         std::cos(2 * std::numbers::pi * scattered(2 * n + 1));
-}
 
 double norm(Vec x) {
   double value = 0;
@@ -58,7 +43,8 @@ void Lanczos::begin() {
   for (LocalIndex node = 0; node < mesh_.owned_nodes; ++node) {
     for (int c = 0; c < 6; ++c) {
       const LocalIndex dof = mesh_.dof(node, c);
-      if (dof >= 0) values[dof] = normal(static_cast<std::uint64_t>(6 * mesh_.file_node[node] + c));
+      if (dof < 0) continue;
+      values[dof] = scattered_normal(static_cast<std::uint64_t>(6 * mesh_.file_node[node] + c));
     }
   }
   POUNDING_PETSC(VecRestoreArray(current_.get(), &values));

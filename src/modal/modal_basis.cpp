@@ -12,7 +12,9 @@
 #include "common/dense_matrix.h"
 #include "common/error.h"
 #include "common/parallel.h"
+#include "modal/block_krylov.h"
 #include "modal/eigen_solver.h"
+#include "modal/orthonormal_space.h"
 #include "modal/rigid_motions.h"
 #include "modal/shifted_solver.h"
 #include "system/admissible_motions.h"
@@ -27,25 +29,8 @@ constexpr double inside_span = 1e-8;
 /// Relative difference of two eigenvalues that are the same.
 constexpr double same_eigenvalue = 1e-7;
 
-double dot(const double* a, const double* b, std::size_t n) {
-  return std::inner_product(a, a + n, b, 0.0);
-}
-
-double norm(const std::vector<double>& a) {
-  return std::sqrt(dot(a.data(), a.data(), a.size()));
-}
-
-void scale(std::vector<double>& a, double factor) {
-  std::transform(a.begin(), a.end(), a.begin(), [&](double value) { return factor * value; });
-}
-
-/// a -= b (b . a)
-void take_off(const double* b, std::vector<double>& a) {
-  const double part = dot(b, a.data(), a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= part * b[i];
-}
-
-/// Orthonormal columns, shape (dofs, k), in y = M^1/2 u.
+/// Makes a basis of orthonormal columns in y = M^1/2 u, whose dofs the ranks of the system share
+/// out. Collective, all of it.
 class BasisMaker {
  public:
   BasisMaker(const LinearSystem& system, const Mesh& mesh, const ModalRequest& request)
@@ -55,7 +40,7 @@ class BasisMaker {
         matrix_(mass_scaled(system, system.stiffest_matrix())),
         dofs_(system.lumped_mass.size()),
         independent_(static_cast<std::size_t>(system.independent_dofs())),
-        space_(dofs_, 0) {
+        space_(system.comm, dofs_) {
     if (system.rigid_bodies.empty()) return;
     admissible_.emplace(system, AdmissibleMotions::Alone::mass_scaled);
     restricted_ = admissible_->restrict_matrix(system.stiffest_matrix());
@@ -68,9 +53,9 @@ class BasisMaker {
     add_modes(
         std::max(wanted, std::min(static_cast<std::size_t>(request_.candidates), independent_)));
     if (request_.candidates > request_.modes) choose_modes(wanted);
-    basis.modes = static_cast<int>(space_.columns);
-    if (space_.columns < independent_) add_attachment_vectors();
-    basis.attachment_vectors = static_cast<int>(space_.columns) - basis.modes;
+    basis.modes = static_cast<int>(space_.size());
+    if (space_.size() < independent_) add_attachment_vectors();
+    basis.attachment_vectors = static_cast<int>(space_.size()) - basis.modes;
     basis.full_dofs = system_.global_dofs;
     basis.total_mass = system_.total_mass;
     rotate(basis);
@@ -94,11 +79,27 @@ class BasisMaker {
   /// Matrix that has the modes' frequencies, in y or in the coordinates z of rigid bodies.
   Mat lowest_matrix() const { return admissible_ ? restricted_.get() : matrix_.get(); }
 
+  /// Factor of that matrix less a shift just below zero, made once.
+  const ShiftedSolver& lowest_solver() {
+    if (!solver_) solver_.emplace(system_, lowest_matrix(), lowest_shift);
+    return *solver_;
+  }
+
   /// Beyond every frequency [1/s2].
   double idle_value() const {
     PetscReal norm = 0;
     POUNDING_PETSC(MatNorm(matrix_.get(), NORM_INFINITY, &norm));
     return 2 * norm;
+  }
+
+  /// Changes every column of a matrix, where there are rigid bodies.
+  template <typename Change>
+  void change_columns(DenseMatrix& x, const Change& change) const {
+    for (std::size_t j = 0; admissible_ && j < x.columns; ++j) {
+      std::vector<double> column(x.column(j), x.column(j) + dofs_);
+      change(column);
+      std::ranges::copy(column, x.column(j));
+    }
   }
 
   /// y of z, and z of what acts on y: y = M^1/2 T z with orthonormal columns.
@@ -131,18 +132,34 @@ class BasisMaker {
     std::copy(to.begin(), to.end(), product);
   }
 
+  /// All eigenpairs of A as a full matrix, which every rank has; of vectors the own rows.
+  void decompose(std::vector<double>& values, DenseMatrix& vectors) const {
+    const auto size = static_cast<std::size_t>(system_.global_dofs);
+    PetscInt first = 0;
+    POUNDING_PETSC(MatGetOwnershipRange(matrix_.get(), &first, nullptr));
+    DenseMatrix whole(size, size);
+    std::vector<double> unit(dofs_, 0.0);
+    for (std::size_t j = 0; j < size; ++j) {
+      const std::size_t own = j - static_cast<std::size_t>(first);
+      if (own < dofs_) unit[own] = 1;
+      multiply(unit.data(), whole.column(j) + first);
+      if (own < dofs_) unit[own] = 0;
+    }
+    add_over_ranks(system_.comm, whole.values);
+    values = symmetric_eigenvalues(whole);
+    broadcast_array(system_.comm, whole.values);
+    broadcast_array(system_.comm, values);
+    for (std::size_t j = 0; j < size; ++j) {
+      const double* y = whole.column(j) + first;
+      vectors.append({y, y + dofs_});
+    }
+  }
+
   void add_modes(std::size_t wanted) {
     std::vector<double> values;
     DenseMatrix vectors(dofs_, 0);
-    if (3 * (wanted + 8) > dofs_) {
-      vectors = DenseMatrix(dofs_, dofs_);
-      std::vector<double> unit(dofs_, 0.0);
-      for (std::size_t j = 0; j < dofs_; ++j) {
-        unit[j] = 1;
-        multiply(unit.data(), vectors.column(j));
-        unit[j] = 0;
-      }
-      values = symmetric_eigenvalues(vectors);
+    if (static_cast<std::size_t>(system_.global_dofs) <= largest_krylov_space(wanted + 8)) {
+      decompose(values, vectors);
     } else {
       find_modes(wanted, values, vectors);
     }
@@ -151,6 +168,7 @@ class BasisMaker {
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
     const double last = values[order[wanted - 1]];
+    space_.reserve(wanted);
     for (std::size_t i = 0; i < order.size(); ++i) {
       if (i < wanted || values[order[i]] <= last + same_eigenvalue * std::abs(last)) {
         const double* y = vectors.column(order[i]);
@@ -163,11 +181,12 @@ class BasisMaker {
 
   /// Keeps so many of the candidates that are the space so far.
   void choose_modes(std::size_t wanted) {
-    const std::size_t candidates = space_.columns;
+    const std::size_t candidates = space_.size();
     std::vector<double> share(candidates, 0.0);
     for (const auto* points : {&request_.contact_points, &request_.other_points}) {
       for (const TracePoint& point : *points) add_shares(point, share);
     }
+    add_over_ranks(system_.comm, share);
     std::vector<std::size_t> order(candidates);
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto first = order.begin() + static_cast<std::ptrdiff_t>(wanted * 3 / 4);
@@ -175,19 +194,30 @@ class BasisMaker {
                      [&](std::size_t a, std::size_t b) { return share[a] > share[b]; });
     order.resize(wanted);
     std::ranges::sort(order);
-    DenseMatrix chosen(dofs_, 0);
     std::vector<int> numbers;
-    for (const std::size_t j : order) {
-      chosen.append({space_.column(j), space_.column(j) + dofs_});
-      numbers.push_back(mode_numbers_[j]);
-    }
-    space_ = std::move(chosen);
+    for (const std::size_t j : order) numbers.push_back(mode_numbers_[j]);
+    space_.choose(order);
     mode_numbers_ = std::move(numbers);
   }
 
-  /// phi^2 / omega^2 of each mode at a point, relative to the sum of all phi^2 there.
+  /// Owned dof of a point, -1 if it is clamped, does not exist or is another rank's.
+  LocalIndex dof_at(const TracePoint& point) const {
+    const LocalIndex node = mesh_.owned_node(point.node);
+    return node < 0 ? -1 : mesh_.dof(node, point.component);
+  }
+
+  /// Which of the points are dofs, on whatever rank.
+  std::vector<std::uint8_t> are_dofs(const std::vector<TracePoint>& points) const {
+    std::vector<std::uint8_t> found;
+    for (const TracePoint& point : points) found.push_back(dof_at(point) >= 0 ? 1 : 0);
+    MPI_Allreduce(MPI_IN_PLACE, found.data(), static_cast<int>(found.size()), MPI_UINT8_T, MPI_MAX,
+                  system_.comm);
+    return found;
+  }
+
+  /// phi^2 / omega^2 of each mode at a point of this rank, relative to the sum of all phi^2 there.
   void add_shares(const TracePoint& point, std::vector<double>& share) const {
-    const LocalIndex dof = mesh_.dof(mesh_.owned_node(point.node), point.component);
+    const LocalIndex dof = dof_at(point);
     double sum = 0;
     for (std::size_t j = 0; dof >= 0 && j < share.size(); ++j) {
       sum += std::pow(space_.column(j)[dof], 2);
@@ -198,91 +228,68 @@ class BasisMaker {
     }
   }
 
-  void find_modes(std::size_t wanted, std::vector<double>& values, DenseMatrix& vectors) const {
-    const EpsHandle solver =
-        solve_lowest(system_, mesh_, lowest_matrix(), static_cast<int>(wanted));
-    PetscInt found = 0;
-    POUNDING_PETSC(EPSGetConverged(solver.get(), &found));
-    std::vector<double> storage(dofs_);
-    const VecHandle vector = wrap_vector(system_, storage);
-    for (PetscInt i = 0; i < found; ++i) {
-      double value = 0;
-      POUNDING_PETSC(EPSGetEigenpair(solver.get(), i, &value, nullptr, vector.get(), nullptr));
-      values.push_back(value);
-      std::vector<double> y = storage;
-      from_coordinates(y);
-      vectors.append(y);
-    }
-  }
-
-  void project(std::vector<double>& x) const {
-    for (std::size_t j = 0; j < space_.columns; ++j) take_off(space_.column(j), x);
+  void find_modes(std::size_t wanted, std::vector<double>& values, DenseMatrix& vectors) {
+    Eigenpairs pairs = lowest_eigenpairs(system_, mesh_, lowest_solver(), wanted + 8);
+    change_columns(pairs.vectors, [this](auto& z) { from_coordinates(z); });
+    values = std::move(pairs.values);
+    vectors = std::move(pairs.vectors);
   }
 
   /// M^-1/2 times the forces that static responses are wanted to, each of length 1.
-  std::vector<std::vector<double>> static_loads() const {
-    std::vector<std::vector<double>> loads;
+  DenseMatrix static_loads() const {
+    DenseMatrix loads(dofs_, 0);
     if (request_.gravity != Vector3{0, 0, 0}) {
-      std::vector<double>& weight = loads.emplace_back(dofs_, 0.0);
+      std::vector<double> weight(dofs_, 0.0);
       for (std::size_t i = 0; i < dofs_; ++i) {
         const int direction = system_.direction[i];
         if (direction < 0) continue;
         weight[i] = std::sqrt(system_.lumped_mass[i]) * request_.gravity[direction];
       }
-      scale(weight, 1 / norm(weight));
+      loads.append(weight);
+      space_.normalise(loads);
     }
-    for (const TracePoint& point : request_.contact_points) {
-      const LocalIndex dof = mesh_.dof(mesh_.owned_node(point.node), point.component);
-      if (dof >= 0 && request_.attachment) loads.emplace_back(dofs_, 0.0)[dof] = 1;
+    if (!request_.attachment) return loads;
+    const std::vector<std::uint8_t> exists = are_dofs(request_.contact_points);
+    for (std::size_t p = 0; p < exists.size(); ++p) {
+      if (exists[p] == 0) continue;
+      std::vector<double> unit(dofs_, 0.0);
+      const LocalIndex dof = dof_at(request_.contact_points[p]);
+      if (dof >= 0) unit[dof] = 1;
+      loads.append(unit);
     }
     return loads;
   }
 
-  void add_attachment_vectors() {
-    std::vector<std::vector<double>> loads = static_loads();
-    if (loads.empty()) return;
-    const ShiftedSolver solver(system_, lowest_matrix(), lowest_shift);
-    std::vector<std::vector<double>> vectors;
-    for (std::vector<double>& z : loads) {
-      if (admissible_) admit(z);
-      project(z);
-      if (norm(z) <= inside_span) continue;
-      project(z);
-      to_coordinates(z);
-      solver.solve(z);
-      from_coordinates(z);
-      project(z);
-      scale(z, 1 / norm(z));
-      project(z);
-      vectors.push_back(std::move(z));
+  /// Takes out the columns that are nothing but what rounding left.
+  void drop_the_short(DenseMatrix& x) const {
+    const std::vector<double> lengths = space_.norms(x);
+    for (std::size_t j = x.columns; j-- > 0;) {
+      if (lengths[j] <= inside_span) x.remove(j);
     }
-    orthonormalise(vectors);
   }
 
-  /// Adds the vectors to the space, that with the largest remainder first.
-  void orthonormalise(std::vector<std::vector<double>>& vectors) {
-    std::vector<std::size_t> left(vectors.size());
-    std::iota(left.begin(), left.end(), std::size_t{0});
-    while (!left.empty()) {
-      const auto best = std::max_element(
-          left.begin(), left.end(),
-          [&](std::size_t a, std::size_t b) { return norm(vectors[a]) < norm(vectors[b]); });
-      std::vector<double> z = vectors[*best];
-      left.erase(best);
-      if (norm(z) <= inside_span) return;
-      scale(z, 1 / norm(z));
-      project(z);  // once more: what rounding put back grew with the scale
-      scale(z, 1 / norm(z));
-      space_.append(z);
-      for (const std::size_t i : left) take_off(space_.column(space_.columns - 1), vectors[i]);
-    }
+  void add_attachment_vectors() {
+    DenseMatrix z = static_loads();
+    if (z.columns == 0) return;
+    change_columns(z, [this](auto& y) { admit(y); });
+    space_.project(z);
+    drop_the_short(z);
+    space_.project(z);
+    change_columns(z, [this](auto& y) { to_coordinates(y); });
+    lowest_solver().solve(z);
+    change_columns(z, [this](auto& y) { from_coordinates(y); });
+    space_.project(z);
+    space_.normalise(z);
+    space_.project(z);
+    space_.take_in(z, inside_span);
   }
 
   /// Rayleigh-Ritz: the basis is W S with W the space and S^T (W^T A W) S diagonal.
   void rotate(ModalBasis& basis) const {
-    DenseMatrix product(dofs_, space_.columns);
-    for (std::size_t j = 0; j < space_.columns; ++j) multiply(space_.column(j), product.column(j));
-    DenseMatrix rotation = transposed_product(space_, product);
+    DenseMatrix product(dofs_, space_.size());
+    for (std::size_t j = 0; j < space_.size(); ++j) multiply(space_.column(j), product.column(j));
+    DenseMatrix rotation = space_.parts(product);
+    product = {};
     basis.squared_frequency = symmetric_eigenvalues(rotation);
     for (double& value : basis.squared_frequency) value = std::max(value, 0.0);
     find_modes_in(rotation, basis);
@@ -295,16 +302,16 @@ class BasisMaker {
   /// in, but between vectors that are none.
   void find_modes_in(const DenseMatrix& rotation, ModalBasis& basis) const {
     const std::size_t modes = mode_numbers_.size();
-    std::vector<double> share(space_.columns, 0.0);  // of each new vector in the modes' space
-    std::vector<std::size_t> order(space_.columns);
-    for (std::size_t i = 0; i < space_.columns; ++i) {
+    std::vector<double> share(space_.size(), 0.0);  // of each new vector in the modes' space
+    std::vector<std::size_t> order(space_.size());
+    for (std::size_t i = 0; i < space_.size(); ++i) {
       order[i] = i;
       for (std::size_t j = 0; j < modes; ++j) share[i] += std::pow(rotation.column(i)[j], 2);
     }
     std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return share[i]; });
     order.resize(modes);
     std::ranges::sort(order);
-    basis.mode_numbers.assign(space_.columns, 0);
+    basis.mode_numbers.assign(space_.size(), 0);
     for (std::size_t j = 0; j < modes; ++j) basis.mode_numbers[order[j]] = mode_numbers_[j];
   }
 
@@ -313,8 +320,8 @@ class BasisMaker {
     basis.mass = motions.mass();
     basis.centre_of_mass = motions.centre();
     basis.inertia = motions.inertia();
-    DenseMatrix of_space(space_.columns, 6);
-    for (std::size_t j = 0; j < space_.columns; ++j) {
+    DenseMatrix of_space(space_.size(), 6);
+    for (std::size_t j = 0; j < space_.size(); ++j) {
       const std::array<double, 6> values = motions.participation(space_.column(j));
       for (std::size_t k = 0; k < 6; ++k) of_space.column(k)[j] = values[k];
     }
@@ -325,44 +332,42 @@ class BasisMaker {
   void add_supports(const DenseMatrix& rotation, ModalBasis& basis) const {
     const SupportShapes& supports = *system_.supports;
     const std::size_t columns = supports.columns.size();
-    DenseMatrix of_space(space_.columns, 0);
-    for (const std::vector<double>& shape : supports.shape) {
-      std::vector<double> scaled = shape;  // M^1/2 iota
-      for (std::size_t i = 0; i < scaled.size(); ++i) {
-        scaled[i] *= std::sqrt(system_.lumped_mass[i]);
-      }
-      std::vector<double> parts(space_.columns, 0.0);
-      for (std::size_t j = 0; !scaled.empty() && j < parts.size(); ++j) {
-        parts[j] = dot(space_.column(j), scaled.data(), dofs_);
-      }
-      of_space.append(parts);
-    }
-    basis.support_participation = transposed_product(rotation, of_space).values;
-    for (const TracePoint& point : basis.points) {
-      const LocalIndex dof = mesh_.dof(mesh_.owned_node(point.node), point.component);
-      for (std::size_t c = 0; c < columns; ++c) {
-        basis.support_rows.push_back(supports.shape[c].empty() ? 0 : supports.shape[c][dof]);
+    DenseMatrix scaled(dofs_, columns);  // M^1/2 iota
+    for (std::size_t c = 0; c < columns; ++c) {
+      for (std::size_t i = 0; i < supports.shape[c].size(); ++i) {
+        scaled.column(c)[i] = supports.shape[c][i] * std::sqrt(system_.lumped_mass[i]);
       }
     }
+    basis.support_participation = transposed_product(rotation, space_.parts(scaled)).values;
+    basis.support_rows.assign(columns * basis.points.size(), 0.0);
+    for (std::size_t p = 0; p < basis.points.size(); ++p) {
+      const LocalIndex dof = dof_at(basis.points[p]);
+      for (std::size_t c = 0; dof >= 0 && c < columns; ++c) {
+        const std::vector<double>& shape = supports.shape[c];
+        if (!shape.empty()) basis.support_rows[p * columns + c] = shape[dof];
+      }
+    }
+    add_over_ranks(system_.comm, basis.support_rows);
   }
 
   void add_rows(const DenseMatrix& rotation, ModalBasis& basis) const {
-    DenseMatrix of_space(space_.columns, 0);
     std::set<TracePoint> known;
     for (const auto* points :
          {&request_.contact_points, &request_.other_points, &request_.shown_points}) {
-      for (const TracePoint& point : *points) {
-        const LocalIndex dof = mesh_.dof(mesh_.owned_node(point.node), point.component);
-        if (dof < 0 || !known.insert(point).second) continue;
-        const std::size_t i = dof;
-        basis.points.push_back(point);
-        std::vector<double> row(space_.columns);
-        for (std::size_t j = 0; j < row.size(); ++j) {
-          row[j] = std::sqrt(system_.inverse_mass[i]) * space_.column(j)[i];
-        }
-        of_space.append(row);
+      const std::vector<std::uint8_t> exists = are_dofs(*points);
+      for (std::size_t p = 0; p < exists.size(); ++p) {
+        const TracePoint& point = (*points)[p];
+        if (exists[p] != 0 && known.insert(point).second) basis.points.push_back(point);
       }
     }
+    DenseMatrix of_space(space_.size(), basis.points.size());
+    for (std::size_t p = 0; p < basis.points.size(); ++p) {
+      const LocalIndex dof = dof_at(basis.points[p]);
+      for (std::size_t j = 0; dof >= 0 && j < space_.size(); ++j) {
+        of_space.column(p)[j] = std::sqrt(system_.inverse_mass[dof]) * space_.column(j)[dof];
+      }
+    }
+    add_over_ranks(system_.comm, of_space.values);
     basis.rows = transposed_product(rotation, of_space).values;
   }
 
@@ -375,7 +380,8 @@ class BasisMaker {
   std::optional<AdmissibleMotions> admissible_;  ///< of rigid bodies
   MatHandle restricted_;                         ///< A in their coordinates
   double idle_ = 0;                              ///< eigenvalue of what they do not admit [1/s2]
-  DenseMatrix space_;
+  std::optional<ShiftedSolver> solver_;
+  OrthonormalSpace space_;
   std::vector<double> squared_frequency_;  ///< of the modes found [1/s2]
   std::vector<int> mode_numbers_;          ///< of the modes in the space, from 1
 };

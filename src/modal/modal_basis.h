@@ -62,7 +62,8 @@ struct ModalRequest {
 /// modes that an impact does not feel.
 ///
 /// More modes than dofs are all modes. Modes of the same frequency as the last one come along.
-/// `system` on MPI_COMM_SELF, without devices. Throws UserError if no mode lies below the cut-off.
+/// `system` without devices, on one rank or several, which all get the basis. Throws UserError if
+/// no mode lies below the cut-off. Collective.
 ModalBasis compute_modal_basis(const LinearSystem& system, const Mesh& mesh,
                                const ModalRequest& request);
 

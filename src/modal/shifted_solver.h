@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "common/dense_matrix.h"
 #include "common/petsc.h"
 #include "system/linear_system.h"
 
@@ -15,11 +16,15 @@ class ShiftedSolver {
 
   /// x := (A - shift I)^-1 x over the owned dofs. Collective.
   void solve(std::vector<double>& x) const;
+  /// X := (A - shift I)^-1 X of columns over the owned dofs. Collective.
+  void solve(DenseMatrix& x) const;
+  double shift() const { return shift_; }
   /// Number of eigenvalues of A below the shift (Sylvester's law of inertia). Collective.
   int eigenvalues_below() const;
 
  private:
   const LinearSystem& system_;
+  double shift_;
   MatHandle shifted_;
   PetscHandle<KSP, KSPDestroy> solver_;
 };

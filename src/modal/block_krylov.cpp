@@ -1,0 +1,279 @@
+#include "modal/block_krylov.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "common/scattered_number.h"
+#include "modal/eigen_solver.h"
+#include "modal/orthonormal_space.h"
+
+namespace pounding {
+namespace {
+
+constexpr double residual_tolerance = 1e-10;  // of theta
+constexpr double weak = 1e-5;                 // see strong_directions
+constexpr double rounding = 1e-14;            // part of (A - s I)^-1 V that is nothing
+constexpr std::size_t most_blocks = 5000;
+
+/// Larger ones make more of a pass over the factor and over the space, and less of each product.
+std::size_t block_size_of(std::size_t count) {
+  return count < 64 ? 16 : 32;
+}
+
+class BlockKrylov {
+ public:
+  BlockKrylov(const LinearSystem& system, const Mesh& mesh, const ShiftedSolver& solver,
+              std::size_t count)
+      : system_(system),
+        mesh_(mesh),
+        solver_(solver),
+        wanted_(count),
+        block_size_(block_size_of(count)),
+        capacity_(largest_krylov_space(count)),
+        space_(system.comm, static_cast<std::size_t>(system.owned_dofs())) {
+    space_.reserve(capacity_ + block_size_);
+  }
+
+  Eigenpairs run() {
+    DenseMatrix next = first_block();
+    for (std::size_t blocks = 0; blocks < most_blocks && next.columns > 0; ++blocks) {
+      next = grow(next);
+      if (next.columns > 0 && !is_due()) continue;
+      diagonalise();
+      if (converged() >= wanted_) break;
+      if (space_.size() + block_size_ > capacity_) cut_down();
+    }
+    return pairs();
+  }
+
+  std::size_t converged() const {
+    std::size_t count = 0;
+    while (count < residual_.size() && residual_[count] <= residual_tolerance * theta_[count]) {
+      ++count;
+    }
+    return count;
+  }
+
+ private:
+  /// A block of orthonormal columns that nothing distinguishes.
+  DenseMatrix first_block() {
+    DenseMatrix block(space_.columns().rows, block_size_);
+    for (LocalIndex node = 0; node < mesh_.owned_nodes; ++node) {
+      for (int c = 0; c < 6; ++c) {
+        const LocalIndex dof = mesh_.dof(node, c);
+        for (std::size_t j = 0; dof >= 0 && j < block_size_; ++j) {
+          const auto number = static_cast<std::uint64_t>(6 * mesh_.file_node[node] + c);
+          block.column(j)[dof] = scattered_normal((number << 8U) + j);
+        }
+      }
+    }
+    orthonormalise(block, 0);
+    return block;
+  }
+
+  /// X of W = X R with orthonormal columns, in the place of W; returns R. Columns may differ by
+  /// orders, as where rigid motions stand beside fast modes: what strong directions leave over is a
+  /// block of its own. Lost is what is no longer than `least`.
+  DenseMatrix orthonormalise(DenseMatrix& w, double least) const {
+    OrthonormalSpace block(system_.comm, w.rows);
+    block.reserve(w.columns);
+    DenseMatrix rest = w;
+    for (int turn = 0; turn < 8 && block.size() < w.columns; ++turn) {
+      DenseMatrix strong = scaled_columns(rest, least);
+      if (strong.columns == 0) break;
+      strong = strong_directions(strong);
+      if (block.size() > 0) {
+        block.project(strong);
+        strong = strong_directions(strong);
+      }
+      for (std::size_t j = 0; j < strong.columns; ++j) {
+        block.append({strong.column(j), strong.column(j) + strong.rows});
+      }
+      if (block.size() < w.columns) block.project(rest);
+    }
+    DenseMatrix r = block.parts(w);
+    w = block.columns();
+    return r;
+  }
+
+  /// Columns longer than `least`, brought to length 1.
+  DenseMatrix scaled_columns(const DenseMatrix& x, double least) const {
+    const std::vector<double> lengths = space_.norms(x);
+    DenseMatrix scaled(x.rows, 0);
+    scaled.values.reserve(x.values.size());
+    for (std::size_t j = 0; j < lengths.size(); ++j) {
+      if (!(lengths[j] > least)) continue;
+      std::vector<double> column(x.column(j), x.column(j) + x.rows);
+      for (double& value : column) value /= lengths[j];
+      scaled.append(column);
+    }
+    return scaled;
+  }
+
+  /// Orthonormal directions of the columns, X U D^-1/2 with X^T X = U D U^T, but for those that are
+  /// weak beside the strongest (Stathopoulos and Wu, SIAM J. Sci. Comput. 23 (2002) 2165).
+  DenseMatrix strong_directions(const DenseMatrix& x) const {
+    DenseMatrix directions = transposed_product(x, x);
+    add_over_ranks(system_.comm, directions.values);
+    const std::vector<double> squares = symmetric_eigenvalues(directions);
+    DenseMatrix shrink(x.columns, 0);
+    for (std::size_t j = 0; j < squares.size(); ++j) {
+      if (!(squares[j] > weak * weak * squares.back())) continue;
+      std::vector<double> column(directions.column(j), directions.column(j) + x.columns);
+      for (double& value : column) value /= std::sqrt(squares[j]);
+      shrink.append(column);
+    }
+    return product(x, shrink);
+  }
+
+  /// Takes a block into the space; returns the next one.
+  DenseMatrix grow(const DenseMatrix& block) {
+    const std::size_t before = space_.size();
+    for (std::size_t j = 0; j < block.columns; ++j) {
+      space_.append({block.column(j), block.column(j) + block.rows});
+    }
+    DenseMatrix w = block;
+    solver_.solve(w);
+    const double least = rounding * std::ranges::max(space_.norms(w));
+    // H is zero beyond the block before; Ritz vectors that the space began with are one block.
+    const std::size_t related = before_;
+    DenseMatrix part(space_.size(), w.columns);
+    const DenseMatrix near = space_.project(w, related);
+    for (std::size_t j = 0; j < w.columns; ++j) {
+      std::copy_n(near.column(j), near.rows, part.column(j) + related);
+    }
+    last_ = orthonormalise(w, least);
+    // All of the space: what rounding left in it grew with the scale.
+    add_product(1, space_.project(w), last_, part);
+    const DenseMatrix x = strong_directions(w);
+    DenseMatrix polish = transposed_product(x, w);
+    add_over_ranks(system_.comm, polish.values);
+    last_ = product(polish, last_);
+    w = x;
+    before_ = before;
+    extend(before, part);
+    last_count_ = block.columns;
+    return w;
+  }
+
+  static DenseMatrix product(const DenseMatrix& a, const DenseMatrix& b) {
+    DenseMatrix c(a.rows, b.columns);
+    add_product(1, a, b, c);
+    return c;
+  }
+
+  /// More columns of H; its upper triangle is right.
+  void extend(std::size_t before, const DenseMatrix& part) {
+    const std::size_t size = space_.size();
+    DenseMatrix larger(size, size);
+    for (std::size_t j = 0; j < before; ++j) {
+      std::copy_n(projected_.column(j), before, larger.column(j));
+    }
+    std::ranges::copy(part.values, larger.column(before));
+    projected_ = std::move(larger);
+  }
+
+  /// Whether to look how far it has come: seldom, as the projected problem is dense.
+  bool is_due() {
+    if (space_.size() + block_size_ > capacity_) return true;
+    if (space_.size() < wanted_ + wanted_ / 4 + 2 * block_size_ || space_.size() < next_look_) {
+      return false;
+    }
+    next_look_ = space_.size() + std::max(2 * block_size_, space_.size() / 10);
+    return true;
+  }
+
+  /// Rayleigh-Ritz beside the pairs that are locked, which would bring rounding of their own scale.
+  void diagonalise() {
+    const std::size_t size = space_.size();
+    const std::size_t open = size - locked_;
+    DenseMatrix h(open, open);
+    for (std::size_t j = 0; j < open; ++j) {
+      std::copy_n(projected_.column(locked_ + j) + locked_, open, h.column(j));
+    }
+    const std::vector<double> values = symmetric_eigenvalues(h);
+    theta_.resize(locked_);
+    residual_.assign(locked_, 0.0);
+    vectors_ = DenseMatrix(size, size);
+    for (std::size_t i = 0; i < locked_; ++i) vectors_.column(i)[i] = 1;
+    for (std::size_t i = 0; i < open; ++i) {
+      const double* s = h.column(open - 1 - i);
+      theta_.push_back(values[open - 1 - i]);
+      std::copy_n(s, open, vectors_.column(locked_ + i) + locked_);
+      residual_.push_back(length_of_rest(s + open - last_count_));
+    }
+  }
+
+  /// |R s| with s the part of a vector of H in the last block.
+  double length_of_rest(const double* s) const {
+    double square = 0;
+    for (std::size_t row = 0; row < last_.rows; ++row) {
+      double sum = 0;
+      for (std::size_t j = 0; j < last_count_; ++j) sum += last_.column(j)[row] * s[j];
+      square += sum * sum;
+    }
+    return std::sqrt(square);
+  }
+
+  /// V S of the first Ritz vectors.
+  DenseMatrix ritz_vectors(std::size_t count) const {
+    DenseMatrix s(vectors_.rows, count);
+    std::copy_n(vectors_.values.begin(), s.values.size(), s.values.begin());
+    DenseMatrix result(space_.columns().rows, count);
+    add_product(1, space_.columns(), s, result);
+    return result;
+  }
+
+  void cut_down() {
+    const std::size_t kept = std::min(wanted_ + 2 * block_size_, space_.size() - block_size_);
+    space_.replace(ritz_vectors(kept));
+    projected_ = DenseMatrix(kept, kept);
+    for (std::size_t j = 0; j < kept; ++j) projected_.column(j)[j] = theta_[j];
+    locked_ = converged();
+    before_ = 0;
+    next_look_ = 0;
+  }
+
+  Eigenpairs pairs() const {
+    const std::size_t count = converged();
+    Eigenpairs found{{}, ritz_vectors(count)};
+    for (std::size_t i = 0; i < count; ++i) found.values.push_back(solver_.shift() + 1 / theta_[i]);
+    return found;
+  }
+
+  const LinearSystem& system_;
+  const Mesh& mesh_;
+  const ShiftedSolver& solver_;
+  std::size_t wanted_;
+  std::size_t block_size_;
+  std::size_t capacity_;        ///< of the space
+  OrthonormalSpace space_;      ///< V
+  DenseMatrix projected_;       ///< H, its upper triangle
+  DenseMatrix last_;            ///< R
+  std::size_t locked_ = 0;      ///< pairs that have converged, the first of the space
+  std::size_t before_ = 0;      ///< columns before the last block
+  std::size_t last_count_ = 0;  ///< columns of the last block
+  std::size_t next_look_ = 0;   ///< size of the space
+  std::vector<double> theta_;   ///< decreasing
+  DenseMatrix vectors_;         ///< S, likewise
+  std::vector<double> residual_;
+};
+
+}  // namespace
+
+std::size_t largest_krylov_space(std::size_t count) {
+  return count + count / 2 + 8 * block_size_of(count);
+}
+
+Eigenpairs lowest_eigenpairs(const LinearSystem& system, const Mesh& mesh,
+                             const ShiftedSolver& solver, std::size_t count) {
+  BlockKrylov krylov(system, mesh, solver, count);
+  Eigenpairs pairs = krylov.run();
+  if (pairs.values.size() < count) {
+    refuse_modes(system, mesh, static_cast<int>(pairs.values.size()), static_cast<int>(count));
+  }
+  return pairs;
+}
+
+}  // namespace pounding

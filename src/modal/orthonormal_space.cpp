@@ -1,0 +1,67 @@
+#include "modal/orthonormal_space.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pounding {
+
+void add_over_ranks(MPI_Comm comm, std::vector<double>& values) {
+  constexpr std::size_t portion = std::size_t{1} << 28;  // what an int counts
+  for (std::size_t first = 0; first < values.size(); first += portion) {
+    const auto count = static_cast<int>(std::min(portion, values.size() - first));
+    MPI_Allreduce(MPI_IN_PLACE, values.data() + first, count, MPI_DOUBLE, MPI_SUM, comm);
+  }
+}
+
+void OrthonormalSpace::choose(const std::vector<std::size_t>& numbers) {
+  DenseMatrix chosen(columns_.rows, 0);
+  for (const std::size_t j : numbers) chosen.append({column(j), column(j) + columns_.rows});
+  columns_ = std::move(chosen);
+}
+
+DenseMatrix OrthonormalSpace::parts(const DenseMatrix& x, std::size_t first) const {
+  DenseMatrix result = transposed_product(columns_, x, first);
+  add_over_ranks(comm_, result.values);
+  return result;
+}
+
+DenseMatrix OrthonormalSpace::project(DenseMatrix& x, std::size_t first) const {
+  DenseMatrix part = parts(x, first);
+  add_product(-1, columns_, part, x, first);
+  return part;
+}
+
+std::vector<double> OrthonormalSpace::norms(const DenseMatrix& x) const {
+  std::vector<double> lengths = squared_norms(x);
+  add_over_ranks(comm_, lengths);
+  for (double& length : lengths) length = std::sqrt(length);
+  return lengths;
+}
+
+void OrthonormalSpace::normalise(DenseMatrix& x) const {
+  const std::vector<double> lengths = norms(x);
+  for (std::size_t j = 0; j < x.columns; ++j) {
+    for (std::size_t i = 0; i < x.rows; ++i) x.column(j)[i] /= lengths[j];
+  }
+}
+
+void OrthonormalSpace::take_in(DenseMatrix& x, double least) {
+  while (x.columns > 0) {
+    const std::vector<double> lengths = norms(x);
+    const auto best = std::ranges::max_element(lengths);
+    if (*best <= least) return;
+    const auto j = static_cast<std::size_t>(best - lengths.begin());
+    DenseMatrix next(x.rows, 0);
+    next.append({x.column(j), x.column(j) + x.rows});
+    x.remove(j);
+    normalise(next);
+    project(next);  // once more: what rounding put back grew with the scale
+    normalise(next);
+    append(next.values);
+    DenseMatrix part = transposed_product(next, x);
+    add_over_ranks(comm_, part.values);
+    add_product(-1, next, part, x);
+  }
+}
+
+}  // namespace pounding

@@ -1,0 +1,213 @@
+#include "modal/modal_basis.h"
+
+#include <cmath>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "common/parallel.h"
+#include "modal/block_krylov.h"
+#include "modal/eigen_solver.h"
+#include "support/box_mesh.h"
+#include "support/built_system.h"
+
+namespace pounding {
+namespace {
+
+using testing::build_system;
+using testing::BuiltSystem;
+
+const Structure& concrete() {
+  static const Structure structure = testing::solid_structure("box", 30e9, 0.2, 2400);
+  return structure;
+}
+
+GlobalMesh tower(bool clamped, std::array<int, 3> cells = {5, 4, 9}) {
+  GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {2, 2.3, 6}, cells);
+  if (clamped) testing::clamp(mesh, "z_min");
+  return mesh;
+}
+
+ModalRequest request_of(const GlobalMesh& mesh, int modes) {
+  ModalRequest request;
+  request.modes = modes;
+  for (const GlobalIndex node : mesh.groups.at("z_max").nodes) {
+    request.contact_points.push_back({node, 0});
+  }
+  // A clamped point, one twice, and one of the contact.
+  request.other_points = {{mesh.groups.at("z_min").nodes.front(), 1},
+                          {mesh.groups.at("z_max").nodes.front(), 0},
+                          {mesh.groups.at("x_max").nodes.back(), 2},
+                          {mesh.groups.at("x_max").nodes.back(), 2}};
+  return request;
+}
+
+/// The whole on one rank, of every rank alone.
+BuiltSystem alone(const GlobalMesh& mesh, const Structure& structure) {
+  return build_system(MPI_COMM_SELF, mesh, structure,
+                      partition_meshes({&mesh, 1}, {}, 1, {}, coupled_nodes(structure, mesh, 0)));
+}
+
+/// Flexibility at the points by the vectors that are not rigid motions.
+std::vector<double> flexibility(const ModalBasis& basis) {
+  const std::size_t count = basis.points.size();
+  std::vector<double> matrix(count * count, 0.0);
+  for (std::size_t k = 0; k < basis.size(); ++k) {
+    if (basis.squared_frequency[k] < 1) continue;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < count; ++j) {
+        matrix[i * count + j] += basis.rows[i * basis.size() + k] *
+                                 basis.rows[j * basis.size() + k] / basis.squared_frequency[k];
+      }
+    }
+  }
+  return matrix;
+}
+
+void expect_same(const ModalBasis& found, const ModalBasis& expected, double tolerance) {
+  ASSERT_EQ(found.size(), expected.size());
+  EXPECT_EQ(found.modes, expected.modes);
+  EXPECT_EQ(found.attachment_vectors, expected.attachment_vectors);
+  EXPECT_EQ(found.mode_numbers, expected.mode_numbers);
+  EXPECT_EQ(found.points, expected.points);
+  EXPECT_NEAR(found.mass / expected.mass, 1, 1e-12);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const double scale = std::max(expected.squared_frequency[k], 1e3);
+    EXPECT_NEAR(found.squared_frequency[k], expected.squared_frequency[k], tolerance * scale) << k;
+  }
+  const std::vector<double> one = flexibility(found);
+  const std::vector<double> other = flexibility(expected);
+  const double largest = *std::ranges::max_element(other);
+  for (std::size_t i = 0; i < one.size(); ++i) EXPECT_NEAR(one[i], other[i], tolerance * largest);
+  for (std::size_t motion = 0; motion < 6; ++motion) {
+    const auto square = [&](const ModalBasis& basis) {
+      const double* gamma = &basis.participation[motion * basis.size()];
+      return std::inner_product(gamma, gamma + basis.size(), gamma, 0.0);
+    };
+    EXPECT_NEAR(square(found) / square(expected), 1, tolerance) << motion;
+  }
+}
+
+void compare(const GlobalMesh& mesh, const Structure& structure, const ModalRequest& request,
+             double tolerance = 1e-7) {
+  const BuiltSystem shared = build_system(mesh, structure);
+  const BuiltSystem whole = alone(mesh, structure);
+  expect_same(compute_modal_basis(shared.system, shared.mesh, request),
+              compute_modal_basis(whole.system, whole.mesh, request), tolerance);
+}
+
+TEST(ModalBasisOfRanks, IsThatOfOneRank) {
+  const GlobalMesh mesh = tower(true);
+  compare(mesh, concrete(), request_of(mesh, 20));
+}
+
+TEST(ModalBasisOfRanks, OfAFreeBody) {
+  const GlobalMesh mesh = tower(false);
+  compare(mesh, concrete(), request_of(mesh, 20), 1e-6);
+}
+
+TEST(ModalBasisOfRanks, UnderItsWeightAndWithChosenModes) {
+  const GlobalMesh mesh = tower(true);
+  ModalRequest request = request_of(mesh, 20);
+  request.candidates = 40;
+  request.gravity = {0, 0, -9.81};
+  compare(mesh, concrete(), request);
+}
+
+TEST(ModalBasisOfRanks, OfEveryMode) {
+  const GlobalMesh mesh = tower(true, {2, 2, 3});
+  compare(mesh, concrete(), request_of(mesh, 10000));
+}
+
+TEST(ModalBasisOfRanks, BelowACutOff) {
+  const GlobalMesh mesh = tower(true);
+  ModalRequest request = request_of(mesh, 0);
+  request.cutoff = 600;
+  compare(mesh, concrete(), request);
+}
+
+TEST(ModalBasisOfRanks, WithARigidFloor) {
+  GlobalMesh mesh = tower(true);
+  Structure structure = concrete();
+  RigidNodes roof;
+  roof.group = "z_max";
+  roof.components = 0x3f;
+  roof.nodes = mesh.groups.at("z_max").nodes;
+  mesh.rigid.push_back(roof);
+  ModalRequest request = request_of(mesh, 12);
+  request.contact_points.clear();
+  for (const GlobalIndex node : mesh.groups.at("x_max").nodes) {
+    request.contact_points.push_back({node, 0});
+  }
+  compare(mesh, structure, request);
+}
+
+/// All frequencies of a full matrix beside the lowest that the Krylov space finds. A square section
+/// has them in pairs, a cube three times over.
+void expect_lowest(const GlobalMesh& mesh, int count) {
+  const BuiltSystem shared = build_system(mesh, concrete());
+  ASSERT_GT(static_cast<std::size_t>(shared.system.global_dofs), largest_krylov_space(count + 8));
+  ModalRequest request;
+  request.attachment = false;
+  request.modes = count;
+  const ModalBasis lowest = compute_modal_basis(shared.system, shared.mesh, request);
+  request.modes = static_cast<int>(shared.system.global_dofs);
+  const ModalBasis all = compute_modal_basis(shared.system, shared.mesh, request);
+  ASSERT_GE(lowest.size(), static_cast<std::size_t>(count));
+  for (std::size_t k = 0; k < lowest.size(); ++k) {
+    const double scale = std::max(all.squared_frequency[k], 1e3);
+    EXPECT_NEAR(lowest.squared_frequency[k], all.squared_frequency[k], 1e-8 * scale) << k;
+  }
+}
+
+TEST(BlockKrylov, FindsWhatAFullMatrixHas) {
+  expect_lowest(tower(true, {4, 4, 8}), 30);
+}
+
+TEST(BlockKrylov, FindsEveryOneOfEqualFrequencies) {
+  GlobalMesh mast = testing::box_mesh({0, 0, 0}, {1, 1, 6}, {3, 3, 14});
+  testing::clamp(mast, "z_min");
+  expect_lowest(mast, 25);
+  expect_lowest(testing::box_mesh({0, 0, 0}, {1, 1, 1}, {5, 5, 5}), 30);
+}
+
+TEST(BlockKrylov, FindsRigidMotionsBesideFastModes) {
+  expect_lowest(tower(false, {4, 3, 8}), 20);
+}
+
+TEST(BlockKrylov, CutsItsSpaceDownAndGoesOn) {
+  GlobalMesh mesh = tower(true, {6, 6, 10});
+  const BuiltSystem shared = build_system(mesh, concrete());
+  const MatHandle matrix = mass_scaled(shared.system, shared.system.stiffest_matrix());
+  const ShiftedSolver solver(shared.system, matrix.get(), lowest_shift);
+  const Eigenpairs few = lowest_eigenpairs(shared.system, shared.mesh, solver, 10);
+  const Eigenpairs many = lowest_eigenpairs(shared.system, shared.mesh, solver, 150);
+  ASSERT_GE(many.values.size(), 150U);
+  EXPECT_TRUE(std::ranges::is_sorted(many.values));
+  for (std::size_t k = 0; k < few.values.size(); ++k) {
+    EXPECT_NEAR(few.values[k] / many.values[k], 1, 1e-9) << k;
+  }
+  // A x = lambda x, and columns of length 1 at right angles.
+  DenseMatrix gram = transposed_product(many.vectors, many.vectors);
+  MPI_Allreduce(MPI_IN_PLACE, gram.values.data(), static_cast<int>(gram.values.size()), MPI_DOUBLE,
+                MPI_SUM, shared.system.comm);
+  for (std::size_t i = 0; i < gram.columns; ++i) {
+    for (std::size_t j = 0; j < gram.columns; ++j) {
+      EXPECT_NEAR(gram.column(i)[j], i == j ? 1 : 0, 1e-12) << i << " " << j;
+    }
+  }
+  for (std::size_t k = 0; k < many.values.size(); ++k) {
+    std::vector<double> x(many.vectors.column(k), many.vectors.column(k) + many.vectors.rows);
+    std::vector<double> y(x.size());
+    const VecHandle from = wrap_vector(shared.system, x);
+    const VecHandle to = wrap_vector(shared.system, y);
+    POUNDING_PETSC(MatMult(matrix.get(), from.get(), to.get()));
+    POUNDING_PETSC(VecAXPY(to.get(), -many.values[k], from.get()));
+    double rest = 0;
+    POUNDING_PETSC(VecNorm(to.get(), NORM_2, &rest));
+    EXPECT_LT(rest, 1e-6 * many.values[k]) << k;
+  }
+}
+
+}  // namespace
+}  // namespace pounding
