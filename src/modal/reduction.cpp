@@ -19,6 +19,7 @@
 #include "system/axial_forces.h"
 #include "system/build_system.h"
 #include "system/links.h"
+#include "system/mass_scaling.h"
 #include "system/matrix_system.h"
 
 namespace pounding {
@@ -128,14 +129,45 @@ std::optional<ModalBasis> stored_basis(const Structure& structure, const BasisKe
   return stored.basis;
 }
 
+/// Ranks that follow each other and compute a basis together; none where it was in its file.
+struct Workers {
+  int first = 0;
+  int count = 0;
+  MPI_Comm comm = MPI_COMM_NULL;  ///< of these ranks, elsewhere null
+
+  bool hold(int rank) const { return rank >= first && rank < first + count; }
+};
+
 /// One structure on its way to a basis.
 struct Reduction {
   int structure = 0;
-  int worker = -1;  ///< rank that computes the basis; -1: it was in the file
+  Workers workers;
   ModalRequest request;
   BasisKey key;  ///< rank 0
-  Mesh mesh;     ///< all of it on the worker
+  Mesh mesh;     ///< all of it on the workers
   ModalBasis basis;
+};
+
+/// Chooses workers for one basis after the other, rank after rank, so that several are computed at
+/// the same time.
+class WorkerChoice {
+ public:
+  explicit WorkerChoice(MPI_Comm comm) : comm_(comm) {}
+
+  /// Collective.
+  Workers next(int wanted) {
+    const int size = size_of(comm_);
+    Workers workers{next_, std::min(wanted, size), MPI_COMM_NULL};
+    if (workers.first + workers.count > size) workers.first = 0;
+    next_ = (workers.first + workers.count) % size;
+    const int colour = workers.hold(rank_of(comm_)) ? 0 : MPI_UNDEFINED;
+    MPI_Comm_split(comm_, colour, rank_of(comm_), &workers.comm);
+    return workers;
+  }
+
+ private:
+  MPI_Comm comm_;
+  int next_ = 0;
 };
 
 /// Gives the elements of a whole mesh their axial forces under the weight alone, without contacts.
@@ -148,7 +180,7 @@ LargestCompression turn_weight_with_columns(const Structure& structure, const Li
 
 void compute(const Structure& structure, std::span<const SupportColumn> columns, Profile& profile,
              Reduction& reduction) {
-  reduction.mesh.comm = MPI_COMM_SELF;
+  reduction.mesh.comm = reduction.workers.comm;
   std::optional<LinearSystem> system;
   {
     const ScopedTimer timer(profile, Phase::assembly);
@@ -170,14 +202,26 @@ void compute(const Structure& structure, std::span<const SupportColumn> columns,
   reduction.basis = compute_modal_basis(*system, reduction.mesh, reduction.request);
 }
 
-/// Sends the whole mesh to the worker.
+/// The whole mesh shared out among the workers. Rank 0.
+Partition share_out(const Structure& structure, const GlobalMesh& mesh, const Workers& workers,
+                    int ranks) {
+  if (workers.count == 1) return partition_meshes({&mesh, 1}, {}, ranks, {&workers.first, 1});
+  Structure unscaled = structure;
+  unscaled.mass_scaling = 0;
+  const std::vector<NodeCluster> clusters = coupled_nodes(unscaled, mesh, 0);
+  Partition partition = partition_meshes({&mesh, 1}, {}, workers.count, {}, clusters);
+  partition.parts = ranks;
+  for (int& owner : partition.element_owner[0]) owner += workers.first;
+  for (int& owner : partition.node_owner[0]) owner += workers.first;
+  return partition;
+}
+
+/// Sends the whole mesh to the workers.
 void bring_mesh(MPI_Comm comm, const Structure& structure, std::span<const GlobalMesh> meshes,
                 Reduction& reduction) {
   const GlobalMesh& mesh = meshes[reduction.structure];
   Partition partition;
-  if (rank_of(comm) == 0) {
-    partition = partition_meshes({&mesh, 1}, {}, size_of(comm), {&reduction.worker, 1});
-  }
+  on_rank0(comm, [&] { partition = share_out(structure, mesh, reduction.workers, size_of(comm)); });
   reduction.mesh = distribute_mesh(comm, structure.name, mesh, partition, 0);
 }
 
@@ -206,7 +250,7 @@ std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& sc
     return scene.structures[r.structure];
   };
   std::vector<Reduction> reductions;
-  int next_worker = 0;
+  WorkerChoice choice(comm);
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     if (!scene.structures[s].modal) continue;
     Reduction& reduction = reductions.emplace_back();
@@ -226,22 +270,23 @@ std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& sc
     });
     MPI_Bcast(&stored, 1, MPI_INT, 0, comm);
     if (stored == 0) {
-      reduction.worker = next_worker++ % size_of(comm);
+      reduction.workers = choice.next(scene.structures[s].modal->ranks);
       bring_mesh(comm, scene.structures[s], meshes, reduction);
     }
   }
   on_every_rank(comm, [&] {
     for (Reduction& reduction : reductions) {
-      if (reduction.worker == rank_of(comm)) {
+      if (reduction.workers.hold(rank_of(comm))) {
         compute(structure_of(reduction), columns, profile, reduction);
       }
     }
   });
   std::vector<std::optional<ModalBasis>> bases(scene.structures.size());
   for (Reduction& reduction : reductions) {
-    broadcast_basis(comm, std::max(reduction.worker, 0), reduction.basis);
+    if (reduction.workers.comm != MPI_COMM_NULL) MPI_Comm_free(&reduction.workers.comm);
+    broadcast_basis(comm, reduction.workers.first, reduction.basis);
     const Structure& structure = structure_of(reduction);
-    if (reduction.worker >= 0 && !structure.modal->basis_file.empty()) {
+    if (reduction.workers.count > 0 && !structure.modal->basis_file.empty()) {
       on_rank0(comm, [&] {
         with_file(structure, [&] {
           write_modal_basis(structure.modal->basis_file, reduction.key, reduction.basis);

@@ -17,6 +17,7 @@ constexpr std::string_view cutoff = "<structure>_modal_cutoff";
 constexpr std::string_view attachment = "<structure>_modal_attachment";
 constexpr std::string_view damping = "<structure>_modal_damping";
 constexpr std::string_view basis = "<structure>_modal_basis";
+constexpr std::string_view ranks = "<structure>_modal_ranks";
 
 void refuse_couplings(const OptionReader& options, const Structure& structure) {
   for (const Region& region : structure.regions) {
@@ -91,6 +92,13 @@ std::optional<ModalModel> read_modal_model(OptionReader& options, const Structur
   }
   const std::string file = options.text(basis, names);
   modal.basis_file = file == "none" ? "" : file;
+  modal.ranks = options.integer(ranks, names);
+  if (modal.ranks > 1 && modal.basis_file.empty()) {
+    options.refuse(
+        ranks, names,
+        "several ranks do not find the same bits twice: give a file that keeps the basis (-" +
+            option_name(basis, names) + ")");
+  }
   return modal;
 }
 

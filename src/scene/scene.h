@@ -97,6 +97,7 @@ struct ModalModel {
   std::vector<double> damping_ratios;  ///< of mode 1, 2, ..., the last one of all that follow;
                                        ///< empty: the structure's Rayleigh damping
   std::string basis_file;              ///< where the basis is kept; empty: nowhere
+  int ranks = 1;                       ///< that compute the basis together, if there are so many
 };
 
 /// A physical group fixed to the ground.

@@ -3,11 +3,12 @@
 Two small two-storey buildings that pound. With all modes a reduction is the same system in other
 coordinates: the same histories but for round-off, in contact too, also where one building is reduced
 and the other is not. With a few modes and the attachment vectors the floor spectra stay; without
-the vectors impacts go wrong. A basis is computed by one rank alone: any number of ranks gives the
-same bits.
+the vectors impacts go wrong. A basis is computed by one rank alone, unless it asks for more: any
+number of ranks gives the same bits.
 """
 import math
 import os
+import tempfile
 import unittest
 
 import h5py
@@ -154,6 +155,55 @@ class Reduction(unittest.TestCase):
             self.assertEqual(len(lines), 1)
             self.assertIn("diverged", lines[0])
             self.assertRegex(lines[0], r"generalised coordinate \d+ \(.* Hz\)")
+
+
+class SeveralRanks(unittest.TestCase):
+    """A basis that several ranks compute together is that of one, and repeats itself by its file."""
+
+    def setUp(self):
+        place = tempfile.TemporaryDirectory(prefix="pounding-")
+        self.addCleanup(place.cleanup)
+        self.place = place.name
+
+    def words(self, modes, ranks):
+        return [*reduced("s1", modes, "modal_basis", f"{self.place}/s1-{ranks}.h5", "modal_ranks", ranks),
+                *reduced("s2", modes, "modal_basis", f"{self.place}/s2-{ranks}.h5", "modal_ranks", ranks)]
+
+    def run_with(self, scene, ranks):
+        folder, summary = program.must_run(self, scene, ranks)
+        return history(folder), summary
+
+    def compare(self, scene, more_words, ranks, tolerance):
+        alone, _ = self.run_with(scene + more_words(1), ranks)
+        shared, summary = self.run_with(scene + more_words(2), ranks)
+        for name in QUANTITIES:
+            self.assertLessEqual(abs(shared[name] - alone[name]).max(), tolerance * abs(alone[name]).max(), name)
+        again, _ = self.run_with(scene + more_words(2), ranks)
+        for name in QUANTITIES:
+            self.assertTrue(numpy.array_equal(again[name], shared[name]), name)
+        return summary
+
+    def test_on_two_and_three_ranks(self):
+        for ranks in (2, 3):
+            summary = self.compare(PAIR, lambda together: self.words(30, together), ranks, 1e-7)
+            self.assertGreater(summary["impacts"]["floor2"]["episodes"], 1)
+            for name in os.listdir(self.place):
+                os.remove(f"{self.place}/{name}")
+
+    def test_with_a_rigid_floor_and_at_rest_under_its_weight(self):
+        scene = PAIR + ["-s1_levels", "slab", "-gravity", 9.81, "-preload", "static"]
+        self.compare(scene, lambda together: self.words(25, together), 3, 1e-6)
+
+    def test_more_ranks_than_there_are(self):
+        scene = PAIR + ["-end_time", 0.01]
+        one, _ = self.run_with(scene + self.words(20, 1), 1)
+        many, _ = self.run_with(scene + self.words(20, 50), 2)
+        for name in ("displacement", "velocity", "gap"):
+            self.assertLessEqual(abs(many[name] - one[name]).max(), 1e-7 * abs(one[name]).max(), name)
+
+    def test_it_needs_a_file(self):
+        program.must_refuse(self, PAIR + reduced("s1", 20, "modal_ranks", 2), "-s1_modal_ranks 2", "-s1_modal_basis")
+        program.must_refuse(self, PAIR + reduced("s1", 20, "modal_ranks", 0), "-s1_modal_ranks 0", ">= 1")
 
 
 class Bricks(unittest.TestCase):
