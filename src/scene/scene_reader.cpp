@@ -168,6 +168,11 @@ class SceneReader {
     if (scene_.write_mesh_pieces > 0 && scene_.dry_run) {
       options_.refuse("write_mesh_pieces", {}, "it writes; not with -dry_run");
     }
+    if (!scene_.mesh_pieces.empty() && scene_.allow_geo_commands) {
+      options_.refuse("mesh_pieces", {},
+                      "not with -allow_geo_commands: a geometry may read any file, of whose change "
+                      "the pieces would know nothing; let Gmsh write a .msh file of it first");
+    }
     if (!scene_.mesh_pieces.empty() &&
         std::ranges::all_of(scene_.structures,
                             [](const Structure& s) { return s.modal.has_value(); })) {

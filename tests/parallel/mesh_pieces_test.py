@@ -220,6 +220,7 @@ class Refused(unittest.TestCase):
         program.must_refuse(self, [*self.SCENE, "-write_mesh_pieces", 2], "-write_mesh_pieces", "-mesh_pieces")
         program.must_refuse(self, [*self.SCENE, "-mesh_pieces", self.pieces, "-write_mesh_pieces", 2, "-dry_run"],
                             "not with -dry_run")
+        self.refuse(self.pieces, "not with -allow_geo_commands", more=["-allow_geo_commands"])
         reduced = ["-block_model", "modal", "-block_modal_vectors", 5, "-frame_model", "modal", "-frame_modal_vectors", 5]
         self.refuse(self.pieces, "every structure is reduced", more=reduced)
 
