@@ -47,6 +47,7 @@ std::string piece_path(const Scene& scene, int rank) {
 struct Ingredient {
   std::string name;
   std::string value;
+  bool operator==(const Ingredient&) const = default;
 };
 
 /// Everything on which the pieces depend but the number of ranks.
@@ -66,20 +67,25 @@ std::vector<Ingredient> ingredients_of(const Scene& scene) {
   return list;
 }
 
-/// Names of what one list has and the other has not, "option a, mesh of b"; empty if none.
+/// The first names of what one list has and the other has not, "mesh of b, option a and 3 more";
+/// empty if none.
 std::string differences(const std::vector<Ingredient>& one, const std::vector<Ingredient>& other) {
-  std::string text;
+  constexpr std::size_t told = 4;
+  std::vector<std::string> names;
   const auto add_missing = [&](const std::vector<Ingredient>& from,
                                const std::vector<Ingredient>& in) {
     for (const Ingredient& each : from) {
-      const bool there = std::ranges::any_of(
-          in, [&](const Ingredient& i) { return i.name == each.name && i.value == each.value; });
-      if (there || text.find(each.name) != std::string::npos) continue;
-      text += (text.empty() ? "" : ", ") + each.name;
+      const bool missing = std::ranges::find(in, each) == in.end();
+      if (missing && std::ranges::find(names, each.name) == names.end()) names.push_back(each.name);
     }
   };
   add_missing(one, other);
   add_missing(other, one);
+  std::string text;
+  for (std::size_t n = 0; n < std::min(told, names.size()); ++n) {
+    text += (text.empty() ? "" : ", ") + names[n];
+  }
+  if (names.size() > told) text += " and " + std::to_string(names.size() - told) + " more";
   return text;
 }
 

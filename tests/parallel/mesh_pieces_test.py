@@ -165,7 +165,7 @@ class Refused(unittest.TestCase):
             with self.subTest(option):
                 self.refuse(self.pieces, f"another model (option {option})", more=[f"-{option}", value])
         self.refuse(self.pieces, "another model (option motion_z)", more=["-motion_z_target", "", "-motion_z_record", "none"])
-        self.refuse(self.pieces, "another model (option ", "structures", more=["-structures", "block", "-contacts", "none", "-probes", "none"])
+        self.refuse(self.pieces, "another model (option structures, option contacts, ", " more)", more=["-structures", "block", "-contacts", "none", "-probes", "none"])
 
     def test_another_geometry_under_the_same_name_is_refused(self):
         folder = tempfile.mkdtemp(dir=self.place.name)
