@@ -105,6 +105,10 @@ BasisKey basis_key(const Structure& structure, const GlobalMesh& mesh,
   if (request.candidates > request.modes) vectors.add(static_cast<double>(request.candidates));
   if (request.gravity != Vector3{0, 0, 0}) vectors.add_all(request.gravity);
   if (structure.p_delta) vectors.add("p_delta");
+  if (request.attachment && request.patches > 0) {
+    vectors.add("patches");
+    vectors.add(static_cast<double>(request.patches));
+  }
   std::vector<TracePoint> places = request.other_points;
   places.insert(places.end(), request.shown_points.begin(), request.shown_points.end());
   return {{"mesh", hash_of(mesh)},

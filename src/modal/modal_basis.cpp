@@ -13,6 +13,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "modal/block_krylov.h"
+#include "modal/contact_patches.h"
 #include "modal/eigen_solver.h"
 #include "modal/orthonormal_space.h"
 #include "modal/rigid_motions.h"
@@ -246,18 +247,44 @@ class BasisMaker {
         weight[i] = std::sqrt(system_.lumped_mass[i]) * request_.gravity[direction];
       }
       loads.append(weight);
-      space_.normalise(loads);
     }
     if (!request_.attachment) return loads;
+    std::vector<TracePoint> points;
     const std::vector<std::uint8_t> exists = are_dofs(request_.contact_points);
     for (std::size_t p = 0; p < exists.size(); ++p) {
-      if (exists[p] == 0) continue;
-      std::vector<double> unit(dofs_, 0.0);
-      const LocalIndex dof = dof_at(request_.contact_points[p]);
-      if (dof >= 0) unit[dof] = 1;
-      loads.append(unit);
+      if (exists[p] != 0) points.push_back(request_.contact_points[p]);
     }
+    for (const std::vector<std::size_t>& patch : patches_of(points)) {
+      std::vector<double> load(dofs_, 0.0);
+      for (const std::size_t p : patch) {
+        const LocalIndex dof = dof_at(points[p]);
+        if (dof >= 0) load[dof] = patch.size() == 1 ? 1 : std::sqrt(system_.inverse_mass[dof]);
+      }
+      loads.append(load);
+    }
+    space_.normalise(loads);
     return loads;
+  }
+
+  /// Contact points whose forces are one load: every one alone, or patches.
+  std::vector<std::vector<std::size_t>> patches_of(const std::vector<TracePoint>& points) const {
+    const auto wanted = static_cast<std::size_t>(request_.patches);
+    if (wanted == 0 || wanted >= points.size()) {
+      std::vector<std::vector<std::size_t>> single;
+      for (std::size_t p = 0; p < points.size(); ++p) single.push_back({p});
+      return single;
+    }
+    std::vector<double> coordinates(3 * points.size(), 0.0);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const LocalIndex node = mesh_.owned_node(points[p].node);
+      if (node >= 0) std::ranges::copy(mesh_.position(node), &coordinates[3 * p]);
+    }
+    add_over_ranks(system_.comm, coordinates);
+    std::vector<Vector3> positions;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      positions.push_back({coordinates[3 * p], coordinates[3 * p + 1], coordinates[3 * p + 2]});
+    }
+    return contact_patches(points, positions, wanted);
   }
 
   /// Takes out the columns that are nothing but what rounding left.

@@ -39,6 +39,7 @@ struct ModalRequest {
   int candidates = 0;        ///< number of lowest modes to choose them from; 0: no others
   double cutoff = 0;         ///< [Hz]
   bool attachment = true;    ///< a vector per contact point as well
+  int patches = 0;           ///< or per patch of them, so many in all; 0: per point
   Vector3 gravity{0, 0, 0};  ///< that the structure is to rest under [m/s2]; 0: no vector for it
   std::vector<TracePoint> contact_points;
   std::vector<TracePoint> other_points;  ///< where the motion is wanted as well
@@ -52,9 +53,10 @@ struct ModalRequest {
 ///
 ///     z_j = P (A - shift)^-1 P M^-1/2 e_j,      P = I - Y Y^T
 ///
-/// with the shift just below zero, so that free structures pass. They are made orthonormal, the
-/// largest remainder first; what lies in the span already to 1e-8 is dropped. Rayleigh-Ritz on the
-/// whole space makes K diagonal.
+/// with the shift just below zero, so that free structures pass; or, where faces have too many
+/// points, to equal forces on the points of a patch (see `contact_patches`). They are made
+/// orthonormal, the largest remainder first; what lies in the span already to 1e-8 is dropped.
+/// Rayleigh-Ritz on the whole space makes K diagonal.
 ///
 /// Of more candidates than modes the lowest three quarters are taken, and then those that move the
 /// contact points and the other points most: sum over the points of phi_k^2 / omega_k^2, each

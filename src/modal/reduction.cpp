@@ -37,6 +37,7 @@ ModalRequest request_of(MPI_Comm comm, const Scene& scene, int s, const GlobalMe
   request.candidates = modal.candidates;
   request.cutoff = modal.cutoff;
   request.attachment = modal.attachment;
+  request.patches = modal.patches;
   if (scene.preload) request.gravity = scene.structures[s].gravity;
   std::set<TracePoint> known;
   const auto add = [&](std::span<const Constraint> rows, std::vector<TracePoint>& points) {

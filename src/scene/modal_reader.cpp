@@ -15,6 +15,7 @@ constexpr std::string_view vectors = "<structure>_modal_vectors";
 constexpr std::string_view candidates = "<structure>_modal_candidates";
 constexpr std::string_view cutoff = "<structure>_modal_cutoff";
 constexpr std::string_view attachment = "<structure>_modal_attachment";
+constexpr std::string_view patches = "<structure>_modal_patches";
 constexpr std::string_view damping = "<structure>_modal_damping";
 constexpr std::string_view basis = "<structure>_modal_basis";
 constexpr std::string_view ranks = "<structure>_modal_ranks";
@@ -46,7 +47,7 @@ std::optional<ModalModel> read_modal_model(OptionReader& options, const Structur
   const Names names{structure.name};
   if (options.choice(model, names) == "full") {
     for (const std::string_view pattern :
-         {vectors, candidates, cutoff, attachment, damping, basis}) {
+         {vectors, candidates, cutoff, attachment, patches, damping, basis, ranks}) {
       options.forbid(pattern, names,
                      "goes with -" + option_name(model, names) + " modal, which is not given");
     }
@@ -76,6 +77,11 @@ std::optional<ModalModel> read_modal_model(OptionReader& options, const Structur
                     option_name(cutoff, names) + " (every mode below it, in Hz)");
   }
   modal.attachment = options.boolean(attachment, names);
+  if (!modal.attachment) {
+    options.forbid(patches, names, "not with -" + option_name(attachment, names) + " false");
+  } else {
+    modal.patches = options.integer(patches, names);
+  }
   if (options.given(damping, names)) {
     if (structure.uniform_damping) {
       options.forbid(damping, names, "not with -" + structure.name + "_damping_uniform");

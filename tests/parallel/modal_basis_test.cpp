@@ -114,6 +114,43 @@ TEST(ModalBasisOfRanks, UnderItsWeightAndWithChosenModes) {
   compare(mesh, concrete(), request);
 }
 
+/// Displacement of each point under equal forces on all of the contact.
+std::vector<double> under_equal_forces(const ModalBasis& basis, const ModalRequest& request) {
+  const std::vector<double> matrix = flexibility(basis);
+  const std::size_t count = basis.points.size();
+  std::vector<double> sums(count, 0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j < count; ++j) {
+      const bool loaded = std::ranges::find(request.contact_points, basis.points[j]) !=
+                          request.contact_points.end();
+      if (loaded) sums[i] += matrix[i * count + j];
+    }
+  }
+  return sums;
+}
+
+TEST(ModalBasisOfRanks, WithPatchesOfContactPoints) {
+  const GlobalMesh mesh = tower(true);
+  ModalRequest request = request_of(mesh, 6);
+  const BuiltSystem shared = build_system(mesh, concrete());
+  const ModalBasis all = compute_modal_basis(shared.system, shared.mesh, request);
+  EXPECT_EQ(all.attachment_vectors, static_cast<int>(request.contact_points.size()));
+  for (const int patches : {1, 4}) {
+    request.patches = patches;
+    compare(mesh, concrete(), request);
+    const ModalBasis few = compute_modal_basis(shared.system, shared.mesh, request);
+    EXPECT_EQ(few.attachment_vectors, patches);
+    // What is the sum of the patches' loads is answered as by all vectors, what is not is stiffer.
+    const std::vector<double> found = under_equal_forces(few, request);
+    const std::vector<double> expected = under_equal_forces(all, request);
+    for (std::size_t i = 0; i < request.contact_points.size(); ++i) {
+      EXPECT_NEAR(found[i] / expected[i], 1, 1e-6) << i;
+      const std::size_t own = i * all.points.size() + i;
+      EXPECT_LT(flexibility(few)[own], 0.99 * flexibility(all)[own]) << i;
+    }
+  }
+}
+
 TEST(ModalBasisOfRanks, OfEveryMode) {
   const GlobalMesh mesh = tower(true, {2, 2, 3});
   compare(mesh, concrete(), request_of(mesh, 10000));

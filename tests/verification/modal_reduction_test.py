@@ -113,6 +113,16 @@ class Reduction(unittest.TestCase):
         without = self.spectrum_error(few + bare)
         self.assertLess(with_vectors, 0.15)
         self.assertGreater(without, 2 * with_vectors)
+        patches = self.spectrum_error(few + ["-s1_modal_patches", 4, "-s2_modal_patches", 4])
+        self.assertLess(patches, 1.3 * with_vectors)
+
+    def test_patches_of_contact_points(self):
+        few = reduced("s1", 30, "modal_patches", 3) + reduced("s2", 30)
+        counts = [program.must_run(self, PAIR + few + ["-end_time", 1e-3], ranks)[1]["structures"]["s1"]["modal"]
+                  for ranks in (1, 2)]
+        self.assertEqual([count["attachment_vectors"] for count in counts], [3, 3])
+        program.must_refuse(self, PAIR + few + ["-s1_modal_attachment", "false"], "-s1_modal_patches", "-s1_modal_attachment")
+        program.must_refuse(self, PAIR + ["-s1_modal_patches", 3], "-s1_modal_patches", "-s1_model modal")
 
     def test_mass_of_fast_coordinates_allows_a_longer_step(self):
         finer = "cells_x=10,cells_y=10,column_elements=1"
@@ -204,6 +214,7 @@ class SeveralRanks(unittest.TestCase):
     def test_it_needs_a_file(self):
         program.must_refuse(self, PAIR + reduced("s1", 20, "modal_ranks", 2), "-s1_modal_ranks 2", "-s1_modal_basis")
         program.must_refuse(self, PAIR + reduced("s1", 20, "modal_ranks", 0), "-s1_modal_ranks 0", ">= 1")
+        program.must_refuse(self, PAIR + ["-s1_modal_ranks", 2], "-s1_modal_ranks", "-s1_model modal")
 
 
 class Bricks(unittest.TestCase):
