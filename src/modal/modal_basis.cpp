@@ -248,7 +248,13 @@ class BasisMaker {
       }
       loads.append(weight);
     }
-    if (!request_.attachment) return loads;
+    if (request_.attachment) add_contact_loads(loads);
+    space_.normalise(loads);
+    return loads;
+  }
+
+  /// M^-1/2 times forces on contact points, one alone or those of a patch alike.
+  void add_contact_loads(DenseMatrix& loads) const {
     std::vector<TracePoint> points;
     const std::vector<std::uint8_t> exists = are_dofs(request_.contact_points);
     for (std::size_t p = 0; p < exists.size(); ++p) {
@@ -262,8 +268,6 @@ class BasisMaker {
       }
       loads.append(load);
     }
-    space_.normalise(loads);
-    return loads;
   }
 
   /// Contact points whose forces are one load: every one alone, or patches.

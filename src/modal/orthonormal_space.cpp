@@ -41,7 +41,7 @@ std::vector<double> OrthonormalSpace::norms(const DenseMatrix& x) const {
 void OrthonormalSpace::normalise(DenseMatrix& x) const {
   const std::vector<double> lengths = norms(x);
   for (std::size_t j = 0; j < x.columns; ++j) {
-    for (std::size_t i = 0; i < x.rows; ++i) x.column(j)[i] /= lengths[j];
+    for (std::size_t i = 0; i < x.rows && lengths[j] > 0; ++i) x.column(j)[i] /= lengths[j];
   }
 }
 

@@ -38,7 +38,7 @@ class OrthonormalSpace {
   DenseMatrix project(DenseMatrix& x, std::size_t first = 0) const;
   /// Length of each column of X. Collective.
   std::vector<double> norms(const DenseMatrix& x) const;
-  /// Scales the columns of X to length 1. Collective.
+  /// Scales the columns of X to length 1, but for those that are zero. Collective.
   void normalise(DenseMatrix& x) const;
 
   /// Adds the columns of X to the space, that with the largest remainder first, as long as this is

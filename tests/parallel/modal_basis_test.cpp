@@ -114,6 +114,22 @@ TEST(ModalBasisOfRanks, UnderItsWeightAndWithChosenModes) {
   compare(mesh, concrete(), request);
 }
 
+/// Weight along an axis in which nothing can move asks for no vector.
+TEST(ModalBasisOfRanks, UnderAWeightThatIsHeld) {
+  GlobalMesh mesh = tower(true);
+  for (std::uint8_t& mask : mesh.free_components) mask = static_cast<std::uint8_t>(mask & ~0x4U);
+  ModalRequest request = request_of(mesh, 8);
+  request.attachment = false;
+  request.gravity = {0, 0, -9.81};
+  const BuiltSystem shared = build_system(mesh, concrete());
+  const ModalBasis basis = compute_modal_basis(shared.system, shared.mesh, request);
+  EXPECT_EQ(basis.attachment_vectors, 0);
+  request.gravity = {9.81, 0, 0};
+  const ModalBasis leaning = compute_modal_basis(shared.system, shared.mesh, request);
+  EXPECT_EQ(leaning.attachment_vectors, 1);
+  for (const double square : leaning.squared_frequency) EXPECT_TRUE(std::isfinite(square));
+}
+
 /// Displacement of each point under equal forces on all of the contact.
 std::vector<double> under_equal_forces(const ModalBasis& basis, const ModalRequest& request) {
   const std::vector<double> matrix = flexibility(basis);
