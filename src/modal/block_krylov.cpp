@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <numeric>
 
 #include "common/scattered_number.h"
 #include "modal/eigen_solver.h"
@@ -14,6 +16,9 @@ namespace {
 constexpr double residual_tolerance = 1e-10;  // of theta
 constexpr double weak = 1e-5;                 // see strong_directions
 constexpr double rounding = 1e-14;            // part of (A - s I)^-1 V that is nothing
+constexpr double fresh_rest = 1e-8;           // part of a new column that must be new
+constexpr double equal_values = 1e-6;         // relative
+constexpr std::size_t looked_past = 8;        // pairs beyond those that are wanted
 constexpr std::size_t most_blocks = 5000;
 
 /// Larger ones make more of a pass over the factor and over the space, and less of each product.
@@ -36,13 +41,16 @@ class BlockKrylov {
   }
 
   Eigenpairs run() {
-    DenseMatrix next = first_block();
+    DenseMatrix next(space_.columns().rows, 0);
+    add_fresh_block(next);
     for (std::size_t blocks = 0; blocks < most_blocks && next.columns > 0; ++blocks) {
       next = grow(next);
       if (next.columns > 0 && !is_due()) continue;
       diagonalise();
-      if (converged() >= wanted_) break;
-      if (space_.size() + block_size_ > capacity_) cut_down();
+      const bool enough = converged() >= wanted_;
+      if (enough && none_missed()) break;
+      if (enough || next.columns == 0) add_fresh_block(next);
+      if (space_.size() + next.columns > capacity_) cut_down();
     }
     return pairs();
   }
@@ -56,20 +64,61 @@ class BlockKrylov {
   }
 
  private:
-  /// A block of orthonormal columns that nothing distinguishes.
-  DenseMatrix first_block() {
+  /// Adds orthonormal columns that nothing distinguishes to the next block, at right angles to it
+  /// and to the space; none where there are no others.
+  void add_fresh_block(DenseMatrix& next) {
     DenseMatrix block(space_.columns().rows, block_size_);
     for (LocalIndex node = 0; node < mesh_.owned_nodes; ++node) {
       for (int c = 0; c < 6; ++c) {
         const LocalIndex dof = mesh_.dof(node, c);
         for (std::size_t j = 0; dof >= 0 && j < block_size_; ++j) {
           const auto number = static_cast<std::uint64_t>(6 * mesh_.file_node[node] + c);
-          block.column(j)[dof] = scattered_normal((number << 8U) + j);
+          block.column(j)[dof] = scattered_normal((number << 16U) + fresh_ + j);
         }
       }
     }
-    orthonormalise(block, 0);
-    return block;
+    fresh_ += block_size_;
+    const double least = fresh_rest * std::ranges::max(space_.norms(block));
+    OrthonormalSpace others(system_.comm, block.rows);
+    for (std::size_t j = 0; j < next.columns; ++j) {
+      others.append({next.column(j), next.column(j) + next.rows});
+    }
+    for (int pass = 0; pass < 2 && block.columns > 0; ++pass) {
+      space_.project(block);
+      others.project(block);
+      orthonormalise(block, pass == 0 ? least : 0);
+    }
+    // Nothing before leads to the new columns: rows of zeros in R.
+    DenseMatrix longer(last_.rows + block.columns, last_.columns);
+    for (std::size_t j = 0; j < last_.columns; ++j) {
+      std::copy_n(last_.column(j), last_.rows, longer.column(j));
+    }
+    last_ = std::move(longer);
+    for (std::size_t j = 0; j < block.columns; ++j) {
+      next.append({block.column(j), block.column(j) + block.rows});
+    }
+  }
+
+  /// Whether there are as many eigenvalues as were found below a gap among the last that are
+  /// wanted. A space from a block sees no more equal ones than this has columns: only where so many
+  /// were found do others have to be counted.
+  bool none_missed() const {
+    const auto value = [this](std::size_t i) { return solver_.shift() + 1 / theta_[i]; };
+    const auto gap = [&](std::size_t i) { return value(i) - value(i - 1); };
+    bool doubtful = false;
+    for (std::size_t i = block_size_; i <= wanted_; ++i) {
+      const double last = value(i - 1);
+      doubtful = doubtful || last - value(i - block_size_) <= equal_values * std::abs(last);
+    }
+    if (!doubtful) return true;
+    const std::size_t end = std::min(converged(), wanted_ + 1);
+    std::size_t below = end - 1;
+    for (std::size_t i = end - 1; i > 0 && i + looked_past >= wanted_; --i) {
+      if (gap(i) > gap(below)) below = i;
+    }
+    if (!(gap(below) > equal_values * std::abs(value(below)))) return true;  // they are all alike
+    const double between = (value(below) + value(below - 1)) / 2;
+    return solver_.eigenvalues_below(between) <= static_cast<int>(below);
   }
 
   /// X of W = X R with orthonormal columns, in the place of W; returns R. Columns may differ by
@@ -112,14 +161,15 @@ class BlockKrylov {
   }
 
   /// Orthonormal directions of the columns, X U D^-1/2 with X^T X = U D U^T, but for those that are
-  /// weak beside the strongest (Stathopoulos and Wu, SIAM J. Sci. Comput. 23 (2002) 2165).
-  DenseMatrix strong_directions(const DenseMatrix& x) const {
+  /// weak beside the strongest or not longer than `least` (Stathopoulos and Wu, SIAM J. Sci.
+  /// Comput. 23 (2002) 2165).
+  DenseMatrix strong_directions(const DenseMatrix& x, double least = 0) const {
     DenseMatrix directions = transposed_product(x, x);
     add_over_ranks(system_.comm, directions.values);
     const std::vector<double> squares = symmetric_eigenvalues(directions);
     DenseMatrix shrink(x.columns, 0);
     for (std::size_t j = 0; j < squares.size(); ++j) {
-      if (!(squares[j] > weak * weak * squares.back())) continue;
+      if (!(squares[j] > std::max(weak * weak * squares.back(), least * least))) continue;
       std::vector<double> column(directions.column(j), directions.column(j) + x.columns);
       for (double& value : column) value /= std::sqrt(squares[j]);
       shrink.append(column);
@@ -146,15 +196,16 @@ class BlockKrylov {
     last_ = orthonormalise(w, least);
     // All of the space: what rounding left in it grew with the scale.
     add_product(1, space_.project(w), last_, part);
-    const DenseMatrix x = strong_directions(w);
+    before_ = before;
+    last_count_ = block.columns;
+    extend(before, part);
+    if (w.columns == 0) return w;
+    // A column that has lost half of itself by then was nothing but rounding.
+    const DenseMatrix x = strong_directions(w, 0.5);
     DenseMatrix polish = transposed_product(x, w);
     add_over_ranks(system_.comm, polish.values);
     last_ = product(polish, last_);
-    w = x;
-    before_ = before;
-    extend(before, part);
-    last_count_ = block.columns;
-    return w;
+    return x;
   }
 
   static DenseMatrix product(const DenseMatrix& a, const DenseMatrix& b) {
@@ -195,14 +246,33 @@ class BlockKrylov {
     const std::vector<double> values = symmetric_eigenvalues(h);
     theta_.resize(locked_);
     residual_.assign(locked_, 0.0);
-    vectors_ = DenseMatrix(size, size);
-    for (std::size_t i = 0; i < locked_; ++i) vectors_.column(i)[i] = 1;
+    DenseMatrix vectors(size, size);
+    for (std::size_t i = 0; i < locked_; ++i) vectors.column(i)[i] = 1;
     for (std::size_t i = 0; i < open; ++i) {
       const double* s = h.column(open - 1 - i);
       theta_.push_back(values[open - 1 - i]);
-      std::copy_n(s, open, vectors_.column(locked_ + i) + locked_);
+      std::copy_n(s, open, vectors.column(locked_ + i) + locked_);
       residual_.push_back(length_of_rest(s + open - last_count_));
     }
+    sort_pairs(vectors);
+  }
+
+  /// Pairs by theta, the largest first: one that was missed may lie among those that are locked.
+  void sort_pairs(const DenseMatrix& vectors) {
+    std::vector<std::size_t> order(theta_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, std::greater(), [this](std::size_t i) { return theta_[i]; });
+    std::vector<double> theta;
+    std::vector<double> residual;
+    vectors_ = DenseMatrix(vectors.rows, 0);
+    vectors_.values.reserve(vectors.values.size());
+    for (const std::size_t i : order) {
+      theta.push_back(theta_[i]);
+      residual.push_back(residual_[i]);
+      vectors_.append({vectors.column(i), vectors.column(i) + vectors.rows});
+    }
+    theta_ = std::move(theta);
+    residual_ = std::move(residual);
   }
 
   /// |R s| with s the part of a vector of H in the last block.
@@ -254,6 +324,7 @@ class BlockKrylov {
   std::size_t locked_ = 0;      ///< pairs that have converged, the first of the space
   std::size_t before_ = 0;      ///< columns before the last block
   std::size_t last_count_ = 0;  ///< columns of the last block
+  std::uint64_t fresh_ = 0;     ///< columns that were made of nothing
   std::size_t next_look_ = 0;   ///< size of the space
   std::vector<double> theta_;   ///< decreasing
   DenseMatrix vectors_;         ///< S, likewise

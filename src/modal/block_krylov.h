@@ -29,7 +29,9 @@ std::size_t largest_krylov_space(std::size_t count);
 /// too large is cut down to its best Ritz vectors, which keeps the relation (Krylov-Schur, Stewart,
 /// SIAM J. Matrix Anal. Appl. 23 (2002) 601, in blocks: Zhou and Saad, Numer. Algorithms 47 (2008)
 /// 341). A block of right-hand sides takes the factor out of the memory once, and a block sees as
-/// many equal eigenvalues as it has columns. The first one is the same for any number of ranks.
+/// many equal eigenvalues as it has columns: where it has found so many, the law of inertia counts
+/// those that there are, and another block seeks the rest. Start blocks are the same for any number
+/// of ranks.
 /// Throws UserError where fewer converge. Collective.
 Eigenpairs lowest_eigenpairs(const LinearSystem& system, const Mesh& mesh,
                              const ShiftedSolver& solver, std::size_t count);

@@ -44,8 +44,8 @@ class BasisMaker {
         space_(system.comm, dofs_) {
     if (system.rigid_bodies.empty()) return;
     admissible_.emplace(system, AdmissibleMotions::Alone::mass_scaled);
-    restricted_ = admissible_->restrict_matrix(system.stiffest_matrix());
     idle_ = idle_value();
+    restricted_ = admissible_->restrict_matrix(system.stiffest_matrix(), idle_);
   }
 
   ModalBasis make() {
@@ -230,7 +230,8 @@ class BasisMaker {
   }
 
   void find_modes(std::size_t wanted, std::vector<double>& values, DenseMatrix& vectors) {
-    Eigenpairs pairs = lowest_eigenpairs(system_, mesh_, lowest_solver(), wanted + 8);
+    const std::size_t sought = std::min(wanted + 8, independent_);
+    Eigenpairs pairs = lowest_eigenpairs(system_, mesh_, lowest_solver(), sought);
     change_columns(pairs.vectors, [this](auto& z) { from_coordinates(z); });
     values = std::move(pairs.values);
     vectors = std::move(pairs.vectors);

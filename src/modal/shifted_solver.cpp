@@ -73,4 +73,8 @@ int ShiftedSolver::eigenvalues_below() const {
   return static_cast<int>(negative);
 }
 
+int ShiftedSolver::eigenvalues_below(double value) const {
+  return ShiftedSolver(system_, shifted_.get(), value - shift_).eigenvalues_below();
+}
+
 }  // namespace pounding

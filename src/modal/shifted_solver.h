@@ -21,6 +21,8 @@ class ShiftedSolver {
   double shift() const { return shift_; }
   /// Number of eigenvalues of A below the shift (Sylvester's law of inertia). Collective.
   int eigenvalues_below() const;
+  /// Number of them below a value, by another factorisation. Collective.
+  int eigenvalues_below(double value) const;
 
  private:
   const LinearSystem& system_;

@@ -228,6 +228,58 @@ TEST(BlockKrylov, FindsRigidMotionsBesideFastModes) {
   expect_lowest(tower(false, {4, 3, 8}), 20);
 }
 
+/// Copies of a mesh beside each other, which nothing joins.
+GlobalMesh copies_of(const GlobalMesh& one, int count) {
+  GlobalMesh all = one;
+  for (int copy = 1; copy < count; ++copy) {
+    const auto first = static_cast<GlobalIndex>(copy) * one.node_count();
+    for (GlobalIndex node = 0; node < one.node_count(); ++node) {
+      const Vector3 x = one.position(node);
+      all.coordinates.insert(all.coordinates.end(), {x[0] + 3 * copy, x[1], x[2]});
+      all.node_tags.push_back(one.node_tags.back() * copy + one.node_tags[node]);
+      all.components.push_back(one.components[node]);
+      all.free_components.push_back(one.free_components[node]);
+    }
+    const ElementSet& set = one.regions[0];
+    const auto elements = static_cast<std::int64_t>(set.tags.size());
+    for (const std::int64_t tag : set.tags) all.regions[0].tags.push_back(copy * elements + tag);
+    for (const GlobalIndex node : set.connectivity) {
+      all.regions[0].connectivity.push_back(first + node);
+    }
+  }
+  return all;
+}
+
+TEST(BlockKrylov, FindsMoreEqualFrequenciesThanABlockHasColumns) {
+  GlobalMesh post = testing::box_mesh({0, 0, 0}, {1, 1, 3}, {1, 1, 3});
+  testing::clamp(post, "z_min");
+  expect_lowest(copies_of(post, 23), 50);
+  expect_lowest(copies_of(post, 40), 90);
+}
+
+/// Most dofs of a rigid body stand idle: fewer motions than a block would like to have.
+TEST(BlockKrylov, EndsWhereThereIsNothingMore) {
+  GlobalMesh mesh = tower(true, {6, 6, 10});
+  RigidNodes body;
+  body.group = "x_max";
+  body.components = 0x3f;
+  for (GlobalIndex node = 0; node < mesh.node_count(); ++node) {
+    if (mesh.position(node)[2] > 1.5) body.nodes.push_back(node);
+  }
+  mesh.rigid.push_back(body);
+  const BuiltSystem shared = build_system(mesh, concrete());
+  const GlobalIndex motions = shared.system.independent_dofs();
+  ASSERT_LT(2 * motions, shared.system.global_dofs);
+  ModalRequest request;
+  request.attachment = false;
+  for (const GlobalIndex count : {GlobalIndex{10}, motions - 3, motions}) {
+    request.modes = static_cast<int>(count);
+    const ModalBasis basis = compute_modal_basis(shared.system, shared.mesh, request);
+    EXPECT_GE(basis.modes, static_cast<int>(count));
+    EXPECT_LE(basis.modes, static_cast<int>(motions));
+  }
+}
+
 TEST(BlockKrylov, CutsItsSpaceDownAndGoesOn) {
   GlobalMesh mesh = tower(true, {6, 6, 10});
   const BuiltSystem shared = build_system(mesh, concrete());
