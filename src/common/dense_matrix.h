@@ -22,6 +22,11 @@ struct DenseMatrix {
     values.insert(values.end(), column.begin(), column.end());
     ++columns;
   }
+  /// All columns of a matrix of as many rows.
+  void append_columns(const DenseMatrix& other) {
+    values.insert(values.end(), other.values.begin(), other.values.end());
+    columns += other.columns;
+  }
   /// Takes a column out; the last one takes its place.
   void remove(std::size_t j) {
     std::copy_n(column(columns - 1), rows, column(j));

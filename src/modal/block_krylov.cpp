@@ -18,7 +18,6 @@ constexpr double weak = 1e-5;                 // see strong_directions
 constexpr double rounding = 1e-14;            // part of (A - s I)^-1 V that is nothing
 constexpr double fresh_rest = 1e-8;           // part of a new column that must be new
 constexpr double equal_values = 1e-6;         // relative
-constexpr std::size_t looked_past = 8;        // pairs beyond those that are wanted
 constexpr std::size_t most_blocks = 5000;
 
 /// Larger ones make more of a pass over the factor and over the space, and less of each product.
@@ -55,6 +54,8 @@ class BlockKrylov {
     return pairs();
   }
 
+ private:
+  /// Leading pairs whose residual is small enough.
   std::size_t converged() const {
     std::size_t count = 0;
     while (count < residual_.size() && residual_[count] <= residual_tolerance * theta_[count]) {
@@ -63,7 +64,6 @@ class BlockKrylov {
     return count;
   }
 
- private:
   /// Adds orthonormal columns that nothing distinguishes to the next block, at right angles to it
   /// and to the space; none where there are no others.
   void add_fresh_block(DenseMatrix& next) {
@@ -80,9 +80,7 @@ class BlockKrylov {
     fresh_ += block_size_;
     const double least = fresh_rest * std::ranges::max(space_.norms(block));
     OrthonormalSpace others(system_.comm, block.rows);
-    for (std::size_t j = 0; j < next.columns; ++j) {
-      others.append({next.column(j), next.column(j) + next.rows});
-    }
+    others.append_columns(next);
     for (int pass = 0; pass < 2 && block.columns > 0; ++pass) {
       space_.project(block);
       others.project(block);
@@ -94,9 +92,7 @@ class BlockKrylov {
       std::copy_n(last_.column(j), last_.rows, longer.column(j));
     }
     last_ = std::move(longer);
-    for (std::size_t j = 0; j < block.columns; ++j) {
-      next.append({block.column(j), block.column(j) + block.rows});
-    }
+    next.append_columns(block);
   }
 
   /// Whether there are as many eigenvalues as were found below a gap among the last that are
@@ -136,9 +132,7 @@ class BlockKrylov {
         block.project(strong);
         strong = strong_directions(strong);
       }
-      for (std::size_t j = 0; j < strong.columns; ++j) {
-        block.append({strong.column(j), strong.column(j) + strong.rows});
-      }
+      block.append_columns(strong);
       if (block.size() < w.columns) block.project(rest);
     }
     DenseMatrix r = block.parts(w);
@@ -164,8 +158,7 @@ class BlockKrylov {
   /// weak beside the strongest or not longer than `least` (Stathopoulos and Wu, SIAM J. Sci.
   /// Comput. 23 (2002) 2165).
   DenseMatrix strong_directions(const DenseMatrix& x, double least = 0) const {
-    DenseMatrix directions = transposed_product(x, x);
-    add_over_ranks(system_.comm, directions.values);
+    DenseMatrix directions = product_over_ranks(system_.comm, x, x);
     const std::vector<double> squares = symmetric_eigenvalues(directions);
     DenseMatrix shrink(x.columns, 0);
     for (std::size_t j = 0; j < squares.size(); ++j) {
@@ -180,9 +173,7 @@ class BlockKrylov {
   /// Takes a block into the space; returns the next one.
   DenseMatrix grow(const DenseMatrix& block) {
     const std::size_t before = space_.size();
-    for (std::size_t j = 0; j < block.columns; ++j) {
-      space_.append({block.column(j), block.column(j) + block.rows});
-    }
+    space_.append_columns(block);
     DenseMatrix w = block;
     solver_.solve(w);
     const double least = rounding * std::ranges::max(space_.norms(w));
@@ -202,9 +193,7 @@ class BlockKrylov {
     if (w.columns == 0) return w;
     // A column that has lost half of itself by then was nothing but rounding.
     const DenseMatrix x = strong_directions(w, 0.5);
-    DenseMatrix polish = transposed_product(x, w);
-    add_over_ranks(system_.comm, polish.values);
-    last_ = product(polish, last_);
+    last_ = product(product_over_ranks(system_.comm, x, w), last_);
     return x;
   }
 
@@ -290,9 +279,7 @@ class BlockKrylov {
   DenseMatrix ritz_vectors(std::size_t count) const {
     DenseMatrix s(vectors_.rows, count);
     std::copy_n(vectors_.values.begin(), s.values.size(), s.values.begin());
-    DenseMatrix result(space_.columns().rows, count);
-    add_product(1, space_.columns(), s, result);
-    return result;
+    return product(space_.columns(), s);
   }
 
   void cut_down() {

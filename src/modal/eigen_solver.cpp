@@ -153,8 +153,8 @@ EpsHandle create_eigen_solver(const LinearSystem& system, const Mesh& mesh, Mat 
 EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix, int count,
                        Mat mass) {
   EpsHandle solver = create_eigen_solver(system, mesh, matrix, "lowest_", mass);
-  // A Krylov space sees the second of two equal frequencies late: look past the last one wanted.
-  const int sought = static_cast<int>(std::min<GlobalIndex>(count + 8, system.independent_dofs()));
+  const int sought =
+      static_cast<int>(std::min<GlobalIndex>(count + looked_past, system.independent_dofs()));
   // Many are found in portions: the projected problem stays small.
   constexpr int portion = 100;
   POUNDING_PETSC(EPSSetDimensions(solver.get(), sought, PETSC_DEFAULT,

@@ -35,6 +35,10 @@ void require_converged(EPS solver, const LinearSystem& system, const Mesh& mesh,
 EpsHandle create_eigen_solver(const LinearSystem& system, const Mesh& mesh, Mat matrix,
                               const char* prefix, Mat mass = nullptr);
 
+/// Pairs that are sought beyond those wanted: a Krylov space sees the second of two equal
+/// frequencies late.
+inline constexpr int looked_past = 8;
+
 /// The shift of `solve_lowest` [1/s2].
 inline constexpr double lowest_shift = -1;
 

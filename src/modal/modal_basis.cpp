@@ -159,7 +159,8 @@ class BasisMaker {
   void add_modes(std::size_t wanted) {
     std::vector<double> values;
     DenseMatrix vectors(dofs_, 0);
-    if (static_cast<std::size_t>(system_.global_dofs) <= largest_krylov_space(wanted + 8)) {
+    if (static_cast<std::size_t>(system_.global_dofs) <=
+        largest_krylov_space(wanted + looked_past)) {
       decompose(values, vectors);
     } else {
       find_modes(wanted, values, vectors);
@@ -230,7 +231,7 @@ class BasisMaker {
   }
 
   void find_modes(std::size_t wanted, std::vector<double>& values, DenseMatrix& vectors) {
-    const std::size_t sought = std::min(wanted + 8, independent_);
+    const std::size_t sought = std::min(wanted + looked_past, independent_);
     Eigenpairs pairs = lowest_eigenpairs(system_, mesh_, lowest_solver(), sought);
     change_columns(pairs.vectors, [this](auto& z) { from_coordinates(z); });
     values = std::move(pairs.values);

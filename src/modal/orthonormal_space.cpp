@@ -13,6 +13,13 @@ void add_over_ranks(MPI_Comm comm, std::vector<double>& values) {
   }
 }
 
+DenseMatrix product_over_ranks(MPI_Comm comm, const DenseMatrix& a, const DenseMatrix& b,
+                               std::size_t first) {
+  DenseMatrix result = transposed_product(a, b, first);
+  add_over_ranks(comm, result.values);
+  return result;
+}
+
 void OrthonormalSpace::choose(const std::vector<std::size_t>& numbers) {
   DenseMatrix chosen(columns_.rows, 0);
   for (const std::size_t j : numbers) chosen.append({column(j), column(j) + columns_.rows});
@@ -20,9 +27,7 @@ void OrthonormalSpace::choose(const std::vector<std::size_t>& numbers) {
 }
 
 DenseMatrix OrthonormalSpace::parts(const DenseMatrix& x, std::size_t first) const {
-  DenseMatrix result = transposed_product(columns_, x, first);
-  add_over_ranks(comm_, result.values);
-  return result;
+  return product_over_ranks(comm_, columns_, x, first);
 }
 
 DenseMatrix OrthonormalSpace::project(DenseMatrix& x, std::size_t first) const {
@@ -58,9 +63,7 @@ void OrthonormalSpace::take_in(DenseMatrix& x, double least) {
     project(next);  // once more: what rounding put back grew with the scale
     normalise(next);
     append(next.values);
-    DenseMatrix part = transposed_product(next, x);
-    add_over_ranks(comm_, part.values);
-    add_product(-1, next, part, x);
+    add_product(-1, next, product_over_ranks(comm_, next, x), x);
   }
 }
 

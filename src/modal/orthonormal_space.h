@@ -23,6 +23,8 @@ class OrthonormalSpace {
   void reserve(std::size_t columns) { columns_.values.reserve(columns * columns_.rows); }
   /// Adds a column of length 1 that is orthogonal to the others.
   void append(const std::vector<double>& column) { columns_.append(column); }
+  /// Adds such columns that are orthogonal to each other as well.
+  void append_columns(const DenseMatrix& columns) { columns_.append_columns(columns); }
   /// Keeps the columns of these numbers, in their order.
   void choose(const std::vector<std::size_t>& numbers);
 
@@ -52,5 +54,10 @@ class OrthonormalSpace {
 
 /// Sums over ranks, in place. Collective.
 void add_over_ranks(MPI_Comm comm, std::vector<double>& values);
+
+/// A^T B of matrices whose rows ranks share out, the same on all ranks, of the columns of A from
+/// `first` on. Collective.
+DenseMatrix product_over_ranks(MPI_Comm comm, const DenseMatrix& a, const DenseMatrix& b,
+                               std::size_t first = 0);
 
 }  // namespace pounding
