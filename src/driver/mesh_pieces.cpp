@@ -309,14 +309,20 @@ void remove_pieces(const Scene& scene) {
   }
 }
 
-/// Account of one structure in pieces.
-void print_pieces(const Structure& structure, const MeshParcel& first,
+/// Free dofs of a whole mesh.
+std::size_t dofs_of(const GlobalMesh& mesh) {
+  std::size_t dofs = 0;
+  for (const std::uint8_t mask : mesh.free_components) dofs += component_count(mask);
+  return dofs;
+}
+
+/// Account of one structure in pieces. `nodes`: of each piece.
+void print_pieces(const Structure& structure, const GlobalMesh& mesh,
                   const std::vector<GlobalIndex>& nodes) {
   const auto [least, most] = std::ranges::minmax(nodes);
-  std::printf("structure %s: %lld nodes, %lld dofs; %lld to %lld nodes in a piece\n",
-              structure.name.c_str(), static_cast<long long>(first.sizes[1]),
-              static_cast<long long>(first.sizes[2]), static_cast<long long>(least),
-              static_cast<long long>(most));
+  std::printf("structure %s: %lld nodes, %zu dofs; %lld to %lld nodes in a piece\n",
+              structure.name.c_str(), static_cast<long long>(mesh.node_count()), dofs_of(mesh),
+              static_cast<long long>(least), static_cast<long long>(most));
 }
 
 /// Cuts the meshes and writes all files. Rank 0.
@@ -335,13 +341,11 @@ void cut_and_write(const Scene& scene, const WholeMeshes& whole, Model& model) {
   fs::create_directories(scene.mesh_pieces);
   remove_pieces(scene);
   std::vector<std::vector<GlobalIndex>> nodes(cutters.size());
-  std::vector<MeshParcel> first(cutters.size());
   double bytes = 0;
   for (int rank = 0; rank < ranks; ++rank) {
     const auto parcel_of = [&](std::size_t s) {
       MeshParcel parcel = cutters[s]->parcel(rank);
       nodes[s].push_back(parcel.sizes[0]);
-      if (rank == 0) first[s].sizes = parcel.sizes;
       return parcel;
     };
     bytes += write_mesh_piece(scene, rank, identity, parcel_of);
@@ -357,10 +361,9 @@ void cut_and_write(const Scene& scene, const WholeMeshes& whole, Model& model) {
   });
   fs::rename(fresh, common_path(scene));
   for (std::size_t s = 0; s < nodes.size(); ++s) {
-    print_pieces(scene.structures[s], first[s], nodes[s]);
+    print_pieces(scene.structures[s], whole.meshes[s], nodes[s]);
   }
-  std::printf("\npartition: imbalance %.3f, cut edges %ld\n", model.partition_imbalance,
-              model.partition_edge_cut);
+  print_partition(model);
   std::printf("pieces: %d in %s, %.4g MB, for runs on as many ranks with -mesh_pieces %s\n", ranks,
               scene.mesh_pieces.c_str(), bytes / 1e6, scene.mesh_pieces.c_str());
 }
@@ -376,7 +379,6 @@ void write_mesh_pieces(MPI_Comm comm, Scene& scene, Profile& profile) {
     const ScopedTimer timer(profile, Phase::mesh);
     on_rank0(comm, [&] { whole = read_whole_meshes(comm, scene, model); });
   }
-  std::size_t dofs = 0;
   {
     const ScopedTimer timer(profile, Phase::partition);
     on_rank0(comm, [&] {
@@ -384,9 +386,8 @@ void write_mesh_pieces(MPI_Comm comm, Scene& scene, Profile& profile) {
       cut_and_write(scene, whole, model);
     });
   }
-  for (const GlobalMesh& mesh : whole.meshes) {
-    for (const std::uint8_t mask : mesh.free_components) dofs += component_count(mask);
-  }
+  std::size_t dofs = 0;
+  for (const GlobalMesh& mesh : whole.meshes) dofs += dofs_of(mesh);
   if (rank_of(comm) == 0) print_warnings(model.warnings);
   const PhaseReport phases = report_phases(comm, profile, dofs);
   if (rank_of(comm) == 0) print_phases(phases);

@@ -350,6 +350,11 @@ void print_probe_places(const Scene& scene, const std::vector<ResolvedProbe>& pr
 
 }  // namespace
 
+void print_partition(const Model& model) {
+  std::printf("\npartition: imbalance %.3f, cut edges %ld\n", model.partition_imbalance,
+              model.partition_edge_cut);
+}
+
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) std::printf("warning: %s\n", warning.c_str());
 }
@@ -374,8 +379,7 @@ void print_model(const Scene& scene, const Model& model) {
   print_separations(scene, model.separations);
   print_rest(scene, model);
   print_probe_places(scene, model.probes);
-  std::printf("\npartition: imbalance %.3f, cut edges %ld\n", model.partition_imbalance,
-              model.partition_edge_cut);
+  print_partition(model);
   print_warnings(model.warnings);
 }
 

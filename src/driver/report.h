@@ -15,6 +15,7 @@ namespace pounding {
 /// `overrides`: in words, how the run differs from the files of its options.
 void print_title(const Scene& scene, const std::string& overrides, int ranks);
 void print_model(const Scene& scene, const Model& model);
+void print_partition(const Model& model);
 void print_warnings(const std::vector<std::string>& warnings);
 /// `seconds_per_step`: measured, 0 if it was not.
 void print_time_step(const Scene& scene, const Model& model, double seconds_per_step);
