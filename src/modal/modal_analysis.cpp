@@ -24,10 +24,14 @@ void weigh(const LinearSystem& system, std::vector<double>& x) {
 }
 
 /// Bound of every circular frequency [rad/s]. Elements with stiffness and no mass, springs, have
-/// no bound of their own: then that of the rows of M^-1/2 K M^-1/2.
+/// no bound of their own: then that of the rows of M^-1/2 K M^-1/2, of motions that rigid bodies
+/// and ties admit, since what follows them may have next to no mass of its own.
 double frequency_bound(const LinearSystem& system) {
   if (std::isfinite(system.element_frequency_bound)) return system.element_frequency_bound;
-  const MatHandle scaled = mass_scaled(system, system.stiffest_matrix());
+  const MatHandle scaled = system.rigid_bodies.empty()
+                               ? mass_scaled(system, system.stiffest_matrix())
+                               : AdmissibleMotions(system, AdmissibleMotions::Alone::mass_scaled)
+                                     .restrict_matrix(system.stiffest_matrix());
   PetscReal norm = 0;
   POUNDING_PETSC(MatNorm(scaled.get(), NORM_INFINITY, &norm));
   return std::sqrt(norm);

@@ -172,7 +172,8 @@ double ElementBounds::time_step(const ElementBlock& block, std::size_t element, 
   const ElementLayout layout = element_layout(block.type);
   const auto dofs = element_dofs(mesh_, block, element, layout);
   for (std::size_t i = 0; i < static_cast<std::size_t>(layout.size()); ++i) {
-    if (dofs[i] >= 0 && dofs[i] < mesh_.owned_dofs) {
+    // A dof without mass follows others, which carry what acts on it.
+    if (dofs[i] >= 0 && dofs[i] < mesh_.owned_dofs && lumped_mass[dofs[i]] > 0) {
       const std::size_t dof = dofs[i];
       smallest = std::min(
           smallest,

@@ -15,6 +15,7 @@
 #include "system/each_element.h"
 #include "system/element_bounds.h"
 #include "system/links.h"
+#include "system/massless_followers.h"
 #include "system/rotary_scaling.h"
 #include "system/scaled_mass.h"
 
@@ -52,12 +53,14 @@ class Assembly {
           structure_, mesh_, [](const auto&, std::size_t) { return true; },
           [&](const ElementBlock& block, std::size_t e, const ElementLayout& layout,
               ElementWork& work) { add(block, e, layout, work); });
+      lent_ = lend_mass(mesh_, system_.lumped_mass);
       check_mass();
     });
     system_.stiffness = finished(std::move(matrix_));
     system_.taut = finished(std::move(taut_));
     system_.extra_damping = finished(std::move(extra_damping_));
     bounds_.finish(system_);
+    for (const auto& [dof, mass] : lent_) system_.lumped_mass[dof] = mass;
     MPI_Allreduce(MPI_IN_PLACE, &system_.total_mass, 1, MPI_DOUBLE, MPI_SUM, mesh_.comm);
     on_every_rank(mesh_.comm, [&] { added_mass_.finish(system_); });
     added_mass_.share(system_);
@@ -154,21 +157,33 @@ class Assembly {
     for (LocalIndex node = 0; node < mesh_.owned_nodes; ++node) {
       for (int c = 0; c < 6; ++c) {
         const LocalIndex dof = mesh_.dof(node, c);
-        if (dof >= 0 && !(system_.lumped_mass[dof] > 0)) {
-          const Vector3 x = mesh_.position(node);
-          std::ostringstream text;
-          text << "structure " << structure_.name << ": the node at (" << x[0] << ", " << x[1]
-               << ", " << x[2] << ") has no mass in component " << c
-               << "; give its elements a density";
-          throw UserError(text.str());
-        }
+        if (dof < 0 || system_.lumped_mass[dof] > 0) continue;
+        if (std::ranges::find(lent_, dof, &LentMass::first) == lent_.end()) refuse(node, c);
       }
     }
+  }
+
+  [[noreturn]] void refuse(LocalIndex node, int component) const {
+    const Vector3 x = mesh_.position(node);
+    const int part = mesh_.rigid_of.empty() ? -1 : mesh_.rigid_of[static_cast<std::size_t>(node)];
+    std::ostringstream text;
+    text << "structure " << structure_.name << ": the node at (" << x[0] << ", " << x[1] << ", "
+         << x[2] << ") has no mass in component " << component;
+    const RigidPart* const body = part < 0 ? nullptr : &mesh_.rigid[static_cast<std::size_t>(part)];
+    if (body != nullptr && (body->components >> component & 1) != 0) {
+      text << ", and nothing in " << body->group
+           << ", with which it moves, resists that motion; give a point_mass with rotary_inertia";
+    } else {
+      text << "; give its elements a density, or put a point_mass there"
+           << (component < 3 ? "" : " with rotary_inertia");
+    }
+    throw UserError(text.str());
   }
 
   const Structure& structure_;
   const Mesh& mesh_;
   LinearSystem& system_;
+  std::vector<LentMass> lent_;
   MatHandle matrix_;  ///< linear elements; these three are null if nobody wants them
   MatHandle taut_;    ///< one-way elements as well
   MatHandle extra_damping_;

@@ -337,6 +337,85 @@ class Diaphragm(unittest.TestCase):
         self.assertLess(abs(numpy.array(found[0]) / found[1] - 1).max(), 1e-9)
 
 
+class MasslessEnd(unittest.TestCase):
+    """A mass on a rigid arm whose other end, on a spring, has none: six motions of one body, by hand."""
+    MASS, ROTARY, STIFFNESS, ARM = 100.0, 10.0, 1e6, numpy.array([1.0, 0.2, -0.3])
+
+    def scene(self, *more, rotary="10,10,10"):
+        x, y, z = self.ARM
+        handle, path = tempfile.mkstemp(suffix=".geo")
+        with os.fdopen(handle, "w") as file:
+            file.write(f"Point(1) = {{0, 0, 0}};\nPoint(2) = {{{x}, {y}, {z}}};\nPhysical Point(\"mass\") = {{1}};\n"
+                       'Physical Point("spring") = {2};\nPhysical Point("arm") = {1, 2};\n')
+        self.addCleanup(os.remove, path)
+        return ["-structures", "t", "-t_mesh", path, "-t_mass_element", "point_mass", "-t_mass_mass", self.MASS,
+                *(["-t_mass_rotary_inertia", rotary] if rotary else []), "-t_spring_element", "grounded_spring",
+                "-t_spring_stiffness", ",".join(["1e6"] * 6), "-modes", 6, *more]
+
+    def matrices(self):
+        """M and K in the six motions of the mass."""
+        mass = numpy.diag([self.MASS] * 3 + [self.ROTARY] * 3)
+        x, y, z = self.ARM
+        motion = numpy.eye(6)
+        motion[:3, 3:] = numpy.array([[0, z, -y], [-z, 0, x], [y, -x, 0]])
+        return mass, self.STIFFNESS * motion.T @ motion
+
+    def test_frequencies(self):
+        mass, stiffness = self.matrices()
+        expected = numpy.sqrt(scipy.linalg.eigh(stiffness, mass, eigvals_only=True)) / (2 * numpy.pi)
+        for ranks in (1, 2):
+            _, summary = program.must_run(self, self.scene("-t_rigid", "arm", "-end_time", 1e-3), ranks)
+            structure = summary["structures"]["t"]
+            found = [mode["frequency"] for mode in structure["frequencies"]]
+            self.assertLess(numpy.abs(numpy.array(found) / expected - 1).max(), 1e-6)
+            self.assertEqual(structure["mass"], self.MASS)
+            self.assertFalse([line for line in summary["warnings"] if "no stiffness" in line])
+            self.assertLess(abs(structure["omega_max"] / (2 * numpy.pi * expected[-1]) - 1), 1e-3)
+
+    def test_history_of_the_end_without_mass(self):
+        """It is thrown, at full order and in modes: u = sum of phi_i (phi_i . M v) sin(omega_i t) / omega_i."""
+        mass, stiffness = self.matrices()
+        square, modes = scipy.linalg.eigh(stiffness, mass)
+        omega = numpy.sqrt(square)
+        thrown = modes.T @ mass @ numpy.array([0.3, 1, -0.2, 0, 0, 0])
+        for more in ([], ["-t_model", "modal", "-t_modal_vectors", 6]):
+            run = Recorded(self, self.scene("-t_rigid", "arm", "-end_time", 0.1, "-t_initial_velocity", "0.3,1,-0.2",
+                                            "-time_step", 2e-5, "-output_interval", 1e-3, "-probes", "p", "-p_structure",
+                                            "t", "-p_group", "spring", *more), 2)
+            times = run.time
+            motions = modes @ (thrown[:, None] * numpy.sin(numpy.outer(omega, times)) / omega[:, None])
+            x, y, z = self.ARM
+            expected = {"x": motions[0] + z * motions[4] - y * motions[5], "y": motions[1] - z * motions[3] + x * motions[5],
+                        "z": motions[2] + y * motions[3] - x * motions[4]}
+            for axis, values in expected.items():
+                self.assertLess(numpy.abs(run.displacement(f"p.{axis}") - values).max(), 1e-4 * numpy.abs(values).max())
+
+    def test_a_body_without_inertia_is_refused(self):
+        """Nothing resists that the arm turns about its mass."""
+        program.must_refuse(self, self.scene("-t_rigid", "arm", "-end_time", 1e-3, rotary=""), "(1, 0.2, -0.3)",
+                            "nothing in arm", "rotary_inertia")
+        program.must_refuse(self, self.scene("-end_time", 1e-3, "-t_allow_loose"), "(1, 0.2, -0.3)", "point_mass")
+
+    def test_a_tied_end(self):
+        """A spring on a node that a tie carries acts as one on the corner of the face where that node lies."""
+        handle, path = tempfile.mkstemp(suffix=".geo")
+        with os.fdopen(handle, "w") as file:
+            file.write('SetFactory("OpenCASCADE");\nBox(1) = {0, 0, 0, 1, 1, 1};\nPoint(100) = {1, 1, 1};\n'
+                       "Transfinite Curve {1:12} = 2; Transfinite Surface {1:6}; Recombine Surface {1:6}; Transfinite Volume {1};\n"
+                       'Physical Volume("body") = {1}; Physical Surface("bottom") = {5}; Physical Surface("top") = {6};\n'
+                       'Physical Point("corner") = {7}; Physical Point("end") = {100};\n')
+        self.addCleanup(os.remove, path)
+        scene = ["-structures", "t", "-t_mesh", path, "-t_clamp", "bottom", "-t_body_element", "hex8", "-t_body_material",
+                 "C30", "-modes", 4, "-end_time", 1e-5, "-t_ignore", "ungrouped"]
+        found = []
+        for group, more, ranks in (("corner", [], 1), ("end", ["-t_tie", "end:top"], 1), ("end", ["-t_tie", "end:top"], 2)):
+            _, summary = program.must_run(self, [*scene, f"-t_{group}_element", "grounded_spring", f"-t_{group}_stiffness",
+                                                 "1e9,2e9,3e9", *more], ranks)
+            found.append([mode["frequency"] for mode in summary["structures"]["t"]["frequencies"]])
+        for other in found[1:]:
+            self.assertLess(numpy.abs(numpy.array(other) / found[0] - 1).max(), 1e-6)
+
+
 class LinksOnABody(unittest.TestCase):
     """A rigid mat that rocks on springs which push only, each with dashpots: its links move each other, all of them.
     They are solved for by the motions of the body; in a structure reduced to all of its modes pair by pair.
