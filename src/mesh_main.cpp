@@ -12,28 +12,25 @@
 #include "mesh/raw_mesh.h"
 
 /// The program pounding-mesh, which `pounding` runs once per mesh: Gmsh's failures, and what a .geo
-/// file may do, stay in a process of its own.
+/// file may do, stay in a process of its own, which can read files and answer, and nothing else.
 ///
-///     pounding-mesh FILE make|open guarded|free
+///     pounding-mesh FILE make|open [-setnumber NAME NUMBER | -setstring NAME WORD]...
 ///
 /// FILE is a geometry to mesh or a mesh to open; the answer (mesh/raw_mesh.h) goes to descriptor 3.
 namespace {
 
 constexpr int answer_descriptor = 3;
 
-/// It ends with the process that started it, it is the first to go where memory ends, and it writes
-/// no file.
-void restrict_process(bool guarded) {
+/// It ends with the process that started it, it is the first to go where memory ends, and it leaves
+/// no image of itself.
+void restrict_process() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (std::FILE* file = std::fopen("/proc/self/oom_score_adj", "w")) {
     std::fputs("1000", file);
     std::fclose(file);
   }
-  if (guarded) {
-    std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit none{0, 0};
-    setrlimit(RLIMIT_FSIZE, &none);
-  }
+  const rlimit none{0, 0};
+  setrlimit(RLIMIT_CORE, &none);
 }
 
 /// Answers; throws std::runtime_error when nobody listens any more.
@@ -45,19 +42,28 @@ void send(std::span<const char> bytes) {
   }
 }
 
+/// Answers what the file was stopped at, and ends.
+void answer_denied(const std::string& deed) {
+  pounding::RawAnswer answer;
+  answer.denied = deed;
+  pounding::write_answer(answer, send);
+  _exit(0);
+}
+
 }  // namespace
 
 int main(int count, char** words) {
-  if (count != 4) {
+  if (count < 3) {
     std::fputs("pounding-mesh is run by pounding, not by hand\n", stderr);
     return 1;
   }
-  restrict_process(std::strcmp(words[3], "free") != 0);
+  restrict_process();
+  const std::span<char*> arguments(words + 2, static_cast<std::size_t>(count - 2));
   const bool make = std::strcmp(words[2], "make") == 0;
   try {
-    pounding::write_answer(pounding::gmsh_mesh(words[1], make), send);
+    pounding::write_answer(pounding::gmsh_mesh({words[1], make, arguments}, answer_denied), send);
   } catch (const std::runtime_error&) {
     return 1;
   }
-  return 0;
+  _exit(0);  // what libraries do at the end is of no use
 }

@@ -8,6 +8,7 @@
 #include "driver/soil_report.h"
 #include "mesh/connectivity.h"
 #include "mesh/mesh.h"
+#include "mesh/mesh_files.h"
 #include "modal/modal_analysis.h"
 #include "modal/modal_basis.h"
 #include "scene/scene.h"
@@ -22,6 +23,7 @@ namespace pounding {
 struct MeshFindings {
   Connectivity connectivity;
   std::vector<UnusedElements> unused;  ///< places that no option of the scene names
+  MeshFiles files;
 };
 
 /// One structure of the scene as it was built: its mesh and its system, and all that was found out

@@ -19,14 +19,13 @@
 #include "driver/report.h"
 #include "io/file_digest.h"
 #include "io/file_seal.h"
-#include "mesh/geometry_file.h"
 
 namespace pounding {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* common_kind = "pounding mesh pieces 1";
+constexpr const char* common_kind = "pounding mesh pieces 2";
 constexpr const char* piece_kind = "pounding mesh piece 1";
 
 std::string common_path(const Scene& scene) {
@@ -50,18 +49,27 @@ struct Ingredient {
   bool operator==(const Ingredient&) const = default;
 };
 
-/// Everything on which the pieces depend but the number of ranks.
-std::vector<Ingredient> ingredients_of(const Scene& scene) {
+fs::path folder_of_mesh(const Structure& structure) {
+  return fs::absolute(structure.mesh).parent_path();
+}
+
+/// Everything on which the pieces depend but the number of ranks. `opened`: the files that Gmsh
+/// opened for each structure, by their paths from its mesh.
+std::vector<Ingredient> ingredients_of(const Scene& scene,
+                                       const std::vector<std::vector<std::string>>& opened) {
   std::vector<Ingredient> list{
       {"program", std::string(program_version()) + " (" + program_commit() + ")"}};
   for (const auto& [name, value] : scene.mesh_options) list.push_back({"option " + name, value});
   for (const Structure& structure : scene.structures) {
     list.push_back({"mesh of " + structure.name, digest_of_file(structure.mesh).sha256});
-    for (const fs::path& included : files_included_in(structure.mesh)) {
+  }
+  for (std::size_t s = 0; s < std::min(opened.size(), scene.structures.size()); ++s) {
+    const Structure& structure = scene.structures[s];
+    for (const std::string& name : opened[s]) {
+      const std::string file = (folder_of_mesh(structure) / name).string();
       std::error_code failure;
-      if (!fs::is_regular_file(included, failure)) continue;
-      list.push_back({"files that the mesh of " + structure.name + " includes",
-                      digest_of_file(included.string()).sha256});
+      list.push_back({name + ", of which the mesh of " + structure.name + " is made",
+                      fs::is_regular_file(file, failure) ? digest_of_file(file).sha256 : "gone"});
     }
   }
   return list;
@@ -104,6 +112,8 @@ template <typename Stream, typename Head>
 void pass_head(Stream& stream, Head& head) {
   stream(head.kind);
   stream(head.ranks);
+  stream.list(head.opened,
+              [&](auto& files) { stream.list(files, [&](auto& file) { stream(file); }); });
   stream.list(head.ingredients, [&](auto& each) {
     stream(each.name);
     stream(each.value);
@@ -113,6 +123,7 @@ void pass_head(Stream& stream, Head& head) {
 struct Head {
   std::string kind = common_kind;
   std::int32_t ranks = 0;
+  std::vector<std::vector<std::string>> opened;  ///< by Gmsh, of each structure: from its mesh
   std::vector<Ingredient> ingredients;
 };
 
@@ -178,6 +189,7 @@ void pass_interface(Stream& stream, AnyInterface& interface) {
 template <typename Stream, typename Findings>
 void pass_findings(Stream& stream, Findings& findings) {
   auto& connectivity = findings.connectivity;
+  stream.list(findings.files.opened, [&](auto& file) { stream(file); });
   stream.array(connectivity.pieces);
   stream(connectivity.coincident_inside);
   stream(connectivity.coincident_apart);
@@ -331,7 +343,13 @@ void cut_and_write(const Scene& scene, const WholeMeshes& whole, Model& model) {
   const Partition partition = cut_meshes(scene, whole.meshes, model.interface, ranks);
   model.partition_imbalance = partition.imbalance;
   model.partition_edge_cut = partition.edge_cut;
-  const Head head{common_kind, ranks, ingredients_of(scene)};
+  Head head{common_kind, ranks, {}, {}};
+  for (const Building& building : model.buildings) {
+    std::vector<std::string>& files = head.opened.emplace_back(building.findings.files.opened);
+    const fs::path folder = folder_of_mesh(scene.structures[head.opened.size() - 1]);
+    for (std::string& file : files) file = fs::absolute(file).lexically_relative(folder).string();
+  }
+  head.ingredients = ingredients_of(scene, head.opened);
   const std::string identity = identity_of(head.ingredients, ranks);
   std::vector<std::unique_ptr<MeshCutter>> cutters;
   for (std::size_t s = 0; s < whole.meshes.size(); ++s) {
@@ -414,7 +432,7 @@ CommonPiece read_common_piece(const Scene& scene, int ranks, Model& model) {
     Head head;
     pass_head(stream, head);
     if (head.kind != common_kind) throw std::runtime_error("another format");
-    const std::vector<Ingredient> now = ingredients_of(scene);
+    const std::vector<Ingredient> now = ingredients_of(scene, head.opened);
     const std::string differ = differences(head.ingredients, now);
     if (!differ.empty()) {
       refuse(scene, "the pieces are of another model (" + differ +

@@ -13,7 +13,6 @@
 #include "common/library_versions.h"
 #include "common/parallel.h"
 #include "common/version.h"
-#include "mesh/geometry_file.h"
 #include "scene/option_values.h"
 #include "scene/resolved_options.h"
 #include "system/matrix_system.h"
@@ -79,11 +78,8 @@ class Inputs {
       for (const char* matrix : {"stiffness", "mass", "damping"}) {
         add(name, matrix_file(value, matrix));
       }
-    } else if (ends("_record") || ends("_target") || name == "restart") {
+    } else if (ends("_record") || ends("_target") || ends("_mesh") || name == "restart") {
       add(name, value);
-    } else if (ends("_mesh")) {
-      add(name, value);
-      for (const auto& file : files_included_in(value)) add("included", file.string());
     }
   }
 
@@ -118,9 +114,13 @@ Provenance note_provenance(MPI_Comm comm, const SceneOrigin& origin, const std::
   return provenance;
 }
 
-void note_bases(MPI_Comm comm, const Scene& scene, Provenance& provenance) {
+void note_model(MPI_Comm comm, const Scene& scene, std::span<const Building> buildings,
+                Provenance& provenance) {
   on_rank0(comm, [&] {
     Inputs inputs{std::move(provenance.inputs)};
+    for (const Building& building : buildings) {
+      for (const std::string& file : building.findings.files.opened) inputs.add("included", file);
+    }
     for (const Structure& structure : scene.structures) {
       if (structure.modal) inputs.add(structure.name + "_modal_basis", structure.modal->basis_file);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -7,6 +8,7 @@
 #include <mpi.h>
 #include <nlohmann/json_fwd.hpp>
 
+#include "driver/building.h"
 #include "io/file_digest.h"
 #include "scene/scene.h"
 #include "scene/scene_origin.h"
@@ -15,7 +17,7 @@ namespace pounding {
 
 /// A file that a run read, as it was when the run began.
 struct InputFile {
-  std::string option;  ///< that names it, or "included" of a file that another one takes in
+  std::string option;  ///< that names it, or "included" of a file that Gmsh opened for another
   std::string path;
   FileDigest digest;
 };
@@ -31,15 +33,17 @@ struct Provenance {
 };
 
 /// Notes what is known when a run begins: time, machines, and every file that its options name,
-/// with its hash: options files and what they include, geometries and what they include, meshes,
-/// matrices, records, targets, the table of a fidelity target, a checkpoint. `resolved`: the
+/// with its hash: options files and what they include, geometries, meshes, matrices, records,
+/// targets, the table of a fidelity target, a checkpoint. `resolved`: the
 /// options in force. Files that are not there are left to who reads them. Rank 0 reads; the result
 /// is on rank 0. Throws UserError on every rank alike. Collective.
 Provenance note_provenance(MPI_Comm comm, const SceneOrigin& origin, const std::string& resolved);
 
-/// Adds the modal bases that the scene keeps in files, as they were taken up or written. Rank 0
-/// reads, after the model is built. Throws UserError on every rank alike. Collective.
-void note_bases(MPI_Comm comm, const Scene& scene, Provenance& provenance);
+/// Adds what is known when the model is built: the files that Gmsh opened for the meshes, and the
+/// modal bases that are kept in files, as they were taken up or written. Rank 0 reads. Throws
+/// UserError on every rank alike. Collective.
+void note_model(MPI_Comm comm, const Scene& scene, std::span<const Building> buildings,
+                Provenance& provenance);
 
 /// Comment lines for the end of `resolved.yaml`, there before the first step: the program, when
 /// and where the run began, and of every input a line that `sha256sum --check` understands behind

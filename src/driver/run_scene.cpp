@@ -112,7 +112,7 @@ void run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
   if (!scene.restart.empty()) check_checkpoint(comm, scene.restart, lasting_options(resolved));
   if (scene.dry_run && scene.write_model) on_rank0(comm, [&] { create_output(scene); });
   const Model model = build_model(comm, scene, read.stiffness_factors, profile);
-  if (!scene.dry_run) note_bases(comm, scene, provenance);
+  if (!scene.dry_run) note_model(comm, scene, model.buildings, provenance);
   return_freed_memory();
   if (root) print_model(scene, model);
   if (!scene.export_matrices.empty()) export_matrices(comm, scene, model);

@@ -1,5 +1,7 @@
 #include "driver/whole_meshes.h"
 
+#include <algorithm>
+
 #include "common/progress.h"
 #include "contact/absorbing_faces.h"
 #include "driver/mesh_checks.h"
@@ -19,12 +21,12 @@ namespace {
 /// hold and join as they like.
 void check_mesh(const Scene& scene, std::size_t s, const GlobalMesh& mesh, Model& model) {
   const Structure& structure = scene.structures[s];
-  MeshFindings findings{examine_connectivity(structure, mesh),
-                        check_unused(scene, structure, mesh)};
+  MeshFindings& findings = model.buildings[s].findings;
+  findings.connectivity = examine_connectivity(structure, mesh);
+  findings.unused = check_unused(scene, structure, mesh);
   check_export(scene, structure, mesh);
   if (structure.matrices.empty()) check_connectivity(scene, structure, findings.connectivity);
   append(mesh_warnings(scene, structure, mesh, findings.connectivity), model.warnings);
-  model.buildings[s].findings = std::move(findings);
 }
 
 }  // namespace
@@ -33,7 +35,9 @@ void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, WholeMeshes& wh
   Structure& structure = scene.structures[s];
   GlobalMesh& mesh = whole.meshes[s];
   const Progress progress(comm, structure.name + ": mesh", scene.progress_interval);
-  mesh = read_mesh(structure, {scene.mesh_time_limit, scene.allow_geo_commands});
+  MeshRead read = read_mesh(structure, scene.mesh_time_limit);
+  mesh = std::move(read.mesh);
+  model.buildings[s].findings.files = std::move(read.files);
   if (structure.soil) {
     whole.mats[s] = mat_place(structure, mesh);
     lay_foundation(whole.mats[s], structure);
@@ -49,6 +53,12 @@ WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model) {
   for (std::size_t s = 0; s < count; ++s) {
     read_whole_mesh(comm, scene, s, whole, model);
     check_mesh(scene, s, whole.meshes[s], model);
+  }
+  if (std::ranges::any_of(model.buildings,
+                          [](const Building& b) { return !b.findings.files.landlock; })) {
+    model.warnings.emplace_back(
+        "this system has no Landlock: what the commands of a .geo file may do was held back by "
+        "seccomp alone");
   }
   const Progress progress(comm, "faces in contact and probes", scene.progress_interval);
   model.interface = find_interface(scene, whole.meshes, &whole.gap_shares);

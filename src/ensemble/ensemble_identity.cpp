@@ -17,7 +17,7 @@ namespace {
 constexpr auto of_no_effect = std::to_array<std::string_view>(
     {"title", "output", "ensemble", "dry_run", "progress_interval", "mesh_time_limit", "modes",
      "modes_solver", "partition", "csv_digits", "checkpoint_interval", "checkpoint_steps",
-     "allow_geo_commands", "fidelity_target", "fidelity_table"});
+     "fidelity_target", "fidelity_table"});
 
 bool counts(const std::string& name) {
   return std::ranges::find(of_no_effect, name) == of_no_effect.end() &&
@@ -31,9 +31,11 @@ bool names_content(const std::string& name) {
 }  // namespace
 
 std::vector<std::string> ensemble_identity(MPI_Comm comm, const std::string& resolved,
-                                           const MemberTable& table, double time_step) {
+                                           const MemberTable& table,
+                                           const std::vector<std::string>& opened,
+                                           double time_step) {
   std::vector<std::string> lines;
-  std::set<std::string> files;
+  std::set<std::string> files(opened.begin(), opened.end());
   const auto take_file = [&](const std::string& name, const std::string& value) {
     if (names_content(name) && !value.empty() && value != "none") files.insert(value);
   };

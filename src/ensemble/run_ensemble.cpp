@@ -143,7 +143,12 @@ class Ensemble {
     }
     layout_.damping_ratios = scene_.spectra.damping_ratios;
     layout_.frequencies = scene_.spectra.frequencies;
-    layout_.identity = ensemble_identity(comm_, read_.resolved, table_, shared_.time_step);
+    std::vector<std::string> opened;
+    for (const Building& building : shared_.buildings) {
+      const std::vector<std::string>& files = building.findings.files.opened;
+      opened.insert(opened.end(), files.begin(), files.end());
+    }
+    layout_.identity = ensemble_identity(comm_, read_.resolved, table_, opened, shared_.time_step);
   }
 
   void check_memory() const {

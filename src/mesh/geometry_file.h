@@ -2,29 +2,24 @@
 
 #include <filesystem>
 #include <set>
+#include <span>
 #include <string>
-#include <vector>
 
 namespace pounding {
-
-/// The words of a geometry in Gmsh's language and of all files that it includes or merges: its
-/// parameters are among them.
-struct GeometryWords {
-  std::set<std::string> words;
-};
 
 /// Whether Gmsh parses a file as a geometry in its own language (.geo).
 bool is_geometry(const std::filesystem::path& file);
 
-/// Files that a geometry includes or merges, and those that these do, in the order of the text:
-/// none of a file that is no geometry or cannot be read, none whose name is computed.
-std::vector<std::filesystem::path> files_included_in(const std::filesystem::path& file);
+/// Looks at a mesh or geometry before Gmsh does. Throws UserError, with `option` at its head, where
+/// the file is missing, or is of no kind that is known.
+void check_mesh_file(const std::string& option, const std::filesystem::path& file);
 
-/// Looks at a mesh or geometry before Gmsh does, which runs the commands of any file that it does
-/// not know as something else. Throws UserError, with `option` at its head, where the file is
-/// missing, of no kind that is known, or, unless `allow_commands`, can run commands or write files:
-/// itself, by a file that it includes or merges, or by one whose name cannot be known beforehand.
-GeometryWords inspect_mesh_file(const std::string& option, const std::filesystem::path& file,
-                                bool allow_commands);
+/// Looks at the files that Gmsh opened for a mesh: throws UserError where one lists two elements
+/// under one number.
+void check_opened_files(const std::string& option, std::span<const std::string> files);
+
+/// Words of the geometries among some files in Gmsh's language, without comments and texts between
+/// quotes: their parameters are among them.
+std::set<std::string> geometry_words(std::span<const std::string> files);
 
 }  // namespace pounding

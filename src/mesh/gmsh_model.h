@@ -1,14 +1,24 @@
 #pragma once
 
+#include <span>
 #include <string>
 
+#include "mesh/mesh_guard.h"
 #include "mesh/raw_mesh.h"
 
 namespace pounding {
 
-/// Lets the Gmsh library open a mesh, or `make` one of a geometry, and takes over what it holds.
-/// Errors that Gmsh reports come as the answer's; its crashes end the process. Part of the program
+/// Task of the program pounding-mesh.
+struct MeshTask {
+  std::string file;            ///< absolute path
+  bool make = false;           ///< a geometry to mesh, not a mesh to open
+  std::span<char*> arguments;  ///< parameters as Gmsh's own command takes them, behind a first word
+};
+
+/// Lets the Gmsh library open a mesh, or make one of a geometry, and takes over what it holds. The
+/// process is guarded before the file is opened; what the guard denies goes to `denied`. Errors
+/// that Gmsh reports come as the answer's; its crashes end the process. Part of the program
 /// pounding-mesh only.
-RawAnswer gmsh_mesh(const std::string& file, bool make);
+RawAnswer gmsh_mesh(const MeshTask& task, Denied denied);
 
 }  // namespace pounding

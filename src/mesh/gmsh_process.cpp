@@ -6,6 +6,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
@@ -19,6 +20,7 @@
 #include <unistd.h>
 
 #include "common/error.h"
+#include "scene/option_values.h"
 
 namespace pounding {
 namespace {
@@ -55,6 +57,17 @@ std::vector<char*> environment_without_mpi() {
 
 using Clock = std::chrono::steady_clock;
 
+/// Words of the command line of a request.
+std::vector<std::string> command_of(const MeshRequest& request) {
+  std::vector<std::string> words{mesh_program(), request.file, request.make ? "make" : "open"};
+  for (const auto& [name, value] : request.parameters) {
+    char* end = nullptr;
+    std::strtod(value.c_str(), &end);
+    words.insert(words.end(), {*end == '\0' ? "-setnumber" : "-setstring", name, value});
+  }
+  return words;
+}
+
 struct TimeIsUp {};
 struct AnswerCut {};
 
@@ -62,15 +75,14 @@ struct AnswerCut {};
 class GmshProcess {
  public:
   explicit GmshProcess(const MeshRequest& request) {
-    std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe to the mesher");
-    answer_ = ends[0];
+    const Pipe answer;
+    const Pipe errors;
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], answer_descriptor);
+    posix_spawn_file_actions_adddup2(&actions, errors.in, 2);
+    posix_spawn_file_actions_adddup2(&actions, answer.in, answer_descriptor);
     posix_spawn_file_actions_addclosefrom_np(&actions, answer_descriptor + 1);
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
@@ -79,18 +91,22 @@ class GmshProcess {
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setpgroup(&attributes, 0);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
-    std::array<std::string, 4> words{mesh_program(), request.file, request.make ? "make" : "open",
-                                     request.allow_commands ? "free" : "guarded"};
-    std::array<char*, 5> pointers{};
-    std::ranges::transform(words, pointers.begin(), [](std::string& word) { return word.data(); });
+    std::vector<std::string> words = command_of(request);
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
     std::vector<char*> environment = environment_without_mpi();
     const int failure = posix_spawn(&process_, words[0].c_str(), &actions, &attributes,
                                     pointers.data(), environment.data());
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
-    close(ends[1]);
+    close(answer.in);
+    close(errors.in);
+    answer_ = answer.out;
+    errors_ = errors.out;
     if (failure != 0) {
       close(answer_);
+      close(errors_);
       throw UserError(words[0] + " cannot be run: " + std::strerror(failure));
     }
   }
@@ -99,18 +115,22 @@ class GmshProcess {
   ~GmshProcess() {
     end();
     close(answer_);
+    close(errors_);
   }
 
   /// The next bytes that it writes. Throws AnswerCut if it closes its end before, TimeIsUp.
-  void read_exactly(std::span<char> bytes, Clock::time_point deadline) const {
+  void read_exactly(std::span<char> bytes, Clock::time_point deadline) {
     for (std::size_t done = 0; done < bytes.size();) {
       const double left = std::chrono::duration<double>(deadline - Clock::now()).count();
       if (left <= 0) throw TimeIsUp();
-      pollfd waiting{answer_, POLLIN, 0};
-      const int ready = poll(&waiting, 1, static_cast<int>(std::min(1e3 * left + 1, 1e4)));
-      if (ready <= 0) {
+      std::array<pollfd, 2> waiting{pollfd{answer_, POLLIN, 0}, pollfd{errors_, POLLIN, 0}};
+      // Closed, it would be ready for ever.
+      const nfds_t number = errors_end_ ? 1 : 2;
+      if (poll(waiting.data(), number, static_cast<int>(std::min(1e3 * left + 1, 1e4))) <= 0) {
         continue;  // a signal, or the next turn of a long wait
       }
+      if (waiting[1].revents != 0) take_errors();
+      if (waiting[0].revents == 0) continue;
       const ssize_t count = read(answer_, bytes.data() + done, bytes.size() - done);
       if (count == 0) throw AnswerCut();
       if (count < 0 && errno != EINTR) {
@@ -124,6 +144,7 @@ class GmshProcess {
   int end(bool by_force = true) {
     if (process_ > 0) {
       if (by_force) kill(-process_, SIGKILL);
+      while (!errors_end_) take_errors();
       while (waitpid(process_, &status_, 0) < 0 && errno == EINTR) {
       }
       process_ = 0;
@@ -131,25 +152,68 @@ class GmshProcess {
     return status_;
   }
 
+  /// The last lines that it wrote as errors, in one; empty for none.
+  std::string last_words() const {
+    std::string text(trimmed(words_));
+    std::ranges::replace(text, '\n', ' ');
+    return text;
+  }
+
  private:
+  /// Both ends of a pipe, which no other program gets.
+  struct Pipe {
+    Pipe() {
+      std::array<int, 2> ends{};
+      if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe to the mesher");
+      out = ends[0];
+      in = ends[1];
+    }
+    int out = -1;
+    int in = -1;
+  };
+
+  void take_errors() {
+    constexpr std::size_t kept = 400;  // characters
+    std::array<char, 4096> piece{};
+    const ssize_t count = read(errors_, piece.data(), piece.size());
+    if (count < 0 && errno == EINTR) return;
+    errors_end_ = count <= 0;
+    if (count > 0) words_.append(piece.data(), static_cast<std::size_t>(count));
+    if (words_.size() <= kept) return;
+    const std::size_t line = words_.find('\n', words_.size() - kept);
+    words_.erase(0, line == std::string::npos || line + 1 == words_.size() ? words_.size() - kept
+                                                                           : line + 1);
+  }
+
   pid_t process_ = 0;
   int answer_ = -1;
+  int errors_ = -1;
+  bool errors_end_ = false;
+  std::string words_;
   int status_ = 0;
 };
 
 /// Why no whole answer came.
-std::string describe_end(int status) {
+std::string describe_end(int status, const std::string& last_words) {
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGSYS) {
+    return "stopped as it was about to start a program, which no mesh may; take the command out of "
+           "it";
+  }
+  std::string text;
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
-    return "Gmsh crashed on it (signal " + std::to_string(signal) + ", " + strsignal(signal) +
+    text = "Gmsh crashed on it (signal " + std::to_string(signal) + ", " + strsignal(signal) +
            (signal == SIGKILL ? ": was the memory enough?" : "") + ")";
+  } else {
+    text = "Gmsh ended without an answer (exit status " + std::to_string(WEXITSTATUS(status)) + ")";
   }
-  return "Gmsh ended without an answer (exit status " + std::to_string(WEXITSTATUS(status)) + ")";
+  if (!last_words.empty()) text += " after '" + last_words + "'";
+  return text + "; look at the file and at the values of its parameters";
 }
 
 }  // namespace
 
-RawMesh run_gmsh(const MeshRequest& request) {
+RawAnswer run_gmsh(const MeshRequest& request) {
   GmshProcess process(request);
   const Clock::time_point deadline =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(
@@ -167,17 +231,19 @@ RawMesh run_gmsh(const MeshRequest& request) {
     throw UserError(text.str());
   }
   const int status = process.end(false);
-  if (status != 0) {
-    throw UserError("option " + request.option + ": " + describe_end(status) +
-                    "; look at the file and at the values of its parameters");
+  const std::string head = "option " + request.option + ": ";
+  if (status != 0 || !answer) {
+    throw UserError(head + describe_end(status, process.last_words()));
   }
-  if (!answer) throw std::runtime_error("the answer about a mesh is cut");
+  if (!answer->denied.empty()) {
+    throw UserError(head + "stopped as it was about to " + answer->denied +
+                    ", and a mesh may only be read; take that out of the file");
+  }
   if (!answer->error.empty()) {
     std::ranges::replace(answer->error, '\n', ' ');
-    throw UserError("option " + request.option + ": Gmsh could not read it (" + answer->error +
-                    ")");
+    throw UserError(head + "Gmsh could not read it (" + answer->error + ")");
   }
-  return std::move(answer->mesh);
+  return std::move(*answer);
 }
 
 }  // namespace pounding

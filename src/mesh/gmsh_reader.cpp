@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <map>
 #include <optional>
-#include <unistd.h>
+#include <set>
 
 #include "common/error.h"
 #include "common/number_set.h"
@@ -27,71 +25,64 @@
 namespace pounding {
 namespace {
 
-/// A .geo file that sets parameters and then includes the user's. Given to Gmsh as -setnumber they
-/// would stay for the whole process, and reach the next structure.
-class ParameterFile {
- public:
-  explicit ParameterFile(const Structure& structure) {
-    std::string name = (std::filesystem::temp_directory_path() / "pounding-XXXXXX.geo").string();
-    const int descriptor = mkstemps(name.data(), 4);
-    path_ = name;
-    std::ofstream file(path_);
-    for (const auto& [parameter, value] : structure.mesh_set) {
-      char* end = nullptr;
-      std::strtod(value.c_str(), &end);
-      const bool number = *end == '\0';
-      file << parameter << " = " << (number ? value : '"' + value + '"') << ";\n";
-    }
-    file << "Include \"" << std::filesystem::absolute(structure.mesh).string() << "\";\n";
-    file.close();
-    if (descriptor < 0 || !file) {
-      throw UserError("the parameters of " + structure.mesh + " cannot be written to " + path_);
-    }
-    close(descriptor);
-  }
-  ParameterFile(const ParameterFile&) = delete;
-  ParameterFile& operator=(const ParameterFile&) = delete;
-  ~ParameterFile() { std::remove(path_.c_str()); }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
 std::string mesh_option(const Structure& structure) {
   return "-" + structure.name + "_mesh " + structure.mesh;
 }
 
 /// Gmsh takes any parameter in silence: refuse one that the geometry never mentions.
-void check_parameters(const Structure& structure, const GeometryWords& geometry) {
-  if (!is_geometry(structure.mesh) && !structure.mesh_set.empty()) {
-    throw UserError("option -" + structure.name + "_mesh_set: " + structure.mesh +
-                    " is a mesh, parameters apply to .geo files only");
-  }
+void check_parameters(const Structure& structure, const RawMesh& raw) {
+  const std::set<std::string> words = geometry_words(raw.files);
   for (const auto& [name, value] : structure.mesh_set) {
-    if (!geometry.words.contains(name)) {
-      throw UserError("option -" + structure.name + "_mesh_set: " + structure.mesh +
-                      " has no parameter '" + name + "' (value " + value +
-                      "); remove it or correct its name");
-    }
+    if (words.contains(name)) continue;
+    throw UserError("option -" + structure.name + "_mesh_set: " + structure.mesh +
+                    " has no parameter '" + name + "' (value " + value +
+                    "); remove it or correct its name");
   }
 }
 
-RawMesh read_raw_mesh(const Structure& structure, const MeshLimits& limits) {
+RawAnswer read_raw_mesh(const Structure& structure, double time_limit) {
   MeshRequest request;
   request.option = mesh_option(structure);
-  request.allow_commands = limits.allow_commands;
-  request.time_limit = limits.time;
-  check_parameters(structure,
-                   inspect_mesh_file(request.option, structure.mesh, limits.allow_commands));
-  if (is_geometry(structure.mesh)) {
-    const ParameterFile parameters(structure);
-    request.file = parameters.path();
-    request.make = true;
-    return run_gmsh(request);
-  }
+  request.time_limit = time_limit;
   request.file = std::filesystem::absolute(structure.mesh).string();
-  return run_gmsh(request);
+  request.make = is_geometry(structure.mesh);
+  request.parameters = structure.mesh_set;
+  check_mesh_file(request.option, structure.mesh);
+  if (!request.make && !structure.mesh_set.empty()) {
+    throw UserError("option -" + structure.name + "_mesh_set: " + structure.mesh +
+                    " is a mesh, parameters apply to .geo files only");
+  }
+  RawAnswer answer = run_gmsh(request);
+  check_opened_files(request.option, answer.mesh.files);
+  check_parameters(structure, answer.mesh);
+  return answer;
+}
+
+/// The files but the mesh itself, by paths from the working folder where they lie in it.
+std::vector<std::string> files_beside(const std::string& mesh,
+                                      std::span<const std::string> opened) {
+  const std::string own = std::filesystem::absolute(mesh).string();
+  const std::string folder = std::filesystem::current_path().string() + "/";
+  std::vector<std::string> files;
+  for (const std::string& file : opened) {
+    if (file == own) continue;
+    files.push_back(file.starts_with(folder) ? file.substr(folder.size()) : file);
+  }
+  return files;
+}
+
+/// Doubts about what the mesh was read with, one line each.
+std::vector<std::string> doubts_of(const Structure& structure, const RawAnswer& answer) {
+  std::vector<std::string> doubts;
+  for (const ChangedParameter& parameter : answer.mesh.changed) {
+    const auto given = std::ranges::find(structure.mesh_set, parameter.name,
+                                         &std::pair<std::string, std::string>::first);
+    doubts.push_back("option -" + structure.name + "_mesh_set: " + given->first + " was given as " +
+                     given->second + ", and the geometry gives it another value" +
+                     (parameter.value.empty() ? "" : ", " + parameter.value) +
+                     "; let it set its own only where none is given (DefineConstant)");
+  }
+  return doubts;
 }
 
 using Groups = std::map<std::string, std::vector<RawGroup>>;
@@ -382,8 +373,13 @@ class MeshBuilder {
 
 }  // namespace
 
-GlobalMesh read_mesh(const Structure& structure, const MeshLimits& limits) {
-  return MeshBuilder(structure, read_raw_mesh(structure, limits)).build();
+MeshRead read_mesh(const Structure& structure, double time_limit) {
+  RawAnswer answer = read_raw_mesh(structure, time_limit);
+  const std::vector<std::string> doubts = doubts_of(structure, answer);
+  MeshFiles files{files_beside(structure.mesh, answer.mesh.files), answer.landlock};
+  MeshRead read{MeshBuilder(structure, std::move(answer.mesh)).build(), std::move(files)};
+  read.mesh.doubts.insert(read.mesh.doubts.begin(), doubts.begin(), doubts.end());
+  return read;
 }
 
 }  // namespace pounding

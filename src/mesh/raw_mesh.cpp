@@ -12,6 +12,8 @@ constexpr std::uint64_t last_word = 0x31687365'6d646e65;   // "endmesh1"
 template <typename Stream, typename Answer>
 void pass(Stream& stream, Answer& answer) {
   stream(answer.error);
+  stream(answer.denied);
+  stream(answer.landlock);
   auto& mesh = answer.mesh;
   stream.array(mesh.node_tags);
   stream.array(mesh.coordinates);
@@ -34,6 +36,11 @@ void pass(Stream& stream, Answer& answer) {
     stream(type.type);
     stream(type.nodes);
     stream(type.name);
+  });
+  stream.list(mesh.files, [&](auto& file) { stream(file); });
+  stream.list(mesh.changed, [&](auto& parameter) {
+    stream(parameter.name);
+    stream(parameter.value);
   });
 }
 

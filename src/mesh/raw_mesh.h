@@ -40,18 +40,28 @@ struct RawType {
   std::string name;  ///< "Hexahedron 8"
 };
 
+/// A parameter that has another value after a geometry was read than it was given.
+struct ChangedParameter {
+  std::string name;
+  std::string value;  ///< afterwards; empty where it is no number
+};
+
 struct RawMesh {
   std::vector<std::int64_t> node_tags;
   std::vector<double> coordinates;  ///< shape (nodes, 3), in the order of the tags [m]
   std::vector<RawEntity> entities;
   std::vector<RawGroup> groups;
   std::vector<RawType> types;
+  std::vector<std::string> files;  ///< that Gmsh opened, absolute paths, each once, in that order
+  std::vector<ChangedParameter> changed;
 };
 
-/// The mesh, or why there is none: `error` is empty or a line of Gmsh's.
+/// The mesh, or why there is none.
 struct RawAnswer {
   RawMesh mesh;
-  std::string error;
+  std::string error;     ///< empty or a line of Gmsh's
+  std::string denied;    ///< empty or what the file was stopped at: "write to '/tmp/x'"
+  bool landlock = true;  ///< Landlock guarded the process as well
 };
 
 /// Writes the answer, for the same machine to read, array by array.

@@ -98,7 +98,6 @@ class SceneReader {
     scene_.omega_max_tolerance = options_.real("omega_max_tolerance");
     scene_.progress_interval = options_.real("progress_interval");
     scene_.mesh_time_limit = options_.real("mesh_time_limit");
-    scene_.allow_geo_commands = options_.boolean("allow_geo_commands");
     scene_.modes = options_.integer("modes");
     scene_.modes_solver = read_solver("modes_solver");
     scene_.write_modes = options_.boolean("write_modes");
@@ -167,11 +166,6 @@ class SceneReader {
     }
     if (scene_.write_mesh_pieces > 0 && scene_.dry_run) {
       options_.refuse("write_mesh_pieces", {}, "it writes; not with -dry_run");
-    }
-    if (!scene_.mesh_pieces.empty() && scene_.allow_geo_commands) {
-      options_.refuse("mesh_pieces", {},
-                      "not with -allow_geo_commands: a geometry may read any file, of whose change "
-                      "the pieces would know nothing; let Gmsh write a .msh file of it first");
     }
     if (!scene_.mesh_pieces.empty() &&
         std::ranges::all_of(scene_.structures,

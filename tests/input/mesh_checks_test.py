@@ -1,5 +1,9 @@
 """Meshes that hang together otherwise than they look, and groups left out: refused or reported."""
+import ctypes
 import os
+import struct
+import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -136,6 +140,108 @@ class Groups(MeshCase):
         self.refuse(self.two_bars(2, "2 3"), "-t_mesh", "element 2 is listed twice")
 
 
+CUBE = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
+
+
+class Groups(MeshCase):
+    """Groups by whatever a format has for them; a cube of 1 m on its lower face."""
+
+    def cube(self, mesh, body, base, *more):
+        return ["-structures", "t", "-t_mesh", mesh, "-t_clamp", base, f"-t_{body}_element", "hex8",
+                f"-t_{body}_material", "C30", "-modes", "3", "-end_time", "1e-4", *more]
+
+    def hold(self, arguments):
+        for ranks in (1, 2):
+            _, summary = program.must_run(self, arguments, ranks)
+            structure = summary["structures"]["t"]
+            self.assertAlmostEqual(structure["mass"], 2500, delta=1e-9)
+            self.assertEqual((structure["nodes"], structure["dofs"]), (8, 12))
+
+    def msh(self, names, elements):
+        """A file of format 2.2: names (dimension, number, name), elements (type, group, entity, nodes)."""
+        return self.with_file("\n".join(
+            ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(names)),
+             *(f'{dimension} {number} "{name}"' for dimension, number, name in names), "$EndPhysicalNames",
+             "$Nodes", "9", *(f"{n + 1} {x} {y} {z}" for n, (x, y, z) in enumerate((*CUBE, (2, 0, 0)))), "$EndNodes",
+             "$Elements", str(len(elements)),
+             *(f"{e + 1} {kind} 2 {group} {entity} " + " ".join(map(str, nodes))
+               for e, (kind, group, entity, nodes) in enumerate(elements)), "$EndElements", ""]), ".msh")
+
+    NAMES = ((3, 1, "tower"), (2, 2, "tower"), (2, 3, "base"))
+    BRICK = (5, 1, 1, range(1, 9))
+    BASE = (3, 3, 3, (1, 2, 3, 4))
+
+    def test_one_name_of_a_volume_and_its_skin(self):
+        """The skin marks places, as a skin of another name does: a probe stands on its nodes."""
+        skin = [(3, 2, 1, (5, 6, 7, 8)), (3, 2, 2, (1, 2, 6, 5))]
+        mesh = self.msh(self.NAMES, [self.BRICK, self.BASE, *skin])
+        self.hold(self.cube(mesh, "tower", "base"))
+        self.hold(self.cube(mesh, "tower", "base", "-probes", "top", "-top_structure", "t", "-top_group", "tower"))
+
+    def test_one_name_of_a_volume_and_of_what_is_not_its_skin(self):
+        """It would be left out, be it that something else names the group."""
+        mesh = self.msh(self.NAMES, [self.BRICK, self.BASE, (2, 2, 1, (2, 3, 9))])
+        for more in ([], ["-probes", "top", "-top_structure", "t", "-top_group", "tower"]):
+            self.refuse(self.cube(mesh, "tower", "base", *more), "group 'tower'", "1 element (Triangle 3)", "beside those that become", ranks=(2,))
+        program.must_run(self, self.cube(mesh, "tower", "base", "-t_ignore", "tower"))
+
+    def test_one_name_of_a_face_under_springs_and_the_volume_on_it(self):
+        names = ((3, 1, "tower"), (2, 2, "bed"), (3, 3, "bed"))
+        springs = ["-t_bed_element", "grounded_spring", "-t_bed_stiffness_per_area", "1e8,1e8,1e8"]
+        mesh = self.msh(names, [self.BRICK, (3, 2, 3, (1, 2, 3, 4))])
+        arguments = self.cube(mesh, "tower", "none", *springs)
+        _, summary = program.must_run(self, arguments)
+        self.assertAlmostEqual(summary["structures"]["t"]["mass"], 2500, delta=1e-9)
+        mesh = self.msh(names, [self.BRICK, (3, 2, 3, (1, 2, 3, 4)), (4, 3, 4, (2, 3, 9, 6))])
+        self.refuse(self.cube(mesh, "tower", "none", *springs), "group 'bed'", "(Tetrahedron 4)", ranks=(2,))
+
+    def test_nastran_by_properties(self):
+        grid = "".join(f"GRID    {n + 1:8d}{'':8s}{x:8.1f}{y:8.1f}{z:8.1f}\n" for n, (x, y, z) in enumerate(CUBE))
+        text = ("BEGIN BULK\n" + grid + "CHEXA          7      11       1       2       3       4       5       6+H\n"
+                "+H             7       8\nCQUAD4         8      12       1       4       3       2\nENDDATA\n")
+        for suffix in (".bdf", ".nas"):
+            self.hold(self.cube(self.with_file(text, suffix), "11", "12"))
+
+    def test_medit_by_references(self):
+        vertices = "".join(f"{x} {y} {z} 0\n" for x, y, z in CUBE)
+        self.hold(self.cube(self.with_file(
+            f"MeshVersionFormatted 2\nDimension 3\nVertices\n8\n{vertices}Quadrilaterals\n1\n1 4 3 2 12\n"
+            "Hexahedra\n1\n1 2 3 4 5 6 7 8 11\nEnd\n", ".mesh"), "11", "12"))
+
+    def unv(self, groups):
+        def line(*values):
+            return "".join(f"{value:10d}" for value in values) + "\n"
+
+        nodes = "".join(line(n + 1, 1, 1, 11) + "".join(f"{x:25.16E}" for x in place).replace("E", "D") + "\n"
+                        for n, place in enumerate(CUBE))
+        elements = (line(1, 115, 3, 1, 7, 8) + line(*range(1, 9)) + line(2, 44, 4, 1, 7, 4) + line(1, 4, 3, 2))
+        named = "".join(line(g + 1, 0, 0, 0, 0, 0, 0, len(members)) + name + "\n"
+                        + "".join(line(kind, tag, 0, 0) for kind, tag in members)
+                        for g, (name, members) in enumerate(groups))
+        return self.with_file("".join(f"    -1\n{number:6d}\n{text}    -1\n" for number, text in
+                                      ((2411, nodes), (2412, elements), (2467, named)) if text), ".unv")
+
+    def test_universal_file_by_its_groups(self):
+        self.hold(self.cube(self.unv([("body", [(8, 1)]), ("base", [(8, 2)])]), "body", "base"))
+        feet = [(7, n) for n in range(1, 5)]
+        self.hold(self.cube(self.unv([("body", [(8, 1)]), ("feet", feet), ("skin", [(8, 2)])]), "body", "feet"))
+        self.hold(self.cube(self.unv([]), "3", "4"))
+        self.refuse(self.cube(self.unv([("body", [(8, 1)])]), "body", "base"), "group 'base'", "which has: body", ranks=(2,))
+
+    def test_universal_file_of_gmsh(self):
+        """Its own reader does not survive it."""
+        model = self.with_file('SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 1, 1, 1};\n'
+                               "Transfinite Curve {:} = 2; Transfinite Surface {:}; Recombine Surface {:}; Transfinite Volume {:};\n"
+                               'Physical Volume("body", 3) = {1}; Physical Surface("base", 4) = {5};\n', ".geo")
+        mesh = model[:-4] + ".unv"
+        script = ("import sys, ctypes\ng = ctypes.CDLL('libgmsh.so')\ne = ctypes.c_int()\ng.gmshInitialize(0, None, 0, ctypes.byref(e))\n"
+                  "g.gmshOpen(sys.argv[1].encode(), ctypes.byref(e))\ng.gmshModelMeshGenerate(3, ctypes.byref(e))\n"
+                  "g.gmshWrite(sys.argv[2].encode(), ctypes.byref(e))\nsys.exit(e.value)\n")
+        subprocess.run([sys.executable, "-c", script, model, mesh], check=True, capture_output=True)
+        self.addCleanup(os.remove, mesh)
+        self.hold(self.cube(mesh, "body", "base"))
+
+
 class Gmsh(MeshCase):
     """Failures of Gmsh, and what its language can do, stay out of the program."""
 
@@ -151,6 +257,24 @@ class Gmsh(MeshCase):
         text, path = self.marked(text)
         self.refuse(TABLE + ["-t_mesh", self.with_file(text, suffix)], *words, ranks=(2,))
         self.assertFalse(os.path.exists(path))
+
+    def answer(self, text):
+        """What pounding-mesh answers of a geometry: Gmsh's error and the deed at which it was stopped; None for both
+        where it ended without an answer."""
+        reading, writing = os.pipe()
+        process = subprocess.Popen([os.path.join(program.BUILD, "pounding-mesh"), self.with_file(text, ".geo"), "make"],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, close_fds=False,
+                                   preexec_fn=lambda: os.dup2(writing, 3))
+        os.close(writing)
+        with os.fdopen(reading, "rb") as stream:
+            data = stream.read()
+        process.wait()
+        texts, at = [], 8  # behind the first word
+        while data and len(texts) < 2:
+            length = int.from_bytes(data[at:at + 8], sys.byteorder)
+            texts.append(data[at + 8:at + 8 + length].decode())
+            at += 8 + length
+        return texts or [None, None]
 
     def test_box_of_no_length(self):
         self.refuse(TABLE + ["-t_mesh", "tests/meshes/box.geo", "-t_mesh_set", "lx=0"], "-t_mesh",
@@ -170,43 +294,121 @@ class Gmsh(MeshCase):
                     + ["-mesh_time_limit", "5"], "5 s", "-mesh_time_limit")
 
     def test_commands(self):
-        for text in ('SystemCall "touch FILE";', 'System "touch FILE";',
-                     'NonBlockingSystemCall "touch FILE";', 'Printf("x") > "FILE";',
-                     'Printf("x", 1 > 2) >> "FILE";', 'CreateDir "FILE";',
-                     'Point(1) = {0, 0, 0}; Save "FILE";', 'Print "FILE";'):
-            self.refuse_command("x = 1; // \"\n" + text, " line 2", "-allow_geo_commands")
-
-    def test_commands_behind_texts_that_look_like_comments(self):
-        self.refuse_command('x = "//"; SystemCall "touch FILE";', "SystemCall")
-        self.refuse_command('x = "' + 1100 * "x" + '"; // "\nSystemCall "touch FILE";', "longer")
-
-    def test_commands_in_other_files(self):
-        inner, path = self.marked('SystemCall "touch FILE";\n')
-        inner = self.with_file(inner, ".geo")
-        for keyword in ("Include", "Merge"):
-            self.refuse_command(f'{keyword} "{inner}";\n', inner)
-        self.refuse_command(f'x = "{inner}";\nInclude Str(x);\n', "computed")
-        self.assertFalse(os.path.exists(path))
-
-    def test_commands_under_other_names(self):
+        self.refuse_command('StringToName["SystemCall"] "touch FILE";', "-t_mesh", "stopped", "run the command 'touch ")
         self.refuse_command('SystemCall "touch FILE";\n', "$MeshFormat", suffix=".msh")
-        for suffix in (".txt", ".off", ".geo.gz", ""):
+        for suffix in (".txt", ".geo.gz", ""):
             self.refuse_command('SystemCall "touch FILE";\n', "ending", suffix=suffix)
 
-    def test_commands_in_an_options_file(self):
-        text, path = self.marked('SystemCall "touch FILE";\n')
-        mesh = self.with_file("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", ".msh")
-        with open(mesh + ".opt", "w") as file:
-            file.write(text)
-        self.addCleanup(os.remove, mesh + ".opt")
-        self.refuse(TABLE + ["-t_mesh", mesh], ".opt")
+    def test_a_dry_run_runs_no_command(self):
+        text, path = self.marked('Printf("x") > "FILE";\n')
+        program.must_refuse(self, TABLE + ["-t_mesh", self.with_file(text, ".geo"), "-dry_run"], f"write to '{path}'")
         self.assertFalse(os.path.exists(path))
 
-    def test_commands_that_are_allowed(self):
+    def test_forms_of_commands(self):
+        """What a geometry may ask of Gmsh beside a mesh, under every name that its language has for it."""
+        box = 'SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 1, 1, 1};\n'
+        line = "Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Line(1) = {1, 2};\n"
+        view = 'View "v" {SP(0, 0, 0){1};};\n'
+        inner = tempfile.mkdtemp()
+        path = os.path.join(inner, "made")
+        with open(os.path.join(inner, "inner.geo"), "w") as file:
+            file.write(f'SystemCall "touch {path}";\n')
+        forms = {
+            "run the command": [
+                'SystemCall "touch FILE";', 'System "touch FILE";', 'NonBlockingSystemCall "touch FILE";',
+                'S2N["SystemCall"] "touch FILE";', f'Include "{inner}/inner.geo";', f'Merge "{inner}/inner.geo";',
+                f'Include StrCat("{inner}", "/inner.geo");', f'MergeWithBoundingBox "{inner}/inner.geo";',
+                'x = "//"; SystemCall "touch FILE";'],
+            "start a program": [line + 'Field[1] = ExternalProcess; Field[1].CommandLine = "touch FILE";\n'
+                                'Background Field = 1;'],
+            "write to": ['Printf("x") > "FILE";', 'Printf("x", 1 > 2) >> "FILE";', line + 'Mesh 1; Save "FILE.msh";',
+                         line + 'Print "FILE.msh";', view + 'Save View[0] "FILE.pos";', box + 'Save "FILE.brep";',
+                         line + 'Print "FILE.geo_unrolled";'],
+            "make the folder": ['CreateDir "FILE";'],
+            "remove": ['OnelabRun("x", "touch FILE");'],  # an old socket, before it opens another
+        }
+        for deed, texts in forms.items():
+            for text in texts:
+                with self.subTest(text):
+                    error, denied = self.answer(text.replace("FILE", path) + "\n")
+                    self.assertTrue(denied is not None and denied.startswith(deed), (error, denied))
+                    self.assertEqual(os.listdir(inner), ["inner.geo"])
+        for text in ('Plugin(MathEval).Run;', 'Parse StrCat("System", "Call;");', 'Error("x") > "FILE";'):
+            error, denied = self.answer(text.replace("FILE", path) + "\n")
+            self.assertTrue(error and not denied, text)
+
+    def test_a_geometry_that_ends_gmsh(self):
+        self.refuse(self.geometry("Exit;\n"), "-t_mesh", "without an answer", ranks=(2,))
+
+    def without_call(self, number, arguments):
+        """The program where the system knows no call of this number."""
+        allow, unknown = 0x7fff0000, 0x50000 | 38
+        code = [(0x20, 0, 0, 0), (0x15, 0, 1, number), (0x06, 0, 0, unknown), (0x06, 0, 0, allow)]
+        filters = b"".join(struct.pack("HBBI", *line) for line in code)
+
+        def restrict():
+            libc = ctypes.CDLL(None)
+            buffer = ctypes.create_string_buffer(filters)
+            head = struct.pack("HxxxxxxQ", len(code), ctypes.addressof(buffer))
+            libc.prctl(38, 1, 0, 0, 0)
+            libc.prctl(22, 2, ctypes.create_string_buffer(head), 0, 0)
+
+        return subprocess.run(program.words(arguments, 1)[3:], cwd=program.SOURCE, env=program.ENVIRONMENT,
+                              capture_output=True, text=True, preexec_fn=restrict)
+
+    @unittest.skipUnless(os.uname().machine == "x86_64", "numbers of its system calls")
+    def test_a_system_without_landlock(self):
+        landlock = 444
+        result = self.without_call(landlock, TABLE + ["-dry_run"])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout.count("no Landlock"), 1, result.stdout)
         text, path = self.marked('SystemCall "touch FILE";\n')
+        result = self.without_call(landlock, self.geometry(text) + ["-dry_run"])
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("run the command", result.stderr)
+        self.assertFalse(os.path.exists(path))
+
+    def test_an_options_file_beside_the_mesh_is_an_input(self):
+        """Gmsh takes its options, and can do no more by it than by the mesh."""
         with open(os.path.join(program.SOURCE, "tests/meshes/table.geo")) as file:
-            self.connectivity(self.geometry(text + file.read()) + ["-allow_geo_commands"])
-        self.assertTrue(os.path.exists(path))
+            mesh = self.with_file(file.read(), ".geo")
+        with open(mesh + ".opt", "w") as file:
+            file.write("Mesh.Optimize = 0;\n")
+        self.addCleanup(os.remove, mesh + ".opt")
+        _, summary = program.must_run(self, TABLE + ["-t_mesh", mesh])
+        self.assertEqual([one["file"] for one in summary["inputs"] if one["option"] == "included"], [mesh + ".opt"])
+
+    def test_quotes_in_paths(self):
+        """They are names and nothing else."""
+        folder = tempfile.mkdtemp() + "/a\" 'b'; SystemCall \"touch made\"; \\"
+        os.mkdir(folder)
+        with open(os.path.join(program.SOURCE, "tests/meshes/table.geo")) as file:
+            text = file.read()
+        with open(folder + "/inner.geo", "w") as file:
+            file.write(text)
+        with open(folder + "/outer.geo", "w") as file:
+            file.write('Include "inner.geo";\n')
+        _, summary = program.must_run(self, TABLE + ["-t_mesh", folder + "/outer.geo", "-t_mesh_set", "fault=0"])
+        self.assertEqual([one["file"] for one in summary["inputs"] if one["option"] == "included"], [folder + "/inner.geo"])
+
+    def test_a_parameter_that_the_geometry_sets_itself(self):
+        with open(os.path.join(program.SOURCE, "tests/meshes/table.geo")) as file:
+            text = file.read()
+        _, doubts = self.connectivity(self.geometry(text + "high = 5;\nword = \"b\";\n")
+                                      + ["-t_mesh_set", "high=4.5,word=a,fault=0"])
+        self.assertEqual([doubt.split(": ", 1)[1].split(", and")[0] for doubt in doubts],
+                         ["high was given as 4.5", "word was given as a"])
+        self.assertIn(", 5;", doubts[0])
+
+    def test_parameters_reach_the_geometry(self):
+        """Negative, with an exponent, as a word, of a constant that has a label, and where it is read by a file that it includes."""
+        inner = self.with_file("DefineConstant[lx = {3, Min -9, Max 9, Name \"Parameters/lx\"}, back = 2];\n"
+                               "If (!Exists(kind)) kind = \"a\"; EndIf\n", ".geo")
+        text = (f'Include "{inner}";\nIf (lx != -2 || back != 1.5e-3 || StrCmp(kind, "b") != 0) Error("%g %g", lx, back); EndIf\n')
+        with open(os.path.join(program.SOURCE, "tests/meshes/table.geo")) as file:
+            text += file.read()
+        _, doubts = self.connectivity(self.geometry(text) + ["-t_mesh_set", "lx=-2,back=1.5e-3,kind=b"])
+        self.assertEqual(doubts, [])
 
     def test_quotes_in_parameters(self):
         for value in ('a"; SystemCall "x', "a'b", "a\\b", "a\nb"):

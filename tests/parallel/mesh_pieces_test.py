@@ -180,6 +180,20 @@ class Refused(unittest.TestCase):
             file.write("// another\n")
         program.must_refuse(self, [*words, "-s_mesh", moved], "another model (mesh of s)")
 
+    def test_another_file_that_the_geometry_takes_in_is_refused(self):
+        """Whatever its name is made of; also where geometry and pieces were moved together."""
+        folder = tempfile.mkdtemp(dir=self.place.name)
+        shutil.copy(os.path.join(program.SOURCE, "tests/meshes/column.geo"), f"{folder}/inner.geo")
+        pathlib.Path(folder, "outer.geo").write_text('name = "inn";\nInclude StrCat(name, "er.geo");\n')
+        scene = [*column("-end_time", 1e-3, "-modes", 0), "-partition", "elements"]
+        cut(self, [*scene, "-s_mesh", f"{folder}/outer.geo"], 2, f"{folder}/pieces")
+        moved = shutil.copytree(folder, f"{folder}-moved")
+        words = [*scene, "-s_mesh", f"{moved}/outer.geo", "-mesh_pieces", f"{moved}/pieces"]
+        self.assertEqual(program.run([*words, "-output", f"{moved}/out"], 2).returncode, 0)
+        with open(f"{moved}/inner.geo", "a") as file:
+            file.write("// another\n")
+        program.must_refuse(self, words, "another model (inner.geo, of which the mesh of s is made)")
+
     def test_another_number_of_ranks_is_refused(self):
         for ranks in (1, 3):
             self.refuse(self.pieces, "cut for 2 ranks, and this run has", f"-write_mesh_pieces {ranks}", ranks=ranks)
@@ -220,7 +234,6 @@ class Refused(unittest.TestCase):
         program.must_refuse(self, [*self.SCENE, "-write_mesh_pieces", 2], "-write_mesh_pieces", "-mesh_pieces")
         program.must_refuse(self, [*self.SCENE, "-mesh_pieces", self.pieces, "-write_mesh_pieces", 2, "-dry_run"],
                             "not with -dry_run")
-        self.refuse(self.pieces, "not with -allow_geo_commands", more=["-allow_geo_commands"])
         reduced = ["-block_model", "modal", "-block_modal_vectors", 5, "-frame_model", "modal", "-frame_modal_vectors", 5]
         self.refuse(self.pieces, "every structure is reduced", more=reduced)
 

@@ -64,6 +64,16 @@ probes: post
         after = {one["file"]: one["sha256"] for one in self.run_case()["inputs"]}
         self.assertEqual([os.path.basename(path) for path in before if after[path] != before[path]], ["points.geo"])
 
+    def test_files_that_gmsh_opened_are_inputs(self):
+        """Whatever their names are made of, once each; those that it only looked for are none."""
+        self.write("more.pos", 'View "size" {SP(0, 0, 0){1};};\n')
+        with open(os.path.join(self.folder, "stick.geo"), "a") as file:
+            file.write('n = "more";\nMerge StrCat(n, ".pos");\nMerge Str("more.pos");\nx = FileExists("none.geo");\n')
+        for ranks in (1, 2):
+            inputs = self.run_case(ranks=ranks)["inputs"]
+            told = [os.path.basename(one["file"]) for one in inputs if one["option"] == "included"]
+            self.assertEqual(told, ["points.geo", "more.pos"])
+
     def test_a_file_is_told_for_every_option_that_names_it(self):
         record = os.path.join(self.folder, "record.txt")
         inputs = self.run_case("-motion_y_record", record, "-motion_y_unit", "m/s2", "-motion_y_time_step", STEP)["inputs"]

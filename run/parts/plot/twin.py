@@ -15,7 +15,7 @@ APART = "apart"      # the run without contacts of run/plant, beside its others
 # Options in which the two may differ: what is written where, how far the start-up goes, and what is recorded.
 FREE = {"contacts", "output", "title", "restart", "write_modes", "write_model", "fields_interval", "fields_start",
         "fields_end", "checkpoint_interval", "checkpoint_steps", "csv_digits", "partition", "modes", "loops", "loops_at",
-        "export_matrices", "progress_interval", "mesh_time_limit", "allow_geo_commands", "gap_interval",
+        "export_matrices", "progress_interval", "mesh_time_limit", "gap_interval",
         "energy_interval", "impact_merge_time", "force_window", "gap_tolerance", "time_step", "courant",
         "omega_max_tolerance", "allow_unstable", "stiffness", "dry_run"}
 READ = ("_mesh", "_record", "_target", "_matrices")  # endings of options whose files decide the model
