@@ -60,11 +60,22 @@ std::set<std::string> named_groups(const Scene& scene, const Structure& structur
   return names;
 }
 
+/// Whether a region of the structure has a group's name, be it for elements of another dimension.
+bool is_region(const Structure& structure, const std::string& group) {
+  return std::ranges::find(structure.regions, group, &Region::group) != structure.regions.end();
+}
+
 [[noreturn]] void refuse_unused(const Structure& structure, const UnusedElements& unused) {
   const std::string count = std::to_string(unused.left_out) + " element" +
                             (unused.left_out == 1 ? "" : "s") + " (" + unused.kind + ")";
   const std::string place = ", the first at " + place_text(unused.place);
   const std::string option = "-" + structure.name + "_";
+  if (is_region(structure, unused.group)) {
+    throw UserError("structure " + structure.name + ": group '" + unused.group + "' of " +
+                    structure.mesh + " has " + count + place + ", beside those that become " +
+                    "elements by " + option + unused.group +
+                    "_element: they would be left out; give them a name of their own");
+  }
   if (unused.group.empty()) {
     throw UserError("structure " + structure.name + ": " + structure.mesh + " has " + count +
                     " in no physical group" + place +
@@ -131,8 +142,13 @@ std::vector<UnusedElements> check_unused(const Scene& scene, const Structure& st
   const std::set<std::string> named = named_groups(scene, structure);
   std::vector<UnusedElements> places;
   for (const UnusedElements& unused : mesh.unused) {
-    if (named.contains(unused.group.empty() ? ungrouped : unused.group)) continue;
-    if (unused.left_out > 0 && structure.matrices.empty()) refuse_unused(structure, unused);
+    const std::string name = unused.group.empty() ? ungrouped : unused.group;
+    const bool left_out = unused.left_out > 0 && structure.matrices.empty();
+    const bool ignored =
+        std::ranges::find(structure.ignored_groups, name) != structure.ignored_groups.end();
+    if (left_out && !ignored && is_region(structure, name)) refuse_unused(structure, unused);
+    if (named.contains(name)) continue;
+    if (left_out) refuse_unused(structure, unused);
     if (!unused.group.empty()) places.push_back(unused);
   }
   return places;

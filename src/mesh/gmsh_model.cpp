@@ -118,6 +118,17 @@ RawType describe_type(int type) {
   return description;
 }
 
+/// Formats without named groups have their elements by a number: of its property (Nastran) or its
+/// reference (Medit), which Gmsh makes that of an entity. Each is a group.
+std::vector<RawGroup> groups_by_number(const std::vector<RawEntity>& entities) {
+  std::vector<RawGroup> groups;
+  for (const RawEntity& entity : entities) {
+    if (entity.elements.empty()) continue;
+    groups.push_back({std::to_string(entity.tag), entity.dimension, {entity.tag}});
+  }
+  return groups;
+}
+
 RawMesh take_mesh() {
   RawMesh mesh;
   std::vector<std::size_t> tags;
@@ -161,6 +172,10 @@ RawAnswer gmsh_mesh(const MeshTask& task, Denied denied) {
     if (task.make) gmsh::model::mesh::generate(3);
     answer.error = logged_error();
     if (answer.error.empty()) answer.mesh = take_mesh();
+    const bool named = task.make || task.file.ends_with(".msh");
+    if (!named && answer.mesh.groups.empty()) {
+      answer.mesh.groups = groups_by_number(answer.mesh.entities);
+    }
   } catch (const std::bad_alloc&) {
     answer.error = "the memory is not enough for it";
   } catch (...) {

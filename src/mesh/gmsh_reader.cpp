@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -20,6 +21,7 @@
 #include "mesh/soil_node.h"
 #include "mesh/tied_nodes.h"
 #include "mesh/unused_elements.h"
+#include "mesh/unv_file.h"
 #include "scene/spread_words.h"
 
 namespace pounding {
@@ -51,6 +53,9 @@ RawAnswer read_raw_mesh(const Structure& structure, double time_limit) {
   if (!request.make && !structure.mesh_set.empty()) {
     throw UserError("option -" + structure.name + "_mesh_set: " + structure.mesh +
                     " is a mesh, parameters apply to .geo files only");
+  }
+  if (std::filesystem::path(request.file).extension() == ".unv") {
+    return {read_unv(request.option, request.file), "", "", true};
   }
   RawAnswer answer = run_gmsh(request);
   check_opened_files(request.option, answer.mesh.files);
@@ -109,6 +114,32 @@ std::optional<ElementType> kind_in_region(ElementType wanted, int gmsh_type) {
   return fills ? element.companion : std::nullopt;
 }
 
+/// The dimension of the cells that a region takes.
+int dimension_of(const Region& region) {
+  if (region.spread != Spread::none) return region.spread == Spread::area ? 2 : 1;
+  switch (traits_of(region.element).gmsh_type) {
+    case 15:
+      return 0;
+    case 1:
+      return 1;
+    case 2:
+    case 3:
+      return 2;
+    default:
+      return 3;
+  }
+}
+
+/// Parts of a group that a region takes: a name that stands for several dimensions, as of a volume
+/// and its skin, means those of the element that is asked for.
+std::vector<RawGroup> parts_of(const Region& region, const std::vector<RawGroup>& group) {
+  std::vector<RawGroup> parts;
+  std::ranges::copy_if(group, std::back_inserter(parts), [&](const RawGroup& part) {
+    return part.dimension == dimension_of(region);
+  });
+  return parts.empty() ? group : parts;
+}
+
 /// Reads region by region; node tags are translated to the file order at the end.
 class MeshBuilder {
  public:
@@ -131,7 +162,7 @@ class MeshBuilder {
     mark_rigid_groups();
     check_element_sizes(structure_.name, mesh_);
     check_repeated_elements(structure_.name, mesh_);
-    mesh_.unused = find_unused(raw_, mesh_);
+    mesh_.unused = find_unused(raw_, mesh_, taken_);
     return std::move(mesh_);
   }
 
@@ -146,7 +177,8 @@ class MeshBuilder {
     const auto found = groups_.find(region.group);
     if (found == groups_.end()) unknown_group(region.group, option);
     const std::size_t before = mesh_.regions.size();
-    for (const RawGroup& part : found->second) {
+    for (const RawGroup& part : parts_of(region, found->second)) {
+      taken_.insert({part.name, part.dimension});
       for (const int entity : part.entities) {
         const std::vector<RawElements>& elements = elements_on(part.dimension, entity);
         if (region.spread == Spread::none) {
@@ -364,6 +396,7 @@ class MeshBuilder {
   RawMesh raw_;
   Groups groups_;
   std::map<std::pair<int, int>, const RawEntity*> entities_;  ///< by dimension and tag
+  std::set<std::pair<std::string, int>> taken_;               ///< groups that became elements
   GlobalMesh mesh_;
   using SpreadFacets = std::vector<Facet>;
   std::map<std::ptrdiff_t, SpreadFacets> spread_;  ///< by set; nodes by their tags as yet

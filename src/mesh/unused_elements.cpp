@@ -35,9 +35,11 @@ Key key_of(std::span<const std::int64_t> nodes) {
 
 class Search {
  public:
-  Search(const RawMesh& raw, const GlobalMesh& mesh) : raw_(raw), mesh_(mesh) {
+  using Taken = std::set<std::pair<std::string, int>>;
+
+  Search(const RawMesh& raw, const GlobalMesh& mesh, const Taken& taken)
+      : raw_(raw), mesh_(mesh), taken_(taken) {
     for (const ElementSet& set : mesh.regions) {
-      regions_.insert(set.group);
       if (!set.share.empty()) continue;  // these are nodes
       for (const std::int64_t tag : set.tags) in_use_.insert(tag);
     }
@@ -59,7 +61,7 @@ class Search {
         continue;
       }
       for (const RawGroup* group : owners_[{entity.dimension, entity.tag}]) {
-        if (!regions_.contains(group->name)) add(entity, group->name);
+        if (!taken_.contains({group->name, group->dimension})) add(entity, group->name);
       }
     }
     mark_places();
@@ -150,7 +152,7 @@ class Search {
 
   const RawMesh& raw_;
   const GlobalMesh& mesh_;
-  std::set<std::string> regions_;
+  const Taken& taken_;
   NumberSet in_use_;  ///< element tags
   std::map<int, const RawType*> types_;
   std::map<std::pair<int, int>, std::vector<const RawGroup*>> owners_;
@@ -160,8 +162,9 @@ class Search {
 
 }  // namespace
 
-std::vector<UnusedElements> find_unused(const RawMesh& raw, const GlobalMesh& mesh) {
-  return Search(raw, mesh).run();
+std::vector<UnusedElements> find_unused(const RawMesh& raw, const GlobalMesh& mesh,
+                                        const std::set<std::pair<std::string, int>>& taken) {
+  return Search(raw, mesh, taken).run();
 }
 
 }  // namespace pounding

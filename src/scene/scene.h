@@ -362,7 +362,6 @@ struct Scene {
   double gap_interval = 0;       ///< of the gaps at least; 0: with every sample of the probes [s]
   int energy_interval = 0;       ///< steps between two lines of the energy ledger
   double mesh_time_limit = 0;    ///< for Gmsh to make or read one mesh [s]
-  bool allow_geo_commands = false;  ///< .geo files may run commands and write files
   bool dry_run = false;
   double checkpoint_interval = 0;  ///< wall time between checkpoints [s]; 0: none
   int checkpoint_steps = 0;        ///< steps between checkpoints; 0: none

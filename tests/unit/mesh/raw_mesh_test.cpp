@@ -78,7 +78,7 @@ RawMesh raw_box(const GlobalMesh& mesh) {
 
 TEST(UnusedElements, FacesArePlacesAndLinesAreLeftOut) {
   const GlobalMesh mesh = testing::box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
-  const std::vector<UnusedElements> unused = find_unused(raw_box(mesh), mesh);
+  const std::vector<UnusedElements> unused = find_unused(raw_box(mesh), mesh, {{"body", 3}});
   ASSERT_EQ(unused.size(), 3U);
   EXPECT_EQ(unused[0].group, "");
   EXPECT_EQ(unused[0].left_out, 1);
