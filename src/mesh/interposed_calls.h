@@ -8,7 +8,7 @@
 /// of the program pounding-mesh only.
 namespace pounding {
 
-/// From now on, regular files that are opened for reading are noted.
+/// Begins to note regular files that are opened for reading.
 void note_opened_files();
 
 /// Absolute paths of these files, as they were named, each once, in the order of their opening.

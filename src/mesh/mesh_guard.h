@@ -7,7 +7,7 @@ namespace pounding {
 /// Told what a denied call would have done: "write to '/tmp/x'".
 using Denied = void (*)(const std::string& deed);
 
-/// What guards a process.
+/// Guard of a process.
 enum class Guard { none, seccomp, seccomp_and_landlock };
 
 /// Forbids this process, for the rest of its life, to start programs, to open, make, change or

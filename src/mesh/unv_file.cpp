@@ -38,7 +38,7 @@ constexpr auto known_elements = std::to_array<UnvElement>({
     {161, 15, 0, 1, "Point"},
 });
 
-/// Of beams and rods, which have a line of their own for their orientation.
+/// Kinds of beams and rods, which have a line more, for their orientation.
 constexpr auto oriented = std::to_array<int>({11, 21, 22, 23, 24});
 
 constexpr auto group_sets = std::to_array<int>({2435, 2452, 2467, 2477});
@@ -289,8 +289,9 @@ class UnvReader {
 
   void add_member(std::int64_t kind, std::int64_t label, int place, Group& group) {
     if (kind == 7) {
-      if (!nodes_.contains(label))
+      if (!nodes_.contains(label)) {
         refuse("group '" + group.name + "' names a node that is missing");
+      }
       group.nodes.push_back(label);
     } else if (kind == 8) {
       const auto found = cells_.find(label);

@@ -121,7 +121,7 @@ class Body {
   std::vector<double> inverse_;
 };
 
-/// What follows a tie moves by its carriers, which have mass.
+/// Followers of a tie move by its carriers, which have mass.
 void lend_to_followers(const Mesh& mesh, const RigidPart& part, std::span<const double> lumped_mass,
                        std::vector<LentMass>& lent) {
   for (const TiedNode& tied : part.tied) {
