@@ -3,6 +3,8 @@
 import re
 from pathlib import Path
 
+from .files import write_text
+
 
 class SceneError(Exception):
     """A scene that cannot be written or read: one line for the user."""
@@ -26,7 +28,7 @@ def flatten(scene: dict, prefix: str = "") -> dict:
     is none."""
     options = {}
     for name, value in scene.items():
-        if not re.fullmatch(r"[A-Za-z][\w/.]*", str(name)):
+        if not re.fullmatch(r"[A-Za-z][\w/.]*", str(name), re.ASCII):
             raise SceneError(f"'{name}' is not a name of an option")
         own = flatten(value, f"{prefix}{name}_") if isinstance(value, dict) else {f"{prefix}{name}": value_text(value)}
         for option, text in own.items():
@@ -52,17 +54,32 @@ def _lines(scene: dict, indent: str) -> list:
 
 def write_scene(path: Path | str, scene: dict) -> Path:
     """Writes the scene as an options file in YAML, nested as it is given, and returns its path. Throws SceneError,
-    or OSError if it cannot be written."""
-    flatten(scene)
-    path = Path(path)
-    path.write_text("\n".join(_lines(scene, "")) + "\n", encoding="utf-8")
+    or OSError if it cannot be written; a file that is there then stays as it was."""
+    path, options = Path(path), flatten(scene)
+    for name, text in options.items():
+        if any(letter in text for letter in "\0\r\x85\u2028\u2029") or not text.isascii() and _not_utf_8(text):
+            raise SceneError(f"{name}: {text!a} has letters that no file of options can hold")
+    write_text(path, "\n".join(_lines(scene, "")) + "\n")
     return path
 
 
+def _not_utf_8(text: str) -> bool:
+    try:
+        text.encode("utf-8")
+    except UnicodeEncodeError:
+        return True
+    return False
+
+
 def read_scene(path: Path | str) -> dict:
-    """Option -> text of a `resolved.yaml`, or of another file of flat lines `name: "value"`. Throws SceneError."""
+    """Option -> text of a `resolved.yaml`, or of another file of flat lines `name: "value"`. Throws SceneError,
+    or OSError if there is none."""
     options = {}
-    for number, line in enumerate(Path(path).read_text(encoding="utf-8").splitlines(), 1):
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        raise SceneError(f"{path}: no text in UTF-8") from error
+    for number, line in enumerate(text.split("\n"), 1):
         if not line.strip() or line.startswith("#"):
             continue
         found = re.fullmatch(r'"?([A-Za-z][\w/.]*)"?: "((?:[^"\\]|\\.)*)"', line)

@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 from parts.plot.style import log_scale, plt
+from pounding.files import write_text
 
 from .comparison import BYTES_PER_DOF, LABELS
 from .machine import Machine
@@ -132,11 +133,11 @@ def write(folder: Path, rows: list, machine: Machine, about: dict) -> str:
     listed = figures(rows)
     text = "\n".join([step_table(listed), machine_table(machine),
                       f"{about['processor']}, {about['cores']} cores, {about['date']}\n", NOTES])
-    (folder / "table.md").write_text(text)
+    write_text(folder / "table.md", text)
     write_csv(folder / "table.csv", listed)
     measured = [{**one, "seconds_per_step": row.seconds.as_json() if row.seconds.values else None}
                 for one, row in zip(listed, rows)]
-    (folder / "benchmark.json").write_text(
+    write_text(folder / "benchmark.json", 
         json.dumps({**about, "bytes_per_dof": BYTES_PER_DOF, "steps": measured,
                     "machine": machine.as_json()}, indent=1) + "\n")
     draw(listed, folder / "benchmark.png")

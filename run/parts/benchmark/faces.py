@@ -8,6 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
+from pounding.files import write_text
+
 from .tables import markdown, write_csv
 from .workers import SOURCE, MeasuringError, with_environment
 
@@ -105,5 +107,5 @@ def write(folder: Path, rows: list) -> str:
         [row["faces"], row["rows"], row["coupled_rows"], row["dofs"], row["ranks"],
          row["contact_microseconds"], row["step_microseconds"], row["over_half_a_million_dofs"],
          f"{row['residual']:.1e}", row["megabytes"]] for row in rows])
-    (folder / "faces.md").write_text(text)
+    write_text(folder / "faces.md", text)
     return text

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from pounding.files import write_text
+
 from .comparison import check_agreement
 from .tables import markdown, write_csv
 from .workers import Stepper, block_cells, slab_cells, step_benchmark
@@ -131,7 +133,7 @@ def table(earnings: list) -> str:
 def write(folder: Path, earnings: list) -> str:
     """Writes forms.md and forms.csv; returns the table."""
     text = table(earnings)
-    (folder / "forms.md").write_text(text)
+    write_text(folder / "forms.md", text)
     write_csv(folder / "forms.csv", [
         {"case": earning.case, "ranks": earning.ranks, "form": earning.form, "ratio": earning.median,
          "quarter_below": earning.quartile(0.25), "quarter_above": earning.quartile(0.75),

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from pounding.files import write_text
+
 from .tables import markdown, write_csv
 from .workers import SOURCE, MeasuringError, with_environment
 
@@ -64,5 +66,5 @@ def write(folder: Path, rows: list) -> str:
         [row["dofs"], row["ranks"], 1e6 * row["stable_time_step"], row["damping_shortens"],
          row["microseconds_per_step"], row["ns_per_dof"], row["over_without_dashpots"], row["minutes"]]
         for row in rows])
-    (folder / "plant.md").write_text(text)
+    write_text(folder / "plant.md", text)
     return text

@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 from parts.plot.style import log_scale, plt
+from pounding.files import write_text
 
 from .machine import Machine
 from .scaling_model import Messages
@@ -140,11 +141,11 @@ def write(folder: Path, points: list, studies: list, machine: Machine, messages:
     tables = [measured_table(measured), modelled_table(modelled), machine_table(machine, messages)]
     tables += [f"- {reason}" for reason in about["skipped"]]
     text = "\n".join([*tables, f"{about['processor']}, {about['cores']} cores, {about['date']}\n", NOTES])
-    (folder / "table.md").write_text(text)
+    write_text(folder / "table.md", text)
     write_csv(folder / "table.csv", measured + modelled)
     rounds = [{**row, "seconds_per_step": point.seconds.as_json()}
               for row, point in zip(measured, points)]
-    (folder / "scaling.json").write_text(json.dumps(
+    write_text(folder / "scaling.json", json.dumps(
         {**about, "measured": rounds, "modelled": modelled,
          "partitions": [{"case": case, "parts": parts} for case, _, parts in studies],
          "machine": machine.as_json()}, indent=1) + "\n")

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from pounding.files import write_text
+
 from .comparison import LABELS, check_agreement
 from .tables import markdown, write_csv
 from .workers import SOURCE, Stepper, slab_cells, step_benchmark
@@ -115,7 +117,7 @@ def write(folder: Path, measured: list) -> str:
     text = markdown("Steps of concrete plates and lattices by kind of element and mesh: element by element, and times "
                     "over that", ["elements", "dofs", "ranks", "ns per dof",
                                   *(f"{LABELS[way]}, ×" for way in WAYS[1:])], rows)
-    (folder / "shapes.md").write_text(text)
+    write_text(folder / "shapes.md", text)
     write_csv(folder / "shapes.csv", [
         {"shape": one.shape, "ranks": one.ranks, "way": one.way, "dofs": one.dofs,
          "nanoseconds_per_dof": one.nanoseconds_per_dof,

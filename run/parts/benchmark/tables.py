@@ -4,6 +4,8 @@ import csv
 import math
 from pathlib import Path
 
+from pounding.files import written_beside
+
 
 def number(value, digits: int = 3) -> str:
     """Plain digits, so many of them significant; a dash for what was not measured."""
@@ -28,7 +30,7 @@ def markdown(title: str, head: list, rows: list) -> str:
 def write_csv(path: Path, rows: list) -> None:
     """`rows`: dictionaries of scalars; a column per key."""
     columns = list(dict.fromkeys(key for row in rows for key in row))
-    with open(path, "w", newline="") as file:
+    with written_beside(path) as draft, open(draft, "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, columns, lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from pounding.files import write_text
+
 G = 9.80665  # of a file in g [m/s2]
 # Components x, y, z: the larger horizontal one along the direction of the impacts.
 FILES = {
@@ -30,13 +32,13 @@ class Record:
     peak: float  # of x in the table [m/s2]
     directions: tuple = ("x", "y", "z")
 
-    def words(self, pga: float) -> tuple[list, list]:
+    def words(self, pga: float) -> list:
         words = []
         for column, direction in enumerate(self.directions, start=2):
             words += [f"-motion_{direction}_record", str(self.table), f"-motion_{direction}_unit", "m/s2",
                       f"-motion_{direction}_column", str(column), f"-motion_{direction}_scale",
                       repr(pga / self.peak)]
-        return words, [self.table]
+        return words
 
 
 def read_at2(path: Path) -> tuple[float, np.ndarray]:
@@ -73,7 +75,7 @@ def load(folder: Path, motion: str, length: float, table: Path) -> Record:
     table.parent.mkdir(parents=True, exist_ok=True)
     lines = ["time,x,y,z"] + [f"{i * step:.6f}," + ",".join(f"{value:.9g}" for value in row)
                               for i, row in enumerate(values)]
-    table.write_text("\n".join(lines) + "\n")
+    write_text(table, "\n".join(lines) + "\n")
     return Record(table, float(abs(values[:, 0]).max()))
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from parts.benchmark.tables import markdown, write_csv
 from parts.plot.markup import html_figure, html_table, write_page
 from parts.plot.style import WIDTH, log_scale, plt, save
+from pounding.files import write_text
 
 from . import tables
 from .runs import Runs
@@ -75,7 +76,7 @@ def body(runs: Runs, folder: Path) -> str:
         if rows:
             write_csv(folder / f"{name}.csv", rows)
         else:
-            (folder / f"{name}.csv").write_text("option\n")  # no option differs
+            write_text(folder / f"{name}.csv", "option\n")  # no option differs
     figures = [page for probe in runs.probes for page in spectra_figure(runs, probe, folder)]
     found = "".join(f'<p class="note">{escape(note)}</p>\n' for note in runs.notes)
     for caption, rows in _parts(runs):

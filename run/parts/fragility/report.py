@@ -8,6 +8,7 @@ import numpy as np
 
 from parts.benchmark.tables import markdown, write_csv
 from parts.plot.markup import html_figure, html_table, paragraphs, write_page
+from pounding.files import written_beside
 from pounding.fragility import Fragility
 
 from . import figures
@@ -26,7 +27,7 @@ def write_design(analysis: Analysis, folder: Path) -> None:
     """design.csv: of each sample its motion and what was drawn."""
     axes = analysis.study.axes
     names = [one.name for one in analysis.study.variables]
-    with open(folder / "design.csv", "w", newline="") as file:
+    with written_beside(folder / "design.csv") as draft, open(draft, "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["sample", *(f"motion {name}" for name in axes),
                          *(f"{name} deviation [m]" if name.endswith("_gap") else name for name in names)])

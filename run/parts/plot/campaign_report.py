@@ -7,6 +7,7 @@ from pathlib import Path
 from parts.campaign import findings, impact_table, paper, paper_tables
 from parts.campaign.cases import VARIANTS
 from parts.campaign.results import Campaign
+from pounding.files import write_text
 from .markup import html_figure, html_table, write_page
 
 
@@ -61,7 +62,7 @@ def write(campaign: Campaign, summaries: dict, failures: dict, pages: list, fold
     """report.html in `folder`, with findings.json for programs. `failures`: case -> why it is not
     there; `summaries`: of the models as they are in the paper, for Tables 1 and 2."""
     checks = [vars(check) for check in findings.check_all(campaign)]
-    (folder / "findings.json").write_text(json.dumps(checks, indent=1))
+    write_text(folder / "findings.json", json.dumps(checks, indent=1))
     failed = [(case.name, why) for case, why in failures.items() if why]
     title = "The two-storey pair: the paper's campaign"
     parts = ["".join(map(_note, notes)), html_table("Cases that failed", ["case", "why"], failed), _findings(campaign)]

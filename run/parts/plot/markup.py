@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from pounding.files import write_text
+
 SHORT = 25  # rows of a table that stays on one page of paper
 
 CSS = """
@@ -79,7 +81,6 @@ def write_page(path: Path, title: str, content: str, under: str = "") -> Path:
     """Writes a page of its own, its content in HTML, a line under its title, and returns the path."""
     title = escape(title)
     under = f'<p class="from">{escape(under)}</p>\n' if under else ""
-    path.write_text(f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'
-                    f"<style>{CSS}</style></head>\n<body>\n<h1>{title}</h1>\n{under}{content}</body></html>\n",
-                    encoding="utf-8")
+    write_text(path, f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'
+                    f"<style>{CSS}</style></head>\n<body>\n<h1>{title}</h1>\n{under}{content}</body></html>\n")
     return path

@@ -2,6 +2,8 @@
 
 import math
 
+from pounding.files import written_beside
+
 from . import style
 
 COLOURS = {"runs": "#0072B2", "stopped": "#E69F00", "refused": "#E69F00", "crashed": "#B2182B"}
@@ -21,7 +23,8 @@ def draw(rows, path) -> None:
         panel.set_visible(False)
     figure.suptitle("dot: error, line: its limit; orange: stopped or refused with a message; "
                     "red cross: not as expected", fontsize=9)
-    figure.savefig(path)
+    with written_beside(path) as draft:
+        figure.savefig(draft)
     style.plt.close(figure)
 
 

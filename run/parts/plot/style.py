@@ -11,6 +11,8 @@ import numpy as np  # noqa: E402
 from matplotlib.ticker import FuncFormatter, NullFormatter  # noqa: E402
 from PIL import Image  # noqa: E402
 
+from pounding.files import file_name, written_beside  # noqa: E402
+
 G = 9.81  # [m/s2]
 WIDTH = 9.0  # of a figure [in]
 
@@ -108,5 +110,7 @@ def save(figure, folder: Path, name: str, title: str, caption: str) -> list:
     figure.savefig(drawn, format="png")
     plt.close(figure)
     colours = Image.open(drawn).convert("RGB").quantize(256, dither=Image.Dither.NONE)
-    colours.save(folder / name, optimize=True)
+    name = file_name(name)
+    with written_beside(folder / name) as draft:
+        colours.save(draft, optimize=True, format="png")
     return [{"file": name, "title": title, "caption": caption}]

@@ -1,5 +1,7 @@
 """Error against cost of every setting of run/tradeoff, above the noise floor."""
 
+from pounding.files import written_beside
+
 from . import style
 
 
@@ -36,7 +38,8 @@ def draw(summary: list, path, spectra: str = "floor-2") -> None:
     axes.set_ylabel(f"rms of ln(spectrum / reference), {spectra} spectra, 1-400 Hz [-]")
     axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=2, columnspacing=1.2)
     _name(figure, axes, front + [row for row in savings if row not in front])
-    figure.savefig(path)
+    with written_beside(path) as draft:
+        figure.savefig(draft)
     style.plt.close(figure)
 
 
