@@ -58,7 +58,6 @@ class Case:
     motion: str
     variant: str
     words: tuple = field(default=(), compare=False)
-    files: tuple = field(default=(), compare=False)  # that its result depends on
 
     @property
     def model(self) -> str:
@@ -93,21 +92,18 @@ def gap_words(case: Case) -> list:
     return ["-floor1_gap", lower, "-floor2_gap", upper]
 
 
-def model_words(case: Case, quick: bool) -> tuple[list, list]:
-    """Options, and the files that they bring in."""
-    files = ["petsc-options/azalee/pair.yaml"] + (["petsc-options/azalee/pair-b.yaml"] if case.model == "B" else [])
-    words = ["-options_file", files[-1]]
+def model_words(case: Case, quick: bool) -> list:
+    words = ["-options_file", f"petsc-options/azalee/{'pair-b' if case.model == 'B' else 'pair'}.yaml"]
     for structure, cells in QUICK_MESH.items() if quick else ():
         slab = "slab=1," if case.model == "B" else ""
         words += [f"-{structure}_mesh_set", slab + cells]
-    meshes = ["meshes/azalee-s1.geo", "meshes/azalee-s2.geo", "meshes/azalee-building.geo"]
-    return words, files + meshes
+    return words
 
 
-def synthetic_words(case: Case, window: Window) -> tuple[list, list]:
+def synthetic_words(case: Case, window: Window) -> list:
     target = f"petsc-options/spectra/{TARGETS[case.motion]}.csv"
     return ["-motion_x_target", target, "-motion_x_pga", repr(case.pga), "-motion_x_seed", str(SEEDS["x"]),
-            "-motion_x_duration", repr(window.duration), "-motion_x_envelope", window.envelope], [target]
+            "-motion_x_duration", repr(window.duration), "-motion_x_envelope", window.envelope]
 
 
 def make_case(gap: int, motion: str, variant: str, window: Window, quick: bool, fidelity: str, extra: list,
@@ -115,12 +111,11 @@ def make_case(gap: int, motion: str, variant: str, window: Window, quick: bool, 
     """`record`: a records.Record in the place of the synthetic motion, or None; `root`: folder of all cases."""
     case = Case(gap, motion, variant)
     bases = str(root / "bases" / variant.lower())
-    model, files = model_words(case, quick)
-    shaking, sources = record.words(case.pga) if record else synthetic_words(case, window)
-    words = [*model, *[word.format(bases=bases) for word in FIDELITIES[fidelity]], *gap_words(case), *shaking,
-             "-end_time", repr(window.end_time), "-modes", "1",
+    shaking = record.words(case.pga) if record else synthetic_words(case, window)
+    words = [*model_words(case, quick), *[word.format(bases=bases) for word in FIDELITIES[fidelity]],
+             *gap_words(case), *shaking, "-end_time", repr(window.end_time), "-modes", "1",
              "-title", f"gap {gap} cm, {motion}, {VARIANTS[variant]}", *extra]
-    return Case(gap, motion, variant, tuple(words), tuple(map(str, [*files, *sources])))
+    return Case(gap, motion, variant, tuple(words))
 
 
 def all_cases(window: Window = FULL, quick: bool = False, fidelity: str = "full", extra=(), records=None,

@@ -9,6 +9,9 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from pounding.files import written_beside
+from pounding.runs import ending_with_us
+
 from .cases import Case
 
 SOURCE = Path(__file__).resolve().parents[3]
@@ -71,15 +74,16 @@ def write_series(case: Case, folder: Path) -> None:
     drift = (upper - lower) / STOREY_HEIGHT
     drift_time, drift = extremes(time, drift)
     acceleration_time, acceleration = extremes(stamps, acceleration, around)
-    np.savez_compressed(folder / SERIES, drift_time=drift_time, drift=drift, acceleration_time=acceleration_time,
-                        acceleration=acceleration, ground_peaks=abs(ground).max(axis=0))
+    with written_beside(folder / SERIES) as draft:
+        np.savez_compressed(draft, drift_time=drift_time, drift=drift, acceleration_time=acceleration_time,
+                            acceleration=acceleration, ground_peaks=abs(ground).max(axis=0))
 
 
 def treat(folder: Path) -> None:
     program = SOURCE / os.environ.get("POUNDING_BUILD", "build") / "pounding-spectra"
     words = ["--channels", CHANNEL, "--treatment", "all", "--frequencies", FREQUENCIES, "--output",
              str(folder / TREATED), "--peaks", str(folder / PEAKS), str(folder / HISTORY)]
-    result = subprocess.run([program, *words], capture_output=True, text=True)
+    result = subprocess.run([program, *words], capture_output=True, text=True, preexec_fn=ending_with_us())
     if result.returncode != 0:
         raise HarvestError(result.stderr.strip() or f"pounding-spectra ended with {result.returncode}")
 

@@ -1,21 +1,19 @@
 """Runs cases side by side, skips those that are finished, tells how long the rest will take."""
 
-import hashlib
-import json
 import os
 import subprocess
 import sys
 import time
 from pathlib import Path
 
+from parts import finished
 from parts.side_by_side import run_side_by_side
-from pounding.runs import Job, complaint, environment
+from pounding.runs import Job, complaint, ending_with_us, environment
 
 from . import harvest
 from .cases import Case
 
 SOURCE = Path(__file__).resolve().parents[3]
-REQUEST, SUMMARY = "request.json", "summary.json"
 # Steps of Model B cost more than those of Model A; the first finished runs correct this guess.
 FIRST_GUESS = {"A": 1.0, "B": 1.5}
 
@@ -24,29 +22,10 @@ class SetUpError(Exception):
     """One line for the user."""
 
 
-def request_of(case: Case) -> dict:
-    """All that the result of a case depends on: the words, and the contents of the files."""
-    files = {}
-    for name in case.files:
-        try:
-            files[Path(name).name] = hashlib.sha256((SOURCE / name).read_bytes()).hexdigest()
-        except OSError as error:
-            raise SetUpError(f"{name}: {error.strerror or error}") from error
-    words = [Path(word).name if Path(word).is_absolute() else word for word in case.words]
-    return {"words": words, "files": files}
-
-
-def is_finished(case: Case, folder: Path) -> bool:
-    """Whether the folder holds the complete results of this very request: the same words and files,
-    and a run whose resolved options are those of the words."""
-    try:
-        done = json.loads((folder / REQUEST).read_text())
-        resolved = json.loads((folder / SUMMARY).read_text())["options"]
-    except (OSError, ValueError, KeyError):
-        return False
-    asked = {word[1:]: value for word, value in zip(case.words[::2], case.words[1::2]) if word != "-options_file"}
-    return (done == request_of(case) and all(resolved.get(name) == value for name, value in asked.items())
-            and harvest.is_complete(case, folder))
+def is_finished(case: Case, place: Path) -> bool:
+    """Whether the place holds the complete results of this very case, and every file that it read is still what it
+    was."""
+    return finished.is_finished(case.words, place, SOURCE) and harvest.is_complete(case, place)
 
 
 def build_folder() -> Path:
@@ -58,8 +37,7 @@ class CaseJob(Job):
 
     def __init__(self, case: Case, folder: Path, ranks: int, variables: dict):
         self.case, self.folder = case, folder
-        for name in (SUMMARY, REQUEST):
-            (folder / name).unlink(missing_ok=True)
+        finished.begin_anew(folder)
         super().__init__(case.words, folder, ranks, SOURCE, variables)
 
 
@@ -116,7 +94,7 @@ def prepare_bases(cases: list, variables: dict) -> None:
         ranks = min(len(case.bases), len(os.sched_getaffinity(0)))
         command = ["mpirun", "-n", str(ranks), str(build_folder() / "pounding"), *case.words, "-dry_run"]
         done = subprocess.run(command, cwd=SOURCE, env=variables, stdin=subprocess.DEVNULL, capture_output=True,
-                              text=True, check=False)
+                              text=True, check=False, preexec_fn=ending_with_us())
         if done.returncode != 0:
             raise SetUpError(complaint(done.stderr) or f"modal bases of {case.name}: exit status {done.returncode}")
         say(f"  modal bases of {case.variant}: {time.monotonic() - started:.0f} s")
@@ -153,5 +131,6 @@ def close(job: CaseJob, keep_history: bool) -> str:
         harvest.take(job.case, job.folder, keep_history)
     except harvest.HarvestError as error:
         return str(error)
-    (job.folder / REQUEST).write_text(json.dumps(request_of(job.case), indent=1))
-    return ""
+    except OSError as error:
+        return f"{job.folder}: {error}"
+    return finished.sign(job.case.words, job.folder, SOURCE, (harvest.SERIES, harvest.TREATED, harvest.PEAKS))

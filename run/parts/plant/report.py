@@ -9,7 +9,7 @@ from parts.benchmark.tables import markdown
 from parts.compare import page
 from parts.compare.runs import Runs
 from parts.plot.markup import html_table, write_page
-from pounding.runs import SOURCE
+from pounding.runs import SOURCE, ending_with_us
 
 COST = ["run", "dofs", "ranks", "steps", "microseconds per step", "wall time [s]", "seconds per second of motion",
         "memory of all ranks [GB]"]
@@ -34,7 +34,8 @@ def text(runs: Runs) -> str:
 
 def draw(folder: Path) -> str:
     """Figures and page of one run by run/plot: '' or why there are none."""
-    done = subprocess.run([str(SOURCE / "run" / "plot"), str(folder)], capture_output=True, text=True)
+    done = subprocess.run([str(SOURCE / "run" / "plot"), str(folder)], capture_output=True, text=True,
+                          preexec_fn=ending_with_us())
     return "" if done.returncode == 0 else (done.stderr.strip().splitlines() or [f"{called('run/plot')} failed"])[-1]
 
 

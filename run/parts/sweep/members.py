@@ -2,14 +2,12 @@
 
 import hashlib
 import itertools
-import json
 import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from parts import finished
 from pounding.runs import Job, words_of
-
-REQUEST, SUMMARY = "request.json", "summary.json"
 
 
 class SweepError(Exception):
@@ -83,62 +81,18 @@ def all_members(axes: list, together: bool) -> list:
             for values in tuples]
 
 
-def _hash(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
-
-
-def scene_files(scene: Path) -> list:
-    """The scene's file and those that it includes."""
-    found, waiting = [], [scene]
-    while waiting:
-        path = waiting.pop()
-        if path in found or not path.is_file():
-            continue
-        found.append(path)
-        for name in re.findall(r"^include:\s*[\"']?([^\"'#\n]+)", path.read_text(errors="replace"), re.MULTILINE):
-            waiting += [path.parent / name.strip(), Path(name.strip())]
-    return found
-
-
-def file_hashes(scene: Path, options: dict) -> dict:
-    """Path -> hash of the files that the scene and `options`, those in force, name."""
-    used = {value for name, value in options.items() if re.search(r"(mesh|record|target|table|restart)$", name)}
-    files = scene_files(scene) + sorted(Path(value) for value in used if Path(value).is_file())
-    return {str(path): _hash(path) for path in files}
-
-
-def request_of(member: Member, scene: Path, more: list, options: dict) -> dict:
-    """All that the results depend on: the words, and the contents of the files. The program's version is none of
-    it."""
-    return {"words": member.words(scene, more), "files": file_hashes(scene, options)}
-
-
-def is_finished(member: Member, scene: Path, more: list, folder: Path) -> bool:
-    """Whether the folder holds the results of this very member, and no file changed since."""
-    try:
-        done = json.loads((folder / REQUEST).read_text())
-        options = json.loads((folder / SUMMARY).read_text())["options"]
-    except (OSError, ValueError, KeyError):
-        return False
-    return done == request_of(member, scene, more, options)
+def is_finished(member: Member, scene: Path, more: list, place: Path, folder: Path) -> bool:
+    """Whether the place holds the results of this very member, and no file that it read changed since; `folder`: where
+    the program would run."""
+    return finished.is_finished(member.words(scene, more), place, folder)
 
 
 def start(member: Member, scene: Path, more: list, place: Path, ranks: int, folder: Path, variables: dict) -> Job:
     """A job that runs a member anew, from `folder`; what was in its place is finished no longer."""
-    for name in (REQUEST, SUMMARY):
-        (place / name).unlink(missing_ok=True)
+    finished.begin_anew(place)
     return Job(member.words(scene, more), place.absolute(), ranks, folder, variables)
 
 
-def end(job: Job, member: Member, scene: Path, more: list, place: Path) -> str:
+def end(job: Job, member: Member, scene: Path, more: list, place: Path, folder: Path) -> str:
     """Waits for the job and marks what it left as finished: '' if all went well, else one line."""
-    failure = job.outcome()
-    if not failure:
-        _sign(member, scene, more, place)
-    return failure
-
-
-def _sign(member: Member, scene: Path, more: list, folder: Path) -> None:
-    """Marks the results in the folder as finished."""
-    options = json.loads((folder / SUMMARY).read_text())["options"]
-    (folder / REQUEST).write_text(json.dumps(request_of(member, scene, more, options), indent=1))
+    return job.outcome() or finished.sign(member.words(scene, more), place, folder)

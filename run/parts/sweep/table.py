@@ -19,7 +19,7 @@ def _probe_columns(result: Result) -> dict:
             values = [value or 0.0 for value in one.get(key) or [0, 0, 0]]
             for way, value in zip(DIRECTIONS, values):
                 columns[title.format(f"{probe}.{way}")] = value if value > 1e-6 * max(values) else 0.0
-        spectra = {way: result.spectrum(probe, way) for way in DIRECTIONS}
+        spectra = {way: result.spectrum_if_any(probe, way) for way in DIRECTIONS}
         largest = max((found[1].max() for found in spectra.values() if found), default=0.0)
         for way, found in spectra.items():
             if found:
