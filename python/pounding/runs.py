@@ -1,5 +1,6 @@
 """Runs of the program from Python."""
 
+import ctypes
 import os
 import signal
 import subprocess
@@ -9,11 +10,22 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from .files import open_new
 from .results import Result, load
 from .scenes import value_text
 
 SOURCE = Path(__file__).resolve().parents[2]
 LOG = "log.txt"
+# What a run leaves in its folder, or leaves behind where it is killed.
+RESULTS = ("summary.json", "history.h5", "spectra.csv", "impacts.csv", "energy.csv", "forces.csv", "resolved.yaml",
+           "modes.h5", "modes.xdmf", "model.h5", "model.xdmf", "fields.h5", "fields.xdmf", "checkpoint.h5")
+CROWD = 4  # ranks per core; more are a slip
+# Where a batch system or a list of machines says what there is, the cores of this machine say nothing.
+ALLOCATIONS = ("SLURM_JOB_ID", "PBS_NODEFILE", "LSB_HOSTS", "LSB_MCPU_HOSTS", "PE_HOSTFILE",
+               "OMPI_MCA_orte_default_hostfile", "PRTE_MCA_prte_default_hostfile")
+PATIENCE = 30  # seconds that a run has to end after SIGTERM
+PR_SET_PDEATHSIG = 1
+LIBC = ctypes.CDLL(None)
 
 
 class RunError(Exception):
@@ -50,7 +62,18 @@ def words_of(scene: Path | str | None, options: dict) -> list:
     return words
 
 
+def require_room(ranks: int, jobs: int = 1) -> None:
+    """Throws RunError where `jobs` runs of so many ranks are a slip on the cores that there are."""
+    cores = len(os.sched_getaffinity(0))
+    if ranks * jobs > CROWD * cores and not any(name in os.environ for name in ALLOCATIONS):
+        what = f"{ranks} ranks" if jobs == 1 else f"{jobs} runs of {ranks} rank{'s' if ranks > 1 else ''} at a time"
+        raise RunError(f"{what} on {cores} core{'s' if cores > 1 else ''}: more than {CROWD} ranks for each core only "
+                       "wait for each other; take fewer")
+
+
 def command(words: list, ranks: int) -> list:
+    """The command line; throws RunError where it asks for too many ranks."""
+    require_room(ranks)
     return ["mpirun", "-n", str(ranks), str(program()), *map(str, words)]
 
 
@@ -62,13 +85,13 @@ def complaint(text: str) -> str:
 
 @contextmanager
 def interrupts_held() -> Iterator[None]:
-    """Holds SIGINT and SIGTERM back until the block ends, where the last of them acts: a run that starts in the block
-    is known when Ctrl-C comes, and can be stopped. Outside the main thread, which alone receives signals, nothing is
-    held."""
+    """Holds SIGINT, SIGTERM and SIGHUP back until the block ends, where the last of them acts: a run that starts in the
+    block is known when Ctrl-C comes, and can be stopped. Outside the main thread, which alone receives signals,
+    nothing is held."""
     held: list = []
     before = {}
     if threading.current_thread() is threading.main_thread():
-        before = {number: handler for number in (signal.SIGINT, signal.SIGTERM)
+        before = {number: handler for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
                   if (handler := signal.getsignal(number)) not in (None, signal.SIG_IGN)}
     try:
         for number in before:
@@ -81,17 +104,36 @@ def interrupts_held() -> Iterator[None]:
             signal.raise_signal(held[-1])
 
 
+def ending_with_us() -> Callable[[], None]:
+    """For the new process of a child: it gets SIGTERM when the thread that starts it ends, however that dies."""
+    parent = os.getpid()
+
+    def tie() -> None:
+        if hasattr(LIBC, "prctl"):
+            LIBC.prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
+        if os.getppid() != parent:
+            os._exit(1)
+
+    return tie
+
+
 class Job:
-    """A run that goes on now, in a session of its own: what it prints goes to `log.txt` in `output`."""
+    """A run that goes on now, in a session of its own: what it prints goes to `log.txt` in `output`. It ends with the
+    command that started it, also where that is killed."""
 
     def __init__(self, words: list, output: Path, ranks: int, folder: Path, variables: dict):
         """`words`: the command line without the output folder; `folder`: where the program runs."""
         self.output, self.started = output, time.monotonic()
         output.mkdir(parents=True, exist_ok=True)
-        self.log = open(output / LOG, "w")
-        self.process = subprocess.Popen(command([*words, "-output", output], ranks), cwd=folder, env=variables,
-                                        stdin=subprocess.DEVNULL, stdout=self.log, stderr=subprocess.STDOUT,
-                                        start_new_session=True)
+        line = command([*words, "-output", output], ranks)
+        self.log = open_new(output / LOG)
+        try:
+            self.process = subprocess.Popen(line, cwd=folder, env=variables, stdin=subprocess.DEVNULL, stdout=self.log,
+                                            stderr=subprocess.STDOUT, start_new_session=True,
+                                            preexec_fn=ending_with_us())
+        except OSError as error:
+            self.log.close()
+            raise RunError(f"{line[0]} cannot be started: {error.strerror or error}") from error
 
     @property
     def wall_time(self) -> float:
@@ -105,6 +147,10 @@ class Job:
         """Ends this run and waits for it."""
         if self.running:
             os.killpg(self.process.pid, signal.SIGTERM)
+            try:
+                self.process.wait(PATIENCE)
+            except subprocess.TimeoutExpired:
+                os.killpg(self.process.pid, signal.SIGKILL)
         self.process.wait()
         self.log.close()
 
@@ -116,6 +162,16 @@ class Job:
             return ""
         said = complaint((self.output / LOG).read_text(errors="replace"))
         return said or f"exit status {self.process.returncode}, see {self.output / LOG}"
+
+
+def clear(folder: Path) -> None:
+    """Removes what a run left in its folder, by name, and the folder if nothing else is in it."""
+    for name in (*RESULTS, LOG, "running.lock"):
+        (folder / name).unlink(missing_ok=True)
+    try:
+        folder.rmdir()
+    except OSError:  # what a user put there stays
+        pass
 
 
 def finish(start: Callable[[], Job]) -> str:
@@ -136,6 +192,7 @@ def run(scene: Path | str | None, output: Path | str, ranks: int = 1, folder: Pa
     """Runs a scene into the folder `output`, with more options as names and values, and reads what it left; what
     it printed is in `log.txt` there. `folder`: where the program runs and the paths of its command line begin
     (default: here). Throws RunError, or ResultError."""
+    require_room(ranks)
     base = Path(folder or ".").absolute()
     place, variables = (base / output).absolute(), environment()
     failure = finish(lambda: Job(words_of(scene, options), place, ranks, base, variables))

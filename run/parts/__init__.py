@@ -1,9 +1,12 @@
 """The parts of the commands beside: one package per command, and what a command calls itself. What they share with
 other people's scripts is the package `pounding` of the folder python."""
 
+import atexit
+import os
 import re
 import signal
 import sys
+import traceback
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
@@ -17,6 +20,56 @@ def called(text: str) -> str:
     return re.sub(r"\brun/(?=[a-z])", "pounding-tools ", text) if INSTALLED else text
 
 
+STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+def begin(name: str) -> str:
+    """For the first line of a command: what it is called, and how it ends when it does not end by itself: in one line.
+    While it is made ready a signal ends it at once; what nobody thought of has exit status 2."""
+    told = called(name)
+
+    def leave(line: str, status: int) -> None:
+        try:
+            sys.stdout.flush()
+        except OSError:  # nobody reads it
+            pass
+        try:
+            print(f"{told}: {line}", file=sys.stderr, flush=True)
+        finally:
+            os._exit(status)
+
+    def tell(kind, error, trace) -> None:
+        if os.environ.get("POUNDING_TRACE"):
+            traceback.print_exception(kind, error, trace)
+        words = " ".join(str(error).split())
+        if issubclass(kind, KeyboardInterrupt):
+            leave("interrupted", 1)
+        if issubclass(kind, BrokenPipeError):
+            leave("nobody reads what it says any more", 1)
+        if issubclass(kind, (OSError, MemoryError)):
+            leave(words or "the memory does not hold what it reads", 1)
+        place = traceback.extract_tb(trace)[-1] if trace else None
+        where = f", {Path(place.filename).name} line {place.lineno}" if place else ""
+        leave(f"fault of the command itself ({kind.__name__}: {words}{where}); POUNDING_TRACE=1 shows how it came "
+              "there", 2)
+
+    def flush() -> None:
+        try:
+            sys.stdout.flush()
+        except BrokenPipeError:
+            leave("nobody reads what it says any more", 1)
+
+    sys.excepthook = tell
+    atexit.register(flush)
+    for number in STOPPING:
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, lambda *_: leave("interrupted", 1))
+    return told
+
+
 def stop_when_terminated() -> None:
-    """SIGTERM, as a batch system sends it, stops a command as Ctrl-C does: its runs with it."""
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    """SIGTERM, as a batch system sends it, and SIGHUP of a terminal that is closed stop a command as Ctrl-C does: its
+    runs with it. Under nohup SIGHUP stays ignored."""
+    for number in STOPPING:
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, signal.default_int_handler)

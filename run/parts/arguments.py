@@ -1,6 +1,10 @@
 """Readers of values of the command line, whose mistakes are told in words."""
 
 import argparse
+import math
+import shlex
+
+from pounding.runs import RunError, require_room
 
 
 def names(choices):
@@ -21,8 +25,27 @@ def positive(kind):
     """Reader of a number of this kind above zero."""
     def read(text: str):
         value = kind(text)
-        if not value > 0:
-            raise argparse.ArgumentTypeError(f"{text} is not above 0")
+        if not 0 < value < math.inf:
+            raise argparse.ArgumentTypeError(f"{text} is not a number above 0")
         return value
 
+    read.__name__ = kind.__name__  # argparse says it of what is no number
     return read
+
+
+def ranks(text: str) -> int:
+    """A number of ranks that the cores, or a batch system, can hold."""
+    count = positive(int)(text)
+    try:
+        require_room(count)
+    except RunError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
+    return count
+
+
+def words(text: str) -> list:
+    """Words of a command line that are given as one."""
+    try:
+        return shlex.split(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"{text!r}: {str(error).lower()}") from error
