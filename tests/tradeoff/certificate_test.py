@@ -13,7 +13,7 @@ import two_buildings
 from two_buildings import pounding
 
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
-from parts.tradeoff import estimate, ladder  # noqa: E402
+from parts.tradeoff import certificate, climb, estimate, ladder  # noqa: E402
 
 
 def made_up_ladder(random, rungs, shrink, noise):
@@ -65,6 +65,105 @@ class Disturbances(unittest.TestCase):
         found = {name: dict(changes) for name, _, changes in ladder.disturbances(options)}
         self.assertEqual(found["shaking"], {"motion_x_pga": "4.004", "motion_y_scale": "2.002"})
         self.assertEqual(found["gaps"], {"roof_gap": "0.02001,0.03001"})
+
+
+class MadeUpRun:
+    """What a run of a made-up ladder left: its spectra are one number, the error."""
+
+    def __init__(self, cost, step, error):
+        self.cost, self.error = cost, error
+        self.summary = {"time_step": step, "end_time": 10.0, "impacts": {"episodes": 1}}
+
+    def per_second(self):
+        return self.cost
+
+
+class MadeUpClimb:
+    """A ladder whose costs [s/s], steps [s] and errors are given: {rung: (cost, step, error)}. With a step `factor`
+    times as long a rung costs so much less and has `spoilt` times the factor more error."""
+
+    def __init__(self, ladder_of, spoilt):
+        self.ladder_of, self.spoilt, self.runs = ladder_of, spoilt, []
+
+    def facts(self):
+        cost, step, _ = self.ladder_of["full"]
+        return climb.Facts(("left", "right"), 10000, step, cost, {}, "key")
+
+    def run(self, setting, _window, must=False):
+        name, _, factor = setting.name.partition("-step-")
+        if name.removesuffix("-half-step") not in self.ladder_of:
+            return None
+        cost, step, error = self.ladder_of[name.removesuffix("-half-step")]
+        self.runs.append(setting.name)
+        if not factor:
+            return MadeUpRun(cost, step, error)
+        longer = float(factor) * self.ladder_of["full"][1]
+        return MadeUpRun(cost * step / longer, longer, np.hypot(error, self.spoilt * float(factor)))
+
+    def place(self, setting, _window):
+        return setting.name
+
+    def compare_moving(self, _outcome):
+        pass
+
+    def distance(self, one, other):
+        return dict.fromkeys(climb.BAND_NAMES, float(np.sqrt(abs(one.error**2 - other.error**2))))
+
+    def distances(self, climbed):
+        pairs = [[self.distance(one.outcome, other.outcome) for other in climbed] for one in climbed]
+        return {band: [[pair[band] for pair in row] for row in pairs] for band in climb.BAND_NAMES}
+
+    def noise_floor(self, *_words):
+        return {"0.1 % more shaking": dict.fromkeys(climb.BAND_NAMES, 0.001)}
+
+
+class Choice(unittest.TestCase):
+    """The fastest setting within the target, on ladders whose truth is known, with full order and without."""
+
+    STEP = 1e-4
+    LADDER = {"modal-25": (0.1, STEP, 0.5), "modal-50": (0.2, STEP, 0.3), "modal-100": (0.4, STEP, 0.04),
+              "modal-200": (0.8, STEP, 0.01), "modal-400": (1.6, STEP, 0.002), "modal-800": (3.2, STEP, 0.001),
+              "full": (10.0, STEP, 0.0)}
+
+    def certified(self, target, spoilt=1.0, budget=1e9, **changes):
+        made_up = MadeUpClimb({**self.LADDER, **changes}, spoilt)
+        return certificate.certify(made_up, target, 5.0, budget), made_up
+
+    def test_a_rung_in_the_middle_where_full_order_fits_the_budget(self):
+        found, made_up = self.certified(0.05)
+        self.assertEqual(found.setting.name, "modal-100")
+        self.assertTrue(found.full and found.reached)
+        self.assertAlmostEqual(found.beside_full_order(), 0.04)
+        self.assertNotIn("modal-800", made_up.runs)
+
+    def test_a_finer_rung_wins_by_the_longer_step_that_its_error_leaves_room_for(self):
+        tight = {"modal-100": (0.4, self.STEP, 0.048)}
+        found, _ = self.certified(0.05, spoilt=0.005, **tight)  # eight times the step spoils by 4 %
+        self.assertEqual(found.setting.name, "modal-200-step-8")
+        self.assertAlmostEqual(found.outcome.cost, 0.1)
+        self.assertAlmostEqual(found.beside_full_order(), np.hypot(0.01, 0.04))
+
+    def test_none_of_the_rungs_is_faster_than_a_cheap_full_order(self):
+        found, made_up = self.certified(0.05, full=(0.3, self.STEP, 0.0))
+        self.assertEqual(found.setting.name, "full")
+        self.assertIn("modal-100", made_up.runs)  # it might have been faster with a longer step
+        found, made_up = self.certified(0.05, full=(0.005, self.STEP, 0.0))
+        self.assertEqual(found.setting.name, "full")
+        self.assertNotIn("modal-50", made_up.runs)
+
+    def test_full_order_with_a_longer_step_counts_too(self):
+        found, _ = self.certified(0.05, spoilt=0.005, **{f"modal-{n}": (5.0 * n, self.STEP, 0.5) for n in
+                                                         (25, 50, 100, 200, 400, 800)})
+        self.assertEqual(found.setting.name, "full-step-8")
+        self.assertTrue(found.reached)
+
+    def test_without_full_order(self):
+        found, made_up = self.certified(0.05, budget=0)
+        self.assertEqual(found.setting.name, "modal-100")
+        self.assertFalse(found.full)
+        self.assertNotIn("full", made_up.runs[1:])
+        found, _ = self.certified(0.0001, budget=0)
+        self.assertFalse(found.reached)
 
 
 class OwnScene(unittest.TestCase):
@@ -136,6 +235,9 @@ class OwnScene(unittest.TestCase):
         self.assertTrue(measured["measured"])
         self.assertLessEqual(measured["error"]["1-400"], 0.9)
         self.assertIn("told by full order itself", done.stdout)
+        within = [float(row["seconds per second"]) for row in self.rows() if float(row["error 1-400"]) <= 0.9]
+        self.assertGreater(len(within), 1)  # rungs beside full order
+        self.assertLessEqual(measured["seconds_per_second"], min(within) * (1 + 1e-9))
 
     def test_mistakes_are_one_line(self):
         for words, part in ((("--target", "0.1"), "--scene"), (("--scene", self.scene, "--target", "0"), "--target"),

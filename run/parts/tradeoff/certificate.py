@@ -9,8 +9,26 @@ from .climb import ALL, BAND_NAMES, Climb, Climbed, Facts, window_of
 from .runs import Outcome
 from .settings import Setting
 
-FASTER = (8, 4, 2)  # multiples of full order's step that are tried with the chosen rung
+FASTER = (8, 4, 2)  # multiples of full order's step that are tried with a rung
 NOTHING = dict.fromkeys(BAND_NAMES, 0.0)
+
+
+@dataclass
+class Candidate:
+    """A setting within the target: a rung, as it is or with a longer step; `parts`: its error, per band."""
+
+    rung: int  # of the rungs
+    setting: Setting
+    outcome: Outcome  # over the window
+    parts: dict  # "reduction", "longer step" -> rms per band
+
+    @property
+    def cost(self) -> float:
+        return self.outcome.per_second()
+
+    @property
+    def error(self) -> float:
+        return math.hypot(*(part[ALL] for part in self.parts.values()))
 
 
 @dataclass
@@ -30,6 +48,7 @@ class Certificate:
     shrank: bool
     setting: Setting = None  # of the chosen rung, with a longer step where it pays
     outcome: Outcome = None  # of that setting, over the whole scene
+    tried: list = field(default_factory=list)  # the Candidates that were set beside it
     parts: dict = field(default_factory=dict)  # reduction, longer step; step; mesh -> rms per band
     true: list = field(default_factory=list)  # per rung the distance from full order, where it was checked
 
@@ -69,10 +88,10 @@ def _lacking(folder: Path, structures: tuple, modes: int, finest: int) -> float 
 
 def certify(climb: Climb, target: float, window: float | None = None, budget: float = 600.0,
             finer: tuple = (), check: bool = False) -> Certificate:
-    """The cheapest rung with an estimated error of at most `target`. `budget`: wall time that full order may take over
-    the window [s]; `finer`: options of a finer mesh, with which the chosen setting runs once more over the window.
-    `check`: the ladder goes by its own rungs, and full order is run over the window for nothing but the true errors.
-    Throws CertificateError."""
+    """The fastest setting with an estimated error of at most `target`, of all rungs and longer steps that could be it.
+    `budget`: wall time that full order may take over the window [s]; `finer`: options of a finer mesh, with which the
+    chosen setting runs once more over the window. `check`: the ladder goes by its own rungs, and full order is run over
+    the window for nothing but the true errors. Throws CertificateError."""
     facts = climb.facts()
     steps = ladder.rungs(facts.structures, facts.dofs)
     first = next((one for one in steps if climb.run(one.setting, None) is not None), ladder.FULL)
@@ -89,7 +108,6 @@ def certify(climb: Climb, target: float, window: float | None = None, budget: fl
         full = climb.run(ladder.FULL.setting, window, must=True)
         facts.cost = full.per_second()
         found.true = [climb.distance(one.outcome, full) for one in found.climbed]
-    _take_longer_step(climb, found)
     _add_step(climb, found)
     if finer:
         _add_mesh(climb, found, finer)
@@ -98,14 +116,18 @@ def certify(climb: Climb, target: float, window: float | None = None, budget: fl
 
 
 def _climb(climb: Climb, facts: Facts, steps: list, target: float, window: float | None, affordable: bool):
-    """Runs rung after rung until one is close enough; full order first where it is affordable."""
+    """Runs rung after rung until the fastest setting within the target is known; full order first where it is
+    affordable."""
     top = []
     if affordable:
         top = [Climbed(ladder.FULL, climb.run(ladder.FULL.setting, window, must=True))]
         facts.cost = top[0].outcome.per_second()
     climbed, floor, found = [], {}, None
+    best = facts.cost if top else math.inf  # wall time per second of motion of the fastest one within the target
     for rung in steps:
         if rung.modes is None and (top or not affordable):
+            break
+        if climbed and not _may_be_faster(climbed[-1].outcome, facts, best, found):
             break
         outcome = climb.run(rung.setting, window)
         if outcome is None:
@@ -114,47 +136,82 @@ def _climb(climb: Climb, facts: Facts, steps: list, target: float, window: float
         if len(climbed) == 2 or (len(climbed) == 1 and len(steps) < 3):
             floor = climb.noise_floor(rung.setting, window, outcome, facts.options)
         found = _judge(climb, facts, target, window, floor, climbed + top, bool(top))
-        if found and found.confirmed and (top or len(climbed) > 2) and found.errors[found.chosen][ALL] <= max(
-                target, found.floor_of()):
-            break
+        if found and found.climbed[found.chosen].rung.modes and found.confirmed and (
+                top or len(climbed) > 2) and found.errors[found.chosen][ALL] <= max(target, found.floor_of()):
+            _choose(climb, found)
+            best = found.outcome.per_second()
     if found is None:
         outcome = climb.run(ladder.FULL.setting, window, must=True)
         found = _judge(climb, facts, target, window, floor, [Climbed(ladder.FULL, outcome)], True)
+    if not found.tried:
+        _choose(climb, found)
     return found
+
+
+def _may_be_faster(last: Outcome, facts: Facts, best: float, found: Certificate | None) -> bool:
+    """Whether a finer rung than the `last` one could take less than `best` wall time per second of motion: a step of it
+    costs no less, so that it needs a longer one of those that are tried, and more of the target left for it than a rung
+    has that lacks half of the target, or no more than the noise."""
+    if found and found.tried:
+        least = min(found.errors[one.rung][ALL] for one in found.tried if found.climbed[one.rung].rung.modes)
+        if least <= max(0.5 * found.target, found.floor_of()):
+            return False
+    return last.per_second() * min(1.0, last.summary["time_step"] / (FASTER[0] * facts.time_step)) < best
 
 
 def _judge(climb: Climb, facts: Facts, target: float, window: float | None, floor: dict, climbed: list,
            full: bool) -> Certificate | None:
-    """The certificate as far as it goes; None of a single rung that is not full order."""
+    """The certificate as far as it goes, of the coarsest rung within the target; None of a single rung that is not full
+    order."""
     if len(climbed) < 2 and not full:
         return None
     distances = climb.distances(climbed)
     least = {band: max((one[band] for one in floor.values()), default=0.0) for band in BAND_NAMES}
     told = {band: estimate.estimates(distances[band], least[band], full) for band in BAND_NAMES}
     errors = [{band: told[band][k].error for band in BAND_NAMES} for k in range(len(climbed))]
-    known = len(climbed) if full else len(climbed) - 1  # the finest rung has none beside it that would confirm it
-    good = [k for k in range(known) if errors[k][ALL] <= max(target, least[ALL])]
+    good = _within(errors, full, max(target, least[ALL]))
     chosen = good[0] if good else len(climbed) - 1
     return Certificate(target, facts, window, 0.0, floor, climbed, errors, full, chosen, errors[chosen][ALL] <= target,
                        full or estimate.shrank(distances[ALL]), climbed[chosen].rung.setting,
-                       climbed[chosen].outcome, {"reduction": errors[chosen]})
+                       climbed[chosen].outcome, parts={"reduction": errors[chosen]})
 
 
-def _take_longer_step(climb: Climb, found: Certificate) -> None:
-    """Scales the mass of stiff members and fast coordinates for the longest step that the target allows."""
-    rung = found.climbed[found.chosen]
-    allowed, step = max(found.target, found.floor_of()), rung.outcome.summary["time_step"]
+def _within(errors: list, full: bool, allowed: float) -> list:
+    """Rungs of no larger error; the finest one has none beside it that would confirm it, unless it is full order."""
+    return [k for k in range(len(errors) if full else len(errors) - 1) if errors[k][ALL] <= allowed]
+
+
+def _choose(climb: Climb, found: Certificate) -> None:
+    """Takes the fastest setting of the rungs within the target and the longer steps that it allows them; where no rung
+    is within it, the finest."""
+    allowed = max(found.target, found.floor_of())
+    found.tried, best = [], None
+    for k in _within(found.errors, found.full, allowed) or [found.chosen]:
+        for one in _settings_of(climb, found, k, allowed, best.cost if best else math.inf):
+            found.tried.append(one)
+            best = one if best is None or one.cost < best.cost else best
+    found.chosen, found.setting, found.outcome, found.parts = best.rung, best.setting, best.outcome, best.parts
+    found.reached = best.error <= found.target
+
+
+def _settings_of(climb: Climb, found: Certificate, k: int, allowed: float, best: float) -> list:
+    """Rung k as it is, and with the mass of stiff members and fast coordinates scaled for the longest step that
+    is allowed and could make it faster than `best` [s/s]."""
+    rung = found.climbed[k]
+    plain = Candidate(k, rung.rung.setting, rung.outcome, {"reduction": found.errors[k]})
+    step = rung.outcome.summary["time_step"]
     for factor in FASTER:
-        if factor * found.facts.time_step < 1.1 * step:
-            return
+        longer = factor * found.facts.time_step
+        if longer < 1.1 * step or plain.cost * step / longer >= best:
+            break
         setting = ladder.longer_step(rung.rung, found.facts.structures, factor, found.facts.time_step)
         outcome = climb.run(setting, found.window)
         if outcome is None or outcome.summary["time_step"] < 1.1 * step:
             continue
-        moved = climb.distance(outcome, rung.outcome)
-        if math.hypot(found.parts["reduction"][ALL], moved[ALL]) <= allowed:
-            found.setting, found.outcome, found.parts["longer step"] = setting, outcome, moved
-            return
+        scaled = Candidate(k, setting, outcome, {**plain.parts, "longer step": climb.distance(outcome, rung.outcome)})
+        if scaled.error <= allowed:
+            return [plain, scaled]
+    return [plain]
 
 
 def _add_step(climb: Climb, found: Certificate) -> None:
@@ -186,6 +243,8 @@ def _run_whole(climb: Climb, found: Certificate) -> None:
     if found.window is None:
         return
     short, found.outcome = found.outcome, climb.run(found.setting, None, must=True)
+    if found.climbed[found.chosen].rung.modes is None and "longer step" not in found.parts:
+        return  # full order itself
     other = found.climbed[found.chosen - 1 if found.chosen else min(1, len(found.climbed) - 1)]
     if other.rung.modes is None or other.rung == found.climbed[found.chosen].rung:
         return

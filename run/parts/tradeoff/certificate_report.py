@@ -4,9 +4,11 @@ import json
 from pathlib import Path
 
 from parts.benchmark import tables
+from pounding.files import write_text
 
 from .certificate import Certificate
 from .climb import BAND_NAMES
+from .ladder import FULL
 from .study import fidelity_table
 
 
@@ -37,9 +39,7 @@ def text_of(found: Certificate, scene: str, ladder: list) -> str:
              f"{found.setting.name}: {found.setting.what}. Its floor spectra (1-400 Hz, rms of the logarithm over all "
              f"probes and directions that move) are {percent(found.beside_full_order())} from full order, told by "
              f"{sure}; {percent(found.target)} were asked: {'reached' if found.reached else 'NOT reached'}.",
-             f"It takes {cost:.3g} s per second of motion, full order {found.facts.cost:.3g}: "
-             f"{found.facts.cost / cost:.3g} times faster, and {found.facts.cost * found.end_time:.3g} s for the whole "
-             "scene at full order.", ""]
+             f"It takes {cost:.3g} s per second of motion; " + _beside_full_order(found, cost), ""]
     if found.floor_of() > found.target:
         lines += [f"The noise floor, {percent(found.floor_of())}, is above the target: no single run says more about "
                   "this scene, whatever its fidelity. Repeat it with the gap or the shaking a little changed.", ""]
@@ -70,6 +70,13 @@ def text_of(found: Certificate, scene: str, ladder: list) -> str:
                       tables.markdown("What the error holds", ["part", *(f"{band} Hz" for band in BAND_NAMES)], parts)])
 
 
+def _beside_full_order(found: Certificate, cost: float) -> str:
+    if found.setting.name == FULL.setting.name:
+        return "of the settings that were tried no other one is within the target and faster."
+    return (f"full order {found.facts.cost:.3g}: {found.facts.cost / cost:.3g} times faster, and "
+            f"{found.facts.cost * found.end_time:.3g} s for the whole scene at full order.")
+
+
 def _words(name: str) -> str:
     return {"reduction": "reduction to modes", "longer step": "scaled mass and a longer step",
             "step": "time step, by half of it", "mesh": "mesh, by the finer one"}[name]
@@ -79,9 +86,9 @@ def write(found: Certificate, scene: str, folder: Path) -> str:
     """Writes certificate.md, certificate.json, ladder.csv and fidelity.csv into the folder; returns the text."""
     rows = rows_of(found, folder)
     text = text_of(found, scene, rows)
-    (folder / "certificate.md").write_text(text)
+    write_text(folder / "certificate.md", text)
     tables.write_csv(folder / "ladder.csv", rows)
-    (folder / "certificate.json").write_text(json.dumps({
+    write_text(folder / "certificate.json", json.dumps({
         "scene": scene, "target": found.target, "reached": found.reached, "setting": found.setting.name,
         "options": {name: str(value).replace("{folder}", str(folder)) for name, value in found.setting.changes},
         "error": {band: found.beside_full_order(band) for band in BAND_NAMES},
@@ -92,12 +99,13 @@ def write(found: Certificate, scene: str, folder: Path) -> str:
         "seconds_per_second": found.outcome.per_second(), "full_order_seconds_per_second": found.facts.cost,
         "structures_key": found.facts.key}, indent=1) + "\n")
     settings = [(one.rung.setting, found.errors[k]["1-400"], one.outcome) for k, one in enumerate(found.climbed)]
+    settings += [(one.setting, max(one.error, found.floor_of()), one.outcome) for one in found.tried]
     settings.append((found.setting, found.beside_full_order(), found.outcome))
     summary = [{"setting": setting.name, "structures_key": found.facts.key, "rms": rms,
                 "per_second": outcome.per_second()} for setting, rms, outcome in
                {setting.name: (setting, rms, outcome) for setting, rms, outcome in settings}.values()]
     what = (scene, "all probes that move, 1-400 Hz, estimated" if not found.full else "all probes that move, 1-400 Hz",
             f"those of {scene}")
-    (folder / "fidelity.csv").write_text(fidelity_table(summary, [one for one, _, _ in settings],
-                                                        found.facts.structures, what))
+    write_text(folder / "fidelity.csv", fidelity_table(summary, [one for one, _, _ in settings],
+                                                       found.facts.structures, what))
     return text

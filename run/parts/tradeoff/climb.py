@@ -69,7 +69,7 @@ class Climb:
         failures = []
         found = run(self._case(window), setting, self.ranks, self.folder, failures.append)
         if found is None:
-            words = failures[0].strip().partition(": ")[2]
+            words = failures[-1].strip().partition(": ")[2]
             if must:
                 raise CertificateError(words)
             self.log(f"  {setting.name}: {words}")

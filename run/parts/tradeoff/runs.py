@@ -1,16 +1,16 @@
 """Runs the program for the study and keeps of each run what the tables need."""
 
-import json
-import shutil
 from pathlib import Path
 
-from parts.sweep.members import file_hashes
-from pounding.results import DIRECTIONS, load
+from parts import finished
+from parts.understood import understood
+from pounding.results import DIRECTIONS, ResultError, load
 from pounding.runs import Job, environment, finish, words_of
 
 from .metrics import GRID
 from .settings import Setting
 
+NEEDED = ("structures", "options", "impacts", "energy", "time_step", "steps", "peak_memory", "structures_key")
 SOURCE = Path(__file__).resolve().parents[3]
 
 
@@ -19,10 +19,6 @@ class Case:
 
     directions = ("x",)
     folder = SOURCE  # where it runs
-
-    def inputs(self, place: Path) -> dict:
-        """What its results depend on beside the command: nothing that changes."""
-        return {}
 
     def __init__(self, name: str, gaps: dict, motion: dict, window: float):
         self.name, self.gaps, self.motion, self.window = name, gaps, motion, window
@@ -56,27 +52,26 @@ class SceneCase:
                    **dict(setting.changes)}
         return [word.replace("{folder}", str(folder)) for word in words_of(self.scene, options)]
 
-    def inputs(self, place: Path) -> dict:
-        """Hashes of the scene and its files; nothing where no run came to its end."""
-        try:
-            return file_hashes(self.scene, json.loads((place / "summary.json").read_text())["options"])
-        except (OSError, ValueError, KeyError):
-            return {}
-
 
 class Outcome:
     """What one run left: its summary and the floor spectra, {probe: (frequency, values)} along x, or
-    {probe.direction: ...} of a scene along all directions."""
+    {probe.direction: ...} of a scene along all directions. Throws ResultError where it left no such thing."""
 
     def __init__(self, folder: Path, directions: tuple = ("x",)):
         result = load(folder)
         self.summary = result.summary
         self.axes = [DIRECTIONS.index(way) for way in directions]
+        if not result.summary:
+            raise ResultError(f"{folder}: no summary.json, the run did not reach its end")
         self.spectra = {}
-        for probe in result.spectrum_probes:
-            for way in directions:
-                name = f"{probe}.{way}" if len(directions) > 1 else str(probe)
-                self.spectra[name] = result.spectrum(probe, way, result.spectra["damping"][0])
+        with understood(folder):
+            for probe in result.spectrum_probes:
+                for way in directions:
+                    name = f"{probe}.{way}" if len(directions) > 1 else str(probe)
+                    self.spectra[name] = result.spectrum(probe, way, result.spectra["damping"][0])
+            told = [self.per_second(), self.set_up(), self.peak_drift(), *(self.summary[key] for key in NEEDED)]
+            if None in told or self.summary["time_step"] <= 0:
+                raise ValueError("no step or no cost of a step")
 
     @property
     def wall_time(self) -> float:
@@ -91,7 +86,8 @@ class Outcome:
 
     def peak_drift(self) -> float:
         """Largest displacement of any probe, of the pair along x [m]."""
-        return max(probe["peak_displacement"][axis] for probe in self.summary["probes"].values() for axis in self.axes)
+        return max((probe["peak_displacement"][axis] or 0.0 for probe in self.summary.get("probes", {}).values()
+                    for axis in self.axes), default=0.0)
 
     def moving(self) -> list:
         """Names of the spectra whose largest value is above a thousandth of the largest of their probe, and none of
@@ -108,21 +104,18 @@ class Outcome:
 def run(case: Case | SceneCase, setting: Setting, ranks: int, folder: Path, log) -> Outcome | None:
     """One run, or what an earlier one with the same command and files left; None if the program refuses it."""
     place = folder / case.name / setting.name
-    words = case.words(setting, folder)
-    command = f"{ranks} {' '.join(words)}"
-    mark = place / "command.txt"
-
-    def signature() -> str:
-        files = case.inputs(place)
-        return command + (json.dumps(files) if files else "")
-
-    if not (mark.exists() and mark.read_text() == signature()):
-        shutil.rmtree(place, ignore_errors=True)
-        variables = environment()
-        failure = finish(lambda: Job(words, place, ranks, case.folder, variables))
-        if failure:
-            log(f"  {setting.name}: {failure}")
-            return None
+    words = [str(ranks), *case.words(setting, folder)]
+    if finished.is_finished(words, place, case.folder):
+        try:
+            return Outcome(place, case.directions)
+        except ResultError as error:
+            log(f"  {setting.name}: once more: {error}")
+    finished.begin_anew(place)
+    failure = finish(lambda: Job(words[1:], place, ranks, case.folder, environment()))
+    if not failure:
         (place / "history.h5").unlink(missing_ok=True)  # large, and not read here
-        mark.write_text(signature())
+        failure = finished.sign(words, place, case.folder)
+    if failure:
+        log(f"  {setting.name}: {failure}")
+        return None
     return Outcome(place, case.directions)

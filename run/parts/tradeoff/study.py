@@ -66,6 +66,9 @@ def study(list_of_cases: list, settings: list, ranks: int, folder, log, noise: l
         reference = None
         for setting in [REFERENCE, *noise, *settings]:
             found = run(case, setting, ranks, folder, log)
+            if found is None and reference is None:
+                log(f"  {case.name}: left out, there is nothing to compare with")
+                break
             if found is None:
                 continue
             reference = reference or found
