@@ -194,6 +194,13 @@ class Study(unittest.TestCase):
         seeds = {"correlation": 1e-4, "x": {**STUDY["motions"]["x"], "seeds": [1, 2]}}
         self.refuse("1 of 1 pairs are correlated by 0.0001 or more, x 1 and x 2 by", "--dry-run", motions=seeds)
         self.refuse("joints: roof", "--dry-run", joints={"roof": {"shape": "1,2,3"}})
+        told = {"correlation": 0.9, "x": {**STUDY["motions"]["x"], "seeds": [1, 2]}}
+        factor = {"left_stiffness_factor": {"distribution": "lognormal", "cov": 0.1}}
+        self.refuse("floor9_gap", "--dry-run", motions=told, joints={"floor9": {}})
+        self.refuse("left_p_delta", "--dry-run", motions=told, factors=factor, reduction={},
+                    options={**STUDY["options"], "left_p_delta": True})
+        self.refuse("'cab' is no probe", "--dry-run", motions=told, reduction={},
+                    capacities=[{**STUDY["capacities"][0], "probe": "cab"}])
         record = program.write_samples(np.sin(np.arange(300) / 9), 0.01)
         self.addCleanup(os.unlink, record)
         twice = {"x": {"records": [record, record], "options": {"unit": "m/s2"}}}

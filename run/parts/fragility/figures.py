@@ -23,13 +23,11 @@ def shown(analysis: Analysis) -> tuple:
              for k, level in enumerate(study.levels)}
     best = max(share, key=lambda cell: (-abs(share[cell] - 0.5), cell[1]))
     gap, level = (float(study.show.get(key, default)) for key, default in zip(("gap", "level"), best))
-    if (gap, level) not in share:
-        gap, level = best
     damping = int(abs(found.damping - 0.05).argmin())
     raised = (found.spectra[analysis.of(gap, level)].mean(0)[:, damping].max(-1)
               - found.spectra[analysis.of(None, level)].mean(0)[:, damping].max(-1))
     channel = max(analysis.main(found.spectra[analysis.of(None, level)]), key=lambda number: raised[number])
-    if study.show.get("channel") in found.channels:
+    if "channel" in study.show:
         channel = found.channels.index(study.show["channel"])
     return gap, level, channel, damping
 

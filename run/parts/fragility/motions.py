@@ -6,10 +6,13 @@ from pathlib import Path
 
 import numpy as np
 
+from parts import called
+from parts.folder_lock import alone_in
 from parts.side_by_side import run_side_by_side
+from pounding.files import write_text, written_beside
 from pounding.fragility import correlations
 from pounding.results import load
-from pounding.runs import Job, environment
+from pounding.runs import Job, clear, environment
 from pounding.scenes import write_scene
 
 from .study import Axis, Study, StudyError
@@ -53,7 +56,7 @@ class Motions:
         if not todo:
             return
         self.folder.mkdir(parents=True, exist_ok=True)
-        (self.folder / "point.geo").write_text(POINT)
+        write_text(self.folder / "point.geo", POINT)
         failures = []
 
         def start(pair: tuple) -> Job:
@@ -71,10 +74,9 @@ class Motions:
                 failures.append(f"motion {pair[1]} along {pair[0]}: {failure}")
                 return
             values = load(job.output).history["ground_acceleration"][:, 0]
-            np.save(self.folder / f"{job.output.name}.npy", np.trim_zeros(values, "b"))
-            for path in job.output.iterdir():
-                path.unlink()
-            job.output.rmdir()
+            with written_beside(self.folder / f"{job.output.name}.npy") as draft:
+                np.save(draft, np.trim_zeros(values, "b"))
+            clear(job.output)
             (self.folder / f"{job.output.name}.yaml").unlink()
 
         run_side_by_side(todo, self.jobs, start, ended)
@@ -82,7 +84,15 @@ class Motions:
             raise StudyError(failures[0])
 
     def signal(self, axis: str, motion) -> np.ndarray:
-        return np.load(self.folder / f"{self._name(axis, motion)}.npy")
+        """Throws StudyError where the kept one is damaged."""
+        path = self.folder / f"{self._name(axis, motion)}.npy"
+        try:
+            found = np.load(path, allow_pickle=False)
+        except (OSError, ValueError, EOFError) as error:
+            raise StudyError(f"{path} cannot be read ({' '.join(str(error).split())}); remove it") from error
+        if found.ndim != 1 or found.dtype.kind != "f":
+            raise StudyError(f"{path} holds no motion; remove it")
+        return found
 
 
 def choose_seeds(study: Study, made: Motions) -> None:
@@ -114,19 +124,20 @@ def check(study: Study, folder: Path, jobs: int, write: bool = True) -> np.ndarr
     """Chooses what is to be chosen, writes motions.csv and correlation.csv into the folder and returns the matrix of
     all axes one after the other. Throws StudyError with the pair that is furthest beyond the limit."""
     made = Motions(study, folder / "motions", jobs)
-    if study.wanted:
-        choose_seeds(study, made)
-    pairs = [(name, motion) for name, axis in study.axes.items() for motion in axis.records or axis.seeds]
-    made.make(pairs)
+    with alone_in(folder / "motions", called("run/fragility"), wait=True):  # parts of a study make them once
+        if study.wanted:
+            choose_seeds(study, made)
+        pairs = [(name, motion) for name, axis in study.axes.items() for motion in axis.records or axis.seeds]
+        made.make(pairs)
     labels = [f"{name} {Path(str(motion)).name}" for name, motion in pairs]
     matrix = correlations([made.signal(*pair) for pair in pairs])
     off = abs(matrix - np.eye(len(matrix)))
     if write:
-        with open(folder / "correlation.csv", "w", newline="") as file:
+        with written_beside(folder / "correlation.csv") as draft, open(draft, "w", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(["motion", *labels])
             writer.writerows([label, *(f"{value:.4f}" for value in row)] for label, row in zip(labels, matrix))
-        with open(folder / "motions.csv", "w", newline="") as file:
+        with written_beside(folder / "motions.csv") as draft, open(draft, "w", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(["axis", "motion", "samples", "largest correlation", "with"])
             writer.writerows([name, motion, len(made.signal(name, motion)), f"{row.max():.4f}", labels[row.argmax()]]

@@ -1,12 +1,16 @@
 """What members of a study left, as arrays: those of ensemble.h5."""
 
+import zipfile
+import zlib
+from contextlib import contextmanager
 from dataclasses import dataclass, fields
 from pathlib import Path
 
 import h5py
 import numpy as np
 
-from pounding.results import Result
+from pounding.files import written_beside
+from pounding.results import UNREADABLE, Result
 
 from .study import StudyError
 
@@ -46,15 +50,25 @@ def _texts(values) -> list:
     return [value.decode() if isinstance(value, bytes) else str(value) for value in np.ravel(values)]
 
 
-def read_rows(path: Path) -> tuple:
-    """Columns, and of each finished member its texts -> its number in the file. Throws StudyError."""
+@contextmanager
+def _reading(path: Path):
+    """Throws StudyError where what is read is damaged."""
     try:
         with h5py.File(path, "r") as file:
-            table = file["members/table"]
-            columns = _texts(table.attrs["columns"])[0].split(",")
-            cells, done = np.array(_texts(table[()])).reshape(-1, len(columns)), np.ravel(file["done"][()])
-    except (OSError, KeyError, ValueError) as error:
-        raise StudyError(f"{path} cannot be read: {' '.join(str(error).split())}") from error
+            yield file
+    except UNREADABLE as error:
+        raise StudyError(f"{path} cannot be read ({' '.join(str(error).split())}); remove it, and its members are run "
+                         "again") from error
+
+
+def read_rows(path: Path) -> tuple:
+    """Columns, and of each finished member its texts -> its number in the file. Throws StudyError."""
+    with _reading(path) as file:
+        table = file["members/table"]
+        columns = _texts(table.attrs["columns"])[0].split(",")
+        cells, done = np.array(_texts(table[()])).reshape(-1, len(columns)), np.ravel(file["done"][()])
+        if len(cells) != len(done):
+            raise ValueError("a flag for each member is missing")
     return columns, {tuple(row): index for index, row in enumerate(cells) if done[index]}
 
 
@@ -73,7 +87,7 @@ def collect(files: list, members: list, columns: list) -> tuple:
     for path in dict.fromkeys(place for place, _ in places.values()):
         mine = [index for index in order if places[index][0] == path]
         rows = np.array([places[index][1] for index in mine])
-        with h5py.File(path, "r") as file:
+        with _reading(path) as file:
             labels = {name: file[dataset][()] for dataset, name in LABELS.items()}
             labels["channels"], labels["contacts"] = _texts(labels["channels"]), _texts(labels["contacts"])
             shared = shared or labels
@@ -122,8 +136,7 @@ def of_run(result: Result) -> Outcomes:
 
 def write(path: Path, columns: list, texts: list, parts: list) -> None:
     """Writes outcomes of one member each as an ensemble.h5, in place at once."""
-    draft = path.with_suffix(".part")
-    with h5py.File(draft, "w") as file:
+    with written_beside(path) as draft, h5py.File(draft, "w") as file:
         table = file.create_dataset("members/table", data=np.char.encode(np.array(texts).reshape(len(texts), -1)))
         table.attrs["columns"] = ",".join(columns)
         for dataset, name in LABELS.items():
@@ -132,18 +145,20 @@ def write(path: Path, columns: list, texts: list, parts: list) -> None:
         for dataset, name in ARRAYS.items():
             file[dataset] = np.concatenate([getattr(part, name) for part in parts])
         file["done"] = np.ones(len(parts), dtype="i4")
-    draft.replace(path)
 
 
 def save(path: Path, one: Outcomes) -> None:
     """Keeps the outcome of one member."""
-    draft = path.with_suffix(".part.npz")
-    np.savez(draft, **{item.name: getattr(one, item.name) for item in fields(Outcomes)})
-    draft.replace(path)
+    with written_beside(path) as draft:
+        np.savez(draft, **{item.name: getattr(one, item.name) for item in fields(Outcomes)})
 
 
-def restore(path: Path) -> Outcomes:
-    with np.load(path) as file:
-        values = {item.name: file[item.name] for item in fields(Outcomes)}
+def restore(path: Path) -> Outcomes | None:
+    """None where there is none, or one that is damaged."""
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            values = {item.name: file[item.name] for item in fields(Outcomes)}
+    except (*UNREADABLE, EOFError, zipfile.BadZipFile, zlib.error):
+        return None
     values["channels"], values["contacts"] = values["channels"].tolist(), values["contacts"].tolist()
     return Outcomes(**values)

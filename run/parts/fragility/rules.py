@@ -5,10 +5,12 @@ import json
 from pathlib import Path
 
 from parts.side_by_side import run_side_by_side
-from pounding.runs import Job, environment
+from pounding.files import write_text
+from pounding.results import load
+from pounding.runs import Job, clear, environment
 
 from .design import Design, motion_columns, motion_values
-from .study import Study
+from .study import Study, StudyError
 
 MOST = 5  # motions of which the mean is taken
 MODES = 6  # of each structure
@@ -36,10 +38,8 @@ def find(study: Study, design: Design, scene: Path, folder: Path, jobs: int) -> 
             if failure:
                 failures.append(failure)
                 return
-            told.append(json.loads((job.output / "summary.json").read_text()).get("separations", {}))
-            for path in job.output.iterdir():
-                path.unlink()
-            job.output.rmdir()
+            told.append(load(job.output).summary.get("separations", {}))
+            clear(job.output)
 
         run_side_by_side(shown[:1], 1, start, ended)
         run_side_by_side(shown[1:] if not failures else [], jobs, start, ended)
@@ -48,6 +48,9 @@ def find(study: Study, design: Design, scene: Path, folder: Path, jobs: int) -> 
         found = {contact: {rule: factor * sum(one[contact][key] for one in told) / len(told)
                            for rule, (key, factor) in RULES.items()}
                  for contact in study.joints if all((one.get(contact) or {}).get("srss") for one in told)}
-        kept.write_text(json.dumps(found))
-    found = json.loads(kept.read_text())
+        write_text(kept, json.dumps(found))
+    try:
+        found = json.loads(kept.read_text())
+    except ValueError as error:
+        raise StudyError(f"{kept} cannot be read ({error}); remove it") from error
     return found, "" if found else "no rules for the joint: the program tells none of this scene"

@@ -2,19 +2,25 @@
 
 import csv
 import hashlib
+import itertools
 import json
-import re
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from parts import called, finished
+from parts.folder_lock import alone_in
 from parts.side_by_side import run_side_by_side
-from parts.sweep.members import scene_files
+from parts.understood import understood
+from pounding.files import write_text, written_beside
 from pounding.results import ResultError, load
-from pounding.runs import LOG, Job, environment, finish
+from pounding.runs import LOG, Job, clear, environment, finish
 from pounding.scenes import write_scene
 
 from . import outcomes
 from .design import Design
-from .study import Study, StudyError
+from .study import Study, StudyError, check_names
+
+SCOUTED = "scouted.json"
 
 
 def scene_options(study: Study, reduced: bool, folder: Path) -> dict:
@@ -35,47 +41,93 @@ def scene_options(study: Study, reduced: bool, folder: Path) -> dict:
     return found
 
 
-def named_files(texts: list, beside: list) -> list:
-    """Files that words in the texts name, from here or beside the files of a scene."""
-    words = {word for text in texts for word in re.findall(r"[^\s\"',:{}#;=]+\.\w+", text)}
-    return sorted({str((folder / word).resolve()) for word in words for folder in beside if (folder / word).is_file()})
-
-
 def key_of(study: Study, options: dict, design: Design) -> str:
-    """Hash of all that the results depend on but the members' values: options, names of columns, files."""
-    scenes = scene_files(study.scene)
-    told = {name: value for name, value in options.items() if not name.endswith("_modal_basis")}
-    texts = [path.read_text(errors="replace") for path in scenes] + [" ".join(told.values())]
-    texts += sorted({value for one in design.members for value in one.values if "." in value and "/" in value})
-    files = [*map(str, scenes), *named_files(texts, [Path.cwd(), *{path.parent for path in scenes}])]
-    hashes = {path: hashlib.sha256(Path(path).read_bytes()).hexdigest() for path in files}
-    return hashlib.sha256(json.dumps([told, sorted(hashes.items()), design.columns]).encode()).hexdigest()[:12]
+    """Hash of what the results depend on but the members' values and the files of the scene: options, names of columns,
+    motions."""
+    told = {name: value for name, value in options.items() if not name.endswith(finished.BASIS)}
+    files = sorted({file for one in study.axes.values() for file in (*one.records, one.target) if file})
+    return hashlib.sha256(json.dumps([told, [[file, finished.digest(Path(file))] for file in files],
+                                      design.columns]).encode()).hexdigest()[:12]
 
 
 def _digest(values) -> str:
     return hashlib.sha256(str(values).encode()).hexdigest()
 
 
+@dataclass(frozen=True)
+class Scouted:
+    """What the first member, run for two steps, tells of all of them."""
+
+    inputs: dict  # path -> hash
+    probes: list
+    contacts: list
+
+
 class Runner:
     """Runs what is missing of the members, in a folder; `ranks` of each job, `jobs` at a time where each member is a
-    run of its own. `kind`: ensemble, single, or auto: ensembles where the program takes the scene."""
+    run of its own. `kind`: ensemble, single, or auto: ensembles where the program takes the scene. Results of scenes
+    whose files have changed since stay where they are, and are not these. Throws StudyError."""
 
-    def __init__(self, study: Study, design: Design, folder: Path, ranks: int, jobs: int, kind: str):
+    def __init__(self, study: Study, design: Design, folder: Path, ranks: int, jobs: int, kind: str,
+                 only_look: bool = False):
+        """`only_look`: what nothing has been run of yet is refused."""
         self.study, self.design, self.folder = study, design, folder
         self.ranks, self.jobs, self.kind = ranks, jobs, kind
         self.variables = environment()
-        self.keys = {}
-        for reduced in (True, False):
+        self.bases, self.scouted = {}, {}
+        for reduced in (True, False) if design.repeated else (True,):
             options = scene_options(study, reduced, folder / "runs")
-            self.keys[reduced] = key_of(study, options, design)
-            (folder / "runs" / self.keys[reduced]).mkdir(parents=True, exist_ok=True)
-            write_scene(self.scene(reduced), options)
+            with alone_in(folder / "runs", called("run/fragility"), wait=True):  # parts of a study look once
+                self._find_base(reduced, options, key_of(study, options, design), only_look)
+        check_names(study, self.scouted[True].probes, self.scouted[True].contacts)
+
+    def _find_base(self, reduced: bool, options: dict, key: str, only_look: bool) -> None:
+        """The folder of the members whose scene's files are those of today; a new one where there is none."""
+        for number in itertools.count(1):
+            base = self.folder / "runs" / (key if number == 1 else f"{key}-{number}")
+            self.bases[reduced] = base
+            if not (base / SCOUTED).exists():
+                break
+            try:
+                found = Scouted(**json.loads((base / SCOUTED).read_text(encoding="utf-8")))
+            except (OSError, ValueError, TypeError) as error:
+                raise StudyError(f"{base / SCOUTED} cannot be read ({error}); remove the folder, whose runs are then "
+                                 "repeated") from error
+            if finished.are_current(found.inputs, Path.cwd()):
+                self.scouted[reduced] = found
+                return
+        if only_look:
+            raise StudyError(f"{self.folder}: of this study and its files as they are now nothing is there yet; run what "
+                             "is missing")
+        base.mkdir(parents=True, exist_ok=True)
+        write_scene(self.scene(reduced), options)
+        self.scouted[reduced] = self._scout(reduced, base)
+        write_text(base / SCOUTED, json.dumps(asdict(self.scouted[reduced]), indent=1))
+
+    def _scout(self, reduced: bool, base: Path) -> Scouted:
+        """Two steps of the first member: what the program refuses, it refuses here."""
+        place = base / "scout"
+        words = [*self._words(self.design.members[0], reduced), "-end_time", "1e-4", "-modes", "0"]
+        failure = finish(lambda: Job(words, place.absolute(), 1, Path.cwd(), self.variables))
+        if failure:
+            raise StudyError(f"{self.study.path}: {failure}")
+        summary = load(place).summary
+        clear(place)
+        own = str(self.scene(reduced).absolute())
+        inputs = {path: found for path, found in finished.inputs_of(summary).items() if path != own}
+        return Scouted(inputs, list(summary.get("probes", {})), list(summary.get("contacts", {})))
+
+    def _words(self, member, reduced: bool) -> list:
+        words = ["-options_file", str(self.scene(reduced).absolute())]
+        for column, value in zip(self.design.columns, member.values):
+            words += [f"-{column}", value]
+        return words
 
     def scene(self, reduced: bool) -> Path:
-        return self.folder / "runs" / self.keys[reduced] / "scene.yaml"
+        return self.bases[reduced] / "scene.yaml"
 
     def files(self, reduced: bool) -> list:
-        return sorted((self.folder / "runs" / self.keys[reduced]).glob(f"*/{outcomes.FILE}"))
+        return sorted(self.bases[reduced].glob(f"*/{outcomes.FILE}"))
 
     def found(self, members: list, reduced: bool = True) -> tuple:
         """(Outcomes, indices of those that are missing)."""
@@ -99,7 +151,7 @@ class Runner:
         if missing:
             self._singles([share[index] for index in missing], True, name)
             kind = "single"
-        _, missing = self.found(repeats, False)
+        missing = self.found(repeats, False)[1] if repeats else []
         if missing:
             self._singles([repeats[index] for index in missing], False, name)
         return kind
@@ -107,11 +159,14 @@ class Runner:
     def _ensemble(self, share: list, name: str) -> str:
         """Goes on with ensembles of this part that were stopped, then starts one of what is missing: '' if all members
         came to their end, else the program's line."""
-        base = self.folder / "runs" / self.keys[True]
+        base = self.bases[True]
         for place in sorted(base.glob(f"ensemble-{name}-*")):
             _, missing = self.found(share)
-            with open(place / "members.csv", newline="") as file:
-                rows = {tuple(row) for row in csv.reader(file)}
+            try:
+                with open(place / "members.csv", newline="", encoding="utf-8") as file:
+                    rows = {tuple(row) for row in csv.reader(file)}
+            except (OSError, ValueError, csv.Error):  # stopped before its table was there, or damaged
+                rows = set()
             failure = self._at_once(place) if any(share[index].values in rows for index in missing) else ""
             if failure:
                 return failure
@@ -121,7 +176,7 @@ class Runner:
         values = [share[index].values for index in missing]
         place = base / f"ensemble-{name}-{_digest(values)[:6]}"
         place.mkdir(parents=True, exist_ok=True)
-        with open(place / "members.csv", "w", newline="") as file:
+        with written_beside(place / "members.csv") as draft, open(draft, "w", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerows([self.design.columns, *values])
         return self._at_once(place)
@@ -136,35 +191,31 @@ class Runner:
     def _singles(self, members: list, reduced: bool, name: str) -> None:
         """Each member a run of its own; what is finished is kept and not repeated. Throws StudyError at the first that
         fails, when those beside it have ended."""
-        base = self.folder / "runs" / self.keys[reduced]
+        base = self.bases[reduced]
         columns, failures, ended_count = self.design.columns, [], 0
         places = {one: base / "single" / _digest(one.values)[:16] for one in members}
-        todo = [one for one in members if not places[one].with_suffix(".npz").is_file()]
+        todo = [one for one in members if outcomes.restore(places[one].with_suffix(".npz")) is None]
         what = "" if reduced else " at full order"
         print(f"fragility: {len(members)} runs{what}, {len(members) - len(todo)} finished before, {self.jobs} at a "
               f"time on {self.ranks} rank{'s' if self.ranks > 1 else ''} each", flush=True)
 
         def start(member) -> Job:
-            words = ["-options_file", str(self.scene(reduced).absolute())]
-            for column, value in zip(columns, member.values):
-                words += [f"-{column}", value]
-            return Job(words, places[member].absolute(), self.ranks, Path.cwd(), self.variables)
+            return Job(self._words(member, reduced), places[member].absolute(), self.ranks, Path.cwd(), self.variables)
 
         def ended(member, job: Job, waiting: list, _running: list) -> None:
             nonlocal ended_count
             failure = job.outcome()
             if not failure:
                 try:
-                    outcomes.save(places[member].with_suffix(".npz"), outcomes.of_run(load(job.output)))
-                except (ResultError, KeyError, TypeError) as error:
-                    failure = f"{job.output} cannot be read: {error}"
+                    with understood(job.output):
+                        outcomes.save(places[member].with_suffix(".npz"), outcomes.of_run(load(job.output)))
+                except ResultError as error:
+                    failure = str(error)
             if failure:
                 failures.append(failure)
                 waiting.clear()
                 return
-            for path in job.output.iterdir():
-                path.unlink()
-            job.output.rmdir()
+            clear(job.output)
             ended_count += 1
             if ended_count % max(1, len(todo) // 10) == 0:
                 print(f"  {ended_count}/{len(todo)} runs{what}; the last took {job.wall_time:.1f} s", flush=True)
@@ -178,6 +229,7 @@ class Runner:
         place = base / f"single-{name}"
         place.mkdir(exist_ok=True)
         previous = outcomes.read_rows(place / outcomes.FILE)[1] if (place / outcomes.FILE).is_file() else {}
-        texts = list(dict.fromkeys([*previous, *(one.values for one in members)]))
-        parts = [outcomes.restore(base / "single" / f"{_digest(row)[:16]}.npz") for row in texts]
-        outcomes.write(place / outcomes.FILE, columns, texts, parts)
+        kept = {row: outcomes.restore(base / "single" / f"{_digest(row)[:16]}.npz")
+                for row in dict.fromkeys([*previous, *(one.values for one in members)])}
+        kept = {row: one for row, one in kept.items() if one is not None}
+        outcomes.write(place / outcomes.FILE, columns, list(kept), list(kept.values()))

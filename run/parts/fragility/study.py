@@ -15,6 +15,10 @@ KEYS = ("title", "scene", "output", "options", "reduction", "seed", "samples", "
 DAMPINGS = (0.02, 0.03, 0.04, 0.05, 0.07)
 SYNTHETIC = {"duration": "25", "envelope": "2,15"}
 RECORDED = {"unit": "auto", "time_step": "0", "column": "0"}
+WIDEST, WIDE = 5.0, 0.5  # joints that are refused, and doubted [m]
+SHALLOW, STRONG = 0.5, 30.0  # largest levels that are doubted [m/s2]
+G = 9.80665  # [m/s2]
+MOST_MEMBERS = 1000000
 FACTOR = re.compile(r"\w+_(stiffness|damping)_factor")
 
 
@@ -123,7 +127,7 @@ class _Reader:
         value = self.values.get(key, default)
         if value is None:
             raise StudyError(f"{self.path}: {self._at(key)} is missing")
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) < float("inf"):
             self.fail(key, "is not a number")
         if above is not None and not value > above:
             self.fail(key, f"is not above {above:g}")
@@ -158,6 +162,12 @@ class _Reader:
         if any(b <= a for a, b in zip(found, found[1:])):
             self.fail(key, "does not increase")
         return found
+
+    def entries(self, key: str) -> list:
+        values = self.values.get(key)
+        if values is not None and not isinstance(values, list):
+            self.fail(key, "is no list, each entry of which begins with -")
+        return values or []
 
     def options(self, key: str) -> dict:
         values = self.values.get(key) or {}
@@ -270,7 +280,7 @@ def _factors(reader: _Reader) -> list:
 
 def _capacities(reader: _Reader, frequencies: list, dampings: list) -> list:
     found = []
-    for number, one in enumerate(reader.values.get("capacities") or [], 1):
+    for number, one in enumerate(reader.entries("capacities"), 1):
         part = _Reader(one, reader.path, f"capacities, number {number}",
                        ("probe", "direction", "band", "damping", "acceleration"))
         band, damping = part.increasing("band", [frequencies[0], frequencies[-1]]), part.number("damping", dampings[0])
@@ -285,14 +295,66 @@ def _capacities(reader: _Reader, frequencies: list, dampings: list) -> list:
     return found
 
 
-def read(path: Path) -> Study:
-    """The study of a file. Throws StudyError."""
+def _show(reader: _Reader, gaps: list, levels: list) -> dict:
+    one = reader.part("show", ("gap", "level", "channel"))
+    for key, known in (("gap", gaps), ("level", levels)):
+        if key in one.values and one.number(key) not in known:
+            one.fail(key, f"is none of the study's {', '.join(f'{value:g}' for value in known)}")
+    return one.values
+
+
+class _Loader(yaml.SafeLoader):
+    """Refuses a key that stands twice, of which YAML takes the last."""
+
+    def construct_mapping(self, node, deep=False):
+        keys = [key.value for key, _ in node.value if isinstance(key, yaml.ScalarNode)]
+        twice = next((key for place, key in enumerate(keys) if key in keys[:place] and key != "<<"), None)
+        if twice is not None:
+            raise yaml.constructor.ConstructorError(None, None, f"{twice} stands twice", node.start_mark)
+        return super().construct_mapping(node, deep)
+
+
+def _load(path: Path):
     try:
-        values = yaml.safe_load(path.read_text(encoding="utf-8"))
+        return yaml.load(path.read_text(encoding="utf-8"), _Loader)
     except OSError as error:
         raise StudyError(f"{path}: {error.strerror}") from error
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
         raise StudyError(f"{path}: {' '.join(str(error).split())}") from error
+
+
+def check_names(study: Study, probes: list, contacts: list) -> None:
+    """Throws StudyError where the study speaks of probes and contacts that the scene has not."""
+    for name in study.joints:
+        if name not in contacts:
+            raise StudyError(f"{study.path}: joints: {name} is no contact of the scene; it has "
+                             f"{', '.join(contacts) or 'none'}")
+    for one in study.capacities:
+        if one.probe not in probes:
+            raise StudyError(f"{study.path}: capacities: {one.probe!r} is no probe of the scene; it has "
+                             f"{', '.join(probes) or 'none'}")
+    channels = [f"{probe} {way}" for probe in probes for way in DIRECTIONS]
+    if study.show.get("channel", channels[0] if channels else None) not in channels:
+        raise StudyError(f"{study.path}: show: channel: {study.show.get('channel')!r} is none of the scene's "
+                         f"{', '.join(channels) or 'probes, of which there are none'}")
+
+
+def doubts(study: Study) -> list:
+    """What may be meant otherwise: a line each."""
+    found, low, high = [], study.levels[0], study.levels[-1]
+    if high < SHALLOW:
+        found.append(f"levels: {low:g} to {high:g} are m/s2, {high / G:.2g} g at most; {high:g} g would be "
+                     f"{high * G:.3g}.")
+    if high > STRONG:
+        found.append(f"levels: {high:g} m/s2 are {high / G:.2g} g; are they cm/s2?")
+    if study.gaps[-1] > WIDE:
+        found.append(f"gaps: a joint of {study.gaps[-1]:g} m; are gaps in m?")
+    return found
+
+
+def read(path: Path) -> Study:
+    """The study of a file. Throws StudyError."""
+    values = _load(path)
     if isinstance(values, dict) and set(values) == {"fragility"}:
         values = values["fragility"]
     reader = _Reader(values, path, "", KEYS)
@@ -303,13 +365,18 @@ def read(path: Path) -> Study:
     frequencies = reader.increasing("frequencies", standard_frequencies())
     dampings = reader.increasing("dampings", DAMPINGS)
     full = reader.part("full_order", ("share", "options", "noise"))
-    gaps = reader.increasing("gaps", None, -1e-12)
+    gaps, levels = reader.increasing("gaps", None, -1e-12), reader.increasing("levels")
+    if gaps[-1] > WIDEST:
+        reader.fail("gaps", f"has a joint of {gaps[-1]:g} m, above {WIDEST:g} m: gaps are in m, 40 mm are 0.04")
+    samples = reader.whole("samples", motions, 2)
+    if samples * len(levels) * (len(gaps) + 1) > MOST_MEMBERS:
+        reader.fail("samples", f"makes {samples * len(levels) * (len(gaps) + 1)} members, more than {MOST_MEMBERS}")
     return Study(
         path, scene.resolve(), str(reader.values.get("title", f"Study {path.stem}")),
         Path(str(reader.values.get("output", Path("results") / f"fragility-{path.stem}"))), reader.options("options"),
-        reader.options("reduction"), reader.whole("seed", 1, 0), reader.whole("samples", motions, 2),
-        reader.number("confidence", 0.95, 0.0, 1.0), axes, limit, wanted, reader.increasing("levels"), gaps,
+        reader.options("reduction"), reader.whole("seed", 1, 0), samples,
+        reader.number("confidence", 0.95, 0.0, 1.0), axes, limit, wanted, levels, gaps,
         reader.number("apart", max(1.0, 20 * gaps[-1]), gaps[-1]), _joints(reader), _factors(reader),
         _capacities(reader, frequencies, dampings), full.number("share", 0.0, -1e-12, 1.0 + 1e-12),
         full.options("options"), full.number("noise", 1e-3, 0.0), frequencies, dampings,
-        reader.values.get("show") or {})
+        _show(reader, gaps, levels))
