@@ -6,10 +6,10 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from .results import ResultError
+from .results import UNREADABLE, ResultError
 
 
-@dataclass
+@dataclass(repr=False)
 class Ensemble:
     """Many runs of one scene; arrays have a row per member, those that are not done hold no numbers (nan)."""
 
@@ -34,15 +34,22 @@ class Ensemble:
             raise ResultError(f"{self.folder}: the table has no column {name}; it has {', '.join(self.columns)}")
         return self.table[:, self.columns.index(name)]
 
+    def __repr__(self) -> str:
+        return (f"Ensemble({str(self.folder)!r}: {int(self.done.sum())} of {len(self.done)} members done; columns "
+                f"{', '.join(self.columns)}; channels {', '.join(self.channels)})")
+
     def spectrum(self, probe: str, direction: str, damping: float | None = None):
-        """Frequencies [Hz] and pseudo-accelerations [m/s2], shape (members, frequencies), or None if there are none;
-        without `damping` those of the smallest ratio."""
+        """Frequencies [Hz] and pseudo-accelerations [m/s2], shape (members, frequencies); without `damping` those of
+        the smallest ratio. Throws ResultError, with what there is, if there are none."""
         channel = f"{probe} {direction}"
+        if channel not in self.channels:
+            raise ResultError(f"{self.folder}: no spectra of {channel}; there are those of {', '.join(self.channels)}")
         ratio = self.damping.min() if damping is None else damping
-        if channel not in self.channels or ratio not in self.damping:
-            return None
-        place = list(self.damping).index(ratio)
-        return self.frequency, self.pseudo_acceleration[:, self.channels.index(channel), place]
+        places = np.flatnonzero(np.isclose(self.damping, ratio, rtol=1e-9, atol=0))
+        if not len(places):
+            raise ResultError(f"{self.folder}: no spectra at a damping ratio of {ratio:g}; there are those at "
+                              f"{', '.join(f'{one:g}' for one in self.damping)}")
+        return self.frequency, self.pseudo_acceleration[:, self.channels.index(channel), places[0]]
 
 
 def _words(values) -> list:
@@ -64,8 +71,8 @@ def load_ensemble(folder) -> Ensemble:
                 file["peaks/acceleration"][:], file["energy/residual"][:], contacts,
                 {name: file["impacts"][name][:] for name in file.get("impacts", []) if name != "contacts"},
                 file["gaps/smallest"][:] if contacts else none)
-    except (OSError, KeyError) as error:
-        raise ResultError(f"{path}: no ensemble that can be read ({error})") from None
+    except UNREADABLE as error:
+        raise ResultError(f"{path}: no ensemble that can be read ({' '.join(str(error).split())})") from None
 
 
 def _text(value) -> str:

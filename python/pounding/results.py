@@ -2,11 +2,14 @@
 
 import csv
 import json
+from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import h5py
 import numpy as np
+
+from . import summary_shape
 
 DIRECTIONS = ("x", "y", "z")
 GROUND = "ground"  # stands for a probe in the rows of spectra.csv that are the ground's
@@ -20,7 +23,12 @@ class Missing(Exception):
     """What a figure needs is not in the folder: one line for the user."""
 
 
-@dataclass
+def _listed(names) -> str:
+    names = list(dict.fromkeys(map(str, names)))
+    return ", ".join(names[:20]) + (f" and {len(names) - 20} more" if len(names) > 20 else "") or "none"
+
+
+@dataclass(repr=False)
 class Result:
     """A result folder; what the run did not leave is empty."""
 
@@ -50,31 +58,63 @@ class Result:
         names = dict.fromkeys(str(name) for name in self.spectra.get("probe", []))
         return [name for name in names if name != GROUND or name in self.probes]
 
-    def series(self, quantity: str, probe: str, direction: str):
-        """Time stamps and values of one channel, or None if it was not recorded."""
-        if quantity not in self.history or f"{probe}.{direction}" not in self.history["channels"]:
+    def __repr__(self) -> str:
+        words = [f"probes {_listed(self.probes or self.spectrum_probes)}"]
+        if "end_time" in self.summary:
+            words.insert(0, f"{self.summary['end_time']:g} s")
+        episodes = self.summary.get("impacts", {}).get("episodes")
+        if episodes is not None:
+            words.append(f"{episodes} impacts")
+        return f"Result({str(self.folder)!r}: {'; '.join([self.title, *words] if self.title else words)})"
+
+    def series_if_any(self, quantity: str, probe: str, direction: str):
+        """As series, or None if it was not recorded."""
+        if quantity not in self.history or f"{probe}.{direction}" not in self.history.get("channels", []):
             return None
         column = self.history["channels"].index(f"{probe}.{direction}")
         time = self.history["time"] + self.offset.get(quantity, 0.0)
         return time, self.history[quantity][:, column]
 
+    def series(self, quantity: str, probe: str, direction: str):
+        """Time stamps and values of one channel. Throws ResultError, with what there is, if it was not recorded."""
+        found = self.series_if_any(quantity, probe, direction)
+        if found is None:
+            recorded = [name for name in ("displacement", "velocity", "acceleration") if name in self.history]
+            raise ResultError(f"{self.folder}: no {quantity} of {probe} along {direction} was recorded; there are "
+                              f"{_listed(recorded)} of {_listed(self.history.get('channels', []))}")
+        return found
+
     def force(self, name: str):
-        """Times and values of one force, "base.Fx" or "corner.17.My1", or None if it was not recorded."""
+        """Times and values of one force, "base.Fx" or "corner.17.My1". Throws ResultError, with what there is, if it was
+        not recorded."""
         if name not in self.history.get("forces", []):
-            return None
+            raise ResultError(f"{self.folder}: no force {name} was recorded; there are "
+                              f"{_listed(self.history.get('forces', []))}")
         return self.history["time"], self.history["force"][:, self.history["forces"].index(name)]
 
-    def spectrum(self, probe: str, direction: str, damping: float | None = None):
-        """Frequencies [Hz] and pseudo-acceleration [m/s2] of one floor response spectrum, or None if there is
-        none; without `damping` those of the smallest ratio."""
+    def spectrum_if_any(self, probe: str, direction: str, damping: float | None = None):
+        """As spectrum, or None if there is none."""
         if not self.spectra or len(self.spectra["damping"]) == 0:
             return None
         ratio = self.spectra["damping"].min() if damping is None else damping
         rows = ((self.spectra["probe"] == probe) & (self.spectra["direction"] == direction)
-                & (self.spectra["damping"] == ratio))
+                & np.isclose(self.spectra["damping"], ratio, rtol=1e-9, atol=0))
         if not rows.any():
             return None
         return self.spectra["frequency"][rows], self.spectra["pseudo_acceleration"][rows]
+
+    def spectrum(self, probe: str, direction: str, damping: float | None = None):
+        """Frequencies [Hz] and pseudo-acceleration [m/s2] of one floor response spectrum; without `damping` those of
+        the smallest ratio. Throws ResultError, with what there is, if there is none."""
+        found = self.spectrum_if_any(probe, direction, damping)
+        if found is None:
+            if not self.spectra:
+                raise ResultError(f"{self.folder}: no spectra.csv; a run without probes has none")
+            ratio = "" if damping is None else f" at a damping ratio of {damping:g}"
+            raise ResultError(f"{self.folder}: no spectrum of {probe} along {direction}{ratio}; there are those of "
+                              f"{_listed(self.spectra['probe'])} along {_listed(self.spectra['direction'])}, at "
+                              f"{_listed(f'{one:g}' for one in self.spectra['damping'])}")
+        return found
 
     def closings(self) -> dict:
         """Contact -> by how much its gap closed at most [m], from the recorded gaps; none of a history without."""
@@ -107,6 +147,20 @@ def low_pass(values, time, frequency: float):
     return signal.lfilter(b, a, forth[::-1], zi=start * forth[-1])[0][::-1]
 
 
+# What damaged files make of their readers.
+UNREADABLE = (OSError, ValueError, KeyError, TypeError, IndexError, AttributeError, RuntimeError, ArithmeticError,
+              MemoryError, csv.Error)
+
+
+def _read_summary(path: Path) -> dict:
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except RecursionError as error:
+        raise ValueError("it is nested without end") from error
+    summary_shape.check(found)
+    return found
+
+
 def _read_history(path: Path, result: Result) -> None:
     with h5py.File(path, "r") as file:
         result.title = _text(file.attrs.get("title", ""))
@@ -121,8 +175,15 @@ def _read_history(path: Path, result: Result) -> None:
     history = result.history
     if "time" not in history:
         raise ValueError("no dataset time")
+    if np.ndim(history["time"]) != 1 or history["time"].dtype.kind not in "fiu":
+        raise ValueError("time is no row of numbers")
+    for labels in ("channels", "contacts", "links", "forces"):
+        if not isinstance(history.get(labels, []), list):
+            raise ValueError(f"{labels} holds no names")
     if "records" in history:  # rows behind them were still being written when the run ended
-        rows, whole = len(history["time"]), int(history.pop("records")[0])
+        rows, whole = len(history["time"]), int(np.ravel(history.pop("records"))[0])
+        if not 0 <= whole <= rows:
+            raise ValueError(f"{whole} records of {rows}")
         for name, values in history.items():
             if name not in ("channels", "contacts", "links", "forces") and len(values) == rows:
                 history[name] = values[:whole]
@@ -162,10 +223,28 @@ def _read_table(path: Path) -> dict:
     return table
 
 
-def _need_columns(table: dict, *columns: str) -> None:
-    for name in columns:
+# Columns that must be there; those of names hold text, the others numbers.
+NAMES = ("probe", "direction", "contact", "item", "component", "element")
+COLUMNS = {
+    "spectra": ("probe", "direction", "damping", "frequency", "pseudo_acceleration"),
+    "impacts": ("contact", "start", "end", "duration", "impulse"),
+    "forces": ("item", "component", "element", "peak", "time"),
+    "energy": ("time", "kinetic", "strain", "input_work", "residual"),
+}
+
+
+def _check_table(table: dict, kind: str) -> None:
+    for name in COLUMNS[kind]:
         if name not in table:
             raise ValueError(f"no column {name}")
+        if name not in NAMES and table[name].dtype.kind != "f":
+            raise ValueError(f"column {name} has a value that is no number")
+    if kind == "spectra":
+        groups = Counter(zip(table["probe"], table["direction"], table["damping"]))
+        most = max(groups.values(), default=0)
+        for (probe, way, damping), count in groups.items():
+            if count < most:
+                raise ValueError(f"it is cut: {probe} {way} at {damping:g} has {count} of {most} frequencies")
 
 
 def load(folder: Path | str) -> Result:
@@ -176,18 +255,12 @@ def load(folder: Path | str) -> Result:
     result = Result(folder)
     found = 0
     readers = {
-        "summary.json": lambda path: result.summary.update(json.loads(path.read_text())),
+        "summary.json": lambda path: result.summary.update(_read_summary(path)),
         "history.h5": lambda path: _read_history(path, result),
         "spectra.csv": lambda path: result.spectra.update(_read_table(path)),
         "impacts.csv": lambda path: result.impacts.update(_read_table(path)),
         "forces.csv": lambda path: result.forces.update(_read_table(path)),
         "energy.csv": lambda path: result.energy.update(_read_table(path)),
-    }
-    columns = {
-        "spectra": ("probe", "direction", "damping", "frequency", "pseudo_acceleration"),
-        "impacts": ("contact", "start", "end", "duration", "impulse"),
-        "forces": ("item", "component", "element", "peak", "time"),
-        "energy": ("time", "kinetic", "strain", "input_work", "residual"),
     }
     for name, read in readers.items():
         path = folder / name
@@ -196,11 +269,10 @@ def load(folder: Path | str) -> Result:
         found += 1
         try:
             read(path)
-            stem = path.stem
-            if stem in columns:
-                _need_columns(getattr(result, stem), *columns[stem])
-        except (OSError, ValueError, KeyError, TypeError) as error:
-            reason = " ".join(str(error).split())
+            if path.stem in COLUMNS:
+                _check_table(getattr(result, path.stem), path.stem)
+        except UNREADABLE as error:
+            reason = " ".join(str(error).split()) or type(error).__name__
             raise ResultError(f"{path} cannot be read: {reason}") from error
     if not found:
         raise ResultError(f"{folder} holds no results (summary.json, history.h5, ...)")
@@ -208,7 +280,7 @@ def load(folder: Path | str) -> Result:
     return result
 
 
-@dataclass
+@dataclass(repr=False)
 class Modes:
     """Lowest modes of one structure: `coordinates` (nodes, 3) [m], `frequencies` (modes) [Hz], `shapes`
     (modes, nodes, 3 or 6): x, y, z and the rotations about them, phi^T M phi = 1, of either sign."""
@@ -216,6 +288,10 @@ class Modes:
     coordinates: np.ndarray
     frequencies: np.ndarray
     shapes: np.ndarray
+
+    def __repr__(self) -> str:
+        return (f"Modes({len(self.frequencies)} of {len(self.coordinates)} nodes, "
+                f"{_listed(f'{one:.4g}' for one in self.frequencies)} Hz)")
 
 
 def load_modes(folder: Path) -> dict:
@@ -228,5 +304,5 @@ def load_modes(folder: Path) -> dict:
             return {name: Modes(group["coordinates"][()], group["frequencies"][()],
                                 np.stack([group["shapes"][key][()] for key in sorted(group["shapes"])]))
                     for name, group in file.items() if isinstance(group, h5py.Group)}
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except UNREADABLE as error:
         raise ResultError(f"{path} cannot be read: {' '.join(str(error).split())}") from error

@@ -40,7 +40,7 @@ def _pairs(run: Result, twin: Result, damping: float) -> list:
     found = []
     for probe in probes:
         for way in DIRECTIONS:
-            own, other = run.spectrum(probe, way, damping), twin.spectrum(probe, way, damping)
+            own, other = run.spectrum_if_any(probe, way, damping), twin.spectrum_if_any(probe, way, damping)
             if own and other:
                 found.append((probe, way, own[0], own[1], other[1]))
     return found

@@ -63,7 +63,7 @@ def picture(result: Result) -> list:
     if floor:
         words.append("the floor spectrum that changes most, with and without pounding" if result.without else
                      "the largest floor spectrum")
-        if result.spectrum(GROUND, way, damping):
+        if result.spectrum_if_any(GROUND, way, damping):
             words[-1] += ", and that of the ground"
     words = "; ".join(words)
     return save(figure, result.folder, "answer.png", "In one picture", words[:1].upper() + words[1:] + ".")

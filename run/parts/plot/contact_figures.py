@@ -70,7 +70,7 @@ def strongest_impact(result: Result) -> list:
         force = result.history["contact_force"][window, i]
         rows[1].plot(1e3 * (time[window] - start), 1e-3 * force, **style)
     for probe in result.probes:
-        series = result.series("acceleration", probe, "x")
+        series = result.series_if_any("acceleration", probe, "x")
         if series is not None:
             rows[2].plot(1e3 * (series[0][window] - start), series[1][window], label=probe,
                          color=probe_colour(result.probes, probe), lw=1.2)

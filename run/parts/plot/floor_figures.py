@@ -33,11 +33,11 @@ def drifts(result: Result) -> list:
     for axes, storey in zip(rows, storeys):
         upper, lower, peaks = storey["upper"], storey["lower"], []
         for direction in ("x", "y"):
-            series = result.series("displacement", upper, direction)
+            series = result.series_if_any("displacement", upper, direction)
             if series is None:
                 continue
             time, moved = series
-            base = None if lower == "base" else result.series("displacement", lower, direction)
+            base = None if lower == "base" else result.series_if_any("displacement", lower, direction)
             drift = 100 * (moved - (base[1] if base else 0)) / storey["height"]
             if has_signal(drift, 1e-3):
                 colour = DIRECTION_COLOURS[direction]
@@ -61,7 +61,7 @@ def accelerations(result: Result) -> list:
     largest = np.nanmax(np.abs(result.history["acceleration"]), initial=0.0)
     made = []
     for direction in DIRECTIONS:
-        series = {probe: result.series("acceleration", probe, direction)
+        series = {probe: result.series_if_any("acceleration", probe, direction)
                   for probe in result.probes}
         series = {probe: (found[0], low_pass(found[1], found[0], cut)) if found and cut else found
                   for probe, found in series.items()}

@@ -29,9 +29,9 @@ def _curves(result: Result, probe: str, way: str, dampings: list) -> list:
     beside = result.without is not None
     for index, damping in enumerate(dampings):
         strength = 1.0 if len(dampings) == 1 else 0.4 + 0.6 * index / (len(dampings) - 1)
-        own = result.spectrum(probe, way, damping)
-        other = result.without.spectrum(probe, way, damping) if beside else None
-        ground = result.spectrum(GROUND, way, damping) if probe != GROUND else None
+        own = result.spectrum_if_any(probe, way, damping)
+        other = result.without.spectrum_if_any(probe, way, damping) if beside else None
+        ground = result.spectrum_if_any(GROUND, way, damping) if probe != GROUND else None
         for run, label, look in ((ground, "ground", {"color": BELOW, "lw": 1.0}),
                                  (other, "without pounding", {"color": WITHOUT, "lw": 1.3, "ls": "--"}),
                                  (own, "with pounding" if beside else "floor", {"color": WITH, "lw": 1.5})):
@@ -64,7 +64,7 @@ def _moving(result: Result, probe: str, damping: float) -> list:
     floors = np.isin(result.spectra["probe"], result.spectrum_probes)
     largest = result.spectra["pseudo_acceleration"][floors].max()
     return [way for way in DIRECTIONS
-            if (found := result.spectrum(probe, way, damping)) and found[1].max() > _DEPTH * largest]
+            if (found := result.spectrum_if_any(probe, way, damping)) and found[1].max() > _DEPTH * largest]
 
 
 def _figure(result: Result, probes: list, ways: list, dampings: list, number: int, of: int) -> list:
