@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from pounding.files import write_text
+from pounding.runs import ending_with_us
 
 from .tables import markdown, write_csv
 from .workers import SOURCE, MeasuringError, with_environment
@@ -51,7 +52,8 @@ def run(build: Path, ranks: int, words: list, step: float, steps: int) -> dict:
         end = repr(float(step * (steps - 0.5)))
         command = ["mpirun", "-n", ranks, build / "pounding", *words, end, "-output_interval", end,
                    "-output", folder]
-        done = subprocess.run(with_environment(command), cwd=SOURCE, text=True, capture_output=True)
+        done = subprocess.run(with_environment(command), cwd=SOURCE, text=True, capture_output=True,
+                              preexec_fn=ending_with_us())
         if done.returncode != 0:
             lines = (done.stdout + done.stderr).strip().splitlines()
             raise MeasuringError(next((line for line in lines if line.startswith("pounding:")), lines[-1]))

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from pounding.files import write_text
+from pounding.runs import ending_with_us
 
 from .tables import markdown, write_csv
 from .workers import SOURCE, MeasuringError, with_environment
@@ -22,7 +23,8 @@ def dry_run(folder: Path, ranks: int, divisions: int, more: list) -> dict:
     words = ["mpirun", "-n", ranks, folder / "pounding", "-options_file", SCENE, "-modes", 0,
              "-block_mesh_set", f"m={divisions}", "-frame_mesh_set", f"m={divisions},x0=24.801",
              "-block_damping_reference", 4.7, "-frame_damping_reference", 3.6, "-dry_run", *more]
-    done = subprocess.run(with_environment(words), cwd=SOURCE, text=True, capture_output=True)
+    done = subprocess.run(with_environment(words), cwd=SOURCE, text=True, capture_output=True,
+                          preexec_fn=ending_with_us())
     said = done.stdout
     if done.returncode != 0:
         lines = (said + done.stderr).strip().splitlines()

@@ -20,6 +20,8 @@ from pathlib import Path
 
 import numpy as np
 
+from pounding.runs import ending_with_us
+
 from .workers import SOURCE, MeasuringError, storey_cells, with_environment
 
 GATHERED = 3 * 8  # per dof of the interface [B]
@@ -64,7 +66,8 @@ class Messages:
 def study(folder: Path, dofs: int, parts: list) -> list:
     """METIS partitions of the pair of about so many dofs, one and `parts`."""
     command = [folder / "tests" / "partition_study", storey_cells(dofs), 1, *parts]
-    run = subprocess.run(with_environment(command), cwd=SOURCE, capture_output=True, text=True)
+    run = subprocess.run(with_environment(command), cwd=SOURCE, capture_output=True, text=True,
+                         preexec_fn=ending_with_us())
     if run.returncode != 0:
         raise MeasuringError(run.stderr.strip() or f"partition_study ended with {run.returncode}")
     return [json.loads(line) for line in run.stdout.splitlines()]

@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
+from pounding.runs import ending_with_us
+
 from .machine import Machine
 from .series import Series
 from .workers import (ELEMENT_MEMORY, SOURCE, MeasuringError, Stepper, block_cells, mpirun,
@@ -52,7 +54,8 @@ class Bench:
         with tempfile.TemporaryDirectory(dir=self.scratch) as output:
             command = mpirun(point.ranks, self.folder / "pounding", "-options_file", scene, "-end_time",
                              SCENE_TIME, "-output", output)
-            run = subprocess.run(with_environment(command), cwd=SOURCE, capture_output=True, text=True)
+            run = subprocess.run(with_environment(command), cwd=SOURCE, capture_output=True, text=True,
+                                 preexec_fn=ending_with_us())
             if run.returncode != 0:
                 raise MeasuringError(f"{scene} failed: {run.stderr.strip().splitlines()[0]}")
             summary = json.loads((Path(output) / "summary.json").read_text())

@@ -8,6 +8,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+from pounding.runs import ending_with_us
+
 SOURCE = Path(__file__).resolve().parents[3]
 PROGRAMS = "pounding step_benchmark machine_limits partition_study"
 MOTION_STEP = 2e-3  # [s]
@@ -39,7 +41,8 @@ class Worker:
         self.name = " ".join(str(word) for word in command)
         self.said = tempfile.TemporaryFile("w+")
         self.process = subprocess.Popen(with_environment(command), cwd=SOURCE, text=True,
-                                        stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.said)
+                                        stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.said,
+                                        preexec_fn=ending_with_us())
 
     def __enter__(self):
         return self

@@ -4,6 +4,8 @@ import json
 import subprocess
 from pathlib import Path
 
+from pounding.runs import ending_with_us
+
 from . import paper
 
 SOURCE = Path(__file__).resolve().parents[3]
@@ -20,7 +22,8 @@ def run_model(model: str, folder: Path, ranks: int, more: list) -> dict:
               'exec mpirun -n "$2" "$build/pounding" -options_file "$0" -end_time 2e-5 "${@:3}" -output "$1"'
     file = f"petsc-options/azalee/{FILES[model]}.yaml"
     words = [file, str(folder), str(ranks), *more]
-    result = subprocess.run(["bash", "-c", command, *words], cwd=SOURCE, stdout=subprocess.PIPE, text=True)
+    result = subprocess.run(["bash", "-c", command, *words], cwd=SOURCE, stdout=subprocess.PIPE, text=True,
+                            preexec_fn=ending_with_us())
     if result.returncode != 0:
         raise TableError(f"{file} failed, see above\n{result.stdout}")
     return json.loads((folder / "summary.json").read_text())
