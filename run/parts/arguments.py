@@ -25,8 +25,10 @@ def positive(kind):
     """Reader of a number of this kind above zero."""
     def read(text: str):
         value = kind(text)
-        if not 0 < value < math.inf:
-            raise argparse.ArgumentTypeError(f"{text} is not a number above 0")
+        if not value > 0:
+            raise argparse.ArgumentTypeError(f"{text} is not above 0")
+        if value == math.inf:
+            raise argparse.ArgumentTypeError(f"{text} is not finite")
         return value
 
     read.__name__ = kind.__name__  # argparse says it of what is no number

@@ -150,7 +150,7 @@ class Arguments(unittest.TestCase):
         scene = two_buildings.SCENE
         for part, words in (("no closing quotation", ("sweep", scene, "--set", "end_time=1", "--options", "-a '")),
                             ("no closing quotation", ("plant", "--options", '"')),
-                            ("not a number above 0", ("plant", "--seconds", "inf")),
+                            ("not finite", ("plant", "--seconds", "inf")),
                             ("above 1, which", ("tradeoff", "--scene", scene, "--target", 5)),
                             ("structures is not a mapping", ("plot", self.place / "odd")),
                             ("structures is not a mapping", ("compare", self.place / "odd", self.place / "cut")),

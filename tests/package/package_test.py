@@ -85,12 +85,13 @@ class Results(unittest.TestCase):
             np.testing.assert_array_equal(values, column)
             self.assertEqual(len(time), len(values))
             self.assertEqual(abs(run.forces["peak"][run.forces["component"] == "Fx"]).max(), abs(values).max())
-            self.assertIsNone(run.force("feet.N"))
+            self.assertRaises(pounding.ResultError, run.force, "feet.N")
 
     def test_what_is_not_there_is_none(self):
-        self.assertIsNone(self.found.spectrum("cellar", "x"))
-        self.assertIsNone(self.found.spectrum("left_roof", "x", damping=0.07))
-        self.assertIsNone(self.found.series("displacement", "cellar", "x"))
+        for ask, words in ((self.found.spectrum, ("cellar", "x")), (self.found.spectrum, ("left_roof", "x", 0.07)),
+                           (self.found.series, ("displacement", "cellar", "x"))):
+            with self.assertRaisesRegex(pounding.ResultError, "left_roof"):
+                ask(*words)
         with self.assertRaisesRegex(pounding.ResultError, "write_modes"):
             pounding.load_modes(self.folder)
         with self.assertRaisesRegex(pounding.ResultError, "not a folder"):
