@@ -1,6 +1,7 @@
 """Many runs at once are what single runs are: every member of an ensemble beside the run of its own, on one rank and
 two, interrupted and continued; and what an ensemble refuses."""
 import os
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -53,7 +54,12 @@ class Members(unittest.TestCase):
     def setUpClass(cls):
         cls.table = table(ROWS)
         cls.folder = tempfile.mkdtemp(prefix="pounding-ensemble-")
-        cls.words = [*SCENE, *MODAL, "-ensemble", cls.table]
+        meshes = tempfile.mkdtemp(prefix="pounding-ensemble-")
+        cls.inner = shutil.copy(two_buildings.SCENE.parent / "building.geo", meshes)
+        with open(f"{meshes}/left.geo", "w") as file:
+            file.write('Include "building.geo";\n')
+        cls.scene = [*SCENE, *MODAL, "-left_mesh", f"{meshes}/left.geo"]
+        cls.words = [*cls.scene, "-ensemble", cls.table]
         cls.job = program.run([*cls.words, "-output", cls.folder], 1)
         cls.result = pounding.load_ensemble(cls.folder) if cls.job.returncode == 0 else None
 
@@ -143,10 +149,21 @@ class Members(unittest.TestCase):
         self.same_as(folder)
 
     def test_another_table_or_scene_is_refused(self):
-        program.must_refuse(self, [*SCENE, *MODAL, "-ensemble", table(ROWS[:9]), "-output", self.folder],
+        program.must_refuse(self, [*self.scene, "-ensemble", table(ROWS[:9]), "-output", self.folder],
                             "holds another ensemble", "member 10", "give another -output", ranks=1)
         program.must_refuse(self, [*self.words, "-end_time", "1.1", "-output", self.folder],
                             "holds another ensemble", "end_time", ranks=2)
+
+    def test_another_file_within_a_geometry_is_refused(self):
+        with open(self.inner) as file:
+            text = file.read()
+        try:
+            with open(self.inner, "a") as file:
+                file.write("// another\n")
+            program.must_refuse(self, [*self.words, "-output", self.folder], "holds another ensemble", self.inner, ranks=1)
+        finally:
+            with open(self.inner, "w") as file:
+                file.write(text)
 
 
 class Refusals(unittest.TestCase):
