@@ -2,6 +2,8 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <memory>
+#include <new>
 #include <span>
 #include <stdexcept>
 #include <sys/prctl.h>
@@ -42,6 +44,19 @@ void send(std::span<const char> bytes) {
   }
 }
 
+/// Memory to answer with where there is none left.
+std::unique_ptr<char[]> reserve;
+
+/// Gmsh is not asked to go on: parts of it assert that their memory came.
+void answer_no_memory() {
+  if (reserve == nullptr) _exit(1);
+  reserve.reset();
+  pounding::RawAnswer answer;
+  answer.error = "the memory is not enough for it";
+  pounding::write_answer(answer, send);
+  _exit(0);
+}
+
 /// Answers what the file was stopped at, and ends.
 void answer_denied(const std::string& deed) {
   pounding::RawAnswer answer;
@@ -58,6 +73,8 @@ int main(int count, char** words) {
     return 1;
   }
   restrict_process();
+  reserve = std::make_unique<char[]>(1 << 20);
+  std::set_new_handler(answer_no_memory);
   const std::span<char*> arguments(words + 2, static_cast<std::size_t>(count - 2));
   const bool make = std::strcmp(words[2], "make") == 0;
   try {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <new>
 #include <set>
 #include <stdexcept>
 #include <sys/mman.h>
@@ -176,8 +175,6 @@ RawAnswer gmsh_mesh(const MeshTask& task, Denied denied) {
     if (!named && answer.mesh.groups.empty()) {
       answer.mesh.groups = groups_by_number(answer.mesh.entities);
     }
-  } catch (const std::bad_alloc&) {
-    answer.error = "the memory is not enough for it";
   } catch (...) {
     answer.error = logged_error();
     if (answer.error.empty()) answer.error = "unreadable";

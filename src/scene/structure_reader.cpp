@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
+#include <cstdlib>
 #include <iterator>
 #include <map>
 #include <set>
@@ -60,6 +62,9 @@ bool is_plain(const std::string& value) {
   });
 }
 
+/// Gmsh counts cells with four bytes, and takes what these do not hold for some other number.
+constexpr double largest_parameter = 1e12;
+
 std::vector<std::pair<std::string, std::string>> read_mesh_set(OptionReader& options,
                                                                const std::string& structure) {
   std::vector<std::pair<std::string, std::string>> pairs;
@@ -72,6 +77,12 @@ std::vector<std::pair<std::string, std::string>> read_mesh_set(OptionReader& opt
       options.refuse("<structure>_mesh_set", {structure},
                      "a name takes letters, digits and _, a value no quotes and no control "
                      "characters");
+    }
+    char* end = nullptr;
+    const double number = std::strtod(sides[1].c_str(), &end);
+    if (*end == '\0' && !(std::abs(number) <= largest_parameter)) {
+      options.refuse("<structure>_mesh_set", {structure},
+                     sides[0] + "=" + sides[1] + " is beyond every mesh; give a number below 1e12");
     }
     for (const auto& [name, value] : pairs) {
       if (name == sides[0]) {

@@ -1,6 +1,7 @@
 """Meshes that hang together otherwise than they look, and groups left out: refused or reported."""
 import ctypes
 import os
+import resource
 import struct
 import subprocess
 import sys
@@ -258,13 +259,17 @@ class Gmsh(MeshCase):
         self.refuse(TABLE + ["-t_mesh", self.with_file(text, suffix)], *words, ranks=(2,))
         self.assertFalse(os.path.exists(path))
 
-    def answer(self, text):
+    def answer(self, text, memory=resource.RLIM_INFINITY):
         """What pounding-mesh answers of a geometry: Gmsh's error and the deed at which it was stopped; None for both
-        where it ended without an answer."""
+        where it ended without an answer. `memory`: that it may have [bytes]."""
+        def prepare():
+            os.dup2(writing, 3)
+            resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+
         reading, writing = os.pipe()
         process = subprocess.Popen([os.path.join(program.BUILD, "pounding-mesh"), self.with_file(text, ".geo"), "make"],
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, close_fds=False,
-                                   preexec_fn=lambda: os.dup2(writing, 3))
+                                   preexec_fn=prepare)
         os.close(writing)
         with os.fdopen(reading, "rb") as stream:
             data = stream.read()
@@ -336,6 +341,16 @@ class Gmsh(MeshCase):
         for text in ('Plugin(MathEval).Run;', 'Parse StrCat("System", "Call;");', 'Error("x") > "FILE";'):
             error, denied = self.answer(text.replace("FILE", path) + "\n")
             self.assertTrue(error and not denied, text)
+
+    def test_memory_that_is_not_enough(self):
+        """It ends before parts of Gmsh that need what did not come."""
+        with open(os.path.join(program.SOURCE, "tests/meshes/box.geo")) as file:
+            text = "nx = 2000; ny = 2000; nz = 2000;\n" + file.read()
+        self.assertEqual(self.answer(text, memory=600 << 20), ["the memory is not enough for it", ""])
+
+    def test_numbers_beyond_every_mesh(self):
+        for value in ("1e300", "-1e13", "nan", "inf"):
+            self.refuse(TABLE + ["-t_mesh_set", f"unit={value}"], f"unit={value}", "beyond every mesh", ranks=(2,))
 
     def test_a_geometry_that_ends_gmsh(self):
         self.refuse(self.geometry("Exit;\n"), "-t_mesh", "without an answer", ranks=(2,))
