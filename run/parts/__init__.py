@@ -58,7 +58,12 @@ def begin(name: str) -> str:
             sys.stdout.flush()
         except BrokenPipeError:
             leave("nobody reads what it says any more", 1)
+        except OSError as error:
+            leave(f"what it says cannot be written: {error.strerror}", 1)
 
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")  # of terminals that have few letters
     sys.excepthook = tell
     atexit.register(flush)
     for number in STOPPING:

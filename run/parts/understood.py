@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from pounding.results import ResultError
+from pounding.results import UNREADABLE, ResultError
 
 
 @contextmanager
@@ -14,7 +14,9 @@ def understood(what: Path | str) -> Iterator[None]:
     with the place in the command that they did not suit."""
     try:
         yield
-    except (KeyError, TypeError, IndexError, AttributeError, ValueError, ArithmeticError) as error:
+    except OSError:
+        raise
+    except UNREADABLE as error:
         place = traceback.extract_tb(error.__traceback__)[-1]
         raise ResultError(f"{what}: holds something that no run of this version writes ({type(error).__name__}: "
                           f"{' '.join(str(error).split())}, at {Path(place.filename).name} line {place.lineno})") from error

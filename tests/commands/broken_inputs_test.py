@@ -15,7 +15,6 @@ import h5py
 import numpy as np
 import program
 import two_buildings
-from two_buildings import pounding
 
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 sys.dont_write_bytecode = True

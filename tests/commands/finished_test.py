@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import program
@@ -14,6 +15,8 @@ from two_buildings import pounding
 
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 from parts import finished  # noqa: E402
+from parts.fragility import design, study  # noqa: E402
+from parts.fragility import runs as members  # noqa: E402
 
 class Kept(unittest.TestCase):
     """One member of a sweep whose inputs are named in every way there is."""
@@ -25,7 +28,7 @@ class Kept(unittest.TestCase):
         cls.place = Path(place.name).resolve()
         for path in two_buildings.FOLDER.iterdir():
             shutil.copy(path, cls.place)
-        (cls.place / "outer.geo").write_text('Include "building.geo";\n')
+        (cls.place / "outer.geo").write_text('Include StrCat("build", "ing.geo");\n')
         short = {"modes": 0, "left_damping_reference": 3, "right_damping_reference": 4}
         pounding.run("two-buildings.yaml", "first", 1, cls.place, end_time=1e-3, export_matrices="matrices", **short)
         (cls.place / "deep").mkdir()
@@ -96,6 +99,39 @@ class Kept(unittest.TestCase):
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertIn("1 runs, 0 finished before", again.stdout)
         self.assertTrue((self.member / "spectra.csv").is_file() and (self.member / "mine.txt").is_file())
+
+
+class Members(unittest.TestCase):
+    """Those of run/fragility, kept under the files that the first one read."""
+
+    def test_other_files_are_other_members_and_the_old_ones_stay(self):
+        with tempfile.TemporaryDirectory(prefix="pounding-") as place:
+            mesh = Path(place) / "inner.geo"
+            mesh.write_text("one")
+            (Path(place) / "study.yaml").write_text(
+                f"scene: {two_buildings.SCENE}\nmotions: {{x: {{target: {two_buildings.FOLDER / 'ground.csv'}, seeds: [1, 2]}}}}\n"
+                "levels: [2]\ngaps: [0.01]\njoints: {floor1: {}}\n")
+            scouts = []
+
+            def scout(runner, reduced, base):
+                scouts.append(base)
+                return members.Scouted({str(mesh): finished.digest(mesh)}, ["left_roof"], ["floor1", "floor2"])
+
+            def base(only_look=False):
+                found = study.read(Path(place) / "study.yaml")
+                return members.Runner(found, design.build(found), Path(place) / "out", 1, 1, "auto", only_look).bases[True]
+
+            with unittest.mock.patch.object(members.Runner, "_scout", scout):
+                with self.assertRaisesRegex(study.StudyError, "nothing is there yet"):
+                    base(only_look=True)
+                first = base()
+                self.assertEqual(base(), first)
+                mesh.write_text("two")
+                second = base()
+                self.assertNotEqual(second, first)
+                mesh.write_text("one")
+                self.assertEqual(base(), first)
+                self.assertEqual(scouts, [first, second])
 
 
 if __name__ == "__main__":

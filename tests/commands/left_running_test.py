@@ -109,7 +109,7 @@ class Tied(unittest.TestCase):
 class Locks(InFolder):
     def test_a_second_command_in_one_folder_is_refused(self):
         (self.place / "study.yaml").write_text(
-            f"scene: two-buildings.yaml\nmotions: {{x: {{target: ground.csv, seeds: [1, 2]}}}}\nlevels: [2]\n"
+            "scene: two-buildings.yaml\nmotions: {x: {target: ground.csv, seeds: [1, 2]}}\nlevels: [2]\n"
             "gaps: [0.01]\njoints: {floor1: {}}\n")
         out = self.place / "out"
         with folder_lock.alone_in(out, "run/first"):

@@ -87,7 +87,7 @@ class Results(unittest.TestCase):
             self.assertEqual(abs(run.forces["peak"][run.forces["component"] == "Fx"]).max(), abs(values).max())
             self.assertRaises(pounding.ResultError, run.force, "feet.N")
 
-    def test_what_is_not_there_is_none(self):
+    def test_what_is_not_there_is_told(self):
         for ask, words in ((self.found.spectrum, ("cellar", "x")), (self.found.spectrum, ("left_roof", "x", 0.07)),
                            (self.found.series, ("displacement", "cellar", "x"))):
             with self.assertRaisesRegex(pounding.ResultError, "left_roof"):

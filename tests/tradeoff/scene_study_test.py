@@ -62,9 +62,15 @@ class SceneStudy(unittest.TestCase):
     def test_finished_runs_are_kept(self):
         path = os.path.join(self.out, "scene", "full", "summary.json")
         before = os.stat(path).st_mtime_ns
+        reduced = os.path.join(self.out, "scene", "modal-50")
+        with open(os.path.join(reduced, "notes.txt"), "w") as file:
+            file.write("a user's")
+        os.truncate(os.path.join(reduced, "spectra.csv"), 1000)
         again = program.command(*self.words)
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertEqual(os.stat(path).st_mtime_ns, before)
+        self.assertTrue(os.path.exists(os.path.join(reduced, "notes.txt")))
+        self.assertGreater(os.path.getsize(os.path.join(reduced, "spectra.csv")), 1000)  # run again, whole
 
     def test_mistakes_are_one_line(self):
         for words, part in ((("--scene", "nothing.yaml"), "no such file"), (("--scene", self.scene, "--gap", "gap2"), "--gap"),

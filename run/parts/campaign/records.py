@@ -50,6 +50,8 @@ def read_at2(path: Path) -> tuple[float, np.ndarray]:
         values = np.array(" ".join(lines[4:]).split(), dtype=float)[:count]
     except (OSError, ValueError, IndexError) as error:
         raise RecordError(f"{path} is not a PEER AT2 file with NPTS and DT in its fourth line: {error}") from error
+    if not 0 < step < 10 or len(values) < 2 or not np.isfinite(values).all():
+        raise RecordError(f"{path}: {len(values)} finite accelerations every {step:g} s are no record")
     return step, G * values
 
 

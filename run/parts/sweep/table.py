@@ -7,7 +7,7 @@ from matplotlib.ticker import MaxNLocator
 from parts.plot.style import WIDTH, plt, probe_colour, save
 from pounding.results import DIRECTIONS, Result
 
-from .members import Axis, Member
+from .members import Member
 
 
 def _probe_columns(result: Result) -> dict:

@@ -4,6 +4,8 @@ import math
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from pounding.results import UNREADABLE
+
 from . import estimate, flexibility, ladder
 from .climb import ALL, BAND_NAMES, Climb, Climbed, Facts, window_of
 from .runs import Outcome
@@ -82,7 +84,7 @@ def _lacking(folder: Path, structures: tuple, modes: int, finest: int) -> float 
     try:
         return max(flexibility.lacking(folder / f"basis-{name}-{modes}.h5", folder / f"basis-{name}-{finest}.h5")
                    for name in structures)
-    except (OSError, KeyError):
+    except UNREADABLE:
         return None
 
 
