@@ -209,17 +209,17 @@ std::vector<LocalIndex> ElementSorter::beam_dofs(bool outer) const {
   return dofs;
 }
 
-SparseRows ElementSorter::sparse_rows() const {
+AssembledRows ElementSorter::assembled_rows() const {
   std::vector<Element> elements = others_;
   std::sort(elements.begin(), elements.end());  // sums in file order on any number of ranks
-  SparseRows::Pattern pattern(mesh_.owned_dofs);
+  AssembledRows::Pattern pattern(mesh_.owned_dofs);
   const auto size_of_element = [&](const Element& element) {
     return static_cast<std::size_t>(element_layout(mesh_.blocks[element.first].type).size());
   };
   for (const Element& element : elements) {
     pattern.add({places(element).data(), size_of_element(element)});
   }
-  SparseRows rows(std::move(pattern));
+  AssembledRows rows(std::move(pattern));
   for (const Element& element : elements) {
     const auto [b, e] = element;
     const std::size_t size = size_of_element(element);

@@ -15,7 +15,7 @@
 #include "stiffness/element_shapes.h"
 #include "stiffness/rows/product_forms.h"
 #include "stiffness/shells/shell_lines.h"
-#include "stiffness/sparse_rows.h"
+#include "stiffness/assembled_rows.h"
 #include "stiffness/strain_sorter.h"
 
 namespace pounding {
@@ -39,7 +39,7 @@ class ElementSorter {
   BeamElements beam_elements(bool outer, LocalIndex idle) const;
   /// Owned dofs of those beams, some more than once.
   std::vector<LocalIndex> beam_dofs(bool outer) const;
-  SparseRows sparse_rows() const;
+  AssembledRows assembled_rows() const;
   ElementKinds kinds() const;
 
  private:

@@ -99,7 +99,7 @@ ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
       const std::vector<LocalIndex> dofs = sorter.general_dofs(outer);
       part.dofs.insert(part.dofs.end(), dofs.begin(), dofs.end());
     }
-    sparse_ = std::make_unique<SparseRows>(sorter.sparse_rows());
+    sparse_ = std::make_unique<AssembledRows>(sorter.assembled_rows());
     const std::size_t places = mesh.dof_count + dofs_per_node;
     argument_ = ZeroedArray(places);
     force_ = ZeroedArray(places);

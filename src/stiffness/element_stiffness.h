@@ -11,7 +11,7 @@
 #include "stiffness/element_kinds.h"
 #include "stiffness/rows/element_lines.h"
 #include "stiffness/rows/product_forms.h"
-#include "stiffness/sparse_rows.h"
+#include "stiffness/assembled_rows.h"
 #include "stiffness/stiffness.h"
 #include "stiffness/strain_sorter.h"
 
@@ -63,7 +63,7 @@ class ElementStiffness final : public Stiffness {
   std::unique_ptr<Halo> halo_;
   Part inner_;                            ///< elements of owned nodes only
   Part outer_;                            ///< elements that touch a ghost
-  std::unique_ptr<SparseRows> sparse_;    ///< all others
+  std::unique_ptr<AssembledRows> sparse_;    ///< all others
   std::vector<DofRange> general_ranges_;  ///< owned dofs that others than rows read
   std::vector<DofRange> late_ranges_;     ///< owned dofs that rows do not hand over
   ElementKinds kinds_;

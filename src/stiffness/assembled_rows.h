@@ -9,7 +9,7 @@ namespace pounding {
 
 /// A sparse matrix over the owned rows of a rank, its columns split into owned dofs and ghosts, for
 /// the few elements that nothing better fits. Rows without entries cost nothing.
-class SparseRows {
+class AssembledRows {
  public:
   /// Entries that elements will have; `places` as in DofPlaces.
   class Pattern {
@@ -18,12 +18,12 @@ class SparseRows {
     void add(std::span<const LocalIndex> places);
 
    private:
-    friend class SparseRows;
+    friend class AssembledRows;
     LocalIndex owned_;
     std::vector<std::vector<LocalIndex>> columns_;
   };
 
-  explicit SparseRows(Pattern&& pattern);
+  explicit AssembledRows(Pattern&& pattern);
 
   /// Adds an element matrix, shape (n, n), that the pattern knows. Entries sum in the order of the
   /// calls.

@@ -1,11 +1,11 @@
-#include "stiffness/sparse_rows.h"
+#include "stiffness/assembled_rows.h"
 
 #include <algorithm>
 #include <cstddef>
 
 namespace pounding {
 
-void SparseRows::Pattern::add(std::span<const LocalIndex> places) {
+void AssembledRows::Pattern::add(std::span<const LocalIndex> places) {
   for (const LocalIndex row : places) {
     if (row < 0 || row >= owned_) continue;
     auto& columns = columns_[row];
@@ -20,7 +20,7 @@ void SparseRows::Pattern::add(std::span<const LocalIndex> places) {
   }
 }
 
-SparseRows::SparseRows(Pattern&& pattern) : owned_dofs_(pattern.owned_) {
+AssembledRows::AssembledRows(Pattern&& pattern) : owned_dofs_(pattern.owned_) {
   for (LocalIndex row = 0; row < owned_dofs_; ++row) {
     auto& columns = pattern.columns_[row];
     std::sort(columns.begin(), columns.end());
@@ -40,7 +40,7 @@ SparseRows::SparseRows(Pattern&& pattern) : owned_dofs_(pattern.owned_) {
   ghost_part_.values.assign(ghost_part_.columns.size(), 0.0);
 }
 
-void SparseRows::add(std::span<const LocalIndex> places, std::span<const double> matrix) {
+void AssembledRows::add(std::span<const LocalIndex> places, std::span<const double> matrix) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (places[i] < 0 || places[i] >= owned_dofs_) continue;
     for (std::size_t j = 0; j < places.size(); ++j) {
@@ -54,7 +54,7 @@ void SparseRows::add(std::span<const LocalIndex> places, std::span<const double>
   }
 }
 
-void SparseRows::add_entry(Part& part, LocalIndex row, LocalIndex column, double value) {
+void AssembledRows::add_entry(Part& part, LocalIndex row, LocalIndex column, double value) {
   const std::size_t r =
       std::lower_bound(part.rows.begin(), part.rows.end(), row) - part.rows.begin();
   const auto begin = part.columns.begin() + static_cast<std::ptrdiff_t>(part.start[r]);
@@ -62,7 +62,7 @@ void SparseRows::add_entry(Part& part, LocalIndex row, LocalIndex column, double
   part.values[std::lower_bound(begin, end, column) - part.columns.begin()] += value;
 }
 
-void SparseRows::add_product(const Part& part, const double* w, double* q) {
+void AssembledRows::add_product(const Part& part, const double* w, double* q) {
   for (std::size_t r = 0; r < part.rows.size(); ++r) {
     const LocalIndex* const column = part.columns.data();
     const double* const value = part.values.data();
