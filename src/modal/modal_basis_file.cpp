@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/component_names.h"
 #include "common/version.h"
 #include "io/hdf5_file.h"
 #include "io/hdf5_reader.h"
@@ -27,6 +28,7 @@ std::string difference(const Hdf5Reader& file, const BasisKey& key) {
 
 constexpr double most_coordinates = 1e9;  // an int holds them
 constexpr double largest_number = 9e15;   // whole numbers above are not told apart
+constexpr double last_component = component_names.size() - 1.0;
 
 /// The value, if it is a whole number from 0 to `largest`; else throws std::runtime_error.
 double whole(double value, double largest) {
@@ -76,7 +78,7 @@ ModalBasis read_arrays(const Hdf5Reader& file) {
   std::copy(inertia.begin(), inertia.end(), basis.inertia.begin());
   for (std::size_t i = 0; i < points.size(); i += 2) {
     basis.points.push_back({static_cast<GlobalIndex>(whole(points[i], largest_number)),
-                            static_cast<int>(whole(points[i + 1], 2))});
+                            static_cast<int>(whole(points[i + 1], last_component))});
   }
   return basis;
 }

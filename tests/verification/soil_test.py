@@ -8,8 +8,10 @@ and of Wolf's cones, written here once more.
 """
 import math
 import os
+import tempfile
 import unittest
 
+import h5py
 import numpy
 
 import program
@@ -160,10 +162,21 @@ class Impedance(unittest.TestCase):
                 u, v = full.run.displacement(f"it.{axis}"), reduced.run.displacement(f"it.{axis}")
                 self.assertLess(abs(u - v).max() / abs(u).max(), 1e-9)
 
+    def test_a_kept_basis_is_read_again(self):
+        """Soil acts on rotations too, which are places of the basis as translations are."""
+        with tempfile.TemporaryDirectory(prefix="pounding-") as place:
+            words = on_arm(0.45, 8, 3, "-block_model", "modal", "-block_modal_vectors", 18, "-motion_x_record",
+                           self.record, "-motion_x_unit", "m/s2", "-end_time", 0.3, "-block_modal_basis",
+                           f"{place}/basis.h5")
+            made, read = Recorded(self, words, 2), Recorded(self, words, 2)
+            with h5py.File(f"{place}/basis.h5") as file:
+                self.assertEqual(set(file["points"][:, 1]), set(range(6)))
+        self.assertTrue(numpy.array_equal(made.displacement("it.x"), read.displacement("it.x")))
+        self.assertGreater(abs(made.displacement("it.x")).max(), 0)
+
     def test_a_continued_run_is_the_uninterrupted_one(self):
         words = on_arm(0.45, 8, 3, "-motion_x_record", self.record, "-motion_x_unit", "m/s2", "-end_time", 1)
         assert_continues(self, words, 0.5, 300)
-
 
 
 class Limits(unittest.TestCase):
