@@ -18,6 +18,7 @@
 #include "mesh/gmsh_process.h"
 #include "mesh/repeated_elements.h"
 #include "mesh/rigid_nodes.h"
+#include "mesh/shared_elements.h"
 #include "mesh/soil_node.h"
 #include "mesh/tied_nodes.h"
 #include "mesh/unused_elements.h"
@@ -271,6 +272,7 @@ class MeshBuilder {
   /// Share of each node in the length or area over which its region is spread.
   void share_out() {
     for (auto& [number, facets] : spread_) {
+      drop_repeated_facets(facets);
       ElementSet& set = mesh_.regions[static_cast<std::size_t>(number)];
       set.share.assign(set.tags.size(), 0.0);
       for (Facet& facet : facets) {
@@ -331,6 +333,7 @@ class MeshBuilder {
       }
     }
     group.nodes = nodes_in_use.sort();
+    drop_repeated_facets(group.facets);
   }
 
   void add_elements(int dimension, const RawElements& elements, NodeGroup& group,
@@ -408,6 +411,7 @@ class MeshBuilder {
 
 MeshRead read_mesh(const Structure& structure, double time_limit) {
   RawAnswer answer = read_raw_mesh(structure, time_limit);
+  merge_shared_elements(answer.mesh);
   const std::vector<std::string> doubts = doubts_of(structure, answer);
   MeshFiles files{files_beside(structure.mesh, answer.mesh.files), answer.landlock};
   MeshRead read{MeshBuilder(structure, std::move(answer.mesh)).build(), std::move(files)};

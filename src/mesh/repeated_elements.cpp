@@ -1,7 +1,9 @@
 #include "mesh/repeated_elements.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/error.h"
@@ -60,6 +62,26 @@ void check(const std::string& structure, std::span<const ElementSet* const> sets
 }
 
 }  // namespace
+
+void drop_repeated_facets(std::vector<Facet>& facets) {
+  std::vector<std::pair<std::array<GlobalIndex, 4>, std::size_t>> order;
+  order.reserve(facets.size());
+  for (const Facet& facet : facets) {
+    std::array<GlobalIndex, 4> nodes = facet.nodes;
+    std::ranges::sort(nodes);
+    order.emplace_back(nodes, order.size());
+  }
+  std::ranges::sort(order);
+  std::vector<char> repeats(facets.size(), 0);
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    repeats[order[i].second] = order[i].first == order[i - 1].first ? 1 : 0;
+  }
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    if (repeats[f] == 0) facets[kept++] = facets[f];
+  }
+  facets.resize(kept);
+}
 
 void check_repeated_elements(const std::string& structure, const GlobalMesh& mesh) {
   std::vector<const ElementSet*> extended;

@@ -4,6 +4,8 @@ References: the weight over modulus times area; the square root of the modulus o
 oscillator; springs at corners with a quarter of the area each; the weight over modulus times length.
 """
 import math
+import os
+import tempfile
 import unittest
 
 import numpy
@@ -67,6 +69,39 @@ class Raft(unittest.TestCase):
                 found.append(numpy.array([run.displacement(f"p.{d}") for d in "xyz"]))
             self.assertGreater(abs(found[0]).max(), 1e-3)
             self.assertLess(abs(found[0] - found[1]).max(), 1e-10 * abs(found[0]).max(), more)
+
+    def test_an_area_in_two_groups_counts_once(self):
+        """Gmsh's format 2.2 writes an element once for each of its groups; a third copy is a mistake of the mesh."""
+        nodes = ["1 0 0 0", "2 2.5 0 0", "3 2.5 1.5 0", "4 0 1.5 0"]
+        for copies in (1, 2):
+            elements = ["1 3 2 1 7 1 2 3 4", *(f"{2 + i} 3 2 2 7 1 2 3 4" for i in range(copies)), "5 15 2 3 1 1"]
+            with tempfile.TemporaryDirectory(prefix="pounding-") as folder:
+                path = os.path.join(folder, "raft.msh")
+                with open(path, "w") as file:
+                    file.write("\n".join(["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "3", '2 1 "raft"',
+                                          '2 2 "ground"', '0 3 "corners"', "$EndPhysicalNames", "$Nodes", "4", *nodes,
+                                          "$EndNodes", "$Elements", str(len(elements)), *elements, "$EndElements", ""]))
+                words = [*raft(), *ground(), *AT_REST, "-t_mesh", path]
+                at = words.index("-t_mesh_set")
+                words = words[:at] + words[at + 2:]
+                if copies == 2:
+                    program.must_refuse(self, words, "it would count twice")
+                    continue
+                run = Recorded(self, words, 2, identity=1e-9)
+                self.assertAlmostEqual(run.displacement("p.z")[0] / (-MASS * GRAVITY / MODULUS), 1, delta=1e-9)
+
+    def test_what_lifts_off_is_told_by_its_area(self):
+        """A heavy edge tips a rigid raft: the far edge, of half the area of a row inside, stands free."""
+        run = Recorded(self, [*raft(lx=4, nx=4), *ground(), *AT_REST, "-t_rigid", "raft", "-t_ground_compression_only", "true",
+                              "-t_x_min_element", "bar", "-t_x_min_material", "stone", "-t_x_min_area", 1e-4,
+                              "-t_x_min_mass_per_length", 4e3, "-p_group", "raft", "-p_average", "false"], 2, identity=1e-9)
+        positions, names = run.nodes("p")
+        share = numpy.where((positions[:, 0] < 1e-9) | (positions[:, 0] > 4 - 1e-9), 0.5, 1.0)
+        pressed = numpy.array([run.displacement(f"{name}.z")[-1] < 0 for name in names])
+        self.assertTrue(0 < pressed.sum() < len(pressed))
+        ratio = run.summary["contact_ratio"]["t"]["end"]
+        self.assertAlmostEqual(ratio, share[pressed].sum() / share.sum(), delta=1e-9)
+        self.assertGreater(abs(ratio - pressed.mean()), 0.01)
 
     def test_dashpots_damp_as_told(self):
         ratio, omega = 0.08, math.sqrt(MODULUS / MASS)

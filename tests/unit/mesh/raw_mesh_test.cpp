@@ -4,6 +4,7 @@
 
 #include "common/error.h"
 #include "mesh/repeated_elements.h"
+#include "mesh/shared_elements.h"
 #include "mesh/unused_elements.h"
 #include "support/box_mesh.h"
 
@@ -99,6 +100,52 @@ TEST(RepeatedElements, AreRefusedInSolidsOfTwoGroups) {
   std::swap(again.connectivity[0], again.connectivity[5]);
   mesh.regions.push_back(again);
   EXPECT_THROW(check_repeated_elements("s", mesh), UserError);
+}
+
+/// Two faces on a surface, in groups of given entities, with the second face again as told.
+RawMesh faces(const std::vector<std::vector<int>>& entities,
+              const std::vector<std::vector<std::int64_t>>& again) {
+  RawMesh mesh;
+  RawElements elements{3, {1, 2}, {1, 2, 3, 4, 2, 5, 6, 3}};
+  for (const std::vector<std::int64_t>& nodes : again) {
+    elements.tags.push_back(static_cast<std::int64_t>(elements.tags.size()) + 1);
+    elements.nodes.insert(elements.nodes.end(), nodes.begin(), nodes.end());
+  }
+  mesh.entities = {{2, 8, false, {elements}}};
+  for (const std::vector<int>& of : entities) mesh.groups.push_back({"g", 2, of});
+  return mesh;
+}
+
+std::vector<std::int64_t> tags_left(RawMesh mesh) {
+  merge_shared_elements(mesh);
+  const RawElements& left = mesh.entities[0].elements[0];
+  EXPECT_EQ(left.nodes.size(), 4 * left.tags.size());
+  return left.tags;
+}
+
+TEST(SharedElements, AreOneHoweverOftenTheirGroupsWriteThem) {
+  using Tags = std::vector<std::int64_t>;
+  const std::vector<std::int64_t> same{2, 5, 6, 3};
+  EXPECT_EQ(tags_left(faces({{8}, {8}}, {same})), (Tags{1, 2}));
+  EXPECT_EQ(tags_left(faces({{8}, {8}}, {{3, 6, 5, 2}})), (Tags{1, 2}));
+  EXPECT_EQ(tags_left(faces({{8}, {8, 9}, {8}}, {same, same})), (Tags{1, 2}));
+  // More than one per group, or another face, is no copy of a group.
+  EXPECT_EQ(tags_left(faces({{8}, {8}}, {same, same})), (Tags{1, 2, 4}));
+  EXPECT_EQ(tags_left(faces({{8}, {9}}, {same})), (Tags{1, 2, 3}));
+  EXPECT_EQ(tags_left(faces({{8}, {8}}, {{5, 7, 8, 6}})), (Tags{1, 2, 3}));
+}
+
+TEST(RepeatedFacets, LeaveTheFirst) {
+  std::vector<Facet> facets{{{4, 5, 6, -1}, 3},
+                            {{1, 2, 3, 0}, 4},
+                            {{0, 1, 2, 3}, 4},
+                            {{5, 4, -1, -1}, 2},
+                            {{4, 5, -1, -1}, 2}};
+  drop_repeated_facets(facets);
+  ASSERT_EQ(facets.size(), 3U);
+  EXPECT_EQ(facets[0].count, 3);
+  EXPECT_EQ(facets[1].nodes, (std::array<GlobalIndex, 4>{1, 2, 3, 0}));
+  EXPECT_EQ(facets[2].nodes[0], 5);
 }
 
 }  // namespace
