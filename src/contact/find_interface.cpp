@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <numeric>
 #include <set>
 #include <sstream>
 #include <utility>
 
 #include "common/error.h"
 #include "contact/carried_nodes.h"
+#include "contact/common_area.h"
 #include "contact/contact_checks.h"
 #include "contact/contact_sides.h"
 #include "contact/crossing.h"
@@ -54,7 +55,7 @@ class PairFinder {
     set_gaps(found);
     set_offsets(found, interface.sliding);
     if (contact_.filler) {
-      lay_filler(contact_, sides_.secondary.face.has_lines(), found, report_);
+      lay_filler(contact_, has_lines(), common_area_, found, report_);
     }
     interface.reports.push_back(report_);
   }
@@ -94,6 +95,11 @@ class PairFinder {
   bool has_crossing_lines() const {
     return sides_.secondary.face.beams + sides_.primary.face.beams > 0 &&
            sides_.secondary.face.is_line() && sides_.primary.face.is_line();
+  }
+
+  /// Some part of either side is lines, which have no area.
+  bool has_lines() const {
+    return sides_.secondary.face.has_lines() || sides_.primary.face.has_lines();
   }
 
   /// A pair for each place where an edge of one side crosses one of the other; a place at a node is
@@ -150,6 +156,10 @@ class PairFinder {
   void pair(const FaceSide& nodes, const FaceSide& facets, Interface& interface) {
     const double reach = (nodes.thickness + facets.thickness) / 2;
     const FacetFinder finder(*facets.mesh, facets.face, reach);
+    if (contact_.filler) {
+      areas_ = has_lines() ? node_areas(nodes.face) : common_area(nodes, facets, finder);
+      common_area_ += std::accumulate(areas_.begin(), areas_.end(), 0.0) / contact_.passes;
+    }
     std::optional<SlidingBuilder> sliding;
     if (contact_.sliding > 0) {
       sliding.emplace(contact_, number_, nodes, facets, finder, interface.sliding);
@@ -195,6 +205,10 @@ class PairFinder {
   }
 
   void pair_with_wall(Interface& interface) {
+    if (contact_.filler) {
+      areas_ = node_areas(sides_.secondary.face);
+      common_area_ = std::accumulate(areas_.begin(), areas_.end(), 0.0);
+    }
     const std::vector<char> all(sides_.secondary.face.nodes.size(), 1);
     const std::vector<char> is_left_out = left_out(sides_.secondary, all);
     for (std::size_t i = 0; i < sides_.secondary.face.nodes.size(); ++i) {
@@ -236,11 +250,7 @@ class PairFinder {
   /// Adds the node's own terms, and keeps the constraint.
   void finish(const FaceSide& nodes, std::size_t i, Constraint&& constraint, Interface& interface) {
     const GlobalIndex node = nodes.face.nodes[i];
-    if (contact_.filler) {
-      std::vector<double>& areas = areas_[&nodes];
-      if (areas.empty()) areas = node_areas(nodes.face);
-      constraint.filler.area = areas[i];
-    }
+    if (contact_.filler) constraint.filler.area = areas_[i];
     add_terms(nodes.structure, node, -1, nodes.face.node_normals[i], constraint);
     keep(nodes.mesh->position(node), std::move(constraint), interface);
   }
@@ -316,7 +326,8 @@ class PairFinder {
   std::size_t first_row_ = 0;  ///< of the contact, in the interface
   ContactSides sides_;
   InterfaceReport report_;
-  std::map<const FaceSide*, std::vector<double>> areas_;  ///< of the nodes of a side
+  std::vector<double> areas_;  ///< filler: of the nodes that are being paired [m2]
+  double common_area_ = 0;     ///< filler: of the faces [m2]
 };
 
 }  // namespace

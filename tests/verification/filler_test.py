@@ -291,6 +291,54 @@ class TwoBlocks(unittest.TestCase):
         self.assertGreater(run.energy["devices"], 0)
 
 
+def two_groups(folder, name, x0, groups):
+    """A brick of 1 m3 in Gmsh's format 2.2, which writes an element once for each of its groups: the face at its right or
+    left in all of the groups given."""
+    nodes = [(x0 + a, b, c) for c in (0, 1) for a, b in ((0, -0.5), (1, -0.5), (1, 0.5), (0, 0.5))]
+    face = (2, 3, 7, 6) if x0 == 0 else (1, 5, 8, 4)
+    elements = ["1 5 2 1 1 1 2 3 4 5 6 7 8", "2 3 2 2 2 1 4 3 2"]
+    for i, _ in enumerate(groups):
+        elements.append(f"{3 + i} 3 2 {3 + i} 3 " + " ".join(map(str, face)))
+    names = ['3 1 "body"', '2 2 "base"', *(f'2 {3 + i} "{group}"' for i, group in enumerate(groups))]
+    path = os.path.join(folder, f"{name}.msh")
+    with open(path, "w") as file:
+        file.write("\n".join(["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(names)), *names,
+                              "$EndPhysicalNames", "$Nodes", "8",
+                              *(f"{i + 1} {x} {y} {z}" for i, (x, y, z) in enumerate(nodes)), "$EndNodes", "$Elements",
+                              str(len(elements)), *elements, "$EndElements", ""]))
+    return path
+
+
+class Area(unittest.TestCase):
+    """A filler has the area that its two faces have in common, once."""
+
+    def area(self, *more):
+        _, summary = program.must_run(self, colliding(*more, end=1e-3, step=1e-4))
+        return summary["contacts"]["joint"]["filler"]["area"]
+
+    def test_of_a_larger_face(self):
+        """Cells of 1 m over 3 m x 3 m before a face of 1 m2: on one of them, or across four."""
+        for y0, z0 in ((-1.5, -1), (-1.2, -1.3)):
+            large = ["-right_mesh_set", f"x0={1 + GAP},y0={y0},z0={z0},ly=3,lz=3,ny=3,nz=3", "-r_at", f"{2 + GAP},{y0},{z0}"]
+            sides = ["-joint_secondary", "right:x_min", "-joint_primary", "left:x_max"]
+            for more in (sides, [*sides, "-joint_passes", 2], []):
+                if (y0, more) == (-1.2, []):
+                    continue
+                self.assertAlmostEqual(self.area(*large, *more), 1, delta=1e-9)
+
+    def test_of_a_face_in_two_groups(self):
+        with tempfile.TemporaryDirectory(prefix="pounding-") as folder:
+            for groups in (["face"], ["face", "skin"], ["skin", "face", "outside"]):
+                left = two_groups(folder, "left", 0, groups)
+                right = two_groups(folder, "right", 1 + GAP, ["face"])
+                words = [word for word in colliding(end=1e-3, step=1e-4) if "mesh" not in str(word) and
+                         not str(word).startswith("x0=") and not str(word).endswith(".geo")]
+                _, summary = program.must_run(self, [
+                    *words, "-left_mesh", left, "-right_mesh", right, "-left_ignore",
+                    ",".join({"base", *groups} - {"face"}), "-right_ignore", "base", "-joint_secondary", "left:face", "-joint_primary", "right:face"])
+                self.assertAlmostEqual(summary["contacts"]["joint"]["filler"]["area"], 1, delta=1e-12, msg=groups)
+
+
 class Refused(unittest.TestCase):
     def test_what_is_no_filler(self):
         for more, parts in (
