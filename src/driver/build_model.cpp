@@ -19,6 +19,7 @@
 #include "modal/definiteness.h"
 #include "modal/reduced_system.h"
 #include "modal/reduction.h"
+#include "scene/factor_reader.h"
 #include "scene/soil_reader.h"
 #include "scene/support_reader.h"
 #include "stability/stable_time_step.h"
@@ -133,7 +134,10 @@ void build_meshes(MPI_Comm comm, Scene& scene, std::span<const double> stiffness
   auto bases = find_bases(comm, scene, whole.meshes, model.interface, model.probes, model.forces,
                           model.support_columns(), profile);
   for (std::size_t s = 0; s < count; ++s) {
-    if (bases[s]) scale_stiffness(stiffness_factors[s], *bases[s]);
+    if (bases[s]) {
+      scale_stiffness(stiffness_factors[s], *bases[s]);
+      scale_stiffness(stiffness_factors[s], scene.structures[s]);  // forces are of its elements
+    }
     model.buildings[s].basis = std::move(bases[s]);
   }
 }

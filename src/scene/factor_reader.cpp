@@ -12,6 +12,9 @@ constexpr std::string_view stiffness_factor = "<structure>_stiffness_factor";
 std::string left_out(const Structure& structure) {
   if (structure.soil) return "its soil has a stiffness of its own";
   if (structure.p_delta) return "not with -" + structure.name + "_p_delta";
+  if (!structure.absorbing.empty() && structure.modal) {
+    return "not with -" + structure.name + "_absorbing in modes, whose dashpots would stay";
+  }
   if (!structure.matrices.empty() && !structure.modal) {
     return "not with -" + structure.name + "_matrices at full order; scale stiffness.mtx";
   }
@@ -32,12 +35,15 @@ double read_stiffness_factor(OptionReader& options, Structure& structure) {
   if (const std::string why = left_out(structure); !why.empty()) {
     options.refuse(stiffness_factor, {structure.name}, why);
   }
-  if (structure.modal) return factor;
+  if (!structure.modal) scale_stiffness(factor, structure);
+  return factor;
+}
+
+void scale_stiffness(double factor, Structure& structure) {
   for (Region& region : structure.regions) {
     region.material.young *= factor;
     for (double& stiffness : region.stiffness) stiffness *= factor;
   }
-  return factor;
 }
 
 }  // namespace pounding

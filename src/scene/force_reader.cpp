@@ -81,6 +81,13 @@ ForceItem read_force(OptionReader& options, const Scene& scene, const std::strin
   const Structure& structure = structure_of(options, scene, name);
   force.structure = structure.name;
   force.kind = kind_of(options.choice("<force>_kind", {name}));
+  if (structure.modal && structure.p_delta && force.kind != ForceKind::shells) {
+    options.refuse("<force>_kind", {name},
+                   "structure " + structure.name +
+                       " is reduced, where what its weight adds as columns lean (-" +
+                       structure.name + "_p_delta) is not told by its elements; give -" +
+                       structure.name + "_model full");
+  }
   const bool of_group = force.of_elements() || force.kind == ForceKind::cut;
   const auto only_for = [&](bool used, std::string_view pattern, const std::string& kinds) {
     if (!used) options.forbid(pattern, {name}, "only with -" + name + "_kind " + kinds);

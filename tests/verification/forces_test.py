@@ -228,6 +228,10 @@ class Portal(unittest.TestCase):
             self.assertLess(run.summary["structures"]["it"]["modal"]["coordinates"], 6)
             for name, history in whole.force.items():
                 self.assertLess(abs(run.force[name][0] - history[0]), 1e-6 * abs(whole.total("base")[0]).max(), name)
+        stiffer = Forces(self, self.words("-it_model", "modal", "-it_modal_vectors", 3, "-it_stiffness_factor", 2,
+                                          **ordinary))
+        for name, history in whole.force.items():  # at rest forces do not know the stiffness
+            self.assertLess(abs(stiffer.force[name][0] - history[0]), 1e-6 * abs(whole.total("base")[0]).max(), name)
 
     def test_what_cannot_be_meant(self):
         for more, said in ((["-head_group", "nothing"], "has no elements in such a group"),
@@ -259,6 +263,9 @@ class Springs(unittest.TestCase):
         program.must_refuse(self, words, "-loops chain:support")
 
 
+STIFFER = ("-it_stiffness_factor", 2)
+
+
 class Reduced(Shaken, unittest.TestCase):
     """What a few vectors leave of the forces of a shaken brick; all of them leave everything."""
 
@@ -266,8 +273,8 @@ class Reduced(Shaken, unittest.TestCase):
         return super().words("-it_clamp", "z_min", "-probes", "none", "-time_step", 2e-5, "-gravity", 0,
                              "-preload", "none", *more)
 
-    def differs(self, vectors, ranks, full):
-        run = Forces(self, self.words("-it_model", "modal", "-it_modal_vectors", vectors), ranks)
+    def differs(self, vectors, ranks, full, *more):
+        run = Forces(self, self.words("-it_model", "modal", "-it_modal_vectors", vectors, *more), ranks)
         return [abs(run.total(item) - full.total(item)).max() / abs(full.total(item)).max()
                 for item in ("base", "upper")]
 
@@ -275,6 +282,7 @@ class Reduced(Shaken, unittest.TestCase):
         full = Forces(self, self.words(), 1)
         for ranks in (1, 2):
             self.assertLess(max(self.differs(1000, ranks, full)), 1e-8, "all modes")
+        self.assertLess(max(self.differs(1000, 2, Forces(self, self.words(*STIFFER), 1), *STIFFER)), 1e-8, "stiffer")
         few, more = self.differs(8, 2, full), self.differs(30, 1, full)
         self.assertLess(max(few), 0.3, "8 vectors")
         self.assertLess(max(more), 0.1, "30 vectors")
