@@ -9,6 +9,7 @@
 #include "driver/warnings.h"
 #include "mesh/find_supported_nodes.h"
 #include "mesh/gmsh_reader.h"
+#include "mesh/sliding_order.h"
 #include "mesh/soil_node.h"
 #include "modal/reduction.h"
 #include "scene/soil_reader.h"
@@ -44,6 +45,7 @@ void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, WholeMeshes& wh
   }
   model.buildings[s].absorbing = find_absorbing_nodes(scene, structure, mesh);
   model.buildings[s].spread = find_spread_springs(structure, mesh);
+  order_sliding_bearings(structure, mesh);
   find_supported_nodes(scene, structure, mesh);
 }
 

@@ -12,7 +12,9 @@
 namespace pounding {
 namespace {
 
-constexpr double smallest_edge = 1e-12;  // of the diagonal of the mesh
+/// Parts of the diagonal of the mesh; a shorter line has its direction from round-off.
+constexpr double smallest_edge = 1e-12;
+constexpr double shortest_line = 1e-8;
 
 /// The smallest distance between two nodes of an element [m].
 double smallest_distance(const GlobalMesh& mesh, const GlobalIndex* corner, std::size_t nodes) {
@@ -45,9 +47,10 @@ double element_size_at(const GlobalMesh& mesh, GlobalIndex node) {
 }
 
 void check_element_sizes(const std::string& structure, const GlobalMesh& mesh) {
-  const double least = smallest_edge * bounding_box({&mesh, 1}).diagonal();
+  const double size = bounding_box({&mesh, 1}).diagonal();
   for (const ElementSet& set : mesh.regions) {
     const std::size_t nodes = element_layout(set.type).nodes;
+    const double least = size * (joins_two_nodes(set.type) ? shortest_line : smallest_edge);
     for (std::size_t e = 0; has_extent(set.type) && e < set.tags.size(); ++e) {
       const double found = smallest_distance(mesh, &set.connectivity[e * nodes], nodes);
       if (!(found > least)) {

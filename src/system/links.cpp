@@ -120,9 +120,8 @@ void Links::add_springs(const Structure& structure, const Mesh& mesh, const Elem
       link.place[end] = mesh.dof(nodes[end], static_cast<int>(c));
       link.weight[end] = end + 1 == ends && !pressed ? 1 : -1;
     }
-    if (part == SpringPart::gauge && ends == 2 &&
-        mesh.position(nodes[1])[c] < mesh.position(nodes[0])[c]) {
-      for (double& weight : link.weight) weight = -weight;  // told as if the second one lay above
+    if (part == SpringPart::gauge && structure.gravity[c] > 0) {
+      for (double& weight : link.weight) weight = -weight;  // weight presses it towards greater c
     }
     for (std::size_t end = 0; end < ends; ++end) {
       if (link.place[end] < 0) {

@@ -3,6 +3,8 @@
 A mass on one of them, in closed form: the scheme is of second order, so all of it holds to 1e-6 at a small step.
 """
 import math
+import os
+import tempfile
 import unittest
 
 import numpy
@@ -145,6 +147,68 @@ class SlidingBearing(unittest.TestCase):
         speed = run.velocity("one.x")[flight]
         self.assertLess(abs(speed - speed[0]).max(), 1e-9)
         self.assertGreater(speed[0], 1.2)
+
+
+def bearing(folder, order, above=0.0):
+    """A mesh of a bearing between a node at the origin, in group lower, and one `above` it, in group upper; `order` of the
+    two in its element. Another point makes the mesh 10 m long."""
+    nodes = ["1 0 0 0", f"2 0 0 {above!r}", "3 10 0 0"]
+    first, second = (1, 2) if order == "lower first" else (2, 1)
+    elements = [f"1 1 2 1 1 {first} {second}", "2 15 2 2 2 1", "3 15 2 3 3 2", "4 15 2 4 4 3"]
+    path = os.path.join(folder, f"bearing-{order[0]}{above}.msh")
+    with open(path, "w") as file:
+        file.write("\n".join(["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "4", '1 1 "bearing"',
+                              '0 2 "lower"', '0 3 "upper"', '0 4 "other"', "$EndPhysicalNames", "$Nodes", "3", *nodes,
+                              "$EndNodes", "$Elements", "4", *elements, "$EndElements", ""]))
+    return path
+
+
+class BetweenTwoNodes(unittest.TestCase):
+    """A sliding bearing under a mass, its nodes at one place or not, named in any order."""
+    FRICTION, BEFORE, SPEED = 0.08, 2e6, 0.5
+
+    def words(self, mesh, *more, clamp="lower,other"):
+        words = ["-structures", "it", "-it_mesh", mesh, "-it_clamp", clamp, "-it_bearing_element", "spring",
+                 "-it_bearing_stiffness", f"{self.BEFORE},{self.BEFORE},1e6", "-it_bearing_yield_circle", "x+y",
+                 "-it_bearing_sliding_friction", self.FRICTION, "-gravity", 9.81, "-preload", "static",
+                 "-it_initial_velocity", f"{self.SPEED},0,0", "-time_step", 2e-5, "-output_interval", 1e-3, "-end_time",
+                 0.7, "-energy_interval", 100, "-probes", "one", "-one_structure", "it", "-one_group", "upper"]
+        for group, weight in (("lower", 10), ("upper", MASS), ("other", 10)):
+            words += [f"-it_{group}_element", "point_mass", f"-it_{group}_mass", weight]
+        return [*words, *more]
+
+    def test_order_and_round_off_do_not_matter(self):
+        """It slides as far as mu m g lets it: v^2 / (2 mu g), but for the spring before it slides."""
+        elastic = self.FRICTION * MASS * 9.81 / self.BEFORE
+        stops = self.SPEED**2 / (2 * self.FRICTION * 9.81) + elastic / 2
+        with tempfile.TemporaryDirectory(prefix="pounding-") as folder:
+            found = []
+            for order in ("lower first", "upper first"):
+                for above, ranks in ((0.0, 1), (2e-9, 2), (-2e-9, 1), (0.3, 2)):
+                    run = Recorded(self, self.words(bearing(folder, order, above)), ranks, identity=1e-10)
+                    self.assertFalse([line for line in run.summary["warnings"] if "upside down" in line])
+                    found.append(run.displacement("one.x"))
+        for u in found:
+            self.assertAlmostEqual(u.max() / stops, 1, delta=1e-5)
+            self.assertLess(abs(u - found[0]).max(), 1e-12 * stops)
+
+    def test_nothing_tells(self):
+        with tempfile.TemporaryDirectory(prefix="pounding-") as folder:
+            words = self.words(bearing(folder, "lower first"), clamp="other")
+            program.must_refuse(self, words, "group 'bearing'", "which one it carries", "a millimetre")
+
+    def test_upside_down(self):
+        """What is clamped lies above what hangs: nothing presses on it."""
+        with tempfile.TemporaryDirectory(prefix="pounding-") as folder:
+            words = self.words(bearing(folder, "lower first", 0.3), "-end_time", 1e-3, clamp="upper,other")
+            _, summary = program.must_run(self, words)
+        self.assertEqual(len([line for line in summary["warnings"] if "upside down" in line]), 1)
+
+    def test_without_weight(self):
+        with tempfile.TemporaryDirectory(prefix="pounding-") as folder:
+            words = self.words(bearing(folder, "lower first"), "-gravity", 0, "-preload", "none", "-end_time", 1e-3)
+            _, summary = program.must_run(self, words)
+        self.assertEqual(len([line for line in summary["warnings"] if "no gravity acts along z" in line]), 1)
 
 
 class Pendulum(unittest.TestCase):
