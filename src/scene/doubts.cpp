@@ -96,6 +96,35 @@ void look_at_gravity(const Structure& structure, Doubts& doubts) {
              "this die away before -spectra_start and the motion");
 }
 
+/// What a region holds by what presses on it, where no weight does.
+void look_at_weight(const Structure& structure, const Region& region, Doubts& doubts) {
+  const std::string owner = "structure " + structure.name + ", group " + region.group + ": ";
+  const auto across = static_cast<std::size_t>(region.nonlinear.circle[2]);
+  if (region.nonlinear.friction > 0 && structure.gravity[across] == 0) {
+    doubts.add(owner + "slides, but no gravity acts along " + "xyz"[across] +
+               ", across its plane: it holds only what the motion presses on it; give -gravity and "
+               "-preload static");
+  }
+  if (region.compression_only && !(structure.gravity[2] < 0)) {
+    doubts.add(owner +
+               "pushes up only, but no gravity presses down on it: it lifts off at once and holds "
+               "nothing; give -gravity and -preload static");
+  }
+}
+
+/// Damping of the structure that its filters, which follow the product with K, do not give to
+/// elements that are no part of it.
+void look_at_damping(const Structure& structure, const Region& region, Doubts& doubts) {
+  if (!structure.uniform_damping || !(structure.uniform_damping->ratio > 0)) return;
+  if (!is_one_way(region)) return;
+  doubts.add("structure " + structure.name + ", group " + region.group + ": -" + structure.name +
+             "_damping_uniform does not reach elements that act in one direction only" +
+             (region.compression_only
+                  ? ": along z they have the damping of their own -" + structure.name + "_" +
+                        region.group + "_dashpot alone"
+                  : ": these bars have no damping; Rayleigh damping reaches them"));
+}
+
 }  // namespace
 
 bool is_held(const Structure& structure, std::size_t direction) {
@@ -112,6 +141,8 @@ std::vector<std::string> scene_doubts(const Scene& scene) {
   for (const Structure& structure : scene.structures) {
     for (const Region& region : structure.regions) {
       look_at_region("structure " + structure.name, region, doubts);
+      look_at_weight(structure, region, doubts);
+      look_at_damping(structure, region, doubts);
     }
     if (!scene.preload) look_at_gravity(structure, doubts);
   }

@@ -162,6 +162,12 @@ void read_spring(OptionReader& options, const Names& names, Region& region) {
     options.refuse("<structure>_<group>_compression_only", names,
                    "a spring that yields along z cannot press only; leave one of the two out");
   }
+  if (region.compression_only && region.dashpot[2] > 0 && region.nonlinear.dashpot_exponent != 1) {
+    options.refuse(exponent, names,
+                   "beside -" + option_name("<structure>_<group>_compression_only", names) +
+                       " the dashpot along z goes by the rate itself; leave one of the two out, or "
+                       "give the dashpot to a group of its own");
+  }
   bool rotations = false;
   for (std::size_t c = 3; c < 6; ++c) {
     rotations = rotations || region.stiffness[c] > 0 || region.dashpot[c] > 0;

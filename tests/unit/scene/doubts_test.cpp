@@ -118,5 +118,46 @@ TEST(SceneDoubts, GravityDroppedOnWhatIsHeld) {
   EXPECT_EQ(sprung.size(), 1u);
 }
 
+/// A raft on springs that may lift off, and bearings that slide in the plane x-y.
+void add_bearings(Structure& structure) {
+  Region raft;
+  raft.group = "raft";
+  raft.element = ElementType::grounded_spring;
+  raft.stiffness = {1e6, 1e6, 1e8};
+  raft.compression_only = true;
+  Region sliders = raft;
+  sliders.group = "sliders";
+  sliders.compression_only = false;
+  sliders.nonlinear.circle = {0, 1, 2};
+  sliders.nonlinear.friction = 0.08;
+  structure.regions.push_back(raft);
+  structure.regions.push_back(sliders);
+}
+
+TEST(SceneDoubts, NothingPressesWithoutWeight) {
+  const std::vector<std::string> lines = changed(add_bearings);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_THAT(lines[0], HasSubstr("group raft: pushes up only, but no gravity"));
+  EXPECT_THAT(lines[1], HasSubstr("group sliders: slides, but no gravity acts along z"));
+  Scene heavy = building();
+  add_bearings(heavy.structures[0]);
+  heavy.structures[0].gravity = {0, 0, -9.81};
+  heavy.preload = true;
+  EXPECT_TRUE(scene_doubts(heavy).empty());
+}
+
+TEST(SceneDoubts, UniformDampingLeavesOutWhatActsInOneDirection) {
+  const auto damped = [](double ratio) {
+    return changed([&](Structure& s) {
+      s.uniform_damping.emplace();
+      s.uniform_damping->ratio = ratio;
+    });
+  };
+  EXPECT_TRUE(damped(0).empty());
+  const std::vector<std::string> lines = damped(0.05);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_THAT(lines[0], HasSubstr("group brace: -tower_damping_uniform does not reach"));
+}
+
 }  // namespace
 }  // namespace pounding
