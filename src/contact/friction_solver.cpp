@@ -28,6 +28,16 @@ constexpr std::array<double, 4> relaxations{1, 1, 0.5, 0.2};
 constexpr int most_newton = 20;
 /// Shortest part of a Newton step that is tried.
 constexpr double least_part = 1.0 / 16;
+/// Points from which on sweeps are mixed: they are slow where many lie on each other.
+constexpr std::size_t least_mixed_points = 65;
+/// Sweeps after which mixed ones that have not come closer by half stop, and all of them.
+constexpr int most_idle_sweeps = 400;
+constexpr int most_mixed_sweeps = 4000;
+constexpr int most_sweeps_of_all = 12000;
+/// Mixed sweeps between two looks at the residual.
+constexpr int mixed_stretch = 25;
+/// Growth of the changes over the least ones from which on mixing begins anew there.
+constexpr double too_far = 4;
 /// Points above which Newton's matrix would cost more than sweeps.
 constexpr std::size_t most_newton_points = 256;
 /// Share of H_nn, h_t that keeps Newton's matrix regular where H is not.
@@ -183,7 +193,12 @@ FrictionSolver::FrictionSolver(std::size_t max_points)
       trial_(3 * max_points),
       jacobian_(9 * max_newton_ * max_newton_),
       step_(3 * max_newton_),
-      pivots_(3 * max_newton_) {}
+      pivots_(3 * max_newton_),
+      weight_(3 * max_points),
+      image_(3 * max_points),
+      least_(3 * max_points),
+      best_(3 * max_points),
+      mixing_(max_points < least_mixed_points ? 0 : 3 * max_points) {}
 
 double FrictionSolver::measure(const FrictionProblem& problem, std::span<const double> impulse) {
   const std::size_t n = impulse.size();
@@ -319,6 +334,84 @@ double FrictionSolver::iterate(const FrictionProblem& problem, std::span<double>
   return residual;
 }
 
+double FrictionSolver::mix(const FrictionProblem& problem, double enough, std::span<double> impulse,
+                           FrictionResult& result) {
+  const std::size_t n = impulse.size();
+  for (std::size_t i = 0; 3 * i < n; ++i) {
+    const Point point(problem, i);
+    for (std::size_t d = 0; d < 3; ++d) weight_[3 * i + d] = point.h(d, d);
+  }
+  const std::span<double> image(image_.data(), n);
+  double least = infinity;  // change of a sweep
+  double mark = infinity;
+  int idle = 0;
+  mixing_.forget();
+  std::ranges::copy(impulse, least_.begin());
+  for (int i = 0; i < most_mixed_sweeps && idle < most_idle_sweeps; ++i, ++idle) {
+    ++result.sweeps;
+    std::ranges::copy(impulse, image.begin());
+    const double change = sweep(problem, 1, image);
+    if (change < least) {
+      least = change;
+      std::ranges::copy(image, least_.begin());
+    }
+    if (least < mark / 2) {
+      mark = least;
+      idle = 0;
+    }
+    if (change <= epsilon * largest_free_rate_) break;
+    if (i % mixed_stretch == 0 && measure(problem, image) <= enough) {
+      std::ranges::copy(image, impulse.begin());
+      return measure(problem, impulse);
+    }
+    if (change > too_far * least) {
+      std::copy_n(least_.begin(), n, impulse.begin());
+      least = infinity;
+      mixing_.forget();
+      continue;
+    }
+    mixing_.mix({weight_.data(), n}, image, impulse);
+  }
+  std::copy_n(least_.begin(), n, impulse.begin());
+  return measure(problem, impulse);
+}
+
+void FrictionSolver::solve_coupled(const FrictionProblem& problem, std::span<double> impulse,
+                                   FrictionResult& result) {
+  const std::size_t n = impulse.size();
+  int sweeps = first_sweeps;
+  double last = infinity;
+  double best = infinity;
+  const int cheap = sweeps_for_one_newton(problem);
+  for (int round = 0; round < most_rounds && result.sweeps < most_sweeps_of_all;) {
+    // Sweeps that go round in circles are led out of them by shorter steps.
+    const double relaxation = relaxations[static_cast<std::size_t>(round) % relaxations.size()];
+    for (int i = 0; i < sweeps; ++i) {
+      ++result.sweeps;
+      if (sweep(problem, relaxation, impulse) <= epsilon * largest_free_rate_) break;
+    }
+    double residual = measure(problem, impulse);
+    const double enough = std::max(wanted_residual, above_noise * noise_);
+    if (residual <= enough) return;
+    const bool falls = residual < last / 2;
+    last = residual;
+    const bool many = n >= 3 * least_mixed_points;
+    if (falls && !many && result.sweeps < cheap) continue;
+    if (many) residual = mix(problem, enough, impulse, result);
+    if (residual > enough && n <= 3 * max_newton_) {
+      residual = iterate(problem, impulse, residual, result);
+    }
+    if (residual <= enough) return;
+    if (residual < best) {
+      best = residual;
+      std::ranges::copy(impulse, best_.begin());
+    }
+    ++round;
+    sweeps = std::min(2 * sweeps, most_sweeps);
+  }
+  if (best < infinity) std::copy_n(best_.begin(), n, impulse.begin());
+}
+
 FrictionResult FrictionSolver::solve(const FrictionProblem& problem, std::span<double> impulse) {
   const std::size_t n = impulse.size();
   FrictionResult result;
@@ -336,27 +429,7 @@ FrictionResult FrictionSolver::solve(const FrictionProblem& problem, std::span<d
   if (n == 3 && first.uncoupled()) {
     solve_alone(problem, first, impulse);
   } else {
-    int sweeps = first_sweeps;
-    double last = infinity;
-    const int cheap = sweeps_for_one_newton(problem);
-    for (int round = 0; round < most_rounds;) {
-      // Sweeps that go round in circles are led out of them by shorter steps.
-      const double relaxation = relaxations[static_cast<std::size_t>(round) % relaxations.size()];
-      for (int i = 0; i < sweeps; ++i) {
-        ++result.sweeps;
-        if (sweep(problem, relaxation, impulse) <= epsilon * largest_free_rate_) break;
-      }
-      double residual = measure(problem, impulse);
-      const double enough = std::max(wanted_residual, above_noise * noise_);
-      if (residual <= enough) break;
-      const bool falls = residual < last / 2;
-      last = residual;
-      if (falls && result.sweeps < cheap) continue;
-      if (n <= 3 * max_newton_) residual = iterate(problem, impulse, residual, result);
-      if (residual <= enough) break;
-      ++round;
-      sweeps = std::min(2 * sweeps, most_sweeps);
-    }
+    solve_coupled(problem, impulse, result);
   }
   result.residual = friction_residual(problem, impulse);
   result.finite = all_finite(impulse);

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/anderson_mixing.h"
 #include "contact/sparse_rows.h"
 
 namespace pounding {
@@ -49,9 +50,11 @@ void solve_on_disk(const double (&matrix)[3], const double (&rate)[2], double ra
 /// block Gauss-Seidel over the points, each with its normal impulse in closed form and its
 /// tangential one by solve_on_disk; then Newton's iteration on the natural map (Alart and Curnier,
 /// Comput. Methods Appl. Mech. Eng. 92 (1991) 353) from there, taken only where the residual falls;
-/// sweeps and Newton take turns until round-off or a limit of rounds. H may be singular: then the
-/// impulse is not unique. The same input gives the same bits. Not collective, no allocation after
-/// construction.
+/// sweeps and Newton take turns until round-off or a limit of rounds, and the best of these is the
+/// answer. Sweeps of many points, as of a pile of blocks, are mixed (AndersonMixing), beyond so
+/// many that Newton's matrix would cost too much they and mixed ones take turns. H may be singular:
+/// then the impulse is not unique. The same input gives the same bits. Not collective, no
+/// allocation after construction.
 class FrictionSolver {
  public:
   explicit FrictionSolver(std::size_t max_points);
@@ -69,6 +72,11 @@ class FrictionSolver {
   bool try_newton(const FrictionProblem& problem, std::span<const double> impulse);
   void linearise(const FrictionProblem& problem, std::span<const double> impulse,
                  std::size_t number);
+  /// Mixed sweeps until the residual is `enough` or they come no closer; returns the residual.
+  double mix(const FrictionProblem& problem, double enough, std::span<double> impulse,
+             FrictionResult& result);
+  void solve_coupled(const FrictionProblem& problem, std::span<double> impulse,
+                     FrictionResult& result);
   double iterate(const FrictionProblem& problem, std::span<double> impulse, double residual,
                  FrictionResult& result);
 
@@ -78,6 +86,11 @@ class FrictionSolver {
   std::vector<double> jacobian_;
   std::vector<double> step_;
   std::vector<int> pivots_;
+  std::vector<double> weight_;  ///< of impulses in what a sweep changes
+  std::vector<double> image_;   ///< of a mixed sweep
+  std::vector<double> least_;   ///< impulses that a mixed sweep changed least
+  std::vector<double> best_;    ///< impulses of the least residual of all rounds
+  AndersonMixing mixing_;
   double largest_free_rate_ = 0;
   double noise_ = 0;
 };

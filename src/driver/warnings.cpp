@@ -112,13 +112,14 @@ std::vector<std::string> displacement_warnings(double largest, double model_size
 }
 
 std::vector<std::string> contact_warnings(double residual) {
-  constexpr double solved = 1e-6;
+  constexpr double solved = 1e-8;
   if (!(residual > solved)) return {};
   std::ostringstream text;
   text.precision(3);
   text << "the contact problem of some step was not solved to the end: complementarity residual "
        << residual << " of the largest closing velocity (below " << solved
-       << " is as good as exact); look at contacts that hold the same place twice";
+       << " is as good as exact); look at contacts that hold the same place twice, and at friction "
+          "of bodies wedged between each other";
   return {text.str()};
 }
 

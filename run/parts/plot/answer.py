@@ -11,7 +11,8 @@ from . import twin as twins
 HEARD = 0.05  # of the largest floor spectrum of the run: what is below it is not looked at
 FELT = 0.01   # of the largest one without pounding: below it nothing moved, and a ratio says nothing
 LOW = 33.0    # up to here are the frequencies of structures and of most equipment [Hz]
-CLOSED = 1e-6  # residuals of the energy identity and of the contact problem up to here are round-off and its growth
+CLOSED = 1e-6  # residual of the energy identity up to here is round-off and its growth
+SOLVED = 1e-8  # likewise of the contact problem
 
 
 @dataclass
@@ -211,7 +212,7 @@ def checks(run: Result) -> list:
     impacts = summary.get("impacts", {})
     left = impacts.get("complementarity_residual")
     if impacts.get("episodes") and left is not None:
-        lines.append(f"The contact problem of every step was {'' if left <= CLOSED else 'NOT '}solved: residual {left:.1e}. The "
+        lines.append(f"The contact problem of every step was {'' if left <= SOLVED else 'NOT '}solved: residual {left:.1e}. The "
                      f"faces went into each other by at most {1e6 * impacts.get('max_penetration', 0):.3g} µm, less than "
                      "they move in a step.")
     count = len(summary.get("warnings", []))

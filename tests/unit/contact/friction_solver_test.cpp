@@ -207,5 +207,116 @@ TEST(FrictionSolver, UnequalMassesAreSolved) {
   }
 }
 
+/// A wall of bricks of 1 m x 0.5 m x 0.5 m in running bond, each on the ground or on two others, at
+/// the corners of what they have in common; a step of gravity, in which each moves a little.
+class Wall {
+ public:
+  Wall(int rows, int columns, double friction) : columns_(columns) {
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal;
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        Motion& v = velocity_.emplace_back(Motion{0, 0, -9.81e-4, 0, 0, 0});
+        for (double& value : v) value += 1e-5 * normal(random);
+        stand(row, column);
+      }
+    }
+    coefficient_.assign(points_.size(), friction);
+    for (std::size_t i = 0; i < points_.size(); ++i) add_rows(i);
+  }
+  FrictionProblem problem() const { return {delassus_, rate_, coefficient_}; }
+  std::size_t points() const { return points_.size(); }
+
+ private:
+  using Motion = std::array<double, 6>;
+  struct Point {
+    std::array<int, 2> brick;  ///< below, -1: the ground; and above
+    std::array<double, 3> place;
+  };
+  double middle(int brick) const {
+    return brick % columns_ + (brick / columns_ % 2 == 1 ? 0.5 : 0.0);
+  }
+  void stand(int row, int column) {
+    const int above = row * columns_ + column;
+    const double x = middle(above);
+    const auto add = [&](int below, double from, double to) {
+      for (const double end : {from, to}) {
+        for (const double y : {-0.25, 0.25})
+          points_.push_back({{below, above}, {end, y, 0.5 * row}});
+      }
+    };
+    if (row == 0) add(-1, x - 0.5, x + 0.5);
+    for (const int beside : {row % 2 - 1, row % 2}) {
+      const int below = above - columns_ + beside;
+      if (row == 0 || column + beside < 0 || column + beside >= columns_) continue;
+      add(below, std::max(x, middle(below)) - 0.5, std::min(x, middle(below)) + 0.5);
+    }
+  }
+  /// Motion of a brick that one of the three rates of a point tells: z, x, y.
+  Motion row_of(const Point& point, std::size_t side, std::size_t direction) const {
+    const int brick = point.brick[side];
+    const std::size_t axis = (direction + 2) % 3;
+    const std::array<double, 3> arm{point.place[0] - middle(brick), point.place[1],
+                                    point.place[2] - 0.5 * (brick / columns_ + 0.5)};
+    Motion motion{};
+    const double sign = side == 0 ? -1 : 1;
+    motion[axis] = sign;
+    motion[3 + (axis + 1) % 3] = sign * arm[(axis + 2) % 3];
+    motion[3 + (axis + 2) % 3] = -sign * arm[(axis + 1) % 3];
+    return motion;
+  }
+  void add_rows(std::size_t i) {
+    constexpr double mass = 500;
+    constexpr Motion inverse{1 / mass, 1 / mass, 1 / mass, 24 / mass, 9.6 / mass, 9.6 / mass};
+    for (std::size_t d = 0; d < 3; ++d) {
+      double& rate = rate_.emplace_back(0.0);
+      for (std::size_t side = 0; side < 2; ++side) {
+        if (points_[i].brick[side] < 0) continue;
+        const Motion row = row_of(points_[i], side, d);
+        const Motion& v = velocity_[static_cast<std::size_t>(points_[i].brick[side])];
+        for (std::size_t k = 0; k < row.size(); ++k) rate += row[k] * v[k];
+      }
+      for (std::size_t j = 0; j < points_.size(); ++j) {
+        for (std::size_t e = 0; e < 3; ++e) add_entry(i, d, j, e, inverse);
+      }
+      delassus_.end_row();
+    }
+  }
+  void add_entry(std::size_t i, std::size_t d, std::size_t j, std::size_t e,
+                 const Motion& inverse) {
+    double sum = 0;
+    bool feel = false;
+    for (std::size_t a = 0; a < 2; ++a) {
+      for (std::size_t b = 0; b < 2; ++b) {
+        if (points_[i].brick[a] < 0 || points_[i].brick[a] != points_[j].brick[b]) continue;
+        feel = true;
+        const Motion one = row_of(points_[i], a, d);
+        const Motion other = row_of(points_[j], b, e);
+        for (std::size_t k = 0; k < one.size(); ++k) sum += one[k] * inverse[k] * other[k];
+      }
+    }
+    if (feel) delassus_.add(static_cast<int>(3 * j + e), sum);
+  }
+
+  int columns_;
+  std::vector<Motion> velocity_;
+  std::vector<Point> points_;
+  std::vector<double> rate_;
+  std::vector<double> coefficient_;
+  SparseRows delassus_;
+};
+
+TEST(FrictionSolver, SolvesPilesOfManyBlocks) {
+  for (const double friction : {0.3, 0.6}) {
+    const Wall wall(7, 7, friction);
+    ASSERT_GT(wall.points(), 300U);
+    std::vector<double> impulse(3 * wall.points(), 0.0);
+    FrictionSolver solver(wall.points());
+    const FrictionResult result = solver.solve(wall.problem(), impulse);
+    EXPECT_LT(result.residual, 1e-10) << "mu " << friction;
+    EXPECT_EQ(result.residual, friction_residual(wall.problem(), impulse));
+  }
+}
+
 }  // namespace
 }  // namespace pounding

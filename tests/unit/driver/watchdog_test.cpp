@@ -86,9 +86,9 @@ TEST(Watchdog, AllowsForTheSpeedOfOneStepAndForRoundOffFarFromRest) {
 
 TEST(Warnings, NameContactProblemsThatWereNotSolvedToTheEnd) {
   EXPECT_TRUE(contact_warnings(0).empty());
-  EXPECT_TRUE(contact_warnings(1e-7).empty());
-  ASSERT_EQ(contact_warnings(2e-6).size(), 1u);
-  EXPECT_NE(contact_warnings(2e-6)[0].find("residual 2e-06"), std::string::npos);
+  EXPECT_TRUE(contact_warnings(1e-9).empty());
+  ASSERT_EQ(contact_warnings(2e-8).size(), 1u);
+  EXPECT_NE(contact_warnings(2e-8)[0].find("residual 2e-08"), std::string::npos);
 }
 
 TEST(Warnings, DoubtDampingAboveHalfOfTheCriticalUpTo50Hz) {
