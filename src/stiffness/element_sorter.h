@@ -8,6 +8,7 @@
 #include "mesh/halo.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
+#include "stiffness/assembled_rows.h"
 #include "stiffness/beam_elements.h"
 #include "stiffness/bricks/brick_lines.h"
 #include "stiffness/element_kinds.h"
@@ -15,7 +16,6 @@
 #include "stiffness/element_shapes.h"
 #include "stiffness/rows/product_forms.h"
 #include "stiffness/shells/shell_lines.h"
-#include "stiffness/assembled_rows.h"
 #include "stiffness/strain_sorter.h"
 
 namespace pounding {

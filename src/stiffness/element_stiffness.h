@@ -7,11 +7,11 @@
 #include "mesh/halo.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
+#include "stiffness/assembled_rows.h"
 #include "stiffness/beam_elements.h"
 #include "stiffness/element_kinds.h"
 #include "stiffness/rows/element_lines.h"
 #include "stiffness/rows/product_forms.h"
-#include "stiffness/assembled_rows.h"
 #include "stiffness/stiffness.h"
 #include "stiffness/strain_sorter.h"
 
@@ -61,11 +61,11 @@ class ElementStiffness final : public Stiffness {
   LocalIndex origin_dof_ = -1;  ///< first of x, y, z of a node that moves freely; -1: there is none
   std::unique_ptr<Stiffness> assembled_;
   std::unique_ptr<Halo> halo_;
-  Part inner_;                            ///< elements of owned nodes only
-  Part outer_;                            ///< elements that touch a ghost
-  std::unique_ptr<AssembledRows> sparse_;    ///< all others
-  std::vector<DofRange> general_ranges_;  ///< owned dofs that others than rows read
-  std::vector<DofRange> late_ranges_;     ///< owned dofs that rows do not hand over
+  Part inner_;                             ///< elements of owned nodes only
+  Part outer_;                             ///< elements that touch a ghost
+  std::unique_ptr<AssembledRows> sparse_;  ///< all others
+  std::vector<DofRange> general_ranges_;   ///< owned dofs that others than rows read
+  std::vector<DofRange> late_ranges_;      ///< owned dofs that rows do not hand over
   ElementKinds kinds_;
   /// Owned dofs, ghosts, and six dofs that stay at rest for the places of clamped nodes.
   ZeroedArray argument_;  ///< w in general_ranges_, and ghosts
