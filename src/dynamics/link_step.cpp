@@ -466,8 +466,7 @@ LinkStep::Bedding LinkStep::bedding() const {
   Bedding bedding;
   for (std::size_t b = 0; b < links_.size(); ++b) {
     if (!is_pressed(links_[b].origin)) continue;
-    const LinkOrigin& origin = links_[b].origin;
-    const double stiffness = origin.share * origin.region->stiffness[2];
+    const double stiffness = links_[b].origin.share * links_[b].origin.region->stiffness[2];
     bedding.all += stiffness;
     if (after_[b] > 0) bedding.pressed += stiffness;
   }
