@@ -96,7 +96,7 @@ void look_at_gravity(const Structure& structure, Doubts& doubts) {
              "this die away before -spectra_start and the motion");
 }
 
-/// What a region holds by what presses on it, where no weight does.
+/// A region that holds by what presses on it, where no weight does.
 void look_at_weight(const Structure& structure, const Region& region, Doubts& doubts) {
   const std::string owner = "structure " + structure.name + ", group " + region.group + ": ";
   const auto across = static_cast<std::size_t>(region.nonlinear.circle[2]);
