@@ -20,6 +20,13 @@ def called(text: str) -> str:
     return re.sub(r"\brun/(?=[a-z])", "pounding-tools ", text) if INSTALLED else text
 
 
+def line_of(error: BaseException) -> str:
+    """What an error says, in one line; of the system's the file first."""
+    if isinstance(error, OSError) and error.filename and error.strerror:
+        return f"{error.filename}: {error.strerror}"
+    return " ".join(str(error).split())
+
+
 STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
@@ -47,7 +54,7 @@ def begin(name: str) -> str:
         if issubclass(kind, BrokenPipeError):
             leave("nobody reads what it says any more", 1)
         if issubclass(kind, (OSError, MemoryError)):
-            leave(words or "the memory does not hold what it reads", 1)
+            leave(line_of(error) or "the memory does not hold what it reads", 1)
         place = traceback.extract_tb(trace)[-1] if trace else None
         where = f", {Path(place.filename).name} line {place.lineno}" if place else ""
         leave(f"fault of the command itself ({kind.__name__}: {words}{where}); POUNDING_TRACE=1 shows how it came "

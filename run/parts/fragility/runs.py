@@ -86,8 +86,11 @@ class Runner:
         for number in itertools.count(1):
             base = self.folder / "runs" / (key if number == 1 else f"{key}-{number}")
             self.bases[reduced] = base
-            if not (base / SCOUTED).exists():
+            if not (base / SCOUTED).exists() and not any(base.glob(f"*/{outcomes.FILE}")) \
+                    and not (base / "single").exists():
                 break
+            if not (base / SCOUTED).exists():  # of whatever files these runs are
+                continue
             try:
                 found = Scouted(**json.loads((base / SCOUTED).read_text(encoding="utf-8")))
             except (OSError, ValueError, TypeError) as error:
