@@ -268,6 +268,8 @@ def load(folder: Path | str) -> Result:
             continue
         found += 1
         try:
+            if not path.is_file():  # a pipe would be waited for
+                raise ValueError("no file with contents")
             read(path)
             if path.stem in COLUMNS:
                 _check_table(getattr(result, path.stem), path.stem)

@@ -80,6 +80,11 @@ class Damaged(unittest.TestCase):
         for text in ("[]", "5", "{", "", "\0", "[" * 5000, '{"structures": 5}', '{"probes": {"a": 3}}'):
             (self.spoilt / "summary.json").write_text(text)
             self.assertRaises(results.ResultError, results.load, self.spoilt)
+        for make in (os.mkfifo, os.mkdir):
+            (self.spoilt / "summary.json").unlink()
+            make(self.spoilt / "summary.json")
+            self.assertRaises(results.ResultError, results.load, self.spoilt)
+        self.assertRaises(study.StudyError, study.read, Path("/dev/zero"))
 
     def test_tables_that_are_cut_or_hold_no_numbers(self):
         for name in ("spectra.csv", "impacts.csv", "energy.csv"):

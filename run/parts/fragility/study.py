@@ -315,6 +315,8 @@ class _Loader(yaml.SafeLoader):
 
 
 def _load(path: Path):
+    if path.exists() and not path.is_file():  # a pipe would be waited for
+        raise StudyError(f"{path}: no file with contents")
     try:
         return yaml.load(path.read_text(encoding="utf-8"), _Loader)
     except OSError as error:
