@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "common/error.h"
+#include "common/finite_file.h"
 #include "io/petsc_binary.h"
 
 namespace pounding {
@@ -156,6 +157,7 @@ class MarketReader {
 
 MatrixSize read_matrix(const std::string& path,
                        const std::function<void(const MatrixEntry&)>& receive) {
+  require_finite_file(path);
   return path.ends_with(".mtx") ? MarketReader(path).read(receive)
                                 : read_petsc_binary(path, receive);
 }

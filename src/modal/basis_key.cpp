@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "common/error.h"
+#include "common/finite_file.h"
 #include "common/hash.h"
 #include "elements/element.h"
 #include "stiffness/element_properties.h"
@@ -74,6 +75,7 @@ std::string hash_of(const std::vector<Region>& regions) {
 void add_file(const std::string& path, Hash& hash) {
   hash.add(path.empty() ? 0. : 1.);
   if (path.empty()) return;
+  require_finite_file(path);
   std::ifstream file(path, std::ios::binary);
   std::string block(1 << 20, '\0');
   while (file) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "common/finite_file.h"
 #include "scene/option_reader.h"
 #include "scene/option_values.h"
 
@@ -50,6 +51,7 @@ struct Table {
 
 Table read_table(const std::string& path) {
   constexpr std::string_view key = "# structures: ";
+  require_finite_file(path, "option -fidelity_table ");
   std::ifstream file(path);
   if (!file) {
     throw UserError(

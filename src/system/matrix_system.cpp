@@ -11,6 +11,7 @@
 
 #include "common/component_names.h"
 #include "common/error.h"
+#include "common/finite_file.h"
 #include "common/parallel.h"
 #include "io/matrix_market.h"
 #include "system/critical_time_step.h"
@@ -29,6 +30,7 @@ struct Row {
 };
 
 std::vector<Row> read_rows(const std::string& path) {
+  require_finite_file(path);
   std::ifstream file(path);
   if (!file) throw UserError(path + ": no such file, or it cannot be read");
   std::vector<Row> rows;
