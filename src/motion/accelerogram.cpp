@@ -6,8 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
-#include "motion/record_content.h"
-#include "motion/record_table.h"
+#include "motion/records/decimal_commas.h"
+#include "motion/records/header_numbers.h"
+#include "motion/records/record_content.h"
+#include "motion/records/record_formats.h"
+#include "motion/records/record_table.h"
 
 namespace pounding {
 
@@ -70,13 +73,72 @@ RecordValues read_json(const RecordedMotion& motion, const std::vector<TextLine>
   for (const auto& line : lines) text += line.text + "\n";
   const auto json = nlohmann::json::parse(text, nullptr, false);
   try {
-    RecordValues result{json.at("accel_data").get<std::vector<double>>(), 0, "JSON", {}};
+    RecordValues result{json.at("accel_data").get<std::vector<double>>(), 0, {}, {}, "JSON"};
     if (json.contains("numPoints")) header.declare_count(json["numPoints"].get<double>(), 1);
     if (json.contains("dT")) header.declare_time_step(json["dT"].get<double>(), 1);
     return result;
   } catch (const nlohmann::json::exception&) {
     throw UserError(motion.file +
                     ": is not JSON with dT and a list accel_data of numbers; give another layout");
+  }
+}
+
+/// Takes unit and doubts into a record whose values are in the file's unit.
+void take_unit(const RecordedMotion& motion, const RecordUnit& unit, const std::string& stated,
+               Accelerogram& record) {
+  record.unit = unit_text(unit, motion.unit);
+  for (double& a : record.acceleration) a *= unit.factor;
+  if (stated == "mm/s2" && motion.unit == "m/s2") {
+    record.doubts.push_back(motion.file +
+                            ": the header says mm/s2 but m/s2 is asked and taken; leave unit out, "
+                            "and a scale of 0.001 as well");
+  }
+  if ((unit.name == "g" || unit.name == "g/10") && record.peak() > largest_peak) {
+    throw UserError(motion.file + ": in " + unit.name + " the peak would be " +
+                    text_of(record.peak() / standard_gravity) + " g; correct the unit");
+  }
+}
+
+Accelerogram read_format(const RecordedMotion& motion, const RecordFormat& format,
+                         const std::vector<TextLine>& lines) {
+  FormatRecord read = format.read(motion, lines);
+  Accelerogram result{std::move(read.values), read.time_step,           std::move(read.layout), "",
+                      std::move(read.doubts), std::move(read.component)};
+  take_unit(motion, agreed_unit(motion.file, motion.unit, read.unit), read.unit, result);
+  return result;
+}
+
+Accelerogram read_free(const RecordedMotion& motion, std::vector<TextLine>& lines) {
+  const auto filled = std::find_if(lines.begin(), lines.end(),
+                                   [](const TextLine& line) { return !line.text.empty(); });
+  RecordContent content{RecordHeader(motion.file), {}, {}};
+  RecordValues read;
+  if (filled->text.starts_with('{')) {
+    read = read_json(motion, lines, content.header);
+  } else {
+    const bool commas = replace_decimal_commas(motion.file, motion.column, lines);
+    content = read_record_content(motion.file, lines, motion.time_step);
+    read = read_record_values(motion, content);
+    if (commas) read.layout += ", decimal commas";
+  }
+  check_count(motion.file, content.header, read.values);
+  const double time_step = choose_time_step(motion, content.header, read.time_step);
+  const bool of_column = !read.component.empty();
+  Accelerogram result{
+      std::move(read.values), time_step,
+      std::move(read.layout), "",
+      std::move(read.doubts), of_column ? read.component : content.header.component(),
+      read.start.value_or(0), read.start.has_value()};
+  refuse_offset(motion.file, result.acceleration);
+  const auto& stated = content.header.stated_units();
+  take_unit(motion, content.header.unit(motion.unit),
+            stated.size() == 1 ? *stated.begin() : std::string(), result);
+  return result;
+}
+
+void add_value_doubts(const RecordedMotion& motion, Accelerogram& record) {
+  if (record.peak() == 0) {
+    record.doubts.push_back(motion.file + ": all values are zero; a dead channel?");
   }
 }
 
@@ -92,29 +154,22 @@ double Accelerogram::duration() const {
   return acceleration.empty() ? 0 : static_cast<double>(acceleration.size() - 1) * time_step;
 }
 
+double Accelerogram::at(double t) const noexcept {
+  const double x = (t - start) / time_step;
+  const std::size_t size = acceleration.size();
+  if (!(x >= 0) || size == 0 || x > static_cast<double>(size - 1)) return 0;
+  const auto i = static_cast<std::size_t>(x);
+  const double a = acceleration[i];
+  if (i + 1 == size) return a;
+  return a + (x - static_cast<double>(i)) * (acceleration[i + 1] - a);
+}
+
 Accelerogram read_accelerogram(const RecordedMotion& motion) {
-  const auto lines = read_text_lines(motion.file);
-  const auto filled = std::find_if(lines.begin(), lines.end(),
-                                   [](const TextLine& line) { return !line.text.empty(); });
-  RecordContent content{RecordHeader(motion.file), {}, {}};
-  RecordValues read;
-  if (filled->text.starts_with('{')) {
-    read = read_json(motion, lines, content.header);
-  } else {
-    content = read_record_content(motion.file, lines, motion.time_step);
-    read = read_record_values(motion, content);
-  }
-  check_count(motion.file, content.header, read.values);
-  const double time_step = choose_time_step(motion, content.header, read.time_step);
-  const RecordUnit unit = content.header.unit(motion.unit);
-  Accelerogram result{std::move(read.values), time_step, std::move(read.layout),
-                      unit.name + (motion.unit.empty() ? " (header)" : " (as asked)"),
-                      std::move(read.doubts)};
-  for (double& a : result.acceleration) a *= unit.factor;
-  if (unit.name == "g" && result.peak() > largest_peak) {
-    throw UserError(motion.file + ": in g the peak would be " +
-                    text_of(result.peak() / standard_gravity) + " g; correct the unit");
-  }
+  auto lines = read_text_lines(motion.file);
+  const RecordFormat* format = format_of(lines);
+  Accelerogram result =
+      format != nullptr ? read_format(motion, *format, lines) : read_free(motion, lines);
+  add_value_doubts(motion, result);
   return result;
 }
 

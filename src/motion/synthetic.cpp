@@ -9,7 +9,7 @@
 
 #include "common/error.h"
 #include "motion/fourier.h"
-#include "motion/record_text.h"
+#include "motion/records/record_text.h"
 #include "motion/response_spectrum.h"
 
 namespace pounding {

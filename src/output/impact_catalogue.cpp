@@ -8,7 +8,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "io/csv_file.h"
-#include "motion/record_text.h"
+#include "motion/records/record_text.h"
 
 namespace pounding {
 namespace {

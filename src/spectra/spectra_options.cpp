@@ -89,7 +89,7 @@ bool read_treatments(const std::string& text, SpectraOptions& options) {
 }
 
 bool read_unit(const std::string& text, SpectraOptions& options) {
-  return read_choice(text, {"g", "m/s2", "cm/s2"}, options.unit);
+  return read_choice(text, {"g", "m/s2", "cm/s2", "mm/s2"}, options.unit);
 }
 
 bool read_frame(const std::string& text, SpectraOptions& options) {
@@ -113,7 +113,7 @@ constexpr std::array option_specs{
                "record: which columns, counted from 1; needed where there are more\n"
                "than the time and one other",
                read_columns},
-    OptionSpec{"unit", "g|m/s2|cm/s2", "g, m/s2 or cm/s2",
+    OptionSpec{"unit", "g|m/s2|cm/s2|mm/s2", "g, m/s2, cm/s2 or mm/s2",
                "record: its unit, when its header does not say it", read_unit},
     OptionSpec{"time-step", "S", "a number above 0",
                "record: its time step [s], when the file does not say it",

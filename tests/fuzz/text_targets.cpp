@@ -3,11 +3,12 @@
 
 #include "fuzz/target.h"
 #include "motion/ground_motion.h"
-#include "motion/record_text.h"
+#include "motion/records/record_text.h"
 #include "motion/synthetic.h"
 #include "output/impact_catalogue.h"
 #include "scene/options_database.h"
 #include "scene/scene_reader.h"
+#include "unit/motion/record_writers.h"
 
 namespace pounding::fuzz {
 namespace {
@@ -30,7 +31,17 @@ const std::vector<std::string> records{
     "index;time;displacement;acceleration "
     "m/s2\n0;0.00;0;0.1\n1;0.01;0;0.2\n2;0.02;0;-0.1\n3;0.03;0;0\n",
     "0.1\n0.2\n-0.1\n0.05\n0\n",
-    "1.5D-02 2.5D-02\n-1.0D-02 0.0D+00\n"};
+    "1.5D-02 2.5D-02\n-1.0D-02 0.0D+00\n",
+    "t;a [mm/s2]\n0,00;0,01\n0,02;-0,05\n0,04;0,12\n",
+    "UNITS ARE SECONDS AND G/10\n 0.00 .1 .02 -.2\n 0.04 .3 .06 -.5\n",
+    record_writers::knet(record_writers::wave_of_mean_zero(), 20000),
+    record_writers::keyed(record_writers::wave()),
+    record_writers::geonet(record_writers::wave(), "N10E", true) +
+        record_writers::geonet(record_writers::wave(), "Up", false),
+    record_writers::csmip(record_writers::wave(), 1, "90 Deg", true) +
+        record_writers::csmip(record_writers::wave(), 2, "Up", true),
+    record_writers::cosmos(record_writers::wave(), "cm/s^2"),
+    record_writers::smc(record_writers::wave(), "2 CORRECTED ACCELEROGRAM", 50)};
 
 const std::string scene =
     "# a scene\nstructures: left,right\nleft:\n  mesh: left.msh\n  clamp: \"base,mid:x+rz\"\n"
@@ -68,7 +79,7 @@ const std::vector<std::string> scenes{
 void read_record(const std::string& path, Random& random) {
   RecordedMotion motion;
   motion.file = path;
-  motion.unit = random.one_of<std::string>({"", "g", "m/s2", "cm/s2"});
+  motion.unit = random.one_of<std::string>({"", "g", "m/s2", "cm/s2", "mm/s2"});
   motion.time_step = random.one_of<double>({0, 0, 0.01});
   motion.column = random.one_of<int>({0, 0, 1, 2, 4});
   read_accelerogram(motion);
@@ -84,13 +95,45 @@ void read_scene_file(const std::string& path, Random&) {
 
 std::vector<Target> text_targets() {
   std::vector<Target> targets;
-  targets.push_back(
-      {"record",
-       records,
-       {"NPTS=", "DT=", "UNITS OF G", "cm/s2", "m/s2", " g ", "time", "velocity", "acc", "\r\n",
-        "\t", ",", ";", "{", "\"dT\":", "\"accel_data\": [", "%", "1.0D+02", "\xEF\xBB\xBF"},
-       read_record,
-       "record.txt"});
+  targets.push_back({"record",
+                     records,
+                     {"NPTS=",
+                      "DT=",
+                      "UNITS OF G",
+                      "cm/s2",
+                      "m/s2",
+                      " g ",
+                      "time",
+                      "velocity",
+                      "acc",
+                      "\r\n",
+                      "\t",
+                      ",",
+                      ";",
+                      "{",
+                      "\"dT\":",
+                      "\"accel_data\": [",
+                      "%",
+                      "1.0D+02",
+                      "\xEF\xBB\xBF",
+                      "0,05",
+                      "-0,1",
+                      "Memo.",
+                      "Scale Factor 3920(gal)/6182761",
+                      "NDATA: 64",
+                      "50 sps",
+                      "Number of points  64",
+                      "64 points of accel data equally spaced at .02 sec, in cm/sec2",
+                      "Real-header values follow",
+                      "pts, approx 1 secs, units=cm/s^2,Format=",
+                      "\n|\n",
+                      "Chan  2: Up",
+                      "Corrected accelerogram\n",
+                      "-32768",
+                      "-999",
+                      "1e308"},
+                     read_record,
+                     "record.txt"});
   targets.push_back(
       {"target",
        {"# Hz, ratio\n0.2 0.5\n1 1.5\n3 2.5\n10 2.2\n33 1\n", "f,psa\n33,1\n10,2.2\n0.2,0.5\n"},

@@ -15,7 +15,8 @@ MAY_INCLUDE = {
     "soil": set(),
     "elements": {"common"},
     "mesh": {"common", "scene", "elements"},
-    "motion": {"common", "scene"},
+    "motion/records": {"common", "scene"},
+    "motion": {"common", "scene", "motion/records"},
     "stiffness/rows": {"common", "elements"},
     "stiffness/bricks": {"common", "elements", "stiffness/rows"},
     "stiffness/shells": {"common", "elements", "stiffness/rows"},
@@ -29,7 +30,7 @@ MAY_INCLUDE = {
     "contact": {"common", "scene", "elements", "mesh", "system"},
     "statics": {"common", "scene", "mesh", "links", "system", "contact"},
     "dynamics": {"common", "scene", "links", "system", "contact", "motion"},
-    "output": {"common", "io", "scene", "mesh", "system", "motion", "dynamics"},
+    "output": {"common", "io", "scene", "mesh", "system", "motion", "motion/records", "dynamics"},
     "driver": {"common", "io", "scene", "soil", "elements", "mesh", "system", "modal", "stability", "motion",
                "contact", "statics", "dynamics", "output"},
     "ensemble": {"common", "io", "scene", "mesh", "system", "modal", "stability", "motion", "contact",
@@ -41,7 +42,7 @@ MAY_INCLUDE = {
 }
 
 PURE = {"elements": ("mpi.h", "petsc", "slepc"), "links": ("mpi.h", "petsc", "slepc"), "soil": ("mpi.h", "petsc", "slepc"),
-        "motion": ("mpi.h", "petsc", "slepc"),
+        "motion": ("mpi.h", "petsc", "slepc"), "motion/records": ("mpi.h", "petsc", "slepc"),
         "stiffness/rows": ("mpi.h", "petsc", "slepc"), "stiffness/bricks": ("mpi.h", "petsc", "slepc"),
         "stiffness/shells": ("mpi.h", "petsc", "slepc"),
         "stiffness/strains": ("mpi.h", "petsc", "slepc")}

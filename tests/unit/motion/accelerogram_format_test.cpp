@@ -154,6 +154,78 @@ TEST_F(AccelerogramFormat, CommentsOfEveryKind) {
   expect("# unit: m/s2, dt = 0.1\n1\n# halfway\n2\n", 0.1, {1, 2}, 1);
 }
 
+TEST_F(AccelerogramFormat, SamplingInOtherWords) {
+  const std::vector<double> three{0.1, -0.2, 0.3};
+  for (const std::string words :
+       {"Sampling Freq(Hz) 50Hz", "SAMPLING_INTERVAL_S: 0.020000\nNDATA: 3",
+        "NO. OF POINTS: 3  EQUALLY SPACED INTERVALS OF: .02 SEC", "50 sps", "#SampleRate(Hz): 50",
+        "SAMPLING RATE: 50 samples/s", "at 50 samples/sec", "SAMPLING INTERVAL (sec) : 0.02",
+        "Sampling interval (ms): 20", "sampling rate = 0.02 s",
+        "VEL. DE MUESTREO, C1-C6 (muestras/s) : /50/50/50",
+        "INTERVALO DE MUESTREO, C1-C6 (s) : /.02/.02", "NUMBER OF DATA : 3\nSampling rate 50 Hz",
+        "Sampling rate 200 Hz, DT= .02 SEC"}) {
+    expect("Acceleration, cm/s2\n" + words + "\n.1\n-.2\n.3\n", 0.02, three, 0.01);
+  }
+}
+
+TEST_F(AccelerogramFormat, SamplingVelocityIsNoVelocity) {
+  expect(
+      "ARCHIVO ESTANDAR DE ACELERACION\nVEL. DE MUESTREO, C1 (muestras/s)      : /50\n"
+      "UNIDADES DE LOS DATOS                  : Gal (cm/s/s)\n---------+---------\n   CANAL-1\n"
+      "---------+---------\n     0.000\n    30.290\n   -56.474\n",
+      0.02, {0, 30.29, -56.474}, 0.01);
+}
+
+TEST_F(AccelerogramFormat, UnitsOfTablesAndOfOldFilms) {
+  expect("Acceleration in mm/s/s\n1\n-2\n3\n", 0.02, {1, -2, 3}, 0.001, options("", 0.02));
+  expect("1\n-2\n3\n", 0.02, {1, -2, 3}, 0.001, options("mm/s2", 0.02));
+  expect("UNITS ARE SECONDS AND G/10\n 0.00  .1  .02  -.2  .04  .3\n 0.06  .4  .08  -.5\n", 0.02,
+         {.1, -.2, .3, .4, -.5}, g / 10);
+}
+
+TEST_F(AccelerogramFormat, DecimalCommas) {
+  const std::vector<double> values{0, 0.08, -0.14, 0.23};
+  expect("acc [m/s2]\n0,00\n0,08\n-0,14\n0,23\n", 0.02, values, 1, options("", 0.02));
+  expect("t [s];a [m/s2]\n0,00;0,00\n0,02;0,08\n0,04;-0,14\n0,06;0,23\n", 0.02, values, 1);
+  expect("0,00\t0,00\n0,02\t0,08\n0,04\t-0,14\n0,06\t0,23\n", 0.02, values, 1, options("m/s2"));
+  expect("dt = 0,02 s; cm/s2\n0,00E+00\n8,00E-02\n-1,40E-01\n2,30E-01\n", 0.02, values, 0.01);
+}
+
+TEST_F(AccelerogramFormat, TimesRoundedToMilliseconds) {
+  std::string text = "t [s], a [m/s2]\n";
+  std::vector<double> values;
+  char line[64];
+  for (int i = 0; i < 128; ++i) {
+    std::snprintf(line, sizeof line, "%.3f,%d\n", i / 128.0, i % 5 - 2);
+    text += line;
+    values.push_back(i % 5 - 2);
+  }
+  expect(text, 1.0 / 128, values, 1);
+}
+
+TEST_F(AccelerogramFormat, TellsComponentAndFirstTime) {
+  const auto read = [&](const std::string& text, int column = 0) {
+    return read_accelerogram({write("record", text), "", 0, column});
+  };
+  EXPECT_EQ(read("A STATION 1/17/94, SOMEWHERE, 228\n" + unit_line + "NPTS= 7, DT= .02\n" + rows)
+                .component,
+            "228");
+  EXPECT_EQ(read("STATION: X\nCOMP. N10E\nUNIT: cm/s/s, DT= .02\n1\n-2\n").component, "N10E");
+  EXPECT_EQ(read("t, north (g), up (g)\n0,0,2\n.02,.1,3\n", 3).component, "up (g)");
+  const Accelerogram late = read("t, north (g)\n3.2,0\n3.22,.1\n3.24,-.1\n");
+  EXPECT_DOUBLE_EQ(late.start, 3.2);
+  EXPECT_TRUE(late.has_times);
+  EXPECT_DOUBLE_EQ(late.end(), 3.24);
+  EXPECT_EQ(late.at(3.199), 0);
+  EXPECT_NEAR(late.at(3.21), 0.05 * g, 1e-9);
+}
+
+TEST_F(AccelerogramFormat, AChannelOfZerosIsDoubted) {
+  const Accelerogram dead = read_accelerogram({write("record", "0\n0\n0.0\n0\n"), "m/s2", 0.01, 0});
+  ASSERT_EQ(dead.doubts.size(), 1U);
+  EXPECT_NE(dead.doubts[0].find("all values are zero"), std::string::npos);
+}
+
 TEST_F(AccelerogramFormat, FirstRowMayHoldCountAndTimeStep) {
   expect("name of the motion\n3 0.0100\n1.5E-03\n2.5E-03\n-1E-03\n", 0.01, {1.5e-3, 2.5e-3, -1e-3},
          1, options("m/s2"));

@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <string>
+#include <sys/stat.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -118,6 +119,53 @@ TEST_F(AccelerogramRefusal, WordsAndNumbersThatAreNotFinite) {
   EXPECT_THAT(refused("0 1\n0.1 abc\n0.2 3\n0.3 3\n", "g"), HasSubstr("record:2: 'abc'"));
   EXPECT_THAT(refused("t,a\n0,abc\n0.1,2\n0.2,3\n", "g"), HasSubstr("record:2: 'abc'"));
   EXPECT_THAT(refused("t,a\n0,1\n0.1,\n0.2,3\n0.3,3\n0.4,3\n", "g"), HasSubstr("record:3: "));
+}
+
+TEST_F(AccelerogramRefusal, NumbersOfAHeader) {
+  const std::string below = "values of acceleration in g follow\n .1 .2\n .3 .4\n";
+  EXPECT_THAT(refused("A RECORD\n 1 2 3 4\n 5 6 7 8\n" + below, "", 0.01),
+              AllOf(HasSubstr("record:4: a line of words"), HasSubstr("from line 2")));
+  std::string values;
+  for (int i = 0; i < 12; ++i) values += "   0.1  -0.2   0.3  -0.4   0.5\n";
+  EXPECT_THAT(
+      refused("A RECORD\n 2020 1 2 3 4\n 40 0 0 175 0\n  1.25 0.02 0.00 9806.65 1.00\n" + values,
+              "cm/s2", 0.02),
+      AllOf(HasSubstr("record:2: "), HasSubstr("down to line 4"), HasSubstr("header")));
+  EXPECT_THAT(refused("A RECORD\n 2020 1 2 3 4 5\n" + values, "cm/s2", 0.02),
+              HasSubstr("record:3: 5 numbers where the lines before have 6"));
+  EXPECT_THAT(refused("NPTS= 66, DT= .02\n 1 2 3 4 5 6\n" + values, "cm/s2"),
+              HasSubstr("record:3: 5 numbers"));
+}
+
+TEST_F(AccelerogramRefusal, CountsAndOffsets) {
+  EXPECT_THAT(refused("units: counts\n100\n200\n-300\n", "cm/s2", 0.02), HasSubstr("counts"));
+  EXPECT_THAT(refused("Scale Factor 3920(gal)/6182761\n100\n200\n-300\n", "cm/s2", 0.02),
+              HasSubstr("record:1: the values are counts"));
+  std::string counts;
+  for (int i = 0; i < 200; ++i) counts += std::to_string(-10700 + i * 37 % 900) + "\n";
+  EXPECT_THAT(refused(counts, "cm/s2", 0.01), HasSubstr("all values lie about"));
+}
+
+TEST_F(AccelerogramRefusal, ACommaOfWhichNothingTells) {
+  EXPECT_THAT(refused("3,1\n2,5\n4,2\n", "g", 0.01), HasSubstr("a decimal comma, or two columns?"));
+}
+
+TEST_F(AccelerogramRefusal, WhatHasNoEnd) {
+  for (const std::string device : {"/dev/zero", "/dev/null"}) {
+    EXPECT_THAT(refusal([&] {
+                  read_accelerogram({device, "g", 0.01, 0});
+                }),
+                AllOf(HasSubstr(device), HasSubstr("device")));
+  }
+  const std::string pipe = (folder_ / "pipe").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT(refusal([&] { read_accelerogram({pipe, "g", 0.01, 0}); }), HasSubstr("a pipe"));
+  std::filesystem::resize_file(write("huge", "1\n"), std::uintmax_t{1} << 40);
+  EXPECT_THAT(refusal([&] {
+                read_accelerogram({(folder_ / "huge").string(), "g", 0.01, 0});
+              }),
+              HasSubstr("MB"));
+  EXPECT_THAT(refused(std::string("PK\x03\x04\0\0", 6), "g", 0.01), HasSubstr("spreadsheet"));
 }
 
 TEST_F(AccelerogramRefusal, MissingColumnsAndValues) {

@@ -1,4 +1,4 @@
-#include "motion/record_content.h"
+#include "motion/records/record_content.h"
 
 #include <cctype>
 #include <cmath>
@@ -42,10 +42,28 @@ void refuse_spoilt_first_row(const std::string& file, const TextLine& line, std:
   const auto first = text.substr(begin, text.find_first_of(" \t", begin) - begin);
   const bool starts_as_one = number_like(words[0]) || number_like(first);
   const bool same_size = words.size() == columns;
-  if ((below_sampling && (same_size || starts_as_one)) || (same_size && starts_as_one)) {
+  if (starts_as_one && (below_sampling || same_size)) {
     throw UserError(at_line(file, line.number) + "'" + first_bad_word(line.text) +
                     "' is not a finite number; correct it");
   }
+}
+
+// Words of a sentence rather than a number gone wrong.
+bool is_title(std::string_view text) {
+  int words = 0, letters = 0;
+  for (const char c : text) {
+    letters = std::isalpha(static_cast<unsigned char>(c)) != 0 ? letters + 1 : 0;
+    if (letters == 3) ++words;
+  }
+  return words >= 2;
+}
+
+[[noreturn]] void refuse_title(const std::string& file, const TextLine& line,
+                               const NumberRow& first) {
+  throw UserError(at_line(file, line.number) + "a line of words ('" + line.text.substr(0, 40) +
+                  "') below numbers: those from line " + std::to_string(first.line) +
+                  " to it seem to be of a header, not the record's; give the values alone, or a " +
+                  "format that docs/records.md lists");
 }
 
 void read_rows(const std::string& file, const std::vector<TextLine>& lines, std::size_t begin,
@@ -63,6 +81,10 @@ void read_rows(const std::string& file, const std::vector<TextLine>& lines, std:
     if (!row) {
       // Another block (the velocity of a corrected record) may follow the announced values.
       if (count > 0 && content.header.number_of_values() == count) return;
+      const bool numbers_below = i + 1 < lines.size() && parse_row(lines[i + 1]).has_value();
+      if (content.rows.size() > 1 && numbers_below && is_title(line.text)) {
+        refuse_title(file, line, content.rows[0]);
+      }
       throw UserError(at_line(file, line.number) + "'" + first_bad_word(line.text) +
                       "' is not a finite number; correct it or remove the line");
     }
@@ -110,7 +132,7 @@ RecordContent read_record_content(const std::string& file, const std::vector<Tex
   }
   const std::size_t columns = content.rows.back().values.size();
   for (std::size_t i = begin; i-- > 0;) {
-    if (lines[i].text.empty()) continue;
+    if (lines[i].text.find_first_not_of(" \t-+=_|*") == std::string::npos) continue;  // a rule
     refuse_spoilt_first_row(file, lines[i], content.rows[0].values.size(),
                             content.header.number_of_values().has_value());
     std::string_view names = lines[i].text;

@@ -18,10 +18,11 @@ struct NumberRow {
   int line = 0;
   std::vector<double> values;
   bool delimited = false;
+  int decimals = 0;  ///< digits behind the points of all of them; -1 where these differ
 };
 
 /// Lines of a file for Unix, Windows (also CR CR LF) or old Mac line ends, without byte-order mark.
-/// Throws UserError when the file cannot be read, is empty or is not text.
+/// Throws UserError when the file cannot be read, is empty, is not text, or has no end.
 std::vector<TextLine> read_text_lines(const std::string& file);
 
 /// True for comments and decorations: lines that begin with % ; # ! or *.

@@ -1,10 +1,13 @@
-#include "motion/record_table.h"
+#include "motion/records/record_table.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "common/error.h"
+#include "motion/records/header_numbers.h"
+#include "motion/records/record_times.h"
 
 namespace pounding {
 
@@ -38,51 +41,70 @@ bool is_table(const RecordContent& content, int column) {
   return width == 2 || rows[0].delimited || first_column_increases;
 }
 
-void require_equal_rows(const std::string& file, const std::vector<NumberRow>& rows,
-                        bool last_may_be_short) {
+void refuse_row(const std::string& file, const NumberRow& row, std::size_t width) {
+  throw UserError(at_line(file, row.line) + std::to_string(row.values.size()) +
+                  " numbers where the lines before have " + std::to_string(width) +
+                  "; complete or remove the line, or take off what is not the record's");
+}
+
+void require_equal_rows(const std::string& file, const std::vector<NumberRow>& rows) {
   const std::size_t width = rows[0].values.size();
   for (const auto& row : rows) {
-    const std::size_t size = row.values.size();
-    if (size == width || (last_may_be_short && &row == &rows.back() && size < width)) continue;
-    throw UserError(at_line(file, row.line) + std::to_string(size) +
-                    " numbers where the lines before have " + std::to_string(width) +
-                    "; complete or remove the line");
+    if (row.values.size() != width) refuse_row(file, row, width);
   }
 }
 
-// Time step of a uniform time column. Rounded times may be off by a tenth of a step.
-double uniform_step(const std::string& file, const std::vector<NumberRow>& rows,
-                    std::size_t column) {
-  const auto time = [&](std::size_t i) { return rows[i].values[column]; };
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    steps.push_back(time(i) - time(i - 1));
-    if (!(steps.back() > 0)) {
-      throw UserError(at_line(file, rows[i].line) + "time " + text_of(time(i)) +
-                      " does not follow " + text_of(time(i - 1)) + "; times must increase");
+/// Rows that run on have one length, but for the last with a value; zeros may follow it.
+void require_running_rows(const std::string& file, const std::vector<NumberRow>& rows,
+                          long long announced) {
+  const std::size_t width = rows[0].values.size();
+  long long count = 0;
+  for (const auto& row : rows) {
+    const std::size_t size = row.values.size();
+    count += static_cast<long long>(size);
+    const bool last =
+        (announced > 0 && count >= announced) || (&row == &rows.back() && size < width);
+    if (size != width && !last) refuse_row(file, row, width);
+  }
+}
+
+void take_times(const std::string& file, const std::vector<NumberRow>& rows, std::size_t column,
+                RecordValues& result) {
+  std::vector<TimeOfLine> times;
+  for (const auto& row : rows) times.push_back({row.values[column], row.line});
+  result.time_step = uniform_step(file, times);
+  result.start = times[0].time;
+}
+
+/// Rows of time, value, time, value, ... that run on: times that increase through all of them.
+bool is_pairs(const std::vector<NumberRow>& rows) {
+  const std::size_t width = rows[0].values.size();
+  if (width < 4 || width % 2 != 0 || rows.size() < 2) return false;
+  double before = -std::numeric_limits<double>::infinity();
+  for (const auto& row : rows) {
+    if (row.values.size() % 2 != 0) return false;
+    for (std::size_t i = 0; i < row.values.size(); i += 2) {
+      if (!(row.values[i] > before)) return false;
+      before = row.values[i];
     }
   }
-  const double count = static_cast<double>(steps.size());
-  const double mean = (time(rows.size() - 1) - time(0)) / count;
-  auto sorted = steps;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    if (std::abs(steps[i - 1] - *middle) > 0.1 * *middle) {
-      throw UserError(at_line(file, rows[i].line) + "time " + text_of(time(i)) + " after " +
-                      text_of(time(i - 1)) + " breaks the uniform step " + text_of(*middle) +
-                      " s; resample the record or restore the missing lines");
+  return true;
+}
+
+RecordValues read_pairs(const RecordedMotion& motion, const RecordContent& content) {
+  RecordValues result;
+  std::vector<TimeOfLine> times;
+  for (const auto& row : content.rows) {
+    for (std::size_t i = 0; i < row.values.size(); i += 2) {
+      times.push_back({row.values[i], row.line});
+      result.values.push_back(row.values[i + 1]);
     }
   }
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    if (std::abs(time(i) - time(0) - static_cast<double>(i) * mean) > 0.1 * mean) {
-      throw UserError(at_line(file, rows[i].line) + "time " + text_of(time(i)) +
-                      " is not where a uniform step " + text_of(mean) +
-                      " s puts it; resample the record");
-    }
-  }
-  const double rounded = std::stod(text_of(std::round(mean * 1e7) / 1e7));
-  return std::abs(rounded - mean) * count < 1e-6 * mean ? rounded : mean;
+  result.time_step = uniform_step(motion.file, times);
+  result.start = times[0].time;
+  result.layout =
+      "rows of " + std::to_string(content.rows[0].values.size() / 2) + " pairs of time and value";
+  return result;
 }
 
 bool counts_rows(const std::vector<NumberRow>& rows) {
@@ -119,7 +141,7 @@ std::string columns_text(const RecordContent& content, int time) {
 
 RecordValues read_table(const RecordedMotion& motion, const RecordContent& content) {
   const auto& rows = content.rows;
-  require_equal_rows(motion.file, rows, false);
+  require_equal_rows(motion.file, rows);
   const int width = static_cast<int>(rows[0].values.size());
   const int time = time_column(content);
   const std::string range = "give column: 1 to " + std::to_string(width);
@@ -146,17 +168,21 @@ RecordValues read_table(const RecordedMotion& motion, const RecordContent& conte
   RecordValues result;
   for (const auto& row : rows) result.values.push_back(row.values[index]);
   if (time > 0 && rows.size() > 1) {
-    result.time_step = uniform_step(motion.file, rows, static_cast<std::size_t>(time - 1));
+    take_times(motion.file, rows, static_cast<std::size_t>(time - 1), result);
   }
   result.layout = "column " + std::to_string(column) + " of " + std::to_string(width);
-  if (!content.names.empty()) result.layout += " (" + content.names[index] + ")";
+  if (!content.names.empty()) {
+    if (width > 2) result.component = content.names[index];
+    result.layout += " (" + content.names[index] + ")";
+  }
   if (time > 0) result.layout += ", time in column " + std::to_string(time);
   return result;
 }
 
 RecordValues read_running(const RecordedMotion& motion, const RecordContent& content) {
   const bool announced = content.header.number_of_values().has_value();
-  if (!announced) require_equal_rows(motion.file, content.rows, true);
+  require_running_rows(motion.file, content.rows, content.header.number_of_values().value_or(0));
+  if (!announced) refuse_numbers_of_header(motion.file, content.rows);
   RecordValues result;
   for (const auto& row : content.rows) {
     result.values.insert(result.values.end(), row.values.begin(), row.values.end());
@@ -175,6 +201,7 @@ RecordValues read_running(const RecordedMotion& motion, const RecordContent& con
 }  // namespace
 
 RecordValues read_record_values(const RecordedMotion& motion, const RecordContent& content) {
+  if (motion.column == 0 && is_pairs(content.rows)) return read_pairs(motion, content);
   return is_table(content, motion.column) ? read_table(motion, content)
                                           : read_running(motion, content);
 }

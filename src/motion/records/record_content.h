@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "motion/record_header.h"
-#include "motion/record_text.h"
+#include "motion/records/record_header.h"
+#include "motion/records/record_text.h"
 
 namespace pounding {
 

@@ -4,15 +4,16 @@
 #include <set>
 #include <string>
 
-#include "motion/record_text.h"
+#include "motion/records/record_text.h"
+#include "motion/records/record_unit.h"
 
 namespace pounding {
 
-/// Unit of a record and the factor from it to m/s2.
-struct RecordUnit {
-  std::string name;
-  double factor = 1;
-};
+/// Units of acceleration that a line names: g, m/s2, cm/s2 (also gal), mm/s2, g/10.
+std::set<std::string> units_in(const std::string& text);
+
+/// The component that a line of a header names ("N10E", "90 Deg", "UP", "Longitudinal"), or "".
+std::string component_in(const std::string& text);
 
 /// Content of the lines before the values of a record.
 class RecordHeader {
@@ -31,28 +32,36 @@ class RecordHeader {
   void declare_time_step(double time_step, int line);
 
   std::optional<long long> number_of_values() const { return number_of_values_; }
-  std::optional<double> time_step() const { return time_step_; }
+  /// Time step [s], or the step of the only sampling rate where no step is stated.
+  std::optional<double> time_step() const;
+  /// The component that a line names, "" where none does.
+  const std::string& component() const { return component_; }
 
   /// Throws UserError when the header speaks of velocity or displacement and not of acceleration,
-  /// or when the first column is the period or the frequency of a spectrum.
+  /// when the values are counts of a recorder, and when the first column is the period or the
+  /// frequency of a spectrum.
   void require_acceleration() const;
 
-  /// `asked` ("", "g", "m/s2", "cm/s2"), which the header must not contradict, or else the header's
-  /// unit. Throws UserError when neither tells it.
+  /// `asked` ("", "g", "m/s2", "cm/s2", "mm/s2"), which the header must not contradict, or else the
+  /// header's unit. Throws UserError when neither tells it.
   RecordUnit unit(const std::string& asked) const;
 
- private:
-  [[noreturn]] void contradiction(int line, const char* what, const std::string& here,
-                                  const std::string& before) const;
-  void read_sampling(const std::string& text, int line);
-
+  /// Units of the values, or those of a peak that is quoted where there are none.
   const std::set<std::string>& stated_units() const {
     return units_.empty() ? units_of_peak_ : units_;
   }
 
+ private:
+  [[noreturn]] void contradiction(int line, const char* what, const std::string& here,
+                                  const std::string& before) const;
+  void take_sampling(const std::string& text, int line);
+
   std::string file_;
   std::optional<long long> number_of_values_;
   std::optional<double> time_step_;
+  std::optional<double> step_of_rate_;  // [s]
+  bool rates_differ_ = false;
+  std::string component_;
   std::set<std::string> units_;          // of the values
   std::set<std::string> units_of_peak_;  // named only where the header quotes a peak
   bool acceleration_ = false;
@@ -60,6 +69,7 @@ class RecordHeader {
   bool velocity_unit_ = false;
   int other_line_ = 0;
   int spectrum_line_ = 0;
+  int counts_line_ = 0;
 };
 
 }  // namespace pounding

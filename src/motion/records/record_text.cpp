@@ -1,18 +1,21 @@
-#include "motion/record_text.h"
+#include "motion/records/record_text.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "common/error.h"
+#include "common/finite_file.h"
 
 namespace pounding {
 
 namespace {
+
+constexpr std::uintmax_t largest_text = 512'000'000;  // bytes
 
 constexpr std::string_view blanks = " \t\r\f\v";
 
@@ -20,6 +23,28 @@ std::string_view trim(std::string_view text) {
   const auto first = text.find_first_not_of(blanks);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// The kind of file that bytes which are no text begin like: " but miniSEED", or "".
+std::string kind_of_bytes(std::string_view bytes) {
+  struct Kind {
+    std::string_view beginning;
+    const char* name;
+  };
+  static constexpr std::array kinds{Kind{"\x89HDF", "an HDF5 file"},
+                                    Kind{"PK\x03\x04", "a zip archive or a spreadsheet"},
+                                    Kind{"\x1f\x8b", "packed by gzip"},
+                                    Kind{"%PDF", "a PDF"},
+                                    Kind{"\xd0\xcf\x11\xe0", "an old spreadsheet"},
+                                    Kind{"\xff\xfe", "text in UTF-16"},
+                                    Kind{"\xfe\xff", "text in UTF-16"}};
+  for (const Kind& kind : kinds) {
+    if (bytes.starts_with(kind.beginning)) return std::string(" but ") + kind.name;
+  }
+  const bool sequence =
+      bytes.size() > 8 && std::string_view("DRQM").find(bytes[6]) < 4 &&
+      std::all_of(bytes.begin(), bytes.begin() + 6, [](char c) { return c >= '0' && c <= '9'; });
+  return sequence ? " but miniSEED" : "";
 }
 
 // Values of equal width and number of decimals, such as 8F10.3, may follow one another without a
@@ -54,15 +79,13 @@ std::string at_line(const std::string& file, int line) {
 }
 
 std::vector<TextLine> read_text_lines(const std::string& file) {
-  if (std::filesystem::is_directory(file)) {
-    throw UserError(file + ": is a folder; give the file of the record");
-  }
+  require_finite_file(file, "", largest_text);
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw UserError(file + ": cannot be opened; check the path and the permissions");
   std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   if (text.find('\0') != std::string::npos) {
-    throw UserError(file + ": is not a text file; export the record as text");
+    throw UserError(file + ": is not a text file" + kind_of_bytes(text) + "; export it as text");
   }
   if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
 
@@ -120,6 +143,33 @@ std::vector<std::string_view> split_words(std::string_view text) {
   return words;
 }
 
+/// Digits behind the points of the numbers of a line; -1 where they differ.
+int decimals_in(std::string_view text) {
+  int common = -2, here = 0;
+  bool point = false, number = false, exponent = false;
+  const auto end_word = [&] {
+    if (number) common = common == -2 || common == here ? here : -1;
+    here = 0;
+    point = number = exponent = false;
+  };
+  for (const char c : text) {
+    const bool digit = c >= '0' && c <= '9';
+    if (digit && !exponent) {
+      number = true;
+      here += point ? 1 : 0;
+    } else if (c == '.' && !point) {
+      point = true;
+    } else if (number && std::string_view("eEdD").find(c) != std::string_view::npos) {
+      exponent = true;
+    } else if (!digit && !(exponent && (c == '-' || c == '+'))) {
+      end_word();
+      point = c == '.';
+    }
+  }
+  end_word();
+  return std::max(common, -1);
+}
+
 std::optional<NumberRow> parse_row(const TextLine& line) {
   NumberRow row;
   row.line = line.number;
@@ -139,6 +189,7 @@ std::optional<NumberRow> parse_row(const TextLine& line) {
     row.values = std::move(*values);
   }
   if (row.values.empty()) return {};
+  row.decimals = decimals_in(line.text);
   return row;
 }
 

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "motion/records/record_text.h"
+#include "motion/records/record_unit.h"
+#include "scene/scene.h"
+
+namespace pounding {
+
+/// A record of a format that says all of itself: values in the file's unit, and what they are.
+struct FormatRecord {
+  std::vector<double> values;
+  double time_step = 0;   ///< [s]
+  std::string unit;       ///< name, see record_unit
+  std::string component;  ///< as the file names it, with its azimuth where it has one
+  std::string layout;     ///< format, and what was done to the numbers
+  std::vector<std::string> doubts{};
+};
+
+/// A published format of records, told by marks that nothing else has. `read` is called for files
+/// that `recognises` and throws UserError when they are not what the marks promise.
+struct RecordFormat {
+  std::string_view name;
+  bool (*recognises)(std::span<const TextLine> lines);
+  FormatRecord (*read)(const RecordedMotion& motion, std::span<const TextLine> lines);
+};
+
+bool is_knet(std::span<const TextLine> lines);
+FormatRecord read_knet(const RecordedMotion& motion, std::span<const TextLine> lines);
+bool is_keyed(std::span<const TextLine> lines);
+FormatRecord read_keyed(const RecordedMotion& motion, std::span<const TextLine> lines);
+bool is_geonet(std::span<const TextLine> lines);
+FormatRecord read_geonet(const RecordedMotion& motion, std::span<const TextLine> lines);
+bool is_csmip(std::span<const TextLine> lines);
+FormatRecord read_csmip(const RecordedMotion& motion, std::span<const TextLine> lines);
+bool is_cosmos(std::span<const TextLine> lines);
+FormatRecord read_cosmos(const RecordedMotion& motion, std::span<const TextLine> lines);
+bool is_smc(std::span<const TextLine> lines);
+FormatRecord read_smc(const RecordedMotion& motion, std::span<const TextLine> lines);
+
+}  // namespace pounding

@@ -1,0 +1,136 @@
+#include "motion/records/record_sampling.h"
+
+#include <array>
+#include <cctype>
+#include <regex>
+
+#include "motion/records/record_text.h"
+
+namespace pounding {
+
+namespace {
+
+constexpr auto flags = std::regex::ECMAScript | std::regex::icase;
+
+const std::string number = R"(([-+]?(?:\d+\.?\d*|\.\d+)(?:[ED][-+]?\d+)?))";
+const std::string gap = R"([\s"',:=]*)";
+const std::string in_brackets = R"((?:\s*[(\[]\s*(HZ|SPS|MS(?:EC)?|S(?:EC(?:ONDS?)?)?)\s*[)\]])?)";
+const std::string behind = R"(\s*(HZ\b|SPS\b|MS(?:EC)?\b|S(?:EC(?:ONDS?)?)?\b)?)";
+const std::string spanish = R"([^:=]*[:=]\s*/?\s*)";
+
+// NPTS= 4000 | "Total No. of Points :",2000 | NDATA: 64 | NUM. TOTAL DE MUESTRAS, C1 : /1234
+// and 3000 points of accel data
+const std::array count_patterns{
+    std::regex("\\bNPTS" + gap + number, flags),
+    std::regex("\\bN(?:O|UM|UMBER)?\\.?\\s*OF\\s*(?:DATA\\s*)?POINTS" + gap + number, flags),
+    std::regex("\\b(?:NDATA|NUMBER[ _]+OF[ _]+(?:DATA|SAMPLES))" + gap + number, flags),
+    std::regex("\\bNUM(?:ERO)?\\.?\\s+TOTAL\\s+DE\\s+MUESTRAS" + spanish + number, flags),
+    std::regex(R"((\d+)\s+POINTS\s+(?:OF|AT)\b)", flags)};
+
+// DT= .01 SEC | equally spaced at .02 sec | equally spaced intervals of: 0.005 SEC | DT: 20 msec
+const std::array step_patterns{
+    std::regex(
+        R"((?:\bDT|\bSPACED\s+AT|\bSPACING\s+OF|\bSPACED\s+INTERVALS\s+OF|\bTIME[ _]STEP|\bDELTA[ _-]?T\b)"
+        R"(|\bSAMPL(?:E|ING)[ _](?:INTERVAL|PERIOD|STEP)(?:_S)?))" +
+            in_brackets + gap + number + behind,
+        flags),
+    std::regex("\\bINTERVALO\\s+DE\\s+MUESTREO()" + spanish + number + behind, flags),
+    std::regex("\\bAT()\\s+" + number + R"(\s*(S(?:EC)?)\s+INTERVALS)", flags)};
+
+// Sampling Freq(Hz) 100Hz | VEL. DE MUESTREO, C1 (muestras/s) : /50 | 50 sps, 200 samples/sec
+const std::array rate_patterns{
+    std::regex("\\bSAMPL(?:E|ES|ING)[ _]*(?:FREQ(?:UENCY)?|RATE)\\.?" + in_brackets + gap + number +
+                   behind,
+               flags),
+    std::regex("\\b(?:VEL(?:OCIDAD)?\\.?|FREC(?:UENCIA)?\\.?|TASA)\\s+DE\\s+MUESTREO()" + spanish +
+                   number + "()",
+               flags),
+    std::regex(
+        "()" + number + R"(\s*()(?:SPS\b|SAMPLES?\s*/\s*S(?:EC(?:OND)?)?\b|SAMPLES\s+PER\s+SEC))",
+        flags)};
+
+// 4096    0.0100    NPTS, DT
+const std::regex trailing_names(R"(^\s*(\d+)\s+)" + number + R"(\s+NPTS\s*,?\s*DT)", flags);
+// %   2990    5.00000E-03  0  0  0.
+const std::regex numbers_in_comment(R"(^\s*[%#;!]\s*(\d+)\s+)" + number + R"(\s+[-+0-9.ED\s]*$)",
+                                    flags);
+// NPTS= ****
+const std::regex no_number(R"(\b(NPTS|DT)\s*[=:]\s*(?![-+.\d\s"',]))", flags);
+
+double value(const std::string& text) {
+  return parse_number(text).value_or(0);
+}
+
+/// The value of a match of three groups (unit before it, number, unit behind it), and its unit as a
+/// small letter: h for hertz, s for seconds, m for milliseconds, a blank for none.
+struct Quantity {
+  double number = 0;
+  char unit = ' ';
+};
+
+Quantity quantity(const std::smatch& match) {
+  const std::string unit = match[3].length() > 0 ? match[3].str() : match[1].str();
+  Quantity result{value(match[2].str())};
+  if (unit.empty()) return result;
+  const auto small = [&](std::size_t i) {
+    return i < unit.size() ? std::tolower(static_cast<unsigned char>(unit[i])) : 0;
+  };
+  const bool per_second = small(0) == 'h' || (small(0) == 's' && small(1) == 'p');
+  result.unit = per_second ? 'h' : static_cast<char>(small(0));
+  return result;
+}
+
+void read_step(const std::string& text, StatedSampling& stated) {
+  std::smatch match;
+  for (const std::regex& pattern : step_patterns) {
+    if (!std::regex_search(text, match, pattern)) continue;
+    const Quantity step = quantity(match);
+    stated.time_step = step.number * (step.unit == 'm' ? 1e-3 : 1);
+    return;
+  }
+  for (const std::regex& pattern : rate_patterns) {
+    if (!std::regex_search(text, match, pattern)) continue;
+    const Quantity rate = quantity(match);
+    if (rate.unit == 's' || rate.unit == 'm') {
+      stated.time_step = rate.number * (rate.unit == 'm' ? 1e-3 : 1);
+    } else {
+      stated.rate = rate.number;
+    }
+    return;
+  }
+}
+
+}  // namespace
+
+StatedSampling read_sampling(const std::string& text) {
+  StatedSampling stated;
+  std::smatch match;
+  if (std::regex_search(text, match, trailing_names)) {
+    return {value(match[1].str()), value(match[2].str()), {}};
+  }
+  for (const std::regex& pattern : count_patterns) {
+    if (!std::regex_search(text, match, pattern)) continue;
+    stated.count = value(match[1].str());
+    break;
+  }
+  read_step(text, stated);
+  if (std::regex_search(text, match, numbers_in_comment) && value(match[2].str()) > 0 &&
+      value(match[2].str()) < 1) {
+    stated.count = value(match[1].str());
+    stated.time_step = value(match[2].str());
+  }
+  return stated;
+}
+
+std::string without_rate(const std::string& text) {
+  std::string rest = text;
+  for (const std::regex& pattern : rate_patterns) rest = std::regex_replace(rest, pattern, " ");
+  return rest;
+}
+
+std::string name_without_number(const std::string& text) {
+  std::smatch match;
+  return std::regex_search(text, match, no_number) ? match[1].str() : "";
+}
+
+}  // namespace pounding

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace pounding {
+
+/// Unit of a record and the factor from it to m/s2.
+struct RecordUnit {
+  std::string name;
+  double factor = 1;
+};
+
+/// The unit of that name: g, m/s2, cm/s2, mm/s2 or g/10; nothing for another.
+std::optional<RecordUnit> record_unit(std::string_view name);
+
+/// Units that may be asked for, as messages name them.
+inline constexpr const char* units_to_ask = "g, m/s2, cm/s2 or mm/s2";
+
+/// The unit of a file that states one: that of the file, which `asked` ("" for none) must not
+/// contradict. Numbers of a file in mm/s2 may be asked for as m/s2, which many scale by 0.001
+/// themselves. Throws UserError.
+RecordUnit agreed_unit(const std::string& file, const std::string& asked,
+                       const std::string& stated);
+
+/// The unit and who said it: "cm/s2 (header)".
+std::string unit_text(const RecordUnit& unit, const std::string& asked);
+
+}  // namespace pounding
