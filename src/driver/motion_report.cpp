@@ -9,11 +9,16 @@ namespace pounding {
 void print_motion(const GroundMotion& motion, const SupportMotion* supports) {
   std::printf("\n");
   for (const MotionDescription& d : motion.descriptions()) {
-    std::printf("motion %s: %s\n  %s%s%s, %zu points every %.6g s, %.6g s", d.direction.c_str(),
-                d.source.c_str(), d.layout.c_str(), d.unit.empty() ? "" : ", in ", d.unit.c_str(),
-                d.points, d.time_step, d.duration);
+    std::printf("motion %s: %s%s%s\n  %s%s%s, %zu points every %.6g s, %.6g s", d.direction.c_str(),
+                d.source.c_str(), d.component.empty() ? "" : ", component ", d.component.c_str(),
+                d.layout.c_str(), d.unit.empty() ? "" : ", in ", d.unit.c_str(), d.points,
+                d.time_step, d.duration);
     if (!d.unit.empty()) {
       std::printf(", peak %.4g m/s2 (%.4g g)", d.file_peak, d.file_peak / standard_gravity);
+    }
+    if (d.start != 0 || d.file_start != 0) {
+      std::printf("\n  sets in at %.6g s: its times begin at %.6g s, t = 0 is %.6g s of them",
+                  d.start, d.file_start, motion.origin());
     }
     std::printf("\n  scaled: %s; pga %.4g m/s2 (%.4g g)\n", d.scaling.c_str(), d.pga,
                 d.pga / standard_gravity);
@@ -47,6 +52,11 @@ nlohmann::ordered_json describe_motion(const GroundMotion& motion) {
           {"treatment", d.treatment},
           {"end_velocity", d.end_velocity},
           {"end_displacement", d.end_displacement}};
+    if (!d.component.empty()) of["component"] = d.component;
+    if (d.start != 0 || d.file_start != 0) {
+      of["sets_in_at"] = d.start;
+      of["file_start"] = d.file_start;
+    }
     if (d.factor != 0) of["factor"] = d.factor;
     if (!d.unit.empty()) {
       of["unit"] = d.unit;

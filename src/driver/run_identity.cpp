@@ -12,15 +12,18 @@ std::string hash_of(const GroundMotion& motion, const SupportMotion* supports) {
   for (int direction = 0; direction < 3; ++direction) {
     const Accelerogram& component = motion.component(direction);
     hash.add(component.time_step);
+    hash.add(component.start);
     hash.add_all(component.acceleration);
     const Accelerogram& incident = motion.incident(direction);
     if (!incident.acceleration.empty()) {
       hash.add(incident.time_step);
+      hash.add(incident.start);
       hash.add_all(incident.acceleration);
     }
   }
   for (std::size_t c = 0; supports != nullptr && c < supports->columns().size(); ++c) {
     hash.add(supports->own(c).time_step);
+    hash.add(supports->own(c).start);
     hash.add_all(supports->own(c).acceleration);
   }
   return hash.text();

@@ -31,7 +31,7 @@ void add_short_record(const Scene& scene, const Model& model, int direction,
                       std::vector<std::string>& warnings) {
   const Accelerogram& component = samples(model, direction);
   const auto& asked = scene.motion[direction];
-  const double last = component.time_step * static_cast<double>(component.acceleration.size() - 1);
+  const double last = component.end();
   if (std::holds_alternative<RecordedMotion>(asked->source) &&
       scene.end_time > (last + component.time_step) * round_off) {
     std::ostringstream text;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/error.h"
-#include "motion/record_text.h"
+#include "motion/records/record_text.h"
 #include "motion/resampling.h"
 #include "motion/synthetic.h"
 
@@ -71,6 +71,9 @@ MotionDescription describe_record(const std::string& file, const Accelerogram& r
   MotionDescription description;
   description.source = file;
   description.layout = record.layout;
+  description.component = record.component;
+  description.file_start = record.start;
+  description.has_times = record.has_times;
   description.unit = record.unit;
   description.treatment = "baseline as recorded, no correction";
   description.file_peak = record.peak();
@@ -127,6 +130,7 @@ void GroundMotion::add(std::size_t direction, const MotionComponent& component) 
     const auto& record = std::get<RecordedMotion>(component.source);
     accelerogram = read_accelerogram(record);
     description = describe_record(record.file, accelerogram);
+    file_start_[direction] = accelerogram.start;
     require_possible_peak(name, record.file + ": peak", description.file_peak);
     const double factor = scaling_factor(name, component, description);
     description.factor = factor;
@@ -160,6 +164,8 @@ GroundMotion::GroundMotion(const std::array<std::optional<MotionComponent>, 3>& 
       treatment += " after band-limited resampling to " + text_of(components_[i].time_step) + " s";
     }
   }
+  count_times_from(earliest().value_or(0));
+  add_start_doubts();
   double largest = 0;
   bool as_given = !descriptions_.empty();  // peaks that no option names
   for (const MotionDescription& description : descriptions_) {
@@ -169,6 +175,40 @@ GroundMotion::GroundMotion(const std::array<std::optional<MotionComponent>, 3>& 
   if (as_given && largest <= small_pga) {
     doubts_.push_back(name_ + ": the largest peak is " + text_of(largest) +
                       " m/s2, not above 0.5 m/s2; are the files' numbers in g?");
+  }
+}
+
+std::optional<double> GroundMotion::earliest() const {
+  std::optional<double> first;
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (!active(static_cast<int>(d))) continue;
+    first = std::min(first.value_or(file_start_[d]), file_start_[d]);
+  }
+  return first;
+}
+
+void GroundMotion::count_times_from(double origin) {
+  origin_ = origin;
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (active(static_cast<int>(d))) components_[d].start = file_start_[d] - origin;
+  }
+  for (MotionDescription& description : descriptions_) {
+    const std::size_t d = static_cast<std::size_t>(description.direction[0] - 'x');
+    description.start = components_[d].start;
+  }
+}
+
+/// A record that sets in late by its own times beside one that has none.
+void GroundMotion::add_start_doubts() {
+  for (const MotionDescription& late : descriptions_) {
+    for (const MotionDescription& other : descriptions_) {
+      if (late.start == 0 || other.has_times || late.direction == other.direction) continue;
+      doubts_.push_back(name_ + " " + late.direction + ": the times of " + late.source +
+                        " begin at " + text_of(late.file_start) + " s, so it sets in at " +
+                        text_of(late.start) + " s; " + other.source +
+                        " tells no times and sets in at " + text_of(other.start) +
+                        " s: do they belong together like that?");
+    }
   }
 }
 
@@ -202,7 +242,7 @@ void GroundMotion::evaluate_incident(double t, Vector3& velocity) const noexcept
 double GroundMotion::incident_velocity(int direction, double t) const noexcept {
   const std::vector<double>& a = incident_[direction].acceleration;
   const std::vector<double>& v = incident_velocity_[direction];
-  const double x = t / incident_[direction].time_step;
+  const double x = (t - incident_[direction].start) / incident_[direction].time_step;
   if (!(x > 0) || v.empty()) return 0;
   if (x >= static_cast<double>(v.size() - 1)) return v.back();
   const auto i = static_cast<std::size_t>(x);

@@ -14,12 +14,16 @@ namespace pounding {
 /// Motion in one direction as it was understood, before it is resampled.
 struct MotionDescription {
   std::string direction;        ///< "x"
+  std::string component{};      ///< of the ground, as the file names it: "N10E"; "" if it does not
   std::string source;           ///< file of the record or of the target spectrum
   std::string layout;           ///< "rows of 8 values that follow one another", "synthetic, seed 3"
   std::string unit;             ///< of the file, and who said it; empty for a synthetic motion
   std::size_t points = 0;       ///< samples
   double time_step = 0;         ///< between them [s]
   double duration = 0;          ///< [s]
+  double start = 0;             ///< time of the run at which it sets in [s]
+  double file_start = 0;        ///< first time of its time column [s]
+  bool has_times = false;       ///< there is such a column
   double file_peak = 0;         ///< as in the file [m/s2]; 0 for a synthetic motion
   std::string scaling;          ///< "to pga 3.43 m/s2", "by 0.5", "none"
   double factor = 0;            ///< on the numbers of the file [-]; 0 for a synthetic motion
@@ -31,8 +35,8 @@ struct MotionDescription {
 
 /// Ground acceleration a_g(t) in the three directions: each component is read or generated, scaled
 /// (so that the peak of its samples is `pga`, or by `scale`), resampled if asked, and linear
-/// between samples. It is zero before t = 0, after its last sample, and in directions without a
-/// component.
+/// between samples. It is zero before its first sample, after its last, and in directions without
+/// a component. Records keep the differences between the first times of their time columns.
 class GroundMotion {
  public:
   /// Reads the files; every rank may do so, or one that shares the result. Band-limited resampling
@@ -44,14 +48,7 @@ class GroundMotion {
 
   /// a_g [m/s2] in direction 0, 1 or 2 at time t [s].
   double acceleration(int direction, double t) const noexcept {
-    const auto& samples = components_[direction];
-    const double x = t / samples.time_step;
-    const std::size_t size = samples.acceleration.size();
-    if (!(x >= 0) || size == 0 || x > static_cast<double>(size - 1)) return 0;
-    const auto i = static_cast<std::size_t>(x);
-    const double a = samples.acceleration[i];
-    if (i + 1 == size) return a;
-    return a + (x - static_cast<double>(i)) * (samples.acceleration[i + 1] - a);
+    return components_[direction].at(t);
   }
 
   /// The three components [m/s2] at time t [s].
@@ -73,6 +70,15 @@ class GroundMotion {
   /// Samples of the acceleration of the wave from below [m/s2]; empty in a direction without.
   const Accelerogram& incident(int direction) const { return incident_[direction]; }
 
+  /// Earliest of the first times of the records [s], those without a time column at 0; nothing
+  /// without a record or a synthetic motion.
+  std::optional<double> earliest() const;
+  /// Lets t = 0 be `origin` in the times of the files [s]: a record whose times begin later sets in
+  /// later. Until then it is the earliest of the records. Before `enter_from_below`.
+  void count_times_from(double origin);
+  /// t = 0 in the times of the files [s].
+  double origin() const { return origin_; }
+
   bool active(int direction) const { return !components_[direction].acceleration.empty(); }
 
   /// Samples applied in a direction; empty when it has no component.
@@ -90,10 +96,13 @@ class GroundMotion {
 
  private:
   void add(std::size_t direction, const MotionComponent& component);
+  void add_start_doubts();
 
   double incident_velocity(int direction, double t) const noexcept;
 
   std::string name_;
+  double origin_ = 0;                   ///< [s]
+  std::array<double, 3> file_start_{};  ///< first times of the files [s]
   std::vector<MotionDescription> descriptions_;
   std::vector<std::string> doubts_;
   std::array<Accelerogram, 3> components_{Accelerogram{{}, 1}, Accelerogram{{}, 1},

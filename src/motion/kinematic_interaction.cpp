@@ -43,6 +43,7 @@ Accelerogram filtered(const Accelerogram& signal, double travel, const Factor& f
   Accelerogram result;
   if (signal.acceleration.empty()) return result;
   result.time_step = step;
+  result.start = signal.start;
   std::vector<double>& samples = result.acceleration;
   const std::size_t kept = signal.acceleration.size() + tail;
   const int n = good_fourier_size(static_cast<int>(kept + tail + 3));

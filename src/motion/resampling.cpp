@@ -38,6 +38,7 @@ Accelerogram resample_band_limited(const Accelerogram& accelerogram, double larg
   const std::size_t stride = factor;
   Accelerogram result;
   result.time_step = accelerogram.time_step / factor;
+  result.start = accelerogram.start;
   const auto begin = fine.begin() + static_cast<std::ptrdiff_t>(extension * stride);
   result.acceleration.assign(begin, begin + static_cast<std::ptrdiff_t>((size - 1) * stride + 1));
   for (std::size_t i = 0; i < size; ++i) result.acceleration[i * stride] = a[i];

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/component_names.h"
 #include "common/error.h"
 #include "motion/kinematic_interaction.h"
-#include "motion/record_text.h"
+#include "motion/records/record_text.h"
 #include "motion/resampling.h"
 #include "scene/support_reader.h"
 
@@ -25,16 +26,6 @@ constexpr double returned = 0.5;
 /// Steps of the rule that finds how far a support moves.
 constexpr double coarse_step = 1e-3;  // s
 
-/// a(t), linear between samples, zero outside.
-double value_at(const Accelerogram& record, double t) {
-  const std::vector<double>& a = record.acceleration;
-  const double x = t / record.time_step;
-  if (!(x >= 0) || a.empty() || x > static_cast<double>(a.size() - 1)) return 0;
-  const auto i = static_cast<std::size_t>(x);
-  if (i + 1 == a.size()) return a[i];
-  return a[i] + (x - static_cast<double>(i)) * (a[i + 1] - a[i]);
-}
-
 /// A record of rotation, in rad/s2.
 Accelerogram read_rotation(const std::string& name, const MotionComponent& component) {
   RecordedMotion record = std::get<RecordedMotion>(component.source);
@@ -48,6 +39,14 @@ Accelerogram read_rotation(const std::string& name, const MotionComponent& compo
   return rotation;
 }
 
+/// A record of its own: file, component and the time at which it sets in.
+std::string text_of_own(const std::string& file, const std::string& component, double start) {
+  std::string text = file;
+  if (!component.empty()) text += ", component " + component;
+  if (start != 0) text += ", sets in at " + text_of(start) + " s";
+  return text;
+}
+
 std::string ground_text(const Support& support, std::size_t axis) {
   std::string text = "ground motion";
   if (support.delay > 0) text += ", " + text_of(support.delay) + " s later";
@@ -57,22 +56,65 @@ std::string ground_text(const Support& support, std::size_t axis) {
 
 }  // namespace
 
-SupportMotion::SupportMotion(std::span<const Support> supports, const GroundMotion& ground,
+/// Records of a support's own, their times not yet counted from the origin of all.
+struct SupportMotion::Records {
+  GroundMotion translations;
+  std::array<Accelerogram, 3> rotations{};
+
+  double earliest(double first) const {
+    first = std::min(first, translations.earliest().value_or(first));
+    for (const Accelerogram& rotation : rotations) {
+      if (!rotation.acceleration.empty()) first = std::min(first, rotation.start);
+    }
+    return first;
+  }
+
+  void count_times_from(double origin) {
+    translations.count_times_from(origin);
+    for (Accelerogram& rotation : rotations) rotation.start -= origin;
+  }
+};
+
+SupportMotion::SupportMotion(std::span<const Support> supports, GroundMotion& ground,
                              Resampling resampling)
     : ground_(ground) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  std::vector<Records> all;
+  double origin = ground.earliest().value_or(none);
+  for (const Support& support : supports) {
+    all.push_back(read(support, resampling));
+    origin = all.back().earliest(origin);
+  }
+  if (origin == none) origin = 0;
+  ground.count_times_from(origin);
   for (std::size_t s = 0; s < supports.size(); ++s) {
+    all[s].count_times_from(origin);
     names_.push_back(supports[s].name);
-    add(s, supports[s], resampling);
+    add(s, supports[s], all[s]);
   }
 }
 
-void SupportMotion::add(std::size_t number, const Support& support, Resampling resampling) {
-  std::array<std::optional<MotionComponent>, 3> own{support.motion[0], support.motion[1],
-                                                    support.motion[2]};
+SupportMotion::Records SupportMotion::read(const Support& support, Resampling resampling) {
+  const std::array<std::optional<MotionComponent>, 3> own{support.motion[0], support.motion[1],
+                                                          support.motion[2]};
   const std::string name = "support " + support.name;
-  const GroundMotion translations(own, resampling, name + ", motion");
-  for (const std::string& doubt : translations.doubts()) doubts_.push_back(doubt);
-  auto description = translations.descriptions().begin();
+  Records records{GroundMotion(own, resampling, name + ", motion")};
+  for (const std::string& doubt : records.translations.doubts()) doubts_.push_back(doubt);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!support.motion[axis + 3]) continue;
+    Accelerogram rotation = read_rotation(name + ", rotation", *support.motion[axis + 3]);
+    for (const std::string& doubt : rotation.doubts) {
+      doubts_.push_back(name + ", rotation " + direction_names[axis] + ": " + doubt);
+    }
+    records.rotations[axis] = resampling == Resampling::band_limited
+                                  ? resample_band_limited(rotation, resampled_step)
+                                  : std::move(rotation);
+  }
+  return records;
+}
+
+void SupportMotion::add(std::size_t number, const Support& support, const Records& records) {
+  auto description = records.translations.descriptions().begin();
   for (std::size_t c = 0; c < 6; ++c) {
     const auto axis = static_cast<int>(axis_of_motion(c));
     if (!moves_otherwise(support, c, ground_.active(axis))) continue;
@@ -90,14 +132,13 @@ void SupportMotion::add(std::size_t number, const Support& support, Resampling r
       source.factor = support.factor[c];
       source.text = ground_text(support, c);
     } else if (c < 3) {
-      source.own = translations.component(static_cast<int>(c));
-      source.text = (description++)->source;
+      source.own = records.translations.component(static_cast<int>(c));
+      source.text = text_of_own(description->source, description->component, source.own.start);
+      ++description;
     } else {
-      source.own = read_rotation(name + ", rotation", *support.motion[c]);
-      if (resampling == Resampling::band_limited) {
-        source.own = resample_band_limited(source.own, resampled_step);
-      }
-      source.text = std::get<RecordedMotion>(support.motion[c]->source).file;
+      source.own = records.rotations[c - 3];
+      source.text = text_of_own(std::get<RecordedMotion>(support.motion[c]->source).file, "",
+                                source.own.start);
     }
   }
 }
@@ -107,7 +148,7 @@ void SupportMotion::evaluate(double t, std::span<double> relative_acceleration) 
     const Source& source = sources_[c];
     const int component = columns_[c].component;
     if (!source.own.acceleration.empty()) {
-      relative_acceleration[c] = value_at(source.own, t);
+      relative_acceleration[c] = source.own.at(t);
     } else {
       relative_acceleration[c] =
           source.factor == 0 ? 0
@@ -119,9 +160,9 @@ void SupportMotion::evaluate(double t, std::span<double> relative_acceleration) 
 
 SupportMotion::Reach SupportMotion::reach(std::size_t column) const {
   const Source& source = sources_[column];
-  double end_time = source.own.duration();
+  double end_time = source.own.end();
   for (int d = 0; d < 3 && columns_[column].component < 3; ++d) {
-    end_time = std::max(end_time, source.delay + ground_.component(d).duration());
+    end_time = std::max(end_time, source.delay + ground_.component(d).end());
   }
   Reach reach;
   std::vector<double> now(columns_.size());

@@ -19,10 +19,10 @@ namespace pounding {
 /// and r'' = the record itself for rotations, since the ground does not turn.
 class SupportMotion {
  public:
-  /// Reads the files; every rank may do so. `ground` must outlive this object. Throws UserError as
+  /// Reads the files; every rank may do so. The times of all files, those of `ground` too, are
+  /// counted from the earliest of them. `ground` must outlive this object. Throws UserError as
   /// GroundMotion does, naming the support.
-  SupportMotion(std::span<const Support> supports, const GroundMotion& ground,
-                Resampling resampling);
+  SupportMotion(std::span<const Support> supports, GroundMotion& ground, Resampling resampling);
 
   const std::vector<SupportColumn>& columns() const { return columns_; }
   /// r'' of all columns [m/s2, rad/s2] at time t [s].
@@ -55,7 +55,9 @@ class SupportMotion {
     double factor = 1;  ///< on the ground's motion; not with a record of its own
     std::string text;
   };
-  void add(std::size_t number, const Support& support, Resampling resampling);
+  struct Records;
+  Records read(const Support& support, Resampling resampling);
+  void add(std::size_t number, const Support& support, const Records& records);
 
   const GroundMotion& ground_;
   std::vector<SupportColumn> columns_;

@@ -129,6 +129,7 @@ void read_record(const std::string& path, const SpectraOptions& options,
     signal.folder = folder_of(path);
     signal.signal.acceleration = std::move(record.acceleration);
     signal.signal.time_step = record.time_step;
+    signal.signal.first_time = record.start;
   }
 }
 

@@ -3,6 +3,8 @@ import os
 import tempfile
 import unittest
 
+import h5py
+
 import program
 
 G = 9.80665
@@ -106,6 +108,24 @@ class Motion(unittest.TestCase):
                                                   "-motion_x_time_step", 0.02))
         self.assertEqual(summary["motion"]["x"]["points"], 9)
         self.assertTrue(any("or columns?" in line for line in summary["warnings"]), summary["warnings"])
+
+    def test_records_set_in_when_their_times_say_so(self):
+        paths = [self.record("COMP. N10E\nt [s], a (g)\n" + "".join(f"{first + 0.02 * i:.2f},{0.1 * (i % 3)}\n" for i in range(9)))
+                 for first in (20, 23.2)]
+        words = scene("-motion_x_record", paths[0], "-motion_y_record", paths[1])
+        for ranks in (1, 2):
+            folder, summary = program.must_run(self, [*words, "-end_time", 4, "-output_interval", 0.02], ranks)
+            self.assertAlmostEqual(summary["motion"]["y"]["sets_in_at"], 3.2)
+            self.assertAlmostEqual(summary["motion"]["x"]["sets_in_at"], 0)
+            self.assertEqual(summary["motion"]["y"]["component"], "N10E")
+            with h5py.File(os.path.join(folder, "history.h5")) as file:
+                time, ground = file["time"][:], file["ground_acceleration"][:]
+            self.assertTrue((ground[time < 3.1, 1] == 0).all())
+            self.assertGreater(abs(ground[(time > 3.2) & (time < 3.4), 1]).max(), 1)
+            self.assertGreater(abs(ground[time < 0.2, 0]).max(), 1)
+        result = program.run([*words, "-dry_run"], 1)
+        self.assertIn("sets in at 3.2 s: its times begin at 23.2 s, t = 0 is 20 s of them", result.stdout)
+        self.assertIn(", component N10E", result.stdout)
 
     def test_no_motion_at_all_is_said(self):
         result = program.run(scene("-mass_initial_velocity", "1,0,0", "-dry_run"), 1)

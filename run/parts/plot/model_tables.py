@@ -18,12 +18,14 @@ def motion_table(result: Result) -> str:
         if not one:
             continue
         peak = one.get("file_peak")
-        rows.append((way, one.get("file"), one.get("format"), one.get("unit", "m/s²"), peak, one.get("factor"),
+        rows.append((way, one.get("file"), one.get("component", ""), one.get("sets_in_at", 0), one.get("format"),
+                     one.get("unit", "m/s²"), peak, one.get("factor"),
                      one.get("pga"), one.get("pga_in_g", one.get("pga", 0) / G), one.get("points"), one.get("time_step"),
                      one.get("duration"), one.get("treatment"), one.get("end_velocity"),
                      None if one.get("end_displacement") is None else 1e3 * one["end_displacement"]))
-    header = ("", "file", "read as", "unit", "peak in it [m/s²]", "factor", "PGA [m/s²]", "PGA [g]", "points", "step [s]",
-              "duration [s]", "baseline and sampling", "velocity at its end [m/s]", "displacement at its end [mm]")
+    header = ("", "file", "component in it", "sets in at [s]", "read as", "unit", "peak in it [m/s²]", "factor",
+              "PGA [m/s²]", "PGA [g]", "points", "step [s]", "duration [s]", "baseline and sampling",
+              "velocity at its end [m/s]", "displacement at its end [mm]")
     if not rows:
         return "<p>The ground does not move.</p>\n"
     # One column per direction: the names of files are long.

@@ -33,7 +33,7 @@ class SupportMotionTest : public MotionFiles {
 };
 
 TEST_F(SupportMotionTest, HasAColumnForWhatDiffersFromTheGroundOnly) {
-  const GroundMotion ground = ground_along_x();
+  GroundMotion ground = ground_along_x();
   Support same{"same", {}};
   Support late{"late", {}};
   late.delay = 0.25;
@@ -55,7 +55,7 @@ TEST_F(SupportMotionTest, HasAColumnForWhatDiffersFromTheGroundOnly) {
 }
 
 TEST_F(SupportMotionTest, IsRelativeToTheGround) {
-  const GroundMotion ground = ground_along_x();
+  GroundMotion ground = ground_along_x();
   Support still{"still", {}};
   still.factor[0] = 0;
   Support own{"own", {}};
@@ -69,8 +69,40 @@ TEST_F(SupportMotionTest, IsRelativeToTheGround) {
   }
 }
 
+TEST_F(SupportMotionTest, RecordsSetInByTheTimesOfAll) {
+  const auto at_times = [&](const std::string& name, double first, double value) {
+    std::string text;
+    for (int i = 0; i < 3; ++i) {
+      text += std::to_string(first + 0.1 * i) + " " + std::to_string(i == 1 ? value : 0) + "\n";
+    }
+    MotionComponent component;
+    component.source = RecordedMotion{write(name, text), "m/s2", 0, 0};
+    return component;
+  };
+  GroundMotion ground({at_times("x", 12, 1), at_times("y", 10, 1), std::nullopt},
+                      Resampling::linear);
+  EXPECT_NEAR(ground.acceleration(0, 2.1), 1, 1e-9);
+  EXPECT_NEAR(ground.acceleration(1, 0.1), 1, 1e-9);
+  EXPECT_EQ(ground.acceleration(0, 1.9), 0);
+  EXPECT_NEAR(ground.descriptions()[0].start, 2, 1e-9);
+  EXPECT_TRUE(ground.doubts().empty());
+  Support near{"near", {}}, far{"far", {}};
+  near.motion[0] = at_times("near", 9.5, 3);
+  far.motion[0] = at_times("far", 13.5, 5);
+  far.motion[4] = at_times("turn", 14, 7);
+  const std::vector<Support> supports{near, far};
+  const SupportMotion motion(supports, ground, Resampling::linear);
+  EXPECT_NEAR(ground.origin(), 9.5, 1e-12);
+  EXPECT_NEAR(ground.acceleration(0, 2.6), 1, 1e-9);
+  EXPECT_NEAR(at(motion, 0.1)[0], 3, 1e-9);
+  EXPECT_NEAR(at(motion, 0.1)[1], 0, 1e-9);
+  EXPECT_NEAR(at(motion, 4.1)[1], 5, 1e-9);
+  EXPECT_NEAR(at(motion, 4.6)[2], 7, 1e-9);
+  EXPECT_THAT(motion.source(1), HasSubstr("sets in at 4 s"));
+}
+
 TEST_F(SupportMotionTest, ReachIsTheIntegralOfItsRecord) {
-  const GroundMotion ground({std::nullopt, std::nullopt, std::nullopt}, Resampling::linear);
+  GroundMotion ground({std::nullopt, std::nullopt, std::nullopt}, Resampling::linear);
   Support own{"own", {}};
   own.motion[0] = record("own", "1\n1\n1\n-1\n-1\n-1\n");
   const std::vector<Support> supports{own};
@@ -85,7 +117,7 @@ TEST_F(SupportMotionTest, ReachIsTheIntegralOfItsRecord) {
 }
 
 TEST_F(SupportMotionTest, RefusesWhatNoGroundDoes) {
-  const GroundMotion ground = ground_along_x();
+  GroundMotion ground = ground_along_x();
   Support own{"own", {}};
   own.motion[3] = record("turn", "0\n1\n0\n", 1e8);
   const std::vector<Support> supports{own};
