@@ -217,10 +217,10 @@ struct Contact {
 /// A recorded accelerogram in a file.
 struct RecordedMotion {
   std::string file;
-  std::string unit;  ///< "", "g", "m/s2" or "cm/s2"; "" when the file's own header says it
+  std::string unit;  ///< "", "g", "m/s2", "cm/s2" or "mm/s2"; "": the file's own header says it
   double time_step =
       0;           ///< [s]; needed for files without a time column or header; 0: from the file
-  int column = 0;  ///< column of the acceleration, 1-based; 0: the only one beside the time
+  int column = 0;  ///< of the acceleration, or component of the file, 1-based; 0: the only one
 };
 
 /// A synthetic accelerogram matched to a 5 % target spectrum.

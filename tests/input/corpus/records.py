@@ -28,7 +28,7 @@ FILES = [
     Case("a device without an end as a target", ["-motion_x_record", "none", "-motion_y_target", "/dev/zero",
                                                  "-motion_y_pga", "1"], ["/dev/zero", "device"]),
     record("counts of a recorder", "units: counts\n" + ROWS, ["counts", "docs/records.md"]),
-    record("a title below numbers", "A TITLE\n1 2 3\n4 5 6\n3 points of acceleration in g\n" + ROWS,
+    record("a title below numbers", "A TITLE\n1 2 3\n4 5 6\nthe values in g follow\n" + ROWS,
            ["line of words", "header"]),
     record("commas of which nothing tells", "3,1\n2,5\n4,2\n", ["decimal comma"], "-motion_x_time_step", "0.01"),
     record("one value", "0.1\n", ["at least 2"], "-motion_x_time_step", "0.01"),
@@ -80,7 +80,7 @@ TIMES = [
 ]
 
 UNITS = [
-    record("no unit", ROWS, ["unit", "g, m/s2 or cm/s2"], unit=""),
+    record("no unit", ROWS, ["unit", "g, m/s2, cm/s2 or mm/s2"], unit=""),
     record("two units in the header", "acceleration in g or m/s2\n" + ROWS, ["several units"], unit=""),
     record("a unit against the header", AT2, ["m/s2", "header says"], file="record.AT2", unit="m/s2"),
     Case("a unit that is none", ["-motion_x_unit", "mg"], ["-motion_x_unit mg", "cm/s2"]),
