@@ -294,6 +294,11 @@ class Gmsh(MeshCase):
         self.refuse(self.geometry('Macro Again\n Call Again;\nReturn\nCall Again;\n')
                     + ["-mesh_time_limit", "10"], "Gmsh")
 
+    def test_last_words_of_a_crash(self):
+        self.refuse(self.geometry("Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Line(1) = {1, 2}; Curve Loop(1) = {1};\n"
+                                  "Plane Surface(1) = {1}; Transfinite Surface {1} = {1, 2, 1};\n"),
+                    "Gmsh crashed", "(signal 6, Aborted)", "Something wrong in edge loop", ranks=(2,))
+
     def test_loop_without_end(self):
         self.refuse(self.geometry("x = 0;\nFor i In {1:1e15}\n x = x + 1;\nEndFor\n")
                     + ["-mesh_time_limit", "5"], "5 s", "-mesh_time_limit")
