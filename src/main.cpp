@@ -5,11 +5,13 @@
 
 #include "common/common_segments.h"
 #include "common/crowded_node.h"
+#include "common/dense_solver.h"
 #include "common/error.h"
 #include "common/parallel.h"
 #include "common/petsc_session.h"
 #include "common/vector_unit.h"
 #include "ensemble/run_ensemble.h"
+#include "io/hdf5_library.h"
 #include "scene/command_line.h"
 #include "scene/options_database.h"
 #include "scene/scene_origin.h"
@@ -20,14 +22,13 @@ namespace {
 /// Does what the words ask. PETSc is started when the scene is read, and outlives the run.
 void run_words(MPI_Comm comm, std::span<const std::string> words,
                std::optional<pounding::PetscSession>& petsc) {
-  const bool root = pounding::rank_of(comm) == 0;
   const pounding::CommandLine line = pounding::read_command_line(words);
   if (line.help || line.version) {
-    if (root) {
-      std::fputs((line.help ? pounding::help_text() : pounding::version_text()).c_str(), stdout);
-    }
+    const std::string text = line.help ? pounding::help_text() : pounding::version_text();
+    if (pounding::rank_of(comm) == 0) std::fputs(text.c_str(), stdout);
     return;
   }
+  pounding::on_every_rank(comm, pounding::take_blas_memory);
   std::vector<std::string> files;
   const pounding::OptionsDatabase database = pounding::read_options_database(comm, line, &files);
   pounding::ReadScene read = pounding::read_scene(database);
@@ -38,8 +39,7 @@ void run_words(MPI_Comm comm, std::span<const std::string> words,
   pounding::run_as_asked(comm, read, database, pounding::origin_of(line, files));
 }
 
-/// Exit status of the job: 0, 1 after an error, 2 stopped by a signal; messages are one line from
-/// rank 0.
+/// Exit status: 0, 1 after an error, 2 stopped by a signal; a message is one line from rank 0.
 int run_job(MPI_Comm comm, std::span<const std::string> words) {
   const pounding::NamelessSegments segments;
   const bool root = pounding::rank_of(comm) == 0;
@@ -72,9 +72,9 @@ int main(int count, char** words) {
   if (!pounding::fits_this_machine()) return 1;
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a log grows line by line
   pounding::yield_where_crowded();
+  pounding::prepare_hdf5();  // before MPI: else HDF5 closes its files once more at the end of it
   MPI_Init(&count, &words);
-  const std::vector<std::string> arguments(words + 1, words + count);
-  const int status = run_job(MPI_COMM_WORLD, arguments);
+  const int status = run_job(MPI_COMM_WORLD, std::vector<std::string>(words + 1, words + count));
   MPI_Finalize();
   return status;
 }

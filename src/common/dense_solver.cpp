@@ -2,12 +2,25 @@
 
 #include <cmath>
 #include <cstddef>
+#include <new>
+#include <sys/mman.h>
 
 #include <petscsys.h>
 // LAPACK declarations need the types above.
 #include <petscblaslapack.h>
 
 namespace pounding {
+
+void take_blas_memory() {
+  constexpr std::size_t wanted = 132 << 20;
+  void* const trial =
+      mmap(nullptr, wanted, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (trial == MAP_FAILED) throw std::bad_alloc();
+  munmap(trial, wanted);
+  std::vector<double> matrix{1};
+  std::vector<double> values{1};
+  solve_dense(matrix, values);
+}
 
 bool solve_dense(std::vector<double>& matrix, std::vector<double>& values) {
   std::vector<int> pivots(values.size());

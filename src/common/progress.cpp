@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <system_error>
 #include <utility>
 
 #include "common/memory.h"
@@ -24,7 +25,11 @@ Progress::Progress(MPI_Comm comm, std::string what, double interval, std::FILE* 
     : what_(std::move(what)), out_(out), interval_(interval), start_(now()) {
   if (std::isfinite(interval) && rank_of(comm) == 0) {
     share_memory_among_threads();
-    watcher_ = std::thread([this, interval] { watch(interval); });
+    try {
+      watcher_ = std::thread([this, interval] { watch(interval); });
+    } catch (const std::system_error&) {
+      // No memory for a thread: the work goes on untold, until it lacks memory itself.
+    }
   }
 }
 
@@ -49,7 +54,12 @@ void Progress::watch(double interval) {
   std::unique_lock lock(mutex_);
   const auto over = [this] { return over_; };
   double next = interval;
-  while (!ended_.wait_for(lock, std::chrono::duration<double>(next - elapsed()), over)) {
+  constexpr double longest_wait = 1e6;  // s; clocks count nanoseconds
+  const auto wait = [&] {
+    return std::chrono::duration<double>(std::min(next - elapsed(), longest_wait));
+  };
+  while (!ended_.wait_for(lock, wait(), over)) {
+    if (elapsed() < next) continue;
     print("");
     next += std::min(next, std::max(interval, longest_silence));
   }

@@ -44,9 +44,8 @@ Recorder::Recorder(Layout layout, std::span<const LinearSystem> systems,
     send_array(layout_.comm, 0, mine);
     send_array(layout_.comm, 0, std::vector<int>{static_cast<int>(width_)});
     send_array(layout_.comm, 0, layout_.my_links);
-    return;
   }
-  for (int rank = 0; rank < size_of(layout_.comm); ++rank) {
+  for (int rank = 0; rank_of(layout_.comm) == 0 && rank < size_of(layout_.comm); ++rank) {
     std::vector<int> width{static_cast<int>(width_)};
     rank_links_.push_back(layout_.my_links);
     if (rank > 0) {
@@ -59,8 +58,8 @@ Recorder::Recorder(Layout layout, std::span<const LinearSystem> systems,
       order_.push_back({static_cast<std::size_t>(mine[i]), static_cast<std::size_t>(mine[i + 1])});
     }
   }
-  name_channels();
-  if (layout_.continued.empty()) create_file(layout_.path);
+  if (rank_of(layout_.comm) == 0) name_channels();
+  if (layout_.continued.empty()) on_rank0(layout_.comm, [&] { create_file(layout_.path); });
 }
 
 Recorder::StructureNodes Recorder::find_nodes(const LinearSystem& system, const Mesh& mesh,

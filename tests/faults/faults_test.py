@@ -192,12 +192,53 @@ class Faults(unittest.TestCase):
             self.emptied()
 
     def test_the_disk_is_full(self):
-        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1000k", "none", self.folder],
-                                 capture_output=True)
+        self.mount("1000k")
+        self.fill_up("the disk is full")
+
+    def mount(self, size):
+        """A small file system in the folder of the run."""
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "none", self.folder], capture_output=True)
         if mounted.returncode != 0:
             self.skipTest("no right to mount a small file system")
-        self.addCleanup(subprocess.run, ["umount", "--lazy", self.folder], check=True)
-        self.fill_up("the disk is full")
+        self.addCleanup(subprocess.run, ["umount", "--lazy", self.folder], capture_output=True)
+
+    def small_disks(self, name, arguments, sizes, ranks, last):
+        """On a disk of any size a run ends well, or with one line, and without the file that it writes last."""
+        row = TABLE.setdefault(name, {"tries": 0, "slowest": 0.0, "lines": 0, "whole": 0, "continued": 0, "statuses": set()})
+        for size in sizes:
+            self.mount(f"{size}k")
+            since = time.time()
+            result = program.run([*arguments, "-output", self.folder], ranks, 120, environment=ENVIRONMENT)
+            row["tries"] += 1
+            row["slowest"] = max(row["slowest"], time.time() - since)
+            row["statuses"].add(result.returncode)
+            if result.returncode != 0:
+                self.assertEqual(result.returncode, 1, f"{size} kB: {result.stderr[-2000:]}")
+                lines = program.error_lines(result)
+                self.assertEqual(len(lines), 1, result.stderr[-2000:])
+                self.assertRegex(lines[0], "disk|No space left")
+                row["lines"] += 1
+                self.assertFalse(os.path.exists(os.path.join(self.folder, last)), size)
+            subprocess.run(["umount", self.folder], check=True)
+        self.assertEqual(result.returncode, 0, result.stderr[-2000:])
+        self.assertGreater(row["lines"], 0)
+
+    def test_small_disks(self):
+        short = BAR + ["-bar_mesh_set", "lz=4,nz=4", "-end_time", 2, "-output_interval", 0.02, "-fields_interval", 0.2,
+                       "-write_model", "-checkpoint_steps", 200]
+        self.small_disks("small disks", short, (8, 32, 64, 128, 192, 256, 4000), RANKS, "summary.json")
+
+    def test_small_disks_of_ensembles(self):
+        table = os.path.join(self.base, "members.csv")
+        with open(table, "w") as file:
+            file.write("motion_level\n" + "1\n2\n" * 20)
+        wave = os.path.join(self.base, "wave.txt")
+        with open(wave, "w") as file:
+            file.writelines(f"{0.01 * i:.2f} {(-1) ** i}\n" for i in range(20))
+        words = BAR + ["-bar_mesh_set", "lz=4,nz=4", "-bar_gravity", "0,0,0", "-bar_model", "modal", "-bar_modal_vectors", 6,
+                       "-bar_allow_loose", "-ensemble", table, "-motion_x_record", wave, "-motion_x_unit", "m/s2",
+                       "-end_time", 0.2, "-output_interval", 0.02]
+        self.small_disks("small disks of ensembles", words, (8, 24, 48, 64, 4000), RANKS, "ensemble.csv")
 
     def test_memory_runs_out(self):
         """Limits from what the small scene needs up to what the large one does."""

@@ -36,7 +36,7 @@ MAY_INCLUDE = {
     "ensemble": {"common", "io", "scene", "mesh", "system", "modal", "stability", "motion", "contact",
                  "dynamics", "output", "driver"},
     "spectra": {"common", "io", "scene", "motion", "output"},
-    "main.cpp": {"common", "scene", "ensemble"},
+    "main.cpp": {"common", "io", "scene", "ensemble"},
     "spectra_main.cpp": {"spectra"},
     "mesh_main.cpp": {"mesh"},
 }
