@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -26,15 +27,15 @@ namespace fs = std::filesystem;
 }
 
 void try_writing(const std::string& option, const std::string& folder) {
-  const fs::path trial = fs::path(folder) / (".trial-" + std::to_string(getpid()));
-  errno = 0;
-  std::ofstream file(trial);
-  file << "trial\n";
-  file.close();
-  const std::string why = file ? "" : std::strerror(errno);
-  std::error_code failure;
-  fs::remove(trial, failure);
-  if (!why.empty()) refuse(option, folder, why);
+  std::string trial = folder + "/.trial-XXXXXX";
+  const int file = mkstemp(trial.data());
+  const bool written = file >= 0 && write(file, "trial\n", 6) == 6;
+  const std::string why = std::strerror(errno);
+  if (file >= 0) {
+    close(file);
+    unlink(trial.c_str());
+  }
+  if (!written) refuse(option, folder, why);
 }
 
 bool tells_the_scene(const std::string& option) {

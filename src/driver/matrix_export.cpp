@@ -9,6 +9,7 @@
 #include "common/parallel.h"
 #include "io/csv_file.h"
 #include "io/matrix_market.h"
+#include "io/new_file.h"
 #include "system/damping_matrix.h"
 #include "system/links.h"
 
@@ -83,6 +84,7 @@ class Export {
     const std::string folder = scene_.export_matrices + "/" + system.name + "/";
     on_rank0(comm_, [&] {
       std::error_code failure;
+      require_no_link(scene_.export_matrices + "/" + system.name);
       std::filesystem::create_directories(folder, failure);
       if (failure) {
         throw UserError("option -export_matrices " + scene_.export_matrices +

@@ -19,6 +19,7 @@
 #include "driver/report.h"
 #include "io/file_digest.h"
 #include "io/file_seal.h"
+#include "io/new_file.h"
 
 namespace pounding {
 namespace {
@@ -265,16 +266,12 @@ void pass_common(Stream& stream, Whole& whole, AnyModel& model,
 
 /// Writes a sealed file. Throws UserError.
 void write_sealed(const std::string& path, const std::function<void(ByteWriter&)>& write) {
-  std::ofstream file(path, std::ios::binary);
-  const std::array<char, seal_size> place{};
-  file.write(place.data(), place.size());
-  const WriteBytes bytes = [&](std::span<const char> values) {
-    file.write(values.data(), static_cast<std::streamsize>(values.size()));
-  };
+  NewFile file(path);
+  file.write(std::array<char, seal_size>{});
+  const WriteBytes bytes = [&](std::span<const char> values) { file.write(values); };
   ByteWriter writer(bytes);
   write(writer);
   file.close();
-  if (!file) throw UserError(path + ": could not be written completely (is the disk full?)");
   seal_file(path);
 }
 
@@ -377,7 +374,11 @@ void cut_and_write(const Scene& scene, const WholeMeshes& whole, Model& model) {
     pass_head(stream, head);
     pass_common(stream, whole, std::as_const(model), spread);
   });
-  fs::rename(fresh, common_path(scene));
+  std::error_code failure;
+  fs::rename(fresh, common_path(scene), failure);
+  if (failure) {
+    throw UserError(common_path(scene) + ": could not be written (" + failure.message() + ")");
+  }
   for (std::size_t s = 0; s < nodes.size(); ++s) {
     print_pieces(scene.structures[s], whole.meshes[s], nodes[s]);
   }

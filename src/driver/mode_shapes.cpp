@@ -6,8 +6,8 @@
 #include "common/parallel.h"
 #include "driver/mesh_labels.h"
 #include "io/hdf5_file.h"
+#include "io/new_file.h"
 #include "mesh/node_table.h"
-#include "output/result_folder.h"
 
 namespace pounding {
 namespace {

@@ -11,8 +11,8 @@
 #include "common/parallel.h"
 #include "contact/tangential_rows.h"
 #include "driver/mesh_labels.h"
+#include "io/new_file.h"
 #include "mesh/node_table.h"
-#include "output/result_folder.h"
 
 namespace pounding {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <optional>
 #include <sstream>
@@ -26,6 +25,7 @@
 #include "driver/summary.h"
 #include "driver/time_loop.h"
 #include "driver/warnings.h"
+#include "io/new_file.h"
 #include "output/energy_ledger.h"
 #include "output/result_folder.h"
 
@@ -44,13 +44,7 @@ void begin_results(const Scene& scene, const std::string& resolved, const Proven
                    const ResultFolder& folder) {
   const std::vector<std::string> removed = folder.clear(scene.restart);
   if (!removed.empty()) print_removed(scene, removed);
-  std::ofstream file(scene.output + "/resolved.yaml");
-  file << resolved << provenance_comment(provenance);
-  file.close();
-  if (!file) {
-    throw UserError("option -output " + scene.output +
-                    ": resolved.yaml cannot be written there (is the disk full?)");
-  }
+  write_whole_file(scene.output + "/resolved.yaml", resolved + provenance_comment(provenance));
 }
 
 std::vector<std::string> contact_names(const Scene& scene) {

@@ -11,7 +11,7 @@
 #include "driver/region_report.h"
 #include "driver/rest.h"
 #include "driver/soil_report.h"
-#include "output/result_folder.h"
+#include "io/new_file.h"
 #include "scene/resolved_options.h"
 #include "stability/stable_time_step.h"
 

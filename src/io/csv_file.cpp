@@ -5,15 +5,20 @@
 namespace pounding {
 
 CsvFile::CsvFile(const std::string& path, int digits)
-    : standard_output_(path.empty() || path == "/dev/stdout"),
-      path_(standard_output_ ? "standard output" : path),
-      digits_(digits),
-      file_(standard_output_ ? stdout : std::fopen(path.c_str(), "w")) {
+    : place_(path.empty() || path == "/dev/stdout"                         ? Place::standard_output
+             : path.starts_with("/dev/") && !path.starts_with("/dev/shm/") ? Place::device
+                                                                           : Place::file),
+      path_(place_ == Place::standard_output ? "standard output" : path),
+      digits_(digits) {
+  if (place_ == Place::file) new_file_.emplace(path);
+  file_ = place_ == Place::standard_output ? stdout
+          : place_ == Place::device        ? std::fopen(path.c_str(), "w")
+                                           : new_file_->stream();
   if (file_ == nullptr) throw UserError(path + ": cannot be written");
 }
 
 CsvFile::~CsvFile() {
-  if (file_ != nullptr && !standard_output_) std::fclose(file_);
+  if (file_ != nullptr && place_ == Place::device) std::fclose(file_);
 }
 
 void CsvFile::comment(const std::string& text) {
@@ -35,8 +40,9 @@ void CsvFile::row(const std::string& label, std::span<const double> values) {
 }
 
 void CsvFile::close() {
+  if (new_file_) return new_file_->close();
   const bool failed = std::ferror(file_) != 0;
-  const bool lost = (standard_output_ ? std::fflush(file_) : std::fclose(file_)) != 0;
+  const bool lost = (place_ == Place::device ? std::fclose(file_) : std::fflush(file_)) != 0;
   file_ = nullptr;
   if (failed || lost) {
     throw UserError(path_ + ": could not be written completely (is the disk full?)");

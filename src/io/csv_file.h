@@ -2,18 +2,23 @@
 
 #include <cstdio>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
+
+#include "io/new_file.h"
 
 namespace pounding {
 
 /// A CSV file: one header line, then rows of numbers. Comment lines ("# ") stand before the header
 /// in files that the program itself reads back, in no others: a spreadsheet takes the first line
-/// for the names of the columns. Throws UserError if it cannot be opened or written.
+/// for the names of the columns. A file that is not closed goes again, so that what is there is
+/// complete. Throws UserError if it cannot be opened or written.
 class CsvFile {
  public:
   /// `path` empty or "/dev/stdout": the standard output of the program, wherever it stands; opened
-  /// by name it would begin again at the start of its file. `digits`: significant ones of each
+  /// by name it would begin again at the start of its file. What else is named in /dev is written
+  /// as it stands there, every other name is taken anew (NewFile). `digits`: significant ones of each
   /// number; 17 give it back to the bit.
   explicit CsvFile(const std::string& path, int digits = 17);
   CsvFile(const CsvFile&) = delete;
@@ -31,9 +36,12 @@ class CsvFile {
   void close();
 
  private:
-  bool standard_output_ = false;
+  enum class Place { standard_output, device, file };
+
+  Place place_;
   std::string path_;
   int digits_;
+  std::optional<NewFile> new_file_;
   std::FILE* file_ = nullptr;
 };
 

@@ -1,13 +1,12 @@
 #include "io/file_seal.h"
 
+#include <algorithm>
 #include <array>
-#include <cstdint>
 #include <cstdio>
 #include <fcntl.h>
 #include <fstream>
 #include <stdexcept>
 #include <unistd.h>
-#include <vector>
 #include <zlib.h>
 
 #include "common/error.h"
@@ -15,35 +14,78 @@
 namespace pounding {
 namespace {
 
-using Seal = std::array<char, seal_size>;
+constexpr auto first_byte = static_cast<std::int64_t>(seal_size);
+constexpr std::int64_t largest_place = 1LL << 56;  ///< that is believed
 
-/// The seal that the bytes of a file behind its first 512 ask for; `readable` is false if they
-/// could not be read to their end.
-Seal seal_of(std::ifstream& file, bool& readable) {
-  std::uint64_t bytes = 0;
-  uLong sum = crc32(0, nullptr, 0);
+/// Adds bytes of a file to a sum, which ends early where they cannot be read.
+void add_bytes(std::ifstream& file, std::int64_t first, std::int64_t end, uLong& sum) {
   std::vector<char> block(1 << 20);
-  file.seekg(seal_size);
-  while (file) {
-    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+  file.seekg(first);
+  while (first < end && file) {
+    file.read(block.data(), std::min<std::int64_t>(end - first, std::ssize(block)));
     sum =
         crc32(sum, reinterpret_cast<const Bytef*>(block.data()), static_cast<uInt>(file.gcount()));
-    bytes += static_cast<std::uint64_t>(file.gcount());
+    first += file.gcount();
   }
-  readable = file.eof();
-  Seal seal{};
-  std::snprintf(seal.data(), seal.size(), "pounding seal 1\nbytes %llu\ncrc32 %08lx\n",
-                static_cast<unsigned long long>(bytes), static_cast<unsigned long>(sum));
-  return seal;
+}
+
+/// The seal that the bytes of a file behind its first 512 ask for; nothing if they cannot be read
+/// to their end, or if the places do not lie in them one behind the other. Places that touch become
+/// one.
+std::string seal_of(std::ifstream& file, const std::vector<OpenPlace>& open) {
+  file.seekg(0, std::ios::end);
+  const std::int64_t size = file.tellg();
+  uLong sum = crc32(0, nullptr, 0);
+  std::int64_t place = first_byte;
+  std::string lines;
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    OpenPlace one = open[i];
+    while (i + 1 < open.size() && open[i + 1].first == one.first + one.bytes) {
+      one.bytes += open[++i].bytes;
+    }
+    if (one.first < place || one.bytes < 0 || one.bytes > size - one.first) return "";
+    add_bytes(file, place, one.first, sum);
+    place = one.first + one.bytes;
+    lines += "open " + std::to_string(one.first) + " " + std::to_string(one.bytes) + "\n";
+  }
+  add_bytes(file, place, size, sum);
+  if (!file) return "";
+  std::array<char, 80> head{};
+  std::snprintf(head.data(), head.size(), "pounding seal 1\nbytes %lld\ncrc32 %08lx\n",
+                static_cast<long long>(size - first_byte), static_cast<unsigned long>(sum));
+  return head.data() + lines;
+}
+
+/// The first bytes of a file, padding included; empty if it is shorter.
+std::string head_of(std::ifstream& file) {
+  std::string head(seal_size, '\0');
+  file.read(head.data(), std::ssize(head));
+  return file ? head : "";
+}
+
+std::vector<OpenPlace> places_in(const std::string& head) {
+  std::vector<OpenPlace> places;
+  for (std::size_t at = head.find("\nopen "); at != std::string::npos;
+       at = head.find("\nopen ", at + 1)) {
+    long long first = 0;
+    long long bytes = 0;
+    if (std::sscanf(head.c_str() + at, "\nopen %lld %lld\n", &first, &bytes) != 2) break;
+    if (std::max(first, bytes) > largest_place || std::min(first, bytes) < 0) break;
+    places.push_back({first, bytes});
+  }
+  return places;
 }
 
 }  // namespace
 
-void seal_file(const std::string& path) {
-  bool readable = false;
+void seal_file(const std::string& path, std::vector<OpenPlace> open) {
+  std::ranges::sort(open, {}, &OpenPlace::first);
   std::ifstream content(path, std::ios::binary);
-  const Seal seal = seal_of(content, readable);
-  const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  std::string seal = seal_of(content, open);
+  const bool readable = !seal.empty();
+  if (seal.size() > seal_size) throw std::logic_error(path + ": too many places are left open");
+  seal.resize(seal_size, '\0');
+  const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
   const bool written =
       readable && file >= 0 &&
       pwrite(file, seal.data(), seal.size(), 0) == static_cast<ssize_t>(seal_size) &&
@@ -52,18 +94,23 @@ void seal_file(const std::string& path) {
   if (!written) throw UserError(path + ": could not be written completely (is the disk full?)");
 }
 
+std::vector<OpenPlace> open_places(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return places_in(head_of(file));
+}
+
 void check_seal(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  Seal written{};
-  if (!file.read(written.data(), written.size()) ||
-      std::string(written.data(), 13) != "pounding seal") {
+  const std::string written = head_of(file);
+  if (!written.starts_with("pounding seal")) {
     throw std::runtime_error(
         path +
-        ": not a checkpoint, modal basis or piece of a mesh: it does not begin with "
+        ": not a checkpoint, modal basis, piece of a mesh or ensemble: it does not begin with "
         "the seal of one; another file, of an older version, or damaged");
   }
-  bool readable = false;
-  if (seal_of(file, readable) != written || !readable) {
+  std::string due = seal_of(file, places_in(written));
+  due.resize(seal_size, '\0');
+  if (due != written) {
     throw std::runtime_error(path +
                              ": its content is not what was sealed; it is damaged, or it was "
                              "changed and not sealed anew (run/seal; pounding-tools seal)");

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 /// A seal in front of an HDF5 file that the program reads back: 512 bytes of text, padded with
 /// zeros, which HDF5 passes over (a user block). They hold the length and the CRC-32 (that of zlib)
@@ -10,14 +12,25 @@
 ///     pounding seal 1
 ///     bytes 123456
 ///     crc32 0123abcd
+///     open 2048 800
 ///
-/// Whoever changes such a file seals it anew: run/seal FILE.
+/// Every line `open` names a place and a number of bytes that change later and are left out of the
+/// sum; most files have none. Whoever changes such a file seals it anew: run/seal FILE.
 namespace pounding {
 
 inline constexpr std::size_t seal_size = 512;
 
+/// Bytes of a sealed file that change after it is sealed.
+struct OpenPlace {
+  std::int64_t first = 0;  ///< counted from the beginning of the file
+  std::int64_t bytes = 0;
+};
+
 /// Seals a file whose first 512 bytes are free, and brings it to the disk. Throws UserError.
-void seal_file(const std::string& path);
+void seal_file(const std::string& path, std::vector<OpenPlace> open = {});
+
+/// Places that the seal of a file leaves open, in their order; none where there is no seal.
+std::vector<OpenPlace> open_places(const std::string& path);
 
 /// Throws std::runtime_error, one line that begins with the path: no seal, or the content is not
 /// what was sealed.

@@ -7,22 +7,23 @@
 #include <unistd.h>
 
 #include "common/error.h"
-#include "io/file_seal.h"
 #include "io/hdf5_library.h"
+#include "io/new_file.h"
 #include "io/padded_texts.h"
 
 namespace pounding {
 
 Hdf5File::Hdf5File(const std::string& path, Kind kind) : path_(path), kind_(kind) {
   prepare_hdf5();
+  free_name(path);
   const hid_t access = checked(H5Pcreate(H5P_FILE_ACCESS), "create");
   const hid_t creation = checked(H5Pcreate(H5P_FILE_CREATE), "create");
   H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
   if (kind == Kind::sealed) H5Pset_userblock(creation, seal_size);
-  file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access);
+  file_ = H5Fcreate(path.c_str(), H5F_ACC_EXCL, creation, access);  // never through a link
   H5Pclose(creation);
   H5Pclose(access);
-  checked(file_, "create it (is the disk full?)");
+  checked(file_, "create it");
 }
 
 Hdf5File::~Hdf5File() {
@@ -43,47 +44,52 @@ void Hdf5File::stay_readable() {
 }
 
 void Hdf5File::flush() {
-  checked(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write (is the disk full?)");
+  checked(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write");
 }
 
 void Hdf5File::move_to(const std::string& path) {
-  std::filesystem::rename(path_, path);
+  std::error_code failure;
+  std::filesystem::rename(path_, path, failure);
+  if (failure) throw UserError(path + ": could not be written (" + failure.message() + ")");
   path_ = path;
 }
 
 void Hdf5File::let_others_write() {
-  checked(close_handles(), "write (is the disk full?)");
+  checked(close_handles(), "write");
 }
 
 void Hdf5File::close() {
+  if (kind_ == Kind::sealed) return close(std::vector<OpenPlace>{});
   let_others_write();
-  if (kind_ == Kind::sealed) {
-    seal_file(path_);
-  } else {
-    sync();
-  }
+  sync();
+}
+
+void Hdf5File::close(const std::vector<OpenPlace>& open) {
+  let_others_write();
+  seal_file(path_, open);
 }
 
 void Hdf5File::sync() const {
   const int file = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
   const int status = fsync(file);
   ::close(file);
-  checked(status, "write to the disk (is it full?)");
+  checked(status, "write to the disk");
 }
 
 void Hdf5File::mark(const std::string& attribute, double value) {
+  require_no_link(path_);
   file_ = checked(H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), "open again");
   const hid_t id = H5Aopen_by_name(file_, "/", attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT);
   checked(id, "find its attribute " + attribute);
   const herr_t status = H5Awrite(id, H5T_NATIVE_DOUBLE, &value);
   H5Aclose(id);
   checked(status, "write its attribute " + attribute);
-  checked(close_handles(), "write (is the disk full?)");
+  checked(close_handles(), "write");
   sync();
 }
 
 hid_t Hdf5File::checked(hid_t id, const std::string& what) const {
-  if (id < 0) throw UserError(path_ + ": HDF5 could not " + what);
+  if (id < 0) throw UserError(path_ + ": HDF5 could not " + what + " (is the disk full?)");
   return id;
 }
 
@@ -129,7 +135,7 @@ void Hdf5File::append(const std::string& name, std::span<const double> values) {
       H5Dwrite(dataset.id, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data());
   H5Sclose(memory);
   H5Sclose(space);
-  checked(status, "write " + name + " (is the disk full?)");
+  checked(status, "write " + name);
   dataset.rows = total[0];
 }
 
@@ -169,7 +175,7 @@ void Hdf5File::write_values(const std::string& name, std::size_t columns, hid_t 
   const hid_t dataset = create(name, type, space, properties);
   const herr_t status = H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
   H5Dclose(dataset);
-  checked(status, "write " + name + " (is the disk full?)");
+  checked(status, "write " + name);
 }
 
 std::int64_t Hdf5File::reserve(const std::string& name, const std::vector<std::size_t>& shape) {
@@ -203,6 +209,23 @@ void Hdf5File::write_strings(const std::string& name, const std::vector<std::str
   checked(status, "write " + name);
 }
 
+void Hdf5File::write_texts(const std::string& name, const std::vector<std::string>& columns,
+                           const std::vector<std::string>& values) {
+  const PaddedTexts texts(values);
+  const hid_t type = texts.type();
+  const hsize_t size[2] = {values.size() / columns.size(), columns.size()};
+  const hid_t space = checked(H5Screate_simple(2, size, nullptr), "describe " + name);
+  const hid_t properties = checked(H5Pcreate(H5P_DATASET_CREATE), "describe " + name);
+  const hid_t dataset = create(name, type, space, properties);
+  const herr_t status = H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.block.data());
+  H5Dclose(dataset);
+  H5Tclose(type);
+  checked(status, "write " + name);
+  std::string names;
+  for (const std::string& column : columns) names += (names.empty() ? "" : ",") + column;
+  write_attribute(name, "columns", names);
+}
+
 void Hdf5File::create_number(const std::string& name) {
   const hsize_t size = 1;
   const hid_t space = checked(H5Screate_simple(1, &size, nullptr), "describe " + name);
@@ -221,7 +244,7 @@ void Hdf5File::create_number(const std::string& name) {
 
 void Hdf5File::write_number(const std::string& name, double value) {
   checked(H5Dwrite(find(name).id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value),
-          "write " + name + " (is the disk full?)");
+          "write " + name);
 }
 
 void Hdf5File::write_attribute(const std::string& object, const std::string& name, double value) {

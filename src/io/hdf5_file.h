@@ -7,6 +7,8 @@
 
 #include <hdf5.h>
 
+#include "io/file_seal.h"
+
 namespace pounding {
 
 /// An HDF5 file written by one rank: two-dimensional datasets that grow by rows, and arrays written
@@ -35,6 +37,10 @@ class Hdf5File {
   /// once this one is closed; returns where it begins [bytes].
   std::int64_t reserve(const std::string& name, const std::vector<std::size_t>& shape);
   void write_strings(const std::string& name, const std::vector<std::string>& values);
+  /// A table of texts, shape (rows, columns), with the names of the columns, between commas, as its
+  /// attribute `columns`.
+  void write_texts(const std::string& name, const std::vector<std::string>& columns,
+                   const std::vector<std::string>& values);
   /// A dataset of a single number, 0 at first, whose place in the file is taken at once: writing it
   /// anew needs no space.
   void create_number(const std::string& name);
@@ -56,6 +62,8 @@ class Hdf5File {
   void let_others_write();
   /// Everything stands on the disk, or this throws.
   void close();
+  /// Likewise, sealed but for these places.
+  void close(const std::vector<OpenPlace>& open);
   /// Sets an attribute of a whole closed file that is there already.
   void mark(const std::string& attribute, double value);
 

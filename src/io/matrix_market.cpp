@@ -6,13 +6,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <memory>
 #include <optional>
 #include <sstream>
 #include <string_view>
 
 #include "common/error.h"
 #include "common/finite_file.h"
+#include "io/new_file.h"
 #include "io/petsc_binary.h"
 
 namespace pounding {
@@ -164,17 +164,13 @@ MatrixSize read_matrix(const std::string& path,
 
 void write_matrix(const std::string& path, const std::string& comment, const MatrixSize& size,
                   const std::vector<MatrixEntry>& entries) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "w"),
-                                                             std::fclose);
-  if (!file) throw UserError(path + ": cannot be written");
-  std::fprintf(file.get(), "%%%%MatrixMarket matrix coordinate real general\n%% %s\n%d %d %zu\n",
+  NewFile file(path);
+  std::fprintf(file.stream(), "%%%%MatrixMarket matrix coordinate real general\n%% %s\n%d %d %zu\n",
                comment.c_str(), size.rows, size.columns, entries.size());
   for (const MatrixEntry& entry : entries) {
-    std::fprintf(file.get(), "%d %d %.17g\n", entry.row + 1, entry.column + 1, entry.value);
+    std::fprintf(file.stream(), "%d %d %.17g\n", entry.row + 1, entry.column + 1, entry.value);
   }
-  if (std::fflush(file.get()) != 0 || std::ferror(file.get()) != 0) {
-    throw UserError(path + ": could not be written completely (is the disk full?)");
-  }
+  file.close();
 }
 
 }  // namespace pounding

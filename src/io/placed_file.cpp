@@ -6,12 +6,15 @@
 #include <unistd.h>
 
 #include "common/error.h"
+#include "io/new_file.h"
 
 namespace pounding {
 
 PlacedFile::PlacedFile(const std::string& path, Access access)
     : path_(path),
-      file_(open(path.c_str(), (access == Access::write ? O_WRONLY : O_RDONLY) | O_CLOEXEC)) {
+      file_(open(path.c_str(),
+                 (access == Access::write ? O_WRONLY | O_NOFOLLOW : O_RDONLY) | O_CLOEXEC)) {
+  if (access == Access::write) require_no_link(path);
   if (file_ < 0) fail("be opened");
 }
 

@@ -7,7 +7,8 @@
 namespace pounding {
 
 /// A file that is there, read and written by places in bytes, by any number of processes at once as
-/// long as their places differ. Errors throw UserError naming it.
+/// long as their places differ; written not through a symbolic link. Errors throw UserError naming
+/// it.
 class PlacedFile {
  public:
   enum class Access { read, write };

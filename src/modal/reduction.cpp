@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <set>
 
 #include "common/error.h"
 #include "common/parallel.h"
 #include "contact/tangential_rows.h"
+#include "io/new_file.h"
 #include "mesh/mesh.h"
 #include "modal/basis_key.h"
 #include "modal/buckling.h"
@@ -115,10 +115,8 @@ std::optional<ModalBasis> stored_basis(const Structure& structure, const BasisKe
   with_file(structure, [&] {
     if (std::filesystem::exists(path)) {
       stored = read_modal_basis(path, key);
-    } else if (!std::ofstream(path + ".new")) {
-      throw std::runtime_error(path + ": cannot be written");
     } else {
-      std::filesystem::remove(path + ".new");
+      NewFile(path + ".new");  // goes again
     }
   });
   if (stored.basis) {

@@ -70,7 +70,9 @@ void FieldWriter::load() {
   create(path + ".new");
   on_rank0(layout_.comm, [&] {
     copy_frames(path + ".new");
-    std::filesystem::rename(path + ".new", path);
+    std::error_code failure;
+    std::filesystem::rename(path + ".new", path, failure);
+    if (failure) throw UserError(path + ": could not be written (" + failure.message() + ")");
     for (std::int64_t frame = 0; frame < frames_; ++frame) text_ += frame_text(frame);
   });
   open();

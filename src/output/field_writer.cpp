@@ -8,8 +8,8 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "io/new_file.h"
 #include "mesh/node_table.h"
-#include "output/result_folder.h"
 
 namespace pounding {
 namespace {

@@ -20,9 +20,9 @@ constexpr const char* lock_name = "running.lock";
 
 /// Files that a run writes, and, while it writes, under which names.
 constexpr std::array written{
-    "resolved.yaml",  "summary.json",  "summary.json.new", "spectra.csv",       "impacts.csv",
-    "energy.csv",     "forces.csv",    "history.h5.new",   "checkpoint.h5.new", "model.xdmf.new",
-    "modes.xdmf.new", "fields.h5.new", "fields.xdmf.new"};
+    "resolved.yaml",  "resolved.yaml.new", "summary.json",  "summary.json.new", "spectra.csv",
+    "impacts.csv",    "energy.csv",        "forces.csv",    "history.h5.new",   "checkpoint.h5.new",
+    "model.xdmf.new", "modes.xdmf.new",    "fields.h5.new", "fields.xdmf.new"};
 /// Files that a run in the same folder goes on from.
 constexpr std::array continued{"history.h5", "checkpoint.h5", "modes.h5",  "modes.xdmf",
                                "model.h5",   "model.xdmf",    "fields.h5", "fields.xdmf"};
@@ -71,7 +71,10 @@ ResultFolder::ResultFolder(const std::string& path)
 void ResultFolder::lock() {
   const std::string path = lock_path(path_);
   for (bool own = false; !own;) {
-    lock_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    lock_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (lock_ < 0 && errno == ELOOP && unlink(path.c_str()) == 0) {
+      continue;  // of a link the link went
+    }
     if (lock_ < 0) {
       throw UserError("option -output " + path_ + ": the folder cannot be created or written");
     }
@@ -106,7 +109,8 @@ std::vector<std::string> ResultFolder::clear(const std::string& restart) const {
                                                           fs::absolute(path_), ignored);
   std::vector<std::string> removed;
   const auto remove = [&](const char* name) {
-    if (fs::is_regular_file(fs::symlink_status(path_ + "/" + name)) &&
+    const fs::file_status there = fs::symlink_status(path_ + "/" + name, ignored);
+    if ((fs::is_regular_file(there) || fs::is_symlink(there)) &&  // of a link the link alone
         fs::remove(path_ + "/" + name, ignored)) {
       removed.emplace_back(name);
     }
@@ -116,18 +120,6 @@ std::vector<std::string> ResultFolder::clear(const std::string& restart) const {
     if (!goes_on) remove(name);
   }
   return removed;
-}
-
-void write_whole_file(const std::string& path, const std::string& text) {
-  const std::string draft = path + ".new";
-  std::ofstream file(draft);
-  file << text;
-  file.close();
-  std::error_code failure;
-  if (file) fs::rename(draft, path, failure);
-  if (!file || failure) {
-    throw UserError(path + ": could not be written completely (is the disk full?)");
-  }
 }
 
 }  // namespace pounding

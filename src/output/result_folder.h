@@ -35,8 +35,4 @@ class ResultFolder {
   int lock_ = -1;                            ///< file descriptor
 };
 
-/// Writes a whole file: under another name first, so that there is the old one, or none, until the
-/// new one is complete. Throws UserError (no space).
-void write_whole_file(const std::string& path, const std::string& text);
-
 }  // namespace pounding

@@ -108,12 +108,67 @@ class ResultFolder(unittest.TestCase):
         self.assertGreater(rows, 0)
         self.assertLess(rows, 4096)
 
+    def test_no_link_is_followed(self):
+        """Links of every name that a run writes: what they point to stays as it is, and the results are files."""
+        words = [*BAR, "-end_time", 0.2, "-fields_interval", 0.1, "-write_modes", "-write_model", "-checkpoint_steps", 50,
+                 "-forces", "base", "-base_kind", "reactions", "-base_structure", "bar", "-output", self.folder]
+        result = program.run(words, 2)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        names = os.listdir(self.folder)
+        self.assertGreater(len(names), 10)
+        elsewhere = tempfile.mkdtemp(prefix="pounding-elsewhere-")
+        self.addCleanup(shutil.rmtree, elsewhere)
+        drafts = [name + ".new" for name in names]
+        for name in [*names, *drafts, "running.lock"]:
+            with open(os.path.join(elsewhere, name), "w") as file:
+                file.write("mine")
+            if name in names:
+                os.remove(self.path(name))
+            os.symlink(os.path.join(elsewhere, name), self.path(name))
+        result = program.run(words, 2)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for name in os.listdir(elsewhere):
+            with open(os.path.join(elsewhere, name)) as file:
+                self.assertEqual(file.read(), "mine", name)
+        for name in names:
+            self.assertTrue(os.path.isfile(self.path(name)) and not os.path.islink(self.path(name)), name)
+
+    def test_exported_matrices_go_through_no_link(self):
+        words = [*BAR, "-export_matrices", self.folder, "-dry_run"]
+        self.assertEqual(program.run(words, 1).returncode, 0)
+        target = self.path("target")
+        for name in os.listdir(self.path("bar")):
+            os.remove(os.path.join(self.path("bar"), name))
+            os.symlink(target, os.path.join(self.path("bar"), name))
+        with open(target, "w") as file:
+            file.write("mine")
+        self.assertEqual(program.run(words, 2).returncode, 0)
+        with open(target) as file:
+            self.assertEqual(file.read(), "mine")
+        shutil.move(self.path("bar"), self.path("elsewhere"))
+        os.symlink(self.path("elsewhere"), self.path("bar"))
+        program.must_refuse(self, words, "bar: a symbolic link")
+
+    def test_seal_leaves_alone_what_is_not_sealed(self):
+        path = self.path("notes.txt")
+        text = b"pounding seal 1\nbytes 9\ncrc32 00000000\nis how a checkpoint begins\n" + b"notes\n" * 200
+        for content in (text, text[:100], b"pounding seal 1\n", b"pounding seal 1\nbytes 1\ncrc32 00000000\n"):
+            with open(path, "wb") as file:
+                file.write(content)
+            result = program.command("seal", path)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("does not begin with a seal", result.stderr)
+            with open(path, "rb") as file:
+                self.assertEqual(file.read(), content)
+        result = program.command("seal", self.folder)
+        self.assertEqual((result.returncode, len(result.stderr.splitlines())), (1, 1), result.stderr)
+
     def test_a_summary_is_whole_or_not_there(self):
         os.mkdir(self.path("summary.json.new"))  # where it would be drafted
         result = program.run([*BAR, "-output", self.folder], 2)
         self.assertEqual(result.returncode, 1)
         line, = program.error_lines(result)
-        self.assertIn("summary.json: could not be written completely", line)
+        self.assertIn("summary.json.new: cannot be written: what has that name is no file", line)
         self.assertFalse(os.path.exists(self.path("summary.json")))
 
 

@@ -64,6 +64,28 @@ TEST_F(FileSeal, FindsEveryChange) {
   EXPECT_THAT(complaint(bytes_ + "more"), testing::HasSubstr("not what was sealed"));
 }
 
+TEST_F(FileSeal, LeavesPlacesOpen) {
+  std::int64_t place = 0;
+  {
+    Hdf5File file(path_, Hdf5File::Kind::sealed);
+    file.write_array("values", 0, std::vector<double>{1, 2, 3});
+    place = file.reserve("later", {2});
+    file.let_others_write();
+    file.close({{place + 8, 8}, {place, 8}});  // they touch: one place
+  }
+  std::ifstream written(path_, std::ios::binary);
+  bytes_.assign(std::istreambuf_iterator<char>(written), {});
+  EXPECT_THAT(bytes_, testing::HasSubstr("\nopen " + std::to_string(place) + " 16\n"));
+  EXPECT_EQ(open_places(path_).size(), 1U);
+  for (std::size_t at = 0; at < bytes_.size(); ++at) {
+    std::string other = bytes_;
+    other[at] = static_cast<char>(other[at] ^ (1 << at % 8));
+    const bool open =
+        at >= static_cast<std::size_t>(place) && at < static_cast<std::size_t>(place) + 16;
+    EXPECT_EQ(complaint(other).empty(), open) << at;
+  }
+}
+
 TEST_F(FileSeal, IsMissingInOtherFiles) {
   { Hdf5File(path_).write_array("values", 0, std::vector<double>{1}); }
   EXPECT_THROW(check_seal(path_), std::runtime_error);
