@@ -1,6 +1,7 @@
 #include "spectra/spectra_job.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 
@@ -170,6 +171,29 @@ void write_spectra(CsvFile& file, const SpectraOptions& options,
   }
 }
 
+/// Nothing but an earlier table gives way to a new one, and never what is read here.
+void require_free_place(const SpectraOptions& options, const std::string& option,
+                        const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code failure;
+  if (path.empty() || !fs::is_regular_file(path, failure)) return;
+  const auto refuse = [&](const std::string& why) {
+    throw UserError(option + " " + path + ": " + why + "; give another file");
+  };
+  std::vector<std::string> inputs = options.files;
+  inputs.push_back(options.impacts);
+  for (const std::string& input : inputs) {
+    if (fs::equivalent(path, input, failure)) refuse("the program reads that file");
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  while (std::getline(file, line) && line.starts_with('#')) {
+  }
+  if (!line.empty() && !line.starts_with("probe,direction,")) {
+    refuse("there is a file of that name that is no table of spectra or peaks");
+  }
+}
+
 void write_peaks(CsvFile& file, const Input& input) {
   const SampledSignal& signal = input.named.signal;
   const auto start_of = [&](std::size_t k) {
@@ -184,6 +208,8 @@ void write_peaks(CsvFile& file, const Input& input) {
 }  // namespace
 
 void run_spectra(const SpectraOptions& options) {
+  require_free_place(options, "--output", options.output == "/dev/stdout" ? "" : options.output);
+  require_free_place(options, "--peaks", options.peaks == "/dev/stdout" ? "" : options.peaks);
   std::vector<Input> inputs;
   double longest_step = 0;
   for (NamedSignal& named : read_signals(options)) {

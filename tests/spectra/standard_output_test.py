@@ -1,6 +1,7 @@
 """The table of pounding-spectra goes to where the shell points its standard output: behind what is
 there, and never in silence to nowhere."""
 import os
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -51,6 +52,48 @@ class StandardOutput(unittest.TestCase):
             self.assertEqual(result.returncode, 1, line)
             if "--help" not in line:
                 self.assertIn("could not be written completely", result.stderr)
+
+
+class OutputFiles(unittest.TestCase):
+    """Nothing but an earlier table gives way to a new one."""
+
+    def setUp(self):
+        self.words = write_record(self, [0, 1, -1, 0.5], 0.01) + frequencies([1, 10])
+        self.folder = tempfile.mkdtemp(prefix="pounding-")
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def refuse(self, path, words=(), option="--output"):
+        with open(path, "rb") as file:
+            before = file.read()
+        result = spectra(*self.words, *words, option, path)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertEqual(len(result.stderr.splitlines()), 1)
+        self.assertIn(f"{option} {path}", result.stderr)
+        with open(path, "rb") as file:
+            self.assertEqual(file.read(), before)
+
+    def test_what_it_reads_or_what_is_no_table_stays(self):
+        link = os.path.join(self.folder, "link.csv")
+        os.symlink(self.words[0], link)
+        notes = os.path.join(self.folder, "history.h5")
+        with open(notes, "wb") as file:
+            file.write(b"\x89HDF\r\n\x1a\n" + bytes(3000))
+        peaks = ["--output", os.path.join(self.folder, "out.csv"), "--treatment", "all"]
+        for path in (self.words[0], link, notes):
+            self.refuse(path)
+            self.refuse(path, peaks, "--peaks")
+
+    def test_an_earlier_table_is_replaced_and_a_link_to_one(self):
+        path, link = os.path.join(self.folder, "out.csv"), os.path.join(self.folder, "link.csv")
+        for _ in range(2):
+            self.assertEqual(spectra(*self.words, "--output", path).returncode, 0)
+        with open(path) as file:
+            before = file.read()
+        os.symlink(path, link)
+        self.assertEqual(spectra(*self.words, "--damping", 0.1, "--output", link).returncode, 0)
+        self.assertFalse(os.path.islink(link))
+        with open(path) as file:
+            self.assertEqual(file.read(), before)
 
 
 if __name__ == "__main__":
