@@ -1,12 +1,26 @@
 #include "scene/option_reader.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/error.h"
 #include "scene/nearest_name.h"
 #include "scene/option_values.h"
 
 namespace pounding {
+namespace {
+
+/// What is wrong with a number, or null. Beyond these sizes lies no quantity of a building in any
+/// unit, and products of a few of them leave what a double holds.
+const char* fault_of(double number, const Range& range) {
+  constexpr double largest = 1e30;
+  if (!range.contains(number)) return "out of range";
+  const double size = std::abs(number);
+  const bool holdable = size == 0 || (size >= 1 / largest && size <= largest);
+  return holdable ? nullptr : "neither 0 nor between 1e-30 and 1e30 in size";
+}
+
+}  // namespace
 
 bool OptionReader::given(std::string_view pattern, const Names& names) const {
   return database_.contains(option_name(pattern, names));
@@ -36,6 +50,9 @@ std::vector<Vector3> OptionReader::points(std::string_view pattern, const Names&
   for (const std::string& item : split(text(pattern, names), ';')) {
     const auto numbers = parse_reals(item);
     if (!numbers || numbers->size() != 3) refuse(pattern, names, "'" + item + "' is not a point");
+    for (const double number : *numbers) {
+      if (const char* fault = fault_of(number, Range{})) refuse(pattern, names, fault);
+    }
     points.push_back({(*numbers)[0], (*numbers)[1], (*numbers)[2]});
   }
   return points;
@@ -79,8 +96,9 @@ std::string OptionReader::choice(std::string_view pattern, const Names& names) {
 
 double OptionReader::real(std::string_view pattern, const Names& names) {
   const auto number = parse_real(value(pattern, names));
-  if (!number || !option_row(pattern).range.contains(*number)) {
-    refuse(pattern, names, number ? "out of range" : "not a finite number");
+  if (!number) refuse(pattern, names, "not a finite number");
+  if (const char* fault = fault_of(*number, option_row(pattern).range)) {
+    refuse(pattern, names, fault);
   }
   keep(pattern, names);
   return *number;
@@ -124,8 +142,8 @@ std::vector<double> OptionReader::reals(std::string_view pattern, const Names& n
   if (!numbers) refuse(pattern, names, "not finite numbers between commas");
   if (count != 0 && numbers->size() != count) refuse(pattern, names, "wrong count of numbers");
   const Range& range = option_row(pattern).range;
-  if (!std::ranges::all_of(*numbers, [&range](double number) { return range.contains(number); })) {
-    refuse(pattern, names, "out of range");
+  for (const double number : *numbers) {
+    if (const char* fault = fault_of(number, range)) refuse(pattern, names, fault);
   }
   keep(pattern, names);
   return *numbers;
