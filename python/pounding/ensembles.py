@@ -1,5 +1,6 @@
 """What an ensemble left in its result folder, as numpy arrays. SI units throughout."""
 
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -62,6 +63,7 @@ def load_ensemble(folder) -> Ensemble:
     try:
         with h5py.File(path, "r") as file:
             table = file["members/table"]
+            _check_numbers(path, file)
             contacts = _words(file["impacts/contacts"]) if "impacts/contacts" in file else []
             none = np.zeros((table.shape[0], 0))
             return Ensemble(
@@ -73,6 +75,19 @@ def load_ensemble(folder) -> Ensemble:
                 file["gaps/smallest"][:] if contacts else none)
     except UNREADABLE as error:
         raise ResultError(f"{path}: no ensemble that can be read ({' '.join(str(error).split())})") from None
+
+
+def _check_numbers(path, file):
+    """Every member that is done has the numbers that were written: their CRC-32 stands beside it."""
+    sums = file["members/crc32"]
+    names = str(_text(sums.attrs["of"])).split(",")
+    for member in np.flatnonzero(file["done"][:] == 1):
+        found = 0
+        for name in names:
+            found = zlib.crc32(np.ascontiguousarray(file[name][member]).tobytes(), found)
+        if found != sums[member]:
+            raise ResultError(f"{path}: the numbers of member {member + 1} are not what was written; the same command "
+                              "(-ensemble) steps it again")
 
 
 def _text(value) -> str:

@@ -19,9 +19,13 @@ class ContactCheck {
                std::vector<std::string>& warnings)
       : contact_(contact), report_(report), model_size_(model_size), warnings_(warnings) {}
 
-  void check() {
+  void check_gaps() {
     check_overlap();
     if (!contact_.gap.values.empty()) check_given_gap();
+  }
+
+  void check() {
+    check_gaps();
     if (contact_.primary.structure == contact_.secondary.structure) {
       warn() << "both sides belong to structure " << contact_.secondary.structure
              << "; that is right only for parts of one building that can hit each other";
@@ -111,6 +115,13 @@ bool join_the_same(const Contact& a, const Contact& b) {
 }
 
 }  // namespace
+
+std::vector<std::string> check_gaps(const Contact& contact, const InterfaceReport& report,
+                                    double model_size) {
+  std::vector<std::string> warnings;
+  ContactCheck(contact, report, model_size, warnings).check_gaps();
+  return warnings;
+}
 
 void check_contacts(const Scene& scene, Interface& interface) {
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {

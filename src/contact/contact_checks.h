@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "contact/interface.h"
 #include "scene/scene.h"
 
@@ -11,5 +14,10 @@ namespace pounding {
 /// thresholds. Reads the interface's reports and adds to its warnings. Rank 0. Throws UserError (an
 /// overlap that is too deep).
 void check_contacts(const Scene& scene, Interface& interface);
+
+/// The checks of a contact that are about its gaps: what `report` tells of them may not be meant,
+/// one line each. Throws UserError (an overlap that is too deep).
+std::vector<std::string> check_gaps(const Contact& contact, const InterfaceReport& report,
+                                    double model_size);
 
 }  // namespace pounding

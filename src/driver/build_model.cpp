@@ -52,26 +52,26 @@ void share_foundation(MPI_Comm comm, MatPlace place, Structure& structure) {
 
 /// Tells every rank what rank 0 found in the whole meshes. Collective.
 void share_findings(MPI_Comm comm, Scene& scene, WholeMeshes& whole,
-                    std::vector<GapShare>* gap_shares, Model& model) {
+                    const ContactsKnown& contacts_known, Model& model) {
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     share_foundation(comm, whole.mats[s], scene.structures[s]);
   }
   broadcast_interface(comm, model.interface);
-  if (gap_shares != nullptr) {
+  if (contacts_known) {
     broadcast_array(comm, whole.gap_shares);
-    *gap_shares = std::move(whole.gap_shares);
+    contacts_known(model.interface, whole.gap_shares);
   }
   broadcast_probes(comm, model.probes);
   broadcast_forces(comm, model.forces);
 }
 
 /// Rank 0 reads the meshes, finds who faces whom, and sends every rank its part.
-void share_meshes(MPI_Comm comm, Scene& scene, Profile& profile, std::vector<GapShare>* gap_shares,
-                  WholeMeshes& whole, Model& model) {
+void share_meshes(MPI_Comm comm, Scene& scene, Profile& profile,
+                  const ContactsKnown& contacts_known, WholeMeshes& whole, Model& model) {
   {
     const ScopedTimer timer(profile, Phase::mesh);
     on_rank0(comm, [&] { whole = read_whole_meshes(comm, scene, model); });
-    share_findings(comm, scene, whole, gap_shares, model);
+    share_findings(comm, scene, whole, contacts_known, model);
   }
   const ScopedTimer timer(profile, Phase::partition);
   const Progress progress(comm, "partition", scene.progress_interval);
@@ -88,7 +88,7 @@ void share_meshes(MPI_Comm comm, Scene& scene, Profile& profile, std::vector<Gap
 
 /// Every rank reads its piece of meshes that were cut before; rank 0 reads the meshes of reduced
 /// structures as well, of which bases are made.
-void read_meshes(MPI_Comm comm, Scene& scene, Profile& profile, std::vector<GapShare>* gap_shares,
+void read_meshes(MPI_Comm comm, Scene& scene, Profile& profile, const ContactsKnown& contacts_known,
                  WholeMeshes& whole, Model& model) {
   std::string identity;
   {
@@ -99,7 +99,7 @@ void read_meshes(MPI_Comm comm, Scene& scene, Profile& profile, std::vector<GapS
       identity = common.identity;
     });
     broadcast(comm, identity);
-    share_findings(comm, scene, whole, gap_shares, model);
+    share_findings(comm, scene, whole, contacts_known, model);
   }
   const ScopedTimer timer(profile, Phase::partition);
   const Progress progress(comm, "pieces of meshes", scene.progress_interval);
@@ -118,11 +118,11 @@ void read_meshes(MPI_Comm comm, Scene& scene, Profile& profile, std::vector<GapS
 
 /// Every rank gets its part of the meshes. Bases of reduced structures come from the whole ones.
 void build_meshes(MPI_Comm comm, Scene& scene, std::span<const double> stiffness_factors,
-                  Profile& profile, std::vector<GapShare>* gap_shares, Model& model) {
+                  Profile& profile, const ContactsKnown& contacts_known, Model& model) {
   const std::size_t count = scene.structures.size();
   WholeMeshes whole{std::vector<GlobalMesh>(count), std::vector<MatPlace>(count), {}};
-  (scene.mesh_pieces.empty() ? share_meshes : read_meshes)(comm, scene, profile, gap_shares, whole,
-                                                           model);
+  (scene.mesh_pieces.empty() ? share_meshes : read_meshes)(comm, scene, profile, contacts_known,
+                                                           whole, model);
   for (const Mesh& mesh : model.meshes) {
     if (mesh.global_dofs > 0) continue;
     throw UserError("structure " + mesh.structure +
@@ -300,7 +300,7 @@ void choose_time_step(const Scene& scene, double stable, Model& model) {
 }
 
 Model build_model(MPI_Comm comm, Scene& scene, std::span<const double> stiffness_factors,
-                  Profile& profile, std::vector<GapShare>* gap_shares) {
+                  Profile& profile, const ContactsKnown& contacts_known) {
   Model model;
   model.buildings.resize(scene.structures.size());
   model.systems.resize(scene.structures.size());
@@ -312,7 +312,7 @@ Model build_model(MPI_Comm comm, Scene& scene, std::span<const double> stiffness
           std::make_unique<SupportMotion>(scene.supports, *model.motion, scene.resampling);
     }
   });
-  build_meshes(comm, scene, stiffness_factors, profile, gap_shares, model);
+  build_meshes(comm, scene, stiffness_factors, profile, contacts_known, model);
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     build_structure(comm, scene, s, profile, model, leans(scene.structures[s]));
   }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <span>
+#include <vector>
 
 #include <mpi.h>
 
@@ -11,13 +13,16 @@
 
 namespace pounding {
 
+/// Work on every rank once it is known who faces whom, before bases are computed, with the places
+/// of the rows on their faces. The reports of the interface are on rank 0 only.
+using ContactsKnown = std::function<void(const Interface&, const std::vector<GapShare>&)>;
+
 /// Reads, partitions, distributes and assembles; finds modes, omega_max and the time step. Soil
 /// gets its foundation from the mesh, and the scene keeps it. The model borrows from the scene.
-/// `stiffness_factors`: per structure, on the squared frequencies of a reduced one; `gap_shares`:
-/// unless null, receives where the rows of the interface lie on their faces. Throws UserError on
-/// every rank alike. Collective.
+/// `stiffness_factors`: per structure, on the squared frequencies of a reduced one; Throws
+/// UserError on every rank alike, and what `contacts_known` throws. Collective.
 Model build_model(MPI_Comm comm, Scene& scene, std::span<const double> stiffness_factors,
-                  Profile& profile, std::vector<GapShare>* gap_shares = nullptr);
+                  Profile& profile, const ContactsKnown& contacts_known = {});
 
 /// The time step and their number, where `stable` is the stable step [s]. Throws UserError.
 void choose_time_step(const Scene& scene, double stable, Model& model);

@@ -50,6 +50,8 @@ double given_interval(const Model& model, int direction) {
   return samples(model, direction).time_step;
 }
 
+}  // namespace
+
 void add_long_step(const std::string& of, double sample, double step,
                    std::vector<std::string>& warnings) {
   if (step > sample * round_off) {
@@ -59,8 +61,6 @@ void add_long_step(const std::string& of, double sample, double step,
     warnings.push_back(text.str());
   }
 }
-
-}  // namespace
 
 std::vector<std::string> run_warnings(const Scene& scene, const Model& model) {
   std::vector<std::string> warnings;

@@ -5,17 +5,18 @@
 #include <filesystem>
 #include <limits>
 #include <numeric>
+#include <zlib.h>
 
 #include "common/error.h"
 #include "io/hdf5_file.h"
 #include "io/hdf5_reader.h"
-#include "io/text_table.h"
-#include "output/result_folder.h"
+#include "io/new_file.h"
 
 namespace pounding {
 namespace {
 
 constexpr const char* identity_name = "identity";
+constexpr const char* sums_name = "members/crc32";
 
 /// A dataset with a row per member.
 struct Quantity {
@@ -49,8 +50,20 @@ std::vector<Quantity> quantities(const EnsembleLayout& layout) {
                {"impacts/impulse_sum", "N s", {contacts}, &MemberResult::impulse_sum},
                {"impacts/impulse_largest", "N s", {contacts}, &MemberResult::impulse_largest},
                {"impacts/force_peak", "N", {contacts}, &MemberResult::force_peak},
-               {"gaps/smallest", "m", {contacts}, &MemberResult::smallest_gap}});
+               {"gaps/smallest", "m", {contacts}, &MemberResult::smallest_gap},
+               {"contact/complementarity_residual", "-", {}, &MemberResult::contact_residual}});
   return list;
+}
+
+/// CRC-32 of the numbers of a member, quantity after quantity.
+double sum_of(const std::vector<Quantity>& list, const MemberResult& result) {
+  uLong sum = crc32(0, nullptr, 0);
+  for (const Quantity& quantity : list) {
+    const std::vector<double>& values = result.*quantity.values;
+    sum = crc32(sum, reinterpret_cast<const Bytef*>(values.data()),
+                static_cast<uInt>(values.size() * sizeof(double)));
+  }
+  return static_cast<double>(sum);
 }
 
 /// Numbers that say that nothing is there yet.
@@ -65,39 +78,44 @@ void fill(const PlacedFile& file, std::int64_t place, std::size_t count, double 
 void create(const std::string& path, const EnsembleLayout& layout) {
   const std::size_t members = layout.table->members();
   const std::string draft = path + ".new";
-  std::vector<std::pair<std::int64_t, std::size_t>> places;
-  {
-    Hdf5File file(draft);
-    std::vector<double> numbers(members);
-    std::iota(numbers.begin(), numbers.end(), 1.0);
-    file.write_array("members/number", 0, numbers);
-    file.write_array("spectra/damping", 0, layout.damping_ratios);
-    file.write_array("spectra/frequency", 0, layout.frequencies);
-    file.write_attribute("spectra/frequency", "unit", "Hz");
-    for (const Quantity& quantity : quantities(layout)) {
-      std::vector<std::size_t> shape = quantity.shape;
-      shape.insert(shape.begin(), members);
-      places.emplace_back(file.reserve(quantity.name, shape), members * quantity.size());
-      file.write_attribute(quantity.name, "unit", quantity.unit);
-    }
-    places.emplace_back(file.reserve("done", {members}), members);
-    file.write_strings(identity_name, layout.identity);  // where there are groups for them
-    file.write_strings("spectra/channels", layout.channels);
-    if (!layout.contacts.empty()) file.write_strings("impacts/contacts", layout.contacts);
-    file.close();
+  Hdf5File file(draft, Hdf5File::Kind::sealed);
+  std::vector<OpenPlace> places;
+  const auto reserve = [&](const std::string& name, std::vector<std::size_t> shape) {
+    std::size_t count = members;
+    for (const std::size_t extent : shape) count *= extent;
+    shape.insert(shape.begin(), members);
+    places.push_back(
+        {file.reserve(name, shape), static_cast<std::int64_t>(count * sizeof(double))});
+  };
+  std::vector<double> numbers(members);
+  std::iota(numbers.begin(), numbers.end(), 1.0);
+  file.write_array("members/number", 0, numbers);
+  file.write_texts("members/table", layout.table->columns, layout.table->values);
+  file.write_array("spectra/damping", 0, layout.damping_ratios);
+  file.write_array("spectra/frequency", 0, layout.frequencies);
+  file.write_attribute("spectra/frequency", "unit", "Hz");
+  std::string names;
+  for (const Quantity& quantity : quantities(layout)) {
+    reserve(quantity.name, quantity.shape);
+    file.write_attribute(quantity.name, "unit", quantity.unit);
+    names += (names.empty() ? "" : ",") + std::string(quantity.name);
   }
-  add_text_table(draft, "members/table", layout.table->columns, layout.table->values);
-  {
-    const PlacedFile file(draft, PlacedFile::Access::write);
-    for (const auto& [place, count] : places) {
-      const bool flags = place == places.back().first;
-      fill(file, place, count, flags ? 0 : std::numeric_limits<double>::quiet_NaN());
-    }
-    file.sync();
+  reserve(sums_name, {});
+  file.write_attribute(sums_name, "of", names);
+  reserve("done", {});
+  file.write_strings(identity_name, layout.identity);  // where there are groups for them
+  file.write_strings("spectra/channels", layout.channels);
+  if (!layout.contacts.empty()) file.write_strings("impacts/contacts", layout.contacts);
+  file.let_others_write();
+  const PlacedFile filled(draft, PlacedFile::Access::write);
+  for (const OpenPlace& place : places) {
+    const bool flags = place.first == places.back().first;
+    fill(filled, place.first, static_cast<std::size_t>(place.bytes) / sizeof(double),
+         flags ? 0 : std::numeric_limits<double>::quiet_NaN());
   }
-  std::error_code failure;
-  std::filesystem::rename(draft, path, failure);
-  if (failure) throw UserError(path + ": could not be written (is the disk full?)");
+  filled.sync();
+  file.close(places);
+  file.move_to(path);
 }
 
 /// The first difference between two identities; empty if there is none.
@@ -113,12 +131,16 @@ std::string difference(const std::vector<std::string>& before,
 
 }  // namespace
 
-void EnsembleFile::prepare(const std::string& path, const EnsembleLayout& layout) {
-  if (!std::filesystem::exists(path)) create(path, layout);
+void EnsembleFile::refuse_another(const std::string& path, const EnsembleLayout& layout) {
   const std::string remedy = "; give another -output, or remove that file to begin anew";
+  require_no_link(path);
+  if (!std::filesystem::exists(path)) return;
   std::string found;
   try {
-    found = difference(Hdf5Reader(path).strings(identity_name), layout.identity);
+    std::vector<std::string> lines =
+        Hdf5Reader(path, Hdf5Reader::Kind::sealed).strings(identity_name);
+    lines.resize(std::min(lines.size(), layout.identity.size()));
+    found = difference(lines, layout.identity);
   } catch (const std::runtime_error& error) {
     throw UserError(std::string(error.what()) + remedy);
   }
@@ -127,38 +149,71 @@ void EnsembleFile::prepare(const std::string& path, const EnsembleLayout& layout
   }
 }
 
+void EnsembleFile::prepare(const std::string& path, const EnsembleLayout& layout) {
+  refuse_another(path, layout);
+  if (!std::filesystem::exists(path)) create(path, layout);
+}
+
 EnsembleFile::EnsembleFile(const std::string& path, const EnsembleLayout& layout)
     : layout_(layout),
       reader_(path, PlacedFile::Access::read),
       writer_(path, PlacedFile::Access::write) {
   try {
-    const Hdf5Reader file(path);
+    const Hdf5Reader file(path, Hdf5Reader::Kind::sealed);
+    const auto place_of = [&](const std::string& name, std::vector<std::size_t> shape) {
+      shape.insert(shape.begin(), layout.table->members());
+      if (file.extent(name) != shape) {
+        throw std::runtime_error(path + ": dataset '" + name + "' has another shape");
+      }
+      return file.place(name);
+    };
     for (const Quantity& quantity : quantities(layout)) {
-      places_.push_back(file.place(quantity.name));
+      places_.push_back(place_of(quantity.name, quantity.shape));
     }
-    done_ = file.place("done");
+    sums_ = place_of(sums_name, {});
+    done_ = place_of("done", {});
   } catch (const std::runtime_error& error) {
     throw UserError(std::string(error.what()) + "; remove that file to begin anew");
   }
 }
 
-std::vector<bool> EnsembleFile::done() const {
+std::vector<EnsembleFile::Member> EnsembleFile::members() const {
+  const std::vector<Quantity> list = quantities(layout_);
   std::vector<double> flags(layout_.table->members());
+  std::vector<double> sums(flags.size());
   reader_.read(done_, flags);
+  reader_.read(sums_, sums);
+  std::vector<Member> found(flags.size(), Member::missing);
+  for (std::size_t m = 0; m < flags.size(); ++m) {
+    if (flags[m] == 0) continue;
+    found[m] = flags[m] == 1 && sum_of(list, read(m)) == sums[m] ? Member::done : Member::damaged;
+  }
+  return found;
+}
+
+std::vector<bool> EnsembleFile::done() const {
   std::vector<bool> done;
-  for (const double flag : flags) done.push_back(flag == 1);
+  for (const Member member : members()) done.push_back(member == Member::done);
   return done;
+}
+
+std::size_t EnsembleFile::damaged() const {
+  return static_cast<std::size_t>(std::ranges::count(members(), Member::damaged));
 }
 
 void EnsembleFile::write(std::size_t member, const MemberResult& result) {
   const std::vector<Quantity> list = quantities(layout_);
+  const auto at = [member](std::int64_t place, std::size_t size) {
+    return place + static_cast<std::int64_t>(member * size * sizeof(double));
+  };
   for (std::size_t q = 0; q < list.size(); ++q) {
-    const auto offset = static_cast<std::int64_t>(member * list[q].size() * sizeof(double));
-    writer_.write(places_[q] + offset, result.*list[q].values);
+    writer_.write(at(places_[q], list[q].size()), result.*list[q].values);
   }
+  const double sum = sum_of(list, result);
+  writer_.write(at(sums_, 1), {&sum, 1});
   writer_.sync();
   const double flag = 1;
-  writer_.write(done_ + static_cast<std::int64_t>(member * sizeof(double)), {&flag, 1});
+  writer_.write(at(done_, 1), {&flag, 1});
   writer_.sync();
 }
 

@@ -23,28 +23,39 @@ struct EnsembleLayout {
 
 /// The file of the results of an ensemble: every member has a place of its own in it, taken when
 /// the file is made, which any process may fill at any time. A member's flag `done` is set once its
-/// numbers stand on the disk, so that a run that was killed is continued with what is missing.
+/// numbers stand on the disk, so that a run that was killed is continued with what is missing. The
+/// file is sealed but for these places (file_seal.h), and beside every member stands the CRC-32 of
+/// its numbers.
 class EnsembleFile {
  public:
+  /// Throws UserError if the file is there and is that of other lines of `layout` than its first
+  /// ones. Serial.
+  static void refuse_another(const std::string& path, const EnsembleLayout& layout);
+
   /// Makes the file if there is none; else throws UserError unless it is that of `layout`. Serial.
   static void prepare(const std::string& path, const EnsembleLayout& layout);
 
   /// Opens a prepared file. Throws UserError. Each rank on its own.
   EnsembleFile(const std::string& path, const EnsembleLayout& layout);
 
-  /// Per member, whether it is done.
+  /// Per member, whether it is done and its numbers are what was written.
   std::vector<bool> done() const;
+  /// Number of members that are said to be done, and whose numbers are not what was written.
+  std::size_t damaged() const;
   /// Writes a member and sets its flag.
   void write(std::size_t member, const MemberResult& result);
   /// A member that is done.
   MemberResult read(std::size_t member) const;
 
  private:
+  enum class Member { missing, done, damaged };
+  std::vector<Member> members() const;
   const EnsembleLayout& layout_;
   PlacedFile reader_;
   PlacedFile writer_;
   std::vector<std::int64_t> places_;  ///< per quantity
   std::int64_t done_ = 0;
+  std::int64_t sums_ = 0;
 };
 
 /// ensemble.csv: a line per member, its options and main numbers. Throws UserError.

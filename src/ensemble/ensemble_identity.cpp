@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <filesystem>
 #include <set>
 
@@ -30,31 +29,38 @@ bool names_content(const std::string& name) {
 
 }  // namespace
 
-std::vector<std::string> ensemble_identity(MPI_Comm comm, const std::string& resolved,
-                                           const MemberTable& table,
-                                           const std::vector<std::string>& opened,
-                                           double time_step) {
+std::vector<std::string> ensemble_identity(const std::string& resolved, const MemberTable& table) {
   std::vector<std::string> lines;
-  std::set<std::string> files(opened.begin(), opened.end());
-  const auto take_file = [&](const std::string& name, const std::string& value) {
-    if (names_content(name) && !value.empty() && value != "none") files.insert(value);
-  };
   for (const auto& [name, value] : resolved_values(resolved)) {
-    if (!counts(name)) continue;
-    lines.push_back("option " + name + " " + value);
-    take_file(name, value);
+    if (counts(name)) lines.push_back("option " + name + " " + value);
   }
   std::string columns = "columns";
   for (const std::string& column : table.columns) columns += " " + column;
   lines.push_back(columns);
   for (std::size_t m = 0; m < table.members(); ++m) {
     std::string line = "member " + std::to_string(m + 1);
-    for (std::size_t c = 0; c < table.columns.size(); ++c) {
-      line += " | " + table.value(m, c);
-      take_file(table.columns[c], table.value(m, c));
-    }
+    for (std::size_t c = 0; c < table.columns.size(); ++c) line += " | " + table.value(m, c);
     lines.push_back(line);
   }
+  return lines;
+}
+
+std::vector<std::string> identity_of_files(MPI_Comm comm, const std::string& resolved,
+                                           const MemberTable& table,
+                                           const std::vector<std::string>& opened) {
+  std::set<std::string> files(opened.begin(), opened.end());
+  const auto take_file = [&](const std::string& name, const std::string& value) {
+    if (names_content(name) && !value.empty() && value != "none") files.insert(value);
+  };
+  for (const auto& [name, value] : resolved_values(resolved)) {
+    if (counts(name)) take_file(name, value);
+  }
+  for (std::size_t m = 0; m < table.members(); ++m) {
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      take_file(table.columns[c], table.value(m, c));
+    }
+  }
+  std::vector<std::string> lines;
   std::string digests;
   on_rank0(comm, [&] {
     for (const std::string& file : files) {
@@ -69,9 +75,6 @@ std::vector<std::string> ensemble_identity(MPI_Comm comm, const std::string& res
     lines.push_back(digests.substr(begin, end - begin));
     begin = end + 1;
   }
-  char step[60];
-  std::snprintf(step, sizeof step, "time step %.17g s", time_step);
-  lines.emplace_back(step);
   return lines;
 }
 

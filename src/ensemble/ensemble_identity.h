@@ -10,12 +10,13 @@
 namespace pounding {
 
 /// Lines that tell what the results of an ensemble follow from: the scene's options but those that
-/// leave them as they are, the table, the files that both name (by their content) and the time step
-/// [s]. `resolved`: options in force; `opened`: further files, of which the meshes are made. Rank 0
-/// reads the files, and knows `opened`. Throws UserError. Collective.
-std::vector<std::string> ensemble_identity(MPI_Comm comm, const std::string& resolved,
+/// leave them as they are, and the table. `resolved`: options in force.
+std::vector<std::string> ensemble_identity(const std::string& resolved, const MemberTable& table);
+
+/// Lines of the files that scene and table name, and of `opened`, of which the meshes are made: by
+/// their content. Rank 0 reads the files, and knows `opened`. Throws UserError. Collective.
+std::vector<std::string> identity_of_files(MPI_Comm comm, const std::string& resolved,
                                            const MemberTable& table,
-                                           const std::vector<std::string>& opened,
-                                           double time_step);
+                                           const std::vector<std::string>& opened);
 
 }  // namespace pounding

@@ -181,6 +181,7 @@ void MemberRun::fill(MemberResult& result) {
   catalogue_.finish(MPI_COMM_SELF, 0);
   result.smallest_gap = smallest_gaps_;
   result.energy_residual = {energy_.relative_residual()};
+  if (contact_) result.contact_residual = {contact_->largest_residual()};
   result.first_time.assign(contacts(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t c = 0; c < contacts(); ++c) {
     const ImpactTotals totals = catalogue_.totals(static_cast<int>(c));

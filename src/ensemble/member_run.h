@@ -21,12 +21,13 @@ struct MemberResult {
   std::vector<double> episodes;     ///< per contact, likewise the next ones
   std::vector<double> first_time;   ///< [s]; not a number without an impact
   std::vector<double> impulse_sum;  ///< [N s]
-  std::vector<double> impulse_largest;  ///< of an episode [N s]
-  std::vector<double> force_peak;       ///< [N]
-  std::vector<double> smallest_gap;     ///< [m]
-  std::vector<double> displacement;     ///< largest per channel [m]
-  std::vector<double> acceleration;     ///< largest per channel after the low-pass [m/s2]
-  std::vector<double> energy_residual;  ///< one number: largest, relative
+  std::vector<double> impulse_largest;   ///< of an episode [N s]
+  std::vector<double> force_peak;        ///< [N]
+  std::vector<double> smallest_gap;      ///< [m]
+  std::vector<double> displacement;      ///< largest per channel [m]
+  std::vector<double> acceleration;      ///< largest per channel after the low-pass [m/s2]
+  std::vector<double> energy_residual;   ///< one number: largest, relative
+  std::vector<double> contact_residual;  ///< one number: of complementarity, largest [-]
 };
 
 /// One member of a group, as far as it goes alone in its lane: it looks at its gaps when its own

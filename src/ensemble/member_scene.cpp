@@ -70,7 +70,7 @@ MemberScene read_member(const OptionsDatabase& scene, const MemberTable& table,
                         std::size_t member) {
   try {
     ReadScene read = read_scene(member_options(scene, table, member));
-    return {std::move(read.scene), std::move(read.stiffness_factors)};
+    return {table.place(member), std::move(read.scene), std::move(read.stiffness_factors)};
   } catch (const UserError& error) {
     throw UserError(table.place(member) + error.what());
   }
@@ -86,17 +86,24 @@ double member_time_step(const MemberScene& member, const std::vector<ModalBasis>
   return smallest;
 }
 
+double member_gap(const Scene& scene, const Constraint& row, const GapShare& share) {
+  const std::vector<double>& gap = scene.contacts[row.contact].gap.values;
+  return gap.empty() ? row.geometric_gap : given_gap(gap, share);
+}
+
 Model member_model(const MemberScene& member, const EnsembleModel& shared) {
   const Scene& scene = member.scene;
   Model model;
-  model.motion = std::make_unique<GroundMotion>(scene.motion, scene.resampling);
+  try {
+    model.motion = std::make_unique<GroundMotion>(scene.motion, scene.resampling);
+  } catch (const UserError& error) {
+    throw UserError(member.place + error.what());
+  }
   model.interface.constraints = shared.model->interface.constraints;
   model.interface.model_size = shared.model->interface.model_size;
   for (std::size_t row = 0; row < model.interface.constraints.size(); ++row) {
     Constraint& constraint = model.interface.constraints[row];
-    const std::vector<double>& gap = scene.contacts[constraint.contact].gap.values;
-    constraint.initial_gap =
-        gap.empty() ? constraint.geometric_gap : given_gap(gap, shared.gap_shares[row]);
+    constraint.initial_gap = member_gap(scene, constraint, shared.gap_shares[row]);
   }
   model.time_step = shared.model->time_step;
   model.steps = shared.model->steps;

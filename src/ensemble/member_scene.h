@@ -14,6 +14,7 @@ namespace pounding {
 
 /// Scene of one member.
 struct MemberScene {
+  std::string place;  ///< in the table, as messages begin
   Scene scene;
   std::vector<double> stiffness_factors;  ///< per structure
 };
@@ -24,6 +25,9 @@ void require_ensemble_scene(const Scene& scene);
 
 /// The scene of a member. Throws UserError with the line of the table.
 MemberScene read_member(const OptionsDatabase& scene, const MemberTable& table, std::size_t member);
+
+/// Initial gap of a row [m]: as the scene of a member gives it, or as the meshes stand.
+double member_gap(const Scene& scene, const Constraint& row, const GapShare& share);
 
 /// Model that the members share on a rank.
 struct EnsembleModel {

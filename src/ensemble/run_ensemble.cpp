@@ -17,12 +17,14 @@
 #include "driver/report.h"
 #include "driver/run_progress.h"
 #include "driver/run_scene.h"
+#include "driver/run_warnings.h"
 #include "driver/stop_signal.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_identity.h"
+#include "ensemble/member_doubts.h"
 #include "ensemble/octet_group.h"
 #include "ensemble/stop_together.h"
-#include "motion/synthetic.h"
+#include "io/new_file.h"
 #include "output/result_folder.h"
 
 namespace pounding {
@@ -46,6 +48,7 @@ class Ensemble {
     build();
     choose_step();
     check_memory();
+    tell_doubts();
     if (root()) print_plan();
     if (scene_.dry_run) return;
     open_file();
@@ -66,27 +69,20 @@ class Ensemble {
     for (std::size_t m = 0; m < table_.members(); ++m) {
       members_.push_back(read_member(database_, table_, m));
     }
+    layout_.identity = ensemble_identity(read_.resolved, table_);
+    if (!scene_.dry_run) {
+      on_rank0(comm_, [&] { EnsembleFile::refuse_another(path("ensemble.h5"), layout_); });
+    }
     on_every_rank(comm_, [&] { check_motions(); });
   }
 
   /// Records must be there and synthetic motions have a target, before hours are spent on others.
-  void check_motions() const {
+  void check_motions() {
+    intervals_.assign(members_.size(), std::numeric_limits<double>::infinity());
     for (std::size_t m = rank_of(comm_); m < members_.size(); m += size_of(comm_)) {
-      std::array<std::optional<MotionComponent>, 3> recorded;
-      try {
-        for (std::size_t d = 0; d < 3; ++d) {
-          const std::optional<MotionComponent>& component = members_[m].scene.motion[d];
-          if (!component) continue;
-          if (const auto* synthetic = std::get_if<SyntheticMotion>(&component->source)) {
-            read_target_spectrum(synthetic->target);
-          } else {
-            recorded[d] = component;
-          }
-        }
-        const GroundMotion motion(recorded, Resampling::linear);
-      } catch (const UserError& error) {
-        throw UserError(table_.place(m) + error.what());
-      }
+      std::vector<std::string> doubts;
+      intervals_[m] = check_motion(members_[m], doubts);
+      doubts_.add(m, doubts);
     }
   }
 
@@ -98,7 +94,12 @@ class Ensemble {
     }
     Profile profile;
     const std::vector<double> ones(scene_.structures.size(), 1.0);
-    shared_ = build_model(comm_, scene_, ones, profile, &parts_.gap_shares);
+    const auto check_gaps = [this](const Interface& interface,
+                                   const std::vector<GapShare>& shares) {
+      parts_.gap_shares = shares;
+      on_rank0(comm_, [&] { check_member_gaps(members_, interface, shares, doubts_); });
+    };
+    shared_ = build_model(comm_, scene_, ones, profile, check_gaps);
     if (root()) print_model(scene_, shared_);
     if (size_of(comm_) > 1 && !scene_.dry_run) {
       MPI_Barrier(comm_);  // the bases are in their files
@@ -148,7 +149,25 @@ class Ensemble {
       const std::vector<std::string>& files = building.findings.files.opened;
       opened.insert(opened.end(), files.begin(), files.end());
     }
-    layout_.identity = ensemble_identity(comm_, read_.resolved, table_, opened, shared_.time_step);
+    for (std::string& line : identity_of_files(comm_, read_.resolved, table_, opened)) {
+      layout_.identity.push_back(std::move(line));
+    }
+    char step[60];
+    std::snprintf(step, sizeof step, "time step %.17g s", shared_.time_step);
+    layout_.identity.emplace_back(step);
+  }
+
+  /// Prints the doubts that single runs of the members would have. Collective.
+  void tell_doubts() {
+    doubts_.leave_out(scene_.warnings);
+    doubts_.leave_out(shared_.warnings);
+    for (std::size_t m = rank_of(comm_); m < members_.size(); m += size_of(comm_)) {
+      std::vector<std::string> doubts = member_damping_doubts(members_[m], model());
+      add_long_step("a sample of its motion", intervals_[m], shared_.time_step, doubts);
+      doubts_.add(m, doubts);
+    }
+    doubts_.gather(comm_);
+    if (root()) print_warnings(doubts_.told(table_));
   }
 
   void check_memory() const {
@@ -184,6 +203,12 @@ class Ensemble {
       if (!done[m]) missing_.push_back(m);
     }
     MPI_Barrier(comm_);  // nobody writes before all have read
+    if (const std::size_t damaged = file_->damaged(); root() && damaged > 0) {
+      std::printf(
+          "warning: %s: the numbers of %zu members that are said to be done are not what was "
+          "written; they are stepped again\n",
+          path("ensemble.h5").c_str(), damaged);
+    }
     if (root() && missing_.size() < done.size()) {
       std::printf("  %zu of %zu members are done already\n", done.size() - missing_.size(),
                   done.size());
@@ -239,6 +264,11 @@ class Ensemble {
       const std::vector<bool> flags = file_->done();
       const auto done = static_cast<std::size_t>(std::ranges::count(flags, true));
       all = done == flags.size();
+      MemberDoubts doubts;
+      for (std::size_t m = 0; m < flags.size(); ++m) {
+        if (flags[m]) doubts.add(m, result_doubts(file_->read(m), shared_.interface.model_size));
+      }
+      print_warnings(doubts.told(table_));
       std::printf("ensemble: %zu of %zu members in %s, stepped in %.2f s\n", done, flags.size(),
                   path("ensemble.h5").c_str(), seconds_);
     });
@@ -263,6 +293,8 @@ class Ensemble {
   EnsembleModel parts_;
   OctetRecorder::Times times_;
   std::optional<EnsembleFile> file_;
+  MemberDoubts doubts_;
+  std::vector<double> intervals_;  ///< shortest between samples of a member's motion [s]
   std::vector<std::size_t> missing_;
   int signal_ = 0;
   double seconds_ = 0;

@@ -17,8 +17,8 @@ namespace pounding {
 class CsvFile {
  public:
   /// `path` empty or "/dev/stdout": the standard output of the program, wherever it stands; opened
-  /// by name it would begin again at the start of its file. What else is named in /dev is written
-  /// as it stands there, every other name is taken anew (NewFile). `digits`: significant ones of each
+  /// by name it would begin again at the start of its file. Other names in /dev are written as they
+  /// stand there, every other one is taken anew (NewFile). `digits`: significant ones of each
   /// number; 17 give it back to the bit.
   explicit CsvFile(const std::string& path, int digits = 17);
   CsvFile(const CsvFile&) = delete;

@@ -62,7 +62,7 @@ class Hdf5File {
   void let_others_write();
   /// Everything stands on the disk, or this throws.
   void close();
-  /// Likewise, sealed but for these places.
+  /// Everything stands on the disk, sealed but for these places, or this throws.
   void close(const std::vector<OpenPlace>& open);
   /// Sets an attribute of a whole closed file that is there already.
   void mark(const std::string& attribute, double value);

@@ -9,6 +9,7 @@
 #include "motion/records/record_text.h"
 #include "motion/resampling.h"
 #include "motion/synthetic.h"
+#include "motion/synthetic_doubts.h"
 
 namespace pounding {
 
@@ -115,6 +116,17 @@ std::vector<std::string> peak_doubts(const std::string& name, const MotionCompon
 }
 
 }  // namespace
+
+std::vector<std::string> synthetic_doubts(const std::string& name,
+                                          const MotionComponent& component) {
+  const auto& synthetic = std::get<SyntheticMotion>(component.source);
+  check_scaling(name, component);
+  require_possible_peak(name, "pga", component.pga);
+  check_synthetic(read_target_spectrum(synthetic.target), synthetic, component.pga);
+  MotionDescription description = describe_synthetic(synthetic);
+  description.pga = component.pga;
+  return peak_doubts(name, component, description);
+}
 
 void GroundMotion::add(std::size_t direction, const MotionComponent& component) {
   const std::string name = name_ + " " + direction_names[direction];

@@ -18,7 +18,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double time_step = 0.005;  // s
+constexpr double time_step = synthetic_interval;
 constexpr double target_damping = 0.05;
 constexpr double highest_matched = 50;  // Hz; a quarter of the sampling frequency
 constexpr double points_per_decade = 40;
@@ -174,26 +174,6 @@ double peak_of(const std::vector<double>& acceleration) {
   return Accelerogram{acceleration, time_step}.peak();
 }
 
-void check(const TargetSpectrum& target, const SyntheticMotion& motion, double pga) {
-  const auto refuse = [](const std::string& what) { throw UserError("synthetic motion: " + what); };
-  const auto [rise_end, decay_start] = motion.envelope;
-  if (target.frequency.size() < 2) refuse("the target spectrum needs at least 2 frequencies");
-  if (!(target.frequency.front() < highest_matched)) {
-    refuse("the target spectrum must begin below " + std::to_string(highest_matched) + " Hz");
-  }
-  if (!(std::isfinite(pga) && pga > 0)) {
-    refuse("pga " + std::to_string(pga) + " must be positive [m/s2]");
-  }
-  if (!(motion.duration >= 2 / target.frequency.front() && motion.duration <= 1000)) {
-    refuse("duration " + std::to_string(motion.duration) +
-           " s must hold two periods of the lowest target frequency and not exceed 1000 s");
-  }
-  if (!(rise_end >= 0 && rise_end <= decay_start && decay_start <= motion.duration)) {
-    refuse("envelope " + std::to_string(rise_end) + "," + std::to_string(decay_start) +
-           " must be 0 <= end of rise <= start of decay <= duration [s]");
-  }
-}
-
 }  // namespace
 
 double TargetSpectrum::at(double f) const {
@@ -237,9 +217,29 @@ TargetSpectrum read_target_spectrum(const std::string& file) {
   return target;
 }
 
+void check_synthetic(const TargetSpectrum& target, const SyntheticMotion& motion, double pga) {
+  const auto refuse = [](const std::string& what) { throw UserError("synthetic motion: " + what); };
+  const auto [rise_end, decay_start] = motion.envelope;
+  if (target.frequency.size() < 2) refuse("the target spectrum needs at least 2 frequencies");
+  if (!(target.frequency.front() < highest_matched)) {
+    refuse("the target spectrum must begin below " + std::to_string(highest_matched) + " Hz");
+  }
+  if (!(std::isfinite(pga) && pga > 0)) {
+    refuse("pga " + std::to_string(pga) + " must be positive [m/s2]");
+  }
+  if (!(motion.duration >= 2 / target.frequency.front() && motion.duration <= 1000)) {
+    refuse("duration " + std::to_string(motion.duration) +
+           " s must hold two periods of the lowest target frequency and not exceed 1000 s");
+  }
+  if (!(rise_end >= 0 && rise_end <= decay_start && decay_start <= motion.duration)) {
+    refuse("envelope " + std::to_string(rise_end) + "," + std::to_string(decay_start) +
+           " must be 0 <= end of rise <= start of decay <= duration [s]");
+  }
+}
+
 Accelerogram generate_accelerogram(const TargetSpectrum& target, const SyntheticMotion& motion,
                                    double pga) {
-  check(target, motion, pga);
+  check_synthetic(target, motion, pga);
   const auto size = static_cast<std::size_t>(std::llround(motion.duration / time_step)) + 1;
   const auto controls = control_frequencies(target);
   // The wavelet belongs to the upper end of the target's plateau.

@@ -21,6 +21,12 @@ struct TargetSpectrum {
 /// opens a comment; a line of names may come first. Throws UserError (file, line, what to do).
 TargetSpectrum read_target_spectrum(const std::string& file);
 
+/// Between the samples of a synthetic accelerogram [s].
+inline constexpr double synthetic_interval = 0.005;
+
+/// Throws UserError for what generate_accelerogram() refuses before it begins.
+void check_synthetic(const TargetSpectrum& target, const SyntheticMotion& motion, double pga);
+
 /// A synthetic accelerogram whose 5 % spectrum follows the target, sampled every 0.005 s: random
 /// phases under an envelope (quadratic rise, plateau, exponential decay), then iterations that
 /// multiply the Fourier amplitudes by target / spectrum (Gasparini and Vanmarcke, MIT R76-4, 1976);

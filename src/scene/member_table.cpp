@@ -1,6 +1,7 @@
 #include "scene/member_table.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -35,7 +36,7 @@ std::vector<std::string> free_options(const std::vector<std::string>& structures
   return names;
 }
 
-/// Fields of a line; quotes around a field are taken off.
+/// Fields of a line; quotes around a field are taken off. Nothing if a quote stays open.
 std::vector<std::string> fields_of(const std::string& line, char separator) {
   std::vector<std::string> fields(1);
   bool quoted = false;
@@ -51,15 +52,23 @@ std::vector<std::string> fields_of(const std::string& line, char separator) {
       fields.back() += c;
     }
   }
+  if (quoted) return {};
   for (std::string& field : fields) field = trimmed(field);
   return fields;
 }
 
 std::string read_text(const std::string& file) {
+  std::error_code failure;
+  if (std::filesystem::exists(file, failure) && !std::filesystem::is_regular_file(file, failure)) {
+    throw UserError("option -ensemble " + file + ": a folder or a device, not a table");
+  }
   std::ifstream stream(file, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(stream), {});
   if (!stream.is_open() || stream.bad()) {
     throw UserError("option -ensemble " + file + ": no such file, or it cannot be read");
+  }
+  if (text.find('\0') != std::string::npos) {
+    throw UserError("option -ensemble " + file + ": not a text (it holds zeros), give a table");
   }
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
@@ -93,12 +102,16 @@ MemberTable parse_table(const std::string& file, const std::string& text) {
   for (std::string line; std::getline(stream, line);) {
     ++number;
     if (trimmed(line).empty() || line.starts_with('#')) continue;
+    if (table.columns.empty() && line.find(';') != std::string::npos) separator = ';';
+    const std::vector<std::string> fields = fields_of(line, separator);
+    if (fields.empty()) {
+      throw UserError(file + ", line " + std::to_string(number) +
+                      ": a double quote is opened and not closed");
+    }
     if (table.columns.empty()) {
-      if (line.find(';') != std::string::npos) separator = ';';
-      table.columns = fields_of(line, separator);
+      table.columns = fields;
       continue;
     }
-    const std::vector<std::string> fields = fields_of(line, separator);
     if (fields.size() != table.columns.size()) {
       throw UserError(file + ", line " + std::to_string(number) + ": " +
                       std::to_string(fields.size()) + " values, " +

@@ -10,7 +10,7 @@
 namespace pounding {
 namespace {
 
-/// What is wrong with a number, or null. Beyond these sizes lies no quantity of a building in any
+/// Fault of a number, or null. Beyond these sizes lies no quantity of a building in any
 /// unit, and products of a few of them leave what a double holds.
 const char* fault_of(double number, const Range& range) {
   constexpr double largest = 1e30;

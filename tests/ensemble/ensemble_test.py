@@ -129,6 +129,43 @@ class Members(unittest.TestCase):
         self.assertIn("7 of 10 members are done already", run.stdout)
         self.same_as(folder)
 
+    def copied(self):
+        folder = os.path.join(tempfile.mkdtemp(prefix="pounding-ensemble-"), "run")
+        shutil.copytree(self.folder, folder)
+        return folder
+
+    def test_numbers_of_a_done_member_that_are_not_what_was_written(self):
+        folder = self.copied()
+        with h5py.File(os.path.join(folder, "ensemble.h5"), "r+") as file:
+            file["spectra/pseudo_acceleration"][1] = np.nan
+            file["gaps/smallest"][4, 0] *= 1.001
+            file["done"][9] = 7
+        with self.assertRaisesRegex(pounding.ResultError, "member 2 are not what was written"):
+            pounding.load_ensemble(folder)
+        run = program.run([*self.words, "-output", folder], 2)
+        self.assertEqual(run.returncode, 0, run.stderr[-2000:])
+        self.assertIn("the numbers of 3 members that are said to be done are not what was written", run.stdout)
+        self.same_as(folder)
+
+    def test_a_damaged_file_is_refused(self):
+        """Every kind of change outside of the members' numbers, before HDF5 sees it."""
+        folder = self.copied()
+        path = os.path.join(folder, "ensemble.h5")
+        with open(path, "rb") as file:
+            sound = file.read()
+        self.assertEqual(program.command("seal", path).returncode, 0)
+        with open(path, "rb") as file:
+            self.assertEqual(file.read(), sound)
+        for change in (lambda text: text[:-9], lambda text: text[:2000], lambda text: text + b"more", lambda _: b"",
+                       lambda text: text[:530] + bytes([text[530] ^ 1]) + text[531:], lambda text: text.replace(b"motion_x_seed", b"motion_x_Seed")):
+            with open(path, "wb") as file:
+                file.write(change(sound))
+            line = program.must_refuse(self, [*self.words, "-output", folder], "ensemble.h5", "begin anew", ranks=1)
+            self.assertRegex(line, "damaged")
+        shutil.move(path, path + "-elsewhere")
+        os.symlink(path + "-elsewhere", path)
+        program.must_refuse(self, [*self.words, "-output", folder], "ensemble.h5: a symbolic link")
+
     def test_a_signal_stops_it_and_the_same_command_goes_on(self):
         folder = tempfile.mkdtemp(prefix="pounding-ensemble-")
         words = [*self.words, "-output", folder]
@@ -184,6 +221,40 @@ class Refusals(unittest.TestCase):
         self.refuse(MODAL, "line 2", "2 values, 1 columns", rows=["1,2"])
         self.refuse(MODAL, "no runs in it", rows=[])
         self.refuse(MODAL, "line 2 (member 1)", "nowhere.txt", columns="motion_x_record", rows=["nowhere.txt"])
+        self.refuse(MODAL, "line 3", "quote is opened and not closed", columns="floor1_gap", rows=["0.1", "\"0.1,0.2"])
+        self.refuse(MODAL, "line 1", "quote is opened and not closed", columns="\"floor1_gap", rows=["0.1"])
+        self.refuse(MODAL, "line 3 (member 2)", "motion x: pga 1e+", "10000 g", columns="motion_x_pga", rows=["1", "1e9"])
+        self.refuse(MODAL, "line 2 (member 1)", "envelope", columns="motion_x_envelope", rows=["\"30,40\""])
+
+    def test_a_table_that_is_none(self):
+        folder = tempfile.mkdtemp(prefix="pounding-ensemble-")
+        words = [*SCENE, *MODAL, "-output", os.path.join(folder, "run"), "-ensemble"]
+        program.must_refuse(self, [*words, folder], f"-ensemble {folder}: a folder or a device")
+        program.must_refuse(self, [*words, "/dev/zero"], "-ensemble /dev/zero: a folder or a device", ranks=1)
+        with open(os.path.join(folder, "zeros.csv"), "wb") as file:
+            file.write(b"motion_x_seed\n1\0\n")
+        program.must_refuse(self, [*words, file.name], "not a text", ranks=1)
+
+    def test_gaps_that_a_single_run_refuses(self):
+        """Before any basis is computed."""
+        output = tempfile.mkdtemp(prefix="pounding-ensemble-")
+        words = [*SCENE, *MODAL, "-output", output, "-ensemble", table(["0.01,0.01", "0.01,-5"], "floor1_gap,floor2_gap")]
+        program.must_refuse(self, words, "line 3 (member 2)", "-floor2_gap: a gap of -5 m", "cannot be meant")
+        self.assertEqual(os.listdir(output), [])
+
+    def test_doubts_of_single_runs(self):
+        rows = ["0.01,3.5,1", "20,3.5,1", "20,0.3,1", "0.01,0.3,1e-9"]
+        words = [*SCENE, *MODAL, "-dry_run", "-ensemble", table(rows, "floor1_gap,motion_x_pga,right_damping_factor")]
+        for ranks in (1, 2):
+            run = program.run(words, ranks)
+            self.assertEqual(run.returncode, 0, run.stderr[-2000:])
+            warnings = [line for line in run.stdout.splitlines() if line.startswith("warning: ")]
+            gaps = [line for line in warnings if "contact floor1: the gap given, up to 20 m" in line]
+            self.assertEqual(len(gaps), 1, run.stdout)
+            self.assertIn("(2 members, the first is member 2, line 3)", gaps[0])
+            peaks = [line for line in warnings if "motion x: pga 0.3 m/s2 is 0.03" in line]
+            self.assertEqual(len(peaks), 1, run.stdout)
+            self.assertIn("(2 members, the first is member 3, line 4)", peaks[0])
 
 
 if __name__ == "__main__":

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +9,7 @@
 #include "common/error.h"
 #include "common/petsc.h"
 #include "driver/mesh_pieces.h"
+#include "ensemble/ensemble_file.h"
 #include "fuzz/target.h"
 #include "io/file_seal.h"
 #include "io/matrix_market.h"
@@ -133,6 +135,41 @@ void read_piece(const std::string& path, Random&) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   for (MeshParcel& parcel : read_mesh_piece(scene_in_pieces(folder), 0, "cut")) {
     join_parcel(MPI_COMM_SELF, "box", std::move(parcel), NodeMarks{});
+  }
+}
+
+/// Three members of a scene with one contact.
+const EnsembleLayout& layout() {
+  static const MemberTable table{
+      "members.csv", {"motion_level", "joint_gap"}, {2, 3, 4}, {"1", "0.1", "2", "", "1", "0.2"}};
+  static const EnsembleLayout layout{&table,       {"top x", "top y"},
+                                     {0.02, 0.05}, {1, 2, 4},
+                                     {"joint"},    {"option a 1", "columns", "member 1"}};
+  return layout;
+}
+
+std::string ensemble_seed(const std::string& folder) {
+  const std::string path = folder + "/seed-ensemble.h5";
+  EnsembleFile::prepare(path, layout());
+  const EnsembleFile file(path, layout());
+  MemberResult result = file.read(0);
+  for (const auto values :
+       {&MemberResult::spectra, &MemberResult::episodes, &MemberResult::displacement}) {
+    std::ranges::fill(result.*values, 0.5);
+  }
+  EnsembleFile(path, layout()).write(1, result);
+  return content_of(path);
+}
+
+/// What a run that goes on asks of its file.
+void read_ensemble(const std::string& path, Random&) {
+  seal_file(path, open_places(path));
+  EnsembleFile::refuse_another(path, layout());
+  const EnsembleFile file(path, layout());
+  file.damaged();
+  const std::vector<bool> done = file.done();
+  for (std::size_t m = 0; m < done.size(); ++m) {
+    if (done[m]) file.read(m);
   }
 }
 
@@ -262,6 +299,7 @@ std::vector<Target> state_targets(const std::string& folder) {
                      "checkpoint.h5",
                      true});
   targets.push_back({"basis", {basis_seed(folder)}, {}, read_basis, "basis.h5", true});
+  targets.push_back({"ensemble", {ensemble_seed(folder)}, {}, read_ensemble, "ensemble.h5", true});
   targets.push_back({"piece", {piece_seed(folder)}, {}, read_piece, "piece-00000.bin"});
   return targets;
 }

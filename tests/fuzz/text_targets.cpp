@@ -1,11 +1,13 @@
 #include <cstdio>
 #include <fstream>
 
+#include "ensemble/member_scene.h"
 #include "fuzz/target.h"
 #include "motion/ground_motion.h"
 #include "motion/records/record_text.h"
 #include "motion/synthetic.h"
 #include "output/impact_catalogue.h"
+#include "scene/member_table.h"
 #include "scene/options_database.h"
 #include "scene/scene_reader.h"
 #include "unit/motion/record_writers.h"
@@ -85,6 +87,31 @@ void read_record(const std::string& path, Random& random) {
   read_accelerogram(motion);
 }
 
+/// A table, and the scene of each of its members.
+void read_members(const std::string& path, Random&) {
+  static const OptionsDatabase options{{"structures", "left"},
+                                       {"left_mesh", "left.msh"},
+                                       {"left_model", "modal"},
+                                       {"left_modal_vectors", "6"},
+                                       {"left_body_element", "hex8"},
+                                       {"left_body_material", "m"},
+                                       {"material_m_young", "1e9"},
+                                       {"material_m_poisson", "0.2"},
+                                       {"material_m_density", "2000"},
+                                       {"contacts", "joint"},
+                                       {"joint_secondary", "left:face"},
+                                       {"joint_primary", "wall"},
+                                       {"joint_gap", "0.1"},
+                                       {"motion_x_target", "a.csv"},
+                                       {"motion_x_pga", "1"},
+                                       {"probes", "top"},
+                                       {"top_structure", "left"},
+                                       {"top_group", "face"},
+                                       {"end_time", "1"}};
+  const MemberTable table = read_member_table(MPI_COMM_SELF, path, {"left"}, {"joint"});
+  for (std::size_t m = 0; m < table.members(); ++m) read_member(options, table, m);
+}
+
 void read_scene_file(const std::string& path, Random&) {
   CommandLine line;
   line.files = {path};
@@ -147,6 +174,15 @@ std::vector<Target> text_targets() {
        {"contact,start,end", ",", "#", "roof"},
        [](const std::string& path, Random&) { read_impact_windows(path); },
        "impacts.csv"});
+  targets.push_back(
+      {"members",
+       {"motion_x_seed,motion_x_pga,joint_gap,left_damping_factor\n1,2.5,\"0.1,0.2\",1\n"
+        "2,2.5,,0.5\n",
+        "# runs\nmotion_level;joint_gap\n1;0.1\n\n1.4;\"0.1,0.2,0.1,0.2\"\n"},
+       {"\"", ",", ";", "#", "\r\n", "motion_level", "left_stiffness_factor", "joint_gap",
+        "motion_y_record", "1e300", "-1", "nan"},
+       read_members,
+       "members.csv"});
   targets.push_back({"scene",
                      scenes,
                      {": ",   "{",           "}",         "[",     "]",

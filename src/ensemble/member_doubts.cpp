@@ -1,0 +1,149 @@
+#include "ensemble/member_doubts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/error.h"
+#include "common/parallel.h"
+#include "contact/contact_checks.h"
+#include "driver/run_warnings.h"
+#include "driver/warnings.h"
+#include "motion/synthetic.h"
+#include "motion/synthetic_doubts.h"
+
+namespace pounding {
+
+void MemberDoubts::leave_out(std::span<const std::string> known) {
+  known_.insert(known_.end(), known.begin(), known.end());
+  for (const std::string& line : known) members_.erase(line);
+}
+
+void MemberDoubts::add(std::size_t member, std::span<const std::string> lines) {
+  for (const std::string& line : lines) {
+    if (std::ranges::find(known_, line) != known_.end()) continue;
+    std::vector<std::size_t>& members = members_[line];
+    if (members.empty() || members.back() != member) members.push_back(member);
+  }
+}
+
+void MemberDoubts::gather(MPI_Comm comm) {
+  std::vector<char> texts;
+  std::vector<std::size_t> numbers;
+  for (const auto& [line, members] : members_) {
+    for (const std::size_t member : members) {
+      texts.insert(texts.end(), line.c_str(), line.c_str() + line.size() + 1);
+      numbers.push_back(member);
+    }
+  }
+  if (rank_of(comm) != 0) {
+    send_array(comm, 0, texts);
+    send_array(comm, 0, numbers);
+    return;
+  }
+  for (int rank = 1; rank < size_of(comm); ++rank) {
+    receive_array(comm, rank, texts);
+    receive_array(comm, rank, numbers);
+    const char* text = texts.data();
+    for (const std::size_t member : numbers) {
+      const std::string line = text;
+      add(member, {&line, 1});
+      text += line.size() + 1;
+    }
+  }
+  for (auto& [line, members] : members_) std::ranges::sort(members);
+}
+
+std::vector<std::string> MemberDoubts::told(const MemberTable& table) const {
+  std::vector<std::string> told;
+  for (const auto& [line, members] : members_) {
+    std::string about =
+        members.size() == 1 ? "" : std::to_string(members.size()) + " members, the first is ";
+    about += "member " + std::to_string(members[0] + 1) + ", line " +
+             std::to_string(table.lines[members[0]]);
+    told.push_back(line + " (" + about + ")");
+  }
+  return told;
+}
+
+double check_motion(const MemberScene& member, std::vector<std::string>& doubts) {
+  const Scene& scene = member.scene;
+  std::array<std::optional<MotionComponent>, 3> recorded;
+  double interval = std::numeric_limits<double>::infinity();
+  const auto append = [&doubts](const std::vector<std::string>& more) {
+    doubts.insert(doubts.end(), more.begin(), more.end());
+  };
+  append(scene.warnings);
+  try {
+    for (std::size_t d = 0; d < 3; ++d) {
+      if (!scene.motion[d]) continue;
+      if (std::holds_alternative<SyntheticMotion>(scene.motion[d]->source)) {
+        append(synthetic_doubts(std::string("motion ") + direction_names[d], *scene.motion[d]));
+        interval = std::min(interval, synthetic_interval);
+      } else {
+        recorded[d] = scene.motion[d];
+      }
+    }
+    Model model;  // as far as it is known
+    model.motion = std::make_unique<GroundMotion>(recorded, Resampling::linear);
+    for (const MotionDescription& description : model.motion->descriptions()) {
+      interval = std::min(interval, description.time_step);
+    }
+    append(model.motion->doubts());
+    append(run_warnings(scene, model));
+  } catch (const UserError& error) {
+    throw UserError(member.place + error.what());
+  }
+  return interval;
+}
+
+void check_member_gaps(std::span<const MemberScene> members, const Interface& interface,
+                       std::span<const GapShare> shares, MemberDoubts& doubts) {
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    const Scene& scene = members[m].scene;
+    std::vector<InterfaceReport> reports = interface.reports;
+    for (InterfaceReport& report : reports) {
+      report.smallest_gap = std::numeric_limits<double>::infinity();
+      report.largest_gap = -report.smallest_gap;
+      report.overlapping = 0;
+    }
+    for (std::size_t row = 0; row < interface.constraints.size(); ++row) {
+      const double gap = member_gap(scene, interface.constraints[row], shares[row]);
+      InterfaceReport& report = reports[interface.constraints[row].contact];
+      report.smallest_gap = std::min(report.smallest_gap, gap);
+      report.largest_gap = std::max(report.largest_gap, gap);
+      report.overlapping += gap < 0 ? 1 : 0;
+    }
+    try {
+      for (std::size_t c = 0; c < reports.size(); ++c) {
+        doubts.add(m, check_gaps(scene.contacts[c], reports[c], interface.model_size));
+      }
+    } catch (const UserError& error) {
+      throw UserError(members[m].place + error.what());
+    }
+  }
+}
+
+std::vector<std::string> member_damping_doubts(const MemberScene& member, const Model& model) {
+  std::vector<std::string> doubts;
+  for (std::size_t s = 0; s < model.buildings.size(); ++s) {
+    ModalResult modal = model.buildings[s].modal;
+    for (Mode& mode : modal.modes) mode.frequency *= std::sqrt(member.stiffness_factors[s]);
+    for (const std::string& doubt : damping_warnings(member.scene.structures[s], modal)) {
+      doubts.push_back(doubt);
+    }
+  }
+  return doubts;
+}
+
+std::vector<std::string> result_doubts(const MemberResult& result, double model_size) {
+  double largest = 0;
+  for (const double displacement : result.displacement) largest = std::max(largest, displacement);
+  std::vector<std::string> doubts = displacement_warnings(largest, model_size);
+  for (const double residual : result.contact_residual) {
+    for (const std::string& doubt : contact_warnings(residual)) doubts.push_back(doubt);
+  }
+  return doubts;
+}
+
+}  // namespace pounding
