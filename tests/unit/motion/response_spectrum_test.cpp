@@ -175,6 +175,16 @@ TEST(ResponseSpectrum, LimitsOfStiffAndSoftOscillators) {
   EXPECT_NEAR(soft[1].displacement, ground, 1e-6);
 }
 
+TEST(ResponseSpectrum, AnyFrequencyTakesItsTime) {
+  const std::vector<double> record{0.5, -1, 2, 0.25, 0};
+  for (const double damping : {0.0, 0.05}) {
+    const auto points =
+        response_spectrum(record, 0.01, std::vector<double>{1.5e6, 1.7e6, 1e28}, damping);
+    EXPECT_NEAR(points[0].pseudo_acceleration / points[1].pseudo_acceleration, 1, 1e-3) << damping;
+    EXPECT_NEAR(points[2].pseudo_acceleration, damping == 0 ? 2.5 : 2, 1e-3);
+  }
+}
+
 TEST(ResponseSpectrum, FreeVibrationAfterTheRecordCounts) {
   // A soft oscillator is left with the velocity V of the ground: SD = V / omega when undamped.
   const std::vector<double> push{0, 1, 1, 1, 0};
