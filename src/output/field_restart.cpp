@@ -54,7 +54,7 @@ void FieldWriter::check(const SavedState& saved) {
         throw std::runtime_error(layout_.continued +
                                  ": written by another run than the checkpoint");
       }
-      if (!(file.array("frames").at(0) >= static_cast<double>(frames_))) {
+      if (!(file.rows("frames", 0, 1)[0] >= static_cast<double>(frames_))) {
         throw std::runtime_error(layout_.continued + ": fewer frames are whole than the " +
                                  std::to_string(frames_) + " of the checkpoint");
       }
@@ -78,7 +78,7 @@ void FieldWriter::load() {
   open();
 }
 
-void FieldWriter::copy_frames(const std::string& to) const {
+void FieldWriter::copy_frames(const std::string& to) const try {
   const Hdf5Reader old(layout_.continued);
   const PlacedFile from(layout_.continued, PlacedFile::Access::read);
   const PlacedFile into(to, PlacedFile::Access::write);
@@ -93,6 +93,10 @@ void FieldWriter::copy_frames(const std::string& to) const {
   }
   const double frames = static_cast<double>(frames_);
   into.write(frames_place_, {&frames, 1});
+} catch (const UserError&) {
+  throw;
+} catch (const std::runtime_error& error) {
+  throw UserError(std::string("the fields cannot be continued, ") + error.what());
 }
 
 }  // namespace pounding

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -32,17 +31,18 @@ void Recorder::load(const SavedState& saved) {
   if (records_ < 0) saved.refuse_values("recorder_records");
   on_rank0(layout_.comm, [&] {
     saved.get("recorder_last_velocity", last_velocity_);
-    std::optional<Hdf5Reader> history;
     try {
-      history.emplace(layout_.continued, Hdf5Reader::Kind::left_open);
-      check_history(*history);
+      const Hdf5Reader history(layout_.continued, Hdf5Reader::Kind::left_open);
+      check_history(history);
+      create_file(layout_.path + ".new");
+      copy_history(history);
+      file_->move_to(layout_.path);
+    } catch (const UserError&) {
+      throw;
     } catch (const std::runtime_error& error) {
       throw UserError(saved.source() + ": the history beside it cannot be continued, " +
                       error.what());
     }
-    create_file(layout_.path + ".new");
-    copy_history(*history);
-    file_->move_to(layout_.path);
   });
 }
 
@@ -61,7 +61,7 @@ void Recorder::check_history(const Hdf5Reader& history) const {
     const Hdf5Reader::Shape shape = history.shape(quantity.name);
     refuse_unless(shape.columns == quantity.columns && shape.rows >= records);
   }
-  const double whole = history.array("records").at(0);
+  const double whole = history.rows("records", 0, 1)[0];
   if (!(whole >= static_cast<double>(records))) {
     std::ostringstream text;
     text << layout_.continued << ": " << whole << " of its records are whole, the checkpoint needs "

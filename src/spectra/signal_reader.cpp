@@ -66,7 +66,10 @@ std::vector<double> less_ground(const Hdf5Reader& history, const std::string& pa
   if (place == static_cast<std::ptrdiff_t>(direction_names.size())) {
     throw UserError(path + ": channel '" + channel + "' has no direction x, y or z");
   }
-  const auto ground = history.array("ground_acceleration");
+  if (history.shape("ground_acceleration").columns != direction_names.size()) {
+    throw UserError(path + ": ground_acceleration has no three columns");
+  }
+  const auto ground = history.rows("ground_acceleration", 0, acceleration.size());
   for (std::size_t i = 0; i < acceleration.size(); ++i) {
     acceleration[i] -= ground.at(3 * i + static_cast<std::size_t>(place));
   }
@@ -79,7 +82,7 @@ std::size_t whole_records(const Hdf5Reader& history, const std::string& path) {
   const std::size_t rows = history.shape("time").rows;
   const std::vector<std::string> names = history.names("/");
   if (std::ranges::find(names, "records") == names.end()) return rows;
-  const double whole = history.array("records").at(0);
+  const double whole = history.rows("records", 0, 1)[0];
   if (!(whole >= 0 && whole <= static_cast<double>(rows))) {
     throw UserError(path + ": 'records' is not a number of its " + std::to_string(rows) + " rows");
   }

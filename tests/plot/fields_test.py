@@ -252,6 +252,13 @@ class Fields(Pictures):
             exactly(self, known, arrays(os.path.join(path, "fields.h5")))
             with open(os.path.join(path, "fields.xdmf")) as one, open(self.path) as other:
                 self.assertEqual(one.read(), other.read())
+        lost = next(name for name in known if name.endswith("velocity/000001"))
+        with h5py.File(os.path.join(elsewhere, "fields.h5"), "r+") as file:
+            del file[lost]
+        for name in ("checkpoint.h5", "history.h5"):
+            shutil.copy(os.path.join(folder, name), elsewhere)
+        program.must_refuse(self, [*STRUCK, "-restart", os.path.join(elsewhere, "checkpoint.h5"), "-output", elsewhere],
+                            "the fields cannot be continued", lost)
         os.remove(os.path.join(folder, "fields.h5"))
         before = arrays(os.path.join(folder, "history.h5"))
         line = program.must_refuse(self, [*STRUCK, "-restart", checkpoint, "-output", folder], "fields.h5", "no such file")

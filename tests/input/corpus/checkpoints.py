@@ -34,6 +34,13 @@ def history(path, made):
     shutil.copy(os.path.join(made, "run/history.h5"), path)
 
 
+def no_records(path, made):
+    history(path, made)
+    with h5py.File(path, "r+") as file:
+        del file["records"]
+        file["records"] = numpy.zeros(0)
+
+
 SOUND = ["-options_file", "{made}/scene/scene.yaml"]
 RESTART = [*SOUND, "-end_time", "0.02", "-restart", "{folder}/checkpoint.h5"]
 
@@ -90,6 +97,8 @@ CHECKPOINTS = [
          ["-restart", "{folder}/history.h5", "not a checkpoint"], {"history.h5": history}),
     Case("no history beside the checkpoint", RESTART, ["-restart", "history"],
          {"checkpoint.h5": made_bytes("run/checkpoint.h5", bytes)}, scene=""),
+    Case("a history that counts no records", RESTART, ["-restart", "history.h5: dataset 'records' has 0 rows"],
+         {"checkpoint.h5": made_bytes("run/checkpoint.h5", bytes), "history.h5": no_records}, scene=""),
     Case("text as the history", RESTART, ["-restart", "history"],
          {"checkpoint.h5": made_bytes("run/checkpoint.h5", bytes), "history.h5": "time\n"}, scene=""),
     damaged("a checkpoint cut in half", lambda content: content[:len(content) // 2], []),
