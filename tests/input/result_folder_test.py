@@ -50,7 +50,8 @@ class ResultFolder(unittest.TestCase):
                 self.assertEqual(result.returncode, 1)
                 line, = program.error_lines(result)
                 self.assertIn(f"option -output {self.folder}: another run writes there (process ", line)
-            self.assertEqual(program.run([*BAR, "-output", self.folder, "-dry_run"], 1).returncode, 0)
+            dry = program.run([*BAR, "-output", self.folder, "-dry_run"], 1)
+            self.assertEqual(dry.returncode, 0, dry.stderr)
             with open(self.path("running.lock")) as file:
                 os.kill(int(file.read().split()[1]), signal.SIGTERM)
             self.assertEqual(first.wait(120), 2)

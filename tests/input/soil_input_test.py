@@ -24,7 +24,8 @@ class Refused(unittest.TestCase):
         self.refused(TURNS + GROUND + ["-block_soil_mat", "none"], "goes with -block_soil_mat")
 
     def test_values(self):
-        for option, value in (("vs", 0), ("density", -1), ("poisson", 0.5), ("poisson", -0.1), ("embedment", -1),
+        for option, value in (("vs", 1e300), ("size", "1e300,1e300"), ("embedment", 1e300), ("density", 1e-300), ("vs", 0),
+                              ("density", -1), ("poisson", 0.5), ("poisson", -0.1), ("embedment", -1),
                               ("shape", "oval"), ("size", "1,2,3"), ("size", "3"), ("size", "0,4"),
                               ("frequency_dependence", "perhaps")):
             self.refused(TURNS + MAT + GROUND + [f"-block_soil_{option}", value], f"-block_soil_{option} {value}")

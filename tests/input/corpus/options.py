@@ -7,7 +7,12 @@ def refused(name, value, *words, scene="scene.yaml"):
     return Case(f"{name} {value}", [name, value], [name, value, *words], scene=scene)
 
 
+SIZE = "between 1e-30 and 1e30"
 NUMBERS = [
+    refused("-end_time", "1e300", SIZE), refused("-progress_interval", "1e300", SIZE), refused("-gravity", "1e300", SIZE),
+    refused("-material_concrete_young", "1e300", SIZE), refused("-material_steel_density", "1e-300", SIZE),
+    refused("-left_gravity", "0,0,1e300", SIZE), refused("-top_at", "1e300,0,2", SIZE),
+    refused("-left_damping_beta", "1e-300", SIZE), refused("-left_tie_area", "1e31", SIZE),
     refused("-end_time", "0", "> 0"), refused("-end_time", "-1", "> 0"),
     refused("-end_time", "inf", "not a finite number"), refused("-end_time", "1e400", "not a finite number"),
     refused("-end_time", "25s", "not a finite number"), refused("-end_time", "ten", "not a finite number"),
