@@ -1,13 +1,13 @@
 #include "scene/member_table.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <set>
 #include <sstream>
 
 #include "common/error.h"
+#include "common/finite_file.h"
 #include "common/parallel.h"
 #include "scene/nearest_name.h"
 #include "scene/option_values.h"
@@ -58,10 +58,7 @@ std::vector<std::string> fields_of(const std::string& line, char separator) {
 }
 
 std::string read_text(const std::string& file) {
-  std::error_code failure;
-  if (std::filesystem::exists(file, failure) && !std::filesystem::is_regular_file(file, failure)) {
-    throw UserError("option -ensemble " + file + ": a folder or a device, not a table");
-  }
+  require_finite_file(file, "option -ensemble ");
   std::ifstream stream(file, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(stream), {});
   if (!stream.is_open() || stream.bad()) {

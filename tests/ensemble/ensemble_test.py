@@ -229,8 +229,8 @@ class Refusals(unittest.TestCase):
     def test_a_table_that_is_none(self):
         folder = tempfile.mkdtemp(prefix="pounding-ensemble-")
         words = [*SCENE, *MODAL, "-output", os.path.join(folder, "run"), "-ensemble"]
-        program.must_refuse(self, [*words, folder], f"-ensemble {folder}: a folder or a device")
-        program.must_refuse(self, [*words, "/dev/zero"], "-ensemble /dev/zero: a folder or a device", ranks=1)
+        program.must_refuse(self, [*words, folder], f"-ensemble {folder}: is a folder")
+        program.must_refuse(self, [*words, "/dev/zero"], "-ensemble /dev/zero: is a device", ranks=1)
         with open(os.path.join(folder, "zeros.csv"), "wb") as file:
             file.write(b"motion_x_seed\n1\0\n")
         program.must_refuse(self, [*words, file.name], "not a text", ranks=1)
