@@ -43,6 +43,7 @@ const std::vector<std::string> records{
     record_writers::csmip(record_writers::wave(), 1, "90 Deg", true) +
         record_writers::csmip(record_writers::wave(), 2, "Up", true),
     record_writers::cosmos(record_writers::wave(), "cm/s^2"),
+    record_writers::bhrc(record_writers::scaled(record_writers::wave(), 1e-3), "L", true),
     record_writers::smc(record_writers::wave(), "2 CORRECTED ACCELEROGRAM", 50)};
 
 const std::string scene =

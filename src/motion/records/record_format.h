@@ -40,6 +40,8 @@ bool is_csmip(std::span<const TextLine> lines);
 FormatRecord read_csmip(const RecordedMotion& motion, std::span<const TextLine> lines);
 bool is_cosmos(std::span<const TextLine> lines);
 FormatRecord read_cosmos(const RecordedMotion& motion, std::span<const TextLine> lines);
+bool is_bhrc(std::span<const TextLine> lines);
+FormatRecord read_bhrc(const RecordedMotion& motion, std::span<const TextLine> lines);
 bool is_smc(std::span<const TextLine> lines);
 FormatRecord read_smc(const RecordedMotion& motion, std::span<const TextLine> lines);
 

@@ -10,6 +10,7 @@ std::span<const RecordFormat> record_formats() {
                                       RecordFormat{"GeoNet V1A, V2A", is_geonet, read_geonet},
                                       RecordFormat{"CSMIP V1, V2", is_csmip, read_csmip},
                                       RecordFormat{"COSMOS V1, V2", is_cosmos, read_cosmos},
+                                      RecordFormat{"BHRC", is_bhrc, read_bhrc},
                                       RecordFormat{"SMC", is_smc, read_smc}};
   return formats;
 }

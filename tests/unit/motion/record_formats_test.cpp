@@ -118,6 +118,18 @@ TEST_F(RecordFormats, Cosmos) {
   EXPECT_THAT(refused(cosmos(wave(), "counts(50)")), HasSubstr("volume 0"));
 }
 
+TEST_F(RecordFormats, TenthsOfGOfIran) {
+  const std::vector<double> small = scaled(wave(), 1e-3);
+  for (const bool pairs : {false, true}) {
+    const std::string text = bhrc(small, "L 324", pairs) + bhrc(scaled(small, 2), "V", pairs);
+    expect_wave(read(text, 1), 1e-4 * standard_gravity, 1e-5);
+    expect_wave(read(text, 2), 2e-4 * standard_gravity, 2e-5);
+    EXPECT_EQ(read(text, 1).component, "L 324");
+    EXPECT_THAT(refused(text), HasSubstr("2 components (1: L 324, 2: V)"));
+    EXPECT_THAT(refused(text.substr(0, text.size() * 9 / 10), 2), HasSubstr("values"));
+  }
+}
+
 TEST_F(RecordFormats, SmcWithTouchingValues) {
   const Accelerogram record = read(smc(wave(), "2 CORRECTED ACCELEROGRAM", 50));
   EXPECT_EQ(record.component, "225");

@@ -148,6 +148,22 @@ inline std::string cosmos(const std::vector<double>& values, const char* unit) {
   return text;
 }
 
+/// [g/10]; `pairs`: each value behind its time.
+inline std::string bhrc(const std::vector<double>& values, const char* name, bool pairs) {
+  std::string text = printed(
+      "* VOL1DS FILE:  5522/01\nInst Type = SSA-2\n\nCOMP %s        \n"
+      "INSTR PERIOD =  .019 SEC   DAMPING =  .640\n"
+      "NO. OF POINTS = %6zu      DURATION = %7.3f\nUNITS ARE SECONDS AND G/10\n   \n",
+      name, values.size(), 0.02 * static_cast<double>(values.size()));
+  text += rows(numbers(88), 14, "%5.0f") + rows(numbers(38), 6, "%13.6E");
+  std::vector<double> all;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (pairs) all.push_back(0.02 * static_cast<double>(i));
+    all.push_back(values[i]);
+  }
+  return text + rows(all, 10, " %12.5E");
+}
+
 /// [cm/s2]; 8E10.4 without a blank
 inline std::string smc(const std::vector<double>& values, const char* title, double rate) {
   std::string text = printed("%s      \n*\nTST\n", title);
