@@ -35,6 +35,9 @@ class ContactProblem {
   ContactProblem(MPI_Comm comm, const Interface& interface, std::span<const LinearSystem> systems,
                  std::span<const Mesh> meshes, double gap_tolerance);
 
+  /// Says how long the steps are [s], by which sliding pairs are looked at.
+  void set_time_step(double time_step) { sliding_.set_time_step(time_step); }
+
   bool member() const { return gather_.member(); }
   int root() const { return gather_.root(); }
   int members() const { return gather_.members(); }

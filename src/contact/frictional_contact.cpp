@@ -26,13 +26,14 @@ FrictionalContact::FrictionalContact(const ContactOperator& contact,
       place_(contact.rows(), -1),
       impulse_(constraints.size()),
       previous_(constraints.size()),
-      size_(constraints.size(), 0.0),
+      across_(constraints.size()),
       slip_(constraints.size(), 0.0),
       loss_(constraints.size(), 0.0) {
   int tangent = static_cast<int>(constraints.size());
   for (const Constraint& constraint : constraints) {
     const bool slides = constraint.friction > 0;
-    points_.push_back({slides ? tangent : -1, constraint.friction});
+    points_.push_back(
+        {slides ? tangent : -1, constraint.friction, tangents_of(normal_of(constraint))});
     if (slides) tangent += 2;
     has_any_ = has_any_ || slides;
   }
@@ -98,7 +99,7 @@ void FrictionalContact::clear() {
   if (!has_any_) return;
   previous_ = impulse_;
   std::ranges::fill(impulse_, std::array<double, 3>{});
-  std::ranges::fill(size_, 0.0);
+  std::ranges::fill(across_, Vector3{});
   std::ranges::fill(slip_, 0.0);
   std::ranges::fill(loss_, 0.0);
 }
@@ -148,7 +149,10 @@ FrictionalContact::Solution FrictionalContact::solve(
       impulse_[row][d] = lambda;
     }
     impulse[row] = solution_[i];
-    size_[row] = std::hypot(solution_[i + 1], solution_[i + 2]);
+    for (std::size_t d = 0; d < 3; ++d) {
+      const auto& [first, second] = points_[row].tangents;
+      across_[row][d] = solution_[i + 1] * first[d] + solution_[i + 2] * second[d];
+    }
     slip_[row] = std::hypot(after[1], after[2]);
     loss_[row] = -twice / 2;
   }

@@ -53,7 +53,7 @@ class FrictionalContact {
                  std::span<double> dof_impulse);
 
   /// Results of the last solve, per row.
-  const std::vector<double>& tangential_impulses() const { return size_; }  ///< magnitude [N s]
+  const std::vector<Vector3>& tangential_impulses() const { return across_; }  ///< [N s]
   const std::vector<double>& slip_rates() const { return slip_; }  ///< |v_t+| in contact [m/s]
   const std::vector<double>& losses() const { return loss_; }      ///< -1/2 lambda_t (v_t- + v_t+)
   double total_loss() const;                                       ///< [J]
@@ -66,6 +66,7 @@ class FrictionalContact {
   struct Point {
     int tangent = -1;  ///< first of its two rows in the operator; -1: no friction
     double coefficient = 0;
+    std::array<Vector3, 2> tangents{};  ///< directions of the two
   };
   struct Component {
     std::vector<int> rows;
@@ -89,7 +90,7 @@ class FrictionalContact {
   std::vector<double> coefficient_;
   std::vector<std::array<double, 3>> impulse_;   ///< per row
   std::vector<std::array<double, 3>> previous_;  ///< per row
-  std::vector<double> size_;
+  std::vector<Vector3> across_;
   std::vector<double> slip_;
   std::vector<double> loss_;
 };

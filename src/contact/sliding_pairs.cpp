@@ -127,8 +127,12 @@ void SlidingPairs::put(std::size_t row, std::span<Constraint> rows) const {
   constraint.initial_gap = pair.open ? open_gap : gap;
 }
 
+void SlidingPairs::set_time_step(double time_step) {
+  stride_ = static_cast<int>(std::clamp(longest_time / time_step, 1.0, 1.0 * most_calls));
+}
+
 bool SlidingPairs::find(std::span<const double> displacement, std::span<Constraint> rows) {
-  if (++calls_ < stride) return false;
+  if (++calls_ < stride_) return false;
   calls_ = 0;
   double farthest = 0;
   for (std::size_t row = 0; row < faces_.rows.size(); ++row) {

@@ -21,8 +21,10 @@ class SlidingPairs {
  public:
   /// Part of a facet by which a node slides before its pair is found anew.
   static constexpr double limit = 0.1;
-  /// Calls of find() for one look at all rows: a node moves by little in so many steps.
-  static constexpr int stride = 16;
+  /// Most calls of find() for one look at all rows, and the longest time for it [s]: a node moves
+  /// by little in so many steps and in so short a time.
+  static constexpr int most_calls = 16;
+  static constexpr double longest_time = 1e-3;
 
   /// Terms of all dofs that pairs may come to have, for a ContactOperator.
   static std::vector<ConstraintTerm> all_terms(const SlidingFaces& faces);
@@ -31,7 +33,9 @@ class SlidingPairs {
   SlidingPairs(const ContactOperator& contact, const Interface& interface);
 
   bool any() const { return !faces_.rows.empty(); }
-  /// Looks at all rows, once in `stride` calls; true if some were paired anew: their new terms and
+  /// One call of find() in each step of so long [s].
+  void set_time_step(double time_step);
+  /// Looks at all rows, once in some calls; true if some were paired anew: their new terms and
   /// gaps are in `rows`, a list of all constraints. `displacement` per dof of the operator.
   bool find(std::span<const double> displacement, std::span<Constraint> rows);
   void save(SavedState& saved) const;
@@ -59,6 +63,7 @@ class SlidingPairs {
   std::vector<std::array<int, 3>> columns_;  ///< per node, in the operator; -1: clamped
   std::vector<Pair> pairs_;                  ///< per row
   std::vector<char> changed_;                ///< per row: not the pair of the initial geometry
+  int stride_ = 1;                           ///< calls of find() for one look
   int calls_ = 0;                            ///< of find(), since the last look
 };
 

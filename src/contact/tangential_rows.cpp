@@ -9,16 +9,6 @@
 namespace pounding {
 namespace {
 
-/// Two unit vectors across a unit vector and each other; axes for an axis.
-std::array<Vector3, 2> tangents_of(const Vector3& normal) {
-  const std::size_t smallest =
-      std::ranges::min_element(normal, {}, [](double x) { return std::abs(x); }) - normal.begin();
-  Vector3 axis{0, 0, 0};
-  axis[smallest] = 1;
-  const Vector3 first = normalised(cross(normal, axis));
-  return {first, cross(normal, first)};
-}
-
 /// The weight of every node of a constraint, -1 for the secondary altogether.
 std::vector<ConstraintTerm> weights_of(const Constraint& constraint, const Vector3& normal) {
   std::vector<ConstraintTerm> nodes;
@@ -33,6 +23,15 @@ std::vector<ConstraintTerm> weights_of(const Constraint& constraint, const Vecto
 }
 
 }  // namespace
+
+std::array<Vector3, 2> tangents_of(const Vector3& normal) {
+  const std::size_t smallest =
+      std::ranges::min_element(normal, {}, [](double x) { return std::abs(x); }) - normal.begin();
+  Vector3 axis{0, 0, 0};
+  axis[smallest] = 1;
+  const Vector3 first = normalised(cross(normal, axis));
+  return {first, cross(normal, first)};
+}
 
 Vector3 normal_of(const Constraint& constraint) {
   Vector3 normal{0, 0, 0};

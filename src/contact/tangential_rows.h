@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,9 @@ namespace pounding {
 /// The outward normal of the secondary side of a constraint, whose terms are the last ones: a unit
 /// vector.
 Vector3 normal_of(const Constraint& constraint);
+
+/// Two unit vectors across a unit vector and each other; axes for an axis.
+std::array<Vector3, 2> tangents_of(const Vector3& normal);
 
 /// Two rows per constraint: what L is for gap rates, for the displacements along two tangents, in
 /// the order of the constraints, with the same weights.

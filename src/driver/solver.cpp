@@ -9,8 +9,10 @@ namespace {
 
 std::unique_ptr<ContactProblem> make_contact(const Solver::Parts& parts) {
   if (parts.interface->constraints.empty()) return nullptr;
-  return std::make_unique<ContactProblem>(parts.comm, *parts.interface, parts.systems, parts.meshes,
-                                          parts.gap_tolerance);
+  auto contact = std::make_unique<ContactProblem>(parts.comm, *parts.interface, parts.systems,
+                                                  parts.meshes, parts.gap_tolerance);
+  contact->set_time_step(parts.time_step);
+  return contact;
 }
 
 }  // namespace

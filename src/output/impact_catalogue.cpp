@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "common/matrix3.h"
 #include "common/parallel.h"
 #include "io/csv_file.h"
 #include "motion/records/record_text.h"
@@ -112,6 +113,7 @@ ImpactCatalogue::ImpactCatalogue(int contacts, std::vector<int> contact_of_row,
       windows_(static_cast<std::size_t>(contacts),
                ForceWindow(times.force_window, times.time_step)),
       step_impulse_(static_cast<std::size_t>(contacts), 0.0),
+      step_tangential_(static_cast<std::size_t>(contacts)),
       touched_(contact_of_row_.size(), 0),
       slipped_(contact_of_row_.size(), 0.0) {
   impacts_.reserve(4096);
@@ -120,7 +122,9 @@ ImpactCatalogue::ImpactCatalogue(int contacts, std::vector<int> contact_of_row,
 void ImpactCatalogue::add_friction(Impact& impact, std::size_t row, double duration,
                                    const ContactStep& step) {
   if (step.slip_rates.empty()) return;
-  impact.tangential_impulse += step.tangential_impulses[row];
+  for (std::size_t d = 0; d < 3; ++d) {
+    step_tangential_[contact_of_row_[row]][d] += step.tangential_impulses[row][d];
+  }
   impact.friction_loss += step.friction_losses[row];
   slipped_[row] += duration * step.slip_rates[row];
   impact.slip = std::max(impact.slip, slipped_[row]);
@@ -129,6 +133,7 @@ void ImpactCatalogue::add_friction(Impact& impact, std::size_t row, double durat
 void ImpactCatalogue::add_step(double time, double duration, const ContactStep& step) {
   const std::span<const double> impulses = step.impulses;
   std::fill(step_impulse_.begin(), step_impulse_.end(), 0.0);
+  std::fill(step_tangential_.begin(), step_tangential_.end(), Vector3{});
   for (std::size_t row = 0; row < impulses.size(); ++row) {
     step_impulse_[contact_of_row_[row]] += impulses[row];
   }
@@ -162,6 +167,10 @@ void ImpactCatalogue::add_step(double time, double duration, const ContactStep& 
         impact.low_share[axis] += impulses[row] * low_[row][axis];
       }
     }
+  }
+  // What points push against each other is no force of the contact: a block at rest has none.
+  for (std::size_t c = 0; c < open_.size(); ++c) {
+    if (step_impulse_[c] > 0) open_[c].tangential_impulse += norm(step_tangential_[c]);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <mpi.h>
 
 #include "common/saved_state.h"
+#include "common/types.h"
 #include "output/force_window.h"
 
 namespace pounding {
@@ -28,7 +29,8 @@ struct Impact {
   /// Share of the impulse at points below the middle of the face along each tangent axis; what acts
   /// at the middle counts half: 0 is one end of the face, 1 the other, 0.5 a centred impact.
   std::array<double, 2> low_share{};
-  double tangential_impulse = 0;  ///< of friction: sum of its magnitudes [N s]
+  double tangential_impulse = 0;  ///< of friction: magnitudes of what all points together have in a
+                                  ///< step, summed over the steps [N s]
   double slip = 0;                ///< path of the point that slid farthest while it touched [m]
   double friction_loss = 0;       ///< [J]
   double window_force = 0;        ///< largest force over a stated time, see ForceWindow [N]
@@ -37,12 +39,12 @@ struct Impact {
 
 /// Contact of one step, per row; the last three are empty without friction.
 struct ContactStep {
-  std::span<const double> gaps;                 ///< [m]
-  std::span<const double> impulses;             ///< [N s]
-  std::span<const double> works;                ///< contact work [J]
-  std::span<const double> tangential_impulses;  ///< magnitude [N s]
-  std::span<const double> slip_rates;           ///< [m/s]
-  std::span<const double> friction_losses;      ///< [J]
+  std::span<const double> gaps;                  ///< [m]
+  std::span<const double> impulses;              ///< [N s]
+  std::span<const double> works;                 ///< contact work [J]
+  std::span<const Vector3> tangential_impulses;  ///< [N s]
+  std::span<const double> slip_rates;            ///< [m/s]
+  std::span<const double> friction_losses;       ///< [J]
 };
 
 /// Times that the catalogue goes by [s].
@@ -100,6 +102,7 @@ class ImpactCatalogue {
   std::vector<char> is_open_;               ///< per contact
   std::vector<ForceWindow> windows_;        ///< per contact
   std::vector<double> step_impulse_;        ///< per contact, of the current step
+  std::vector<Vector3> step_tangential_;    ///< likewise, of friction
   std::vector<char> touched_;               ///< per row, in the open episode
   std::vector<double> slipped_;             ///< per row, path in the open episode [m]
   std::vector<Impact> impacts_;

@@ -127,6 +127,16 @@ class Impact(unittest.TestCase):
                                    delta=1e-12)
 
 
+class AtRest(unittest.TestCase):
+    """A block that slides to rest: friction took its momentum, and what its points push against each other is none."""
+
+    def test_tangential_impulse_ends_with_the_slide(self):
+        for end_time, ranks in ((0.1, 1), (0.3, 2)):
+            run = Recorded(self, block(1e-4, end_time, 0.3, *RIGID, "-block_initial_velocity", "0.06,0.08,0"), ranks)
+            self.assertAlmostEqual(run.column("impulse")[0], GRAVITY * (end_time + 5e-5), delta=1e-9)
+            self.assertAlmostEqual(run.column("tangential_impulse")[0], 0.1, delta=1e-9)
+
+
 class Stack(unittest.TestCase):
     """A soft block on a soft deck, both of bricks, that slides, sticks and hops on it while the ground shakes."""
     RECORD = None

@@ -147,7 +147,7 @@ TEST(ImpactCatalogue, AddsFrictionUpAndForgetsPathsOfEarlierEpisodes) {
   ImpactCatalogue catalogue(1, {0, 0}, {{0, 0}, {1, 0}}, times);
   const std::vector<double> none{0, 0};
   const std::vector<double> impulses{2, 0};
-  const std::vector<double> tangential{1, 0};
+  const std::vector<Vector3> tangential{{0, 0, -1}, {0, 0, 0}};
   const std::vector<double> slips{3, 5};  // the second point does not touch
   const std::vector<double> losses{7, 0};
   for (const double time : {0.0, 0.5, 2.0}) {  // the last two are episodes of their own
