@@ -14,13 +14,18 @@ function result = load_results(folder)
   if ! exist(path, "file")
     error("load_results: %s is not there; give the output folder of a run", path);
   end
+  result.summary = jsondecode(fileread(fullfile(folder, "summary.json")), "makeValidName", false);
+  if ! isfield(result.summary, "schema") || result.summary.schema != 1
+    error("load_results: the results in %s are not of schema 1, which is read here; make the run anew", folder);
+  end
   history = load("-hdf5", path);
   rows = numel(history.time);
   if isfield(history, "records")  % rows behind them were still being written when the run ended
     rows = history.records(1);
   end
   labels = struct("displacement", "channels", "velocity", "channels", "acceleration", "channels", "gap", "contacts", ...
-                  "contact_force", "contacts", "force", "forces", "link_force", "links", "link_elongation", "links");
+                  "contact_force", "contacts", "force", "forces", "base_displacement", "bases", ...
+                  "link_force", "links", "link_elongation", "links");
   columns = values = struct();
   for [label, quantity] = labels
     if isfield(history, quantity)
@@ -32,7 +37,6 @@ function result = load_results(folder)
   result.ground_acceleration = history.ground_acceleration(:, 1:rows).';
   result.names = @(quantity) member(columns, quantity);
   result.of = @(quantity, name) member(values, quantity)(:, place(name, member(columns, quantity)));
-  result.summary = jsondecode(fileread(fullfile(folder, "summary.json")), "makeValidName", false);
   result.spectrum = @(probe, direction, damping) one_spectrum(fullfile(folder, "spectra.csv"), probe, direction, damping);
 end
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from .results import UNREADABLE, ResultError
+from .results import UNREADABLE, ResultError, require_schema
 
 
 @dataclass(repr=False)
@@ -62,6 +62,7 @@ def load_ensemble(folder) -> Ensemble:
     path = Path(folder) / "ensemble.h5"
     try:
         with h5py.File(path, "r") as file:
+            require_schema(path.name, file.attrs)
             table = file["members/table"]
             _check_numbers(path, file)
             contacts = _words(file["impacts/contacts"]) if "impacts/contacts" in file else []

@@ -15,6 +15,10 @@ DIRECTIONS = ("x", "y", "z")
 GROUND = "ground"  # stands for a probe in the rows of spectra.csv that are the ground's
 
 
+# File -> number of its layout that is read here. A number rises when names or numbers mean another thing.
+SCHEMAS = {"summary.json": 1, "history.h5": 1, "fields.h5": 1, "modes.h5": 1, "model.h5": 1, "ensemble.h5": 1}
+
+
 class ResultError(Exception):
     """The folder or one of its files cannot be used: one line for the user."""
 
@@ -84,6 +88,13 @@ class Result:
                               f"{_listed(recorded)} of {_listed(self.history.get('channels', []))}")
         return found
 
+    def base(self, structure: str, direction: str):
+        """Times and displacements [m] of what a structure stands on, or None where that follows the ground."""
+        name = f"{structure}.{direction}"
+        if name not in self.history.get("bases", []):
+            return None
+        return self.history["time"], self.history["base_displacement"][:, self.history["bases"].index(name)]
+
     def force(self, name: str):
         """Times and values of one force, "base.Fx" or "corner.17.My1". Throws ResultError, with what there is, if it was
         not recorded."""
@@ -134,6 +145,19 @@ class Result:
                 raise Missing(f"history.h5 has no {name}" if self.history else "no history.h5")
 
 
+def require_schema(name: str, found) -> None:
+    """Throws ValueError unless the file of this name has the schema that is read here; `found`: its attributes, or the
+    object of a JSON file."""
+    number = found.get("schema") if hasattr(found, "get") else None
+    wanted = SCHEMAS[name]
+    if number is None:
+        raise ValueError(f"it has no schema number, so an earlier version wrote it and this one reads schema {wanted}: "
+                         "make the run anew, or read it with that version")
+    if number != wanted:
+        raise ValueError(f"it is of schema {float(number):g}, this version reads schema {wanted}: "
+                         "read it with the version that wrote it, or make the run anew")
+
+
 def low_pass(values, time, frequency: float):
     """The low-pass of docs/results.md: two poles of Butterworth forwards and backwards, both passes together
     leave 1/sqrt(2) at `frequency` [Hz]. Returns the values as they are where their samples hold no such filter."""
@@ -157,12 +181,16 @@ def _read_summary(path: Path) -> dict:
         found = json.loads(path.read_text(encoding="utf-8"))
     except RecursionError as error:
         raise ValueError("it is nested without end") from error
+    if isinstance(found, dict) and "schema" in found:
+        require_schema(path.name, found)
     summary_shape.check(found)
+    require_schema(path.name, found)
     return found
 
 
 def _read_history(path: Path, result: Result) -> None:
     with h5py.File(path, "r") as file:
+        require_schema(path.name, file.attrs)
         result.title = _text(file.attrs.get("title", ""))
         for name, dataset in file.items():
             if not isinstance(dataset, h5py.Dataset):
@@ -177,7 +205,7 @@ def _read_history(path: Path, result: Result) -> None:
         raise ValueError("no dataset time")
     if np.ndim(history["time"]) != 1 or history["time"].dtype.kind not in "fiu":
         raise ValueError("time is no row of numbers")
-    for labels in ("channels", "contacts", "links", "forces"):
+    for labels in ("channels", "contacts", "links", "forces", "bases"):
         if not isinstance(history.get(labels, []), list):
             raise ValueError(f"{labels} holds no names")
     if "records" in history:  # rows behind them were still being written when the run ended
@@ -185,12 +213,12 @@ def _read_history(path: Path, result: Result) -> None:
         if not 0 <= whole <= rows:
             raise ValueError(f"{whole} records of {rows}")
         for name, values in history.items():
-            if name not in ("channels", "contacts", "links", "forces") and len(values) == rows:
+            if name not in ("channels", "contacts", "links", "forces", "bases") and len(values) == rows:
                 history[name] = values[:whole]
     for name, labels in (("displacement", "channels"), ("velocity", "channels"),
                          ("acceleration", "channels"), ("gap", "contacts"),
                          ("contact_force", "contacts"), ("link_elongation", "links"), ("link_force", "links"),
-                         ("force", "forces"),
+                         ("force", "forces"), ("base_displacement", "bases"),
                          ("ground_acceleration", DIRECTIONS)):
         columns = len(labels if labels is DIRECTIONS else history.get(labels, []))
         shape = (len(history["time"]), columns)
@@ -303,6 +331,7 @@ def load_modes(folder: Path) -> dict:
         raise ResultError(f"{path}: no such file; run with -write_modes")
     try:
         with h5py.File(path, "r") as file:
+            require_schema(path.name, file.attrs)
             return {name: Modes(group["coordinates"][()], group["frequencies"][()],
                                 np.stack([group["shapes"][key][()] for key in sorted(group["shapes"])]))
                     for name, group in file.items() if isinstance(group, h5py.Group)}

@@ -7,6 +7,7 @@
 #include "driver/mesh_labels.h"
 #include "io/hdf5_file.h"
 #include "io/new_file.h"
+#include "io/schema.h"
 #include "mesh/node_table.h"
 
 namespace pounding {
@@ -39,6 +40,7 @@ void write_mode_shapes(MPI_Comm comm, const Scene& scene, const Model& model) {
   std::optional<Hdf5File> file;
   on_rank0(comm, [&] {
     file.emplace(scene.output + "/modes.h5");
+    schema::write(*file, schema::modes);
     write_group_names(*file, labels);
   });
   std::string grids;

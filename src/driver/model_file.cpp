@@ -12,6 +12,7 @@
 #include "contact/tangential_rows.h"
 #include "driver/mesh_labels.h"
 #include "io/new_file.h"
+#include "io/schema.h"
 #include "mesh/node_table.h"
 
 namespace pounding {
@@ -197,6 +198,7 @@ void write_model(MPI_Comm comm, const Scene& scene, const Model& model) {
   std::optional<Hdf5File> file;
   on_rank0(comm, [&] {
     file.emplace(scene.output + "/model.h5");
+    schema::write(*file, schema::model);
     write_group_names(*file, labels);
   });
   std::string grids;

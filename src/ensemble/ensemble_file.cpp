@@ -11,6 +11,7 @@
 #include "io/hdf5_file.h"
 #include "io/hdf5_reader.h"
 #include "io/new_file.h"
+#include "io/schema.h"
 
 namespace pounding {
 namespace {
@@ -79,6 +80,7 @@ void create(const std::string& path, const EnsembleLayout& layout) {
   const std::size_t members = layout.table->members();
   const std::string draft = path + ".new";
   Hdf5File file(draft, Hdf5File::Kind::sealed);
+  schema::write(file, schema::ensemble);
   std::vector<OpenPlace> places;
   const auto reserve = [&](const std::string& name, std::vector<std::size_t> shape) {
     std::size_t count = members;
@@ -118,6 +120,14 @@ void create(const std::string& path, const EnsembleLayout& layout) {
   file.move_to(path);
 }
 
+void require_schema(const std::string& path, const Hdf5Reader& file) {
+  try {
+    schema::require(file, schema::ensemble);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path + ": an ensemble " + error.what());
+  }
+}
+
 /// The first difference between two identities; empty if there is none.
 std::string difference(const std::vector<std::string>& before,
                        const std::vector<std::string>& now) {
@@ -137,8 +147,9 @@ void EnsembleFile::refuse_another(const std::string& path, const EnsembleLayout&
   if (!std::filesystem::exists(path)) return;
   std::string found;
   try {
-    std::vector<std::string> lines =
-        Hdf5Reader(path, Hdf5Reader::Kind::sealed).strings(identity_name);
+    const Hdf5Reader file(path, Hdf5Reader::Kind::sealed);
+    require_schema(path, file);
+    std::vector<std::string> lines = file.strings(identity_name);
     lines.resize(std::min(lines.size(), layout.identity.size()));
     found = difference(lines, layout.identity);
   } catch (const std::runtime_error& error) {

@@ -5,15 +5,14 @@
 #include <stdexcept>
 
 #include "common/component_names.h"
-#include "common/version.h"
 #include "io/hdf5_file.h"
 #include "io/hdf5_reader.h"
+#include "io/schema.h"
 
 namespace pounding {
 namespace {
 
 constexpr const char* format = "pounding modal basis";
-constexpr int version = 2;
 
 /// Attributes are those of a dataset, since a group that holds nothing else does not come to be.
 constexpr const char* key_holder = "squared_frequency";
@@ -88,8 +87,7 @@ ModalBasis read_arrays(const Hdf5Reader& file) {
 void write_modal_basis(const std::string& path, const BasisKey& key, const ModalBasis& basis) {
   Hdf5File file(path + ".new", Hdf5File::Kind::sealed);
   file.write_attribute("/", "format", format);
-  file.write_attribute("/", "version", version);
-  file.write_attribute("/", "program", program_version());
+  schema::write(file, schema::basis);
   file.write_attribute("/", "modes", basis.modes);
   file.write_attribute("/", "attachment_vectors", basis.attachment_vectors);
   file.write_attribute("/", "full_dofs", static_cast<double>(basis.full_dofs));
@@ -116,9 +114,8 @@ void write_modal_basis(const std::string& path, const BasisKey& key, const Modal
 StoredBasis read_modal_basis(const std::string& path, const BasisKey& key) {
   const Hdf5Reader file(path, Hdf5Reader::Kind::sealed);
   try {
-    if (file.text("/", "format") != format || file.number("/", "version") != version) {
-      throw std::runtime_error("another format");
-    }
+    if (file.text("/", "format") != format) throw std::runtime_error("another format");
+    schema::require(file, schema::basis);
     StoredBasis stored;
     stored.differs = difference(file, key);
     if (stored.differs.empty()) stored.basis = read_arrays(file);

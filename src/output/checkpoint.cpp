@@ -5,9 +5,9 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
-#include "common/version.h"
 #include "io/hdf5_file.h"
 #include "io/placed_file.h"
+#include "io/schema.h"
 #include "mesh/node_table.h"
 #include "output/checkpoint_format.h"
 #include "output/file_blocks.h"
@@ -73,8 +73,7 @@ class CheckpointWriter {
   void write_identity(const RunIdentity& identity) {
     on_root([&] {
       file_->write_attribute("/", "format", format::name);
-      file_->write_attribute("/", "version", format::version);
-      file_->write_attribute("/", "program", program_version());
+      schema::write(*file_, schema::checkpoint);
       file_->write_attribute("/", "time_step", identity.time_step);
       file_->write_attribute("/", "ground_motion", identity.ground_motion);
       std::vector<std::string> lines;

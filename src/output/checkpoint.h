@@ -14,8 +14,8 @@
 /// about ranks but for the parts of sums, so any number of them may read it. What nodes have is
 /// written and read by all ranks, a block of nodes each (file_blocks.h), the rest by rank 0.
 ///
-///     /                            attributes: format "pounding checkpoint", version 2, program,
-///                                  time_step [s], ground_motion (hash of its samples)
+///     /                            attributes: format "pounding checkpoint", schema (io/schema.h),
+///                                  program, time_step [s], ground_motion (hash of its samples)
 ///     /options                     strings "name: value", those that may not change
 ///     /structures/S                attributes: dofs (free ones), elements
 ///     /structures/S/coordinates    (nodes, 3) [m]

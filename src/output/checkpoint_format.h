@@ -15,7 +15,6 @@
 namespace pounding::checkpoint_format {
 
 inline constexpr const char* name = "pounding checkpoint";
-inline constexpr int version = 3;
 
 /// The group of a structure.
 inline std::string folder(const Mesh& mesh) {

@@ -5,6 +5,7 @@
 
 #include "common/parallel.h"
 #include "io/hdf5_reader.h"
+#include "io/schema.h"
 #include "mesh/node_table.h"
 #include "output/checkpoint.h"
 #include "output/checkpoint_format.h"
@@ -28,13 +29,7 @@ class CheckpointReader {
     on_root([&] {
       file_.emplace(path, Hdf5Reader::Kind::sealed);
       if (!is_checkpoint()) refuse("an HDF5 file, but not a checkpoint");
-      if (const double version = file_->number("/", "version"); version != format::version) {
-        std::ostringstream text;
-        text << "a checkpoint of format " << version << ", this program reads format "
-             << format::version << "; continue it with the program that wrote it ("
-             << file_->text("/", "program") << ")";
-        refuse(text.str());
-      }
+      require_schema();
     });
   }
 
@@ -149,6 +144,15 @@ class CheckpointReader {
   }
   [[noreturn]] void refuse(const std::string& why) const {
     throw std::runtime_error(path_ + ": " + why);
+  }
+
+  void require_schema() const {
+    try {
+      schema::require(*file_, schema::checkpoint);
+    } catch (const std::runtime_error& error) {
+      refuse(std::string("a checkpoint ") + error.what() +
+             "; continue it with the program that wrote it, or start anew");
+    }
   }
 
   /// A dataset without infinities and NaN.

@@ -9,6 +9,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "io/new_file.h"
+#include "io/schema.h"
 #include "mesh/node_table.h"
 
 namespace pounding {
@@ -123,6 +124,7 @@ void FieldWriter::create(const std::string& path) {
   std::optional<Hdf5File> file;
   on_rank0(layout_.comm, [&] {
     file.emplace(path);
+    schema::write(*file, schema::fields);
     file->write_attribute("/", "title", layout_.title);
     file->write_attribute("/", "time_step", layout_.time_step);
     file->write_attribute("/", "first_step", static_cast<double>(layout_.steps.first));

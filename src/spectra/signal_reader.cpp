@@ -6,6 +6,7 @@
 
 #include "common/error.h"
 #include "io/hdf5_reader.h"
+#include "io/schema.h"
 #include "motion/accelerogram.h"
 #include "scene/nearest_name.h"
 
@@ -89,9 +90,18 @@ std::size_t whole_records(const Hdf5Reader& history, const std::string& path) {
   return static_cast<std::size_t>(whole);
 }
 
+void require_schema(const std::string& path, const Hdf5Reader& history) {
+  try {
+    schema::require(history, schema::history);
+  } catch (const std::runtime_error& error) {
+    throw UserError(path + ": a history " + error.what() + "; make the run anew");
+  }
+}
+
 void read_history(const std::string& path, const SpectraOptions& options,
                   std::vector<NamedSignal>& signals) {
   const Hdf5Reader history(path, Hdf5Reader::Kind::left_open);
+  require_schema(path, history);
   const auto channels = history.strings("channels");
   const std::size_t records = whole_records(history, path);
   const auto time = history.rows("time", 0, records);

@@ -202,6 +202,16 @@ class Members(unittest.TestCase):
             with open(self.inner, "w") as file:
                 file.write(text)
 
+    def test_another_schema_is_refused(self):
+        place = tempfile.mkdtemp(prefix="pounding-ensemble-")
+        shutil.copy(os.path.join(self.folder, "ensemble.h5"), place)
+        with h5py.File(os.path.join(place, "ensemble.h5"), "r+") as file:
+            file.attrs["schema"] = 99.0
+        program.must_refuse(self, [*self.words, "-output", place], "an ensemble of schema 99", "reads schema 1",
+                            "give another -output")
+        with self.assertRaisesRegex(pounding.ResultError, "schema 99"):
+            pounding.load_ensemble(place)
+
 
 class Refusals(unittest.TestCase):
     def refuse(self, words, *parts, rows=("1",), columns="motion_x_seed"):

@@ -57,6 +57,7 @@ def make_history(path: Path, samples: int) -> None:
         gap[during, contact] = 0
         force[during, contact] = impulse / duration
     with h5py.File(path, "w") as file:
+        file.attrs["schema"] = 1
         file.attrs["title"] = "Two <boxes> & a gap"
         file["time"] = time
         file["ground_acceleration"] = ground
@@ -82,7 +83,7 @@ def make_summary(path: Path) -> None:
     structure = {"dofs": 8052, "elements": {"hex8": 1064, "beam": 284}, "mass": 9198.6,
                  "frequencies": modes, "omega_max": 1.757e5, "stable_time_step": 4.39e-6}
     path.write_text(json.dumps({
-        "title": "Two <boxes> & a gap", "version": "0.1.0", "ranks": 2, "steps": 1574803,
+        "schema": 1, "title": "Two <boxes> & a gap", "version": "0.1.0", "ranks": 2, "steps": 1574803,
         "time_step": 2.54e-6, "end_time": 4.0, "wall_time": 61.2, "microseconds_per_step": 25.1,
         "structures": {"s1": structure, "s2": {**structure, "dofs": 5532}},
         "energy": {"relative_residual": 1e-13, "damping": -5.1, "contact": -1.1, "input": 40.0},
@@ -190,6 +191,20 @@ class PlotTest(unittest.TestCase):
     def test_a_missing_or_empty_folder_is_refused_in_one_line(self):
         self.assertIn("is not a folder", self.refused(self.folder / "nowhere"))
         self.assertIn("holds no results", self.refused(self.folder))
+
+    def test_files_of_another_schema_are_refused_in_one_line(self):
+        make_folder(self.folder, 2001)
+        summary = self.folder / "summary.json"
+        text = summary.read_text()
+        summary.write_text(text.replace('"schema": 1', '"schema": 2'))
+        self.assertIn("summary.json cannot be read: it is of schema 2, this version reads schema 1: read it with",
+                      self.refused(self.folder))
+        summary.write_text(text.replace('"schema": 1, ', ''))
+        self.assertIn("it has no schema number, so an earlier version wrote it", self.refused(self.folder))
+        summary.write_text(text)
+        with h5py.File(self.folder / "history.h5", "r+") as file:
+            file.attrs["schema"] = 7
+        self.assertIn("history.h5 cannot be read: it is of schema 7", self.refused(self.folder))
 
     def test_a_broken_file_is_refused_by_name(self):
         (self.folder / "summary.json").write_text('{"title": ')

@@ -28,6 +28,7 @@ def make_results(folder):
             time + SOLVER_STEP / 2, start, end)
         pushes += impulse * (high - low) / (end - start) / STEP
     with h5py.File(os.path.join(folder, "history.h5"), "w") as file:
+        file.attrs["schema"] = 1
         file["time"] = time
         file["channels"] = numpy.array(["roof.x", "roof.y", "other.x"], dtype="S16")
         file["acceleration"] = numpy.stack([sway + pushes, ground, 0.5 * sway], 1)

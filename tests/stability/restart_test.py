@@ -421,8 +421,13 @@ class Refusals(RestartCase):
         self.refuse(self.copy(put("tables/recorder_records", value=-1)), ["recorder_records"])
         self.refuse(self.copy(put("tables/gap_watch_steps", 0, value=1e300)), ["gap_watch_steps"])
 
-    def test_other_version_of_the_format(self):
-        self.refuse(self.copy(lambda file: file.attrs.modify("version", 99.0)), ["format 99", "0.1.0"])
+    def test_other_schema(self):
+        def of_version_3(file):
+            del file.attrs["schema"]
+            file.attrs["version"] = 3.0
+
+        self.refuse(self.copy(lambda file: file.attrs.modify("schema", 99.0)), ["schema 99", "0.1.0"])
+        self.refuse(self.copy(of_version_3), ["of schema 3, written by pounding 0.1.0", "reads schema 4", "start anew"])
 
     def test_missing_part(self):
         def remove(file):

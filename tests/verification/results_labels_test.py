@@ -62,6 +62,7 @@ class Results:
             self.labels = {name: {key: value.decode() if isinstance(value, bytes) else value
                                   for key, value in file[name].attrs.items()} for name in file}
             self.title = file.attrs["title"]
+            self.schema = float(file.attrs["schema"]), self.summary["schema"]
         shutil.rmtree(folder)
         self.time = self.data["time"]
 
@@ -140,6 +141,7 @@ class Labels(unittest.TestCase):
         self.assertEqual([name.decode() for name in self.fine.data["channels"]],
                          ["face1.x", "face1.y", "face1.z", "face2.x", "face2.y", "face2.z"])
         self.assertEqual([name.decode() for name in self.fine.data["contacts"]], ["gap"])
+        self.assertEqual(self.fine.schema, (1, 1))
         self.assertIn("two oscillators", (self.fine.title.decode() if isinstance(self.fine.title, bytes)
                                           else self.fine.title))
 

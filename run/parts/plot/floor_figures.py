@@ -37,7 +37,8 @@ def drifts(result: Result) -> list:
             if series is None:
                 continue
             time, moved = series
-            base = None if lower == "base" else result.series_if_any("displacement", lower, direction)
+            base = (result.base(storey["structure"], direction) if lower == "base"
+                    else result.series_if_any("displacement", lower, direction))
             drift = 100 * (moved - (base[1] if base else 0)) / storey["height"]
             if has_signal(drift, 1e-3):
                 colour = DIRECTION_COLOURS[direction]
@@ -51,7 +52,7 @@ def drifts(result: Result) -> list:
     rows[-1].set_xlabel("time [s]")
     return save(figure, result.folder, "drifts.png", "Drifts",
                 "Horizontal displacement of a floor less that of the one below, over their distance in height; "
-                "the lowest floor against the ground at the base of its structure.")
+                "the lowest floor against what its structure stands on.")
 
 
 def accelerations(result: Result) -> list:

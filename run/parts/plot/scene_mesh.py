@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import h5py
 import numpy as np
 
-from pounding.results import Missing
+from pounding.results import Missing, require_schema
 
 # Of XDMF's codes of cells: nodes, and faces by the places of their nodes.
 NODES = {4: 3, 5: 4, 6: 4, 8: 6, 9: 8}
@@ -83,6 +83,7 @@ def load(folder) -> tuple:
             continue
         try:
             with h5py.File(path, "r") as file:
+                require_schema(path.name, file.attrs)
                 if "groups" not in file:
                     continue
                 parts = [item for item in file.values()

@@ -47,7 +47,7 @@ class ModalBasisFile : public testing::Test {
     const std::string path = folder_ / "basis.h5";
     Hdf5File file(path, Hdf5File::Kind::sealed);
     file.write_attribute("/", "format", "pounding modal basis");
-    file.write_attribute("/", "version", 2);
+    file.write_attribute("/", "schema", 3);
     file.write_attribute("/", "modes", content.modes);
     file.write_attribute("/", "attachment_vectors", content.attachment_vectors);
     file.write_attribute("/", "full_dofs", content.full_dofs);
