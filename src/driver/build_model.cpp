@@ -13,6 +13,7 @@
 #include "driver/rest.h"
 #include "driver/run_warnings.h"
 #include "driver/separation.h"
+#include "driver/time_step.h"
 #include "driver/warnings.h"
 #include "driver/whole_meshes.h"
 #include "modal/buckling.h"
@@ -22,7 +23,6 @@
 #include "scene/factor_reader.h"
 #include "scene/soil_reader.h"
 #include "scene/support_reader.h"
-#include "stability/stable_time_step.h"
 #include "stability/step_target.h"
 #include "stability/structure_limits.h"
 #include "statics/find_support_shapes.h"
@@ -140,15 +140,6 @@ void build_meshes(MPI_Comm comm, Scene& scene, std::span<const double> stiffness
     }
     model.buildings[s].basis = std::move(bases[s]);
   }
-}
-
-/// A fraction of the stable one. A reduced structure may allow more than its records resolve: then
-/// their interval is the step.
-double automatic_time_step(const Scene& scene, double stable) {
-  const double fraction = round_down(scene.courant * stable);
-  const bool reduced = std::ranges::any_of(
-      scene.structures, [](const Structure& structure) { return structure.modal.has_value(); });
-  return reduced ? std::min(fraction, scene.output_interval) : fraction;
 }
 
 EigenvalueEffort effort_of(const Scene& scene, Progress& progress) {
@@ -276,29 +267,6 @@ void add_warnings(MPI_Comm comm, const Scene& scene, Model& model) {
 
 }  // namespace
 
-void choose_time_step(const Scene& scene, double stable, Model& model) {
-  if (!std::isfinite(stable) && !(scene.time_step > 0)) {
-    throw UserError(
-        "nothing in the scene vibrates, so nothing limits the time step: give -time_step");
-  }
-  model.time_step = scene.time_step > 0 ? scene.time_step : automatic_time_step(scene, stable);
-  if (model.time_step > stable && !scene.allow_unstable) {
-    std::ostringstream text;
-    text << "option -time_step " << model.time_step << " s: above the stable time step " << stable
-         << " s; give a smaller one (or leave it out), or -allow_unstable for a study";
-    throw UserError(text.str());
-  }
-  constexpr double most_steps = 1e12;
-  if (scene.end_time / model.time_step > most_steps) {
-    std::ostringstream text;
-    text << "option -end_time " << scene.end_time << " s: " << scene.end_time / model.time_step
-         << " steps of " << model.time_step << " s, above " << most_steps << "; give a shorter time"
-         << (scene.time_step > 0 ? ", or a longer -time_step" : "");
-    throw UserError(text.str());
-  }
-  model.steps = static_cast<std::int64_t>(std::ceil(scene.end_time / model.time_step - 1e-9));
-}
-
 Model build_model(MPI_Comm comm, Scene& scene, std::span<const double> stiffness_factors,
                   Profile& profile, const ContactsKnown& contacts_known) {
   Model model;
@@ -321,7 +289,7 @@ Model build_model(MPI_Comm comm, Scene& scene, std::span<const double> stiffness
   on_rank0(comm, [&] { model.separations = find_separations(scene, model); });
   add_warnings(comm, scene, model);
   model.filler_time_step = filler_limit(comm, scene, model);
-  choose_time_step(scene, model.smallest_stable_time_step(), model);
+  choose_time_step(scene, step_limits(scene, model), model);
   append(run_warnings(scene, model), model.warnings);
   const ScopedTimer timer(profile, Phase::modes);
   find_energy_margins(comm, scene, model);

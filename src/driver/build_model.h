@@ -24,7 +24,4 @@ using ContactsKnown = std::function<void(const Interface&, const std::vector<Gap
 Model build_model(MPI_Comm comm, Scene& scene, std::span<const double> stiffness_factors,
                   Profile& profile, const ContactsKnown& contacts_known = {});
 
-/// The time step and their number, where `stable` is the stable step [s]. Throws UserError.
-void choose_time_step(const Scene& scene, double stable, Model& model);
-
 }  // namespace pounding

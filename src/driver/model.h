@@ -12,6 +12,7 @@
 #include "contact/interface.h"
 #include "driver/building.h"
 #include "driver/separation_rules.h"
+#include "driver/time_step.h"
 #include "mesh/force_places.h"
 #include "mesh/mesh.h"
 #include "mesh/probe_set.h"
@@ -39,8 +40,10 @@ struct Model {
   double filler_time_step = std::numeric_limits<double>::infinity();  ///< see filler_limit [s]
   double time_step = 0;                                               ///< in force [s]
   std::int64_t steps = 0;                                             ///< until the end time
-  std::vector<Separation> separations;  ///< that the joints would need; on rank 0
-  std::vector<std::string> warnings;    ///< one line each, on rank 0: what may not be meant
+  std::vector<Separation> separations;      ///< that the joints would need; on rank 0
+  std::vector<std::string> warnings;        ///< one line each, on rank 0: what may not be meant
+  StepLimits step_limits;
+  StepSource step_source = StepSource::given;  ///< of the time step in force
   /// Components of the supports' motion that differ from the ground's.
   std::span<const SupportColumn> support_columns() const {
     return supports ? std::span<const SupportColumn>(supports->columns())

@@ -390,6 +390,11 @@ void print_time_step(const Scene& scene, const Model& model, double seconds_per_
   std::printf("time step %.6g s (%.3f of the stable one), %lld steps to %.6g s\n", model.time_step,
               model.time_step / model.smallest_stable_time_step(),
               static_cast<long long>(model.steps), scene.end_time);
+  std::printf("  %s\n", step_source_text(scene, model).c_str());
+  if (model.step_source == StepSource::resolution) {
+    std::printf("  earlier versions took %.6g s: see What changes your numbers in CHANGELOG.md\n",
+                earlier_time_step(scene, model));
+  }
   if (seconds_per_step > 0) {
     std::printf("expected wall time of the steps: %.1f s (%.1f microseconds per step, measured)\n",
                 seconds_per_step * static_cast<double>(model.steps), 1e6 * seconds_per_step);

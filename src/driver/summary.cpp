@@ -12,6 +12,7 @@
 #include "driver/rest.h"
 #include "driver/soil_report.h"
 #include "io/new_file.h"
+#include "io/schema.h"
 #include "scene/resolved_options.h"
 #include "stability/stable_time_step.h"
 
@@ -334,6 +335,7 @@ Json describe_contact(const InterfaceReport& report, const Slide& slide) {
 void write_summary(const std::string& path, const FinishedRun& run) {
   const auto& [provenance, scene, resolved, model, statistics, recorder, ranks] = run;
   Json summary;
+  summary["schema"] = schema::summary;
   summary["title"] = scene.title;
   summary["version"] = program_version();
   summary["commit"] = program_commit();
@@ -347,6 +349,10 @@ void write_summary(const std::string& path, const FinishedRun& run) {
   if (model.supports) summary["supports"] = describe_supports(*model.supports);
   summary["time_step"] = model.time_step;
   summary["stable_time_step"] = model.smallest_stable_time_step();
+  if (const double step = model.step_limits.resolved.accurate_step(); std::isfinite(step)) {
+    summary["accurate_time_step"] = step;
+  }
+  summary["time_step_source"] = step_source_text(scene, model);
   if (std::isfinite(model.filler_time_step)) summary["filler_time_step"] = model.filler_time_step;
   summary["steps"] = model.steps;
   summary["end_time"] = scene.end_time;

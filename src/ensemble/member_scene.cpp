@@ -76,14 +76,17 @@ MemberScene read_member(const OptionsDatabase& scene, const MemberTable& table,
   }
 }
 
-double member_time_step(const MemberScene& member, const std::vector<ModalBasis>& bases) {
-  double smallest = std::numeric_limits<double>::infinity();
+StepLimits member_limits(const MemberScene& member, const std::vector<ModalBasis>& bases) {
+  const Scene& scene = member.scene;
+  StepLimits limits;
   for (std::size_t s = 0; s < bases.size(); ++s) {
     ModalBasis basis = bases[s];
     scale_stiffness(member.stiffness_factors[s], basis);
-    smallest = std::min(smallest, stable_time_step(member.scene.structures[s], basis));
+    limits.stable = std::min(limits.stable, stable_time_step(scene.structures[s], basis));
+    limits.resolved = faster(limits.resolved, resolved_motion_of(scene.structures[s], basis,
+                                                                 scene.spectra.frequencies.back()));
   }
-  return smallest;
+  return limits;
 }
 
 double member_gap(const Scene& scene, const Constraint& row, const GapShare& share) {

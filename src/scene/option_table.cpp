@@ -49,7 +49,7 @@ constexpr std::array table{
     OptionRow{Block::run, "supports", Kind::names, "names", value("none"), any, "", "parts of the ground that move otherwise than the motion says"},
     OptionRow{Block::run, "end_time", Kind::real, "s", required, positive, "", "duration of the run"},
     OptionRow{Block::run, "courant", Kind::real, "-", value("0.9"), fraction, "", "fraction of the stable time step that is used"},
-    OptionRow{Block::run, "time_step", Kind::real, "s", value("0"), not_negative, "", "time step; 0: courant x the stable one"},
+    OptionRow{Block::run, "time_step", Kind::real, "s", value("0"), not_negative, "", "time step; 0: courant x the stable one, or a shorter one that resolves what vibrates up to the last of spectra_frequencies"},
     OptionRow{Block::run, "allow_unstable", Kind::boolean, "flag", value("false"), any, "", "accept a time step above the stable one (for studies)"},
     OptionRow{Block::run, "omega_max_tolerance", Kind::real, "-", value("1e-3"), eigen_tolerance, "", "part by which omega_max may be too large, and the stable step too small, where 1e-10 would take long"},
     OptionRow{Block::run, "modes", Kind::integer, "-", value("12"), not_negative, "", "lowest modes computed per structure"},

@@ -16,7 +16,7 @@ class Rung:
     modes: int | None
 
 
-FULL = Rung(Setting("full", "full order, 0.9 of the stable step"), None)
+FULL = Rung(Setting("full", "full order, at its own time step"), None)
 
 
 def reduced(structures: tuple, modes: int) -> tuple:

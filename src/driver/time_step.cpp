@@ -1,0 +1,157 @@
+#include "driver/time_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "common/error.h"
+#include "driver/model.h"
+#include "modal/reduced_system.h"
+#include "stability/stable_time_step.h"
+
+namespace pounding {
+namespace {
+
+constexpr double round_off = 1 + 1e-9;
+constexpr double turn = 2 * std::numbers::pi;
+
+bool has_reduced(const Scene& scene) {
+  return std::ranges::any_of(
+      scene.structures, [](const Structure& structure) { return structure.modal.has_value(); });
+}
+
+/// The shortest of what stability, resolution and, of reduced structures, the samples allow.
+void choose_automatically(const Scene& scene, const StepLimits& limits, Model& model) {
+  model.time_step = round_down(scene.courant * limits.stable);
+  model.step_source = StepSource::stability;
+  const double accurate = limits.resolved.accurate_step();
+  if (std::isfinite(accurate) && round_down(accurate) < model.time_step) {
+    model.time_step = round_down(accurate);
+    model.step_source = StepSource::resolution;
+  }
+  if (has_reduced(scene) && scene.output_interval < model.time_step) {
+    model.time_step = scene.output_interval;
+    model.step_source = StepSource::samples;
+  }
+}
+
+/// "2 Hz, the highest mode of a up to 400 Hz".
+std::string name_of(const Scene& scene, const ResolvedMotion& resolved) {
+  std::ostringstream text;
+  text.precision(4);
+  const double last = scene.spectra.frequencies.back();
+  text << resolved.frequency() << " Hz, the ";
+  if (resolved.is_mode) {
+    text << "highest mode of " << resolved.structure << " up to " << last << " Hz";
+  } else {
+    text << "last of -spectra_frequencies";
+  }
+  return text.str();
+}
+
+}  // namespace
+
+ResolvedMotion resolved_motion_of(const Structure& structure, const ModalBasis& basis,
+                                  double last) {
+  const std::vector<double> masses = coordinate_masses(structure, basis);
+  std::vector<double> frequencies;
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    frequencies.push_back(std::sqrt(basis.squared_frequency[i] / masses[i]) / turn);
+  }
+  ResolvedMotion resolved =
+      resolved_motion(frequencies, true, largest_frequency(structure, basis).omega_max, last);
+  resolved.structure = structure.name;
+  return resolved;
+}
+
+ResolvedMotion resolved_motion_of(const Building& building, double last) {
+  if (building.basis) return resolved_motion_of(*building.structure, *building.basis, last);
+  std::vector<double> frequencies;
+  for (const Mode& mode : building.modal.modes) frequencies.push_back(mode.frequency);
+  const bool all = static_cast<GlobalIndex>(frequencies.size()) >= building.mesh->global_dofs;
+  ResolvedMotion resolved =
+      resolved_motion(frequencies, all, building.limits.largest.omega_max, last);
+  resolved.structure = building.structure->name;
+  return resolved;
+}
+
+StepLimits step_limits(const Scene& scene, const Model& model) {
+  const double last = scene.spectra.frequencies.back();
+  StepLimits limits{model.smallest_stable_time_step(), {}};
+  for (const Building& building : model.buildings) {
+    limits.resolved = faster(limits.resolved, resolved_motion_of(building, last));
+  }
+  ResolvedMotion fillers = resolved_motion({}, false, 2 / model.filler_time_step, last);
+  fillers.structure = "the fillers";
+  limits.resolved = faster(limits.resolved, fillers);
+  return limits;
+}
+
+void choose_time_step(const Scene& scene, const StepLimits& limits, Model& model) {
+  model.step_limits = limits;
+  if (scene.time_step > 0) {
+    model.time_step = scene.time_step;
+    model.step_source = StepSource::given;
+  } else if (std::isfinite(limits.stable)) {
+    choose_automatically(scene, limits, model);
+  } else {
+    throw UserError(
+        "nothing in the scene vibrates, so nothing limits the time step: give -time_step");
+  }
+  if (model.time_step > limits.stable && !scene.allow_unstable) {
+    std::ostringstream text;
+    text << "option -time_step " << model.time_step << " s: above the stable time step "
+         << limits.stable
+         << " s; give a smaller one (or leave it out), or -allow_unstable for a study";
+    throw UserError(text.str());
+  }
+  constexpr double most_steps = 1e12;
+  if (scene.end_time / model.time_step > most_steps) {
+    std::ostringstream text;
+    text << "option -end_time " << scene.end_time << " s: " << scene.end_time / model.time_step
+         << " steps of " << model.time_step << " s, above " << most_steps << "; give a shorter time"
+         << (scene.time_step > 0 ? ", or a longer -time_step" : "");
+    throw UserError(text.str());
+  }
+  model.steps = static_cast<std::int64_t>(std::ceil(scene.end_time / model.time_step - 1e-9));
+}
+
+std::string step_source_text(const Scene& scene, const Model& model) {
+  std::ostringstream text;
+  switch (model.step_source) {
+    case StepSource::given:
+      return "as -time_step gives it";
+    case StepSource::stability:
+      text << "set by the stable one, -courant " << scene.courant;
+      break;
+    case StepSource::resolution:
+      text << "set by what it resolves within 0.3 %: "
+           << name_of(scene, model.step_limits.resolved);
+      break;
+    case StepSource::samples:
+      text << "set by -output_interval, since a structure is reduced";
+      break;
+  }
+  return text.str();
+}
+
+double earlier_time_step(const Scene& scene, const Model& model) {
+  const double stable = round_down(scene.courant * model.step_limits.stable);
+  return has_reduced(scene) ? std::min(stable, scene.output_interval) : stable;
+}
+
+std::vector<std::string> long_step_warnings(const Scene& scene, const Model& model) {
+  const ResolvedMotion& resolved = model.step_limits.resolved;
+  const double accurate = round_down(resolved.accurate_step());
+  if (!(scene.time_step > accurate * round_off)) return {};
+  std::ostringstream text;
+  text.precision(3);
+  text << "the time step " << scene.time_step << " s makes " << name_of(scene, resolved) << ", "
+       << 100 * resolved.error(scene.time_step) << " % too high, and none up to "
+       << resolved_frequency(scene.time_step) << " Hz by more than 0.3 %; give -time_step "
+       << accurate << " or less, leave it out, or end -spectra_frequencies there";
+  return {text.str()};
+}
+
+}  // namespace pounding

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "modal/modal_basis.h"
+#include "scene/scene.h"
+#include "stability/resolved_motion.h"
+
+namespace pounding {
+
+struct Building;
+struct Model;
+
+/// What bounds the time step of a run.
+struct StepLimits {
+  double stable = std::numeric_limits<double>::infinity();  ///< the stable step [s]
+  ResolvedMotion resolved;                                  ///< the fastest motion to be resolved
+};
+
+/// The limit that a time step in force comes from.
+enum class StepSource { given, stability, resolution, samples };
+
+/// The fastest motion that a structure is asked to resolve: spectra end at `last` [Hz].
+ResolvedMotion resolved_motion_of(const Building& building, double last);
+
+/// That of a reduced structure with these squared frequencies.
+ResolvedMotion resolved_motion_of(const Structure& structure, const ModalBasis& basis, double last);
+
+/// Limits of all structures and fillers of a model together.
+StepLimits step_limits(const Scene& scene, const Model& model);
+
+/// The time step and the number of steps under these limits. Throws UserError.
+void choose_time_step(const Scene& scene, const StepLimits& limits, Model& model);
+
+/// What the time step in force is, in words: "of the stable one, -courant 0.9".
+std::string step_source_text(const Scene& scene, const Model& model);
+
+/// The step that versions took which did not ask what it resolves [s].
+double earlier_time_step(const Scene& scene, const Model& model);
+
+/// A line if a step that was given does not resolve what the limits name.
+std::vector<std::string> long_step_warnings(const Scene& scene, const Model& model);
+
+}  // namespace pounding

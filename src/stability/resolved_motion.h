@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace pounding {
+
+/// The fastest motion that a run is asked to resolve, which bounds the step that is chosen where
+/// none is given: central differences make a frequency too high by the part (omega dt)^2 / 24.
+struct ResolvedMotion {
+  double omega = 0;       ///< circular frequency [rad/s]; 0: nothing vibrates
+  bool is_mode = false;   ///< that of a mode; otherwise of the last frequency of the spectra
+  std::string structure;  ///< whose
+
+  double frequency() const;         ///< [Hz]
+  double accurate_step() const;     ///< [s]; infinite where nothing vibrates
+  double error(double step) const;  ///< part by which a time step makes it too high [-]
+};
+
+/// Largest omega dt of what a run resolves [-]: an error of the frequency of 0.3 %.
+inline constexpr double resolved_angle = 0.268;
+
+/// Up to which frequency a time step errs by no more [Hz].
+double resolved_frequency(double step);
+
+/// Of a structure with the highest mode not above `last` [Hz], or `last` where it is not known:
+/// `frequencies` are those of the lowest modes [Hz], `all` where it has no others, `omega_max`
+/// [rad/s] that of the highest.
+ResolvedMotion resolved_motion(std::span<const double> frequencies, bool all, double omega_max,
+                               double last);
+
+/// The faster one.
+ResolvedMotion faster(const ResolvedMotion& a, const ResolvedMotion& b);
+
+}  // namespace pounding

@@ -1,0 +1,145 @@
+"""The time step that is chosen where none is given: it resolves what vibrates, within 0.3 % of its frequency.
+
+Masses on springs, one of 2 Hz along x, y and z: 7.96 mm and 20 cycles in 10 s from 0.1 m/s, and others with a fast
+direction. The step is the shorter one of 0.9 of the stable one, 2 / omega_max, and of 0.268 / omega, omega that of the
+highest mode not above the last frequency of the spectra, or of that frequency where the modes do not reach it.
+"""
+import math
+import os
+import re
+import shutil
+import tempfile
+import unittest
+
+import h5py
+import numpy
+
+import program
+
+MESH = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+0 1 "m"
+0 2 "k"
+$EndPhysicalNames
+$Nodes
+1
+1 0 0 0
+$EndNodes
+$Elements
+2
+1 15 2 1 1 1
+2 15 2 2 2 1
+$EndElements
+"""
+MASS, SPEED = 100.0, 0.1
+
+
+def stiffness(*frequencies):
+    return ",".join(repr(MASS * (2 * math.pi * f) ** 2) for f in frequencies)
+
+
+class Oscillators(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp(prefix="pounding-step-")
+        cls.mesh = os.path.join(cls.folder, "point.msh")
+        with open(cls.mesh, "w") as file:
+            file.write(MESH)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def words(self, frequencies, *more, end_time=10):
+        return ["-structures", "a", "-a_mesh", self.mesh, "-a_m_element", "point_mass", "-a_m_mass", MASS,
+                "-a_k_element", "grounded_spring", "-a_k_stiffness", stiffness(*frequencies),
+                "-a_initial_velocity", f"{SPEED},0,0", "-probes", "p", "-p_structure", "a", "-p_at", "0,0,0",
+                "-modes", 3, "-end_time", end_time, *more]
+
+    def step(self, frequencies, *more, said=None):
+        """The step of a dry run, which also says whence it is."""
+        done = program.run(self.words(frequencies, *more, "-dry_run"), 1)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        if said:
+            self.assertIn(said, done.stdout)
+        return float(re.search(r"(?:^|; )time step (\S+) s", done.stdout, re.M).group(1))
+
+    @staticmethod
+    def doubts(summary):
+        return [line for line in summary["warnings"] if line.startswith("the time step")]
+
+    def test_two_hertz_swing_as_far_and_as_often_as_they_should(self):
+        reduced = ["-a_model", "modal", "-a_modal_vectors", 3, "-output_interval", 0.05]
+        for more, ranks in (([], 1), ([], 2), (["-modes", 0], 1), (reduced, 1)):
+            folder, summary = program.must_run(self, self.words((2, 2, 2), *more), ranks)
+            with h5py.File(os.path.join(folder, "history.h5")) as file:
+                x = file["displacement"][:, 0]
+            shutil.rmtree(folder)
+            self.assertAlmostEqual(summary["time_step"] / (0.268 / (4 * math.pi)), 1, delta=1e-5)
+            self.assertAlmostEqual(abs(x).max() / (SPEED / (4 * math.pi)), 1, delta=0.01)
+            self.assertAlmostEqual(numpy.count_nonzero(numpy.diff(numpy.sign(x[x != 0]))), 40, delta=1)
+            self.assertIn("2 Hz, the highest mode of a up to 400 Hz", summary["time_step_source"])
+            self.assertEqual(self.doubts(summary), [])
+
+    def test_what_bounds_it(self):
+        stable = 0.9 / (math.pi * 500)
+        self.assertAlmostEqual(self.step((2, 2, 500), said="set by the stable one, -courant 0.9") / stable, 1, delta=2e-3)
+        # One mode of three: what lies between 2 and 400 Hz is not known.
+        last = 0.268 / (2 * math.pi * 400)
+        self.assertAlmostEqual(self.step((2, 2, 500), "-modes", 1, said="400 Hz, the last of -spectra_frequencies") / last,
+                               1, delta=1e-5)
+        ends = 0.268 / (2 * math.pi * 100)
+        self.assertAlmostEqual(self.step((2, 2, 500), "-modes", 0, "-spectra_frequencies", "1,100") / min(stable, ends), 1,
+                               delta=2e-3)
+        self.assertAlmostEqual(self.step((2, 5, 500), "-spectra_frequencies", "1,4", "-courant", 0.99,
+                                         said="-courant 0.99") / (stable * 1.1), 1, delta=2e-3)
+        # Where every mode is faster than the spectra reach, these are resolved.
+        self.assertAlmostEqual(self.step((500, 500, 500)) / last, 1, delta=1e-5)
+
+    def test_a_longer_step_is_doubted(self):
+        folder, summary = program.must_run(self, self.words((2, 2, 2), "-time_step", 0.05, end_time=1), 2)
+        shutil.rmtree(folder)
+        line, = self.doubts(summary)
+        for part in ("the time step 0.05 s makes 2 Hz, the highest mode of a up to 400 Hz, 1.64 % too high",
+                     "none up to 0.853 Hz by more than 0.3 %", "give -time_step 0.0213 or less"):
+            self.assertIn(part, line)
+        self.assertEqual(summary["time_step_source"], "as -time_step gives it")
+        folder, summary = program.must_run(self, self.words((2, 2, 2), "-time_step", 0.0213, end_time=1))
+        shutil.rmtree(folder)
+        self.assertEqual(self.doubts(summary), [])
+
+    def test_members_of_an_ensemble_take_the_step_of_the_fastest(self):
+        table = os.path.join(self.folder, "members.csv")
+        with open(table, "w") as file:
+            file.write("a_stiffness_factor\n1\n4\n")
+        reduced = ["-a_model", "modal", "-a_modal_vectors", 3, "-output_interval", 0.05, "-ensemble", table]
+        step = self.step((2, 2, 2), *reduced, said="4 Hz, the highest mode of a up to 400 Hz")
+        self.assertAlmostEqual(step / (0.268 / (8 * math.pi)), 1, delta=1e-5)
+
+
+class StartOfRecords(unittest.TestCase):
+    """A structure that starts with a velocity: what is held there has none, so no acceleration either."""
+
+    def test_held_nodes_do_not_stop(self):
+        mesh = ["-structures", "bar", "-bar_mesh", "tests/meshes/box.geo", "-bar_mesh_set", "x0=0", "-bar_clamp", "x_min",
+                "-bar_body_element", "hex8", "-bar_body_material", "soft", "-material_soft_young", 1e6,
+                "-material_soft_poisson", 0, "-material_soft_density", 1000, "-bar_initial_velocity", "0.05,0,0",
+                "-probes", "foot,face", "-foot_structure", "bar", "-foot_group", "x_min", "-face_structure", "bar",
+                "-face_group", "x_max", "-end_time", 0.01, "-output_interval", 5e-5]
+        for more, ranks in (([], 1), ([], 2), (["-bar_model", "modal", "-bar_modal_vectors", 12], 1)):
+            folder, summary = program.must_run(self, mesh + more, ranks)
+            with h5py.File(os.path.join(folder, "history.h5")) as file:
+                names = [name.decode() for name in file["channels"]]
+                first = file["acceleration"][0]
+            shutil.rmtree(folder)
+            self.assertEqual(abs(first[[names.index(f"foot.{d}") for d in "xyz"]]).max(), 0)
+            # The other face is braked by its spring alone, from nothing on.
+            self.assertLess(abs(first[names.index("face.x")]), 1)
+            self.assertEqual(max(summary["probes"]["foot"]["sampled_peak_acceleration"]), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
