@@ -13,6 +13,7 @@
 #include "driver/rest.h"
 #include "driver/run_warnings.h"
 #include "driver/separation.h"
+#include "driver/storeys.h"
 #include "driver/time_step.h"
 #include "driver/warnings.h"
 #include "driver/whole_meshes.h"
@@ -130,9 +131,10 @@ void build_meshes(MPI_Comm comm, Scene& scene, std::span<const double> stiffness
                     "_clamp");
   }
   if (scene.dry_run && scene.write_model) write_model(comm, scene, model);
+  model.storey_bases = find_storey_bases(comm, scene, model);
   const Progress progress(comm, "modal bases", scene.progress_interval);
   auto bases = find_bases(comm, scene, whole.meshes, model.interface, model.probes, model.forces,
-                          model.support_columns(), profile);
+                          model.storey_bases, model.support_columns(), profile);
   for (std::size_t s = 0; s < count; ++s) {
     if (bases[s]) {
       scale_stiffness(stiffness_factors[s], *bases[s]);

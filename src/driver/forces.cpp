@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
 #include "common/error.h"
 #include "common/parallel.h"
@@ -157,11 +158,26 @@ void Forces::save(SavedState& saved) const {
   std::vector<double> table;
   for (const ForcePeak& peak : peaks_) table.insert(table.end(), {peak.value, peak.time});
   saved.put("force_peaks", table, 2);
+  saved.put("force_peaks_start", {peaks_start_});
 }
 
-void Forces::load(const SavedState& saved) {
+void Forces::load(const SavedState& saved, double time) {
   std::vector<double> table(2 * peaks_.size());
   saved.get("force_peaks", table);
+  std::array<double, 1> start{};
+  saved.get("force_peaks_start", start);
+  if (start[0] != peaks_start_) {
+    if (time >= peaks_start_) {
+      std::ostringstream text;
+      text.precision(12);
+      text << "option -spectra_start " << peaks_start_
+           << " s: the peaks of forces were counted from " << start[0]
+           << " s on until the checkpoint at " << time << " s; give -spectra_start " << start[0]
+           << ", one after the checkpoint, or start anew";
+      throw UserError(text.str());
+    }
+    std::ranges::fill(table, 0.0);  // what counts is all to come
+  }
   for (std::size_t c = 0; c < peaks_.size(); ++c) peaks_[c] = {table[2 * c], table[2 * c + 1]};
 }
 

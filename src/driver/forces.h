@@ -52,9 +52,11 @@ class Forces {
   void end(const CdLagrange& stepper);
   std::span<const double> values() const { return {columns_.data(), recorded_.size()}; }
 
-  /// Peaks so far, of rank 0.
+  /// Peaks so far, of rank 0. A continued run may count them from another time on where none that
+  /// counted before it belongs to them: `load`, after the state is there, throws UserError
+  /// otherwise, on every rank alike.
   void save(SavedState& saved) const;
-  void load(const SavedState& saved);
+  void load(const SavedState& saved, double time);
 
   /// Per item; complete on rank 0.
   std::vector<ForceReport> report() const;

@@ -12,7 +12,7 @@
 #include "contact/interface.h"
 #include "driver/building.h"
 #include "driver/separation_rules.h"
-#include "driver/time_step.h"
+#include "driver/step_limits.h"
 #include "mesh/force_places.h"
 #include "mesh/mesh.h"
 #include "mesh/probe_set.h"
@@ -42,6 +42,7 @@ struct Model {
   std::int64_t steps = 0;                                             ///< until the end time
   std::vector<Separation> separations;      ///< that the joints would need; on rank 0
   std::vector<std::string> warnings;        ///< one line each, on rank 0: what may not be meant
+  std::vector<ResolvedProbe> storey_bases;  ///< see find_storey_bases
   StepLimits step_limits;
   StepSource step_source = StepSource::given;  ///< of the time step in force
   /// Components of the supports' motion that differ from the ground's.

@@ -13,6 +13,7 @@
 #include "driver/separation.h"
 #include "driver/soil_report.h"
 #include "driver/storeys.h"
+#include "driver/time_step.h"
 #include "stability/stable_time_step.h"
 
 namespace pounding {

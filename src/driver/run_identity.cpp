@@ -1,8 +1,11 @@
 #include "driver/run_identity.h"
 
 #include "common/hash.h"
+#include "common/parallel.h"
+#include "io/file_digest.h"
 #include "scene/option_table.h"
 #include "scene/resolved_options.h"
+#include "system/matrix_system.h"
 
 namespace pounding {
 namespace {
@@ -29,18 +32,34 @@ std::string hash_of(const GroundMotion& motion, const SupportMotion* supports) {
   return hash.text();
 }
 
+/// Contents of the files of an option, as options of their own.
+void add_matrices(const std::string& option, const std::string& folder,
+                  std::map<std::string, std::string>& options) {
+  for (const char* matrix : {"stiffness", "mass", "damping"}) {
+    const std::string path = matrix_file(folder, matrix);
+    if (!path.empty()) options[option + " (its " + matrix + ")"] = digest_of_file(path).sha256;
+  }
+}
+
 }  // namespace
 
-std::map<std::string, std::string> lasting_options(const std::string& resolved) {
+std::map<std::string, std::string> lasting_options(MPI_Comm comm, const std::string& resolved) {
   std::map<std::string, std::string> options;
   for (const auto& [name, value] : resolved_values(resolved)) {
     if (!may_change_on_restart(name)) options[name] = value;
   }
+  on_rank0(comm, [&] {
+    const std::map<std::string, std::string> named = options;
+    for (const auto& [name, folder] : named) {
+      if (name.ends_with("_matrices") && folder != "none") add_matrices(name, folder, options);
+    }
+  });
   return options;
 }
 
-RunIdentity identity_of(const std::string& resolved, const Model& model) {
-  return {lasting_options(resolved), model.time_step, hash_of(*model.motion, model.supports.get())};
+RunIdentity identity_of(MPI_Comm comm, const std::string& resolved, const Model& model) {
+  return {lasting_options(comm, resolved), model.time_step,
+          hash_of(*model.motion, model.supports.get())};
 }
 
 }  // namespace pounding

@@ -103,14 +103,16 @@ void run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
   if (scene.write_mesh_pieces > 0) return write_mesh_pieces(comm, scene, profile);
   Provenance provenance;  // a dry run leaves no summary to tell it
   if (!scene.dry_run) provenance = note_provenance(comm, origin, resolved);
-  if (!scene.restart.empty()) check_checkpoint(comm, scene.restart, lasting_options(resolved));
+  if (!scene.restart.empty()) {
+    check_checkpoint(comm, scene.restart, lasting_options(comm, resolved));
+  }
   if (scene.dry_run && scene.write_model) on_rank0(comm, [&] { create_output(scene); });
   const Model model = build_model(comm, scene, read.stiffness_factors, profile);
   if (!scene.dry_run) note_model(comm, scene, model.buildings, provenance);
   return_freed_memory();
   if (root) print_model(scene, model);
   if (!scene.export_matrices.empty()) export_matrices(comm, scene, model);
-  const RunIdentity identity = identity_of(resolved, model);
+  const RunIdentity identity = identity_of(comm, resolved, model);
   const std::optional<SavedState> restart = read_restart(comm, scene, model, identity);
   if (!scene.dry_run) {
     on_rank0(comm, [&] { begin_results(scene, resolved, provenance, *folder); });
@@ -152,6 +154,8 @@ void run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
     append(slide_warnings(scene, statistics), statistics.warnings);
     append(pendulum_warnings(statistics), statistics.warnings);
     statistics.peaks = stated_peaks(scene, loop.recorder());
+    append(lowered_peak_warnings(scene, loop.recorder().interval(), model.time_step),
+           statistics.warnings);
     if (statistics.all_impacts.episodes > 0) {
       append(peak_warnings(scene, statistics.peaks, loop.recorder()), statistics.warnings);
     }

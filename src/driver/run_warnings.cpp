@@ -1,8 +1,11 @@
 #include "driver/run_warnings.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <sstream>
 
+#include "driver/time_step.h"
 #include "scene/option_table.h"
 #include "scene/option_values.h"
 
@@ -42,6 +45,31 @@ void add_short_record(const Scene& scene, const Model& model, int direction,
   }
 }
 
+/// The largest acceleration of a component until a time [m/s2].
+double peak_until(const Accelerogram& component, double end) {
+  double peak = 0;
+  for (std::size_t i = 0; i < component.acceleration.size(); ++i) {
+    if (component.time_step * static_cast<double>(i) > end * round_off) break;
+    peak = std::max(peak, std::abs(component.acceleration[i]));
+  }
+  return peak;
+}
+
+/// A motion whose peak comes after the end of the run.
+void add_late_peak(const Scene& scene, const Accelerogram& component, int direction,
+                   std::vector<std::string>& warnings) {
+  constexpr double whole = 0.99;
+  const double peak = peak_until(component, std::numeric_limits<double>::infinity());
+  const double felt = peak_until(component, scene.end_time);
+  if (felt >= whole * peak) return;
+  std::ostringstream text;
+  text.precision(4);
+  text << "option -end_time " << scene.end_time << " s: the motion along "
+       << direction_names[direction] << " has its peak of " << peak << " m/s2 later; the run feels "
+       << felt << " m/s2 at most";
+  warnings.push_back(text.str());
+}
+
 /// Between the samples of a direction as they are given: resampling adds nothing to step over.
 double given_interval(const Model& model, int direction) {
   for (const MotionDescription& description : model.motion->descriptions()) {
@@ -73,10 +101,12 @@ std::vector<std::string> run_warnings(const Scene& scene, const Model& model) {
   for (int direction = 0; direction < 3; ++direction) {
     if (!samples(model, direction).acceleration.empty()) {
       add_short_record(scene, model, direction, warnings);
+      add_late_peak(scene, samples(model, direction), direction, warnings);
       add_long_step("a sample of the motion along " + std::string(direction_names[direction]),
                     given_interval(model, direction), model.time_step, warnings);
     }
   }
+  for (const std::string& line : long_step_warnings(scene, model)) warnings.push_back(line);
   // The interval that nobody asked for is as short as the step where that is longer.
   const auto preset = parse_real(option_row("output_interval").preset.text);
   if (!scene.probes.empty() && scene.output_interval != preset) {

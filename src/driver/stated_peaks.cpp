@@ -43,7 +43,6 @@ double stated_peak(std::span<const double> acceleration, double interval, double
 StatedPeaks stated_peaks(const Scene& scene, const Recorder& recorder) {
   StatedPeaks peaks;
   peaks.frequency = stated_frequency(scene, recorder.interval());
-  peaks.lowered = peaks.frequency < scene.spectra.peak_frequency;
   const std::size_t first = recorder.first_record_from(scene.spectra.start);
   for (std::size_t channel = 0; channel < recorder.channels().size(); ++channel) {
     peaks.acceleration.push_back(
@@ -52,18 +51,26 @@ StatedPeaks stated_peaks(const Scene& scene, const Recorder& recorder) {
   return peaks;
 }
 
+std::vector<std::string> lowered_peak_warnings(const Scene& scene, double interval,
+                                               double time_step) {
+  const double frequency = stated_frequency(scene, interval);
+  const double needed = low_pass_limit / scene.spectra.peak_frequency;
+  if (scene.probes.empty() || !(frequency < scene.spectra.peak_frequency * (1 - 1e-9))) return {};
+  std::ostringstream text;
+  text.precision(4);
+  text << "peak accelerations are those below " << frequency << " Hz, not "
+       << scene.spectra.peak_frequency << " Hz: samples every " << interval
+       << " s hold no more; give "
+       << (time_step > needed ? "-time_step and -output_interval " : "-output_interval ") << needed
+       << " or less, or a lower -peak_frequency";
+  return {text.str()};
+}
+
 std::vector<std::string> peak_warnings(const Scene& scene, const StatedPeaks& peaks,
                                        const Recorder& recorder) {
   std::vector<std::string> warnings;
   std::ostringstream text;
   text.precision(4);
-  if (peaks.lowered && !recorder.channels().empty()) {
-    text << "peak accelerations are those below " << peaks.frequency << " Hz, not "
-         << scene.spectra.peak_frequency << " Hz: samples every " << recorder.interval()
-         << " s hold no more; give -output_interval "
-         << low_pass_limit / scene.spectra.peak_frequency << " or less";
-    warnings.push_back(text.str());
-  }
   constexpr std::size_t named = 3;
   std::vector<std::string> names;
   double most = 1;
@@ -76,7 +83,6 @@ std::vector<std::string> peak_warnings(const Scene& scene, const StatedPeaks& pe
     reduced = reduced || scene.structures[recorder.probes()[p].structure].modal.has_value();
   }
   if (names.empty()) return warnings;
-  text.str("");
   text << (names.size() == 1 ? "probe " : "probes ");
   for (std::size_t i = 0; i < std::min(named, names.size()); ++i) {
     text << (i > 0 ? ", " : "") << names[i];

@@ -11,6 +11,7 @@
 #include "driver/region_report.h"
 #include "driver/rest.h"
 #include "driver/soil_report.h"
+#include "driver/time_step.h"
 #include "io/new_file.h"
 #include "io/schema.h"
 #include "scene/resolved_options.h"

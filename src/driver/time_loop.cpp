@@ -106,6 +106,7 @@ void TimeLoop::create_recorder(bool continued) {
     layout.links = loops_->names();
     layout.my_links = loops_->mine();
   }
+  layout.bases = model_.storey_bases;
   layout.storeys = find_storeys(comm_, scene_, model_);
   if (forces_) {
     layout.forces = forces_->recorded();
@@ -119,9 +120,6 @@ void TimeLoop::create_recorder(bool continued) {
   layout.stride = record_stride(scene_, model_);
   layout.time_step = model_.time_step;
   layout.peaks_start = scene_.spectra.start;
-  for (const LinearSystem& system : model_.systems) {
-    layout.initial_velocity.push_back(system.initial_velocity);
-  }
   const double records = scene_.gap_interval / (model_.time_step * layout.stride);
   gap_stride_ = layout.stride * static_cast<std::int64_t>(whole(records));
   recorder_ = std::make_unique<Recorder>(std::move(layout), model_.systems, model_.meshes);
@@ -136,6 +134,7 @@ int TimeLoop::run(const RunIdentity& identity, const SavedState* restart) {
     forces_->watch(solver_.stepper());
   }
   create_recorder(restart != nullptr);
+  if (restart == nullptr) recorder_->begin(solver_.stepper().state());
   fields_ = make_field_writer(comm_, scene_, model_, solver_.contact(), restart != nullptr);
   if (restart != nullptr) load(*restart);
   CheckpointSchedule schedule(comm_, scene_.checkpoint_interval, scene_.checkpoint_steps,
@@ -246,7 +245,11 @@ void TimeLoop::close_ledger_line() {
   solver_.stepper().gap_watch().energies_known(energy.closed_steps() - 1, energies_,
                                                energy_round_off_);
   ledger_.add(line);
-  if (uplift_) uplift_->look(solver_.stepper(), scene_.energy_interval * model_.time_step);
+  if (uplift_) {
+    const std::int64_t rest = step() % scene_.energy_interval;  // of the last line
+    const std::int64_t steps = rest == 0 ? scene_.energy_interval : rest;
+    uplift_->look(solver_.stepper(), static_cast<double>(steps) * model_.time_step);
+  }
 }
 
 void TimeLoop::write_checkpoint(const RunIdentity& identity) {
@@ -281,7 +284,7 @@ void TimeLoop::load(const SavedState& saved) {
   if (slides_) slides_->load(saved);
   ledger_.load(saved);
   if (uplift_) uplift_->load(saved);
-  if (forces_) forces_->load(saved);
+  if (forces_) forces_->load(saved, solver_.stepper().time());
   if (fields_) fields_->check(saved);
   recorder_->load(saved);  // late: it replaces the history, which nothing refused may touch
   if (fields_) fields_->load();

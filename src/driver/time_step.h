@@ -1,26 +1,16 @@
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "driver/step_limits.h"
 #include "modal/modal_basis.h"
 #include "scene/scene.h"
-#include "stability/resolved_motion.h"
 
 namespace pounding {
 
 struct Building;
 struct Model;
-
-/// What bounds the time step of a run.
-struct StepLimits {
-  double stable = std::numeric_limits<double>::infinity();  ///< the stable step [s]
-  ResolvedMotion resolved;                                  ///< the fastest motion to be resolved
-};
-
-/// The limit that a time step in force comes from.
-enum class StepSource { given, stability, resolution, samples };
 
 /// The fastest motion that a structure is asked to resolve: spectra end at `last` [Hz].
 ResolvedMotion resolved_motion_of(const Building& building, double last);
@@ -34,7 +24,7 @@ StepLimits step_limits(const Scene& scene, const Model& model);
 /// The time step and the number of steps under these limits. Throws UserError.
 void choose_time_step(const Scene& scene, const StepLimits& limits, Model& model);
 
-/// What the time step in force is, in words: "of the stable one, -courant 0.9".
+/// Source of the time step in force, in words: "set by the stable one, -courant 0.9".
 std::string step_source_text(const Scene& scene, const Model& model);
 
 /// The step that versions took which did not ask what it resolves [s].

@@ -102,8 +102,8 @@ std::vector<std::string> mechanism_warnings(const Scene& scene, const Model& mod
 }
 
 std::vector<std::string> displacement_warnings(double largest, double model_size) {
-  constexpr double small = 0.05;  // of the model
-  if (!(largest > small * model_size)) return {};
+  constexpr double small = 0.05;                                      // of the model
+  if (!(largest > small * model_size) || model_size == 0) return {};  // 0: a point
   std::ostringstream text;
   text.precision(3);
   text << "displacements reach " << largest << " m in a model of " << model_size

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/error.h"
+#include "driver/time_step.h"
 #include "modal/reduced_system.h"
 #include "stability/structure_limits.h"
 

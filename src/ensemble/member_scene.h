@@ -40,7 +40,7 @@ struct EnsembleModel {
 /// structures, gaps, motion. It borrows from both.
 Model member_model(const MemberScene& member, const EnsembleModel& shared);
 
-/// What bounds the time step of a member.
+/// Limits of the time step of a member.
 StepLimits member_limits(const MemberScene& member, const std::vector<ModalBasis>& bases);
 
 }  // namespace pounding

@@ -34,7 +34,6 @@ OctetGroup::OctetGroup(std::span<const MemberScene* const> members, const Scene&
   for (std::size_t lane = 0; lane < members.size(); ++lane) {
     runs_.push_back(std::make_unique<MemberRun>(*members[lane], shared, lane));
   }
-  std::vector<Vector3> velocity;
   for (std::size_t s = 0; s < shared_.systems.size(); ++s) {
     std::vector<const LinearSystem*> systems;
     for (const auto& run : runs_) systems.push_back(&run->system(s));
@@ -44,9 +43,8 @@ OctetGroup::OctetGroup(std::span<const MemberScene* const> members, const Scene&
       states_[s].put(lane, runs_[lane]->initial().structures[s]);
     }
     places_.emplace_back(runs_[0]->interface_rows(s).size() / steps_[s].coordinates());
-    velocity.push_back(shared_.systems[s].initial_velocity);
   }
-  recorder_.restart(velocity);
+  recorder_.restart(states_);
 }
 
 bool OctetGroup::run(const std::function<bool()>& stopped) {

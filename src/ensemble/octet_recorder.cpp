@@ -24,9 +24,6 @@ OctetRecorder::OctetRecorder(std::span<const ResolvedProbe> probes,
       interval_(times.time_step * times.stride),
       first_(first_record_from(times.start, times.time_step, interval_)),
       capacity_(records_of(times)) {
-  for (const ResolvedProbe& probe : probes) {
-    structure_of_.insert(structure_of_.end(), 3, probe.structure);
-  }
   for (std::size_t s = 0; s < systems.size(); ++s) {
     std::vector<TracePoint> places;
     std::vector<std::size_t> counts;
@@ -49,11 +46,9 @@ OctetRecorder::OctetRecorder(std::span<const ResolvedProbe> probes,
   history_.resize(channels_ * octet_size * capacity_);
 }
 
-void OctetRecorder::restart(std::span<const Vector3> velocity) {
-  last_velocity_.clear();
-  for (std::size_t c = 0; c < channels_; ++c) {
-    last_velocity_.push_back(all_octet(velocity[structure_of_[c]][c % 3]));
-  }
+void OctetRecorder::restart(std::span<const OctetState> states) {
+  multiply(states, &OctetState::velocity);
+  last_velocity_ = values_;
   displacement_.assign(channels_, Octet{});
   ground_.fill(Octet{});
   blocked_ = records_ = 0;

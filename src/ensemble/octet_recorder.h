@@ -35,8 +35,8 @@ class OctetRecorder {
   /// Memory that records of so many channels take [bytes].
   static double memory(std::size_t channels, const Times& times);
 
-  /// Begins runs; `velocity`: per structure, that of every point at t = 0, alike in all runs [m/s].
-  void restart(std::span<const Vector3> velocity);
+  /// Begins runs from their states at t = 0.
+  void restart(std::span<const OctetState> states);
   bool due(std::int64_t step) const { return step % stride_ == 0; }
   /// The velocity that the ground gained in a step [m/s].
   void add_step(const std::array<Octet, 3>& ground_velocity_step);
@@ -66,7 +66,6 @@ class OctetRecorder {
   static constexpr std::size_t block_records = 256;
 
   std::size_t channels_ = 0;
-  std::vector<int> structure_of_;  ///< per channel
   int stride_;
   double interval_;
   std::size_t first_;

@@ -18,7 +18,9 @@
 #include "driver/run_progress.h"
 #include "driver/run_scene.h"
 #include "driver/run_warnings.h"
+#include "driver/stated_peaks.h"
 #include "driver/stop_signal.h"
+#include "driver/time_step.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_identity.h"
 #include "ensemble/member_doubts.h"
@@ -117,26 +119,35 @@ class Ensemble {
   /// The model of this rank alone.
   Model& model() { return own_ ? *own_ : shared_; }
 
-  /// One time step for all members: that of the one whose stable step is the smallest.
+  /// One time step for all members: that of the one whose limits are the narrowest.
   void choose_step() {
-    double stable = std::numeric_limits<double>::infinity();
+    const double before = shared_.step_limits.resolved.omega;
+    StepLimits limits;
     for (std::size_t m = 0; m < members_.size(); ++m) {
-      const double own = member_time_step(members_[m], parts_.bases);
-      stable = std::min(stable, own);
-      if (scene_.time_step > own) {
+      const StepLimits own = member_limits(members_[m], parts_.bases);
+      limits.stable = std::min(limits.stable, own.stable);
+      limits.resolved = faster(limits.resolved, own.resolved);
+      if (scene_.time_step > own.stable) {
         char text[160];
         std::snprintf(
             text, sizeof text,
             "option -time_step %g s: above its stable time step %g s; give a smaller one, "
             "or leave it out",
-            scene_.time_step, own);
+            scene_.time_step, own.stable);
         throw UserError(table_.place(m) + text);
       }
     }
-    choose_time_step(scene_, stable, shared_);
-    choose_time_step(scene_, stable, model());
+    choose_time_step(scene_, limits, shared_);
+    choose_time_step(scene_, limits, model());
+    if (root() && limits.resolved.omega > before) {
+      print_warnings(long_step_warnings(scene_, shared_));
+    }
     times_ = {shared_.time_step, record_stride(scene_, shared_), shared_.steps,
               scene_.spectra.start};
+    if (root()) {
+      print_warnings(
+          lowered_peak_warnings(scene_, times_.time_step * times_.stride, times_.time_step));
+    }
     for (const ResolvedProbe& probe : shared_.probes) {
       for (const char* direction : direction_names) {
         layout_.channels.push_back(probe.name + " " + direction);
@@ -188,6 +199,7 @@ class Ensemble {
         "ensemble %s: %zu members, %zu at a time on each rank; time step %.6g s, %lld steps\n",
         table_.file.c_str(), members_.size(), octet_size, shared_.time_step,
         static_cast<long long>(shared_.steps));
+    std::printf("  %s\n", step_source_text(scene_, shared_).c_str());
     std::printf("  histories in memory: %.0f MB per rank\n",
                 OctetRecorder::memory(layout_.channels.size(), times_) / 1e6);
   }

@@ -238,13 +238,11 @@ std::vector<int> owners_of_reduced(int ranks, const Scene& scene) {
   return owners;
 }
 
-std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& scene,
-                                                  std::span<const GlobalMesh> meshes,
-                                                  const Interface& interface,
-                                                  std::span<const ResolvedProbe> probes,
-                                                  std::span<const ResolvedForce> forces,
-                                                  std::span<const SupportColumn> columns,
-                                                  Profile& profile) {
+std::vector<std::optional<ModalBasis>> find_bases(
+    MPI_Comm comm, const Scene& scene, std::span<const GlobalMesh> meshes,
+    const Interface& interface, std::span<const ResolvedProbe> probes,
+    std::span<const ResolvedForce> forces, std::span<const ResolvedProbe> storey_bases,
+    std::span<const SupportColumn> columns, Profile& profile) {
   const auto structure_of = [&](const Reduction& r) -> const Structure& {
     return scene.structures[r.structure];
   };
@@ -256,6 +254,11 @@ std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& sc
     reduction.structure = static_cast<int>(s);
     reduction.request =
         request_of(comm, scene, reduction.structure, meshes[s], interface, probes, forces);
+    for (const ResolvedProbe& base : storey_bases) {
+      for (std::size_t k = 0; base.structure == reduction.structure && k < base.nodes.size(); ++k) {
+        for (int d = 0; d < 3; ++d) reduction.request.shown_points.push_back({base.nodes[k], d});
+      }
+    }
     int stored = 0;
     on_rank0(comm, [&] {
       forbid_damping_matrix(scene.structures[s]);

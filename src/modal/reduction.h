@@ -24,12 +24,10 @@ std::vector<int> owners_of_reduced(int ranks, const Scene& scene);
 /// the structure asks for several.
 /// `meshes` are read on rank 0 only. `columns`: motions of the scene's supports. Throws UserError
 /// on every rank alike. Collective.
-std::vector<std::optional<ModalBasis>> find_bases(MPI_Comm comm, const Scene& scene,
-                                                  std::span<const GlobalMesh> meshes,
-                                                  const Interface& interface,
-                                                  std::span<const ResolvedProbe> probes,
-                                                  std::span<const ResolvedForce> forces,
-                                                  std::span<const SupportColumn> columns,
-                                                  Profile& profile);
+std::vector<std::optional<ModalBasis>> find_bases(
+    MPI_Comm comm, const Scene& scene, std::span<const GlobalMesh> meshes,
+    const Interface& interface, std::span<const ResolvedProbe> probes,
+    std::span<const ResolvedForce> forces, std::span<const ResolvedProbe> storey_bases,
+    std::span<const SupportColumn> columns, Profile& profile);
 
 }  // namespace pounding

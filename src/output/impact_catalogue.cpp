@@ -168,7 +168,7 @@ void ImpactCatalogue::add_step(double time, double duration, const ContactStep& 
       }
     }
   }
-  // What points push against each other is no force of the contact: a block at rest has none.
+  // Points that push against each other are no force of the contact: a block at rest has none.
   for (std::size_t c = 0; c < open_.size(); ++c) {
     if (step_impulse_[c] > 0) open_[c].tangential_impulse += norm(step_tangential_[c]);
   }

@@ -5,6 +5,7 @@
 
 #include "common/parallel.h"
 #include "common/row_products.h"
+#include "io/schema.h"
 #include "output/probe_rows.h"
 #include "system/support_shapes.h"
 
@@ -18,6 +19,13 @@ constexpr std::size_t values_per_node = 6;
 
 /// Elongation and force.
 constexpr std::size_t values_per_link = 2;
+
+/// Mean of a value of nodes.
+double mean(std::span<const double* const> nodes, std::size_t place) {
+  double sum = 0;
+  for (const double* node : nodes) sum += node[place];
+  return sum / static_cast<double>(nodes.size());
+}
 
 }  // namespace
 
@@ -33,10 +41,11 @@ Recorder::Recorder(Layout layout, std::span<const LinearSystem> systems,
     structures_.push_back(find_nodes(systems[s], meshes[s], s, mine));
     nodes_ += structures_.back().values.size() / 3;
   }
+  bases_ = BaseMotion(layout_.bases, systems, meshes);
   const bool root = rank_of(layout_.comm) == layout_.interface_root;
   width_ = values_per_node * nodes_ + (root ? 2 * layout_.contacts.size() : 0) +
            values_per_link * layout_.my_links.size() +
-           (rank_of(layout_.comm) == 0 ? layout_.forces.size() : 0);
+           (rank_of(layout_.comm) == 0 ? layout_.forces.size() : 0) + bases_.values();
   buffer_.resize(buffer_records * width_);
   ground_.resize(3 * buffer_records);
   impulse_.assign(layout_.contacts.size(), 0.0);
@@ -103,11 +112,18 @@ Recorder::StructureNodes Recorder::find_nodes(const LinearSystem& system, const 
 void Recorder::name_channels() {
   for (const ResolvedProbe& probe : layout_.probes) {
     for (const char* direction : direction_names) channels_.push_back(probe.name + "." + direction);
-    const Vector3& v = layout_.initial_velocity[probe.structure];
-    last_velocity_.insert(last_velocity_.end(), v.begin(), v.end());
   }
+  last_velocity_.assign(channels_.size(), 0.0);
   peaks_.assign(channels_.size(), {});
   drifts_ = StoreyDrifts(layout_.storeys);
+}
+
+std::vector<std::string> Recorder::base_names() const {
+  std::vector<std::string> names;
+  for (const ResolvedProbe& base : layout_.bases) {
+    for (const char* direction : direction_names) names.push_back(base.name + "." + direction);
+  }
+  return names;
 }
 
 std::vector<Recorder::Quantity> Recorder::quantities() const {
@@ -124,6 +140,9 @@ std::vector<Recorder::Quantity> Recorder::quantities() const {
   if (!layout_.forces.empty()) {
     list.push_back({"force", layout_.forces.size(), layout_.force_unit.c_str()});
   }
+  if (!layout_.bases.empty()) {
+    list.push_back({"base_displacement", bases_.values(), "m"});
+  }
   if (!layout_.links.empty()) {
     list.push_back({"link_elongation", layout_.links.size(), "m, rad"});
     list.push_back({"link_force", layout_.links.size(), "N, N m"});
@@ -133,11 +152,13 @@ std::vector<Recorder::Quantity> Recorder::quantities() const {
 
 void Recorder::create_file(const std::string& path) {
   file_ = std::make_unique<Hdf5File>(path);
+  schema::write(*file_, schema::history);
   file_->write_attribute("/", "title", layout_.title);
   file_->write_strings("channels", channels_);
   file_->write_strings("contacts", layout_.contacts);
   if (!layout_.links.empty()) file_->write_strings("links", layout_.links);
   if (!layout_.forces.empty()) file_->write_strings("forces", layout_.forces);
+  if (!layout_.bases.empty()) file_->write_strings("bases", base_names());
   for (const Quantity& quantity : quantities()) {
     file_->create_dataset(quantity.name, quantity.columns, quantity.unit);
   }
@@ -179,6 +200,7 @@ void Recorder::put(const State& state, std::vector<double> StructureState::*quan
 
 void Recorder::take_displacements(const State& state) {
   put(state, &StructureState::displacement, state.supports.displacement, 0);
+  bases_.put(state, buffer_.data() + (buffered_ + 1) * width_ - bases_.values());
 }
 
 void Recorder::record(const State& state, std::span<const double> gaps,
@@ -199,11 +221,8 @@ void Recorder::record(const State& state, std::span<const double> gaps,
   if (++buffered_ == buffer_records) flush();
 }
 
-void Recorder::flush() {
-  const std::size_t rows = buffered_;
-  buffered_ = 0;
+std::vector<double> Recorder::gather_rows(std::size_t rows, std::vector<int>& offsets) const {
   std::vector<int> counts;
-  std::vector<int> offsets;
   std::vector<double> gathered;
   if (rank_of(layout_.comm) == 0) {
     int total = 0;
@@ -216,9 +235,50 @@ void Recorder::flush() {
   }
   MPI_Gatherv(buffer_.data(), static_cast<int>(rows * width_), MPI_DOUBLE, gathered.data(),
               counts.data(), offsets.data(), MPI_DOUBLE, 0, layout_.comm);
+  return gathered;
+}
+
+void Recorder::begin(const State& state) {
+  put(state, &StructureState::velocity, state.supports.velocity, 3);
+  std::vector<int> offsets;
+  const std::vector<double> gathered = gather_rows(1, offsets);
+  if (rank_of(layout_.comm) != 0) return;
+  NodeValues values;
+  find_values(0, gathered, offsets, values);
+  for (std::size_t channel = 0; channel < channels_.size(); ++channel) {
+    last_velocity_[channel] = mean(values[channel / 3], 3 + channel % 3);
+  }
+}
+
+void Recorder::flush() {
+  const std::size_t rows = buffered_;
+  buffered_ = 0;
+  std::vector<int> offsets;
+  const std::vector<double> gathered = gather_rows(rows, offsets);
   on_rank0(layout_.comm, [&] {
     if (rows > 0) write_rows(rows, gathered, offsets);
   });
+}
+
+std::size_t Recorder::values_beside(std::size_t rank) const {
+  const bool root = static_cast<int>(rank) == layout_.interface_root;
+  return (root ? 2 * layout_.contacts.size() : 0) + values_per_link * rank_links_[rank].size() +
+         (rank == 0 ? layout_.forces.size() : 0) + bases_.values();
+}
+
+void Recorder::find_values(std::size_t row, const std::vector<double>& gathered,
+                           const std::vector<int>& offsets, NodeValues& values) const {
+  values.resize(recorded_nodes_.size());
+  for (std::size_t p = 0; p < values.size(); ++p) values[p].resize(recorded_nodes_[p]);
+  std::size_t node = 0;
+  for (std::size_t rank = 0; rank < widths_.size(); ++rank) {
+    const std::size_t width = widths_[rank];
+    const double* from = gathered.data() + offsets[rank] + row * width;
+    const double* const end = from + (width - values_beside(rank));
+    for (; from != end; ++node, from += values_per_node) {
+      values[order_[node][0]][order_[node][1]] = from;
+    }
+  }
 }
 
 void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
@@ -234,47 +294,36 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
   std::vector<double> link_elongation(rows * links);
   std::vector<double> link_force(rows * links);
   std::vector<double> force_columns;
-  // Node values of one record by probe and position: means are taken in the probe's own order.
-  std::vector<std::vector<const double*>> values;
-  for (const std::size_t count : recorded_nodes_) values.emplace_back(count, nullptr);
+  const std::size_t bases = bases_.values();
+  std::vector<double> base(rows * bases);
+  NodeValues values;
   const auto first = static_cast<std::ptrdiff_t>(accelerations_.size());
   for (std::size_t row = 0; row < rows; ++row) {
-    std::size_t node = 0;
+    find_values(row, gathered, offsets, values);
     for (std::size_t rank = 0; rank < widths_.size(); ++rank) {
       const std::size_t width = widths_[rank];
-      const double* from = gathered.data() + offsets[rank] + row * width;
+      const double* from =
+          gathered.data() + offsets[rank] + (row + 1) * width - values_beside(rank);
       const bool root = static_cast<int>(rank) == layout_.interface_root;
-      const std::vector<int>& own_links = rank_links_[rank];
       const std::size_t forces = rank == 0 ? layout_.forces.size() : 0;
-      const std::size_t beside =
-          (root ? 2 * contacts : 0) + values_per_link * own_links.size() + forces;
-      const std::size_t nodes = (width - beside) / values_per_node;
-      for (std::size_t k = 0; k < nodes; ++k, ++node, from += values_per_node) {
-        values[order_[node][0]][order_[node][1]] = from;
-      }
       for (std::size_t c = 0; root && c < contacts; ++c) {
         gap.push_back(from[2 * c]);
         force.push_back(from[2 * c + 1]);
       }
       if (root) from += 2 * contacts;
-      for (const int link : own_links) {
+      for (const int link : rank_links_[rank]) {
         link_elongation[row * links + static_cast<std::size_t>(link)] = *from++;
         link_force[row * links + static_cast<std::size_t>(link)] = *from++;
       }
       force_columns.insert(force_columns.end(), from, from + forces);
+      from += forces;
+      for (std::size_t b = 0; b < bases; ++b) base[row * bases + b] += *from++;
     }
     time.push_back(static_cast<double>(records_++ * layout_.stride) * layout_.time_step);
     for (std::size_t channel = 0; channel < channels; ++channel) {
-      const auto& nodes = values[channel / 3];
       const std::size_t d = channel % 3;
-      double u = 0;
-      double v = 0;
-      for (const double* at : nodes) {
-        u += at[d];
-        v += at[3 + d];
-      }
-      u /= static_cast<double>(nodes.size());
-      v /= static_cast<double>(nodes.size());
+      const double u = mean(values[channel / 3], d);
+      const double v = mean(values[channel / 3], 3 + d);
       const double a = (v - last_velocity_[channel] + ground_[3 * row + d]) / interval();
       last_velocity_[channel] = v;
       displacement.push_back(u);
@@ -283,7 +332,7 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
     }
   }
   const std::span<const double> acceleration(accelerations_.begin() + first, accelerations_.end());
-  note_peaks(static_cast<std::size_t>(records_) - rows, displacement, acceleration);
+  note_peaks(static_cast<std::size_t>(records_) - rows, displacement, acceleration, base);
   file_->append("time", time);
   if (channels > 0) {
     file_->append("displacement", displacement);
@@ -299,6 +348,7 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
     file_->append("contact_force", force);
   }
   if (!layout_.forces.empty()) file_->append("force", force_columns);
+  if (bases > 0) file_->append("base_displacement", base);
   if (links > 0) {
     file_->append("link_elongation", link_elongation);
     file_->append("link_force", link_force);
@@ -317,7 +367,7 @@ std::size_t Recorder::first_record_from(double start) const {
 }
 
 void Recorder::note_peaks(std::size_t first_record, std::span<const double> displacement,
-                          std::span<const double> acceleration) {
+                          std::span<const double> acceleration, std::span<const double> bases) {
   const std::size_t first = first_record_from(layout_.peaks_start);
   for (std::size_t i = 0; i < displacement.size(); ++i) {
     largest_displacement_ = std::max(largest_displacement_, std::abs(displacement[i]));
@@ -329,7 +379,8 @@ void Recorder::note_peaks(std::size_t first_record, std::span<const double> disp
   const std::size_t rows = channels_.empty() ? 0 : displacement.size() / channels_.size();
   for (std::size_t row = first > first_record ? first - first_record : 0; row < rows; ++row) {
     drifts_.note(static_cast<double>(first_record + row) * interval(),
-                 displacement.subspan(row * channels_.size(), channels_.size()));
+                 displacement.subspan(row * channels_.size(), channels_.size()),
+                 bases.subspan(row * bases_.values(), bases_.values()));
   }
 }
 

@@ -12,6 +12,7 @@
 #include "io/hdf5_reader.h"
 #include "mesh/mesh.h"
 #include "mesh/probe_set.h"
+#include "output/base_motion.h"
 #include "output/storey_drifts.h"
 #include "system/trace.h"
 
@@ -26,7 +27,8 @@ struct ChannelPeaks {
 /// Writes `history.h5`. A record is made every `stride` steps: displacement at t_n, velocity at
 /// t_n + dt/2, and as absolute acceleration the change of velocity since the last record over the
 /// interval (so that no impulse is lost between samples), ground included. Contacts: smallest gap
-/// at t_n and mean force over the interval. Links: elongation and force at t_n. Forces: at t_n.
+/// at t_n and mean force over the interval. Links: elongation and force at t_n. Forces at t_n, and
+/// so what bases did.
 ///
 /// Values wait in a buffer on the rank that owns them and travel to rank 0 a few thousand records
 /// at a time, or when they are told to; a record itself neither allocates nor communicates. The
@@ -49,14 +51,17 @@ class Recorder {
     int interface_root = -1;  ///< rank that passes gaps and impulses, -1: none
     int stride = 1;
     double time_step = 0;
+    std::vector<ResolvedProbe> bases;  ///< that move, of structures with storeys; named after these
     std::vector<Storey> storeys;
-    double peaks_start = 0;                 ///< records before do not count as peaks [s]
-    std::vector<Vector3> initial_velocity;  ///< per structure [m/s]
+    double peaks_start = 0;  ///< records before do not count as peaks [s]
   };
 
   /// Rank 0 creates the file, unless the run is a continued one. Collective.
   Recorder(Layout layout, std::span<const LinearSystem> systems, std::span<const Mesh> meshes);
 
+  /// Before the first step of a run that is not continued: the velocities that it starts with.
+  /// Collective.
+  void begin(const State& state);
   bool due(std::int64_t step) const { return step % layout_.stride == 0; }
 
   /// Adds one step's velocity change of the ground, and on the interface root the impulse of each
@@ -122,18 +127,29 @@ class Recorder {
            std::span<const double> supports, std::size_t offset);
   void name_channels();
   std::vector<Quantity> quantities() const;
+  std::vector<std::string> base_names() const;  ///< "tower.x"
   void create_file(const std::string& path);
   void check_history(const Hdf5Reader& history) const;
   void copy_history(const Hdf5Reader& history);
   void note_peaks(std::size_t first_record, std::span<const double> displacement,
-                  std::span<const double> acceleration);
+                  std::span<const double> acceleration, std::span<const double> bases);
+  /// Brings so many records to rank 0, rank after rank; `offsets` of the ranks there.
+  std::vector<double> gather_rows(std::size_t rows, std::vector<int>& offsets) const;
   void write_rows(std::size_t rows, const std::vector<double>& gathered,
                   const std::vector<int>& offsets);
+  /// Where the values of the nodes of each probe are in a gathered record, in the probe's own
+  /// order, so that means do not depend on the ranks.
+  using NodeValues = std::vector<std::vector<const double*>>;
+  void find_values(std::size_t row, const std::vector<double>& gathered,
+                   const std::vector<int>& offsets, NodeValues& values) const;
+  /// Values beside those of nodes that a rank has in a record.
+  std::size_t values_beside(std::size_t rank) const;
   /// Sends appended rows to the disk before their number says that they are there. Rank 0.
   void count_rows();
 
   Layout layout_;
   std::vector<StructureNodes> structures_;
+  BaseMotion bases_;
   std::size_t nodes_ = 0;  ///< of this rank
   std::size_t width_ = 0;  ///< values of this rank per record
   std::vector<double> buffer_;

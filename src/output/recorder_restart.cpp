@@ -57,6 +57,7 @@ void Recorder::check_history(const Hdf5Reader& history) const {
                 history.strings("contacts") == layout_.contacts);
   refuse_unless(layout_.forces.empty() || history.strings("forces") == layout_.forces);
   refuse_unless(layout_.links.empty() || history.strings("links") == layout_.links);
+  refuse_unless(layout_.bases.empty() || history.strings("bases") == base_names());
   for (const Quantity& quantity : quantities()) {
     const Hdf5Reader::Shape shape = history.shape(quantity.name);
     refuse_unless(shape.columns == quantity.columns && shape.rows >= records);
@@ -82,7 +83,9 @@ void Recorder::copy_history(const Hdf5Reader& history) {
     }
     if (!channels_.empty()) {
       const std::vector<double> acceleration = history.rows("acceleration", first, count);
-      note_peaks(first, history.rows("displacement", first, count), acceleration);
+      note_peaks(first, history.rows("displacement", first, count), acceleration,
+                 layout_.bases.empty() ? std::vector<double>()
+                                       : history.rows("base_displacement", first, count));
       accelerations_.insert(accelerations_.end(), acceleration.begin(), acceleration.end());
     }
   }

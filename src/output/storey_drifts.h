@@ -12,9 +12,10 @@ namespace pounding {
 struct Storey {
   std::string structure;
   std::string upper;     ///< its probe
-  std::string lower;     ///< likewise; "base": that of the structure, which follows the ground
+  std::string lower;     ///< likewise; "base": what the structure stands on
   int upper_probe = 0;   ///< among the probes of a record
   int lower_probe = -1;  ///< likewise; -1: the base
+  int base = -1;         ///< among the bases that move; -1: it follows the ground
   double height = 0;     ///< between them [m]
 };
 
@@ -30,8 +31,9 @@ class StoreyDrifts {
   StoreyDrifts() = default;
   explicit StoreyDrifts(std::vector<Storey> storeys);
 
-  /// A record at `time` [s]: displacements of all probes, shape (probes, 3) [m].
-  void note(double time, std::span<const double> displacement);
+  /// A record at `time` [s]: displacements of all probes, shape (probes, 3), and of all bases that
+  /// move, shape (bases, 3) [m].
+  void note(double time, std::span<const double> displacement, std::span<const double> bases);
   const std::vector<Storey>& storeys() const { return storeys_; }
   const std::vector<std::array<DriftPeak, 2>>& peaks() const { return peaks_; }  ///< per storey
 

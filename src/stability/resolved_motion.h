@@ -23,13 +23,13 @@ inline constexpr double resolved_angle = 0.268;
 /// Up to which frequency a time step errs by no more [Hz].
 double resolved_frequency(double step);
 
-/// Of a structure with the highest mode not above `last` [Hz], or `last` where it is not known:
-/// `frequencies` are those of the lowest modes [Hz], `all` where it has no others, `omega_max`
-/// [rad/s] that of the highest.
+/// Motion of a structure that is to be resolved: its highest mode not above `last` [Hz], or one at
+/// `last` where that mode is not known: `frequencies` are those of the lowest modes [Hz], `all`
+/// where it has no others, `omega_max` [rad/s] that of the highest.
 ResolvedMotion resolved_motion(std::span<const double> frequencies, bool all, double omega_max,
                                double last);
 
-/// The faster one.
+/// The faster one of two motions.
 ResolvedMotion faster(const ResolvedMotion& a, const ResolvedMotion& b);
 
 }  // namespace pounding

@@ -207,6 +207,7 @@ class Members(unittest.TestCase):
         shutil.copy(os.path.join(self.folder, "ensemble.h5"), place)
         with h5py.File(os.path.join(place, "ensemble.h5"), "r+") as file:
             file.attrs["schema"] = 99.0
+        self.assertEqual(program.command("seal", os.path.join(place, "ensemble.h5")).returncode, 0)
         program.must_refuse(self, [*self.words, "-output", place], "an ensemble of schema 99", "reads schema 1",
                             "give another -output")
         with self.assertRaisesRegex(pounding.ResultError, "schema 99"):

@@ -442,7 +442,7 @@ class Refusals(RestartCase):
                                                      "-spare_gap", 9])
 
     def test_other_time_step(self):
-        self.refuse(self.copy(), ["time step", "give -time_step"], ["-courant", 0.8])
+        self.refuse(self.copy(), ["time step", "give -time_step"], ["-time_step", 1e-7])
 
     def test_end_time_before_the_checkpoint(self):
         folder = self.copy()

@@ -74,6 +74,24 @@ class Matrices(unittest.TestCase):
             a, b = self.matrix(one, name), self.matrix(three, name)
             self.assertLessEqual(float(abs(a - b).max() / abs(a).max()), 1e-13, name)
 
+    def test_a_run_is_continued_with_the_same_matrices_only(self):
+        place, results = os.path.join(self.folder, "changed"), os.path.join(self.folder, "stopped")
+        shutil.copytree(self.export(1), place)
+        words = self.from_files(place) + ["-end_time", 2e-4, "-checkpoint_steps", 10]
+        first = program.run([*words, "-output", results], 1)
+        self.assertEqual(first.returncode, 0, first.stderr)
+        restart = ["-restart", os.path.join(results, "checkpoint.h5"), "-end_time", 3e-4, "-output",
+                   os.path.join(self.folder, "continued")]
+        again = program.run([*words, *restart], 1)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        path = os.path.join(place, "s2", "stiffness.mtx")
+        with open(path) as file:
+            *lines, last = file.read().splitlines()
+        row, column, value = last.split()
+        with open(path, "w") as file:
+            file.write("\n".join([*lines, f"{row} {column} {float(value) * 1.001!r}"]) + "\n")
+        program.must_refuse(self, [*words, *restart], "written with -s2_matrices (its stiffness)", "start anew")
+
     def test_a_rigid_motion_needs_no_force(self):
         """Beside the clamped feet: K times a translation is zero at every dof that no foot holds."""
         place = self.export(1)

@@ -73,6 +73,22 @@ class SpectraStart(unittest.TestCase):
             other = numpy.array([float(row[header.index("pseudo_acceleration")]) for row in rows])
             self.assertLess(abs(other / later - 1).max(), 1e-12)
 
+    def test_a_continued_run_counts_its_peaks_from_the_start_that_it_is_given(self):
+        """Peaks of forces are kept in the checkpoint as they come: nothing of those before stays."""
+        forces = ["-forces", "base", "-base_structure", "mass", "-base_kind", "reactions"]
+        words = scene(self.record, "-motion_z_time_step", 0.01, *forces)
+        folder = tempfile.mkdtemp(prefix="pounding-")
+        ended = program.run([*words, "-end_time", 2, "-checkpoint_steps", 4000, "-output", folder])
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        restart = ["-restart", os.path.join(folder, "checkpoint.h5")]
+        continued, _ = program.must_run(self, [*words, *restart, "-spectra_start", 3])
+        whole, _ = program.must_run(self, [*words, "-spectra_start", 3])
+        for name in ("forces.csv", "spectra.csv"):
+            with open(os.path.join(continued, name)) as one, open(os.path.join(whole, name)) as other:
+                self.assertEqual(one.read(), other.read())
+        program.must_refuse(self, [*words, *restart, "-spectra_start", 1],
+                            "-spectra_start 1 s: the peaks of forces were counted from 0 s on until the checkpoint at 2 s")
+
     def test_gravity_on_what_is_held_is_doubted(self):
         _, summary, _ = self.run_scene()
         self.assertEqual(len([line for line in summary["warnings"] if "drop test" in line]), 1)

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "dynamics/state.h"
+#include "mesh/mesh.h"
+#include "mesh/probe_set.h"
+#include "system/linear_system.h"
+
+namespace pounding {
+
+/// Mean displacements of what structures stand on, where that moves. Each rank has its part of a
+/// mean, so that bases of many nodes cost a record three numbers.
+class BaseMotion {
+ public:
+  BaseMotion() = default;
+  /// `bases`: their nodes. References need not outlive this object. Local.
+  BaseMotion(std::span<const ResolvedProbe> bases, std::span<const LinearSystem> systems,
+             std::span<const Mesh> meshes);
+
+  /// Three per base.
+  std::size_t values() const { return rows_.size(); }
+  /// This rank's part of the displacements, relative to the ground, shape (bases, 3) [m].
+  void put(const State& state, double* out) const;
+
+ private:
+  /// A component of a mean: a sum over owned dofs and over the motion of the supports.
+  struct Row {
+    std::size_t structure = 0;
+    std::vector<LocalIndex> dofs;
+    std::vector<double> weights;
+    std::vector<double> carried;  ///< per column of the supports' motion
+  };
+  std::vector<Row> rows_;
+};
+
+}  // namespace pounding
