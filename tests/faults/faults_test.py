@@ -240,6 +240,16 @@ class Faults(unittest.TestCase):
                        "-end_time", 0.2, "-output_interval", 0.02]
         self.small_disks("small disks of ensembles", words, (8, 24, 48, 64, 4000), RANKS, "ensemble.csv")
 
+    def test_no_addresses_for_the_blas(self):
+        """OpenBLAS asks for its 128 MB for ever; what is left under the limit is a line at once."""
+        words = [*SMALL, "-bar_damping_beta", 0, "-bar_damping_uniform", 0.05, "-bar_damping_band", "1,20", "-dry_run",
+                 "-output", self.folder]
+        result = subprocess.run(["prlimit", f"--as={300 << 20}", program.PROGRAM, *map(str, words)], cwd=program.SOURCE,
+                                env=ENVIRONMENT, capture_output=True, text=True, timeout=SECONDS)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        line, = program.error_lines(result)
+        self.assertIn("out of memory on rank 0", line)
+
     def test_memory_runs_out(self):
         """Limits from what the small scene needs up to what the large one does."""
         job = Job(self.folder, SMALL)
