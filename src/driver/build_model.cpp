@@ -7,9 +7,12 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "common/progress.h"
+#include "driver/field_plan.h"
 #include "driver/filler_limit.h"
 #include "driver/mesh_pieces.h"
+#include "driver/model_doubts.h"
 #include "driver/model_file.h"
+#include "driver/report.h"
 #include "driver/rest.h"
 #include "driver/run_warnings.h"
 #include "driver/separation.h"
@@ -262,9 +265,25 @@ void add_warnings(MPI_Comm comm, const Scene& scene, Model& model) {
   append(model.interface.warnings, model.warnings);
   for (const Building& building : model.buildings) {
     append(damping_warnings(*building.structure, building.modal), model.warnings);
+    append(mass_doubts(comm, building), model.warnings);
   }
   if (rank_of(comm) == 0) append(mechanism_warnings(scene, model), model.warnings);
   append(rest_warnings(model), model.warnings);
+}
+
+/// Builds systems, modes, equilibrium and time step on meshes that are there. Collective.
+void build_structures(MPI_Comm comm, Scene& scene, Profile& profile, Model& model) {
+  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+    build_structure(comm, scene, s, profile, model, leans(scene.structures[s]));
+  }
+  turn_weight_with_columns(comm, scene, profile, model);
+  put_at_rest(comm, scene, profile, model);
+  on_rank0(comm, [&] { model.separations = find_separations(scene, model); });
+  add_warnings(comm, scene, model);
+  model.filler_time_step = filler_limit(comm, scene, model);
+  choose_time_step(scene, step_limits(scene, model), model);
+  append(run_warnings(scene, model), model.warnings);
+  append(check_fields(comm, scene, model), model.warnings);
 }
 
 }  // namespace
@@ -283,16 +302,13 @@ Model build_model(MPI_Comm comm, Scene& scene, std::span<const double> stiffness
     }
   });
   build_meshes(comm, scene, stiffness_factors, profile, contacts_known, model);
-  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
-    build_structure(comm, scene, s, profile, model, leans(scene.structures[s]));
+  try {
+    build_structures(comm, scene, profile, model);
+  } catch (const UserError&) {
+    // Doubts about the meshes may tell why, and would not be printed otherwise.
+    if (rank_of(comm) == 0) print_warnings(model.warnings);
+    throw;
   }
-  turn_weight_with_columns(comm, scene, profile, model);
-  put_at_rest(comm, scene, profile, model);
-  on_rank0(comm, [&] { model.separations = find_separations(scene, model); });
-  add_warnings(comm, scene, model);
-  model.filler_time_step = filler_limit(comm, scene, model);
-  choose_time_step(scene, step_limits(scene, model), model);
-  append(run_warnings(scene, model), model.warnings);
   const ScopedTimer timer(profile, Phase::modes);
   find_energy_margins(comm, scene, model);
   return model;

@@ -25,6 +25,21 @@ std::int64_t parts(double count) {
   return static_cast<std::int64_t>(std::floor(count * (1 + 1e-9)));
 }
 
+constexpr double large_fields = 1e10;  ///< of a study [bytes]
+constexpr double much_longer = 1.5;    ///< between frames than asked for
+
+/// Bytes that are free where a folder is or will be.
+double free_room(const std::string& folder) {
+  std::error_code failure;
+  std::filesystem::path place = std::filesystem::absolute(folder, failure);
+  while (place.has_relative_path() && !std::filesystem::exists(place, failure)) {
+    place = place.parent_path();
+  }
+  const std::filesystem::space_info space = std::filesystem::space(place, failure);
+  if (failure) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(space.available);
+}
+
 }  // namespace
 
 int record_stride(const Scene& scene, const Model& model) {
@@ -51,6 +66,39 @@ std::optional<FieldSteps> planned_fields(const Scene& scene, const Model& model)
   }
   steps.count = 1 + (last - steps.first) / steps.stride;
   return steps;
+}
+
+std::vector<std::string> check_fields(MPI_Comm comm, const Scene& scene, const Model& model) {
+  const auto steps = planned_fields(scene, model);
+  if (!steps) return {};
+  const double bytes =
+      FieldWriter::size(*steps, model.systems, model.meshes, !scene.contacts.empty());
+  const double every = static_cast<double>(steps->stride) * model.time_step;
+  std::vector<std::string> doubts;
+  std::ostringstream frames;
+  frames.precision(3);
+  frames << "option -fields_interval " << scene.fields_interval << " s: " << steps->count
+         << " frames every " << every << " s take up to " << bytes / 1e9 << " GB";
+  on_rank0(comm, [&] {
+    const double room = free_room(scene.output);
+    if (bytes > room) {
+      std::ostringstream text;
+      text.precision(3);
+      text << frames.str() << ", and " << scene.output << " has room for " << room / 1e9
+           << " GB; give a longer interval, or -fields_start and -fields_end";
+      throw UserError(text.str());
+    }
+  });
+  if (every > much_longer * scene.fields_interval) {
+    std::ostringstream text;
+    text.precision(3);
+    text << "option -fields_interval " << scene.fields_interval << " s: frames come every " << every
+         << " s, with samples of the probes at most (-output_interval, " << scene.output_interval
+         << " s)";
+    doubts.push_back(text.str());
+  }
+  if (bytes > large_fields) doubts.push_back(frames.str() + "; is the interval in s?");
+  return doubts;
 }
 
 void print_fields(MPI_Comm comm, const Scene& scene, const Model& model) {

@@ -2,6 +2,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "contact/contact_problem.h"
 #include "driver/model.h"
@@ -15,6 +17,10 @@ int record_stride(const Scene& scene, const Model& model);
 /// Steps whose motion the scene keeps as a whole, all of which the probes record as well; nothing
 /// if it keeps none. Throws UserError: the run ends before the first.
 std::optional<FieldSteps> planned_fields(const Scene& scene, const Model& model);
+
+/// Doubts about the frames of the scene: asked for more often than they come, or too large to be
+/// meant. Throws UserError on every rank alike: they do not fit on the disk. Collective.
+std::vector<std::string> check_fields(MPI_Comm comm, const Scene& scene, const Model& model);
 
 /// Prints how many frames there will be and the room that they take. Collective.
 void print_fields(MPI_Comm comm, const Scene& scene, const Model& model);

@@ -90,6 +90,42 @@ void add_long_step(const std::string& of, double sample, double step,
   }
 }
 
+namespace {
+
+/// Whether somebody asked for frequencies of spectra.
+bool frequencies_are_asked(const Scene& scene) {
+  const auto preset = parse_increasing(std::string(option_row("spectra_frequencies").preset.text));
+  return scene.spectra.frequencies != preset;
+}
+
+/// Spectra beyond half the sampling frequency of the probes, or, where no impacts are looked for,
+/// of the motion.
+void add_high_spectra(const Scene& scene, const Model& model, std::vector<std::string>& warnings) {
+  if (scene.probes.empty()) return;
+  const double highest = scene.spectra.frequencies.back();
+  const auto add = [&](const std::string& of, double interval, const std::string& what) {
+    if (!(highest * 2 * interval > round_off)) return;
+    std::ostringstream text;
+    text.precision(4);
+    text << "spectra go to " << highest << " Hz (-spectra_frequencies), " << of << " every "
+         << interval << " s tell nothing above " << 0.5 / interval << " Hz" << what;
+    warnings.push_back(text.str());
+  };
+  if (scene.output_interval != parse_real(option_row("output_interval").preset.text)) {
+    add("samples of the probes", scene.output_interval, "; give a shorter -output_interval");
+  }
+  if (!scene.contacts.empty() || !frequencies_are_asked(scene)) return;
+  double coarsest = 0;
+  for (int direction = 0; direction < 3; ++direction) {
+    if (samples(model, direction).acceleration.empty()) continue;
+    coarsest = std::max(coarsest, given_interval(model, direction));
+  }
+  add("samples of the motion", coarsest,
+      ": beyond, only what lies between the samples shows (-resampling)");
+}
+
+}  // namespace
+
 std::vector<std::string> run_warnings(const Scene& scene, const Model& model) {
   std::vector<std::string> warnings;
   if (stands_still(scene) && model.support_columns().empty() && !scene.dry_run &&
@@ -107,6 +143,7 @@ std::vector<std::string> run_warnings(const Scene& scene, const Model& model) {
     }
   }
   for (const std::string& line : long_step_warnings(scene, model)) warnings.push_back(line);
+  add_high_spectra(scene, model, warnings);
   // The interval that nobody asked for is as short as the step where that is longer.
   const auto preset = parse_real(option_row("output_interval").preset.text);
   if (!scene.probes.empty() && scene.output_interval != preset) {

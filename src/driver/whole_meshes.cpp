@@ -5,6 +5,7 @@
 #include "common/progress.h"
 #include "contact/absorbing_faces.h"
 #include "driver/mesh_checks.h"
+#include "driver/model_doubts.h"
 #include "driver/probe_warnings.h"
 #include "driver/warnings.h"
 #include "mesh/find_supported_nodes.h"
@@ -67,6 +68,7 @@ WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model) {
   model.probes = resolve_probes(scene, whole.meshes);
   model.forces = resolve_forces(scene, whole.meshes);
   append(probe_warnings(model.probes, whole.meshes, model.interface), model.warnings);
+  append(place_doubts(scene, whole.meshes, model.interface, model.probes), model.warnings);
   return whole;
 }
 

@@ -128,6 +128,21 @@ bool counts(const ForceItem& force, std::uint8_t free_components, const Vector3&
   return force.kind != ForceKind::storey || force.beyond(x);
 }
 
+namespace {
+
+/// Refuses a storey above the whole structure, through which nothing passes.
+void require_storey(const ForceItem& force, const GlobalMesh& mesh) {
+  if (force.kind != ForceKind::storey) return;
+  const BoundingBox box = bounding_box({&mesh, 1});
+  if (force.level < box.high[2]) return;
+  std::ostringstream text;
+  text << "option -" << force.name << "_level: no node of " << force.structure << " lies above "
+       << force.level << " m; it reaches from " << box.low[2] << " to " << box.high[2] << " m";
+  throw UserError(text.str());
+}
+
+}  // namespace
+
 std::vector<ResolvedForce> resolve_forces(const Scene& scene, std::span<const GlobalMesh> meshes) {
   std::vector<ResolvedForce> forces;
   for (const ForceItem& force : scene.forces) {
@@ -135,6 +150,7 @@ std::vector<ResolvedForce> resolve_forces(const Scene& scene, std::span<const Gl
     while (scene.structures[s].name != force.structure) ++s;
     ResolvedForce& resolved = forces.emplace_back();
     resolved.structure = static_cast<int>(s);
+    require_storey(force, meshes[s]);
     std::vector<Place> places;
     if (force.of_elements()) {
       places = chosen_elements(force, meshes[s]);

@@ -48,11 +48,16 @@ double reference_frequency(const Structure& structure, const ModalResult& modal)
       return std::round(mode.frequency / unit) * unit;
     }
   }
+  const Mode* first = modal.modes.empty() ? nullptr : &modal.modes.front();
   throw UserError(
-      "option -" + structure.name + "_damping_uniform: none of the first " +
-      std::to_string(modal.modes.size()) +
-      " modes vibrates, so the stiffness has no frequency to keep its place at; give -" +
-      structure.name + "_damping_reference, or more -modes");
+      "structure " + structure.name + ": none of its first " + std::to_string(modal.modes.size()) +
+      " modes vibrates (0 Hz)" +
+      (first != nullptr && !first->location.empty()
+           ? ", the first, along " + first->direction + ", moves most at " + first->location
+           : "") +
+      ": look at what holds it (-" + structure.name +
+      "_clamp), and at the units of mesh and materials; if that is meant, -" + structure.name +
+      "_damping_uniform needs a -" + structure.name + "_damping_reference, or more -modes");
 }
 
 Mode describe_mode(double eigenvalue, const std::array<double, 6>& participation,

@@ -22,6 +22,17 @@ constexpr Plausible density{"density", 100, 25000, "kg/m3", "is it in t/m3 or kN
 constexpr Plausible poisson{"poisson", 0, 0.48, "-", "elements lock near 0.5"};
 constexpr Plausible thickness{"thickness", 1e-3, 10, "m", "is it in mm?"};
 constexpr Plausible bar_area{"area", 1e-6, 10, "m2", "is it in mm2 or cm2?"};
+constexpr Plausible mass_per_area{"mass_per_area", 1, 1e5, "kg/m2", "is it in t/m2?"};
+constexpr Plausible mass_per_length{"mass_per_length", 0.1, 1e6, "kg/m", "is it in t/m?"};
+constexpr Plausible filler_pressure{"its largest pressure", 1e3, 1e9, "Pa", "is it in MPa or kPa?"};
+constexpr Plausible contact_friction{"friction", 0, 1.5, "-",
+                                     "it is a coefficient; is it in percent or degrees?"};
+constexpr Plausible bearing_friction{"sliding_friction", 0, 1, "-",
+                                     "it is a coefficient; is it in percent or degrees?"};
+constexpr Plausible soil_velocity{"soil_vs", 20, 5000, "m/s", "is it in km/s?"};
+constexpr Plausible soil_density{"soil_density", 500, 4000, "kg/m3", "is it in t/m3 or kN/m3?"};
+constexpr Plausible delay{"delay", 0, 10, "s", "is it in ms?"};
+constexpr Plausible weight{"gravity", 1.5, 30, "m/s2", "is it in g or cm/s2?"};
 constexpr Plausible gyration{"radius of gyration", 1e-3, 20, "m",
                              "do area and inertias have one unit of length?"};
 
@@ -65,8 +76,9 @@ class Doubts {
 };
 
 void look_at_region(const std::string& structure, const Region& region, Doubts& doubts) {
-  if (!has_extent(region.element)) return;
   const std::string owner = structure + ", group " + region.group;
+  doubts.look_at(owner, bearing_friction, region.nonlinear.friction);
+  if (!has_extent(region.element)) return;
   if (const std::string_view caution = traits_of(region.element).caution; !caution.empty()) {
     doubts.add(owner + ": " + std::string(caution));
   }
@@ -80,6 +92,41 @@ void look_at_region(const std::string& structure, const Region& region, Doubts& 
   }
   if (takes(element, "area")) {
     doubts.look_at(owner, bar_area, region.area);
+  }
+  if (region.added_mass > 0) {
+    doubts.look_at(owner, is_shell(region.element) ? mass_per_area : mass_per_length,
+                   region.added_mass);
+  }
+}
+
+void look_at_contact(const Contact& contact, Doubts& doubts) {
+  const std::string owner = "contact " + contact.name;
+  doubts.look_at(owner, contact_friction, contact.friction);
+  if (contact.filler) {
+    doubts.look_at(owner + ", filler", filler_pressure, contact.filler->table.back().pressure);
+  }
+}
+
+void look_at_support(const Scene& scene, const Support& support, Doubts& doubts) {
+  const std::string owner = "support " + support.name;
+  doubts.look_at(owner, delay, support.delay);
+  if (support.delay >= scene.end_time) {
+    std::ostringstream text;
+    text << owner << ": the motion arrives after " << support.delay << " s, the run ends at "
+         << scene.end_time << " s: it stands still all the time";
+    doubts.add(text.str());
+  }
+}
+
+/// Strength and direction of gravity.
+void look_at_direction(const Structure& structure, Doubts& doubts) {
+  const auto& [x, y, z] = structure.gravity;
+  const double strength = std::hypot(x, y, z);
+  if (strength == 0) return;
+  doubts.look_at("structure " + structure.name, weight, strength);
+  if (z > 0) {
+    doubts.add("structure " + structure.name +
+               ": its gravity acts upwards, along z; -z is downwards");
   }
 }
 
@@ -143,8 +190,16 @@ std::vector<std::string> scene_doubts(const Scene& scene) {
       look_at_weight(structure, region, doubts);
       look_at_damping(structure, region, doubts);
     }
+    if (structure.soil) {
+      doubts.look_at("structure " + structure.name, soil_velocity,
+                     structure.soil->ground.shear_velocity);
+      doubts.look_at("structure " + structure.name, soil_density, structure.soil->ground.density);
+    }
+    look_at_direction(structure, doubts);
     if (!scene.preload) look_at_gravity(structure, doubts);
   }
+  for (const Contact& contact : scene.contacts) look_at_contact(contact, doubts);
+  for (const Support& support : scene.supports) look_at_support(scene, support, doubts);
   return doubts.lines();
 }
 

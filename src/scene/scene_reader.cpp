@@ -11,6 +11,7 @@
 #include "scene/fidelity_target.h"
 #include "scene/filler_reader.h"
 #include "scene/force_reader.h"
+#include "scene/idle_options.h"
 #include "scene/mesh_options.h"
 #include "scene/motion_reader.h"
 #include "scene/nearest_name.h"
@@ -70,8 +71,9 @@ class SceneReader {
       scene_.forces.push_back(read_force(options_, scene_, name));
     }
     read_spectra();
-    const std::vector<std::string> doubts = scene_doubts(scene_);
-    scene_.warnings.insert(scene_.warnings.end(), doubts.begin(), doubts.end());
+    for (const auto& doubts : {idle_options(options_, scene_, listed_), scene_doubts(scene_)}) {
+      scene_.warnings.insert(scene_.warnings.end(), doubts.begin(), doubts.end());
+    }
     scene_.structures_key = structures_key(options_.in_force());
     scene_.mesh_options = mesh_options(options_.in_force(), scene_);
     check_pieces();
@@ -84,6 +86,19 @@ class SceneReader {
     return solver == "auto"     ? SolverChoice::automatic
            : solver == "direct" ? SolverChoice::direct
                                 : SolverChoice::iterative;
+  }
+
+  /// Gravity is a magnitude: its direction is told of single structures only.
+  double read_gravity() {
+    if (options_.given("gravity")) {
+      const auto number = parse_real(options_.database().at("gravity"));
+      if (number && *number < 0) {
+        options_.refuse("gravity", {},
+                        "it acts along -z, and this is how strong it is: leave the sign out (other "
+                        "directions: -<structure>_gravity x,y,z)");
+      }
+    }
+    return options_.real("gravity");
   }
 
   void read_run() {
@@ -102,7 +117,7 @@ class SceneReader {
     scene_.modes_solver = read_solver("modes_solver");
     scene_.write_modes = options_.boolean("write_modes");
     scene_.write_model = options_.boolean("write_model");
-    gravity_ = options_.real("gravity");
+    gravity_ = read_gravity();
     scene_.preload = options_.choice("preload") == "static";
     scene_.preload_solver = read_solver("preload_solver");
     scene_.gap_tolerance = options_.real("gap_tolerance");

@@ -1,5 +1,6 @@
 #include "scene/unknown_options.h"
 
+#include <algorithm>
 #include <set>
 
 #include "common/error.h"
@@ -94,6 +95,23 @@ std::vector<std::vector<std::string>> owners(const OptionsDatabase& database,
   return result;
 }
 
+/// Whether a region asks for a section or material that nobody defines: its own options of the same
+/// kind are those of a name that was meant, and the reference is what is wrong.
+bool has_lost_reference(const OptionsDatabase& database, const ListedNames& listed,
+                        const std::string& option) {
+  const auto lost = [&](std::string_view reference, std::string_view first) {
+    const NameSet names = referenced(database, listed, reference);
+    return std::ranges::any_of(names, [&](const std::string& name) {
+      return !database.contains(option_name(first, {name}));
+    });
+  };
+  if (option.starts_with("section_")) {
+    return lost("<structure>_<group>_section", "section_<section>_area");
+  }
+  return option.starts_with("material_") &&
+         lost("<structure>_<group>_material", "material_<material>_young");
+}
+
 }  // namespace
 
 void refuse_unknown_options(const OptionsDatabase& database, const ListedNames& in_use) {
@@ -114,6 +132,7 @@ void refuse_unknown_options(const OptionsDatabase& database, const ListedNames& 
       throw UserError("option -" + option + " " + shown_value(value) + ": " + *fault);
     }
     if (lookup.contains(option) || is_petsc_option(option)) continue;
+    if (has_lost_reference(database, in_use, option)) continue;  // its reader says so
     const auto near = nearest_name(option, known);
     throw UserError("unknown option -" + shown_value(option) + " (value " + shown_value(value) +
                     ")" + (near ? "; did you mean -" + *near + "?" : "; see pounding -help"));

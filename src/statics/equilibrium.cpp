@@ -263,7 +263,7 @@ class Search {
     text << "option -preload static: structure " << systems_[worst].name
          << " finds no rest under its weight, " << left << " of it is left after " << iterations_
          << " iterations: nothing holds it, or less than 0.1 Hz; clamp it, give it springs or a "
-            "contact below, or leave -preload out";
+            "contact below, look at the units of mesh and materials, or leave -preload out";
     throw UserError(text.str());
   }
 

@@ -46,7 +46,9 @@ std::vector<double> follow(const LinearSystem& system, const AssembledStatics& s
   }
   throw UserError(
       "structure " + system.name + ": how it follows its supports at rest is not found after " +
-      std::to_string(most_corrections) + " corrections; is part of it held by almost nothing?");
+      std::to_string(most_corrections) +
+      " corrections; is part of it held by almost nothing, or are mesh and materials in other "
+      "units than m, kg and Pa?");
 }
 
 }  // namespace

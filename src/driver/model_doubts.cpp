@@ -1,0 +1,266 @@
+#include "driver/model_doubts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "common/matrix3.h"
+#include "mesh/bounding_box.h"
+
+namespace pounding {
+namespace {
+
+constexpr double level_mat = 1;        ///< height over which nodes of a mat may lie [m]
+constexpr double level_part = 0.1;     ///< or this part of its longer side
+constexpr double wide_gap = 1;         ///< joints of buildings are narrower [m]
+constexpr double wide_part = 0.05;     ///< and narrower than this part of the model
+constexpr double narrow_floor = 0.15;  ///< extent in plan over that of the widest floor
+constexpr double small_mass = 50;      ///< of a part of a building [kg]
+constexpr double small_part = 1e-4;    ///< and over that of the building
+constexpr double slow = 3;             ///< first frequency times longest side [m/s]
+constexpr double light = 2;            ///< mass over the volume of the box around it [kg/m3]
+
+std::string place_text(const Vector3& place) {
+  std::ostringstream text;
+  text.precision(6);
+  text << "(" << place[0] << ", " << place[1] << ", " << place[2] << ")";
+  return text.str();
+}
+
+void doubt_mat(const Structure& structure, const GlobalMesh& mesh,
+               std::vector<std::string>& doubts) {
+  if (!structure.soil) return;
+  BoundingBox box;
+  for (const GlobalIndex node : mesh.groups.at(structure.soil->mat).nodes) {
+    box.include(mesh.position(node));
+  }
+  const double height = box.high[2] - box.low[2];
+  const double side = std::max(box.high[0] - box.low[0], box.high[1] - box.low[1]);
+  if (!(height > std::max(level_mat, level_part * side))) return;
+  std::ostringstream text;
+  text << "structure " << structure.name << ": the nodes of its mat on soil, group "
+       << structure.soil->mat << ", lie from z = " << box.low[2] << " to " << box.high[2]
+       << " m, and all of them move as one rigid body; -" << structure.name
+       << "_soil_mat takes the group of the mat alone";
+  doubts.push_back(text.str());
+}
+
+/// The two faces of a contact, along their normal.
+class Joint {
+ public:
+  Joint(const Scene& scene, std::span<const GlobalMesh> meshes, const Contact& contact,
+        const InterfaceReport& report, double model_size)
+      : scene_(scene),
+        meshes_(meshes),
+        contact_(contact),
+        report_(report),
+        model_size_(model_size) {}
+
+  void doubt(std::vector<std::string>& doubts) const {
+    const double smallest = report_.geometric_gap[0];
+    if (!(smallest > 0) || is_of_beams(contact_.secondary) || is_of_beams(contact_.primary)) return;
+    std::ostringstream text;
+    text.precision(4);
+    text << "contact " << contact_.name << ": ";
+    if (const std::string between = what_lies_between(); !between.empty()) {
+      text << "between its faces, up to " << report_.geometric_gap[1] << " m apart, lies "
+           << between
+           << ": it goes through a building; name the faces that look at each other "
+              "across the joint";
+      doubts.push_back(text.str());
+    } else if (smallest > std::max(wide_gap, wide_part * model_size_) && stands_still()) {
+      text << "its faces are at least " << smallest << " m apart in the meshes"
+           << (contact_.gap.values.empty() ? ", which no building moves" : "")
+           << "; are they the ones that look at each other across the joint?";
+      doubts.push_back(text.str());
+    }
+  }
+
+ private:
+  const GlobalMesh& mesh_of(const ContactSide& side) const {
+    std::size_t s = 0;
+    while (scene_.structures[s].name != side.structure) ++s;
+    return meshes_[s];
+  }
+  const std::vector<GlobalIndex>& nodes_of(const ContactSide& side) const {
+    return mesh_of(side).groups.at(side.group).nodes;
+  }
+
+  /// Lines of beams stand for a building around them: what they face may be far.
+  bool is_of_beams(const ContactSide& side) const {
+    const std::vector<GlobalIndex>& nodes = nodes_of(side);
+    const std::set<GlobalIndex> face(nodes.begin(), nodes.end());
+    for (const ElementSet& set : mesh_of(side).regions) {
+      const ElementTraits& traits = traits_of(set.type);
+      if (!has_extent(set.type) || joins_two_nodes(set.type) || traits.stiffness == nullptr) {
+        continue;
+      }
+      if (std::ranges::any_of(set.connectivity,
+                              [&](GlobalIndex node) { return face.contains(node); })) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// Bodies in flight may come from far.
+  bool stands_still() const {
+    return std::ranges::none_of(scene_.structures, [](const Structure& structure) {
+      return structure.initial_velocity != Vector3{0, 0, 0} || structure.allow_loose;
+    });
+  }
+
+  /// A node in the space that the two faces look at each other across; empty: there is none.
+  std::string what_lies_between() const {
+    const Vector3& normal = report_.normal;
+    double behind = -1e300;
+    double ahead = 1e300;
+    BoundingBox face;
+    BoundingBox other;
+    for (const GlobalIndex node : nodes_of(contact_.secondary)) {
+      const Vector3 x = mesh_of(contact_.secondary).position(node);
+      behind = std::max(behind, dot(normal, x));
+      face.include(x);
+    }
+    for (const GlobalIndex node : nodes_of(contact_.primary)) {
+      const Vector3 x = mesh_of(contact_.primary).position(node);
+      ahead = std::min(ahead, dot(normal, x));
+      other.include(x);
+    }
+    const double margin =
+        1e-3 * (ahead - behind) + std::max(report_.half_thickness[0], report_.half_thickness[1]);
+    for (std::size_t s = 0; s < meshes_.size(); ++s) {
+      for (GlobalIndex node = 0; node < meshes_[s].node_count(); ++node) {
+        const Vector3 x = meshes_[s].position(node);
+        const double along = dot(normal, x);
+        bool inside = along > behind + margin && along < ahead - margin;
+        for (const int t : report_.tangent_axes) {
+          const auto axis = static_cast<std::size_t>(t);
+          const double slack = 1e-6 * model_size_;
+          inside = inside && x[axis] >= std::max(face.low[axis], other.low[axis]) - slack &&
+                   x[axis] <= std::min(face.high[axis], other.high[axis]) + slack;
+        }
+        if (inside) return "structure " + scene_.structures[s].name + " at " + place_text(x);
+      }
+    }
+    return "";
+  }
+
+  const Scene& scene_;
+  std::span<const GlobalMesh> meshes_;
+  const Contact& contact_;
+  const InterfaceReport& report_;
+  double model_size_;
+};
+
+/// Extent in plan of the nodes of a mesh at one height [m].
+double extent_at(const GlobalMesh& mesh, double height, double tolerance) {
+  BoundingBox box;
+  for (GlobalIndex node = 0; node < mesh.node_count(); ++node) {
+    const Vector3 x = mesh.position(node);
+    if (std::abs(x[2] - height) <= tolerance) box.include(x);
+  }
+  return std::hypot(std::max(0.0, box.high[0] - box.low[0]),
+                    std::max(0.0, box.high[1] - box.low[1]));
+}
+
+/// Sides of the box around all nodes of a mesh [m]. Collective.
+Vector3 sides_of_box(MPI_Comm comm, const Mesh& mesh) {
+  std::array<double, 6> ends;
+  ends.fill(-1e300);
+  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
+    const Vector3 x = mesh.position(node);
+    for (std::size_t d = 0; d < 3; ++d) {
+      ends[d] = std::max(ends[d], x[d]);
+      ends[d + 3] = std::max(ends[d + 3], -x[d]);
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, ends.data(), 6, MPI_DOUBLE, MPI_MAX, comm);
+  return {ends[0] + ends[3], ends[1] + ends[4], ends[2] + ends[5]};
+}
+
+/// Floors reach about as far as the building; a cabinet on one of them does not.
+void doubt_floors(const Scene& scene, std::span<const GlobalMesh> meshes,
+                  std::span<const ResolvedProbe> probes, std::vector<std::string>& doubts) {
+  for (std::size_t s = 0; s < meshes.size(); ++s) {
+    const BoundingBox box = bounding_box({&meshes[s], 1});
+    const double tolerance = 0.01 * (box.high[2] - box.low[2]);
+    std::vector<std::pair<const ResolvedProbe*, double>> floors;
+    double widest = 0;
+    for (const ResolvedProbe& probe : probes) {
+      const auto asked = std::ranges::find(scene.probes, probe.name, &Probe::name);
+      if (probe.structure != static_cast<int>(s) || asked == scene.probes.end() || !asked->floor) {
+        continue;
+      }
+      floors.emplace_back(&probe, extent_at(meshes[s], probe.position[2], tolerance));
+      widest = std::max(widest, floors.back().second);
+    }
+    for (const auto& [probe, extent] : floors) {
+      if (!(extent < narrow_floor * widest)) continue;
+      std::ostringstream text;
+      text.precision(4);
+      text << "probe " << probe->name << ": a floor at z = " << probe->position[2] << " m, where "
+           << scene.structures[s].name << " reaches over " << extent << " m in plan, and over "
+           << widest
+           << " m at its widest floor; drifts are between floors, not of what stands on "
+              "them: leave -"
+           << probe->name << "_floor out there";
+      doubts.push_back(text.str());
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> place_doubts(const Scene& scene, std::span<const GlobalMesh> meshes,
+                                      const Interface& interface,
+                                      std::span<const ResolvedProbe> probes) {
+  std::vector<std::string> doubts;
+  for (std::size_t s = 0; s < meshes.size(); ++s) doubt_mat(scene.structures[s], meshes[s], doubts);
+  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
+    if (scene.contacts[c].primary.is_wall()) continue;
+    Joint(scene, meshes, scene.contacts[c], interface.reports[c], interface.model_size)
+        .doubt(doubts);
+  }
+  doubt_floors(scene, meshes, probes, doubts);
+  return doubts;
+}
+
+std::vector<std::string> mass_doubts(MPI_Comm comm, const Building& building) {
+  std::vector<std::string> doubts;
+  const Structure& structure = *building.structure;
+  const double total = building.system->total_mass;
+  for (const Region& region : structure.regions) {
+    if (!(region.mass > 0 && region.mass < std::min(small_mass, small_part * total))) continue;
+    std::ostringstream text;
+    text.precision(4);
+    text << "structure " << structure.name << ", group " << region.group << ": mass " << region.mass
+         << " kg is nothing in a structure of " << total << " kg; is it in t?";
+    doubts.push_back(text.str());
+  }
+  if (structure.matrices.empty()) return doubts;
+  const Vector3 sides = sides_of_box(comm, *building.mesh);
+  const double longest = std::ranges::max(sides);
+  const double volume = sides[0] * sides[1] * sides[2];
+  const double frequency = building.modal.first_frequency();
+  if (frequency > 0 && frequency * longest < slow) {
+    std::ostringstream text;
+    text.precision(4);
+    text << "structure " << structure.name << ": by the matrices of " << structure.matrices
+         << " its first frequency is " << frequency << " Hz, in a model of " << longest
+         << " m; is the stiffness in N/m (not N/mm), and the mass in kg?";
+    doubts.push_back(text.str());
+  }
+  if (std::ranges::min(sides) > 0.1 * longest && total < light * volume) {
+    std::ostringstream text;
+    text.precision(4);
+    text << "structure " << structure.name << ": by the matrices of " << structure.matrices
+         << " its mass is " << total << " kg, in a box of " << volume
+         << " m3; is it in kg (not t)?";
+    doubts.push_back(text.str());
+  }
+  return doubts;
+}
+
+}  // namespace pounding

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "driver/model.h"
+#include "mesh/global_mesh.h"
+
+/// Doubts about a model whose parts are each in order, and that cannot be meant as a whole. One
+/// line each; the thresholds are in docs/input-checks.md.
+namespace pounding {
+
+/// Doubts that whole meshes show: a mat on soil that is not level, contacts that go through a
+/// building or across it, floors that are no floors. Serial, rank 0.
+std::vector<std::string> place_doubts(const Scene& scene, std::span<const GlobalMesh> meshes,
+                                      const Interface& interface,
+                                      std::span<const ResolvedProbe> probes);
+
+/// Doubts about masses and frequencies of a structure that is built: point masses that are nothing
+/// beside the rest, matrices in other units. Collective.
+std::vector<std::string> mass_doubts(MPI_Comm comm, const Building& building);
+
+}  // namespace pounding
