@@ -79,16 +79,6 @@ std::vector<std::string> check_fields(MPI_Comm comm, const Scene& scene, const M
   frames.precision(3);
   frames << "option -fields_interval " << scene.fields_interval << " s: " << steps->count
          << " frames every " << every << " s take up to " << bytes / 1e9 << " GB";
-  on_rank0(comm, [&] {
-    const double room = free_room(scene.output);
-    if (bytes > room) {
-      std::ostringstream text;
-      text.precision(3);
-      text << frames.str() << ", and " << scene.output << " has room for " << room / 1e9
-           << " GB; give a longer interval, or -fields_start and -fields_end";
-      throw UserError(text.str());
-    }
-  });
   if (every > much_longer * scene.fields_interval) {
     std::ostringstream text;
     text.precision(3);
@@ -97,7 +87,14 @@ std::vector<std::string> check_fields(MPI_Comm comm, const Scene& scene, const M
          << " s)";
     doubts.push_back(text.str());
   }
-  if (bytes > large_fields) doubts.push_back(frames.str() + "; is the interval in s?");
+  const double room = rank_of(comm) == 0 ? free_room(scene.output) : bytes;
+  if (bytes > room) {  // the writer refuses what does not fit, a dry run has none
+    frames << ", and " << scene.output << " has " << room / 1e9
+           << " GB left; give a longer interval, or -fields_start and -fields_end";
+    doubts.push_back(frames.str());
+  } else if (bytes > large_fields) {
+    doubts.push_back(frames.str() + "; is the interval in s?");
+  }
   return doubts;
 }
 

@@ -18,8 +18,8 @@ int record_stride(const Scene& scene, const Model& model);
 /// if it keeps none. Throws UserError: the run ends before the first.
 std::optional<FieldSteps> planned_fields(const Scene& scene, const Model& model);
 
-/// Doubts about the frames of the scene: asked for more often than they come, or too large to be
-/// meant. Throws UserError on every rank alike: they do not fit on the disk. Collective.
+/// Doubts about the frames of the scene: asked for more often than they come, too large to be meant
+/// or for the disk. On rank 0. Collective.
 std::vector<std::string> check_fields(MPI_Comm comm, const Scene& scene, const Model& model);
 
 /// Prints how many frames there will be and the room that they take. Collective.
