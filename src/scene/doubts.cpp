@@ -110,7 +110,7 @@ void look_at_contact(const Contact& contact, Doubts& doubts) {
 void look_at_support(const Scene& scene, const Support& support, Doubts& doubts) {
   const std::string owner = "support " + support.name;
   doubts.look_at(owner, delay, support.delay);
-  if (support.delay >= scene.end_time) {
+  if (support.delay > 0 && support.delay >= scene.end_time) {
     std::ostringstream text;
     text << owner << ": the motion arrives after " << support.delay << " s, the run ends at "
          << scene.end_time << " s: it stands still all the time";

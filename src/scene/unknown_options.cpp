@@ -100,9 +100,11 @@ std::vector<std::vector<std::string>> owners(const OptionsDatabase& database,
 bool has_lost_reference(const OptionsDatabase& database, const ListedNames& listed,
                         const std::string& option) {
   const auto lost = [&](std::string_view reference, std::string_view first) {
+    const std::string head(first.substr(0, first.find('<')));
     const NameSet names = referenced(database, listed, reference);
     return std::ranges::any_of(names, [&](const std::string& name) {
-      return !database.contains(option_name(first, {name}));
+      const bool own = option.starts_with(head + name + "_");  // a slip in its own options
+      return !own && !database.contains(option_name(first, {name}));
     });
   };
   if (option.starts_with("section_")) {

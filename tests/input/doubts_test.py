@@ -227,6 +227,12 @@ class Culprit(Doubts):
         words[words.index("HEB200")] = "HEB405"
         self.refuse(words, "-s_column_section HEB405", "did you mean HEB400?")
 
+    def test_a_slip_in_the_options_of_a_material(self):
+        words = list(FEET)
+        words[words.index("C30/37")] = "conc"
+        self.refuse([*words, "-material_conc_yuong", 3e10, "-material_conc_poisson", 0.2, "-material_conc_density", 2400],
+                    "-material_conc_yuong", "did you mean -material_conc_young?")
+
     def test_gravity_with_a_sign(self):
         self.refuse([*FEET, "-gravity", -9.81], "-gravity -9.81", "acts along -z", "leave the sign out")
 
