@@ -18,7 +18,7 @@ for mass in ("ground", "first", "second"):
     CHAIN += [f"-m_{mass}_element", "point_mass", f"-m_{mass}_mass", "2"]
 for link in ("link1", "link2"):
     CHAIN += [f"-m_{link}_element", "spring", f"-m_{link}_stiffness", "1e4,1e4,1e4"]
-PROBE = ["-probes", "p", "-p_structure", "m", "-p_at"]
+PROBE = ["-peak_frequency", "100", "-probes", "p", "-p_structure", "m", "-p_at"]
 
 
 class Run(unittest.TestCase):
@@ -69,8 +69,8 @@ class Time(Run):
         self.assertEqual(self.doubts([*CHAIN, *PROBE, "1,0,0"]), [])
 
     def test_more_steps_than_can_be(self):
-        self.refuse([*CHAIN, "-end_time", "1e300"], "-end_time 1e+300", "1e+304 steps", "above 1e+12")
-        self.refuse([*CHAIN, "-time_step", "1e-300"], "1e+299 steps of 1e-300 s", "-time_step")
+        self.refuse([*CHAIN, "-end_time", "1e20"], "-end_time 1e+20", "1e+24 steps", "above 1e+12")
+        self.refuse([*CHAIN, "-time_step", "1e-20"], "1e+19 steps of 1e-20 s", "-time_step")
 
     def test_nothing_moves(self):
         self.doubt([*CHAIN, "-m_initial_velocity", "0,0,0"], "nothing makes the scene move", "-motion_x_record")
@@ -94,7 +94,9 @@ class Time(Run):
         resampled = ["-motion_y_unit", "m/s2", "-resampling", "band_limited", "-motion_y_record",
                      self.record(0.005, 21), "-time_step"]
         self.assertEqual(self.doubts([*CHAIN, *resampled, "0.002"]), [])
-        self.doubt([*CHAIN, *resampled, "0.01"], "time step 0.01 s", "motion along y, 0.005 s")
+        lines = self.doubts([*CHAIN, *resampled, "0.01"])
+        self.assertEqual(len([line for line in lines if "time step 0.01 s" in line and "motion along y, 0.005 s" in line]), 1,
+                         lines)
 
 
 class Displacements(Run):
@@ -139,6 +141,7 @@ class Probes(Run):
 
     def test_on_a_contact_node(self):
         lines = self.doubts(program.COARSE_PAIR + ["-end_time", "1e-3", "-modes", "0", "-motion_x_duration", "16"])
+        lines = [line for line in lines if "has its peak" not in line]  # the run is short
         for name in ("s1_floor1", "s1_floor2", "s2_floor1", "s2_floor2"):
             self.assertTrue([line for line in lines if line.startswith(f"probe {name}: 2 of its 4 nodes are part of a")])
             self.assertTrue([line for line in lines if line.startswith(f"probe {name}: its node is 0.17 m away")])

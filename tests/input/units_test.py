@@ -49,7 +49,8 @@ class Units(unittest.TestCase):
             for ranks in (1, 2):
                 new = self.doubts(*words, "-motion_x_unit", unit, "-motion_x_scale", scale, ranks=ranks)
                 self.assertEqual(len([line for line in new if what in line]), 1, new)
-        self.assertEqual([line for line in self.doubts(*words, "-motion_x_unit", "g") if "motion" in line], [])
+        new = self.doubts(*words, "-motion_x_unit", "g")
+        self.assertEqual([line for line in new if "motion" in line and "has its peak" not in line], [])  # the run is short
 
 
 if __name__ == "__main__":
