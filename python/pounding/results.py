@@ -134,9 +134,24 @@ class Result:
             return found
         for column, name in enumerate(self.contacts):
             gap = self.history["gap"][:, column]
-            given = self.summary.get("contacts", {}).get(name, {}).get("initial_gap")
-            if given and np.isfinite(gap).any():
-                found[name] = float(given[0] - np.nanmin(gap))
+            one = self.summary.get("contacts", {}).get(name, {})
+            if not one.get("initial_gap") or not np.isfinite(gap).any():
+                continue
+            # The history has the smallest gap alone; how far each pair closed is in the summary.
+            found[name] = float(one.get("largest_closing", one["initial_gap"][-1] - np.nanmin(gap)))
+        return found
+
+    def closing_factors(self) -> dict:
+        """Contact -> how many times as strong a motion would just close it, as long as everything stays linear: the
+        least of its pairs. Where summary.json does not tell, no more than that, from the widest gap at rest and the
+        smallest gap of the history. Contacts that never close have none."""
+        found = {}
+        for name, closing in self.closings().items():
+            one = self.summary["contacts"][name]
+            widest = float(one["initial_gap"][-1])
+            factor = one["closing_factor"] if "closing_factor" in one else max(widest, 0.0) / closing if closing > 0 else None
+            if factor is not None and closing > 1e-3 * abs(widest):
+                found[name] = float(factor)
         return found
 
     def need(self, *datasets: str) -> None:

@@ -14,6 +14,7 @@
 #include "driver/model_file.h"
 #include "driver/report.h"
 #include "driver/rest.h"
+#include "driver/rest_gaps.h"
 #include "driver/run_warnings.h"
 #include "driver/separation.h"
 #include "driver/storeys.h"
@@ -245,15 +246,14 @@ void turn_weight_with_columns(MPI_Comm comm, const Scene& scene, Profile& profil
   {
     const ScopedTimer timer(profile, Phase::assembly);
     const Progress progress(comm, "static equilibrium for P-Delta", scene.progress_interval);
-    displacement =
-        find_equilibrium(comm, model.systems, model.meshes, model.interface, scene.preload_solver)
-            .displacement;
+    displacement = find_equilibrium(comm, model.systems, model.meshes, model.interface,
+                                    rows_open_at_rest(scene, model.interface), scene.preload_solver)
+                       .displacement;
   }
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     if (!leans(scene.structures[s])) continue;
-    const std::optional<UniformDamping>& uniform = model.systems[s].uniform_damping;
-    model.buildings[s].compression = set_axial_forces(
-        scene.structures[s], displacement[s], uniform ? uniform->at_rest() : 1, model.meshes[s]);
+    model.buildings[s].compression =
+        set_axial_forces(scene.structures[s], displacement[s], model.meshes[s]);
     build_structure(comm, scene, s, profile, model);
   }
 }
@@ -266,9 +266,11 @@ void add_warnings(MPI_Comm comm, const Scene& scene, Model& model) {
   for (const Building& building : model.buildings) {
     append(damping_warnings(*building.structure, building.modal), model.warnings);
     append(mass_doubts(comm, building), model.warnings);
+    append(shift_warnings(*building.system, building.modal), model.warnings);
   }
   if (rank_of(comm) == 0) append(mechanism_warnings(scene, model), model.warnings);
   append(rest_warnings(model), model.warnings);
+  append(rest_gap_warnings(scene, model), model.warnings);
 }
 
 /// Builds systems, modes, equilibrium and time step on meshes that are there. Collective.
@@ -278,6 +280,7 @@ void build_structures(MPI_Comm comm, Scene& scene, Profile& profile, Model& mode
   }
   turn_weight_with_columns(comm, scene, profile, model);
   put_at_rest(comm, scene, profile, model);
+  find_start_gaps(scene, model);
   on_rank0(comm, [&] { model.separations = find_separations(scene, model); });
   add_warnings(comm, scene, model);
   model.filler_time_step = filler_limit(comm, scene, model);

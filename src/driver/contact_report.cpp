@@ -1,17 +1,30 @@
 #include "driver/contact_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace pounding {
 
-void print_contact(const InterfaceReport& report) {
+void print_contact(const Contact& contact, const InterfaceReport& report, const JointGaps* gaps) {
   std::printf(
       "\ncontact %s: %d pairs (%d node to node), %d secondary nodes face nothing, initial gap "
       "%.4g to %.4g mm, normal (%.3g, %.3g, %.3g)\n",
       report.contact.c_str(), report.pairs, report.matched, report.unmatched_nodes,
       1000 * report.smallest_gap, 1000 * report.largest_gap, report.normal[0], report.normal[1],
       report.normal[2]);
+  if (gaps != nullptr) {
+    std::printf("  gap at rest %.4g to %.4g mm, unloaded %.4g to %.4g mm\n",
+                1000 * gaps->at_rest[0], 1000 * gaps->at_rest[1], 1000 * gaps->unloaded[0],
+                1000 * gaps->unloaded[1]);
+  }
+  if (contact.gap_assumed_so) {
+    std::printf(
+        "  the gap given is that at rest (earlier versions took it for that of the unloaded "
+        "meshes); "
+        "-%s_gap_at rest or unloaded tells which\n",
+        report.contact.c_str());
+  }
   if (report.carried > 0) {
     std::printf("  %d more nodes are held by those of the face that they follow in a tie\n",
                 report.carried);
@@ -78,6 +91,19 @@ void print_loops(const RunStatistics& statistics) {
         "kN (or kN m), took %.4g J\n",
         loop.name.c_str(), most.yielded, loop.links.size(), 1000 * most.largest_elongation,
         most.largest_force / 1000, most.work);
+  }
+}
+
+void print_closings(const Scene& scene, const RunStatistics& statistics) {
+  const bool apart = statistics.all_impacts.episodes == 0;
+  for (std::size_t c = 0; c < statistics.closings.size(); ++c) {
+    const JointClosing& joint = statistics.closings[c];
+    std::printf("  %-12s closed by at most %.4g mm in the samples", scene.contacts[c].name.c_str(),
+                1000 * joint.largest);
+    if (apart && std::isfinite(joint.factor)) {
+      std::printf("; if all stays linear, a motion %.4g times as strong closes it", joint.factor);
+    }
+    std::printf("\n");
   }
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/progress.h"
+#include "dynamics/rest_forces.h"
 #include "stability/energy_norm.h"
 #include "system/links.h"
 
@@ -39,6 +40,16 @@ GapWatch::Bound energy_bound(const ContactProblem& contact, std::size_t structur
     std::transform(force.begin(), force.end(), system.lumped_mass.begin(), force.begin(),
                    std::multiplies<>());
     bound.force_norm[d] = norm.bound(std::move(force));
+  }
+  if (any_damped_about_rest(system)) {
+    std::vector<double> load = rest_forces(system);
+    for (std::size_t d = 0; d < 3; ++d) {
+      const std::vector<double> iota = system.influence(static_cast<int>(d));
+      for (std::size_t i = 0; i < load.size(); ++i) {
+        load[i] -= system.lumped_mass[i] * iota[i] * system.gravity[d];
+      }
+    }
+    bound.rest_norm = norm.bound(std::move(load));
   }
   // The row with the largest compliance first: its bound spares most of the others their work.
   std::vector<std::pair<double, int>> rows;
@@ -82,11 +93,12 @@ std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSys
     GapWatch::Bound& bound = bounds[s];
     Progress progress(comm, system.name + ": bounds of the gap rates", progress_interval);
     bound = energy_bound(*contact, s, system, time_step, energy_margins[s], progress);
-    std::array<double, 4> values{bound.rate_norm, bound.force_norm[0], bound.force_norm[1],
-                                 bound.force_norm[2]};
-    MPI_Allreduce(MPI_IN_PLACE, values.data(), 4, MPI_DOUBLE, MPI_MAX, comm);
+    std::array<double, 5> values{bound.rate_norm, bound.rest_norm.value_or(0), bound.force_norm[0],
+                                 bound.force_norm[1], bound.force_norm[2]};
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), 5, MPI_DOUBLE, MPI_MAX, comm);
     bound.rate_norm = values[0];
-    std::copy(values.begin() + 1, values.end(), bound.force_norm.begin());
+    if (bound.rest_norm) bound.rest_norm = values[1];
+    std::copy(values.begin() + 2, values.end(), bound.force_norm.begin());
   }
   return bounds;
 }

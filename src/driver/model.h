@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -24,6 +25,12 @@
 
 namespace pounding {
 
+/// Gaps of the pairs of a contact before the run, the smallest and the largest [m].
+struct JointGaps {
+  std::array<double, 2> unloaded{};  ///< of undeformed structures
+  std::array<double, 2> at_rest{};   ///< at the rest that the run starts from; the same without one
+};
+
 /// Everything about a scene that is constant in time, on this rank.
 struct Model {
   std::vector<Mesh> meshes;           ///< per structure, one after the other for the solver
@@ -35,6 +42,9 @@ struct Model {
   std::unique_ptr<GroundMotion> motion;
   std::unique_ptr<SupportMotion> supports;  ///< null where the ground moves as one
   std::optional<Equilibrium> equilibrium;   ///< that the run starts from
+  /// Gaps of the rows of the interface at the start, at rest where the run starts so [m].
+  std::vector<double> start_gaps;
+  std::vector<JointGaps> joint_gaps;  ///< per contact
   double partition_imbalance = 1;
   long partition_edge_cut = 0;
   double filler_time_step = std::numeric_limits<double>::infinity();  ///< see filler_limit [s]

@@ -121,11 +121,14 @@ Vector3 position(const std::vector<double>& coordinates, GlobalIndex node) {
 
 /// The pairs of the contacts; those without a place that they face, on walls or while they are
 /// open, get one on their normal, at their gap.
-Marks contact_marks(const Interface& interface,
+Marks contact_marks(const Scene& scene, const Model& model,
                     const std::vector<std::vector<double>>& coordinates) {
   Marks marks;
-  for (const Constraint& row : interface.constraints) {
+  for (std::size_t r = 0; r < model.interface.constraints.size(); ++r) {
+    const Constraint& row = model.interface.constraints[r];
     if (row.initial_gap == open_gap) continue;
+    const bool at_rest = scene.contacts[row.contact].gap_at_rest && !model.start_gaps.empty();
+    const double gap = at_rest ? model.start_gaps[r] : row.initial_gap;
     std::array<Vector3, 2> places{};  // of the two sides, weighted
     std::array<double, 2> weights{};
     const Vector3 normal = normal_of(row);
@@ -139,13 +142,12 @@ Marks contact_marks(const Interface& interface,
     if (weights[0] == 0) continue;
     for (std::size_t d = 0; d < 3; ++d) {
       places[0][d] /= weights[0];
-      places[1][d] =
-          weights[1] > 0 ? places[1][d] / weights[1] : places[0][d] + row.initial_gap * normal[d];
+      places[1][d] = weights[1] > 0 ? places[1][d] / weights[1] : places[0][d] + gap * normal[d];
     }
     const std::array<GlobalIndex, 2> line{marks.add_point(places[0]), marks.add_point(places[1])};
     add_cell(line, false, marks.topology);
     marks.numbers.push_back(row.contact + 1);
-    marks.gaps.push_back(row.initial_gap);
+    marks.gaps.push_back(gap);
   }
   return marks;
 }
@@ -222,7 +224,7 @@ void write_model(MPI_Comm comm, const Scene& scene, const Model& model) {
           std::pair("sections", &std::as_const(names.sections))}) {
       file->write_strings(name, *list);
     }
-    const Marks pairs = contact_marks(model.interface, coordinates);
+    const Marks pairs = contact_marks(scene, model, coordinates);
     const Marks points = probe_marks(model.probes, coordinates);
     for (const auto& [name, marks, list] : {std::tuple("contact", &pairs, &labels.contacts),
                                             std::tuple("probe", &points, &std::as_const(probes))}) {

@@ -38,8 +38,9 @@ void print_uniform_damping(const UniformDamping& damping) {
     std::printf(" %.3f %%", 100 * damping.ratio_at(2 * std::numbers::pi * frequency));
   }
   std::printf(
-      "\n    stiffness: that of the materials at %.6g Hz, %.4f of it at rest, %.4f for the fastest "
-      "motions\n",
+      "\n    stiffness: that of the materials at %.6g Hz and under the weight at rest, %.4f of it "
+      "for "
+      "the slowest motions, %.4f for the fastest\n",
       damping.reference, damping.at_rest(), damping.at_once());
 }
 
@@ -290,7 +291,8 @@ void print_structure(const Building& building) {
                 direction_names[axis], 100 * mode.direction_fraction, mode.direction.c_str());
     if (system.uniform_damping) {
       const double moved = system.uniform_damping->moved(mode.frequency);
-      std::printf(", damped %.3f Hz at %.3f %%", moved,
+      std::printf(", damped %.3f Hz (%+.1f %%) at %.3f %%", moved,
+                  100 * (moved / mode.frequency - 1),
                   100 * system.uniform_damping->ratio_at(2 * std::numbers::pi * moved));
     }
     std::printf("\n");
@@ -376,7 +378,10 @@ void print_title(const Scene& scene, const std::string& overrides, int ranks) {
 void print_model(const Scene& scene, const Model& model) {
   print_motion(*model.motion, model.supports.get());
   for (const Building& building : model.buildings) print_structure(building);
-  for (const InterfaceReport& report : model.interface.reports) print_contact(report);
+  for (std::size_t c = 0; c < model.interface.reports.size(); ++c) {
+    print_contact(scene.contacts[c], model.interface.reports[c],
+                  model.equilibrium ? &model.joint_gaps[c] : nullptr);
+  }
   print_separations(scene, model.separations);
   print_rest(scene, model);
   print_probe_places(scene, model.probes);
@@ -421,6 +426,7 @@ void print_results(const Scene& scene, const RunStatistics& statistics,
   std::printf("\n");
   print_impacts(scene, statistics, impacts);
   print_fillers(scene, statistics);
+  print_closings(scene, statistics);
   print_slides(scene, statistics);
   print_loops(statistics);
   print_contact_ratios(scene, statistics);

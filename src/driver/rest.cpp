@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/progress.h"
+#include "driver/rest_gaps.h"
 
 namespace pounding {
 namespace {
@@ -36,7 +37,8 @@ void put_at_rest(MPI_Comm comm, const Scene& scene, Profile& profile, Model& mod
   const ScopedTimer timer(profile, Phase::assembly);
   const Progress progress(comm, "static equilibrium", scene.progress_interval);
   model.equilibrium =
-      find_equilibrium(comm, model.systems, model.meshes, model.interface, scene.preload_solver);
+      find_equilibrium(comm, model.systems, model.meshes, model.interface,
+                       rows_open_at_rest(scene, model.interface), scene.preload_solver);
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
     model.systems[s].rest_displacement = std::move(model.equilibrium->displacement[s]);
     if (scene.export_matrices.empty()) model.systems[s].stiffness->release_matrix();
@@ -67,10 +69,10 @@ std::vector<std::string> rest_warnings(const Model& model) {
   }
   if (model.equilibrium && model.equilibrium->residual > small_residual) {
     std::ostringstream text;
-    text
-        << "the static equilibrium is found to " << model.equilibrium->residual
-        << " of the weight only, by mass: round-off of very stiff elements on light nodes; the run "
-           "starts as far from rest";
+    text << "the static equilibrium is found to " << model.equilibrium->residual
+         << " of the weight only, by energy: round-off of very stiff elements; the run starts as "
+            "far "
+            "from rest";
     warnings.push_back(text.str());
   }
   return warnings;

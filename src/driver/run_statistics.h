@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact/slide_watch.h"
+#include "driver/closing_watch.h"
 #include "driver/forces.h"
 #include "driver/loops.h"
 #include "driver/phase_report.h"
@@ -35,6 +36,7 @@ struct RunStatistics {
   std::vector<LoopReport> loops;             ///< per item of the option
   std::vector<ForceReport> forces;           ///< per item of the option; rank 0
   std::vector<Slide> slides;                 ///< per contact
+  std::vector<JointClosing> closings;        ///< per contact, of the samples of the gaps
   std::vector<ContactRatio> contact_ratios;  ///< per structure; empty where nothing may lift off
   StatedPeaks peaks;                         ///< rank 0
   std::vector<std::string> overpressed;      ///< structures with a pendulum whose slope was cut

@@ -223,7 +223,7 @@ std::vector<Separation> find_separations(const Scene& scene, const Model& model)
     separation.contact = c;
     separation.secondary.structure = contact.secondary.structure;
     separation.primary.structure = contact.primary.structure;
-    separation.gap = model.interface.reports[c].smallest_gap;
+    separation.gap = model.joint_gaps[c].at_rest[0];
     Joint joint(secondary, primary, peaks, model.buildings);
     const std::size_t stride = 1 + (own.size() - 1) / most_pairs;
     for (std::size_t i = 0; i < own.size(); i += stride) {

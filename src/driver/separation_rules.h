@@ -20,7 +20,7 @@ struct SeparationSide {
 struct Separation {
   std::size_t contact = 0;  ///< of the scene
   SeparationSide secondary, primary;
-  double gap = 0;          ///< given, the smallest [m]
+  double gap = 0;          ///< at rest, the smallest [m]
   double sum = 0;          ///< u1 + u2 [m]
   double srss = 0;         ///< sqrt(u1^2 + u2^2): EN 1998-1 4.4.2.7, ASCE 7-16 12.12.3 [m]
   double ddc = 0;          ///< sqrt(u1^2 + u2^2 - 2 rho u1 u2), rho below [m]

@@ -317,12 +317,16 @@ Json describe_filler(const InterfaceReport& report, const FillerTotals& totals) 
           {"energy_lost", totals.loss}};
 }
 
-Json describe_contact(const InterfaceReport& report, const Slide& slide) {
-  return {{"pairs", report.pairs},
+Json describe_contact(const InterfaceReport& report, const JointGaps& gaps, const Slide& slide,
+                      const JointClosing& closing) {
+  return {{"largest_closing", closing.largest},
+          {"closing_factor", std::isfinite(closing.factor) ? Json(closing.factor) : Json()},
+          {"pairs", report.pairs},
           {"matched", report.matched},
           {"unmatched_nodes", report.unmatched_nodes},
           {"carried_nodes", report.carried},
-          {"initial_gap", {report.smallest_gap, report.largest_gap}},
+          {"initial_gap", gaps.at_rest},
+          {"unloaded_gap", gaps.unloaded},
           {"geometric_gap", report.geometric_gap},
           {"overlapping_pairs", report.overlapping},
           {"half_thickness", report.half_thickness},
@@ -388,7 +392,8 @@ void write_summary(const std::string& path, const FinishedRun& run) {
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     const InterfaceReport& report = model.interface.reports[c];
     summary["impacts"][scene.contacts[c].name] = describe_impacts(statistics.impacts[c]);
-    summary["contacts"][scene.contacts[c].name] = describe_contact(report, statistics.slides[c]);
+    summary["contacts"][scene.contacts[c].name] =
+        describe_contact(report, model.joint_gaps[c], statistics.slides[c], statistics.closings[c]);
     if (scene.contacts[c].filler) {
       summary["contacts"][scene.contacts[c].name]["filler"] =
           describe_filler(report, statistics.fillers[c]);

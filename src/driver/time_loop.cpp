@@ -75,6 +75,7 @@ TimeLoop::TimeLoop(MPI_Comm comm, const Scene& scene, const Model& model, Profil
                  places_of(model.interface),
                  {scene.impact_merge_time, scene.force_window, model.time_step}),
       smallest_gaps_(scene.contacts.size(), 0.0),
+      closings_(scene.contacts.size(), model.interface.constraints, model.start_gaps),
       slide_stride_(static_cast<std::int64_t>(std::max(1.0, slide_interval / model.time_step))),
       uplift_(may_lift_off(scene) ? std::make_unique<UpliftWatch>(comm, model.systems.size())
                                   : nullptr),
@@ -194,6 +195,7 @@ void TimeLoop::observe(std::int64_t step) {
   const double none = std::numeric_limits<double>::max();
   std::fill(smallest_gaps_.begin(), smallest_gaps_.end(), reports ? none : unknown);
   if (reports) {
+    closings_.look(solver_.contact()->gaps());
     for (std::size_t row = 0; row < solver_.contact()->gaps().size(); ++row) {
       double& gap = smallest_gaps_[model_.interface.constraints[row].contact];
       gap = std::min(gap, solver_.contact()->gaps()[row]);
@@ -266,6 +268,7 @@ void TimeLoop::write_checkpoint(const RunIdentity& identity) {
   const bool root =
       rank_of(comm_) == (solver_.contact() != nullptr ? solver_.contact()->root() : 0);
   if (root) catalogue_.save(saved);
+  if (root) closings_.save(saved);
   if (fields_) {
     fields_->save(saved, root);
     fields_->flush();
@@ -281,6 +284,7 @@ void TimeLoop::write_checkpoint(const RunIdentity& identity) {
 void TimeLoop::load(const SavedState& saved) {
   solver_.stepper().load(saved);
   catalogue_.load(saved);
+  closings_.load(saved);
   if (slides_) slides_->load(saved);
   ledger_.load(saved);
   if (uplift_) uplift_->load(saved);
@@ -319,6 +323,8 @@ void TimeLoop::fill(RunStatistics& statistics) const {
     statistics.complementarity_residual = solver_.contact()->largest_residual();
     statistics.slides = slides_->slides();
     broadcast_array(comm_, statistics.slides, slides_->root());
+    statistics.closings = closings_.closings();
+    broadcast_array(comm_, statistics.closings, solver_.contact()->root());
   }
   if (solver_.fillers() != nullptr) {
     statistics.fillers = solver_.fillers()->totals();

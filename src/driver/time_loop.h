@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "contact/slide_watch.h"
+#include "driver/closing_watch.h"
 #include "driver/forces.h"
 #include "driver/loops.h"
 #include "driver/model.h"
@@ -67,6 +68,7 @@ class TimeLoop {
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<FieldWriter> fields_;  ///< null if none are asked for
   std::vector<double> smallest_gaps_;    ///< per contact
+  ClosingWatch closings_;
   std::int64_t gap_stride_ = 1;          ///< steps between two samples of the gaps
   std::int64_t slide_stride_ = 1;        ///< steps between two looks at the slides
   std::unique_ptr<UpliftWatch> uplift_;  ///< null where nothing may lift off

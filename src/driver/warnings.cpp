@@ -1,6 +1,7 @@
 #include "driver/warnings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <sstream>
 
@@ -80,6 +81,29 @@ std::vector<std::string> damping_warnings(const Structure& structure, const Moda
     }
   }
   return warnings;
+}
+
+std::vector<std::string> shift_warnings(const LinearSystem& system, const ModalResult& modal) {
+  constexpr double highest = 33;  // Hz
+  constexpr double doubtful = 0.1;
+  if (!system.uniform_damping) return {};
+  double worst = doubtful;
+  std::ostringstream text;
+  for (const Mode& mode : modal.modes) {
+    if (!mode.location.empty() || !(mode.frequency > 0) || mode.frequency > highest) continue;
+    const double moved = system.uniform_damping->moved(mode.frequency);
+    const double shift = moved / mode.frequency - 1;
+    if (!(std::abs(shift) > worst)) continue;
+    worst = std::abs(shift);
+    text.str("");
+    text.precision(3);
+    text << "structure " << system.name << ": uniform damping of "
+         << 100 * system.uniform_damping->ratio << " % moves its mode of " << mode.frequency
+         << " Hz by " << 100 * shift << " % to " << moved << " Hz, since modes keep their place at "
+         << system.uniform_damping->reference << " Hz; give -" << system.name
+         << "_damping_reference where it matters most";
+  }
+  return text.str().empty() ? std::vector<std::string>() : std::vector{text.str()};
 }
 
 std::vector<std::string> mechanism_warnings(const Scene& scene, const Model& model) {

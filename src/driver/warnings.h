@@ -22,6 +22,10 @@ std::vector<std::string> sliver_warnings(const LinearSystem& system);
 /// 50 Hz, or at the first one; at 1 and 50 Hz where no modes were computed.
 std::vector<std::string> damping_warnings(const Structure& structure, const ModalResult& modal);
 
+/// A doubt about uniform damping that moves a mode below 33 Hz, where floors amplify the ground, by
+/// more than a tenth of its frequency: the worst of them.
+std::vector<std::string> shift_warnings(const LinearSystem& system, const ModalResult& modal);
+
 /// Modes without stiffness in structures whose supports prevent every rigid motion: mechanisms.
 /// Rank 0 only.
 std::vector<std::string> mechanism_warnings(const Scene& scene, const Model& model);

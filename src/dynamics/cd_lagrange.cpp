@@ -6,6 +6,7 @@
 
 #include "common/memory.h"
 #include "common/parallel.h"
+#include "dynamics/rest_forces.h"
 
 namespace pounding {
 
@@ -40,6 +41,7 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
                               : nullptr);
     stiffness_velocity_.push_back(zeros_on_large_pages(state.velocity.size()));
     start_filters(systems_[s], time_step, state);
+    rest_forces_.push_back(rest_forces(systems_[s]));
     if (fillers_ != nullptr) structure_steps_[s].watch(fillers_->rows().trace(s).dofs(), true);
     if (contact_ != nullptr) structure_steps_[s].watch(contact_->trace(s).dofs(), false);
   }
@@ -98,6 +100,18 @@ void CdLagrange::detect_contact(bool look_at_gap) {
   watch_.looked(state_.step, contact_->smallest_gap() - contact_->gap_tolerance(), touching_);
 }
 
+double CdLagrange::about_rest(std::size_t structure) const {
+  const std::vector<double>& held = rest_forces_[structure];
+  const std::vector<double>& rest = systems_[structure].rest_displacement;
+  const StructureState& state = state_.structures[structure];
+  double sum = 0;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const double mean = state.displacement[i] - time_step_ / 2 * state.velocity[i];
+    sum += held[i] * (rest[i] / 2 - mean);
+  }
+  return sum;
+}
+
 void CdLagrange::free_velocity(bool with_energies, bool with_forces) {
   const ScopedEvent event(events_.free_velocity);
   const ScopedTimer timer(profile_, Phase::step);
@@ -107,6 +121,7 @@ void CdLagrange::free_velocity(bool with_energies, bool with_forces) {
     const double* const velocity = state_.structures[s].velocity.data();
     StoredForces store(stiffness_velocity_[s].data());
     systems_[s].stiffness->apply({velocity, velocity, 0}, store);
+    sums_[s].rest_before = about_rest(s);
   }
   for (std::size_t s = 0; s < systems_.size(); ++s) systems_[s].stiffness->start(argument(s));
   for (std::size_t s = 0; s < systems_.size(); ++s) {
@@ -155,9 +170,10 @@ void CdLagrange::correct_velocity() {
 void CdLagrange::close_energy() {
   const ScopedEvent event(events_.close_energy);
   for (std::size_t s = 0; s < systems_.size(); ++s) {
-    const double extra_damping = sums_[s].extra_damping_before;
+    const StepSums before = sums_[s];
     sums_[s] = structure_steps_[s].sums();
-    sums_[s].extra_damping_before = extra_damping;
+    sums_[s].extra_damping_before = before.extra_damping_before;
+    sums_[s].rest_before = before.rest_before;
     if (link_steps_[s]) link_steps_[s]->finish(sums_[s]);
     if (touching_ && systems_[s].supports) {
       sums_[s].contact_support_input = -contact_->support_work(s, supports_.velocity_mean);

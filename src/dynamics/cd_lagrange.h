@@ -104,6 +104,9 @@ class CdLagrange {
   void press_fillers();
   /// v_free and the u_{n+1} that it leads to; sums for the ledger.
   void free_velocity(bool with_energies, bool with_forces);
+  /// (K u_0)^T (u_0 / 2 - u_n + dt/2 v-) of this rank [J], 0 but where uniform damping acts about a
+  /// rest.
+  double about_rest(std::size_t structure) const;
   /// lambda on A.
   void solve_impulse();
   /// v_{n+1/2}, u_{n+1} at the dofs that contact moves.
@@ -144,7 +147,8 @@ class CdLagrange {
   std::vector<StructureStep::Before> before_;
   std::vector<std::vector<double>> interface_velocity_;
   std::vector<StateVectors> vectors_;
-  std::vector<VecHandle> extra_forces_;  ///< as PETSc vectors; null without extra damping
+  std::vector<std::vector<double>> rest_forces_;  ///< K u_0, see rest_forces
+  std::vector<VecHandle> extra_forces_;           ///< as PETSc vectors; null without extra damping
   Events events_;
   std::array<double, 3> acceleration_{};
   Vector3 incident_{};  ///< velocity of the wave from below [m/s]

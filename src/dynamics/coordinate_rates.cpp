@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/row_products.h"
+#include "dynamics/rest_forces.h"
 #include "dynamics/structure_step.h"
 
 namespace pounding {
@@ -18,6 +19,9 @@ CoordinateRates::CoordinateRates(const LinearSystem& system, std::vector<double>
                                  double ground_acceleration, double time_step)
     : time_step_(time_step), filters_(filters_of(system, time_step)), rows_(std::move(rows)) {
   const std::size_t size = system.lumped_mass.size();
+  const bool about_rest = damped_about_rest(system);
+  rest_ = about_rest ? system.rest_displacement : std::vector<double>(size, 0.0);
+  const Vector3& g = system.gravity;
   std::vector<double> stiffness(size);
   const VecHandle diagonal = wrap_vector(system, stiffness);
   POUNDING_PETSC(MatGetDiagonal(system.stiffness->matrix(), diagonal.get()));
@@ -30,7 +34,12 @@ CoordinateRates::CoordinateRates(const LinearSystem& system, std::vector<double>
     const double c = system.damping.alpha * m + system.damping.beta * k;
     const double a = m - time_step / 2 * c - time_step * time_step / 4 * system.stiffening() * k;
     const auto& iota = system.generalised->influence;
-    const double force = m * std::hypot(iota[0][i], iota[1][i], iota[2][i]) * ground_acceleration;
+    const double participation = m * std::hypot(iota[0][i], iota[1][i], iota[2][i]);
+    double force = participation * (ground_acceleration + std::hypot(g[0], g[1], g[2]));
+    if (about_rest) {
+      const double weight = m * (iota[0][i] * g[0] + iota[1][i] * g[1] + iota[2][i] * g[2]);
+      force = participation * ground_acceleration + std::abs(weight - k * rest_[i]);
+    }
     stiffness_over_a_.push_back(at_rest * k / a);
     compliance_.push_back(k > 0 ? 1 / k : 0);
     for (std::size_t b = 0; b < branch_over_a_.size(); ++b) {
@@ -48,7 +57,8 @@ double CoordinateRates::rate(const StructureState& state) {
   for (std::size_t i = 0; i < speeds_.size(); ++i) {
     const double v = state.velocity[i];
     const double mean = state.displacement[i] - time_step_ / 2 * v;
-    double square = v * v + stiffness_over_a_[i] * (mean * mean);
+    const double moved = mean - rest_[i];
+    double square = v * v + stiffness_over_a_[i] * (moved * moved);
     const double before = state.displacement[i] - time_step_ * v;  // u_{n-1}
     for (std::size_t b = 0; b < branch_over_a_.size(); ++b) {
       // Z^n = k W^{n-1} + t Q_{n-1}; what W^{n-1} was does not matter if k is zero.

@@ -17,11 +17,12 @@ namespace pounding {
 /// falls but for the ground: |v| <= r = sqrt(v^2 + k ubar^2 / a), which rises per step by at most
 /// dt m |iota| |a_g| / a (energy identity of dynamics/energy_balance.h). A gap then changes no
 /// faster than sum_k |L_k| r_k. Uniform damping stiffens k in `a`, softens that of ubar, and adds
-/// its branches, s a_i k (ubar - y_i)^2, see docs/theory.md. Local.
+/// its branches, s a_i k (ubar - y_i)^2, see docs/theory.md. About a rest u_0 that it leaves alone,
+/// ubar - u_0 stands for ubar and the weight less k u_0 for the weight. Local.
 class CoordinateRates {
  public:
   /// `rows`: L T over the owned coordinates, shape (gaps, coordinates). `ground_acceleration`:
-  /// largest norm of it, gravity included [m/s2]. The step must be stable, so that every `a` is
+  /// largest norm of it, gravity apart [m/s2]. The step must be stable, so that every `a` is
   /// positive. Collective over the system's communicator.
   CoordinateRates(const LinearSystem& system, std::vector<double> rows, double ground_acceleration,
                   double time_step);
@@ -35,6 +36,7 @@ class CoordinateRates {
   double largest(const std::vector<double>& speeds);
 
   double time_step_;
+  std::vector<double> rest_;              ///< u_0 where uniform damping acts about it, or zero [m]
   std::vector<double> stiffness_over_a_;  ///< k / a, softened [1/s2]
   /// Stiffness of each branch over the coordinates, s a_i k / a [1/s2], and 1 / k [m/N].
   std::vector<std::vector<double>> branch_over_a_;

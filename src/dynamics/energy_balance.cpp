@@ -113,15 +113,15 @@ StructureEnergy EnergyBalance::energy(std::size_t structure, const StepSums& sum
           sums.strain_before / 2 + sums.link_energy_before,
           (damped - dt * dt / 4 * stiffening_[structure] * sums.stiffness_before) / 2,
           sums.displacement_mass,
-          0,
-          relief_[structure] * sums.strain_before / 2};
+          sums.rest_before,
+          relief_[structure] * (sums.strain_before / 2 + sums.rest_before)};
 }
 
 EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   constexpr std::size_t values = sizeof(StructureEnergy) / sizeof(double);
   std::copy(energies_.begin(), energies_.end(), structures.begin());
   for (std::size_t b = 0; b < structures.size(); ++b) {
-    structures[b].held = structures[b].energy() + filtered_[b].total();
+    structures[b].held += structures[b].energy() + filtered_[b].total();
   }
   MPI_Allreduce(MPI_IN_PLACE, structures.data(), static_cast<int>(values * structures.size()),
                 MPI_DOUBLE, MPI_SUM, comm_);

@@ -44,10 +44,12 @@ struct StructureEnergy {
   /// u^T M u [kg m2]; omega_max^2 times this bounds the parts of u^T K u, and so its round-off.
   double displacement_mass = 0;
   /// Bound of what the structure holds, the branches of uniform damping included: its energy, and
-  /// all that the filters took since the start.
+  /// all that the filters took since the start. About a rest u_0 that uniform damping leaves alone:
+  /// 1/2 v^T A v + s/2 d^T K d and the branches, d = ubar - u_0, which is no more than
+  /// E + what the filters took - (K u_0)^T (ubar - u_0 / 2), since loads do work against K u_0.
   double held = 0;
   /// Part of the strain energy that uniform damping gives to a motion so slow that its branches
-  /// have let go: (1 - s) / 2 u_{n+1}^T K u_n.
+  /// have let go: (1 - s) / 2 u_{n+1}^T K u_n, or (1 - s) / 2 d^T K d about a rest.
   double slow_relief = 0;
 
   double energy() const { return kinetic + strain; }

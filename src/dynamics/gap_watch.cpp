@@ -15,16 +15,17 @@ GapWatch::GapWatch(std::span<const LinearSystem> systems, std::vector<Bound> bou
   for (std::size_t s = 0; s < systems.size(); ++s) {
     const Vector3& g = systems[s].gravity;
     rate_norm_.push_back(bounds[s].rate_norm);
-    double growth = 0;
+    double growth = time_step * bounds[s].rest_norm.value_or(0);
     for (std::size_t d = 0; d < 3; ++d) {
-      growth += time_step * (peaks[d] + std::abs(g[d])) * bounds[s].force_norm[d];
+      const double weight = bounds[s].rest_norm ? 0 : std::abs(g[d]);
+      growth += time_step * (peaks[d] + weight) * bounds[s].force_norm[d];
     }
     growth_.push_back(growth);
     possible_ = possible_ && std::isfinite(bounds[s].rate_norm);
     if (goes_by_coordinates(systems[s])) {
-      coordinates_[s] = std::make_unique<CoordinateRates>(
-          systems[s], std::move(bounds[s].coordinate_rows),
-          std::hypot(peaks[0], peaks[1], peaks[2]) + std::hypot(g[0], g[1], g[2]), time_step);
+      coordinates_[s] =
+          std::make_unique<CoordinateRates>(systems[s], std::move(bounds[s].coordinate_rows),
+                                            std::hypot(peaks[0], peaks[1], peaks[2]), time_step);
       measures_ = true;
     } else {
       needs_energy_ = true;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,8 +18,8 @@ namespace pounding {
 ///
 /// The discrete energy bounds every velocity, v^T A v <= 2 E with A = M - dt/2 C - dt^2/4 K, so
 /// |L v| <= sqrt(L A^-1 L^T) sqrt(2 E) for each structure's part of a row. Without contact the
-/// energy grows by the ground motion only: sqrt(2 E) rises at most by |M iota a_g| in the norm of
-/// A^-1 per unit of time. Structures in generalised coordinates are bounded coordinate by
+/// energy grows by the ground motion and gravity only: sqrt(2 E) rises at most by |M iota a| in the
+/// norm of A^-1 per unit of time. Structures in generalised coordinates are bounded coordinate by
 /// coordinate, far more closely. Bounds, not estimates: a contact is never missed.
 class GapWatch {
  public:
@@ -30,6 +31,9 @@ class GapWatch {
     std::array<double, 3> force_norm{};
     /// L T in place of these two where the structure goes by coordinates, see CoordinateRates.
     std::vector<double> coordinate_rows;
+    /// Norm of the weight less K u_0, where uniform damping acts about a rest: it takes the place
+    /// of the weight [kg^1/2 m/s2].
+    std::optional<double> rest_norm{};
   };
 
   /// Whether a structure is bounded coordinate by coordinate.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/memory.h"
+#include "dynamics/rest_forces.h"
 
 namespace pounding {
 namespace {
@@ -40,7 +41,8 @@ State::State(std::span<const LinearSystem> systems, std::size_t support_columns)
     structures.push_back({zeros_on_large_pages(dofs), zeros_on_large_pages(dofs), extra_force});
     StructureState& structure = structures.back();
     if (system.uniform_damping) {
-      for (std::size_t i = 0; i < system.uniform_damping->filters.size(); ++i) {
+      const std::size_t held = any_damped_about_rest(system) ? 1 : 0;
+      for (std::size_t i = 0; i < system.uniform_damping->filters.size() + held; ++i) {
         structure.filtered.push_back(zeros_on_large_pages(dofs));
       }
     }

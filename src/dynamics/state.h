@@ -15,7 +15,7 @@ struct StructureState {
   std::vector<double> displacement;             ///< u_n [m, rad]
   std::vector<double> velocity;                 ///< v_{n-1/2} [m/s, rad/s]
   std::vector<double> extra_force;              ///< of the extra damping in the step; empty without
-  std::vector<std::vector<double>> filtered{};  ///< Z_i of uniform damping, by filter [N, N m]
+  std::vector<std::vector<double>> filtered{};  ///< Z_i by filter, last (1 - s) K u_0 [N, N m]
 };
 
 /// Displacement and velocity of a structure as PETSc vectors over its ranks, with the layout of its

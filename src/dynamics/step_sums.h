@@ -27,6 +27,8 @@ struct StepSums {
   double strain_back = 0;            ///< u_{n-1}^T K u_n [J] likewise: the same as K is symmetric
   double displacement_mass = 0;      ///< u_n^T M u_n [kg m2] likewise
   double extra_damping_before = 0;   ///< v-^T D v- [W], D the damping beside alpha M + beta K
+  double rest_before = 0;            ///< (K u_0)^T (u_0 / 2 - u_n + dt/2 v-) where uniform damping
+                                     ///< acts about a rest u_0 [J], if energies are asked for
 };
 
 /// Adds the lanes of dofs to the sums of their structure.

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "dynamics/contact_correction.h"
+#include "dynamics/rest_forces.h"
 #include "dynamics/step_policies.h"
 #include "system/support_shapes.h"
 
@@ -34,6 +35,7 @@ Filters<double> filters_of(const LinearSystem& system, double time_step) {
       result.passing += weight / (1 + c);
       result.filters.at(result.count++) = {weight, (1 - c) / (1 + c), 2 * c / ((1 + c) * (1 + c))};
     }
+    if (damped_about_rest(system)) result.filters.at(result.count++) = {-1, 1, 0};
   }
   return result;
 }
@@ -44,10 +46,13 @@ void start_filters(const LinearSystem& system, double time_step, StructureState&
   StoredForces store(force.data());
   system.stiffness->apply({state.displacement.data(), state.displacement.data(), 0}, store);
   const Filters<double> filters = filters_of(system, time_step);
-  for (std::size_t k = 0; k < filters.count; ++k) {
+  for (std::size_t k = 0; k < system.uniform_damping->filters.size(); ++k) {
     const double share = 1 - filters.filters[k].newest();  // Z = W - t Q of W = Q
     for (std::size_t i = 0; i < force.size(); ++i) state.filtered[k][i] = share * force[i];
   }
+  const double kept = 1 - system.uniform_damping->at_rest();
+  const std::vector<double> held = rest_forces(system);
+  for (std::size_t i = 0; i < held.size(); ++i) state.filtered.back()[i] = kept * held[i];
 }
 
 StructureStep::StructureStep(const LinearSystem& system, StructureState& state, double time_step)

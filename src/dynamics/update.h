@@ -49,8 +49,8 @@ struct DofSums {
   Value filtered{};  ///< of (f - q) (v+ + v-)
 };
 
-/// Most filters of uniform damping.
-constexpr std::size_t max_filters = 8;
+/// Most filters of uniform damping, and one more that holds the forces of a rest.
+constexpr std::size_t max_filters = 9;
 
 /// Numbers of the filters of uniform damping that all dofs of a structure share. With Q_n = K u_n,
 /// beta = 0, c_i = omega_i dt / 2 and W_i what filter i passes,
@@ -64,6 +64,9 @@ constexpr std::size_t max_filters = 8;
 ///     f         = s (1 + sum_i a_i (1 - t_i)) Q_n - sum_i s a_i Z_i^n
 ///     Z_i^{n+1} = k_i Z_i^n + t_i (1 + k_i) Q_n
 ///
+/// A run that starts from a rest u_0 has one filter more, with k = 1, t = 0 and s a = -1, whose
+/// memory (1 - s) K u_0 stays: the others then act on the change of K u since the rest, where
+/// W_i = K u_0.
 /// Stable if and only if M - dt^2/4 s (1 + sum a_i) K is positive definite; docs/theory.md has the
 /// energy that proves it.
 template <typename Value>

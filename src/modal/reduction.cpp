@@ -172,9 +172,9 @@ class WorkerChoice {
 /// Gives the elements of a whole mesh their axial forces under the weight alone, without contacts.
 LargestCompression turn_weight_with_columns(const Structure& structure, const LinearSystem& system,
                                             Mesh& mesh) {
-  const Equilibrium rest =
-      find_equilibrium(mesh.comm, {&system, 1}, {&mesh, 1}, Interface{}, SolverChoice::automatic);
-  return set_axial_forces(structure, rest.displacement[0], 1, mesh);
+  const Equilibrium rest = find_equilibrium(mesh.comm, {&system, 1}, {&mesh, 1}, Interface{}, {},
+                                            SolverChoice::automatic);
+  return set_axial_forces(structure, rest.displacement[0], mesh);
 }
 
 void compute(const Structure& structure, std::span<const SupportColumn> columns, Profile& profile,
@@ -187,7 +187,6 @@ void compute(const Structure& structure, std::span<const SupportColumn> columns,
     unscaled.mass_scaling = 0;  // the coordinates are scaled, not the elements
     system = build_system(unscaled, reduction.mesh);
     if (structure.p_delta) {
-      system->uniform_damping.reset();  // forces at rest do not depend on it
       const LargestCompression largest =
           turn_weight_with_columns(unscaled, *system, reduction.mesh);
       system = build_system(unscaled, reduction.mesh);

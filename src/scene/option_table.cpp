@@ -183,6 +183,7 @@ constexpr std::array table{
     OptionRow{Block::contact, "<contact>_secondary", Kind::text, "group", required, any, "structure:group", "secondary side, a surface of a structure"},
     OptionRow{Block::contact, "<contact>_primary", Kind::text, "group", required, any, "structure:group, or wall", "primary side, the surface that it faces; wall: rigid, parallel to the secondary"},
     OptionRow{Block::contact, "<contact>_gap", Kind::text, "m", value("geometry"), any, "geometry, or one, two or four numbers g1,g2,...", "initial gap: uniform, linear, or at the four corners"},
+    OptionRow{Block::contact, "<contact>_gap_at", Kind::choice, "word", value("auto"), any, "auto|rest|unloaded", "with preload static: the state in which the joint has its gap, at rest under the weight or unloaded as the meshes are; auto: at rest where the gap is given and positive everywhere, not beside a wall"},
     OptionRow{Block::contact, "<contact>_passes", Kind::integer, "-", value("1"), Range{1, 2, false, false}, "", "2: nodes of the primary side are kept out of the secondary as well"},
     OptionRow{Block::contact, "<contact>_friction", Kind::real, "-", value("0"), Range{0, 10, false, false}, "", "Coulomb's coefficient of friction; 0: smooth"},
     OptionRow{Block::contact, "<contact>_sliding", Kind::real, "m", value("0"), not_negative, "", "how far the two faces may slide along each other: pairs are found anew as they do; 0: pairs stay those of the start"},

@@ -208,6 +208,8 @@ struct Contact {
   ContactSide primary;
   InitialGap gap;
   int passes = 1;                ///< 2: the nodes of the primary side are constrained as well
+  bool gap_at_rest = false;      ///< the gap is that of the rest that the run starts from
+  bool gap_assumed_so = false;   ///< that follows from the gap, it was not told
   double friction = 0;           ///< Coulomb's coefficient [-]
   double sliding = 0;            ///< how far the faces may slide along each other, pairs being
                                  ///< found anew; 0: pairs stay those of the start [m]

@@ -272,6 +272,27 @@ class SceneReader {
     return {words[0], words[1]};
   }
 
+  /// Whether the gap is that of the rest that the run starts from.
+  void read_gap_state(Contact& contact) {
+    const std::string state = options_.choice("<contact>_gap_at", {contact.name});
+    const std::vector<double>& values = contact.gap.values;
+    const auto negative = [](double gap) { return gap < 0; };
+    if (state == "rest" && std::ranges::any_of(values, negative)) {
+      options_.refuse("<contact>_gap_at", {contact.name},
+                      "at rest the joint is open or just closed; give a gap of 0 or more");
+    }
+    if (state == "unloaded" && contact.filler && scene_.preload) {
+      options_.refuse("<contact>_gap_at", {contact.name},
+                      "the filler is laid into the joint as it is at rest; leave it out");
+    }
+    const bool open = !values.empty() &&
+                      std::ranges::all_of(values, [](double gap) { return gap > 0; }) &&
+                      !contact.primary.is_wall();
+    const bool assumed = state == "auto" && (open || contact.filler);
+    contact.gap_at_rest = scene_.preload && (state == "rest" || assumed);
+    contact.gap_assumed_so = contact.gap_at_rest && assumed;
+  }
+
   Contact read_contact(const std::string& name) {
     Contact contact;
     contact.name = name;
@@ -296,6 +317,7 @@ class SceneReader {
       }
     }
     contact.filler = read_filler(options_, name);
+    read_gap_state(contact);
     contact.sliding = options_.real("<contact>_sliding", {name});
     if (contact.sliding > 0 && contact.primary.is_wall()) {
       options_.refuse("<contact>_sliding", {name}, "a wall is endless; leave it out");

@@ -14,7 +14,7 @@ struct DampingFilter {
 /// Uniform damping over a band: one damping ratio for every motion between two frequencies. K acts
 /// through filters, in Laplace's variable z
 ///
-///     s G(z) K,      G(z) = 1 + sum_i a_i z / (omega_i + z)
+///     s G(z) K,      G(z) = 1 + sum_i a_i z / (omega_i + z)      (of a rest K itself)
 ///
 /// so that a mode omega_0 of K swings freely as exp(z t) with z^2 = -omega_0^2 s G(z), at the
 /// frequency |z| and the damping ratio -Re z / |z|. The largest deviation of that ratio over the
@@ -29,7 +29,7 @@ struct UniformDamping {
   std::vector<DampingFilter> filters;
   double ripple = 0;  ///< largest deviation from `ratio` over the band, relative [-]
 
-  /// s: what K is multiplied by at rest [-].
+  /// s: what K is multiplied by for the slowest motions [-].
   double at_rest() const;
   /// s (1 + sum a_i): what K is multiplied by for the fastest motions, which limit the step [-].
   double at_once() const;

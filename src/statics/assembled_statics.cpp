@@ -1,8 +1,10 @@
 #include "statics/assembled_statics.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 #include "common/error.h"
 #include "common/parallel.h"
@@ -44,20 +46,20 @@ void add_links(std::span<const LinkTerms> links, double sign, PetscInt first_dof
 AssembledStatics::AssembledStatics(const LinearSystem& system, const Mesh& mesh, double shift,
                                    SolverChoice solver, Held held)
     : system_(system) {
-  if (system.uniform_damping && held == Held::at_rest) at_rest_ = system.uniform_damping->at_rest();
   POUNDING_PETSC(MatDuplicate(system.stiffest_matrix(), MAT_COPY_VALUES, matrix_.out()));
   POUNDING_PETSC(MatSetOptionsPrefixFactor(matrix_.get(), prefix));
   PetscInt first = 0;
   POUNDING_PETSC(MatGetOwnershipRange(matrix_.get(), &first, nullptr));
   if (system.links) {
-    // The stiffest matrix has them at their stiffest, and uniform damping leaves them alone.
-    linear_links_ = link_terms(system);
-    add_links(linear_links_, -1, first, matrix_.get());
-    std::erase_if(linear_links_,
-                  [&](const LinkTerms& link) { return link.one_way || held == Held::elements; });
+    // The stiffest matrix has them at their stiffest.
+    const auto carries = [&](const LinkTerms& link) {
+      return held == Held::at_rest && !link.one_way;
+    };
+    std::vector<LinkTerms> others = link_terms(system);
+    std::ranges::copy_if(others, std::back_inserter(linear_links_), carries);
+    std::erase_if(others, carries);
+    add_links(others, -1, first, matrix_.get());
   }
-  POUNDING_PETSC(MatScale(matrix_.get(), at_rest_));
-  if (system.links) add_links(linear_links_, 1, first, matrix_.get());
   std::vector<double> added = system.lumped_mass;
   for (double& value : added) value *= shift;
   const VecHandle diagonal = wrap_vector(system, added);
@@ -162,7 +164,6 @@ void AssembledStatics::apply(const std::vector<double>& u, std::vector<double>& 
   q.resize(u.size());
   StoredForces store(q.data());
   system_.stiffness->apply({u.data(), u.data(), 0}, store);
-  for (double& value : q) value *= at_rest_;
   for (const LinkTerms& link : linear_links_) {
     const double force = link.stiffness * link.elongation(u);
     for (std::size_t k = 0; k < link.dofs.size(); ++k) {

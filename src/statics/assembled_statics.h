@@ -20,7 +20,7 @@ namespace pounding {
 class AssembledStatics final : public StaticStiffness {
  public:
   /// Stiffness that counts: of all that carries at rest, one-way links apart, or of the linear
-  /// elements alone, with s = 1.
+  /// elements alone.
   enum class Held { at_rest, elements };
   /// Collective. Needs the matrix of the system.
   AssembledStatics(const LinearSystem& system, const Mesh& mesh, double shift, SolverChoice solver,
@@ -38,14 +38,13 @@ class AssembledStatics final : public StaticStiffness {
   bool plan_factor(SolverChoice solver);
   bool fill_factor();
   void prepare_iteration(const Mesh& mesh);
-  /// x := (s K + shift M)^-1 x in the coordinates of rigid bodies, if there are any.
+  /// x := (K + shift M)^-1 x in the coordinates of rigid bodies, if there are any.
   void solve_restricted(std::vector<double>& x) const;
 
   const LinearSystem& system_;
-  double at_rest_ = 1;                           ///< s
   std::optional<AdmissibleMotions> admissible_;  ///< of rigid bodies and ties
   std::vector<LinkTerms> linear_links_;          ///< what yields, not at rest
-  MatHandle matrix_;                             ///< s K + shift M
+  MatHandle matrix_;                             ///< K + shift M
   MatHandle gathered_;                           ///< all of it on rank 0, null elsewhere
   MatHandle factor_;                             ///< of that; null with the iteration
   bool factorised_ = false;                      ///< there is one, on rank 0

@@ -33,6 +33,15 @@ constexpr double violation = 1e-13;
 
 using Fields = std::vector<std::vector<double>>;  // per structure, owned dofs
 
+/// Rows that are told to be open, and those that face nothing yet.
+std::vector<char> all_open(const Interface& interface, std::span<const char> told) {
+  std::vector<char> open(told.begin(), told.end());
+  for (std::size_t row = 0; row < open.size(); ++row) {
+    if (interface.constraints[row].initial_gap == open_gap) open[row] = 1;
+  }
+  return open;
+}
+
 std::vector<double> initial_gaps(const Interface& interface) {
   std::vector<double> gaps;
   for (const Constraint& constraint : interface.constraints) gaps.push_back(constraint.initial_gap);
@@ -53,13 +62,15 @@ double largest_size(const Vector3& v) {
 class Search {
  public:
   Search(MPI_Comm comm, std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
-         const Interface& interface, SolverChoice solver)
+         const Interface& interface, std::span<const char> open_rows, SolverChoice solver)
       : comm_(comm),
         systems_(systems),
         meshes_(meshes),
         interface_(interface),
         contact_(contact_of(comm, interface, systems, meshes)),
-        rows_(comm, contact_.get(), initial_gaps(interface), systems),
+        any_told_open_(std::ranges::any_of(open_rows, [](char open) { return open != 0; })),
+        rows_(comm, contact_.get(), initial_gaps(interface), all_open(interface, open_rows),
+              systems),
         force_(rows_.size(), 0.0),
         is_tried_(rows_.size(), false) {
     for (std::size_t s = 0; s < systems.size(); ++s) {
@@ -80,6 +91,8 @@ class Search {
     double best = std::numeric_limits<double>::infinity();
     int idle = 0;
     residual_ = weight_;
+    update_correction();
+    weight_size_ = size_of_residual();
     for (iterations_ = 1;; ++iterations_) {
       iterate();
       const double left = relative_residual();
@@ -116,11 +129,8 @@ class Search {
 
   /// u + d of the residual and the forces in force, then the change of forces that the rows want.
   void iterate() {
-    Fields trial = residual_;
-    for (std::size_t s = 0; s < trial.size(); ++s) {
-      stiffness_[s]->solve(trial[s]);
-      add(displacement_[s], trial[s]);
-    }
+    Fields trial = correction_;
+    for (std::size_t s = 0; s < trial.size(); ++s) add(displacement_[s], trial[s]);
     const std::vector<double> change = solve_rows(rows_.openings(trial));
     if (std::ranges::any_of(change, [](double value) { return value != 0; })) {
       Fields more = zeros();
@@ -141,6 +151,7 @@ class Search {
     double scale = 0;
     for (int i = 0; i < rows_.size(); ++i) {
       opening[i] += rows_.compliance(i) * force_[i];
+      if (rows_.open(i)) continue;
       scale = std::max(scale, std::abs(opening[i]));
     }
     std::vector<double> change(rows_.size(), 0.0);
@@ -158,7 +169,7 @@ class Search {
     }
     bool any = false;
     for (int i = 0; i < rows_.size(); ++i) {
-      if (!is_tried_[i] && opening[i] < limit) {
+      if (!is_tried_[i] && !rows_.open(i) && opening[i] < limit) {
         try_row(i);
         any = true;
       }
@@ -206,6 +217,13 @@ class Search {
       }
       take_up_by_constraints(systems_[s], residual_[s]);
     }
+    update_correction();
+  }
+
+  /// (K + sigma M)^-1 of the residual.
+  void update_correction() {
+    correction_ = residual_;
+    for (std::size_t s = 0; s < correction_.size(); ++s) stiffness_[s]->solve(correction_[s]);
   }
 
   /// Forces of rows [first, end) on the dofs.
@@ -217,26 +235,26 @@ class Search {
     return forces;
   }
 
-  /// Root of f^T M^-1 f over all dofs.
-  double size_of(const Fields& fields) const {
-    double sum = 0;
-    for (std::size_t s = 0; s < fields.size(); ++s) sum += square_of(s, fields[s]);
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, comm_);
-    return std::sqrt(sum);
+  /// r^T (K + sigma M)^-1 r of the residual per structure, the same on all ranks.
+  std::vector<double> squares_of_residual() const {
+    std::vector<double> squares;
+    for (std::size_t s = 0; s < residual_.size(); ++s) {
+      squares.push_back(std::inner_product(residual_[s].begin(), residual_[s].end(),
+                                           correction_[s].begin(), 0.0));
+    }
+    MPI_Allreduce(MPI_IN_PLACE, squares.data(), static_cast<int>(squares.size()), MPI_DOUBLE,
+                  MPI_SUM, comm_);
+    return squares;
   }
 
-  /// This rank's part of f^T M^-1 f.
-  double square_of(std::size_t s, const std::vector<double>& field) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < field.size(); ++i) {
-      sum += field[i] * field[i] * systems_[s].inverse_mass[i];
-    }
-    return sum;
+  /// The root of it over all structures.
+  double size_of_residual() const {
+    const std::vector<double> squares = squares_of_residual();
+    return std::sqrt(std::abs(std::accumulate(squares.begin(), squares.end(), 0.0)));
   }
 
   double relative_residual() const {
-    const double reference = size_of(weight_) + size_of(row_forces(0, rows_.size()));
-    return reference > 0 ? size_of(residual_) / reference : 0;
+    return weight_size_ > 0 ? size_of_residual() / weight_size_ : 0;
   }
 
   /// iota_d^T of a force on the dofs of a structure, all ranks together.
@@ -251,19 +269,18 @@ class Search {
   }
 
   [[noreturn]] void refuse(double left) const {
-    std::size_t worst = 0;
-    double largest = -1;
-    for (std::size_t s = 0; s < systems_.size(); ++s) {
-      double square = square_of(s, residual_[s]);
-      MPI_Allreduce(MPI_IN_PLACE, &square, 1, MPI_DOUBLE, MPI_SUM, comm_);
-      if (square > largest) worst = s;
-      largest = std::max(largest, square);
-    }
+    const std::vector<double> squares = squares_of_residual();
+    const auto worst = std::max_element(squares.begin(), squares.end()) - squares.begin();
     std::ostringstream text;
-    text << "option -preload static: structure " << systems_[worst].name
+    text << "option -preload static: structure " << systems_[static_cast<std::size_t>(worst)].name
          << " finds no rest under its weight, " << left << " of it is left after " << iterations_
          << " iterations: nothing holds it, or less than 0.1 Hz; clamp it, give it springs or a "
-            "contact below, look at the units of mesh and materials, or leave -preload out";
+            "contact below"
+         << (any_told_open_
+                 ? " (a contact with a positive gap is open at rest: give -<contact>_gap "
+                   "0, or -<contact>_gap_at unloaded)"
+                 : "")
+         << ", look at the units of mesh and materials, or leave -preload out";
     throw UserError(text.str());
   }
 
@@ -273,6 +290,8 @@ class Search {
     result.residual = relative_residual();
     result.rows_tried = static_cast<int>(tried_.size());
     result.displacement = displacement_;
+    const std::vector<double> openings = rows_.responses(displacement_);
+    result.opening.assign(openings.begin(), openings.begin() + rows_.contacts());
     result.contact_force.assign(force_.begin(), force_.begin() + rows_.contacts());
     for (int i = rows_.contacts(); i < rows_.size(); ++i) {
       ++(force_[i] > 0 ? result.acting_links : result.idle_links);
@@ -361,11 +380,14 @@ class Search {
   std::span<const Mesh> meshes_;
   const Interface& interface_;
   std::unique_ptr<ContactProblem> contact_;  ///< null without contacts
+  bool any_told_open_;                       ///< contacts open by what was told of their gaps
   UnilateralRows rows_;
   std::vector<std::unique_ptr<StaticStiffness>> stiffness_;  ///< per structure
   Fields weight_;
   Fields displacement_;
-  Fields residual_;             ///< M g + R^T f - s K u
+  Fields residual_;             ///< M g + R^T f - K u
+  Fields correction_;           ///< (K + sigma M)^-1 of it
+  double weight_size_ = 0;      ///< see size_of_residual, of the weight
   std::vector<double> force_;   ///< f per row [N]
   std::vector<int> tried_;      ///< rows of the complementarity problem, in the order they joined
   std::vector<char> is_tried_;  ///< per row
@@ -377,8 +399,8 @@ class Search {
 
 Equilibrium find_equilibrium(MPI_Comm comm, std::span<const LinearSystem> systems,
                              std::span<const Mesh> meshes, const Interface& interface,
-                             SolverChoice solver) {
-  return Search(comm, systems, meshes, interface, solver).find();
+                             std::span<const char> open_rows, SolverChoice solver) {
+  return Search(comm, systems, meshes, interface, open_rows, solver).find();
 }
 
 }  // namespace pounding

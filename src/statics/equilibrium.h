@@ -32,33 +32,37 @@ struct Equilibrium {
   std::vector<std::vector<double>> displacement;  ///< u_0 per structure, owned dofs [m, rad]
   std::vector<StructureRest> structures;
   std::vector<double> contact_force;  ///< p_0 per row of the interface, the same on all ranks [N]
+  std::vector<double> opening;        ///< L u_0 likewise: by how much it is wider than unloaded [m]
   int acting_links = 0;               ///< tension-only bars and compression-only springs that carry
   int idle_links = 0;
   double gravity_potential = 0;  ///< -f_g^T u_0 [J]
   int iterations = 0;
   int rows_tried = 0;  ///< contact points and links that a solution was made for
-  /// Root of the mean square acceleration, weighted by mass, that the start leaves, over that of
-  /// gravity [-].
+  /// Root of the energy r^T (K + sigma M)^-1 r of the force r that the start leaves, over that of
+  /// the weight [-].
   double residual = 0;
 };
 
 /// Static equilibrium of all structures with their contacts, tension-only bars and
 /// compression-only springs (see UnilateralRows):
 ///
-///     s K u_0 = M g + R^T f,      0 <= f _|_ w0 + R u_0 + c f >= 0
+///     K u_0 = M g + R^T f,      0 <= f _|_ w0 + R u_0 + c f >= 0
 ///
 /// by the proximal point method (Rockafellar, SIAM J. Control Optim. 14 (1976), 877), which needs
 /// no stiffness that holds by itself, so that blocks which only rest on each other pass:
 ///
-///     (s K + sigma M) d = M g + R^T f - s K u,       u <- u + d,
+///     (K + sigma M) d = M g + R^T f - K u,       u <- u + d,
 ///     with f such that the rows are fulfilled by u + d
 ///
 /// sigma = 1 / s2 shrinks what is left by 1 / (1 + omega^2 / sigma) at a held frequency omega, and
-/// refines the solution like any correction by its residual. Rows that no iterate violates are
-/// never solved for. A structure that nothing holds against its weight falls on for ever: UserError
-/// naming it. Systems need their matrix. Collective.
+/// refines the solution like any correction by its residual. Forces are measured by their energy
+/// f^T (K + sigma M)^-1 f, in which a moment on the small rotary inertia of a thin shell counts for
+/// what it bends. Rows that no iterate violates are never solved for. A structure that nothing
+/// holds against its weight falls on for ever: UserError naming it. Systems need their matrix.
+/// `open_rows`: per row of the interface, whether the contact is open whatever its gap is: its gap
+/// is told of the rest. Collective.
 Equilibrium find_equilibrium(MPI_Comm comm, std::span<const LinearSystem> systems,
                              std::span<const Mesh> meshes, const Interface& interface,
-                             SolverChoice solver);
+                             std::span<const char> open_rows, SolverChoice solver);
 
 }  // namespace pounding

@@ -27,9 +27,8 @@ ReducedStatics::ReducedStatics(const LinearSystem& system, double shift) {
   std::vector<double> diagonal(n, 0.0);
   StoredForces store(diagonal.data());
   system.stiffness->apply({ones.data(), ones.data(), 0}, store);
-  const double at_rest = system.uniform_damping ? system.uniform_damping->at_rest() : 1;
   stiffness_.assign(n * n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) stiffness_[i * n + i] = at_rest * diagonal[i];
+  for (std::size_t i = 0; i < n; ++i) stiffness_[i * n + i] = diagonal[i];
   for (const LinkTerms& bar : link_terms(system)) {
     if (!bar.one_way) continue;  // K holds it, and it does not yield at rest
     for (std::size_t a = 0; a < bar.dofs.size(); ++a) {

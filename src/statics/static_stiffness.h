@@ -5,15 +5,14 @@
 
 namespace pounding {
 
-/// Stiffness of a structure against forces that stay: s K without one-way links, s what
-/// uniform damping leaves of K at rest (1 without). It may be singular, as that of a block which
-/// only rests on another; s K + shift M is not.
+/// Stiffness of a structure against forces that stay: K without one-way links, whatever damps it.
+/// It may be singular, as that of a block which only rests on another; K + shift M is not.
 class StaticStiffness {
  public:
   virtual ~StaticStiffness() = default;
-  /// q = s K u over the owned dofs [N, N m]. Collective.
+  /// q = K u over the owned dofs [N, N m]. Collective.
   virtual void apply(const std::vector<double>& u, std::vector<double>& q) const = 0;
-  /// x := (s K + shift M)^-1 x over the owned dofs. Collective.
+  /// x := (K + shift M)^-1 x over the owned dofs. Collective.
   virtual void solve(std::vector<double>& x) const = 0;
   /// How it is solved, for the report.
   virtual std::string method() const = 0;

@@ -1,23 +1,28 @@
 #include "statics/unilateral_rows.h"
 
+#include <algorithm>
+
 #include "common/parallel.h"
 #include "statics/link_terms.h"
 
 namespace pounding {
 
 UnilateralRows::UnilateralRows(MPI_Comm comm, const ContactProblem* contact,
-                               std::span<const double> gaps, std::span<const LinearSystem> systems)
+                               std::span<const double> gaps, std::span<const char> open,
+                               std::span<const LinearSystem> systems)
     : comm_(comm) {
-  if (contact != nullptr) add_contacts(*contact, gaps, systems);
+  if (contact != nullptr) add_contacts(*contact, gaps, open, systems);
   contacts_ = size();
   for (std::size_t s = 0; s < systems.size(); ++s) add_links(s, systems[s]);
 }
 
 void UnilateralRows::add_contacts(const ContactProblem& contact, std::span<const double> gaps,
+                                  std::span<const char> open,
                                   std::span<const LinearSystem> systems) {
   for (int i = 0; i < contact.rows(); ++i) {
     Row& row = rows_.emplace_back();
-    row.initial = gaps[i];
+    row.initial = std::max(0.0, gaps[i]);
+    row.open = open[i] != 0;
     for (std::size_t s = 0; s < systems.size(); ++s) {
       const std::vector<double> force = contact.row_force(i, s, systems[s].owned_dofs());
       for (const LocalIndex dof : contact.trace(s).dofs()) {

@@ -55,8 +55,7 @@ std::vector<double> with_ghosts(const Mesh& mesh, const std::vector<double>& own
 }
 
 LargestCompression set_axial_forces(const Structure& structure,
-                                    const std::vector<double>& displacement, double at_rest,
-                                    Mesh& mesh) {
+                                    const std::vector<double>& displacement, Mesh& mesh) {
   const std::vector<double> values = with_ghosts(mesh, displacement);
   ElementWork work;
   double largest = 0;
@@ -72,8 +71,7 @@ LargestCompression set_axial_forces(const Structure& structure,
         const LocalIndex dof = dofs[i / 3 * static_cast<std::size_t>(layout.components) + i % 3];
         ends[i] = dof < 0 ? 0 : values[dof];
       }
-      const double force =
-          at_rest * axial_force(gather_coordinates(mesh, block, e, work), properties, ends);
+      const double force = axial_force(gather_coordinates(mesh, block, e, work), properties, ends);
       block.axial_force.push_back(force);
       largest = std::max(largest, std::abs(force));
     }

@@ -18,11 +18,10 @@ struct LargestCompression {
 std::vector<double> with_ghosts(const Mesh& mesh, const std::vector<double>& owned);
 
 /// Gives every beam and bar of a mesh the axial force that it has under the displacements of its
-/// owned dofs, times `at_rest`, the part of the stiffness that acts at rest. Forces are rounded to
-/// a power of two of 1e-9 of the largest one, so that the round-off of a solution, which differs
-/// from run to run, does not reach the stiffness. The same on all ranks; collective.
+/// owned dofs. Forces are rounded to a power of two of 1e-9 of the largest one, so that the
+/// round-off of a solution, which differs from run to run, does not reach the stiffness. The same
+/// on all ranks; collective.
 LargestCompression set_axial_forces(const Structure& structure,
-                                    const std::vector<double>& displacement, double at_rest,
-                                    Mesh& mesh);
+                                    const std::vector<double>& displacement, Mesh& mesh);
 
 }  // namespace pounding

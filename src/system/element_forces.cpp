@@ -95,16 +95,11 @@ ElementForces::ElementForces(const LinearSystem& system, const Mesh& mesh,
       }
     }
   }
-  if (!system.uniform_damping || system.rest_displacement.empty()) return;
-  rest_.assign(places.size(), 0.0);
-  trace_->apply(system.rest_displacement.data(), rest_.data(), 1);
-  relaxed_ = 1 - system.uniform_damping->at_rest();
 }
 
 void ElementForces::add(std::span<const double> owned, std::span<const double> supports,
                         std::span<double> columns) {
   trace_->apply(owned.data(), field_.data(), 1, supports);
-  for (std::size_t i = 0; i < rest_.size(); ++i) field_[i] -= relaxed_ * rest_[i];
   for (const Term& term : terms_) columns[term.column] += term.coefficient * field_[term.place];
   for (const GroundTerm& term : ground_) {
     columns[term.column] += term.coefficient * supports[term.support];

@@ -14,8 +14,7 @@ namespace pounding {
 
 /// Elastic forces of chosen elements of a structure, those of K_e u_e or at the centres of shells:
 /// each is a linear form of the displacements of the nodes there, which in generalised coordinates
-/// follow from the rows of the basis. Where uniform damping relaxes K, what the rest before the run
-/// holds is relaxed with it.
+/// follow from the rows of the basis.
 class ElementForces {
  public:
   /// A column of the table of all forces and the linear form that it is.
@@ -51,8 +50,6 @@ class ElementForces {
   std::vector<Term> terms_;
   std::vector<GroundTerm> ground_;
   std::vector<double> field_;
-  std::vector<double> rest_;  ///< field of the rest before the run; empty without uniform damping
-  double relaxed_ = 0;        ///< part of it that is not held
 };
 
 /// Names of the forces of an element, of shell_forces.h or end_forces.h.

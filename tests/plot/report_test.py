@@ -127,6 +127,23 @@ class Report(unittest.TestCase):
         self.assertIn(f"a motion {rest / (rest - smallest):.3g} times as strong", said)
         self.assertIn("No contacts: each building moves on its own", answer.sentences(self.alone, None)[0])
 
+    def test_the_first_joint_to_close_has_the_margin(self):
+        """Least gap left at `narrow`, which hardly moves; `wide` is the first that a stronger motion closes."""
+        history = {"time": numpy.array([0.0, 1.0]), "contacts": ["narrow", "wide"],
+                   "gap": numpy.array([[0.010, 0.045], [0.0098, 0.0121]])}
+        contacts = {"narrow": {"initial_gap": [0.010, 0.010]}, "wide": {"initial_gap": [0.045, 0.045]}}
+        told = {name: {**one, "largest_closing": closing, "closing_factor": one["initial_gap"][0] / closing}
+                for (name, one), closing in zip(contacts.items(), (0.0002, 0.0329))}
+        for found in (contacts, told):
+            run = pounding.results.Result(self.wide.folder, {**self.wide.summary, "contacts": found}, history)
+            said = " ".join(answer.sentences(run, None))
+            self.assertIn("The smallest gap was 9.8 mm at narrow", said)
+            self.assertIn("a motion 1.37 times as strong would close wide, the first of the joints", said)
+        # of pairs with different gaps the history knows the smallest alone: no more than what surely stays open
+        uneven = {**contacts, "wide": {"initial_gap": [0.045, 0.050]}}
+        run = pounding.results.Result(self.wide.folder, {**self.wide.summary, "contacts": uneven}, history)
+        self.assertAlmostEqual(run.closing_factors()["wide"], 0.050 / (0.050 - 0.0121), delta=1e-12)
+
     def test_a_run_with_a_wide_joint_is_a_run_without_pounding(self):
         found, why = twin.find(self.hit, self.place / "wide")
         self.assertEqual((found.folder.name, why), ("wide", ""))

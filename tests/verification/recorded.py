@@ -70,6 +70,7 @@ class Recorded:
         self.time = data["time"]
         self.contacts = [name.decode() for name in data["contacts"]]
         self._force = data.get("contact_force")
+        self._gap = data.get("gap")
         self._place = {name.decode(): i for i, name in enumerate(data["channels"])}
         self._displacement = data.get("displacement")
         self._velocity = data.get("velocity")
@@ -81,6 +82,10 @@ class Recorded:
 
     def force(self, contact):
         return self._force[:, self.contacts.index(contact)]
+
+    def gap(self, contact):
+        """The smallest gap of a contact [m]."""
+        return self._gap[:, self.contacts.index(contact)]
 
     def displacement(self, channel):
         return self._displacement[:, self._place[channel]]

@@ -87,11 +87,24 @@ class HungBar(unittest.TestCase):
         finally:
             shutil.rmtree(folder)
 
-    def test_uniform_damping_settles_with_what_it_leaves_of_the_stiffness(self):
-        run = self.hang("-bar_damping_uniform", 0.05, "-bar_damping_reference", 100)
-        left = run.summary["structures"]["bar"]["damping"]["stiffness_at_rest"]
-        self.assertLess(left, 0.9)
-        self.assertLess(abs(run.displacement("foot.z") * left / -self.SAG - 1).max(), 1e-12)
+    def test_uniform_damping_leaves_the_rest_alone(self):
+        uniform = ["-bar_damping_uniform", 0.05, "-bar_damping_reference", 100]
+        for ranks, filters, more in ((1, 3, []), (2, 8, []), (3, 1, []), (2, 3, ["-bar_mass_scaling", 1e-4])):
+            run = self.hang(*uniform, "-bar_damping_filters", filters, *more, ranks=ranks, steps=500)
+            self.assertLess(run.summary["structures"]["bar"]["damping"]["stiffness_at_rest"], 0.98)
+            self.assert_hangs(run)
+        reduced = self.hang(*uniform, "-bar_model", "modal", "-bar_modal_vectors", 2, steps=500)
+        self.assertLess(abs(reduced.displacement("foot.z") / -self.SAG - 1).max(), 1e-6)
+        self.assertLess(numpy.ptp(reduced.displacement("foot.z")), 1e-12 * self.SAG)
+
+    def test_forces_of_a_rest_are_its_weight_under_uniform_damping(self):
+        items = ["-forces", "top,middle", "-top_structure", "bar", "-top_kind", "reactions", "-middle_structure", "bar",
+                 "-middle_kind", "cut", "-middle_group", "body", "-middle_level", 2.25]
+        for more in ([], ["-bar_damping_uniform", 0.05, "-bar_damping_reference", 100]):
+            run = self.hang(*items, *more)
+            # nodes on the clamp carry their own mass
+            self.assertLess(abs(run.members("top")[1:, 2] / (0.95 * self.WEIGHT) - 1).max(), 1e-10)
+            self.assertLess(abs(abs(run.members("middle")[1:, 2]) / (0.45 * self.WEIGHT) - 1).max(), 1e-10)
 
     def test_reaches_the_wall_below(self):
         gap = 0.4 * self.SAG
@@ -319,6 +332,13 @@ class Portal(unittest.TestCase):
             more = moved.displacement(channel) - moved.displacement(channel)[0]
             self.assertLess(abs(more - still.displacement(channel)).max(), tolerance * scale)
 
+    def test_moves_about_its_rest_as_without_gravity_under_uniform_damping(self):
+        uniform = ["-frame_damping_alpha", 0, "-frame_damping_uniform", 0.05, "-time_step", 1.6e-5]
+        for more, tolerance in (([], 1e-8), (["-frame_model", "modal", "-frame_modal_vectors", 8], 1e-3)):
+            still, moved = self.shake(*uniform, *more), self.shake(*uniform, *more, *self.WEIGHT)
+            self.assertLess(moved.displacement("middle.y")[0], -1e-5)
+            self.assert_alike(still, moved, tolerance)
+
     def test_moves_about_its_rest_as_without_gravity(self):
         still, moved = self.shake(), self.shake(*self.WEIGHT)
         self.assertLess(moved.displacement("middle.y")[0], -1e-5)
@@ -327,6 +347,45 @@ class Portal(unittest.TestCase):
         reduced = self.shake(*self.WEIGHT, *modal)
         self.assertAlmostEqual(reduced.displacement("middle.y")[0] / moved.displacement("middle.y")[0], 1, delta=1e-6)
         self.assert_alike(self.shake(*modal), reduced, 1e-3)
+
+
+class Sag(unittest.TestCase):
+    """A clamped beam of twenty elements sags by w L^4 / (384 E I) under its weight, however it is damped."""
+
+    def test_is_that_of_the_stiffness(self):
+        area, inertia, length = 0.04, 1.3e-4, 10.0
+        words = ["-structures", "a", "-a_mesh", "tests/meshes/line.geo", "-a_mesh_set", f"length={length},n=20",
+                 "-a_clamp", "x_min,x_max", "-a_line_element", "beam", "-a_line_material", "steel", "-a_line_section",
+                 "box", "-material_steel_young", 2e11, "-material_steel_poisson", 0.3, "-material_steel_density", 7850,
+                 "-section_box_area", area, "-section_box_inertia_y", inertia, "-section_box_inertia_z", inertia,
+                 "-section_box_torsion", 2.2e-4, "-section_box_z_axis", "0,0,1", "-probes", "mid", "-mid_structure", "a",
+                 "-mid_at", "5,0,0", "-end_time", 0.002, "-output_interval", 0.001, *REST]
+        sag = 7850 * area * GRAVITY * length**4 / (384 * 2e11 * inertia)
+        self.assertAlmostEqual(1e3 * sag, 3.0853, delta=5e-4)
+        reduced = ["-a_model", "modal", "-a_modal_vectors", 6]
+        for more in (["-a_damping_ratio", 0.05, "-a_damping_frequencies", "5,50"], ["-a_damping_uniform", 0.05],
+                     ["-a_damping_uniform", 0.05, "-a_damping_band", "1,400", "-a_damping_reference", 200],
+                     ["-a_damping_uniform", 0.05, *reduced]):
+            run = Recorded(self, words + more)
+            self.assertLess(abs(run.displacement("mid.z") / -sag - 1).max(), 1e-6, more)
+
+
+class ThinStrip(unittest.TestCase):
+    """A strip of steel, half a millimetre thick, sags as a beam does: its rotary inertia is next to nothing."""
+
+    def test_finds_its_rest(self):
+        length, thickness, young, density = 0.1, 5e-4, 2e11, 7850.0
+        words = ["-structures", "strip", "-strip_mesh", "tests/meshes/quadrilateral.geo", "-strip_mesh_set",
+                 f"length={length},width_0=0.02,width_1=0.02,nx=40,ny=8", "-strip_clamp", "x_min", "-strip_plate_element",
+                 "shell", "-strip_plate_thickness", thickness, "-strip_plate_material", "steel", "-material_steel_young",
+                 young, "-material_steel_poisson", 0, "-material_steel_density", density, "-probes", "tip",
+                 "-tip_structure", "strip", "-tip_at", f"{length},0.01,0", "-end_time", 1e-5, "-output_interval", 1e-6,
+                 *REST]
+        sag = density * GRAVITY * length**4 / 8 / (young * thickness**2 / 12)
+        for ranks, more in ((1, []), (2, []), (2, ["-strip_damping_uniform", 0.02, "-strip_damping_band", "1,4000"])):
+            run = Recorded(self, words + more, ranks)
+            self.assertAlmostEqual(run.displacement("tip.z")[0] / -sag, 1, delta=0.01)
+            self.assertLess(numpy.ptp(run.displacement("tip.z")), 1e-6 * sag)
 
 
 class SameBits(unittest.TestCase):

@@ -374,6 +374,8 @@ class WrongInput(unittest.TestCase):
             return [line for line in run.summary["warnings"] if "damping" in line]
         self.assertEqual(warnings("-f_damping_uniform", 0.05, "-f_damping_band", "0.2,100"), [])
         self.assertIn("outside of the band", warnings("-f_damping_uniform", 0.05)[0])
+        moved = warnings("-f_damping_uniform", 0.1, "-f_damping_band", "0.2,100", "-f_damping_reference", 30)
+        self.assertRegex(moved[0], r"moves its mode of 0.3 Hz by -2\d.* % .*since modes keep their place at 30 Hz")
         self.assertIn("filters hold", warnings("-f_damping_uniform", 0.05, "-f_damping_band", "0.2,1000",
                                                "-f_damping_filters", 2)[0])
 

@@ -143,11 +143,14 @@ def _apart(run: Result) -> list:
     if gaps:
         name = min(gaps, key=lambda one: gaps[one][0])
         gap, time, rest = gaps[name]
-        closing = rest - gap
+        closing = run.closings()[name]
         lines.append(f"The smallest gap was {_millimetres(gap)} at {name} at {time:.4g} s, of {_millimetres(rest)} at rest: "
-                     f"the joint closed by {_millimetres(closing)}, and {100 * gap / rest:.3g} % of it is left."
-                     + (f" As long as everything stays linear, a motion {rest / closing:.3g} times as strong would close it."
-                        if closing > 0.001 * rest else ""))
+                     f"the joint closed by {_millimetres(closing)}, and {100 * gap / rest:.3g} % of it is left.")
+        factors = run.closing_factors()
+        if factors:
+            first = min(factors, key=factors.get)
+            lines.append(f"As long as everything stays linear, a motion {factors[first]:.3g} times as strong would close "
+                         f"{'it' if first == name else f'{first}, the first of the joints'}.")
     return lines
 
 

@@ -9,10 +9,13 @@ from .style import WIDTH, contact_colour, legend_above, plot_series, plt, save
 
 
 def _decisive(result: Result) -> str | None:
-    """Contact of the largest impulse, else of the smallest gap left."""
+    """Contact of the largest impulse, else the one that a stronger motion closes first, else that of the smallest gap."""
     if result.impacts and len(result.impacts["impulse"]):
         name = str(result.impacts["contact"][int(np.argmax(result.impacts["impulse"]))])
         return name if name in result.contacts else None
+    factors = result.closing_factors()
+    if factors:
+        return min(factors, key=factors.get)
     gaps = answer.smallest_gaps(result)
     return min(gaps, key=lambda name: gaps[name][0], default=None)
 

@@ -164,6 +164,7 @@ def contact_table(result: Result) -> str:
     rows = []
     for name, one in result.summary.get("contacts", {}).items():
         gap, mesh = one.get("initial_gap", [None] * 2), one.get("geometric_gap") or [None] * 2
+        unloaded = one.get("unloaded_gap") or gap
         def span(pair):
             if pair[0] is None:
                 return None
@@ -171,12 +172,12 @@ def contact_table(result: Result) -> str:
             return f"{low:.4g}" if abs(high - low) < 1e-6 * max(abs(high), 1e-9) else f"{low:.4g} to {high:.4g}"
         filler = one.get("filler")
         rows.append((name, f"{options.get(f'{name}_secondary', '?')} on {options.get(f'{name}_primary', '?')}",
-                     one.get("pairs"), one.get("matched"), options.get(f"{name}_gap"), span(gap), span(mesh),
+                     one.get("pairs"), one.get("matched"), options.get(f"{name}_gap"), span(gap), span(unloaded), span(mesh),
                      options.get(f"{name}_friction"), None if not filler else f"{filler['area']:.4g} m²"))
-    header = ["", "faces", "pairs", "node to node", "gap as given [m]", "gap at rest [mm]", "in the meshes [mm]", "friction",
-              "filler"]
-    if not any(row[8] for row in rows):
-        header, rows = header[:8], [row[:8] for row in rows]
+    header = ["", "faces", "pairs", "node to node", "gap as given [m]", "gap at rest [mm]", "unloaded [mm]", "in the meshes [mm]",
+              "friction", "filler"]
+    if not any(row[9] for row in rows):
+        header, rows = header[:9], [row[:9] for row in rows]
     return html_table("Joints as they were computed", header, rows, text=(1, 4))
 
 

@@ -1,0 +1,114 @@
+#include "driver/rest_gaps.h"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "common/error.h"
+
+namespace pounding {
+namespace {
+
+/// Overlap that round-off may make of a joint that is just closed, over the model's longest side.
+constexpr double round_off = 1e-9;
+
+/// Whether a row faces something at the start.
+bool is_paired(const Constraint& row) {
+  return row.geometric_gap != open_gap;
+}
+
+/// Widens a range to hold a value.
+void take(double value, std::array<double, 2>& range) {
+  range = {std::min(range[0], value), std::max(range[1], value)};
+}
+
+/// Width of the joint that the gap of hard contact leaves out, where a filler is dense [m].
+double dense_width(const Contact& contact, const Constraint& row) {
+  return contact.filler ? row.filler.thickness * (1 - contact.filler->dense()) : 0;
+}
+
+/// Gaps of pairs that are found anew count from the same rest: by the row's own opening, by the
+/// mean of the contact where it faces nothing yet.
+void shift_sliding_rows(std::span<const double> opening, std::span<const char> at_rest,
+                        const std::vector<Constraint>& rows, SlidingFaces& sliding) {
+  for (SlidingFaces::Row& row : sliding.rows) {
+    const auto number = static_cast<std::size_t>(row.constraint);
+    if (at_rest[number] == 0) continue;
+    double shift = opening[number];
+    if (!is_paired(rows[number])) {
+      double sum = 0;
+      int count = 0;
+      for (std::size_t r = 0; r < rows.size(); ++r) {
+        if (rows[r].contact != row.contact || !is_paired(rows[r])) continue;
+        sum += opening[r];
+        ++count;
+      }
+      shift = sum / std::max(1, count);
+    }
+    row.offset -= shift;
+  }
+}
+
+}  // namespace
+
+std::vector<char> rows_open_at_rest(const Scene& scene, const Interface& interface) {
+  std::vector<char> open;
+  for (const Constraint& row : interface.constraints) {
+    const Contact& contact = scene.contacts[row.contact];
+    open.push_back(contact.gap_at_rest ? 1 : 0);
+    if (!contact.gap_at_rest || row.initial_gap >= -round_off * interface.model_size) continue;
+    std::ostringstream text;
+    text << "option -" << contact.name << "_gap_at rest: the meshes overlap by "
+         << -1000 * row.initial_gap << " mm somewhere, and a joint is open or just closed at rest; "
+         << "give -" << contact.name << "_gap, or -" << contact.name << "_gap_at unloaded";
+    throw UserError(text.str());
+  }
+  return open;
+}
+
+void find_start_gaps(const Scene& scene, Model& model) {
+  std::vector<Constraint>& rows = model.interface.constraints;
+  constexpr double none = std::numeric_limits<double>::infinity();
+  model.joint_gaps.assign(scene.contacts.size(), {{none, -none}, {none, -none}});
+  model.start_gaps.clear();
+  const std::vector<char> at_rest = rows_open_at_rest(scene, model.interface);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    double start = rows[r].initial_gap;
+    if (is_paired(rows[r])) {
+      const double opening = model.equilibrium ? model.equilibrium->opening[r] : 0;
+      if (at_rest[r] != 0) {
+        rows[r].initial_gap -= opening;
+      } else {
+        start += opening;
+      }
+      const double width = dense_width(scene.contacts[rows[r].contact], rows[r]);
+      JointGaps& gaps = model.joint_gaps[rows[r].contact];
+      take(rows[r].initial_gap + width, gaps.unloaded);
+      take(start + width, gaps.at_rest);
+    }
+    model.start_gaps.push_back(start);
+  }
+  if (model.equilibrium) {
+    shift_sliding_rows(model.equilibrium->opening, at_rest, rows, model.interface.sliding);
+  }
+}
+
+std::vector<std::string> rest_gap_warnings(const Scene& scene, const Model& model) {
+  std::vector<std::string> warnings;
+  for (std::size_t c = 0; model.equilibrium && c < model.joint_gaps.size(); ++c) {
+    const JointGaps& gaps = model.joint_gaps[c];
+    const double overlap = -gaps.unloaded[0];
+    if (!scene.contacts[c].gap_at_rest || !(gaps.at_rest[0] > 0)) continue;
+    if (overlap <= round_off * model.interface.model_size) continue;
+    std::ostringstream text;
+    text.precision(4);
+    text << "contact " << scene.contacts[c].name << ": the weight opens the joint by more than the "
+         << 1000 * gaps.at_rest[0] << " mm that it has at rest; without it the faces would overlap "
+         << "by " << 1000 * overlap << " mm; is the gap that of the rest (-"
+         << scene.contacts[c].name << "_gap_at)?";
+    warnings.push_back(text.str());
+  }
+  return warnings;
+}
+
+}  // namespace pounding
