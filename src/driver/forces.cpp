@@ -98,6 +98,7 @@ void Forces::lay_out(const Scene& scene, const Model& model) {
         components_of(force, scene.structures[static_cast<std::size_t>(model.forces[i].structure)]);
     if (!force.of_elements()) {
       item.elements = {""};
+      item.about = force.point();
       continue;
     }
     for (const std::int64_t element : model.forces[i].elements) {
@@ -188,7 +189,8 @@ std::vector<ForceReport> Forces::report() const {
     reports.push_back({item.name,
                        item.components,
                        item.elements,
-                       {first, first + static_cast<std::ptrdiff_t>(item.columns())}});
+                       {first, first + static_cast<std::ptrdiff_t>(item.columns())},
+                       item.about});
   }
   return reports;
 }
@@ -220,6 +222,10 @@ void print_forces(std::span<const ForceReport> reports) {
       std::printf("  %-18s %24.6g %19.5f   %s\n",
                   (report.name + "." + report.components[c]).c_str(), peak.value / 1000, peak.time,
                   report.elements[e].c_str());
+    }
+    if (report.about) {
+      const auto& [x, y, z] = *report.about;
+      std::printf("    moments about (%.6g, %.6g, %.6g) m\n", x, y, z);
     }
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,6 +27,7 @@ struct ForceReport {
   std::vector<std::string> components;  ///< "Fx", "N", ...
   std::vector<std::string> elements;    ///< numbers in the file; one empty name of a total
   std::vector<ForcePeak> peaks;         ///< shape (elements, components)
+  std::optional<Vector3> about{};       ///< of a total: point that its moments are about [m]
 
   /// The element whose peak of a component is the largest.
   std::size_t largest(std::size_t component) const;
@@ -66,7 +68,8 @@ class Forces {
     std::string name;
     std::vector<std::string> components;
     std::vector<std::string> elements;
-    std::size_t first = 0;  ///< of its columns
+    std::optional<Vector3> about{};  ///< of the moments of a total [m]
+    std::size_t first = 0;           ///< of its columns
     std::size_t columns() const { return components.size() * elements.size(); }
   };
   struct Total {

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "common/component_names.h"
 #include "common/version.h"
 #include "driver/contact_report.h"
 #include "driver/motion_report.h"
@@ -149,6 +150,14 @@ void print_step_design(const Structure& structure, const StepDesign& design,
       design.change.by_elements());
 }
 
+/// What single elements say of a limit; nothing where none of them has a stiffness and a mass.
+std::string element_bound(double bound) {
+  if (!std::isfinite(bound) || bound == 0) return "";
+  char text[64];
+  std::snprintf(text, sizeof text, " (bound from single elements %.4e)", bound);
+  return text;
+}
+
 void print_time_step_limit(const Building& building) {
   const LinearSystem& system = *building.system;
   if (building.design) {
@@ -170,8 +179,8 @@ void print_time_step_limit(const Building& building) {
           system.limiting_element.c_str(), building.limits.stable_time_step / scaling.time_step);
     }
   }
-  std::printf("  omega_max %.4e rad/s (bound from single elements %.4e)\n",
-              building.limits.largest.omega_max, system.element_frequency_bound);
+  std::printf("  omega_max %.4e rad/s%s\n", building.limits.largest.omega_max,
+              element_bound(system.element_frequency_bound).c_str());
   if (building.limits.largest.excess > 0) {
     std::printf(
         "    a bound after %d products, too large by %.2g %% at most: 1e-10 would take more than "
@@ -184,9 +193,8 @@ void print_time_step_limit(const Building& building) {
     std::printf("    stiffest: %s\n", system.stiffest_element.c_str());
   }
   std::printf(
-      "  stable time step %.4e s (bound from single elements %.4e), without damping %.4e s\n",
-      building.limits.stable_time_step, system.element_time_step_bound,
-      2 / building.limits.largest.omega_max);
+      "  stable time step %.4e s%s, without damping %.4e s\n", building.limits.stable_time_step,
+      element_bound(system.element_time_step_bound).c_str(), 2 / building.limits.largest.omega_max);
   if (!system.limiting_element.empty()) {
     std::printf("    limiting: %s\n", system.limiting_element.c_str());
   }
@@ -283,12 +291,14 @@ void print_structure(const Building& building) {
   std::printf("  mode  frequency  direction  effective mass, share of it\n");
   int number = 0;
   for (const Mode& mode : building.modal.modes) {
-    const std::size_t axis =
-        std::max_element(mode.effective_modal_mass.begin(), mode.effective_modal_mass.begin() + 3) -
-        mode.effective_modal_mass.begin();
-    std::printf("  %4d  %9.3f  %-9s  %8.0f kg along %s, %4.1f %% about/along %s", ++number,
-                mode.frequency, mode.direction.c_str(), mode.effective_modal_mass[axis],
-                direction_names[axis], 100 * mode.direction_fraction, mode.direction.c_str());
+    const auto way = static_cast<std::size_t>(std::ranges::find(motion_names, mode.direction) -
+                                              motion_names.begin());
+    const bool turns = way >= 3 && way < motion_names.size();  // no direction: nothing moves
+    std::printf("  %4d  %9.3f  %-9s  %8.0f %s %s, %4.1f %% about/along %s", ++number,
+                mode.frequency, mode.direction.c_str(),
+                way < motion_names.size() ? mode.effective_modal_mass[way] : 0,
+                turns ? "kg m2 about" : "kg along", direction_names[way % 3],
+                100 * mode.direction_fraction, mode.direction.c_str());
     if (system.uniform_damping) {
       const double moved = system.uniform_damping->moved(mode.frequency);
       std::printf(", damped %.3f Hz (%+.1f %%) at %.3f %%", moved,

@@ -102,6 +102,9 @@ void print_rest(const Scene& scene, const Model& model) {
     std::printf("  structure %s, %s\n", model.systems[s].name.c_str(), of.method.c_str());
     print_force("weight", of.weight);
     print_force("supports push it by", of.support);
+    if (!scene.structures[s].clamps.empty()) {
+      std::printf("      with the loads on held nodes, which recorded reactions are without\n");
+    }
     if (!scene.contacts.empty()) print_force("contacts push it by", of.contact);
     std::printf("    %-22s (%.4g, %.4g, %.4g) mm in the mean", "settles by",
                 1000 * of.settlement[0], 1000 * of.settlement[1], 1000 * of.settlement[2]);

@@ -91,7 +91,9 @@ Json describe_structure(const Building& building) {
   structure["dofs_before_clamping"] = mesh.global_dofs_unclamped;
   GlobalIndex elements = 0;
   for (const ElementBlock& block : mesh.blocks) {
-    structure["groups"][block.group] = block.global_count;
+    // A group of shells may have quadrangles and triangles, each in a block of its own.
+    Json& count = structure["groups"][block.group];
+    count = (count.is_null() ? 0 : count.get<GlobalIndex>()) + block.global_count;
     elements += block.global_count;
   }
   structure["elements"] = elements;
@@ -402,6 +404,7 @@ void write_summary(const std::string& path, const FinishedRun& run) {
   for (const LoopReport& loop : statistics.loops) summary["loops"][loop.name] = describe_loop(loop);
   for (const ForceReport& force : statistics.forces) {
     summary["forces"][force.name] = describe_forces(force);
+    if (force.about) summary["moments_about"][force.name] = *force.about;
   }
   summary["drifts"] = Json::array();
   for (std::size_t s = 0; s < recorder.drifts().storeys().size(); ++s) {

@@ -7,6 +7,7 @@ import numpy as np
 
 from pounding.results import DIRECTIONS, Result
 from . import twin as twins
+from .markup import readable
 
 HEARD = 0.05  # of the largest floor spectrum of the run: what is below it is not looked at
 FELT = 0.01   # of the largest one without pounding: below it nothing moved, and a ratio says nothing
@@ -56,14 +57,14 @@ def lowest_damping(run: Result) -> float | None:
     return float(np.min(run.spectra["damping"])) if run.spectrum_probes else None
 
 
-def largest_change(run: Result, twin: Result, below: float = np.inf) -> Change | None:
-    """The largest ratio of the floor spectra at the smallest damping ratio, of frequencies up to `below`, where the run
-    has HEARD of its largest spectrum and the other one FELT of its own."""
+def largest_change(run: Result, twin: Result, below: float = np.inf, along: tuple = DIRECTIONS) -> Change | None:
+    """The largest ratio of the floor spectra at the smallest damping ratio, of frequencies up to `below` and directions
+    `along`, where the run has HEARD of its largest spectrum and the other one FELT of its own."""
     damping = lowest_damping(run)
     pairs = _pairs(run, twin, damping) if damping is not None else []
     largest, largest_without = _largest(pairs)
     changes = []
-    for probe, way, frequency, values, without in pairs:
+    for probe, way, frequency, values, without in (pair for pair in pairs if pair[1] in along):
         for i in np.flatnonzero((values >= HEARD * largest) & (without >= FELT * largest_without) & (without > 0)
                                 & (frequency <= below)):
             changes.append(Change(probe, way, damping, float(frequency[i]), float(values[i]), float(without[i])))
@@ -84,10 +85,11 @@ def awakened(run: Result, twin: Result) -> tuple | None:
     return probe, way, value, frequency
 
 
-def strongest_spectrum(run: Result) -> tuple | None:
-    """Probe, direction and damping ratio of the largest floor spectrum."""
+def strongest_spectrum(run: Result, along: tuple = DIRECTIONS) -> tuple | None:
+    """Probe, direction and damping ratio of the largest floor spectrum in the directions `along`."""
     table = run.spectra
-    rows = np.isin(table["probe"], run.spectrum_probes) if table else np.array([])
+    rows = (np.isin(table["probe"], run.spectrum_probes) & np.isin(table["direction"].astype(str), list(along))
+            if table else np.array([]))
     if not rows.any():
         return None
     i = np.flatnonzero(rows)[np.argmax(table["pseudo_acceleration"][rows])]
@@ -103,7 +105,7 @@ def _millimetres(value: float) -> str:
 
 
 def _force(value: float) -> str:
-    return f"{1e-3 * value:.4g} kN"
+    return f"{readable(1e-3 * value)} kN"
 
 
 def smallest_gaps(run: Result) -> dict:
@@ -126,14 +128,14 @@ def _touched(run: Result) -> list:
     table = run.impacts
     if table and len(table["start"]):
         i = int(np.argmax(table["impulse"]))
-        hard = f"The hardest came at {table['start'][i]:.4g} s at {table['contact'][i]}: {table['impulse'][i]:.4g} N s"
+        hard = f"The hardest came at {table['start'][i]:.4g} s at {table['contact'][i]}: {readable(table['impulse'][i])} N s"
         if "window_force" in table and impacts.get("force_window"):
             j = int(np.argmax(table["window_force"]))
             hard += f"; the largest force over {1e3 * impacts['force_window']:.3g} ms was {_force(table['window_force'][j])}"
             hard += "" if i == j else f", at {table['contact'][j]} at {table['start'][j]:.4g} s"
         first, last = table["start"].min(), table["end"].max()
         lines.append(f"{hard}. All impacts lie between {first:.4g} and {last:.4g} s; together they are "
-                     f"{impacts['total_impulse']:.4g} N s.")
+                     f"{readable(impacts['total_impulse'])} N s.")
     return lines
 
 
@@ -211,11 +213,12 @@ def checks(run: Result) -> list:
     residual = summary.get("energy", {}).get("relative_residual")
     if residual is not None:
         lines.append(f"The energy identity of the scheme {'closes' if residual <= CLOSED else 'DOES NOT CLOSE'}: its largest "
-                     f"residual is {residual:.1e} of the largest term.")
+                     f"residual is {readable(residual, 2)} of the largest term.")
     impacts = summary.get("impacts", {})
     left = impacts.get("complementarity_residual")
     if impacts.get("episodes") and left is not None:
-        lines.append(f"The contact problem of every step was {'' if left <= SOLVED else 'NOT '}solved: residual {left:.1e}. The "
+        lines.append(f"The contact problem of every step was {'' if left <= SOLVED else 'NOT '}solved: residual "
+                     f"{readable(left, 2)}. The "
                      f"faces went into each other by at most {1e6 * impacts.get('max_penetration', 0):.3g} µm, less than "
                      "they move in a step.")
     count = len(summary.get("warnings", []))

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pounding.results import GROUND, Missing, Result
+from pounding.results import DIRECTIONS, GROUND, Missing, Result
 from . import answer
 from .spectra_figures import draw_spectrum
 from .style import WIDTH, contact_colour, legend_above, plot_series, plt, save
@@ -38,18 +38,28 @@ def _gap(axes, result: Result, name: str) -> None:
     axes.set(xlabel="time [s]", ylabel="gap [mm]")
 
 
-def _floor(result: Result) -> tuple | None:
-    """Probe, direction and damping ratio whose spectrum is shown: the most changed, else the largest."""
-    if result.without:
-        change = answer.largest_change(result, result.without)
+def _across(result: Result, name: str | None) -> tuple:
+    """The direction across a joint, in which it closes; every one if nothing tells it."""
+    normal = result.summary.get("contacts", {}).get(name, {}).get("normal") if name else None
+    return (DIRECTIONS[int(np.argmax(np.abs(normal)))],) if normal else DIRECTIONS
+
+
+def _floor(result: Result, along: tuple) -> tuple | None:
+    """Probe, direction and damping ratio whose spectrum is shown, in the directions `along` if there is one: the most
+    changed, else the largest."""
+    for ways in dict.fromkeys((along, DIRECTIONS)):
+        change = answer.largest_change(result, result.without, along=ways) if result.without else None
         if change:
             return change.probe, change.way, change.damping
-    return answer.strongest_spectrum(result)
+        found = answer.strongest_spectrum(result, ways)
+        if found:
+            return found
+    return None
 
 
 def picture(result: Result) -> list:
     name = _decisive(result) if "gap" in result.history and len(result.history["time"]) else None
-    floor = _floor(result)
+    floor = _floor(result, _across(result, name))
     if not name and not floor:
         raise Missing("neither gaps nor spectra")
     figure, panels = plt.subplots(1, 2 if name and floor else 1, figsize=(WIDTH, 3.5), squeeze=False)
@@ -64,8 +74,9 @@ def picture(result: Result) -> list:
         panels[-1].legend(loc="best")
     words = ["the gap of the joint that decides"] if name else []
     if floor:
-        words.append("the floor spectrum that changes most, with and without pounding" if result.without else
-                     "the largest floor spectrum")
+        across = f" along {way}, across that joint" if _across(result, name) == (way,) else ""
+        words.append(f"the floor spectrum{across} that changes most, with and without pounding" if result.without else
+                     f"the largest floor spectrum{across}")
         if result.spectrum_if_any(GROUND, way, damping):
             words[-1] += ", and that of the ground"
     words = "; ".join(words)

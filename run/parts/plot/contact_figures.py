@@ -3,6 +3,7 @@
 import numpy as np
 
 from pounding.results import Missing, Result
+from .markup import readable
 from .style import (WIDTH, contact_colour, legend_above, log_scale, plot_series, plt, probe_colour,
                     save, stacked)
 
@@ -80,7 +81,7 @@ def strongest_impact(result: Result) -> list:
         axes.set_ylabel(label)
         if axes.get_legend_handles_labels()[0]:
             axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
-    rows[0].set_title(f"{contact}, t = {start:.5g} s: impulse {impacts['impulse'][index]:.4g} N s "
+    rows[0].set_title(f"{contact}, t = {start:.5g} s: impulse {readable(impacts['impulse'][index])} N s "
                       f"in {1e3 * impacts['duration'][index]:.3g} ms")
     rows[2].set_xlabel(f"time after {start:.6g} s [ms]")
     return save(figure, result.folder, "strongest_impact.png", "The strongest impact",

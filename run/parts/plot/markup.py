@@ -37,6 +37,22 @@ code { overflow-wrap: anywhere; } .small table { font-size: 0.75em; }
 """
 
 
+POWERS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def readable(value: float, digits: int = 4) -> str:
+    """A number as engineers write it, of so many significant digits: 11 000 and 2.3 × 10⁻⁵, with thin blanks between
+    thousands."""
+    text = f"{value:.{digits}g}"
+    if "e" not in text:
+        whole, dot, rest = text.partition(".")
+        return f"{int(whole):,}".replace(",", "\u202f") + dot + rest if abs(value) >= 10000 else text
+    if 1 <= abs(value) < 1e7:
+        return f"{int(float(text)):,}".replace(",", "\u202f")
+    mantissa, power = text.split("e")
+    return f"{mantissa} × 10{str(int(power)).translate(POWERS)}"
+
+
 def number(value) -> str:
     """A cell as text: whole numbers with thin blanks between thousands, others with four digits."""
     if isinstance(value, bool) or value is None:
@@ -44,7 +60,7 @@ def number(value) -> str:
     if isinstance(value, (int, np.integer)):
         return f"{value:,}".replace(",", "\u202f")
     if isinstance(value, (float, np.floating)):
-        return f"{value:.4g}" if np.isfinite(value) else "not finite"
+        return readable(value) if np.isfinite(value) else "not finite"
     return escape(str(value))
 
 

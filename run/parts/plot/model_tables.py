@@ -6,6 +6,7 @@ from pounding.results import DIRECTIONS, Result
 from .markup import html_table
 from .style import G
 
+MOTIONS = ("x", "y", "z", "rx", "ry", "rz")
 SHOWN = (1.0, 10.0, 100.0, 400.0)  # frequencies at which damping is told, as on the console [Hz]
 
 
@@ -130,14 +131,16 @@ def material_tables(result: Result) -> str:
 
 
 def mode_rows(structure: dict) -> list:
-    """The console's table of modes: number, frequency [Hz], direction, largest effective mass along an axis [kg], that
-    axis, and the share of what moves along or about the direction [%]."""
+    """The console's table of modes: number, frequency [Hz], direction, effective mass along it [kg] or about it [kg m2],
+    its unit and axis, and the share of what moves along or about the direction [%]."""
     rows = []
     for number, mode in enumerate(structure.get("frequencies", []), 1):
-        masses = (mode.get("effective_modal_mass") or [])[:3]
-        axis = DIRECTIONS[int(np.argmax(masses))] if masses else None
+        masses, way = mode.get("effective_modal_mass") or [], mode.get("direction") or ""
+        known = way in MOTIONS and len(masses) == len(MOTIONS)
+        mass = masses[MOTIONS.index(way)] if known else mode.get("effective_mass")
+        axis = f"{'kg m² about' if way.startswith('r') else 'kg along'} {way[-1]}" if known else None
         share = mode.get("fraction")
-        rows.append((number, mode.get("frequency"), mode.get("direction"), mode.get("effective_mass"), axis,
+        rows.append((number, mode.get("frequency"), mode.get("direction"), mass, axis,
                      None if share is None else 100 * share, mode.get("damped_frequency")))
     return rows
 
@@ -145,15 +148,15 @@ def mode_rows(structure: dict) -> list:
 def mode_tables(result: Result) -> str:
     text = ""
     for name, structure in result.summary.get("structures", {}).items():
-        rows = [(number, None if f is None else f"{f:.3f}", way, None if mass is None else f"{mass:.0f}", f"along {axis}" if axis else None,
+        rows = [(number, None if f is None else f"{f:.3f}", way, None if mass is None else f"{mass:.0f}", axis,
                  None if share is None else f"{share:.1f}", None if moved is None else f"{moved:.3f}")
                 for number, f, way, mass, axis, share, moved in mode_rows(structure)]
-        header = ["mode", "frequency [Hz]", "direction", "effective mass [kg]", "", "share of the direction [%]",
+        header = ["mode", "frequency [Hz]", "direction", "effective mass", "", "share of the direction [%]",
                   "damped [Hz]"]
         width = 7 if any(row[6] for row in rows) else 6
         text += html_table(f"Modes of {name}", header[:width], [row[:width] for row in rows])
     if text:
-        text += ('<p class="note">Effective mass: the largest along an axis. Share: of all that can move along the '
+        text += ('<p class="note">Effective mass: along the direction named, or rotary inertia about it. Share: of all that can move along the '
                  "direction named (mass), or about it (rotary inertia), as on the console.</p>\n")
     return text
 

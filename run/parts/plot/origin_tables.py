@@ -1,4 +1,4 @@
-"""Whence a report is: date, machine, program and libraries, the inputs with their hashes, and all options."""
+"""Where a report comes from: date, machine, program and libraries, the inputs with their hashes, and all options."""
 
 from html import escape
 

@@ -4,6 +4,7 @@ import numpy as np
 
 from pounding.results import DIRECTIONS, Missing, Result
 from . import scene_mesh
+from .markup import readable
 from .style import WIDTH, contact_colour, plt, save
 
 
@@ -51,7 +52,7 @@ def impact_places(result: Result) -> list:
         sizes = _areas(impacts["impulse"][own], largest)
         total = impacts["impulse"][own].sum()
         elevation.scatter(impacts["lateral"][own], impacts["vertical"][own], s=sizes, color=colour, alpha=0.35,
-                          edgecolor=colour, zorder=2, label=f"{name}: {own.sum()}, {total:.4g} N s")
+                          edgecolor=colour, zorder=2, label=f"{name}: {own.sum()}, {readable(total)} N s")
         faces = [part.points[part.contacts[name]] for part in parts if name in part.contacts]
         if normal == 2 or not faces:
             continue
@@ -69,7 +70,7 @@ def impact_places(result: Result) -> list:
         axes.set_aspect("equal", "datalim")
     return save(figure, result.folder, "impact_places.png", "Where they hit",
                 "Each impact at the mean place of its impulses, the area of its circle in proportion to its impulse; "
-                f"the largest is {largest:.4g} N s. Grey: nodes.")
+                f"the largest is {readable(largest)} N s. Grey: nodes.")
 
 
 ALL = [impact_places]

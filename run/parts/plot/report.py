@@ -1,4 +1,4 @@
-"""The report of a run: the answer first, then what was found, what was computed, and whence it all is."""
+"""The report of a run: the answer first, then what was found, what was computed, and where it all comes from."""
 
 from html import escape
 from pathlib import Path
@@ -73,7 +73,7 @@ def write(result: Result, why: str = "") -> tuple:
         content += '<p class="note">No summary.json in the result folder.</p>\n'
     content += _found(result, drawn) + _computed(result, drawn) + _view(result, drawn)
     origin = model_tables.run_table(result) + origin_tables.tables(result)
-    content += _part("Whence this report is", origin) + origin_tables.options(result)
+    content += _part("Where this report comes from", origin) + origin_tables.options(result)
     path = write_page(result.folder / "report.html", origin_tables.title(result), content, origin_tables.line(result))
     return drawn.count, drawn.skipped, path
 

@@ -1,5 +1,6 @@
 """The run without pounding beside which a run is set: found, and looked at whether it is the same model."""
 
+import os
 import shlex
 from pathlib import Path
 
@@ -108,7 +109,8 @@ def command(run: Result) -> str:
     """The command that makes the run without pounding where `find` looks for it."""
     summary, place = run.summary, run.folder.resolve()
     options = summary.get("options", {})
-    program = "pounding" if INSTALLED else "build/pounding"
+    build = Path(__file__).resolve().parents[3] / os.environ.get("POUNDING_BUILD", "build")
+    program = "pounding" if INSTALLED else str(build / "pounding")
     words = ["mpirun", "-n", str(summary.get("ranks", 1)), program, "-options_file", str(place / "resolved.yaml"),
              "-contacts", "none", "-time_step", repr(summary.get('time_step', 0)), "-restart", "none",
              "-output", str(place.with_name(place.name + SUFFIX))]
