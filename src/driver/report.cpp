@@ -150,7 +150,7 @@ void print_step_design(const Structure& structure, const StepDesign& design,
       design.change.by_elements());
 }
 
-/// What single elements say of a limit; nothing where none of them has a stiffness and a mass.
+/// The bound from single elements behind a limit; nothing where none has a stiffness and a mass.
 std::string element_bound(double bound) {
   if (!std::isfinite(bound) || bound == 0) return "";
   char text[64];
