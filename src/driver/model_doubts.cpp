@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "common/matrix3.h"
-#include "mesh/bounding_box.h"
+#include "mesh/distributed_box.h"
 
 namespace pounding {
 namespace {
@@ -165,21 +165,6 @@ double extent_at(const GlobalMesh& mesh, double height, double tolerance) {
                     std::max(0.0, box.high[1] - box.low[1]));
 }
 
-/// Sides of the box around all nodes of a mesh [m]. Collective.
-Vector3 sides_of_box(MPI_Comm comm, const Mesh& mesh) {
-  std::array<double, 6> ends;
-  ends.fill(-1e300);
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    const Vector3 x = mesh.position(node);
-    for (std::size_t d = 0; d < 3; ++d) {
-      ends[d] = std::max(ends[d], x[d]);
-      ends[d + 3] = std::max(ends[d + 3], -x[d]);
-    }
-  }
-  MPI_Allreduce(MPI_IN_PLACE, ends.data(), 6, MPI_DOUBLE, MPI_MAX, comm);
-  return {ends[0] + ends[3], ends[1] + ends[4], ends[2] + ends[5]};
-}
-
 /// Floors reach about as far as the building; a cabinet on one of them does not.
 void doubt_floors(const Scene& scene, std::span<const GlobalMesh> meshes,
                   std::span<const ResolvedProbe> probes, std::vector<std::string>& doubts) {
@@ -240,7 +225,7 @@ std::vector<std::string> mass_doubts(MPI_Comm comm, const Building& building) {
     doubts.push_back(text.str());
   }
   if (structure.matrices.empty()) return doubts;
-  const Vector3 sides = sides_of_box(comm, *building.mesh);
+  const Vector3 sides = bounding_box(comm, *building.mesh).sides();
   const double longest = std::ranges::max(sides);
   const double volume = sides[0] * sides[1] * sides[2];
   const double frequency = building.modal.first_frequency();

@@ -16,6 +16,7 @@ struct BoundingBox {
 
   void include(const Vector3& x);
   double diagonal() const { return distance(low, high); }
+  Vector3 sides() const;  ///< [m]
   double longest_side() const;
 };
 

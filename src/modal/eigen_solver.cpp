@@ -1,12 +1,11 @@
 #include "modal/eigen_solver.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <sstream>
 
 #include "common/error.h"
 #include "common/petsc_message.h"
+#include "mesh/distributed_box.h"
 #include "modal/factorisation.h"
 
 namespace pounding {
@@ -22,21 +21,6 @@ std::string given_option(EPS solver) {
     if (given == PETSC_TRUE) return "-" + std::string(prefix) + (name + 1);
   }
   return "";
-}
-
-/// Size of the box around all nodes [m]. Collective.
-double longest_side(const LinearSystem& system, const Mesh& mesh) {
-  std::array<double, 6> ends;  // largest coordinates, and largest of their opposites
-  ends.fill(-1e300);
-  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
-    const Vector3 x = mesh.position(node);
-    for (std::size_t d = 0; d < 3; ++d) {
-      ends[d] = std::max(ends[d], x[d]);
-      ends[d + 3] = std::max(ends[d + 3], -x[d]);
-    }
-  }
-  MPI_Allreduce(MPI_IN_PLACE, ends.data(), 6, MPI_DOUBLE, MPI_MAX, system.comm);
-  return std::max({ends[0] + ends[3], ends[1] + ends[4], ends[2] + ends[5]});
 }
 
 }  // namespace
@@ -56,7 +40,7 @@ void refuse_modes(const LinearSystem& system, const Mesh& mesh, int found, int c
                   const std::string& option) {
   std::ostringstream text;
   text << "structure " << system.name << ": only " << found << " of " << count
-       << " modes converged; its mesh is " << longest_side(system, mesh)
+       << " modes converged; its mesh is " << bounding_box(system.comm, mesh).longest_side()
        << " m long: look at the units of mesh and materials and at parts that nothing holds, or "
           "leave the modes out with -modes 0"
        << (option.empty() ? "" : "; leave option " + option + " out");
