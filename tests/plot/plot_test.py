@@ -153,7 +153,7 @@ class PlotTest(unittest.TestCase):
         self.assertEqual(re.findall(r"""(?:src|href)\s*=\s*["'](?!data:)""", page), [])
         self.assertTrue("http" not in page)
         self.assertTrue("<h1>Two &lt;boxes&gt; &amp; a gap</h1>" in page)
-        for expected in ("2.09", "9199", "8\u202f052", "900", "1e-13", "2.54e-06"):
+        for expected in ("2.09", "9199", "8\u202f052", "900", "1 × 10⁻¹³", "2.54 × 10⁻⁶"):
             self.assertTrue(expected in page, expected)
 
     def test_what_the_folder_lacks_is_skipped_with_a_word(self):
