@@ -1,5 +1,6 @@
 """What is understood of a record is said before it is used, and what may not be meant is refused or doubted."""
 import os
+import shutil
 import tempfile
 import unittest
 
@@ -126,6 +127,22 @@ class Motion(unittest.TestCase):
         result = program.run([*words, "-dry_run"], 1)
         self.assertIn("sets in at 3.2 s: its times begin at 23.2 s, t = 0 is 20 s of them", result.stdout)
         self.assertIn(", component N10E", result.stdout)
+
+    def test_a_peak_after_the_end_is_doubted(self):
+        """Half of the peak comes at 0.04 s, the peak at 0.2 s: an earlier end of the run applies half of what pga says."""
+        path = self.record("t [s], a (g)\n" + "".join(
+            f"{0.02 * i:.2f},{value}\n" for i, value in enumerate([0, 0.05, -0.1, 0.05, 0, 0, 0, 0, 0, 0.05, 0.2, 0.1, 0, 0])))
+        for end, felt in ((0.18, 1), (0.2, 2), (0.25, 2)):
+            folder = tempfile.mkdtemp(prefix="pounding-")
+            self.addCleanup(shutil.rmtree, folder)
+            result = program.run(scene("-motion_x_record", path, "-motion_x_pga", 2, "-end_time", end, "-output", folder))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            with h5py.File(os.path.join(folder, "history.h5")) as file:
+                self.assertAlmostEqual(abs(file["ground_acceleration"][:, 0]).max(), felt, delta=1e-9)
+            said = [] if felt == 2 else ["option -end_time 0.18 s: the motion along x has its peak of 2 m/s2 later; the run "
+                                         "feels 1 m/s2 at most"]
+            self.assertEqual(program.summary(folder)["warnings"], said)
+            self.assertEqual([line[9:] for line in result.stdout.splitlines() if line.startswith("warning: ")], said)
 
     def test_no_motion_at_all_is_said(self):
         result = program.run(scene("-mass_initial_velocity", "1,0,0", "-dry_run"), 1)
