@@ -13,6 +13,7 @@ import h5py
 import numpy
 
 import program
+from nonlinear_springs_test import mass, spring
 
 PAIR = program.COARSE_PAIR + ["-motion_x_pga", 6, "-motion_x_envelope", "0.2,20", "-floor2_gap", "0.004,0.002",
                               "-floor1_gap", 0.02, "-end_time", 0.72, "-probes", "edge,middle",
@@ -141,6 +142,30 @@ class Peaks(unittest.TestCase):
         with open(os.path.join(folder, "impacts.csv")) as one, \
                 open(os.path.join(self.coarse.folder, "impacts.csv")) as other:
             self.assertEqual(one.read(), other.read())
+
+
+class Lowered(unittest.TestCase):
+    """A mass on a spring, which strikes nothing."""
+
+    def words(self, step, interval, asked, *more):
+        return [*mass(step, 0.01, "-chain_initial_velocity", "1,0,0", *spring("2e5,2e5,2e5")), "-modes", 1,
+                "-spectra_frequencies", 10, "-output_interval", interval, "-peak_frequency", asked, *more]
+
+    def test_what_the_samples_do_not_hold_is_told_with_what_to_give(self):
+        for step, interval, asked, frequency, give in (
+                (1e-3, 1e-3, 400, 250, "give -time_step and -output_interval 0.000625 or less"),
+                (5e-4, 1e-3, 400, 250, "give -output_interval 0.000625 or less"),
+                (5e-4, 5e-4, 400, 400, ""), (1e-3, 1e-3, 250, 250, "")):
+            _, summary = program.must_run(self, self.words(step, interval, asked))
+            self.assertEqual(summary["impacts"]["episodes"], 0)
+            self.assertAlmostEqual(summary["peak_frequency"], frequency, delta=1e-9)
+            said = [line for line in summary["warnings"] if "peak accelerations are those below" in line]
+            self.assertEqual(len(said), 1 if give else 0, said)
+            for line in said:
+                self.assertIn("below 250 Hz, not 400 Hz: samples every 0.001 s hold no more", line)
+                self.assertIn(give, line)
+        _, summary = program.must_run(self, self.words(1e-3, 1e-3, 400, "-probes", "none"))
+        self.assertFalse([line for line in summary["warnings"] if "peak accelerations" in line])
 
 
 if __name__ == "__main__":
