@@ -106,6 +106,16 @@ class OnAFixedDeck(unittest.TestCase):
         stays = Recorded(self, scene(start, speed, 0.15, *FIXED, *soft, sliding=0), 2, LONG)
         self.assertGreater(max(stays.column("end")), 0.14)
 
+    def test_long_steps_look_as_often(self):
+        """16 steps are 16 ms here: the hind end, beyond the deck at 0.1 s, would be held until 0.112 s."""
+        speed, start, step = 5.0, 3.5, 1e-3
+        beyond = (LENGTH - start) / speed
+        run = Recorded(self, scene(start, speed, 0.15, *FIXED, "-material_concrete_young", 1e7, "-time_step", step), 2,
+                       IDENTITY_OF_A_FLIGHT)
+        last = max(run.column("end"))
+        self.assertGreater(last, beyond)
+        self.assertLess(last, beyond + 0.1 * math.sqrt(WIDTH * LENGTH / 20) / speed + 2 * step)
+
     def test_it_comes_onto_the_deck(self):
         run = Recorded(self, scene(-0.1, 5.0, 0.1, *FIXED, "-joint_passes", 2, across=4), 2, LONG)
         settled = run.time > 0.05
