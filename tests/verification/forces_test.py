@@ -7,7 +7,9 @@
 """
 import math
 import os
+import re
 import shutil
+import tempfile
 import unittest
 
 import h5py
@@ -139,6 +141,25 @@ class Brick(Shaken, unittest.TestCase):
             plain = file["velocity"][()]
         self.assertFalse(os.path.exists(os.path.join(folder, "forces.csv")))
         self.assertTrue(numpy.array_equal(plain, Forces(self, words, 2).data["velocity"]))
+
+
+class Points(Shaken, unittest.TestCase):
+    def test_point_of_the_moments_is_told(self):
+        """Of reactions the origin and of a storey the origin at its level, where nothing else is given; of members none."""
+        folder = tempfile.mkdtemp(prefix="pounding-")
+        self.addCleanup(shutil.rmtree, folder)
+        words = self.words("-it_clamp", "z_min", "-end_time", 1e-3, "-probes", "none", "-modes", 1, "-forces",
+                           "base,upper,plain,held", "-plain_structure", "it", "-plain_kind", "reactions", "-held_structure",
+                           "it", "-held_kind", "members", "-held_group", "corners", "-it_corners_element", "grounded_spring",
+                           "-it_corners_stiffness", "1e4,1e4,1e4", "-output", folder)
+        result = program.run(words)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(program.summary(folder)["moments_about"],
+                         {"base": list(POINT), "upper": [0, 0, 1.5], "plain": [0, 0, 0]})
+        printed = result.stdout[result.stdout.index("\nforce "):]
+        for item, point in (("base", "(0.3, -0.2, 0.1)"), ("upper", "(0, 0, 1.5)"), ("plain", "(0, 0, 0)")):
+            self.assertRegex(printed, rf"\n  {item}\.Mz .*\n    moments about {re.escape(point)} m\n")
+        self.assertEqual(printed.count("moments about"), 3)
 
 
 class Portal(unittest.TestCase):
