@@ -399,6 +399,21 @@ class Labels(unittest.TestCase):
         phases = sum(summary["phases"][name] for name in ("step", "contact", "energy", "output"))
         self.assertGreater(100e-6 * summary["microseconds_per_step"], 0.5 * phases)
 
+    def test_modes_that_turn_have_moments_of_inertia(self):
+        """A tower of 1 x 1 x 4 m clamped at its foot: in torsion 8 / pi^2 of the polar inertia of its lumped masses."""
+        words = ["-structures", "it", "-it_mesh", "tests/meshes/box.geo", "-it_mesh_set", "lz=4,nx=2,ny=2,nz=8",
+                 "-it_body_element", "hex8", "-it_body_material", "concrete", "-material_concrete_young", 3e9,
+                 "-material_concrete_poisson", 0.2, "-material_concrete_density", 2400, "-it_clamp", "z_min", "-end_time",
+                 1e-4, "-modes", 3, "-dry_run"]
+        result = program.run(words)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = re.findall(r"\n +(\d) +[0-9.]+ +(\w+) +(\d+) (kg\w* .*), +[0-9.]+ % about/along", result.stdout)
+        self.assertEqual(sorted((way, unit) for _, way, _, unit in rows),
+                         [("rz", "kg m2 about z"), ("x", "kg along x"), ("y", "kg along y")])
+        inertia, = (float(value) for _, way, value, _ in rows if way == "rz")
+        polar = 2400 * 4 * (1 + 2 / 2**2) / 6
+        self.assertAlmostEqual(inertia / (8 / math.pi**2 * polar), 1, delta=0.01)
+
     def test_what_is_printed_of_the_model_is_what_the_summary_says(self):
         """Structures, modes, limits of the step, places of the probes, and the spectra of the end."""
         folder = tempfile.mkdtemp(prefix="pounding-")
