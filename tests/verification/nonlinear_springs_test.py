@@ -385,10 +385,14 @@ class Refused(unittest.TestCase):
             (spring("0,0,1000", yield_force="0,0,10", compression_only="true"), "cannot press only"),
             (spring("1000,0,0", yield_force="10,0,0", hardening=1), "hardening"),
             (spring("1000,0,0", dashpot_exponent=3), "dashpot_exponent"),
+            (spring("1000,0,1000", dashpot="0,0,10", dashpot_exponent=0.5, compression_only="true"),
+             "chain_support_compression_only the dashpot along z goes by the rate itself"),
         )
         for words, text in cases:
             for ranks in (1, 2):
                 program.must_refuse(self, mass(1e-3, 0.01, *words), text, ranks=ranks)
+        sideways = spring("1000,0,1000", dashpot="10,0,0", dashpot_exponent=0.5, compression_only="true")
+        program.must_run(self, mass(1e-3, 0.01, "-chain_initial_velocity", "1,0,0", *sideways))
 
 
 if __name__ == "__main__":

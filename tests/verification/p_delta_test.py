@@ -241,6 +241,18 @@ class Refused(unittest.TestCase):
                  "z_min", "-gravity", 9.81, "-preload", "static", "-b_p_delta", "true", "-end_time", 0.01]
         self.refused(solid, "-b_p_delta true", "no beams or bars")
 
+    def test_forces_of_a_reduced_structure(self):
+        """What the weight adds as the column leans is in no element, nor in sums over them."""
+        modal = ["-it_model", "modal", "-it_modal_vectors", 3]
+        for kind, more in (("reactions", []), ("storey", ["-f_level", 2]), ("members", ["-f_group", "stem"]),
+                           ("cut", ["-f_group", "stem", "-f_normal", "0,0,1", "-f_level", 2])):
+            words = column(2, 100.0, "-forces", "f", "-f_structure", "it", "-f_kind", kind, *more, "-dry_run")
+            program.must_refuse(self, [*words, *modal], f"-f_kind {kind}", "structure it is reduced", "-it_p_delta",
+                                "give -it_model full")
+            if kind == "reactions":
+                for taken in ([], [*modal, "-it_p_delta", "false"]):
+                    self.assertEqual(program.run([*words, *taken], 1).returncode, 0)
+
 
 if __name__ == "__main__":
     unittest.main()
