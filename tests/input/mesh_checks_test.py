@@ -104,7 +104,7 @@ class Joints(MeshCase):
         self.assertIn("millimetres", warnings[0])
 
 
-class Groups(MeshCase):
+class Uses(MeshCase):
     def test_group_that_no_option_uses(self):
         self.refuse(table(6), "group 'brace'", "2 elements (Line 2)", "-t_brace_element", "-t_ignore")
         self.connectivity(table(6, "-t_ignore", "brace"))
@@ -139,6 +139,26 @@ class Groups(MeshCase):
     def test_element_twice(self):
         self.refuse(self.two_bars(3, "2 1"), "element 3 of group 'l'", "element 2", "twice")
         self.refuse(self.two_bars(2, "2 3"), "-t_mesh", "element 2 is listed twice")
+
+    def test_quadrangles_and_triangles_of_a_group_count_together(self):
+        """Two squares side by side in one group: four quadrangles in the first, triangles in the second."""
+        mesh = self.with_file("""
+            Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {2, 0, 0};
+            Point(4) = {2, 1, 0}; Point(5) = {1, 1, 0}; Point(6) = {0, 1, 0};
+            Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5}; Line(5) = {5, 6}; Line(6) = {6, 1};
+            Line(7) = {2, 5}; Curve Loop(1) = {1, 7, 5, 6}; Curve Loop(2) = {2, 3, 4, -7};
+            Plane Surface(1) = {1}; Plane Surface(2) = {2};
+            Transfinite Curve {1:7} = 3; Transfinite Surface {1:2}; Recombine Surface {1};
+            Physical Surface("slab") = {1, 2}; Physical Curve("edge") = {6};
+            """, ".geo")
+        words = ["-structures", "t", "-t_mesh", mesh, "-t_clamp", "edge", "-t_slab_element", "shell", "-t_slab_material",
+                 "C30/37", "-t_slab_thickness", "0.2", "-t_initial_velocity", "0,0,1", "-end_time", "1e-4", "-modes", "0"]
+        for ranks in (1, 2):
+            _, summary = program.must_run(self, words, ranks)
+            structure = summary["structures"]["t"]
+            self.assertEqual((structure["groups"], structure["elements"]), ({"slab": 12}, 12))
+        printed = program.run([*words, "-dry_run"]).stdout
+        self.assertRegex(printed, r"\n  slab +4 shell4\n  slab +8 shell3\n")
 
 
 CUBE = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
