@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "driver/time_step.h"
@@ -47,9 +46,9 @@ void add_short_record(const Scene& scene, const Model& model, int direction,
 
 /// The largest acceleration of a component until a time [m/s2].
 double peak_until(const Accelerogram& component, double end) {
-  double peak = 0;
+  double peak = std::abs(component.at(end));  // linear between samples, 0 beyond the last
   for (std::size_t i = 0; i < component.acceleration.size(); ++i) {
-    if (component.time_step * static_cast<double>(i) > end * round_off) break;
+    if (component.start + component.time_step * static_cast<double>(i) > end * round_off) break;
     peak = std::max(peak, std::abs(component.acceleration[i]));
   }
   return peak;
@@ -59,7 +58,7 @@ double peak_until(const Accelerogram& component, double end) {
 void add_late_peak(const Scene& scene, const Accelerogram& component, int direction,
                    std::vector<std::string>& warnings) {
   constexpr double whole = 0.99;
-  const double peak = peak_until(component, std::numeric_limits<double>::infinity());
+  const double peak = component.peak();
   const double felt = peak_until(component, scene.end_time);
   if (felt >= whole * peak) return;
   std::ostringstream text;

@@ -144,6 +144,21 @@ class Motion(unittest.TestCase):
             self.assertEqual(program.summary(folder)["warnings"], said)
             self.assertEqual([line[9:] for line in result.stdout.splitlines() if line.startswith("warning: ")], said)
 
+    def test_a_late_peak_is_that_of_times_and_of_what_lies_between_samples(self):
+        table = [0, 0.05, -0.1, 0.05, 0, 0, 0, 0, 0, 0.05, 0.2, 0.1, 0, 0]
+        first, late = (self.record("t [s], a (g)\n" + "".join(
+            f"{start + 0.02 * i:.2f},{value}\n" for i, value in enumerate(table))) for start in (20, 21))
+        for words, said in (
+                (["-motion_x_record", first, "-motion_x_pga", 2, "-end_time", 0.19], ["x has its peak of 2 m/s2 later; the run feels 1.25"]),
+                (["-motion_x_record", first, "-motion_x_pga", 2, "-end_time", 0.1999], []),
+                (["-motion_x_record", first, "-motion_y_record", late, "-motion_y_pga", 2, "-end_time", 1.1],
+                 ["y has its peak of 2 m/s2 later; the run feels 1 m/s2"])):
+            _, summary = program.must_run(self, scene(*words))
+            found = [line for line in summary["warnings"] if "has its peak" in line]
+            self.assertEqual(len(found), len(said), found)
+            for line, part in zip(found, said):
+                self.assertIn(part, line)
+
     def test_no_motion_at_all_is_said(self):
         result = program.run(scene("-mass_initial_velocity", "1,0,0", "-dry_run"), 1)
         self.assertIn("\nmotion: none\n", result.stdout)
