@@ -124,7 +124,7 @@ class BitIdentity(RestartCase):
 
     def test_start_at_rest(self):
         for more in ([], ["-bar_rigid", "z_min"]):
-            case = BAR + ["-bar_gravity", "0,0,-10", "-preload", "static", "-bar_initial_velocity", "0,0,1",
+            case = BAR + ["-bar_gravity", "0,0,-10", "-preload", "static", "-bar_initial_velocity", "0,0,4",
                           "-end_time", 2, *more]
             whole = self.complete(case)
             step, time_step = self.middle_of_an_impact(whole, 1)
