@@ -12,9 +12,6 @@ constexpr std::string_view stiffness_factor = "<structure>_stiffness_factor";
 std::string left_out(const Structure& structure) {
   if (structure.soil) return "its soil has a stiffness of its own";
   if (structure.p_delta) return "not with -" + structure.name + "_p_delta";
-  if (!structure.absorbing.empty() && structure.modal) {
-    return "not with -" + structure.name + "_absorbing in modes, whose dashpots would stay";
-  }
   if (!structure.matrices.empty() && !structure.modal) {
     return "not with -" + structure.name + "_matrices at full order; scale stiffness.mtx";
   }
