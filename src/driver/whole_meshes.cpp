@@ -7,6 +7,7 @@
 #include "driver/mesh_checks.h"
 #include "driver/model_doubts.h"
 #include "driver/probe_warnings.h"
+#include "driver/shear_doubts.h"
 #include "driver/warnings.h"
 #include "mesh/find_supported_nodes.h"
 #include "mesh/gmsh_reader.h"
@@ -29,6 +30,7 @@ void check_mesh(const Scene& scene, std::size_t s, const GlobalMesh& mesh, Model
   check_export(scene, structure, mesh);
   if (structure.matrices.empty()) check_connectivity(scene, structure, findings.connectivity);
   append(mesh_warnings(scene, structure, mesh, findings.connectivity), model.warnings);
+  append(shear_doubts(structure, mesh), model.warnings);
 }
 
 }  // namespace

@@ -250,5 +250,67 @@ class Culprit(Doubts):
             self.assertIn(part, program.error_lines(result)[0])
 
 
+class Shear(Doubts):
+    @staticmethod
+    def chain(heights, extra=""):
+        """A column of one beam per storey, each a group of its own, with a point of each floor."""
+        points = "".join(f"Point({i + 1}) = {{0, 0, {z}}};" for i, z in enumerate(heights))
+        return points + "".join(
+            f"Line({i}) = {{{i}, {i + 1}}}; Transfinite Curve {{{i}}} = 2; Physical Curve(\"b{i}\") = {{{i}}}; "
+            f"Physical Point(\"m{i}\") = {{{i + 1}}};" for i in range(1, len(heights))) + 'Physical Point("base") = {1};' + extra + "\n"
+
+    def stick(self, heights, areas, inertias, masses, young, poisson, extra="", more=()):
+        words = ["-structures", "s", "-s_mesh", self.file("stick.geo", self.chain(heights, extra)), "-s_clamp", "base", "-end_time",
+                 0.1, "-material_c_young", young, "-material_c_poisson", poisson, "-material_c_density", 1e-4, *more]
+        for i, (area, inertia, mass) in enumerate(zip(areas, inertias, masses), 1):
+            words += [f"-s_b{i}_element", "beam", f"-s_b{i}_material", "c", f"-s_b{i}_section", f"q{i}", f"-s_m{i}_element",
+                      "point_mass", f"-s_m{i}_mass", mass, f"-section_q{i}_area", area, f"-section_q{i}_inertia_y", inertia,
+                      f"-section_q{i}_inertia_z", inertia, f"-section_q{i}_torsion", 2 * inertia, f"-section_q{i}_z_axis", "1,0,0"]
+        return words
+
+    def sheared(self, words, ranks=1):
+        return [line for line in self.doubts(words, ranks) if "more flexible by shear" in line]
+
+    def test_a_stick_model_of_a_plant_building(self):
+        stick = self.stick([0, 8, 13, 22, 33.5, 49, 61, 93], [2000, 2560, 2210, 1960, 1740, 780, 190],
+                           [1.1e6, 1.2e6, 1.2e6, 1.3e6, 9e5, 2e5, 4e3], [85.52, 76.32, 193.22, 114.29, 263.4, 37.12, 25.17],
+                           3.45e5, 0.278)
+        for ranks in (1, 2):
+            lines = self.sheared(stick, ranks)
+            self.assertEqual(len(lines), 1, lines)
+            for part in ("group b", "a cantilever of beams 93 m long", "(0, 0, 0)", "(0, 0, 93)", "solids or shells"):
+                self.assertIn(part, lines[0])
+
+    def test_thick_cantilevers_and_slender_ones(self):
+        def square(length, extra="", more=()):
+            heights = [length * i / 8 for i in range(9)]
+            return self.stick(heights, [1] * 8, [1 / 12] * 8, [1e-9] * 8, 3e10, 0.2, extra, more)
+        arm = ("Point(20) = {0, 1, 1}; Line(20) = {5, 20}; Transfinite Curve {20} = 2; Physical Curve(\"arm\") = {20};",
+               ("-s_arm_element", "beam", "-s_arm_material", "c", "-s_arm_section", "q1"))
+        thick = self.sheared(square(2))
+        self.assertEqual(len(thick), 1, thick)
+        share = float(thick[0].split("would be ")[1].split(" %")[0])
+        # 12.36 E I / L4 and (pi / 2)^2 kappa G A / L2 over the mass per length, which add as flexibilities
+        exact = 100 * 12.36 / 2.467 / 12 * 2.4 / (5 / 6) / 2 ** 2
+        self.assertAlmostEqual(share / exact, 1, delta=0.06)
+        self.assertEqual(self.sheared(square(20)), [])
+        with_arm = [line for line in self.sheared(square(2, *arm)) if "2 m long" in line]
+        self.assertEqual(len(with_arm), 1, "an arm with a free end does not divide the column")
+
+    def test_a_column_clamped_at_both_ends(self):
+        for length, told in ((4, True), (10, False)):
+            heights = [length * i / 4 for i in range(5)]
+            words = self.stick(heights, [1] * 4, [1 / 12] * 4, [1e-9] * 4, 3e10, 0.2, 'Physical Point("top") = {5};',
+                               ("-s_clamp", "base,top"))
+            lines = self.sheared(words)
+            self.assertEqual(bool(lines), told, lines)
+            if told:  # 12 E I / (kappa G A L2)
+                self.assertIn("would be 18 % more", lines[0])
+
+    def test_neither_slender_columns_nor_ribs_that_slabs_divide(self):
+        self.assertEqual(self.sheared(FEET), [])
+        self.assertEqual(self.sheared(["-options_file", "petsc-options/plant/small.yaml"]), [])
+
+
 if __name__ == "__main__":
     unittest.main()
