@@ -74,7 +74,7 @@ def picture(result: Result) -> list:
         panels[-1].legend(loc="best")
     words = ["the gap of the joint that decides"] if name else []
     if floor:
-        across = f" along {way}, across that joint" if _across(result, name) == (way,) else ""
+        across = f" along {way} (across that joint)" if _across(result, name) == (way,) else ""
         words.append(f"the floor spectrum{across} that changes most, with and without pounding" if result.without else
                      f"the largest floor spectrum{across}")
         if result.spectrum_if_any(GROUND, way, damping):
