@@ -38,6 +38,16 @@ void check_header(const std::string& option, const std::filesystem::path& file) 
   }
 }
 
+/// Gmsh passes over a geometry that is one line without an end.
+void check_line_end(const std::string& option, const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  if (!stream.eof() || line.empty()) return;
+  throw UserError("option " + option + ": " + file.string() +
+                  " line 1: Gmsh passes over a geometry of one line that has no end; end the line");
+}
+
 /// Where the comment, text, word or sign that begins at `i` ends.
 std::size_t end_of(const std::string& text, std::size_t i) {
   const auto is_part = [](unsigned char c) {
@@ -76,11 +86,13 @@ void check_mesh_file(const std::string& option, const std::filesystem::path& fil
                     "' are not read; give a Gmsh .geo or .msh file (or .unv, .mesh, .bdf, .nas)");
   }
   if (ending == ".msh") check_header(option, file);
+  if (is_geometry(file)) check_line_end(option, file);
 }
 
 void check_opened_files(const std::string& option, std::span<const std::string> files) {
   for (const std::filesystem::path file : files) {
     if (file.extension() == ".msh") check_element_numbers(option, file);
+    if (is_geometry(file)) check_line_end(option, file);
   }
 }
 

@@ -15,7 +15,7 @@ bool is_geometry(const std::filesystem::path& file);
 void check_mesh_file(const std::string& option, const std::filesystem::path& file);
 
 /// Looks at the files that Gmsh opened for a mesh: throws UserError where one lists two elements
-/// under one number.
+/// under one number, or is a geometry of one line without an end, which Gmsh passes over.
 void check_opened_files(const std::string& option, std::span<const std::string> files);
 
 /// Words of the geometries among some files in Gmsh's language, without comments and texts between

@@ -81,9 +81,10 @@ class WrongInput(unittest.TestCase):
         self.refuse(CASE + ["-motion_x_record", "none.AT2"], "none.AT2")
 
     def test_nothing_that_vibrates(self):
-        mesh = self.with_file('Point(1) = {0, 0, 0}; Physical Point("p") = {1};', ".geo")
-        self.refuse(["-structures", "m", "-m_mesh", mesh, "-m_p_element", "point_mass",
-                     "-m_p_mass", "1", "-end_time", "1"], "-time_step")
+        line = 'Point(1) = {0, 0, 0}; Physical Point("p") = {1};'
+        scene = ["-structures", "m", "-m_p_element", "point_mass", "-m_p_mass", "1", "-end_time", "1", "-m_mesh"]
+        self.refuse([*scene, self.with_file(line + "\n", ".geo")], "-time_step")
+        self.refuse([*scene, self.with_file(line, ".geo")], "line 1", "end the line")
 
     def test_time_step_above_the_stable_one(self):
         self.refuse(CASE + ["-time_step", "1e-3"], "-time_step", "stable")
