@@ -38,14 +38,15 @@ void check_header(const std::string& option, const std::filesystem::path& file) 
   }
 }
 
-/// Gmsh passes over a geometry that is one line without an end.
+/// Gmsh passes over statements of a geometry that is one line without an end.
 void check_line_end(const std::string& option, const std::filesystem::path& file) {
   std::ifstream stream(file);
   std::string line;
   std::getline(stream, line);
   if (!stream.eof() || line.empty()) return;
-  throw UserError("option " + option + ": " + file.string() +
-                  " line 1: Gmsh passes over a geometry of one line that has no end; end the line");
+  throw UserError(
+      "option " + option + ": " + file.string() +
+      " line 1: Gmsh may pass over a geometry of one line that has no end; end the line");
 }
 
 /// Where the comment, text, word or sign that begins at `i` ends.

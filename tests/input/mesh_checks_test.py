@@ -276,7 +276,7 @@ class Gmsh(MeshCase):
 
     def refuse_command(self, text, *words, suffix=".geo"):
         text, path = self.marked(text)
-        self.refuse(TABLE + ["-t_mesh", self.with_file(text, suffix)], *words, ranks=(2,))
+        self.refuse(TABLE + ["-t_mesh", self.with_file(text + "\n", suffix)], *words, ranks=(2,))
         self.assertFalse(os.path.exists(path))
 
     def answer(self, text, memory=resource.RLIM_INFINITY):
