@@ -79,11 +79,7 @@ FormatRecord read_csmip(const RecordedMotion& motion, std::span<const TextLine> 
   const std::size_t count = count_of(motion.file, one.line, one.count.value_or(0));
   record.time_step = agreed_step(motion, one.line, one.step.value_or(0));
   NumberBlock block = read_block(motion.file, lines, one.begin, count);
-  if (block.end < lines.size() && parse_row(lines[block.end])) {
-    throw UserError(at_line(motion.file, lines[block.end].number) + "numbers below the " +
-                    std::to_string(count) + " values that line " + std::to_string(one.line) +
-                    " announces; correct the file");
-  }
+  require_end(motion.file, lines, block, one.line);
   record.values = std::move(block.values);
   if (one.peak && one.unit == "cm/s2") {
     require_peak(motion.file, one.peak_line, *one.peak, record.values);

@@ -63,6 +63,14 @@ NumberBlock read_block(const std::string& file, std::span<const TextLine> lines,
   return block;
 }
 
+void require_end(const std::string& file, std::span<const TextLine> lines, const NumberBlock& block,
+                 int announced) {
+  if (block.end >= lines.size() || !parse_row(lines[block.end])) return;
+  throw UserError(at_line(file, lines[block.end].number) + "numbers below the " +
+                  std::to_string(block.values.size()) + " values that line " +
+                  std::to_string(announced) + " announces; correct the file");
+}
+
 std::size_t count_of(const std::string& file, int line, double announced) {
   if (!(announced >= 2 && announced <= 1e9) || announced != std::floor(announced)) {
     throw UserError(at_line(file, line) + "the header announces " + text_of(announced) +

@@ -35,6 +35,10 @@ struct NumberBlock {
 NumberBlock read_block(const std::string& file, std::span<const TextLine> lines, std::size_t begin,
                        std::size_t count);
 
+/// Throws UserError when numbers follow a block whose count the line `announced` tells.
+void require_end(const std::string& file, std::span<const TextLine> lines, const NumberBlock& block,
+                 int announced);
+
 /// A number of values that a header announces. Throws UserError when it cannot be one.
 std::size_t count_of(const std::string& file, int line, double announced);
 
