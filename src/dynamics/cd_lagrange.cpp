@@ -62,14 +62,14 @@ void CdLagrange::step(bool look_at_gap, bool with_energies, bool with_forces) {
 
   detect_contact(look_at_gap);  // A = { i : g_i(u_n) <= g_tol }
   if (fillers_ != nullptr) measure_fillers();
-  free_velocity(with_energies,  // v_free = v- + dt (g - iota a_g - alpha v-) - dt M^-1 (K w + x)
-                with_forces || touching_);
-  if (fillers_ != nullptr) press_fillers();
+  // v_free = v- + dt (g - iota a_g - alpha v-) - dt M^-1 (K w + D v-), less dt M^-1 b N of links
+  free_velocity(with_energies, with_forces || touching_);
+  if (fillers_ != nullptr) press_fillers();  // v_free -= dt M^-1 b N
   if (touching_) {
     solve_impulse();     // 0 <= lambda _|_ H lambda + L v_free >= 0   on A
     correct_velocity();  // v+ = v_free + M^-1 L^T lambda,   u_{n+1} = u_n + dt v+
   }
-  close_energy();  // E+ - E- = -dt vbar^T C vbar + dt vbar^T (f - x) + 1/2 lambda^T L v-
+  close_energy();  // E+ - E- = -dt vbar^T C vbar + dt vbar^T (f - b N) + 1/2 lambda^T L v-
   supports_.finish(time_step_, state_.supports);
   ++state_.step;
 }

@@ -24,15 +24,17 @@ namespace pounding {
 /// velocity-impulse complementarity (Ambiel, Brun, Thibon, Gravouil, Eng. Struct. 251 (2022)
 /// 113385; Fekak et al., Comput. Mech. 60 (2017)). Displacements are relative to the ground.
 ///
-///     v_free    = v_{n-1/2} + dt ( g - iota a_g(t_n) - alpha v_{n-1/2} )
-///                           - dt M^-1 ( K (u_n + beta v_{n-1/2}) + x )
 ///     A         = { i : g_i(u_n) <= g_tol }
+///     v_free    = v_{n-1/2} + dt ( g - iota a_g(t_n) - alpha v_{n-1/2} )
+///                           - dt M^-1 ( K (u_n + beta v_{n-1/2}) + D v_{n-1/2} )
+///     v_free   <- v_free - dt M^-1 sum_k b_k N_k      links (LinkStep), then fillers (FillerStep)
 ///     0 <= lambda _|_ H lambda + L v_free >= 0   on A
 ///     v_{n+1/2} = v_free + M^-1 L^T lambda
 ///     u_{n+1}   = u_n + dt v_{n+1/2}
 ///
 /// with uniform damping in place of Rayleigh's the force K u_n goes through filters (update.h), and
-/// x the force of the extra damping D, of links (LinkStep) and of fillers (FillerStep), if any.
+/// D is the extra damping of regions, if any. The force N_k of a link depends on the velocity that
+/// it leaves, and is solved for with those of the links that it moves.
 /// `step` has a line for each of these; they are events of -log_view under the same names. The
 /// stiffness hands its forces over range by range, and StructureStep updates velocity and
 /// displacement there while they are in the nearest cache; contact then corrects the few dofs of
