@@ -19,7 +19,8 @@ struct DampingFilter {
 /// so that a mode omega_0 of K swings freely as exp(z t) with z^2 = -omega_0^2 s G(z), at the
 /// frequency |z| and the damping ratio -Re z / |z|. The largest deviation of that ratio over the
 /// band is as small as the number of filters allows. Causality makes fast motions stiffer than slow
-/// ones: s = 1 / |G| at one frequency, where modes keep their place. Sources: docs/theory.md.
+/// ones: s = 1 / |G| at one frequency, where modes keep their place. Sources:
+/// docs/theory/damping.md.
 struct UniformDamping {
   double ratio = 0;      ///< xi [-]
   double lowest = 1;     ///< end of the band [Hz]

@@ -1,4 +1,4 @@
-"""Files, commands, functions and types that the pages name exist, and their links lead somewhere."""
+"""Files, commands, functions and types that the pages name exist, and their links lead to files and headings."""
 import os
 import re
 import unittest
@@ -10,9 +10,9 @@ COMMAND = re.compile(r"(?:^|[\s`(])(run/\w+)", re.MULTILINE)
 IDENTIFIER = re.compile(r"`(\w+(?:::\w+)?)`")
 # Words in code type that are none of the code.
 OF_NO_CODE = {"snake_case", "PascalCase", "member_", "POUNDING_BUILD"}
-LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)\s]*)?\)")
-# What a run leaves in its folder, and examples.
-OF_A_RUN = {"spectra.csv", "impacts.csv", "energy.csv", "resolved.yaml", "dofs.csv", "gaps.csv", "probes.csv", "case.yaml"}
+LINK = re.compile(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)")
+# Results of runs and studies, and examples of scenes; tables are results unless their folder is named.
+OF_A_RUN = re.compile(r"\w+\.csv|spectra/gap-G_pga-L\.csv|resolved\.yaml|case\.yaml|certificate\.md")
 
 
 def files():
@@ -27,13 +27,18 @@ def files():
 def pages():
     found = [name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")
              if os.path.exists(os.path.join(program.SOURCE, name))]
-    return found + sorted(os.path.join("docs", name) for name in os.listdir(os.path.join(program.SOURCE, "docs"))
-                          if name.endswith(".md"))
+    return found + sorted(name for name in files() if name.startswith("docs" + os.sep) and name.endswith(".md"))
 
 
 def text_of(page):
     with open(os.path.join(program.SOURCE, page)) as file:
         return file.read()
+
+
+def anchors(text):
+    """Headings as links name them: small letters, hyphens for spaces, without marks."""
+    headings = re.findall(r"^#+ (.*)$", re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-") for heading in headings}
 
 
 class NamedFiles(unittest.TestCase):
@@ -46,11 +51,11 @@ class NamedFiles(unittest.TestCase):
 
     def test_files_named_in_code_type_exist(self):
         seen = 0
-        for page in ("README.md", "CONTRIBUTING.md", "docs/theory.md"):
-            for name in CODE.findall(text_of(page)) if page in self.files else []:
+        for page in pages():
+            for name in CODE.findall(text_of(page)):
                 seen += 1
-                self.assertTrue(name in OF_A_RUN or self.is_there(name), f"{page} names {name}")
-        self.assertGreater(seen, 40)
+                self.assertTrue(OF_A_RUN.fullmatch(name) or self.is_there(name), f"{page} names {name}")
+        self.assertGreater(seen, 300)
 
     def test_functions_and_types_named_in_the_walk_throughs_exist(self):
         code = ""
@@ -77,11 +82,13 @@ class NamedFiles(unittest.TestCase):
     def test_links_lead_to_files(self):
         seen = 0
         for page in pages():
-            for target in LINK.findall(text_of(page)):
+            for target, heading in LINK.findall(text_of(page)):
                 if "://" not in target:
                     seen += 1
-                    path = os.path.normpath(os.path.join(program.SOURCE, os.path.dirname(page), target))
-                    self.assertTrue(os.path.exists(path), f"{page} links to {target}")
+                    path = os.path.normpath(os.path.join(os.path.dirname(page), target)) if target else page
+                    self.assertTrue(os.path.exists(os.path.join(program.SOURCE, path)), f"{page} links to {target}")
+                    if heading:
+                        self.assertIn(heading, anchors(text_of(path)), f"{page} links to {target}#{heading}")
         self.assertGreater(seen, 10)
 
 

@@ -112,7 +112,7 @@ Radiation radiation(double r) {
   return found;
 }
 
-/// What the page on the theory says that one internal mass misses of the published radiation.
+/// Parts of the published radiation that one internal mass has, as docs/theory/links.md states them.
 TEST(Rectangle, ImaginaryPartBesideThePublishedRadiation) {
   const auto expect = [](double r, const std::array<double, 6>& low,
                          const std::array<double, 6>& high) {
