@@ -52,8 +52,8 @@ class ByteWriter {
   const WriteBytes& write_;
 };
 
-/// Reads what a ByteWriter wrote, in the same order. Throws std::runtime_error where the bytes end
-/// before, and what `read` throws.
+/// Reads the values that a ByteWriter wrote, in the same order. Throws std::runtime_error where the
+/// bytes end before, and the errors of `read`.
 class ByteReader {
  public:
   /// `most`: bytes that there are.

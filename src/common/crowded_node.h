@@ -10,8 +10,8 @@ bool crowded_node();
 
 /// Has ranks that wait for messages give their processor to others, where the node is crowded: one
 /// that waits without end may hold the processor that the awaited rank needs. Before MPI_Init. Open
-/// MPI does so itself only beyond the slots that it was told of, which may be more than processors.
-/// What the user chose (OMPI_MCA_mpi_yield_when_idle) stays.
+/// MPI does so itself only beyond the slots given to it, which may be more than processors. A
+/// choice of the user's (OMPI_MCA_mpi_yield_when_idle) stays.
 void yield_where_crowded();
 
 }  // namespace pounding

@@ -14,7 +14,7 @@ void take_blas_memory();
 /// (n), holds b and receives x. False, and b lost, if A is singular. LAPACK dgesv.
 bool solve_dense(std::vector<double>& matrix, std::vector<double>& values);
 
-/// Solution of A x = b likewise, without allocation: `pivots`, shape (n), is scratch.
+/// Solution of A x = b without allocation: `pivots`, shape (n), is scratch.
 bool solve_dense(std::span<double> matrix, std::span<double> values, std::span<int> pivots);
 
 /// Inverse of a symmetric positive definite matrix, shape (n, n), in its place, symmetric to the

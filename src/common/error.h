@@ -5,8 +5,8 @@
 
 namespace pounding {
 
-/// A mistake in the input. The message is one line: what, where (file, option, group), the value
-/// seen, what to do. It ends the run with exit status 1 on every rank.
+/// A mistake in the input. The message is one line: fault, place (file, option, group), the value
+/// seen, remedy. It ends the run with exit status 1 on every rank.
 class UserError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -8,8 +8,8 @@ namespace pounding {
 
 /// Throws UserError when a path names something that may have no end or no content, which a reader
 /// must not wait for: a folder, a device, a pipe or a socket; and when it is a file of more than
-/// `most` bytes. A path with nothing there passes: who opens it knows what was expected. `place`
-/// stands before the path in the message, such as "option -ensemble ".
+/// `most` bytes. A path with nothing there passes: its reader knows the expected one. `place`
+/// precedes the path in the message, such as "option -ensemble ".
 void require_finite_file(const std::string& path, const std::string& place = "",
                          std::uintmax_t most = std::numeric_limits<std::uintmax_t>::max());
 

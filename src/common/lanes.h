@@ -73,7 +73,7 @@ static inline __attribute__((always_inline)) void add_product(double a, double b
 #endif
 }
 
-/// c -= a b, likewise.
+/// c -= a b, in every lane.
 static inline __attribute__((always_inline)) void subtract_product(double a, double b, double& c) {
   add_product(-a, b, c);
 }

@@ -35,7 +35,7 @@ std::string hdf5_version() {
   return joined(major, minor, patch);
 }
 
-/// First line of what MPI says of itself, up to the first comma: "Open MPI v4.1.4".
+/// First line of MPI's own description, up to the first comma: "Open MPI v4.1.4".
 std::string mpi_version() {
   std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
   int length = 0;

@@ -7,7 +7,7 @@
 namespace pounding {
 
 /// Name and version of the compiler, of MPI and of each library that results may depend on: of
-/// those in use where a library tells it, else of those that the program was built with.
+/// those in use where a library states it, else of those that the program was built with.
 std::vector<std::pair<std::string, std::string>> library_versions();
 
 }  // namespace pounding

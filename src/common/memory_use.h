@@ -2,7 +2,7 @@
 
 namespace pounding {
 
-/// Resident memory of a process [bytes]; what ranks share counts on each of them.
+/// Resident memory of a process [bytes]; shared memory counts on each of its ranks.
 struct MemoryUse {
   double held = 0;  ///< now
   double peak = 0;  ///< largest since the last time that somebody asked

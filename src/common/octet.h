@@ -9,7 +9,7 @@
 
 /// Eight doubles at once, one for each of eight members of an ensemble: one register of AVX-512,
 /// two of AVX, four of SSE2. Every operation is done lane by lane and rounded like that of a single
-/// double (add_product in lanes.h), so that no lane depends on what stands beside it.
+/// double (add_product in lanes.h), so that no lane depends on its neighbours.
 namespace pounding {
 
 /// Members that are stepped together.
@@ -66,7 +66,7 @@ POUNDING_OCTET void add_product(const Octet& a, const Octet& b, Octet& c) {
 #endif
 }
 
-/// c -= a b, likewise.
+/// c -= a b, in every lane.
 POUNDING_OCTET void subtract_product(const Octet& a, const Octet& b, Octet& c) {
   add_product(-a, b, c);
 }

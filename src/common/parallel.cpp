@@ -12,7 +12,7 @@ namespace {
 
 enum class Failure : int { none = 0, user = 1, other = 2 };
 
-/// Message of what `work` threw, or nothing.
+/// Message of the exception that `work` threw, or nothing.
 std::pair<Failure, std::string> failure_of(MPI_Comm comm, const std::function<void()>& work) {
   try {
     work();

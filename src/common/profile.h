@@ -24,7 +24,7 @@ class Profile {
  public:
   void add(Phase phase, double seconds) { seconds_[static_cast<std::size_t>(phase)] += seconds; }
   double seconds(Phase phase) const { return seconds_[static_cast<std::size_t>(phase)]; }
-  /// Charges to a phase what was held since the phase noted before; opens files.
+  /// Charges to a phase the memory held since the phase noted before; opens files.
   void note_memory(Phase phase) {
     const MemoryUse use = take_memory_use();
     MemoryUse& noted = memory_[static_cast<std::size_t>(phase)];

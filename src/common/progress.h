@@ -10,10 +10,10 @@
 
 namespace pounding {
 
-/// A phase of the start-up that says what it does where it takes long: rank 0 prints a line after
-/// one interval, then after twice as much, at most a minute apart, and a last one at the end. A
-/// thread of its own prints, so that one call that takes minutes, a factorisation, is no silence;
-/// it sends no messages.
+/// A phase of the start-up that names itself where it takes long: rank 0 prints a line after one
+/// interval, then after twice as much, at most a minute apart, and a last one at the end. A thread
+/// of its own prints, so that one call that takes minutes, a factorisation, is no silence; it sends
+/// no messages.
 class Progress {
  public:
   /// `interval` [s]; infinite: no lines. Local.

@@ -11,7 +11,7 @@ namespace pounding {
 void multiply_rows(const double* rows, std::size_t count, std::size_t n, const double* x,
                    double* out, std::size_t stride);
 
-/// out[r] = sum over k of rows[r * n + k] x[k] in every lane, likewise.
+/// out[r] = sum over k of rows[r * n + k] x[k] in every lane.
 void multiply_rows(const double* rows, std::size_t count, std::size_t n, const Octet* x,
                    Octet* out);
 

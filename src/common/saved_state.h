@@ -37,10 +37,10 @@ class SavedState {
   void put_sums(const std::string& name, std::span<const double> values);
   void put_dofs(int structure, const std::string& name, std::span<const double> values);
 
-  /// Give back what was put. Throw UserError if it is not there in that size.
+  /// Give back the values put. Throw UserError if it is not there in that size.
   void get(const std::string& name, std::span<double> values) const;
   double number(const std::string& name) const;
-  /// Refuses what is not a whole number.
+  /// Refuses a value that is not a whole number.
   std::int64_t integer(const std::string& name) const;
   /// A value of `name` as a whole number.
   std::int64_t whole(const std::string& name, double value) const;
@@ -48,7 +48,7 @@ class SavedState {
   void get_sums(const std::string& name, std::span<double> values) const;
   void get_dofs(int structure, const std::string& name, std::span<double> values) const;
 
-  /// Throws UserError: what is there under this name cannot be a state of this scene.
+  /// Throws UserError: the values under this name cannot be a state of this scene.
   [[noreturn]] void refuse_values(const std::string& name) const;
 
   /// No dof of this rank holds an infinity or a NaN.

@@ -17,7 +17,7 @@ namespace pounding {
 ///     for each rank: read exchange.wait_for(rank)
 ///
 /// In every turn a rank waits for everybody who reads its values, whether it reads theirs or not:
-/// what it published then stays readable until those have published their next values.
+/// its published values then stay readable until those have published their next values.
 class SharedExchange {
  public:
   /// `capacity`: values that this rank may write in a turn. Where the ranks have no memory in

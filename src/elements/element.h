@@ -9,8 +9,8 @@
 /// node, followed by (rx, ry, rz) where the element has rotations, all in global axes.
 namespace pounding {
 
-/// Number of the formulations: whoever changes what an element's stiffness or mass comes out as
-/// adds one, so that no modal basis stored before is taken for a basis of what is computed now.
+/// Number of the formulations: a change of the values of an element's stiffness or mass adds one,
+/// so that no modal basis stored before is taken for a basis of today's matrices.
 inline constexpr int element_formulations = 1;
 
 ElementLayout element_layout(ElementType type);

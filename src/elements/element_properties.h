@@ -16,7 +16,8 @@ class ElementError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Everything an element needs to know besides its coordinates; what it does not use stays 0. [SI]
+/// Everything an element needs to know besides its coordinates; properties that it does not use
+/// stay 0. [SI]
 struct ElementProperties {
   double young = 0;
   double poisson = 0;
@@ -28,12 +29,12 @@ struct ElementProperties {
   Vector3 z_axis{0, 0, 1};
   double thickness = 0;
   double rotary_inertia_factor = 0;   ///< of shells, see flat_shell.h
-  double drilling_factor = 1;         ///< of shells, likewise
+  double drilling_factor = 1;         ///< of shells, see flat_shell.h
   double added_mass = 0;              ///< of a shell [kg/m2], of a beam or bar [kg/m]
   double mass = 0;                    ///< of a point
   Vector3 rotary_inertia{0, 0, 0};    ///< of a point, about x, y, z
   std::array<double, 6> stiffness{};  ///< of a spring: along x, y, z, about x, y, z
-  std::array<double, 6> dashpot{};    ///< of its dashpot, likewise [N s/m, N m s]
+  std::array<double, 6> dashpot{};    ///< of its dashpot, in the same order [N s/m, N m s]
   Vector3 arm{0, 0, 0};               ///< of soil, from its node to the point that it acts on [m]
 };
 

@@ -13,8 +13,7 @@ namespace pounding {
 /// The elements a mesh can hold; `hex8` is the one with incompatible modes, `shell3` the triangle
 /// of shell meshes. A `tension_bar` resists stretching only, a `yielding_bar` yields both ways.
 /// Springs act along and about the global axes; those named 6 also on rotations. `soil` is no word
-/// of the option: it stands under a mat.
-/// In the order of the table.
+/// of the option: it is under a mat. In the order of the table.
 enum class ElementType {
   hex8,
   hex8_full,
@@ -60,7 +59,7 @@ using LumpedMassFunction = void (*)(std::span<const double> coordinates,
 struct ElementTraits {
   ElementType type;
   const char* name;         ///< in the report
-  std::string_view option;  ///< its word; the first row with it is what the word stands for
+  std::string_view option;  ///< its word; the first row with it is the word's element
   ElementFamily family;
   ElementLayout layout;
   int gmsh_type;  ///< of its cells: 1 line, 2 triangle, 3 quadrangle, 4 tetrahedron, ...
@@ -115,14 +114,14 @@ inline bool is_beam(ElementType type) {
   return traits_of(type).kernel == ElementKernel::beam;
 }
 
-/// Hexahedra and quadrangles, which may stand in rows if they are boxes or rectangles, and of which
+/// Hexahedra and quadrangles, which may lie in rows if they are boxes or rectangles, and of which
 /// those of one shape share their numbers.
 inline bool has_shape(ElementType type) {
   const ElementKernel kernel = traits_of(type).kernel;
   return kernel == ElementKernel::brick || kernel == ElementKernel::rectangle;
 }
 
-/// Elements that are applied by their strains, unless they stand in rows.
+/// Elements that are applied by their strains, unless they lie in rows.
 inline bool has_strains(ElementType type) {
   return has_shape(type) || traits_of(type).kernel == ElementKernel::triangle;
 }

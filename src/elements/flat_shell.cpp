@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t per_node = 6;
 constexpr double smallest_relative_length = 1e-12;
 
-/// Where (ux, uy, rz) and (uz, rx, ry) stand among the components of a node.
+/// Places of (ux, uy, rz) and (uz, rx, ry) among the components of a node.
 constexpr std::array<std::size_t, 3> membrane_components{0, 1, 5};
 constexpr std::array<std::size_t, 3> plate_components{2, 3, 4};
 

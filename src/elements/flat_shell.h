@@ -90,7 +90,7 @@ void shell_lumped_mass(std::span<const double> nodal_areas, const ShellPropertie
                        std::span<double> lumped_mass);
 
 /// Strains of a shell at its centre, as linear forms of the dofs of the feet of its nodes in its
-/// plane, shape (6 nodes) each, in local axes; and what they are multiplied with.
+/// plane, shape (6 nodes) each, in local axes; and their stiffnesses.
 struct CentreStrains {
   Matrix3 frame{};                                 ///< local axes, in rows
   std::vector<double> heights;                     ///< of the nodes above the plane [m]

@@ -38,7 +38,7 @@ void require_volume(const Matrix3& jacobian, double flat) {
   const double volume = determinant(jacobian);
   const Vector3 edges{norm(jacobian[0]), norm(jacobian[1]), norm(jacobian[2])};
   const double face = std::max({edges[0] * edges[1], edges[1] * edges[2], edges[2] * edges[0]});
-  // Negated so that it also catches what is not a number.
+  // Negated so that it also catches a value that is not a number.
   if (!(volume > flat * face)) {
     std::ostringstream message;
     message << "non-positive Jacobian " << volume;

@@ -30,7 +30,7 @@ Segment segment_between(std::span<const double> coordinates) {
     extent = std::max({extent, std::abs(coordinates[i]), std::abs(coordinates[3 + i])});
   }
   const double length = std::hypot(axis[0], axis[1], axis[2]);
-  // Negated so that it also catches what is not a number.
+  // Negated so that it also catches a value that is not a number.
   if (!(length > smallest_relative_length * extent)) {
     std::ostringstream message;
     message << "zero length (" << length << " m between its two nodes)";

@@ -21,7 +21,7 @@ inline constexpr int small = 2;           ///< bars, springs, points
 inline constexpr int cluster_node = 36;
 
 /// Ranks that share a structure and wait for each other's values, per structure: on the two-storey
-/// pair and 2 ranks, what the even cut loses.
+/// pair and 2 ranks, the loss by the even cut.
 inline constexpr double sharing = 4000;
 
 /// Cutting a contact costs messages whenever the interface is looked at: more than a cut between

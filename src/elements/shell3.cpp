@@ -35,7 +35,7 @@ FlatTriangle checked_triangle(std::span<const double> coordinates) {
   FlatTriangle triangle;
   triangle.area = norm(normal) / 2;
   triangle.longest_edge = std::max({norm(x[1]), norm(x[2]), norm(third)});
-  // Negated so that it also catches what is not a number.
+  // Negated so that it also catches a value that is not a number.
   if (!(triangle.area > negligible_length(coordinates) * triangle.longest_edge)) {
     std::ostringstream message;
     message << "non-positive area " << triangle.area << " m2";

@@ -52,7 +52,7 @@ void require_convex(const FlatQuad& quad, double negligible) {
     const Vector2 backward{last[0] - here[0], last[1] - here[1]};
     const double jacobian = cross2(forward, backward) / 4;
     const double edges = std::hypot(forward[0], forward[1]) + std::hypot(backward[0], backward[1]);
-    // Negated so that it also catches what is not a number.
+    // Negated so that it also catches a value that is not a number.
     if (!(jacobian > negligible * edges)) {
       std::ostringstream message;
       message << "non-positive Jacobian " << jacobian << " at corner " << a + 1

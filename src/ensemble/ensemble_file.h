@@ -17,15 +17,15 @@ struct EnsembleLayout {
   std::vector<double> damping_ratios;
   std::vector<double> frequencies;  ///< [Hz]
   std::vector<std::string> contacts;
-  /// Lines that tell whence the results are: a file of other ones is of another ensemble.
+  /// Lines of the sources of the results: a file of other ones is of another ensemble.
   std::vector<std::string> identity;
 };
 
 /// The file of the results of an ensemble: every member has a place of its own in it, taken when
 /// the file is made, which any process may fill at any time. A member's flag `done` is set once its
-/// numbers stand on the disk, so that a run that was killed is continued with what is missing. The
-/// file is sealed but for these places (file_seal.h), and beside every member stands the CRC-32 of
-/// its numbers.
+/// numbers are on the disk, so that a run that was killed is continued with the missing ones. The
+/// file is sealed but for these places (file_seal.h), and every member has the CRC-32 of its
+/// numbers.
 class EnsembleFile {
  public:
   /// Throws UserError if the file is there and is that of other lines of `layout` than its first
@@ -38,9 +38,9 @@ class EnsembleFile {
   /// Opens a prepared file. Throws UserError. Each rank on its own.
   EnsembleFile(const std::string& path, const EnsembleLayout& layout);
 
-  /// Per member, whether it is done and its numbers are what was written.
+  /// Per member, whether it is done and its numbers are those written.
   std::vector<bool> done() const;
-  /// Number of members that are said to be done, and whose numbers are not what was written.
+  /// Number of members that are said to be done, and whose numbers are not those written.
   std::size_t damaged() const;
   /// Writes a member and sets its flag.
   void write(std::size_t member, const MemberResult& result);

@@ -9,8 +9,8 @@
 
 namespace pounding {
 
-/// Lines that tell what the results of an ensemble follow from: the scene's options but those that
-/// leave them as they are, and the table. `resolved`: options in force.
+/// Lines of the sources of an ensemble's results: the scene's options but those that leave them as
+/// they are, and the table. `resolved`: options in force.
 std::vector<std::string> ensemble_identity(const std::string& resolved, const MemberTable& table);
 
 /// Lines of the files that scene and table name, and of `opened`, of which the meshes are made: by

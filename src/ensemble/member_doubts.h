@@ -10,13 +10,13 @@
 #include "ensemble/ensemble_file.h"
 #include "ensemble/member_scene.h"
 
-/// Doubts that single runs of the members would have, each told once for all whom it is about.
+/// Doubts that single runs of the members would have, each once for all members concerned.
 namespace pounding {
 
 /// Lines of doubt with the members that they are about.
 class MemberDoubts {
  public:
-  /// `known`: lines that are told of the scene already.
+  /// `known`: lines that the scene has given already.
   void leave_out(std::span<const std::string> known);
   void add(std::size_t member, std::span<const std::string> lines);
   /// Rank 0 gets those of all ranks. Collective.
@@ -29,7 +29,7 @@ class MemberDoubts {
   std::map<std::string, std::vector<std::size_t>> members_;  ///< of a line, increasing
 };
 
-/// Checks what moves a member, without making synthetic motions: its files and its peaks. Returns
+/// Checks the motion of a member, without making synthetic ones: its files and its peaks. Returns
 /// the shortest interval between samples of its motion [s], infinite without one. Throws UserError.
 double check_motion(const MemberScene& member, std::vector<std::string>& doubts);
 
@@ -41,7 +41,7 @@ void check_member_gaps(std::span<const MemberScene> members, const Interface& in
 /// Doubts about the damping of a member, whose frequencies are those of the model, scaled.
 std::vector<std::string> member_damping_doubts(const MemberScene& member, const Model& model);
 
-/// Doubts about what came of a member. `model_size` [m].
+/// Doubts about the results of a member. `model_size` [m].
 std::vector<std::string> result_doubts(const MemberResult& result, double model_size);
 
 }  // namespace pounding

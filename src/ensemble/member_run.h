@@ -18,7 +18,7 @@ namespace pounding {
 /// Numbers of one member of an ensemble, as ensemble.h5 holds them.
 struct MemberResult {
   std::vector<double> spectra;      ///< PSA, shape (channels, damping ratios, frequencies) [m/s2]
-  std::vector<double> episodes;     ///< per contact, likewise the next ones
+  std::vector<double> episodes;     ///< per contact, as the next ones
   std::vector<double> first_time;   ///< [s]; not a number without an impact
   std::vector<double> impulse_sum;  ///< [N s]
   std::vector<double> impulse_largest;   ///< of an episode [N s]

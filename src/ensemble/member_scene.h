@@ -9,7 +9,7 @@
 #include "scene/member_table.h"
 #include "scene/scene_reader.h"
 
-/// The scenes of the members of an ensemble, and what of the model is their own.
+/// The scenes of the members of an ensemble, and their own parts of the model.
 namespace pounding {
 
 /// Scene of one member.
@@ -26,7 +26,7 @@ void require_ensemble_scene(const Scene& scene);
 /// The scene of a member. Throws UserError with the line of the table.
 MemberScene read_member(const OptionsDatabase& scene, const MemberTable& table, std::size_t member);
 
-/// Initial gap of a row [m]: as the scene of a member gives it, or as the meshes stand.
+/// Initial gap of a row [m]: as the scene of a member gives it, or by the meshes.
 double member_gap(const Scene& scene, const Constraint& row, const GapShare& share);
 
 /// Model that the members share on a rank.

@@ -11,8 +11,8 @@
 namespace pounding {
 
 /// Up to eight members of an ensemble from t_0 to the end time, stepped together: the free step in
-/// lanes (OctetStep), gaps and contact member by member (MemberRun). What a member comes to depends
-/// neither on its lane nor on who stands beside it. Local: nothing is communicated.
+/// lanes (OctetStep), gaps and contact member by member (MemberRun). The results of a member depend
+/// neither on its lane nor on its companions. Local: nothing is communicated.
 class OctetGroup {
  public:
   /// All arguments must outlive this object. `members`: at most eight.
@@ -39,8 +39,8 @@ class OctetGroup {
   OctetRecorder& recorder_;
   std::vector<std::unique_ptr<MemberRun>> runs_;
   std::vector<OctetStep> steps_;            ///< per structure
-  std::vector<OctetState> states_;          ///< likewise
-  std::vector<std::vector<Octet>> places_;  ///< likewise, of the interface
+  std::vector<OctetState> states_;          ///< per structure
+  std::vector<std::vector<Octet>> places_;  ///< per structure, of the interface
   std::int64_t gap_stride_ = 1;             ///< steps between two samples of the gaps
   std::array<Octet, 3> acceleration_{};
   std::size_t failed_lane_ = 0;

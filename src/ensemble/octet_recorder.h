@@ -73,8 +73,8 @@ class OctetRecorder {
   std::vector<Rows> rows_;
   std::vector<Octet> values_;         ///< per channel
   std::vector<Octet> products_;       ///< of the channels of one structure
-  std::vector<Octet> last_velocity_;  ///< likewise
-  std::vector<Octet> displacement_;   ///< likewise, largest
+  std::vector<Octet> last_velocity_;  ///< per channel
+  std::vector<Octet> displacement_;   ///< per channel, largest
   std::array<Octet, 3> ground_{};
   std::vector<Octet> block_;     ///< shape (block records, channels)
   std::vector<double> history_;  ///< shape (channels, lanes, records)

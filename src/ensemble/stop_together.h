@@ -6,7 +6,7 @@
 
 namespace pounding {
 
-/// Tells ranks that work without each other that one of them received a signal. They ask now and
+/// Spreads a signal that one rank received to ranks that work without each other. They ask now and
 /// then; nobody waits for anybody until `finish`.
 class StopTogether {
  public:

@@ -10,16 +10,16 @@
 
 namespace pounding {
 
-/// A CSV file: one header line, then rows of numbers. Comment lines ("# ") stand before the header
-/// in files that the program itself reads back, in no others: a spreadsheet takes the first line
-/// for the names of the columns. A file that is not closed goes again, so that what is there is
+/// A CSV file: one header line, then rows of numbers. Comment lines ("# ") precede the header in
+/// files that the program itself reads back, in no others: a spreadsheet takes the first line for
+/// the names of the columns. A file that is not closed goes again, so that a file that is there is
 /// complete. Throws UserError if it cannot be opened or written.
 class CsvFile {
  public:
-  /// `path` empty or "/dev/stdout": the standard output of the program, wherever it stands; opened
+  /// `path` empty or "/dev/stdout": the standard output of the program, wherever its end is; opened
   /// by name it would begin again at the start of its file. Other names in /dev are written as they
-  /// stand there, every other one is taken anew (NewFile). `digits`: significant ones of each
-  /// number; 17 give it back to the bit.
+  /// are, every other one is taken anew (NewFile). `digits`: significant ones of each number; 17
+  /// give it back to the bit.
   explicit CsvFile(const std::string& path, int digits = 17);
   CsvFile(const CsvFile&) = delete;
   CsvFile& operator=(const CsvFile&) = delete;

@@ -33,7 +33,7 @@ void seal_file(const std::string& path, std::vector<OpenPlace> open = {});
 std::vector<OpenPlace> open_places(const std::string& path);
 
 /// Throws std::runtime_error, one line that begins with the path: no seal, or the content is not
-/// what was sealed.
+/// the sealed one.
 void check_seal(const std::string& path);
 
 }  // namespace pounding

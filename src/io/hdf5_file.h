@@ -60,9 +60,9 @@ class Hdf5File {
   void move_to(const std::string& path);
   /// Nothing more is written here, but others may fill places that were reserved, until close().
   void let_others_write();
-  /// Everything stands on the disk, or this throws.
+  /// Everything is on the disk, or this throws.
   void close();
-  /// Everything stands on the disk, sealed but for these places, or this throws.
+  /// Everything is on the disk, sealed but for these places, or this throws.
   void close(const std::vector<OpenPlace>& open);
   /// Sets an attribute of a whole closed file that is there already.
   void mark(const std::string& attribute, double value);

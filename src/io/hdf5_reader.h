@@ -9,7 +9,7 @@
 namespace pounding {
 
 /// Reads HDF5 files that may be anything: errors throw std::runtime_error of one line that begins
-/// with the path and says what is wrong. HDF5 itself prints nothing.
+/// with the path and names the fault. HDF5 itself prints nothing.
 class Hdf5Reader {
  public:
   /// Shape (rows, columns); `columns` is 0 for a plain vector.

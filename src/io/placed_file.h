@@ -19,7 +19,7 @@ class PlacedFile {
 
   void write(std::int64_t place, std::span<const double> values) const;
   void read(std::int64_t place, std::span<double> values) const;
-  /// All that was written stands on the disk, or this throws.
+  /// All that was written is on the disk, or this throws.
   void sync() const;
 
  private:

@@ -8,7 +8,7 @@
 namespace pounding::schema {
 namespace {
 
-/// The schema of a file as it tells it; "without a schema number" of one that does not.
+/// The schema of a file as it states it; "without a schema number" of one that does not.
 std::string schema_of(const Hdf5Reader& file) {
   for (const char* attribute : {"schema", "version"}) {
     try {

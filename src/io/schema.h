@@ -6,8 +6,8 @@
 #include "io/hdf5_reader.h"
 
 /// Numbers of the layouts of files that outlive a run. A number rises when a reader of the one
-/// before would misread what is written: another meaning of a name counts, a name more does not.
-/// Files of the versions before these numbers have none, or a `version` in its place.
+/// before would misread the file: another meaning of a name counts, a name more does not. Files of
+/// the versions before these numbers have none, or a `version` in its place.
 namespace pounding::schema {
 
 inline constexpr int summary = 1;     ///< summary.json

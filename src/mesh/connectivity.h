@@ -5,7 +5,7 @@
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"
 
-/// How the elements of one structure hang together: what a mesh that looks right may hide.
+/// How the elements of one structure hang together, which a mesh that looks right may hide.
 namespace pounding {
 
 /// Nodes that elements join, directly or through others.

@@ -12,7 +12,7 @@
 namespace pounding {
 
 /// Every element of every structure in one list, with global node numbers that run on from
-/// structure to structure. What METIS must not cut is one entry: the elements of a group.
+/// structure to structure. The elements of a group, which METIS must not cut, are one entry.
 struct ElementList {
   std::vector<idx_t> first;  ///< CSR offsets into nodes
   std::vector<GlobalIndex> nodes;

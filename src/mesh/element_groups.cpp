@@ -16,7 +16,7 @@ constexpr idx_t longest_piece = 64;
 
 using Place = std::array<std::int64_t, 3>;
 
-/// Where an element of a row stands.
+/// Place of an element of a row.
 struct RowPlace {
   std::array<std::int64_t, 4> across{};  ///< first and last layer, first and last row
   idx_t cost = 0;

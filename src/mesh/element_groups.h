@@ -7,7 +7,7 @@
 /// Elements that are best not parted from each other. Serial.
 namespace pounding {
 
-/// Group of each entry of a list, -1: it stands alone.
+/// Group of each entry of a list, -1: it is alone.
 struct ElementGroups {
   std::vector<int> of;
   int count = 0;

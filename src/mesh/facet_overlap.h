@@ -17,10 +17,10 @@ struct OverlapPlace {
 };
 
 /// Gauss points of the part of a facet that lies over `other`, both seen along the facet's normal,
-/// or of lines along the line: what polygons or intervals have in common, in triangles. Exact for
+/// or of lines along the line: the overlap of polygons or intervals, in triangles. Exact for
 /// products of the facets' shares where both are lines, triangles or parallelograms; an eight-point
-/// rule per direction for other quadrangles. Empty where they have nothing in common, where one is
-/// a line and the other is not, and of facets without area. Pure.
+/// rule per direction for other quadrangles. Empty where they do not overlap, where one is a line
+/// and the other is not, and of facets without area. Pure.
 std::vector<OverlapPlace> overlap_places(std::span<const Vector3> facet,
                                          std::span<const Vector3> other);
 

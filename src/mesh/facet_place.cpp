@@ -80,7 +80,7 @@ double share_along(const Vector3& a, const Vector3& b, const Vector3& x) {
   return t > 1 - on_border ? 1 : t;
 }
 
-/// Whether coordinates are those of a place on the facet; what is nearly on a border is put there.
+/// Whether coordinates are those of a place on the facet; a place nearly on a border is put there.
 bool settle_inside(std::size_t corners, Local& s) {
   const double low = corners == 3 ? 0 : -1;
   for (double& value : s) {

@@ -43,7 +43,7 @@ void refuse_ties(const Structure& structure, const GlobalMesh& mesh) {
   }
 }
 
-/// Which support each clamped node stands on; `all_ground`: that of all of them, or -1.
+/// Support of each clamped node; `all_ground`: that of all of them, or -1.
 std::map<GlobalIndex, int> support_of_nodes(const Scene& scene, const Structure& structure,
                                             const GlobalMesh& mesh, int all_ground) {
   std::map<GlobalIndex, int> found;

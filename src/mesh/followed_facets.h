@@ -19,7 +19,7 @@ struct FollowedPlace {
 /// Places of a facet's corners [m].
 std::vector<Vector3> corners_of(const GlobalMesh& mesh, const Facet& facet);
 
-/// Facets that nodes of a tie follow, and what they follow of one: see add_tied_nodes. Serial; mesh
+/// Facets that nodes of a tie follow, and their motion at a place: see add_tied_nodes. Serial; mesh
 /// and facets must outlive it.
 class FollowedFacets {
  public:
@@ -37,7 +37,7 @@ class FollowedFacets {
   /// Facets whose boxes come as near to a box as they are followed at most.
   std::vector<const Facet*> near(const BoundingBox& box) const;
 
-  /// Adds `weight` times what x follows of a facet to the blocks of a node's carriers, rows of
+  /// Adds `weight` times the motion of a facet at x to the blocks of a node's carriers, rows of
   /// rotations as well.
   void follow(const FollowedPlace& followed, const Vector3& x, double weight,
               std::vector<Carrier>& carriers) const;
@@ -58,7 +58,7 @@ class FollowedFacets {
   const GlobalMesh& mesh_;
   const std::vector<Facet>& facets_;
   std::vector<BoundingBox> boxes_;           ///< of the facets
-  std::vector<double> reaches_;              ///< likewise [m]
+  std::vector<double> reaches_;              ///< of the facets: farthest distance that follows [m]
   std::map<const Facet*, Bending> bending_;  ///< of lines that turn
 };
 

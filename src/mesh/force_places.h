@@ -16,7 +16,7 @@ struct ResolvedForce {
   int structure = 0;
   /// Elements that it is about, by their numbers in the file: of members those chosen, in the order
   /// of their points or by number; of cuts, and of totals of a reduced structure, those that pass
-  /// force on to what is not counted; none of totals at full order.
+  /// force on to elements that are not counted; none of totals at full order.
   std::vector<std::int64_t> elements;
   std::vector<int> regions;        ///< of each of them, since a point may be several elements
   std::vector<GlobalIndex> nodes;  ///< of these elements, sorted
@@ -30,7 +30,7 @@ bool counts(const ForceItem& force, std::uint8_t free_components, const Vector3&
 /// for a plane that misses them.
 std::vector<ResolvedForce> resolve_forces(const Scene& scene, std::span<const GlobalMesh> meshes);
 
-/// Brings what rank 0 found to every rank. Collective.
+/// Brings the elements that rank 0 found to every rank. Collective.
 void broadcast_forces(MPI_Comm comm, std::vector<ResolvedForce>& forces);
 
 }  // namespace pounding

@@ -16,7 +16,7 @@ namespace {
 /// Meshes that Gmsh reads by the ending of their names.
 constexpr auto meshes = std::to_array<std::string_view>({".msh", ".unv", ".mesh", ".bdf", ".nas"});
 
-/// Shapes that a geometry may merge, likewise.
+/// Shapes that a geometry may merge, by the ending of their names.
 constexpr auto shapes =
     std::to_array<std::string_view>({".stl", ".brep", ".step", ".stp", ".iges", ".igs"});
 

@@ -12,8 +12,8 @@
 #include "mesh/tied_node.h"
 #include "scene/scene.h"
 
-/// A whole mesh as it stands on rank 0 between reading and distribution. Nodes are numbered from 0
-/// in the order of their tags ("file order"); only nodes that an element of the scene uses exist.
+/// A whole mesh as rank 0 holds it between reading and distribution. Nodes are numbered from 0 in
+/// the order of their tags ("file order"); only nodes that an element of the scene uses exist.
 namespace pounding {
 
 /// A facet of a physical group: 3 or 4 nodes of a surface, 2 of an edge.
@@ -81,9 +81,9 @@ struct GlobalMesh : NodeMarks {
   std::vector<std::string> doubts;     ///< of ties, one line each
   std::vector<UnusedElements> unused;  ///< points do not count
   /// One bit per free component of a node: 0-2 translations, 3-5 rotations. Rotations exist where
-  /// an element asks for them; what is clamped is not free.
+  /// an element asks for them; clamped components are not free.
   std::vector<std::uint8_t> free_components;
-  /// Components of each node before clamping, likewise.
+  /// Components of each node before clamping, a bit each.
   std::vector<std::uint8_t> components;
 
   GlobalIndex node_count() const { return static_cast<GlobalIndex>(node_tags.size()); }
@@ -96,7 +96,7 @@ struct GlobalMesh : NodeMarks {
 /// Mean of the positions of some nodes.
 Vector3 centroid(const GlobalMesh& mesh, std::span<const GlobalIndex> nodes);
 
-/// Number of dofs that a component mask stands for.
+/// Number of dofs of a component mask.
 constexpr int component_count(std::uint8_t mask) {
   return __builtin_popcount(mask);
 }

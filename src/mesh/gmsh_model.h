@@ -15,10 +15,10 @@ struct MeshTask {
   std::span<char*> arguments;  ///< parameters as Gmsh's own command takes them, behind a first word
 };
 
-/// Lets the Gmsh library open a mesh, or make one of a geometry, and takes over what it holds. The
-/// process is guarded before the file is opened; what the guard denies goes to `denied`. Errors
-/// that Gmsh reports come as the answer's; its crashes end the process. Part of the program
-/// pounding-mesh only.
+/// Lets the Gmsh library open a mesh, or make one of a geometry, and takes over its content. The
+/// process is guarded before the file is opened; denied calls go to `denied`. Errors that Gmsh
+/// reports come as the answer's; its crashes end the process. Part of the program pounding-mesh
+/// only.
 RawAnswer gmsh_mesh(const MeshTask& task, Denied denied);
 
 }  // namespace pounding

@@ -140,7 +140,7 @@ class GmshProcess {
     }
   }
 
-  /// Its exit as waitpid tells it; ends it if it still runs.
+  /// Its exit as waitpid reports it; ends it if it still runs.
   int end(bool by_force = true) {
     if (process_ > 0) {
       if (by_force) kill(-process_, SIGKILL);
@@ -222,7 +222,7 @@ RawAnswer run_gmsh(const MeshRequest& request) {
   try {
     answer = read_answer([&](std::span<char> bytes) { process.read_exactly(bytes, deadline); },
                          static_cast<std::size_t>(most_answer));
-  } catch (const AnswerCut&) {  // its exit status tells why
+  } catch (const AnswerCut&) {  // its exit status has the reason
   } catch (const TimeIsUp&) {
     std::ostringstream text;
     text << "option " << request.option << ": Gmsh was not done after " << request.time_limit

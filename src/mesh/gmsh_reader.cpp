@@ -77,7 +77,7 @@ std::vector<std::string> files_beside(const std::string& mesh,
   return files;
 }
 
-/// Doubts about what the mesh was read with, one line each.
+/// Doubts about the options and files of the mesh, one line each.
 std::vector<std::string> doubts_of(const Structure& structure, const RawAnswer& answer) {
   std::vector<std::string> doubts;
   for (const ChangedParameter& parameter : answer.mesh.changed) {
@@ -131,8 +131,8 @@ int dimension_of(const Region& region) {
   }
 }
 
-/// Parts of a group that a region takes: a name that stands for several dimensions, as of a volume
-/// and its skin, means those of the element that is asked for.
+/// Parts of a group that a region takes: a name of several dimensions, as of a volume and its skin,
+/// means those of the element that is asked for.
 std::vector<RawGroup> parts_of(const Region& region, const std::vector<RawGroup>& group) {
   std::vector<RawGroup> parts;
   std::ranges::copy_if(group, std::back_inserter(parts), [&](const RawGroup& part) {

@@ -6,7 +6,7 @@
 
 namespace pounding {
 
-/// Mesh that was read, and of what.
+/// Mesh that was read, and its files.
 struct MeshRead {
   GlobalMesh mesh;
   MeshFiles files;

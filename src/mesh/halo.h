@@ -17,7 +17,7 @@ namespace pounding {
 ///
 ///     halo.begin(w);  ... work on owned values ...  halo.end();  ... work on halo.ghosts() ...
 ///
-/// Ghost values lie grouped by owner: ghost i of the list given stands at place(i).
+/// Ghost values lie grouped by owner: ghost i of the list given is at place(i).
 class Halo {
  public:
   /// `ghosts`: global numbers of the ghost dofs, each owned by another rank. Owned dofs are
@@ -29,7 +29,7 @@ class Halo {
   Halo& operator=(const Halo&) = delete;
   ~Halo();
 
-  /// Starts sending from `owned`, values by owned dof (a pointer, or what is indexed like one),
+  /// Starts sending from `owned`, values by owned dof (a pointer, or an object indexed like one),
   /// which may change afterwards.
   template <typename Values>
   void begin(const Values& owned) {

@@ -4,8 +4,8 @@
 #include <vector>
 
 /// Calls to the C library that pounding-mesh answers itself: the symbols of a program come before
-/// those of its libraries, so that Gmsh's calls, and those of what it is made of, arrive here. Part
-/// of the program pounding-mesh only.
+/// those of its libraries, so that Gmsh's calls, and those of its parts, arrive here. Part of the
+/// program pounding-mesh only.
 namespace pounding {
 
 /// Begins to note regular files that are opened for reading.

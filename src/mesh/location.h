@@ -12,8 +12,9 @@ namespace pounding {
 /// Local.
 std::string describe_element(const Mesh& mesh, const ElementBlock& block, std::size_t element);
 
-/// Node and component of the largest |value| over the owned dofs of all ranks (what is not a number
-/// counts as largest), and an element that holds the node. The same on all ranks. Collective.
+/// Node and component of the largest |value| over the owned dofs of all ranks (a value that is not
+/// a number counts as largest), and an element that holds the node. The same on all ranks.
+/// Collective.
 std::string locate_largest(const Mesh& mesh, std::span<const double> values);
 
 }  // namespace pounding

@@ -137,7 +137,7 @@ class TiedReader {
   std::size_t first_;  ///< carrier that is next
 };
 
-/// Tells every rank what moves together.
+/// Sends every rank the nodes that move together.
 void share_rigid_parts(MPI_Comm comm, const std::vector<RigidNodes>& rigid, Mesh& mesh) {
   RigidParcel parcel(rigid);
   parcel.for_each_array([&](auto& array) { broadcast_array(comm, array, 0); });
@@ -171,7 +171,7 @@ void share_rigid_parts(MPI_Comm comm, const std::vector<RigidNodes>& rigid, Mesh
   }
 }
 
-/// Tells every rank the nodes of absorbing faces; each keeps those that it owns.
+/// Sends every rank the nodes of absorbing faces; each keeps those that it owns.
 void share_absorbing_nodes(MPI_Comm comm, std::vector<AbsorbingNode> nodes, Mesh& mesh) {
   broadcast_array(comm, nodes, 0);
   std::ranges::copy_if(
@@ -179,7 +179,7 @@ void share_absorbing_nodes(MPI_Comm comm, std::vector<AbsorbingNode> nodes, Mesh
       [&](const AbsorbingNode& absorbing) { return mesh.owned_node(absorbing.node) >= 0; });
 }
 
-/// Tells every rank the nodes on supports; each keeps those that it has, ghosts as well.
+/// Sends every rank the nodes on supports; each keeps those that it has, ghosts as well.
 void share_supported_nodes(MPI_Comm comm, const NodeMarks& marks, Mesh& mesh) {
   mesh.ground_support = marks.ground_support;
   MPI_Bcast(&mesh.ground_support, 1, MPI_INT, 0, comm);

@@ -86,7 +86,7 @@ struct Mesh {
     if (node < owned_nodes) return first_owned_dof + local;
     return ghost_dof[node - owned_nodes] + (local - first_dof[node]);
   }
-  /// The support that a local node stands on, null if it stands on none or on the common ground.
+  /// The support under a local node, null if there is none or the common ground.
   const SupportedNode* support_at(LocalIndex node) const {
     const auto found =
         std::ranges::lower_bound(supported, file_node[node], {}, &SupportedNode::node);

@@ -127,8 +127,8 @@ std::uint64_t argument(const ucontext_t& context, int number) {
 #endif
 }
 
-/// The thread is stopped in the call itself, in the midst of nothing else, so that this may do what
-/// any other function may.
+/// The thread is stopped in the call itself, in the midst of nothing else, so that this may do
+/// anything that any other function may.
 void on_denied_call(int /*signal*/, siginfo_t* info, void* context) {
   std::string deed = "make the system call " + std::to_string(info->si_syscall);
   const auto tell = [&](const auto& calls) {

@@ -4,7 +4,7 @@
 
 namespace pounding {
 
-/// Told what a denied call would have done: "write to '/tmp/x'".
+/// Receives the deed of a denied call: "write to '/tmp/x'".
 using Denied = void (*)(const std::string& deed);
 
 /// Guard of a process.

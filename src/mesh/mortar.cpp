@@ -165,7 +165,7 @@ class Mortar {
     }
   }
 
-  /// Takes off what an edge of the nodes' facet bends, by the turns of its ends.
+  /// Takes off the bending of an edge of the nodes' facet, by the turns of its ends.
   void take_off(const FollowedPlace& middle, double bulge, const std::array<GlobalIndex, 2>& ends,
                 std::vector<Carrier>& carriers) const {
     const Vector3 edge = minus(mesh_.position(ends[1]), mesh_.position(ends[0]));

@@ -15,7 +15,7 @@ namespace pounding {
 struct ResolvedProbe {
   std::string name;
   int structure = 0;
-  std::vector<GlobalIndex> nodes;  ///< file order; what is recorded is their mean
+  std::vector<GlobalIndex> nodes;  ///< file order; their mean is recorded
   Vector3 position{0, 0, 0};       ///< mean of the nodes [m]
   double snap_distance = 0;        ///< largest from a point asked for to its node, rank 0 [m]
   double element_size = 0;  ///< largest distance between nodes of an element there, rank 0 [m]

@@ -26,7 +26,7 @@ struct RawEntity {
   std::vector<RawElements> elements;
 };
 
-/// A physical group of one dimension; its number stands for a name that it has not.
+/// A physical group of one dimension; its number takes the place of a missing name.
 struct RawGroup {
   std::string name;
   int dimension = 0;
@@ -60,7 +60,7 @@ struct RawMesh {
 struct RawAnswer {
   RawMesh mesh;
   std::string error;     ///< empty or a line of Gmsh's
-  std::string denied;    ///< empty or what the file was stopped at: "write to '/tmp/x'"
+  std::string denied;    ///< empty or the deed at which the file was stopped: "write to '/tmp/x'"
   bool landlock = true;  ///< Landlock guarded the process as well
 };
 
@@ -68,7 +68,7 @@ struct RawAnswer {
 void write_answer(const RawAnswer& answer, const WriteBytes& write);
 
 /// Reads such an answer, straight into its arrays. `most`: bytes that it cannot exceed. Throws
-/// std::runtime_error where it is none, and what `read` throws.
+/// std::runtime_error where it is none, and the errors of `read`.
 RawAnswer read_answer(const ReadBytes& read, std::size_t most);
 
 }  // namespace pounding

@@ -11,7 +11,7 @@ namespace pounding {
 /// groups, lines and points of one group. Serial.
 void check_repeated_elements(const std::string& structure, const GlobalMesh& mesh);
 
-/// Leaves the first facet of those on the same nodes, in the order in which they stand. Serial.
+/// Leaves the first facet of those on the same nodes, in their order. Serial.
 void drop_repeated_facets(std::vector<Facet>& facets);
 
 }  // namespace pounding

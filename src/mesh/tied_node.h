@@ -7,8 +7,8 @@
 
 namespace pounding {
 
-/// A node that a tied one follows, and how: entry 6 i + j is what component i of the tied node
-/// (displacements, then rotations) gets of component j of the carrier [-, m, 1/m].
+/// A node that a tied one follows, and how: entry 6 i + j is the part of component i of the tied
+/// node (displacements, then rotations) by component j of the carrier [-, m, 1/m].
 struct Carrier {
   GlobalIndex node = 0;  ///< file order
   std::array<double, 36> block{};

@@ -83,8 +83,8 @@ class Tie {
     return tied;
   }
 
-  /// The row `mean`, but what is clamped follows at its place: what stands on one plane of symmetry
-  /// follows what stands on it.
+  /// The row `mean`, but clamped components follow at their place: nodes on one plane of symmetry
+  /// follow nodes on it.
   TiedNode joined(const TiedNode& place, TiedNode mean) const {
     for (std::size_t c = 0; c < 6; ++c) {
       if ((clamped(place.node) >> c & 1) == 0) continue;

@@ -13,9 +13,9 @@ namespace pounding {
 ///     u = sum N_i (u_i + theta_i x d) + sum b_ij (theta_i - theta_j) x (x_j - x_i) / 8
 ///     theta = sum N_i theta_i
 ///
-/// d from the nearest place of the facet to it, N_i the corners' shares there, b_ij the
-/// bulge of the edge from i to j, so that beams and plates of constant curvature are followed
-/// exactly; of edges of shells only what is out of their plane. Faces of solids turn by theta:
+/// d from the nearest place of the facet to it, N_i the corners' shares there, b_ij the bulge of
+/// the edge from i to j, so that beams and plates of constant curvature are followed exactly; of
+/// edges of shells only the part out of their plane. Faces of solids turn by theta:
 ///
 ///     u = sum N_i u_i + theta x d
 ///     theta = sum (grad N_i x n) (n . u_i) + n (n x grad N_i) . u_i / 2

@@ -43,7 +43,7 @@ constexpr auto oriented = std::to_array<int>({11, 21, 22, 23, 24});
 
 constexpr auto group_sets = std::to_array<int>({2435, 2452, 2467, 2477});
 
-/// Datasets whose content would be missed, and what they hold.
+/// Datasets whose content would be missed, and their content.
 struct UnreadSet {
   int number;
   const char* content;
@@ -63,7 +63,7 @@ bool contains(const auto& list, int value) {
   return std::ranges::find(list, value) != list.end();
 }
 
-/// An element of the file, with what makes its cell.
+/// An element of the file, with the numbers of its cell.
 struct Cell {
   int type = 0;
   int dimension = 0;

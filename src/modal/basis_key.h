@@ -7,7 +7,7 @@
 
 namespace pounding {
 
-/// Hashes of all that a modal basis depends on, by what it is: mesh, materials and sections, the
+/// Hashes of the sources of a modal basis, by their names: mesh, materials and sections, the
 /// formulations of the elements, every byte of dofs.csv and of the matrices where they come from
 /// files, clamps, how many vectors, and the points where the motion is asked for. Serial. Throws
 /// UserError if a file cannot be read.

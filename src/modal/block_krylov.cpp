@@ -118,8 +118,8 @@ class BlockKrylov {
   }
 
   /// X of W = X R with orthonormal columns, in the place of W; returns R. Columns may differ by
-  /// orders, as where rigid motions stand beside fast modes: what strong directions leave over is a
-  /// block of its own. Lost is what is no longer than `least`.
+  /// orders, as rigid motions beside fast modes: the remainder beside strong directions is a block
+  /// of its own. Columns no longer than `least` are lost.
   DenseMatrix orthonormalise(DenseMatrix& w, double least) const {
     OrthonormalSpace block(system_.comm, w.rows);
     block.reserve(w.columns);
@@ -185,7 +185,7 @@ class BlockKrylov {
       std::copy_n(near.column(j), near.rows, part.column(j) + related);
     }
     last_ = orthonormalise(w, least);
-    // All of the space: what rounding left in it grew with the scale.
+    // All of the space: the rounding left in it grew with the scale.
     add_product(1, space_.project(w), last_, part);
     before_ = before;
     last_count_ = block.columns;
@@ -314,7 +314,7 @@ class BlockKrylov {
   std::uint64_t fresh_ = 0;     ///< columns that were made of nothing
   std::size_t next_look_ = 0;   ///< size of the space
   std::vector<double> theta_;   ///< decreasing
-  DenseMatrix vectors_;         ///< S, likewise
+  DenseMatrix vectors_;         ///< S, in the order of theta_
   std::vector<double> residual_;
 };
 

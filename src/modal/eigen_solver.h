@@ -20,13 +20,12 @@ MatHandle mass_matrix(const LinearSystem& system);
 /// not work with such an option. Collective.
 void solve(EPS solver);
 
-/// Throws UserError: only `found` of `count` modes converged, with what may be to blame.
-/// `option`: of the solver, given by the user; empty: none. Collective.
+/// Throws UserError: only `found` of `count` modes converged, with a likely cause. `option`: of the
+/// solver, given by the user; empty: none. Collective.
 [[noreturn]] void refuse_modes(const LinearSystem& system, const Mesh& mesh, int found, int count,
                                const std::string& option = "");
 
-/// Throws UserError where fewer than `count` modes converged, with what may be to blame.
-/// Collective.
+/// Throws UserError where fewer than `count` modes converged, with a likely cause. Collective.
 void require_converged(EPS solver, const LinearSystem& system, const Mesh& mesh, int count);
 
 /// Krylov-Schur on a symmetric matrix, or on A x = lambda B x where a `mass` B is given, with a

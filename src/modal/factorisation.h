@@ -4,7 +4,7 @@
 
 namespace pounding {
 
-/// Workspace of a factor beyond what MUMPS expects to need [per cent].
+/// Workspace of a factor beyond MUMPS's own estimate [per cent].
 inline constexpr int factor_workspace = 100;
 
 /// L D L^T by MUMPS, with twice the workspace that it expects to need: of shifted matrices cut in

@@ -19,7 +19,7 @@ constexpr double converged_residual = 1e-10;
 constexpr double certain_part = 2e-3;  // of the eigenvalue, beyond which none is missed
 constexpr double miss_probability = 1e-9;
 constexpr std::size_t most_products = 200000;
-constexpr double shape_residual = 1e-4;  // tells where a mode is
+constexpr double shape_residual = 1e-4;  // enough to locate a mode
 constexpr std::size_t shape_products = 100;
 
 double norm(Vec x) {

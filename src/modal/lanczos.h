@@ -25,10 +25,10 @@ struct EigenvalueEffort {
 ///
 ///     A V_k = V_k T_k + beta_k v_{k+1} e_k^T
 ///
-/// The largest eigenvalue theta of T_k approaches that of A from below. Two things bound what is
-/// left: some eigenvalue lies within r = beta_k |s_k| of theta, s the eigenvector of T_k; and for a
-/// start vector without preferred direction, whatever the eigenvalues (Kuczynski and Wozniakowski,
-/// SIAM J. Matrix Anal. Appl. 13 (1992) 1094, theorem 4.2),
+/// The largest eigenvalue theta of T_k approaches that of A from below. Two facts bound the rest:
+/// some eigenvalue lies within r = beta_k |s_k| of theta, s the eigenvector of T_k; and for a start
+/// vector without preferred direction, whatever the eigenvalues (Kuczynski and Wozniakowski, SIAM
+/// J. Matrix Anal. Appl. 13 (1992) 1094, theorem 4.2),
 ///
 ///     P{ lambda_max > theta / (1 - e) } <= 1.648 sqrt(n) exp(-sqrt(e) (2 k - 1))
 ///

@@ -27,7 +27,7 @@ double most_factor_memory(double dofs) {
   return 250 * std::pow(dofs, 4.0 / 3);
 }
 
-/// Residual over the eigenvalue, or over what makes of round-off the tolerance: `context`.
+/// Residual over the eigenvalue, or over `context`, where round-off is the tolerance.
 PetscErrorCode error_of(EPS, PetscScalar value, PetscScalar, PetscReal residual, PetscReal* error,
                         void* context) {
   *error = residual / std::max(std::abs(value), *static_cast<const double*>(context));

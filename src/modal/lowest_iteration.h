@@ -20,7 +20,7 @@ bool must_iterate(const LinearSystem& system, Mat matrix, SolverChoice choice);
 struct LowestProblem {
   const LinearSystem& system;
   const Mesh& mesh;
-  Mat matrix;              ///< A, mass-scaled where there is no B; keeps what the iteration adds
+  Mat matrix;              ///< A, mass-scaled where there is no B; keeps the iteration's additions
   Mat mass;                ///< B, or null
   double frequency_bound;  ///< of any circular frequency of the structure [rad/s]
   /// Takes a field of displacements to the coordinates of A.
@@ -30,7 +30,7 @@ struct LowestProblem {
 /// Lowest eigenpairs as their solver holds them.
 struct LowestPairs {
   EpsHandle solver;
-  double above = 0;    ///< what its eigenvalues are too large by [1/s2]
+  double above = 0;    ///< excess of its eigenvalues [1/s2]
   std::string method;  ///< how they were found, where that was without a factor
 };
 

@@ -23,9 +23,9 @@ void weigh(const LinearSystem& system, std::vector<double>& x) {
   for (std::size_t i = 0; i < x.size(); ++i) x[i] *= std::sqrt(system.lumped_mass[i]);
 }
 
-/// Bound of every circular frequency [rad/s]. Elements with stiffness and no mass, springs, have
-/// no bound of their own: then that of the rows of M^-1/2 K M^-1/2, of motions that rigid bodies
-/// and ties admit, since what follows them may have next to no mass of its own.
+/// Bound of every circular frequency [rad/s]. Elements with stiffness and no mass, springs, have no
+/// bound of their own: then that of the rows of M^-1/2 K M^-1/2, of motions that rigid bodies and
+/// ties admit, since their followers may have next to no mass of their own.
 double frequency_bound(const LinearSystem& system) {
   if (std::isfinite(system.element_frequency_bound)) return system.element_frequency_bound;
   const MatHandle scaled = system.rigid_bodies.empty()

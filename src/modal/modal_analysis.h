@@ -45,7 +45,7 @@ struct LargestFrequency {
 };
 
 /// A mode from omega^2 [1/s2], its participation factors along x, y, z and about them, and the
-/// structure's mass and rotary inertia likewise.
+/// structure's mass and rotary inertia along and about them.
 Mode describe_mode(double eigenvalue, const std::array<double, 6>& participation,
                    const std::array<double, 6>& inertia);
 

@@ -103,7 +103,7 @@ class BasisMaker {
     }
   }
 
-  /// y of z, and z of what acts on y: y = M^1/2 T z with orthonormal columns.
+  /// y of z, and z of forces on y: y = M^1/2 T z with orthonormal columns.
   void from_coordinates(std::vector<double>& z) const {
     if (!admissible_) return;
     admissible_->to_motion(z);
@@ -114,13 +114,13 @@ class BasisMaker {
     for (std::size_t i = 0; i < dofs_; ++i) y[i] *= std::sqrt(system_.lumped_mass[i]);
     admissible_->to_coordinates_of_force(y);
   }
-  /// Takes out of y what no rigid body admits.
+  /// Takes out of y the part that no rigid body admits.
   void admit(std::vector<double>& y) const {
     to_coordinates(y);
     from_coordinates(y);
   }
 
-  /// A x; what rigid bodies do not admit has eigenvalues beyond all others.
+  /// A x; motions that rigid bodies do not admit have eigenvalues beyond all others.
   void multiply(const double* x, double* product) const {
     std::vector<double> from(x, x + dofs_);
     admit(from);
@@ -293,7 +293,7 @@ class BasisMaker {
     return contact_patches(points, positions, wanted);
   }
 
-  /// Takes out the columns that are nothing but what rounding left.
+  /// Takes out the columns that are nothing but round-off.
   void drop_the_short(DenseMatrix& x) const {
     const std::vector<double> lengths = space_.norms(x);
     for (std::size_t j = x.columns; j-- > 0;) {
@@ -331,8 +331,8 @@ class BasisMaker {
     if (system_.supports) add_supports(rotation, basis);
   }
 
-  /// Modes are vectors of A whatever stands beside them: they come out of the rotation as they went
-  /// in, but between vectors that are none.
+  /// Modes are vectors of A whatever the others are: they come out of the rotation as they went in,
+  /// but between vectors that are none.
   void find_modes_in(const DenseMatrix& rotation, ModalBasis& basis) const {
     const std::size_t modes = mode_numbers_.size();
     std::vector<double> share(space_.size(), 0.0);  // of each new vector in the modes' space
@@ -412,7 +412,7 @@ class BasisMaker {
   std::size_t independent_;                      ///< see LinearSystem::independent_dofs
   std::optional<AdmissibleMotions> admissible_;  ///< of rigid bodies
   MatHandle restricted_;                         ///< A in their coordinates
-  double idle_ = 0;                              ///< eigenvalue of what they do not admit [1/s2]
+  double idle_ = 0;  ///< eigenvalue of motions that they do not admit [1/s2]
   std::optional<ShiftedSolver> solver_;
   OrthonormalSpace space_;
   std::vector<double> squared_frequency_;  ///< of the modes found [1/s2]

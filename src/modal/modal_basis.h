@@ -33,7 +33,7 @@ struct ModalBasis {
   std::size_t size() const { return squared_frequency.size(); }
 };
 
-/// Request for a basis: what it shall hold.
+/// Request for a basis: its content.
 struct ModalRequest {
   int modes = 0;             ///< number of modes; 0: all below the cut-off
   int candidates = 0;        ///< number of lowest modes to choose them from; 0: no others
@@ -55,8 +55,8 @@ struct ModalRequest {
 ///
 /// with the shift just below zero, so that free structures pass; or, where faces have too many
 /// points, to equal forces on the points of a patch (see `contact_patches`). They are made
-/// orthonormal, the largest remainder first; what lies in the span already to 1e-8 is dropped.
-/// Rayleigh-Ritz on the whole space makes K diagonal.
+/// orthonormal, the largest remainder first; a vector in the span to 1e-8 is dropped. Rayleigh-Ritz
+/// on the whole space makes K diagonal.
 ///
 /// Of more candidates than modes the lowest three quarters are taken, and then those that move the
 /// contact points and the other points most: sum over the points of phi_k^2 / omega_k^2, each

@@ -26,7 +26,7 @@ std::string difference(const Hdf5Reader& file, const BasisKey& key) {
 }
 
 constexpr double most_coordinates = 1e9;  // an int holds them
-constexpr double largest_number = 9e15;   // whole numbers above are not told apart
+constexpr double largest_number = 9e15;   // whole numbers above are not distinguished
 constexpr double last_component = component_names.size() - 1.0;
 
 /// The value, if it is a whole number from 0 to `largest`; else throws std::runtime_error.

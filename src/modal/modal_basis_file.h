@@ -10,7 +10,7 @@
 ///
 ///     /                    attributes: format "pounding modal basis", version 2, program, modes,
 ///                          attachment_vectors, full_dofs, total_mass [kg], mass [kg]
-///     /squared_frequency   (k) omega^2 [1/s2]; attributes: hashes of what the basis depends on
+///     /squared_frequency   (k) omega^2 [1/s2]; attributes: hashes of the basis's sources
 ///     /mode_numbers        (k) which mode, from 1, each vector is; 0: none
 ///     /participation       (6, k) along and about x, y, z
 ///     /centre_of_mass      (3) [m]
@@ -19,13 +19,13 @@
 ///     /rows                (n, k) of the basis at the points
 namespace pounding {
 
-/// Hashes of what a basis depends on, by what it is.
+/// Hashes of the sources of a basis, by their names.
 using BasisKey = std::map<std::string, std::string>;
 
 /// Serial. Throws std::runtime_error, whose message begins with the path.
 void write_modal_basis(const std::string& path, const BasisKey& key, const ModalBasis& basis);
 
-/// Content of such a file; if it belongs to another key, no basis but what differs.
+/// Content of such a file; if it belongs to another key, no basis but the names that differ.
 struct StoredBasis {
   std::optional<ModalBasis> basis;
   std::string differs;  ///< "mesh, contact points"

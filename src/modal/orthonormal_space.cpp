@@ -6,7 +6,7 @@
 namespace pounding {
 
 void add_over_ranks(MPI_Comm comm, std::vector<double>& values) {
-  constexpr std::size_t portion = std::size_t{1} << 28;  // what an int counts
+  constexpr std::size_t portion = std::size_t{1} << 28;  // range of an int
   for (std::size_t first = 0; first < values.size(); first += portion) {
     const auto count = static_cast<int>(std::min(portion, values.size() - first));
     MPI_Allreduce(MPI_IN_PLACE, values.data() + first, count, MPI_DOUBLE, MPI_SUM, comm);
@@ -60,7 +60,7 @@ void OrthonormalSpace::take_in(DenseMatrix& x, double least) {
     next.append({x.column(j), x.column(j) + x.rows});
     x.remove(j);
     normalise(next);
-    project(next);  // once more: what rounding put back grew with the scale
+    project(next);  // once more: the part that rounding put back grew with the scale
     normalise(next);
     append(next.values);
     add_product(-1, next, product_over_ranks(comm_, next, x), x);

@@ -36,7 +36,7 @@ class OrthonormalSpace {
 
   /// W^T X, the same on all ranks, of the columns of W from `first` on. Collective.
   DenseMatrix parts(const DenseMatrix& x, std::size_t first = 0) const;
-  /// X := (I - W W^T) X, likewise; returns W^T X. Collective.
+  /// X := (I - W W^T) X, of the columns of W from `first` on; returns W^T X. Collective.
   DenseMatrix project(DenseMatrix& x, std::size_t first = 0) const;
   /// Length of each column of X. Collective.
   std::vector<double> norms(const DenseMatrix& x) const;

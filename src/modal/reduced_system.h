@@ -30,8 +30,8 @@ void scale_stiffness(double factor, ModalBasis& basis);
 /// The lowest `count` modes of the basis, for the report.
 ModalResult modes_of_basis(const ModalBasis& basis, int count);
 
-/// m of each coordinate: 1, or what brings its own limit up to the step dt that scaled mass asks
-/// for (`Structure::mass_scaling`), damping included:
+/// m of each coordinate: 1, or the mass that brings its own limit to the step dt that scaled mass
+/// asks for (`Structure::mass_scaling`), damping included:
 ///
 ///     m (4 - 2 dt alpha) = 2 dt beta omega^2 + dt^2 s omega^2
 ///
@@ -51,8 +51,8 @@ double energy_margin(const Structure& structure, const ModalBasis& basis, double
 /// "generalised coordinate 12 (34.5 Hz)", counted from 1.
 std::string describe_coordinate(const ModalBasis& basis, std::size_t coordinate);
 
-/// The coordinate of the largest |value| over all ranks (what is not a number counts as largest).
-/// The same on all ranks. Collective.
+/// The coordinate of the largest |value| over all ranks (a value that is not a number counts as
+/// largest). The same on all ranks. Collective.
 std::string locate_largest(const LinearSystem& system, const ModalBasis& basis,
                            std::span<const double> values);
 

@@ -98,7 +98,7 @@ void forbid_damping_matrix(const Structure& structure) {
   }
 }
 
-/// Runs `work` on a file; what goes wrong is the user's.
+/// Runs `work` on a file; its errors become the user's.
 void with_file(const Structure& structure, const std::function<void()>& work) {
   try {
     work();

@@ -23,7 +23,7 @@ class ScaledOperator final : public SymmetricOperator {
   Mat matrix() const override { return shell_.get(); }
   /// y = A x. Collective.
   void apply(Vec x, Vec y) const override;
-  /// G^-T y of a vector over the owned dofs: the motion that y stands for.
+  /// G^-T y of a vector over the owned dofs: the motion of y.
   void to_motion(std::vector<double>& y) const;
   /// G^-1 f of a force over the owned dofs.
   void from_force(std::vector<double>& f) const;

@@ -17,7 +17,7 @@ struct MotionDescription {
   std::string component{};      ///< of the ground, as the file names it: "N10E"; "" if it does not
   std::string source;           ///< file of the record or of the target spectrum
   std::string layout;           ///< "rows of 8 values that follow one another", "synthetic, seed 3"
-  std::string unit;             ///< of the file, and who said it; empty for a synthetic motion
+  std::string unit;             ///< of the file, and its source; empty for a synthetic motion
   std::size_t points = 0;       ///< samples
   double time_step = 0;         ///< between them [s]
   double duration = 0;          ///< [s]
@@ -27,7 +27,7 @@ struct MotionDescription {
   double file_peak = 0;         ///< as in the file [m/s2]; 0 for a synthetic motion
   std::string scaling;          ///< "to pga 3.43 m/s2", "by 0.5", "none"
   double factor = 0;            ///< on the numbers of the file [-]; 0 for a synthetic motion
-  std::string treatment;        ///< of baseline and sampling: what was done to it
+  std::string treatment;        ///< changes of baseline and sampling
   double end_velocity = 0;      ///< integral of the scaled motion at its end [m/s]
   double end_displacement = 0;  ///< its second integral there [m]
   double pga = 0;               ///< as applied [m/s2]
@@ -42,7 +42,7 @@ class GroundMotion {
   /// Reads the files; every rank may do so, or one that shares the result. Band-limited resampling
   /// goes to steps of 5e-4 s or less. Throws UserError (see read_accelerogram,
   /// generate_accelerogram; a pga for a record that is zero; a synthetic motion without pga; a peak
-  /// above ten thousand g, as in the file or as scaled). `name` stands in messages.
+  /// above ten thousand g, as in the file or as scaled). `name` is that of messages.
   GroundMotion(const std::array<std::optional<MotionComponent>, 3>& components,
                Resampling resampling, std::string name = "motion");
 
@@ -91,7 +91,7 @@ class GroundMotion {
 
   /// Descriptions of the directions that have a motion.
   const std::vector<MotionDescription>& descriptions() const { return descriptions_; }
-  /// One line each: what may not be meant, by the files and by the peaks that come of them.
+  /// Doubts about the files and the peaks of their motions, one line each.
   const std::vector<std::string>& doubts() const { return doubts_; }
 
  private:

@@ -11,7 +11,7 @@ namespace pounding {
 namespace {
 
 constexpr double largest_rotation = 0.26;
-/// a0 beyond which the factors stay what they are.
+/// a0 beyond which the factors are constant.
 constexpr double end_of_translation = 1.1;
 constexpr double end_of_rotation = std::numbers::pi / 2;
 

@@ -14,8 +14,8 @@
 namespace pounding {
 
 /// Level acceleration of the underside [m/s2], from that of the surface. It goes on until nothing
-/// is left of the filter; what this would put before t = 0 comes after it, so that the underside
-/// comes to rest where the surface does.
+/// is left of the filter; its part before t = 0 comes after it, so that the underside comes to rest
+/// where the surface does.
 Accelerogram embedded_translation(const Accelerogram& surface, const Embedment& embedment);
 
 /// Angular acceleration [rad/s2]; positive: the top goes further than the underside along the

@@ -8,7 +8,7 @@ namespace pounding {
 namespace {
 
 /// y_n = y_{n-1} + a (y_{n-1} - y_{n-2}) + b (x_n + 2 x_{n-1} + x_{n-2} - 4 y_{n-1}): in this order
-/// a constant stays what it is, however short the interval.
+/// a constant is kept, however short the interval.
 struct TwoPoles {
   double b = 0;
   double a = 0;

@@ -14,8 +14,8 @@ constexpr double low_pass_limit = 0.25;
 ///     1 / (1 + (sqrt(2) - 1) (tan(pi f h) / tan(pi frequency h))^4)
 ///
 /// of every other f, h = `interval` [s]. It is the filter of SAE J211-1 and ISO 6487 for impacts,
-/// whose channel class is frequency / 1.65. Before the first sample the signal was what it is
-/// there, and after the last one it stays. `frequency` [Hz], above 0 and at most low_pass_limit /
+/// whose channel class is frequency / 1.65. Before the first sample the signal has the value there,
+/// and after the last one it keeps it. `frequency` [Hz], above 0 and at most low_pass_limit /
 /// `interval`.
 std::vector<double> low_pass(std::span<const double> samples, double interval, double frequency);
 

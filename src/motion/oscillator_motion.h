@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-/// The motion of an oscillator within one step of its load, and where it is largest. What the
-/// response spectra share; see motion/response_spectrum.h for the equation and its variables.
+/// The motion of an oscillator within one step of its load, and where it is largest. Shared by the
+/// response spectra; see motion/response_spectrum.h for the equation and its variables.
 namespace pounding::oscillator {
 
 inline constexpr int max_order = 28;

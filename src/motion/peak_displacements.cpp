@@ -16,7 +16,7 @@ namespace {
 
 using namespace oscillator;
 
-/// Angle that an oscillator may turn in a stretch so that a bound from its ends tells anything.
+/// Angle that an oscillator may turn in a stretch so that a bound from its ends is of use.
 constexpr double widest_turn = 8;
 
 double stiffness_of(const Oscillator& o) {

@@ -9,12 +9,12 @@
 namespace pounding::oscillator {
 
 /// Bounds of the displacements of the oscillators of a block within a whole stretch of N steps,
-/// from the states at both of its ends alone. What is left of the motion from (u, h u') at the
-/// start is R exp(-xi theta s) cos(q theta s + phase) with R^2 = u^2 + z^2, z = (h u' / theta +
-/// xi u) / q; the load adds at most L, the smaller of the largest |h^2 a| times the integral of
-/// the response to an impulse, and of the largest |h v| times that of its slope, which is below
-/// N. So |u| <= R + L; and u lies within N^2 / 8 times the largest |h^2 u''| of its chord, the
-/// part of the load within N / 2 times the range of h v as well:
+/// from the states at both of its ends alone. The free motion from (u, h u') at the start is R
+/// exp(-xi theta s) cos(q theta s + phase) with R^2 = u^2 + z^2, z = (h u' / theta + xi u) / q; the
+/// load adds at most L, the smaller of the largest |h^2 a| times the integral of the response to an
+/// impulse, and of the largest |h v| times that of its slope, which is below N. So |u| <= R + L;
+/// and u lies within N^2 / 8 times the largest |h^2 u''| of its chord, the part of the load within
+/// N / 2 times the range of h v as well:
 ///
 ///     |u| <= max(|u_0|, |u_N|) + D + N^2 / 8 (2 xi theta (theta R + N |h^2 a|) + theta^2 (R + L)),
 ///
@@ -30,7 +30,7 @@ class StretchBound {
 
  private:
   OscillatorBlock::Vector slope_;         ///< z = slope_ h u' + share_ u
-  OscillatorBlock::Vector share_;         ///< likewise
+  OscillatorBlock::Vector share_;         ///< xi / q
   OscillatorBlock::Vector impulse_;       ///< integral of the response to an impulse over N steps
   OscillatorBlock::Vector of_amplitude_;  ///< N^2 / 8 (2 xi theta^2 + theta^2)
   OscillatorBlock::Vector of_load_;       ///< N^2 / 8 2 xi theta N

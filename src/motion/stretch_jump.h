@@ -8,7 +8,7 @@
 
 namespace pounding::oscillator {
 
-/// Where oscillators stand at the starts of the stretches of a record, without the steps between:
+/// States of oscillators at the starts of the stretches of a record, without the steps between:
 ///
 ///     x_N = A^N x_0 + sum over k = 0..N of w_k h^2 a_k,     w_k = A^(N-k) b_1 + A^(N-1-k) b_0,
 ///

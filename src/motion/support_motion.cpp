@@ -16,7 +16,7 @@ namespace {
 
 constexpr double resampled_step = 5e-4;  // s
 
-/// Beyond what a foundation turns by [rad/s2]: its edge at 1 m would have ten thousand g.
+/// Beyond the rotation of any foundation [rad/s2]: its edge at 1 m would have ten thousand g.
 constexpr double impossible_rotation = impossible_peak;
 
 /// Parts of the largest velocity, and of the largest displacement, that may be left at the end.

@@ -45,7 +45,7 @@ class SupportMotion {
   /// Samples of a column's own record; empty where it goes by the ground's motion.
   const Accelerogram& own(std::size_t column) const { return sources_[column].own; }
 
-  /// One line each: what may not be meant, by the files and by what comes of them.
+  /// Doubts about the files and the motions made of them, one line each.
   std::vector<std::string> doubts() const;
 
  private:

@@ -106,7 +106,7 @@ std::vector<double> random_motion(const TargetSpectrum& target, const SyntheticM
   return acceleration;
 }
 
-// Multiplies the Fourier amplitudes by exp(-gain misfit), and removes what lies well below the
+// Multiplies the Fourier amplitudes by exp(-gain misfit), and removes frequencies well below the
 // target's range. Zeros behind the motion keep the filter from wrapping around.
 std::vector<double> correct_spectrum(std::vector<double> acceleration,
                                      const std::vector<double>& controls,
@@ -132,8 +132,8 @@ std::vector<double> correct_spectrum(std::vector<double> acceleration,
   return acceleration;
 }
 
-// Brings the peak to 1: clips what exceeds it, or else adds a short wavelet of frequency
-// `wavelet` [Hz] at the largest value.
+// Brings the peak to 1: clips larger values, or else adds a short wavelet of frequency `wavelet`
+// [Hz] at the largest value.
 void impose_peak(std::vector<double>& acceleration, double wavelet) {
   for (double& a : acceleration) a = std::clamp(a, -1.0, 1.0);
   const auto largest =

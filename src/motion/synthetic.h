@@ -18,13 +18,13 @@ struct TargetSpectrum {
 };
 
 /// Reads a target spectrum: lines of frequency [Hz], PSA / PGA; frequencies increase or decrease; #
-/// opens a comment; a line of names may come first. Throws UserError (file, line, what to do).
+/// opens a comment; a line of names may come first. Throws UserError (file, line, remedy).
 TargetSpectrum read_target_spectrum(const std::string& file);
 
 /// Between the samples of a synthetic accelerogram [s].
 inline constexpr double synthetic_interval = 0.005;
 
-/// Throws UserError for what generate_accelerogram() refuses before it begins.
+/// Throws UserError for the inputs that generate_accelerogram() refuses before it begins.
 void check_synthetic(const TargetSpectrum& target, const SyntheticMotion& motion, double pga);
 
 /// A synthetic accelerogram whose 5 % spectrum follows the target, sampled every 0.005 s: random

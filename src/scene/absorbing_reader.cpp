@@ -11,7 +11,7 @@ constexpr std::string_view absorbing = "<structure>_absorbing";
 constexpr std::string_view base = "<structure>_absorbing_base";
 constexpr std::string_view input = "motion_input";
 
-/// A block that a wave moves does not stand on ground at rest, nor is it braked against it.
+/// A block that a wave moves is not held by ground at rest, nor braked against it.
 void check_driven(const OptionReader& options, const Structure& structure) {
   const auto refuse = [&](const std::string& why) {
     options.refuse(input, {}, "structure " + structure.name + " " + why);

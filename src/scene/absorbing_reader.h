@@ -7,8 +7,8 @@
 
 namespace pounding {
 
-/// The absorbing faces of a structure. Throws UserError for a group that stands there twice, and
-/// beside matrices or a reduction.
+/// The absorbing faces of a structure. Throws UserError for a group listed twice, and beside
+/// matrices or a reduction.
 std::vector<AbsorbingFace> read_absorbing(OptionReader& options, const Structure& structure);
 
 /// Throws UserError (one line) unless every structure can be moved the way that the scene says: all

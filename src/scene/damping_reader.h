@@ -17,8 +17,8 @@ Rayleigh read_structure_damping(OptionReader& options, const std::string& struct
 std::optional<UniformDamping> read_uniform_damping(OptionReader& options,
                                                    const std::string& structure);
 
-/// Damping of a region, `names` being its structure and group; what is not given of alpha and beta
-/// is that of `inherited`. Nothing where the region has no damping options at all. Refused for
+/// Damping of a region, `names` being its structure and group; alpha and beta that are not given is
+/// that of `inherited`. Nothing where the region has no damping options at all. Refused for
 /// tension-only bars, whose force has one beta, that of their structure. Throws UserError.
 std::optional<Rayleigh> read_region_damping(OptionReader& options, const OptionReader::Names& names,
                                             const Region& region, const Rayleigh& inherited);

@@ -8,7 +8,7 @@
 namespace pounding {
 namespace {
 
-/// Plausible range of a quantity, and what its user may have meant.
+/// Plausible range of a quantity, and the meaning that its user may have had.
 struct Plausible {
   const char* what;
   double low;
@@ -130,7 +130,8 @@ void look_at_direction(const Structure& structure, Doubts& doubts) {
   }
 }
 
-/// Gravity without a static start: what is held and gets its weight at once swings about its sag.
+/// Gravity without a static start: a held structure that gets its weight at once swings about its
+/// sag.
 void look_at_gravity(const Structure& structure, Doubts& doubts) {
   bool dropped = false;
   for (std::size_t d = 0; d < 3; ++d) {
@@ -143,7 +144,7 @@ void look_at_gravity(const Structure& structure, Doubts& doubts) {
              "this die away before -spectra_start and the motion");
 }
 
-/// A region that holds by what presses on it, where no weight does.
+/// A region that holds by the pressure on it, where no weight does.
 void look_at_weight(const Structure& structure, const Region& region, Doubts& doubts) {
   const std::string owner = "structure " + structure.name + ", group " + region.group + ": ";
   const auto across = static_cast<std::size_t>(region.nonlinear.circle[2]);

@@ -8,7 +8,7 @@
 /// Factors by which a study varies structures that are otherwise the same.
 namespace pounding {
 
-/// Factor on the damping of a structure: its readers multiply what they read by it.
+/// Factor on the damping of a structure: its readers multiply their values by it.
 double read_damping_factor(OptionReader& options, const std::string& structure);
 
 /// The factor on the stiffness of a structure whose other options are read. Its regions get it at

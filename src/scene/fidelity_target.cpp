@@ -93,7 +93,7 @@ void require_same_structures(const Table& table, const std::string& path,
   }
 }
 
-/// The options of the scene that a setting stands for.
+/// The options of the scene that a setting means.
 std::vector<std::pair<std::string, std::string>> options_of(
     const Setting& setting, const std::vector<std::string>& structures) {
   std::vector<std::pair<std::string, std::string>> options;

@@ -6,10 +6,10 @@
 
 namespace pounding {
 
-/// The options of a scene with what `-fidelity_target` chose among them.
+/// The options of a scene with the choice of `-fidelity_target` among them.
 struct ChosenFidelity {
   OptionsDatabase options;
-  std::string note;  ///< what was chosen and why, in one line; empty without a target
+  std::string note;  ///< the choice and its reason, in one line; empty without a target
 };
 
 /// `-fidelity_target E` takes, from the table of settings that run/tradeoff measured

@@ -4,7 +4,7 @@
 
 namespace pounding {
 
-/// Filler of a joint, foam, board or rubber between two faces, as the user tells it: its pressure
+/// Filler of a joint, foam, board or rubber between two faces, as the user gives it: its pressure
 /// under first loading, straight between points and from (0, 0) on, and the slope on which it
 /// unloads and loads again. It pushes only, and stays crushed.
 struct Filler {

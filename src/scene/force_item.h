@@ -11,11 +11,11 @@ namespace pounding {
 
 /// Forces that a run records.
 enum class ForceKind : std::uint8_t {
-  reactions,  ///< what the ground does to a structure, three forces and three moments
-  storey,     ///< likewise what passes through a level
+  reactions,  ///< of the ground on a structure, three forces and three moments
+  storey,     ///< three forces and three moments through a level
   members,    ///< of beams, bars and springs, at their ends
   shells,     ///< forces and moments per length at the centres of shells
-  cut         ///< what elements of a group carry through a plane
+  cut         ///< forces of the elements of a group through a plane
 };
 
 /// An item of the option `forces`.
@@ -24,7 +24,7 @@ struct ForceItem {
   std::string structure;
   ForceKind kind = ForceKind::reactions;
   double level = 0;                ///< of a storey or a cut: along the normal from the origin [m]
-  Vector3 normal{0, 0, 1};         ///< of a cut, of length 1; what it points to is beyond
+  Vector3 normal{0, 0, 1};         ///< of a cut, of length 1, towards the side beyond
   std::optional<Vector3> about{};  ///< moments are about this point [m]; nothing: see `point`
   std::string group;               ///< of members, shells and cuts
   std::vector<Vector3> points;     ///< elements nearest to these only [m]; empty: all of the group
@@ -34,7 +34,7 @@ struct ForceItem {
 
   bool has_level() const { return kind == ForceKind::storey || kind == ForceKind::cut; }
 
-  /// Point of the moments [m]: of a level the foot of the origin on it unless told otherwise.
+  /// Point of the moments [m]: of a level the foot of the origin on it unless given.
   Vector3 point() const {
     const double away = has_level() ? level : 0;
     return about.value_or(Vector3{away * normal[0], away * normal[1], away * normal[2]});

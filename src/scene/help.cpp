@@ -44,7 +44,7 @@ std::string preset_of(const OptionRow& row) {
   return row.preset.text.empty() ? "default: empty" : "default: " + std::string(row.preset.text);
 }
 
-/// Whether the form tells more than the unit does.
+/// Whether the form says more than the unit does.
 bool has_shape(const OptionRow& row) {
   return row.kind != OptionKind::choice && row.form.find_first_of(",:") != std::string_view::npos;
 }

@@ -12,7 +12,7 @@ namespace {
 
 using Names = OptionReader::Names;
 
-/// Whether a value says what the default says, in other digits perhaps.
+/// Whether a value equals the default, in other digits perhaps.
 bool is_preset(const OptionRow& row, const std::string& value) {
   if (!row.preset.has_value) return false;
   const auto numbers = parse_reals(value);
@@ -106,7 +106,7 @@ class IdleOptions {
         "its own");
   }
 
-  /// Options of what the scene lists that nobody has read.
+  /// Options of listed names that no reader has taken.
   void look_at_unread(const ListedNames& listed) {
     const auto look_at_names = [&](OptionBlock block, const std::vector<Names>& owners) {
       for (const OptionRow& row : option_table()) {

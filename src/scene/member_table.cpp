@@ -16,7 +16,7 @@
 namespace pounding {
 namespace {
 
-/// Options that members may have of their own: what changes neither meshes nor modes.
+/// Options that members may have of their own: those that change neither meshes nor modes.
 std::vector<std::string> free_options(const std::vector<std::string>& structures,
                                       const std::vector<std::string>& contacts) {
   std::vector<std::string> names{"motion_level"};

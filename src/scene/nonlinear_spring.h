@@ -5,7 +5,7 @@
 
 namespace pounding {
 
-/// Nonlinear behaviour of springs and bars, beyond their stiffness, as the user tells it.
+/// Nonlinear behaviour of springs and bars, beyond their stiffness, as the user gives it.
 struct NonlinearSpring {
   /// Force or moment at which each component yields, along and about x, y, z, of a bar the first
   /// one [N, N m]; 0: never.

@@ -19,7 +19,7 @@ bool is_name_character(char c) {
   return is_letter(c) || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// Whether a structure says what elements it is made of.
+/// Whether a structure names its elements.
 bool has_elements(const OptionsDatabase& database, const std::string& structure) {
   return std::ranges::any_of(region_groups(database, structure), [&](const std::string& group) {
     return database.contains(option_name("<structure>_<group>_element", {structure, group}));

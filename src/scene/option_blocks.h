@@ -18,7 +18,7 @@ std::set<std::string> region_groups(const OptionsDatabase& database, const std::
 std::vector<std::string> complete_names(const OptionsDatabase& database, OptionBlock block);
 
 /// Why `name` cannot name a structure, a contact or a probe, if it cannot: not a letter then
-/// letters, digits and _; or its options could not be told from those of something else.
+/// letters, digits and _; or its options could be taken for those of something else.
 std::optional<std::string> name_fault(const std::string& name);
 
 }  // namespace pounding

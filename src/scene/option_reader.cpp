@@ -10,8 +10,8 @@
 namespace pounding {
 namespace {
 
-/// Fault of a number, or null. Beyond these sizes lies no quantity of a building in any
-/// unit, and products of a few of them leave what a double holds.
+/// Fault of a number, or null. Beyond these sizes lies no quantity of a building in any unit, and
+/// products of a few of them leave the range of a double.
 const char* fault_of(double number, const Range& range) {
   constexpr double largest = 1e30;
   if (!range.contains(number)) return "out of range";

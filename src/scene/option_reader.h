@@ -11,8 +11,8 @@
 namespace pounding {
 
 /// Reads options by the pattern of the table and the names that replace its placeholders, checks
-/// kind and range, and keeps what was read (given or default) as the options in force. Every
-/// method throws UserError naming option, value and what is expected.
+/// kind and range, and keeps the values (given or default) as the options in force. Every method
+/// throws UserError naming option, value and the expected one.
 class OptionReader {
  public:
   using Names = std::vector<std::string>;

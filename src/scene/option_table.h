@@ -16,7 +16,7 @@ namespace pounding {
 using OptionsDatabase = std::map<std::string, std::string>;
 
 /// Block that an option belongs to; each but `run`, `motion` and `spectra` repeats per user's name,
-/// and what tells the motion of a support per axis as well.
+/// and the options of a support's motion per axis as well.
 enum class OptionBlock {
   run,
   structure,
@@ -73,18 +73,18 @@ const OptionRow& option_row(std::string_view pattern);
 /// The pattern with its placeholders replaced, in order, by `names`.
 std::string option_name(std::string_view pattern, const std::vector<std::string>& names);
 
-/// The text that stands for the only placeholder of `pattern` in `name`, if it matches.
+/// The text in place of the only placeholder of `pattern` in `name`, if it matches.
 std::optional<std::string> match_option(std::string_view pattern, std::string_view name);
 
-/// Describes what a value must be, with range and unit: "a number in (0, 1] [-]".
+/// Description of an allowed value, with range and unit: "a number in (0, 1] [-]".
 std::string expected_text(const OptionRow& row);
 
-/// Options of PETSc and SLEPc that may stand beside those of the scene; '*' ends a prefix.
+/// Options of PETSc and SLEPc allowed beside those of the scene; '*' ends a prefix.
 std::span<const std::string_view> petsc_option_patterns();
 bool is_petsc_option(std::string_view name);
 
-/// A run that continues another may have another value of this option: when it ends, what is
-/// written where, and those of PETSc and SLEPc.
+/// A run that continues another may have another value of this option: its end, its written where,
+/// and those of PETSc and SLEPc.
 bool may_change_on_restart(std::string_view name);
 
 /// The text of `pounding -help`: usage, every option with unit, default, range and one line, and

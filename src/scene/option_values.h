@@ -6,7 +6,7 @@
 #include <vector>
 
 /// Values of options from their text. No locale, no exceptions: nothing comes back where the text
-/// is not wholly what is asked.
+/// is not wholly of the kind asked for.
 namespace pounding {
 
 std::string trimmed(std::string_view text);

@@ -35,8 +35,8 @@ std::string read_text(const std::string& option, const std::string& file) {
   return text;
 }
 
-/// A path that stands in a file of that folder: relative to the folder if there is something there,
-/// else as it is, relative to where the program runs.
+/// A path in a file of that folder: relative to the folder if there is something there, else as it
+/// is, relative to where the program runs.
 std::string found_path(const std::filesystem::path& folder, const std::string& path) {
   const std::filesystem::path beside = folder / path;  // an absolute path stays
   std::error_code failure;

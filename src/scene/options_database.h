@@ -7,17 +7,17 @@
 namespace pounding {
 
 /// The options of the command line, then those of its files, the later before the earlier, then
-/// those of the files that they `include`: who comes first wins. Rank 0 reads the files, every rank
-/// gets their text. In such a file, paths of what is read are relative to the folder of the file if
+/// those of the files that they `include`: the first wins. Rank 0 reads the files, every rank gets
+/// their text. In such a file, paths of input files are relative to the folder of the file if
 /// something of that name is there, else to the folder in which the program runs. Throws UserError
-/// on every rank alike (missing or unreadable file, what parse_options_file refuses, files that
+/// on every rank alike (missing or unreadable file, refusals of parse_options_file, files that
 /// include each other). `files`: unless null, the files that were read are appended to it.
 /// Collective.
 OptionsDatabase read_options_database(MPI_Comm comm, const CommandLine& line,
                                       std::vector<std::string>* files = nullptr);
 
-/// Finds what options of a file name beside that file: their values become paths that the program
-/// can open. Collective.
+/// Finds the files that options of a file name beside it: their values become paths that the
+/// program can open. Collective.
 void find_inputs(MPI_Comm comm, const std::string& file, OptionsDatabase& options);
 
 /// The options in it that are meant for PETSc and SLEPc.

@@ -30,7 +30,7 @@ using Entries = std::map<std::string, Entry>;
   refuse(file, mark.line + 1, mark.column + 1, why);
 }
 
-/// Whether a tab stands before the first word of a line (counted from 0).
+/// Whether a tab precedes the first word of a line (counted from 0).
 bool indented_by_tab(std::string_view text, std::size_t line) {
   for (; line > 0; --line) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
   return text.substr(0, text.find_first_not_of(" \t")).find('\t') != std::string_view::npos;

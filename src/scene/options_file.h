@@ -10,7 +10,7 @@ namespace pounding {
 /// sequence join with commas; a value is its text ("" where none is given: a flag). `<<` merges the
 /// mapping of an anchor, whose names yield to those beside it; names that begin with `$$` only hold
 /// anchors. Throws UserError with file, line and column: not YAML, no options, a second document, a
-/// name that stands twice (with both lines), a nested sequence.
+/// name given twice (with both lines), a nested sequence.
 OptionsDatabase parse_options_file(const std::string& text, const std::string& file);
 
 }  // namespace pounding

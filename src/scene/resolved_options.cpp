@@ -49,7 +49,7 @@ std::vector<std::pair<std::string, std::string>> resolved_values(const std::stri
     std::string value = line.substr(colon + 2);
     if (value.size() >= 2 && value.front() == '"' && value.back() == '"') {
       value = value.substr(1, value.size() - 2);
-      // Inside quotes a backslash stands before a quote or another backslash.
+      // Inside quotes a backslash precedes a quote or another backslash.
       for (std::size_t at = value.find('\\'); at != std::string::npos;
            at = value.find('\\', at + 1)) {
         value.erase(at, 1);

@@ -8,7 +8,7 @@
 
 namespace pounding {
 
-/// The groups of a structure that move together. Throws UserError if one stands there twice.
+/// The groups of a structure that move together. Throws UserError if one is listed twice.
 std::vector<RigidGroup> read_rigid_groups(OptionReader& options, const std::string& structure);
 
 /// Makes the mat of a structure on soil rigid, unless it is already.

@@ -16,7 +16,7 @@
 #include "scene/soil.h"
 #include "scene/uniform_damping.h"
 
-/// Plain structs of what the user asked, in SI units, validated; made by scene/scene_reader and
+/// Plain structs of the user's scene, in SI units, validated; made by scene/scene_reader and
 /// constant afterwards. Identical on every rank.
 namespace pounding {
 
@@ -43,8 +43,8 @@ struct Rayleigh {
   double beta = 0;   ///< [s]
 };
 
-/// Extent over which a region spreads what it gives: at each of its points all of it, or per length
-/// of its lines or area of its surfaces.
+/// Extent over which a region spreads its values: at each of its points the whole, or per length of
+/// its lines or area of its surfaces.
 enum class Spread : std::uint8_t { none, length, area };
 
 /// A physical group of the mesh and the element that the user gives it.
@@ -56,7 +56,7 @@ struct Region {
   double area = 0;                   ///< bars [m2]
   double thickness = 0;              ///< shells [m]
   double rotary_inertia_factor = 0;  ///< shells [-], see elements/flat_shell.h
-  double drilling_factor = 1;        ///< shells [-], likewise
+  double drilling_factor = 1;        ///< of the drilling stiffness of shells [-]
   double added_mass = 0;             ///< shells [kg/m2], beams and bars [kg/m]
   double mass = 0;                   ///< point masses, at each node of the group [kg]
   Vector3 rotary_inertia{0, 0, 0};   ///< point masses [kg m2]
@@ -107,7 +107,7 @@ struct Clamp {
   std::uint8_t components = 0x3f;  ///< one bit each: 0-2 translations, 3-5 rotations
 };
 
-/// A stable time step that is wanted, and what it may cost.
+/// A stable time step that is wanted, and its largest cost.
 struct StepTarget {
   double time_step = 0;  ///< [s]
   double change = 0;     ///< largest part by which a frequency may fall [-]
@@ -133,7 +133,7 @@ struct RigidGroup {
   bool implied = false;  ///< a mat on soil: nobody asked, and it may be part of a larger body
 
   std::string name() const { return other.empty() ? group : group + ":" + other; }
-  /// Components that follow one rigid motion, one bit each; not told of ties.
+  /// Components that follow one rigid motion, one bit each; not given for ties.
   std::uint8_t components() const {
     if (kind == RigidKind::diaphragm) return 0x23;
     return kind == RigidKind::pin || kind == RigidKind::level ? 0x07 : 0x3f;
@@ -170,13 +170,13 @@ struct Structure {
   std::optional<ModalModel> modal;                ///< nothing: the finite-element model itself
   std::optional<Soil> soil;               ///< under its mat; one of the regions is its element
   bool p_delta = false;                   ///< weight at rest turns with the columns
-  double mass_scaling = 0;                ///< step [s] that what is stiff gets mass for; 0: none
+  double mass_scaling = 0;                ///< step [s] for which stiff elements get mass; 0: none
   std::optional<StepTarget> step_target;  ///< its step is `mass_scaling` until one is designed
   Vector3 initial_displacement{0, 0, 0};  ///< of every free node [m]
   Vector3 initial_velocity{0, 0, 0};      ///< of every free node [m/s]
   Vector3 gravity{0, 0, 0};               ///< constant body acceleration [m/s2]
 
-  /// Bound of what the fastest motions find K multiplied by [-].
+  /// Bound of the factor on K for the fastest motions [-].
   double stiffening() const { return uniform_damping ? uniform_damping->at_once() : 1; }
   /// The motion enters it as a wave from below.
   bool is_driven_from_below() const {
@@ -209,7 +209,7 @@ struct Contact {
   InitialGap gap;
   int passes = 1;                ///< 2: the nodes of the primary side are constrained as well
   bool gap_at_rest = false;      ///< the gap is that of the rest that the run starts from
-  bool gap_assumed_so = false;   ///< that follows from the gap, it was not told
+  bool gap_assumed_so = false;   ///< that follows from the gap, it was not given
   double friction = 0;           ///< Coulomb's coefficient [-]
   double sliding = 0;            ///< how far the faces may slide along each other, pairs being
                                  ///< found anew; 0: pairs stay those of the start [m]
@@ -240,11 +240,11 @@ struct MotionComponent {
   double scale = 1;  ///< [-]
 };
 
-/// A physical group of a structure whose clamped nodes stand on a support, or all ground of the
+/// A physical group of a structure whose clamped nodes are on a support, or all ground of the
 /// structure.
 struct SupportedGroup {
   std::string structure;
-  std::string group;  ///< empty: what is clamped, and the ground of its springs, dashpots and soil
+  std::string group;  ///< empty: all clamped nodes, and the ground of springs, dashpots and soil
 
   bool is_all_ground() const { return group.empty(); }
 };
@@ -264,7 +264,7 @@ struct Support {
   std::string name;
   std::vector<SupportedGroup> groups;
   double delay = 0;         ///< with which the scene's motion arrives [s]
-  Vector3 factor{1, 1, 1};  ///< on that motion; 0: it stands still
+  Vector3 factor{1, 1, 1};  ///< on that motion; 0: it is at rest
   /// Motion of its own along x, y, z, in place of that; rotations about them [rad/s2].
   std::array<std::optional<MotionComponent>, 6> motion;
   Vector3 point{0, 0, 0};  ///< about which it turns [m]
@@ -316,13 +316,13 @@ struct Loop {
 struct SpectraRequest {
   std::vector<double> damping_ratios;  ///< [-]
   std::vector<double> frequencies;     ///< [Hz], increasing
-  double start = 0;                    ///< spectra and peaks leave out what comes before [s]
+  double start = 0;                    ///< of the samples that count for spectra and peaks [s]
   double peak_frequency = 0;           ///< of the low-pass before peaks of acceleration [Hz]
 };
 
 struct Scene {
   std::string title;
-  std::string fidelity_note;   ///< what -fidelity_target chose; empty without it
+  std::string fidelity_note;   ///< choice of -fidelity_target; empty without it
   std::string structures_key;  ///< see scene/structures_key.h
   /// Options that cut meshes depend on, see scene/mesh_options.h.
   std::vector<std::pair<std::string, std::string>> mesh_options;
@@ -350,7 +350,7 @@ struct Scene {
   int modes = 0;                   ///< lowest modes to compute per structure
   SolverChoice modes_solver = SolverChoice::automatic;
   bool write_modes = false;    ///< their shapes as well
-  bool write_model = false;    ///< the meshes with what the options made of them
+  bool write_model = false;    ///< the meshes with their groups, materials and sections
   double fields_interval = 0;  ///< between two pictures of the whole motion [s]; 0: none
   double fields_start = 0;     ///< of the first [s]
   double fields_end = 0;       ///< of the last at most [s]; 0: the end of the run

@@ -88,7 +88,7 @@ class SceneReader {
                                 : SolverChoice::iterative;
   }
 
-  /// Gravity is a magnitude: its direction is told of single structures only.
+  /// Gravity is a magnitude: its direction is given for single structures only.
   double read_gravity() {
     if (options_.given("gravity")) {
       const auto number = parse_real(options_.database().at("gravity"));

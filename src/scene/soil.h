@@ -8,7 +8,7 @@
 
 namespace pounding {
 
-/// Soil under the rigid mat of a structure, as the user tells it.
+/// Soil under the rigid mat of a structure, as the user gives it.
 struct Soil {
   std::string mat;  ///< physical group of its nodes
   HalfSpace ground;
@@ -33,7 +33,7 @@ struct Foundation {
   Impedances impedances;
 };
 
-/// Sides of a mat's underside along x and y [m]: as told, or the group's own; of a disk both are
+/// Sides of a mat's underside along x and y [m]: as given, or the group's own; of a disk both are
 /// the shorter one.
 std::array<double, 2> sides_of(const Soil& soil, const MatPlace& place);
 

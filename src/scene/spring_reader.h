@@ -5,8 +5,8 @@
 
 namespace pounding {
 
-/// Stiffness, dashpots and what else a spring does; makes it one that acts on rotations where its
-/// numbers say so. Throws UserError.
+/// Stiffness, dashpots and further properties of a spring; makes it one that acts on rotations
+/// where its numbers say so. Throws UserError.
 void read_spring(OptionReader& options, const OptionReader::Names& names, Region& region);
 
 /// Where a bar yields, and the slack of one that resists stretching only; makes it a yielding_bar.

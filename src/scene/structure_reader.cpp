@@ -55,14 +55,14 @@ bool is_parameter(const std::string& name) {
                              [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
 }
 
-/// A value that can stand between quotes in Gmsh's language.
+/// A value that can be put between quotes in Gmsh's language.
 bool is_plain(const std::string& value) {
   return std::ranges::none_of(value, [](unsigned char c) {
     return std::iscntrl(c) != 0 || c == '"' || c == '\'' || c == '\\';
   });
 }
 
-/// Gmsh counts cells with four bytes, and takes what these do not hold for some other number.
+/// Gmsh counts cells with four bytes, and takes numbers beyond these for others.
 constexpr double largest_parameter = 1e12;
 
 std::vector<std::pair<std::string, std::string>> read_mesh_set(OptionReader& options,
@@ -271,7 +271,7 @@ bool read_p_delta(OptionReader& options, const Structure& structure) {
   return true;
 }
 
-/// Matrices do not know what moves together.
+/// Matrices do not know the nodes that move together.
 void forbid_rigid_groups(const OptionReader& options, const Structure& structure) {
   for (const RigidGroup& rigid : structure.rigid_groups) {
     if (!structure.matrices.empty()) {
@@ -303,7 +303,7 @@ void forbid_damping_beside_uniform(const OptionReader& options, const Structure&
   }
 }
 
-/// Beside matrices no element makes damping: it has to stand in the files.
+/// Beside matrices no element makes damping: it has to be in the files.
 void forbid_damping_of_regions(const OptionReader& options, const Structure& structure) {
   const std::string remedy = "would be lost beside -" + structure.name +
                              "_matrices, which holds the damping of regions and dashpots in " +

@@ -44,7 +44,7 @@ bool is_of_block(const std::string& name, OptionBlock block,
   });
 }
 
-/// Whether an option tells what the structures are.
+/// Whether an option describes the structures.
 bool belongs(const std::string& name, const std::vector<std::string>& structures,
              const std::vector<std::string>& contacts) {
   if (name.starts_with("material_") || name.starts_with("section_")) return true;
@@ -76,8 +76,8 @@ bool is_of(const std::string& name, const OptionRow& row,
          });
 }
 
-/// Whether it says what holds in silence: options that are new to the program leave the key of a
-/// scene that does not use them.
+/// Whether it states a preset: options that are new to the program leave the key of a scene that
+/// does not use them.
 bool is_preset(const std::string& name, const std::string& value,
                const std::vector<std::string>& structures,
                const std::vector<std::string>& contacts) {

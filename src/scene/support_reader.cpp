@@ -111,8 +111,8 @@ void require_effect(const OptionReader& options, const Scene& scene, const Suppo
   }
 }
 
-/// Refuses what nobody has worked out, or tested, for a structure on supports that move on their
-/// own; `all_ground`: with all its ground on one of them.
+/// Refuses options that are not worked out, or tested, for a structure on supports that move on
+/// their own; `all_ground`: with all its ground on one of them.
 void require_plain(const OptionReader& options, const Scene& scene, const Support& support,
                    const Structure& structure, bool all_ground) {
   const auto refuse_with = [&](const std::string& option) {

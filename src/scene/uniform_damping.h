@@ -23,16 +23,16 @@ struct DampingFilter {
 /// docs/theory/damping.md.
 struct UniformDamping {
   double ratio = 0;      ///< xi [-]
-  double lowest = 1;     ///< end of the band [Hz]
-  double highest = 400;  ///< likewise
+  double lowest = 1;     ///< lower end of the band [Hz]
+  double highest = 400;  ///< its upper end [Hz]
   /// Where modes keep their frequency [Hz]; 0 as long as it is not known: then s = 1, its bound.
   double reference = 0;
   std::vector<DampingFilter> filters;
   double ripple = 0;  ///< largest deviation from `ratio` over the band, relative [-]
 
-  /// s: what K is multiplied by for the slowest motions [-].
+  /// s: factor of K for the slowest motions [-].
   double at_rest() const;
-  /// s (1 + sum a_i): what K is multiplied by for the fastest motions, which limit the step [-].
+  /// s (1 + sum a_i): factor of K for the fastest motions, which limit the step [-].
   double at_once() const;
   /// Damping ratio -Re z / |z| of free motions with |z| = omega [rad/s].
   double ratio_at(double omega) const;

@@ -96,7 +96,7 @@ std::vector<std::vector<std::string>> owners(const OptionsDatabase& database,
 }
 
 /// Whether a region asks for a section or material that nobody defines: its own options of the same
-/// kind are those of a name that was meant, and the reference is what is wrong.
+/// kind are those of a name that was meant, and the reference is wrong.
 bool has_lost_reference(const OptionsDatabase& database, const ListedNames& listed,
                         const std::string& option) {
   const auto lost = [&](std::string_view reference, std::string_view first) {

@@ -24,7 +24,7 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder.string();
 }
 
-/// Places in `channels` of what is asked: a channel, or a probe for its three directions.
+/// Places in `channels` of a channel, or of a probe's three directions.
 std::vector<std::size_t> choose(const std::string& path, const std::vector<std::string>& channels,
                                 const std::vector<std::string>& asked) {
   std::vector<std::size_t> chosen;
@@ -77,8 +77,8 @@ std::vector<double> less_ground(const Hdf5Reader& history, const std::string& pa
   return acceleration;
 }
 
-/// Rows that are whole, all of them in a file that does not say: what stands behind them was still
-/// being written when its run ended.
+/// Rows that are whole, all of them in a file that does not say: rows behind them were still being
+/// written when its run ended.
 std::size_t whole_records(const Hdf5Reader& history, const std::string& path) {
   const std::size_t rows = history.shape("time").rows;
   const std::vector<std::string> names = history.names("/");

@@ -8,7 +8,7 @@
 
 namespace pounding {
 
-/// One acceleration of a file, with what the file is.
+/// One acceleration of a file, with the kind of the file.
 struct NamedSignal {
   std::string
       name;  ///< channel, or column of a record; behind the file's name if there are several

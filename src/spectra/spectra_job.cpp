@@ -171,7 +171,7 @@ void write_spectra(CsvFile& file, const SpectraOptions& options,
   }
 }
 
-/// Nothing but an earlier table gives way to a new one, and never what is read here.
+/// Nothing but an earlier table gives way to a new one, and never an input of this job.
 void require_free_place(const SpectraOptions& options, const std::string& option,
                         const std::string& path) {
   namespace fs = std::filesystem;

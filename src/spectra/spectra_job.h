@@ -4,7 +4,7 @@
 
 namespace pounding {
 
-/// Reads the signals, computes what is asked and writes the tables. Serial. Throws UserError or
+/// Reads the signals, computes the spectra and writes the tables. Serial. Throws UserError or
 /// std::runtime_error, one line each.
 void run_spectra(const SpectraOptions& options);
 

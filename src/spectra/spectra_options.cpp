@@ -18,7 +18,7 @@ struct OptionSpec {
   const char* value;  ///< "" for a flag
   const char* expected;
   const char* help;
-  /// False when the text is not what is expected.
+  /// False when the text is not of the expected kind.
   bool (*read)(const std::string& text, SpectraOptions& options);
 };
 

@@ -37,8 +37,8 @@ struct SpectraOptions {
 /// The page of --help.
 std::string spectra_help();
 
-/// Reads the words of the command line after the program's name. Throws UserError for what is
-/// unknown, out of range, or makes no sense together.
+/// Reads the words of the command line after the program's name. Throws UserError for options that
+/// are unknown, out of range, or make no sense together.
 SpectraOptions read_spectra_options(std::span<const std::string> words);
 
 }  // namespace pounding

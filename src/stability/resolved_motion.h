@@ -17,7 +17,7 @@ struct ResolvedMotion {
   double error(double step) const;  ///< part by which a time step makes it too high [-]
 };
 
-/// Largest omega dt of what a run resolves [-]: an error of the frequency of 0.3 %.
+/// Largest omega dt that a run resolves [-]: an error of the frequency of 0.3 %.
 inline constexpr double resolved_angle = 0.268;
 
 /// Up to which frequency a time step errs by no more [Hz].

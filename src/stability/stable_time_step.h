@@ -11,7 +11,7 @@ double damping_ratio(const Rayleigh& damping, double omega);
 /// Eq. 12 of Ambiel et al. 2022, which is exact for this scheme, in the form that does not cancel,
 /// 2 / (sqrt(omega^2 + (xi omega)^2) + xi omega). Infinite where nothing vibrates. For a structure
 /// whose damping is Rayleigh's everywhere; see stability/stability_limit.h for the others.
-/// `stiffening`: what uniform damping multiplies K by for the fastest motions, see
+/// `stiffening`: factor of uniform damping on K for the fastest motions, see
 /// LinearSystem::stiffening.
 double stable_time_step(const Rayleigh& damping, double omega_max, double stiffening = 1);
 

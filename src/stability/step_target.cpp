@@ -17,7 +17,7 @@ namespace pounding {
 namespace {
 
 constexpr double hertz = 2 * std::numbers::pi;
-constexpr int grid = 200;                // parts of the target that the step of elements is told in
+constexpr int grid = 200;  // parts of the target in which the step of elements is counted
 constexpr double surely_reached = 0.98;  // of a step that was reached, whatever the grid
 
 MatHandle shifted_mass(const LinearSystem& system, double omega) {
@@ -109,7 +109,7 @@ class Designer {
     return {scaled_for(found.step, elements), before_, found.after, found.change};
   }
 
-  /// The least scaled mass that reaches the target, upwards from what single elements need;
+  /// The least scaled mass that reaches the target, upwards from the need of single elements;
   /// nothing where the most is not enough.
   std::optional<Found> search(bool elements) const {
     const double closeness = plain_.element_time_step_bound / before_;

@@ -24,7 +24,7 @@ namespace pounding {
 struct FrequencyChange {
   double rotations = 0;  ///< e, of the rotational inertia of shells [-]
   double elements = 0;   ///< c omega^2, c the largest factor of mass scaling [-]
-  /// The bound, and what it would be if the one kind of scaled mass were there alone [-].
+  /// The bound, and that with one kind of scaled mass alone [-].
   double largest() const;
   double by_rotations() const;
   double by_elements() const;
@@ -63,12 +63,12 @@ struct StepDesign {
   Structure structure;     ///< scaled for a step a little shorter than the target, or not at all
   double before = 0;       ///< stable step without scaled mass [s]
   double after = 0;        ///< stable step with it [s]
-  FrequencyChange change;  ///< what it costs
+  FrequencyChange change;  ///< its cost
 };
 
 /// Scales single elements for the shortest step, within half a per cent of the target, for which
-/// the whole structure allows the target. Throws UserError that says what holds the step, or which
-/// frequencies could fall by more than the target allows, and which step is within reach.
+/// the whole structure allows the target. Throws UserError that names the cause of the step, or the
+/// frequencies that could fall by more than the target allows, and the step within reach.
 /// Collective.
 StepDesign design_for_target(const Structure& structure, const Mesh& mesh, StiffnessMethod method,
                              const EigenvalueEffort& effort);

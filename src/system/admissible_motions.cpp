@@ -33,7 +33,7 @@ void put_field(const TiedPart& tie, const std::vector<double>& field, std::vecto
   }
 }
 
-/// Size of what a matrix has on its diagonal. Collective.
+/// Size of the diagonal entries of a matrix. Collective.
 double largest_diagonal(Mat matrix) {
   VecHandle diagonal;
   PetscReal largest = 0;
@@ -140,7 +140,7 @@ void AdmissibleMotions::multiply(std::vector<double>& x, bool transposed) const 
   const VecHandle to = wrap_vector(system_, result);
   POUNDING_PETSC(transposed ? MatMultTranspose(matrix_.get(), from.get(), to.get())
                             : MatMult(matrix_.get(), from.get(), to.get()));
-  std::ranges::copy(result, x.begin());  // in place: vectors may stand on it
+  std::ranges::copy(result, x.begin());  // in place: vectors may rest on it
 }
 
 void AdmissibleMotions::to_motion(std::vector<double>& z) const {

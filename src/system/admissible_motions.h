@@ -7,10 +7,10 @@
 
 namespace pounding {
 
-/// Motions u = T z that the rigid bodies and ties of a structure admit, for what is solved with a
+/// Motions u = T z that the rigid bodies and ties of a structure admit, for problems solved with a
 /// matrix rather than advanced step by step. T is square: z has a value for every dof, those of the
 /// first dofs of a body are the coordinates of its motions (W of RigidBody), those of the others,
-/// and of what follows in a tie, stand idle and move nothing. So z is distributed as u is. The mass
+/// and of the followers in a tie, are idle and move nothing. So z is distributed as u is. The mass
 /// of a body's coordinates is 1.
 class AdmissibleMotions {
  public:
@@ -22,8 +22,8 @@ class AdmissibleMotions {
   /// `system` must outlive this object and have rigid bodies or ties. Collective.
   AdmissibleMotions(const LinearSystem& system, Alone alone);
 
-  /// T^T A T, a new matrix, with `idle` on the diagonal of what stands idle; by default more than
-  /// the largest diagonal entry, so that no idle value is among the lowest ones of a stiffness.
+  /// T^T A T, a new matrix, with `idle` on the diagonal of idle values; by default more than the
+  /// largest diagonal entry, so that no idle value is among the lowest ones of a stiffness.
   /// Collective.
   MatHandle restrict_matrix(Mat matrix, double idle = 0) const;
   /// u = T z and z = T^T f, in place. Collective.
@@ -39,7 +39,7 @@ class AdmissibleMotions {
     LocalIndex column = 0;
     double value = 0;
   };
-  /// T of all ties; marks what follows as idle, and the dofs of both in `coupled`.
+  /// T of all ties; marks the followers as idle, and the dofs of both in `coupled`.
   std::vector<Entry> tie_entries(std::vector<char>& coupled);
   void multiply(std::vector<double>& x, bool transposed) const;
 
@@ -50,12 +50,12 @@ class AdmissibleMotions {
 };
 
 /// f := M W W^T f of forces on the rigid bodies of a rank, M B (B^T M B)^-1 B^T f of those on its
-/// ties, over all owned dofs: what is left of them once the constraints have taken up what they
+/// ties, over all owned dofs: the rest of them once the constraints have taken up all that they
 /// can. Local.
 void take_up_by_constraints(const LinearSystem& system, std::vector<double>& f);
 
-/// Sum of the forces f that nodes of this rank hand on to clamped components by ties [N]: what is
-/// left of those on what follows once B^T has brought them to the carriers. Local.
+/// Sum of the forces f that nodes of this rank hand on to clamped components by ties [N]: the rest
+/// of those on the followers once B^T has brought them to the carriers. Local.
 Vector3 handed_to_clamps(const LinearSystem& system, const std::vector<double>& f);
 
 }  // namespace pounding

@@ -39,7 +39,7 @@ class BlockFactorisation {
   void backward(double* x) const;
 
   std::vector<std::size_t> order_;  ///< per node of S: when it is eliminated
-  /// Blocks of L row by row, and of L^T likewise, in the order in which they are read; each block
+  /// Blocks of L row by row, and of L^T row by row, in the order in which they are read; each block
   /// column by column.
   std::vector<std::size_t> lower_begin_;
   std::vector<std::size_t> lower_column_;

@@ -12,7 +12,7 @@ namespace pounding {
 
 /// The mass M + S of those dofs of this rank that S couples, M diagonal and S symmetric positive
 /// semidefinite, as a sparse factorisation (BlockFactorisation). Rigid bodies and tied parts couple
-/// the mass of their nodes too: there W W^T and B (B^T M B)^-1 B^T stand for (M + S)^-1.
+/// the mass of their nodes too: there (M + S)^-1 is W W^T and B (B^T M B)^-1 B^T.
 ///
 /// A field over the coupled dofs has shape (nodes, 6), nodes in the order of elimination, then
 /// those of the rigid bodies one after the other, then those of the tied parts; places that are no

@@ -98,7 +98,8 @@ void ElementBounds::finish(LinearSystem& system) {
   system.element_time_step_bound = infinity;
   auto frequency = frequencies_.begin();
   auto factor = mass_scaling_.begin();
-  std::vector<std::vector<double>> all;  // what the elements of each block allow without devices
+  std::vector<std::vector<double>>
+      all;  // steps that the elements of each block allow without devices
   for (const ElementBlock& block : mesh_.blocks) {
     std::vector<double>& alone = all.emplace_back();
     for (std::size_t e = 0; e < block.count(); ++e, ++frequency, ++factor) {
@@ -172,7 +173,7 @@ double ElementBounds::time_step(const ElementBlock& block, std::size_t element, 
   const ElementLayout layout = element_layout(block.type);
   const auto dofs = element_dofs(mesh_, block, element, layout);
   for (std::size_t i = 0; i < static_cast<std::size_t>(layout.size()); ++i) {
-    // A dof without mass follows others, which carry what acts on it.
+    // A dof without mass follows others, which carry the forces on it.
     if (dofs[i] >= 0 && dofs[i] < mesh_.owned_dofs && lumped_mass[dofs[i]] > 0) {
       const std::size_t dof = dofs[i];
       smallest = std::min(

@@ -42,7 +42,8 @@ class ElementBounds {
   double time_step(const ElementBlock& block, std::size_t element, double frequency,
                    double mass_scaling, std::span<const double> lumped_mass) const;
   Rayleigh damping_of(const ElementBlock& block) const;
-  /// The offer to scale mass, from what the elements of each block allow by themselves. Collective.
+  /// The offer to scale mass, from the steps that the elements of each block allow by themselves.
+  /// Collective.
   ScalingOffer find_offer(const std::vector<std::vector<double>>& alone) const;
 
   const Structure& structure_;
@@ -53,7 +54,7 @@ class ElementBounds {
                                           ///< without stiffness as well
   std::vector<double> mass_scaling_;      ///< c per element [s2]
   std::vector<double> device_damping_;    ///< row sums over elements without mass [N s/m]
-  std::vector<double> device_stiffness_;  ///< likewise [N/m]
+  std::vector<double> device_stiffness_;  ///< row sums over elements without mass [N/m]
 };
 
 }  // namespace pounding

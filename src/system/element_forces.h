@@ -60,8 +60,8 @@ std::span<const std::string_view> element_force_names(ElementType type);
 std::vector<ElementForces::Row> member_rows(const Structure& structure, const Mesh& mesh,
                                             const ResolvedForce& chosen, std::size_t first);
 
-/// Rows of a cut, or of a total of a reduced structure, six from `first` on: minus what its
-/// elements push on what is counted.
+/// Rows of a cut, or of a total of a reduced structure, six from `first` on: minus the forces that
+/// its elements exert on the counted part.
 std::vector<ElementForces::Row> total_rows(const Structure& structure, const Mesh& mesh,
                                            const ForceItem& item, const ResolvedForce& passing,
                                            std::size_t first);

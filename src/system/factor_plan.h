@@ -10,12 +10,12 @@ struct FactorPlan {
   double memory = 0;  ///< that it will take on all ranks together, as MUMPS expects [B]
 };
 
-/// Orders the rows; `workspace` [per cent]: beyond what MUMPS expects to need. Collective over the
+/// Orders the rows; `workspace` [per cent]: beyond MUMPS's own estimate. Collective over the
 /// matrix.
 FactorPlan plan_factor(Mat matrix, int workspace);
 
-/// Memory that a factor may take [B]: 0.8 of what the system could still give, since its size is an
-/// estimate. Local.
+/// Memory that a factor may take [B]: 0.8 of the memory that the system could still give, since its
+/// size is an estimate. Local.
 double memory_for_factor();
 
 }  // namespace pounding

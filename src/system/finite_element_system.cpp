@@ -198,7 +198,7 @@ class Assembly {
 /// Whether the element-wise product is asked for or pays.
 bool multiplies_elements(const Mesh& mesh, StiffnessMethod method) {
   GlobalIndex elements = 0;
-  GlobalIndex shaped = 0;  // what has a kernel of its own
+  GlobalIndex shaped = 0;  // elements with a kernel of their own
   for (const ElementBlock& block : mesh.blocks) {
     elements += block.global_count;
     shaped += has_strains(block.type) ? block.global_count : 0;

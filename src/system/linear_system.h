@@ -25,15 +25,15 @@ namespace pounding {
 class Links;
 struct SupportShapes;
 
-/// A displacement component of a node, by what does not depend on the partition.
+/// A displacement component of a node, by numbers that do not depend on the partition.
 struct TracePoint {
   GlobalIndex node = 0;  ///< file order
   int component = 0;     ///< 0-2
   auto operator<=>(const TracePoint&) const = default;
 };
 
-/// Generalised coordinates q of a body whose motion is u = Phi q: what replaces the nodes of a
-/// mesh. One rank owns them all.
+/// Generalised coordinates q of a body whose motion is u = Phi q, in place of the nodes of a mesh.
+/// One rank owns them all.
 struct GeneralisedCoordinates {
   /// iota of each direction [kg^1/2]: M_q^-1 Phi^T M iota with M_q the mass of the coordinates, 1
   /// for a basis orthonormal in M.
@@ -46,11 +46,11 @@ struct GeneralisedCoordinates {
 ///
 ///     (M + S) u'' + C u' + K u = -M iota a_g(t) + L^T r,      C = alpha M + beta K + D
 ///
-/// or, with uniform damping over a band, s G K in place of K (see UniformDamping) and C = D,
-/// where the motions u are those that rigid bodies and ties admit (see RigidBody, TiedPart),
-/// with M diagonal, D the damping that alpha and beta do not tell (dashpots, and regions damped
-/// otherwise), and S the mass that stiff elements are given for a longer time step, mostly none.
-/// Arrays hold this rank's owned dofs. Constant during a run.
+/// or, with uniform damping over a band, s G K in place of K (see UniformDamping) and C = D, where
+/// the motions u are those that rigid bodies and ties admit (see RigidBody, TiedPart), with M
+/// diagonal, D the damping beside alpha and beta (dashpots, and regions damped otherwise), and S
+/// the mass that stiff elements are given for a longer time step, mostly none. Arrays hold this
+/// rank's owned dofs. Constant during a run.
 struct LinearSystem {
   std::string name;
   MPI_Comm comm = MPI_COMM_SELF;
@@ -82,8 +82,8 @@ struct LinearSystem {
   /// u_0 of the static equilibrium, of the owned dofs, or empty: added to initial_displacement.
   std::vector<double> rest_displacement;
   double total_mass = 0;  ///< clamped nodes included [kg]
-  /// Upper bound of omega_max from single elements, and who holds it: the element with the largest
-  /// omega of its own. Infinite if an element has stiffness but no mass (springs).
+  /// Upper bound of omega_max from single elements, and its element: the one with the largest omega
+  /// of its own. Infinite if an element has stiffness but no mass (springs).
   double element_frequency_bound = 0;  ///< [rad/s]
   std::string stiffest_element;
   /// Lower bound of the stable time step from single elements, and which one holds it; infinite
@@ -95,7 +95,7 @@ struct LinearSystem {
 
   /// M + S is not diagonal, or rigid bodies or ties couple it, on some rank.
   bool mass_is_coupled() const { return mass_scaling.elements > 0 || !rigid_bodies.empty(); }
-  /// Dofs over all ranks; rigid bodies count by their motions, what follows a tie does not count.
+  /// Dofs over all ranks; rigid bodies count by their motions, followers of a tie do not count.
   GlobalIndex independent_dofs() const;
   /// K for eigenvalues: every link at its stiffest.
   const Stiffness& stiffest() const { return taut ? *taut : *stiffness; }

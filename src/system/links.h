@@ -29,7 +29,7 @@ struct Link {
   /// up to six of its node.
   std::array<int, 6> place{-1, -1, -1, -1, -1, -1};
   std::array<double, 6> weight{};  ///< b: of each place in the elongation
-  std::vector<HeldEnd> held{};     ///< ends that may stand on a support
+  std::vector<HeldEnd> held{};     ///< ends that may be on a support
   std::vector<double> supports{};  ///< elongation by them, per column of SupportShapes; or empty
   Vector3 incident{};  ///< force along it of a wave from below, per its velocity [N s/m]
   LinkOrigin origin;
@@ -39,12 +39,12 @@ struct Link {
   double elongation(std::span<const double> field) const;
 };
 
-/// Links of a structure: what pulls between two nodes, or from one to the ground, by a law that is
+/// Links of a structure: devices between two nodes, or from one to the ground, with a law that is
 /// no part of K u. Today these are the bars that resist stretching only or yield, compression-only
 /// springs along z, springs that yield, the dashpots of springs, one for each component, the
 /// dashpots and masses of soil in the six motions of a mat, and three dashpots at every node of
 /// absorbing faces. Links that share a node that can move live on one rank, with all that moves
-/// with their nodes (see `coupled_nodes`). Constant during a run; what evolves is with LinkStep.
+/// with their nodes (see `coupled_nodes`). Constant during a run; their state is with LinkStep.
 class Links {
  public:
   /// Null if the structure has no link. Throws std::logic_error if the nodes of one live on several
@@ -65,7 +65,7 @@ class Links {
 
  private:
   Links() = default;
-  /// Throws UserError where nothing tells what presses on a sliding bearing.
+  /// Throws UserError where nothing states the pressure on a sliding bearing.
   void refuse_unpressed(const Structure& structure) const;
   void add_bar(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
                std::size_t element);

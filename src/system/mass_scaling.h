@@ -28,20 +28,20 @@ struct MassScaling {
   GlobalIndex dofs = 0;       ///< that S couples, over all ranks
   double largest_factor = 0;  ///< largest c_e [s2]
   /// Root of the largest row sum of |K_e| over the lumped mass, scaled elements and those that meet
-  /// rigid bodies [rad/s]: what omega_max would bound without S and bodies.
+  /// rigid bodies [rad/s]: the bound of omega_max without S and bodies.
   double row_frequency = 0;
 };
 
-/// Offer to scale mass: what the stiff elements that can be scaled hold the step back by. Told by
-/// the bounds of single elements.
+/// Offer to scale mass: the step without the stiff elements that can be scaled. Found from the
+/// bounds of single elements.
 struct ScalingOffer {
   double time_step = 0;      ///< least that the elements which cannot be scaled allow [s]
   GlobalIndex elements = 0;  ///< that allow less than `time_step`; 0: nothing is to be gained
   std::string groups;        ///< of them
 };
 
-/// c_e [s2]; `frequency` [rad/s] is infinite for an element without mass; `stiffening`
-/// is what the fastest motions find K multiplied by.
+/// c_e [s2]; `frequency` [rad/s] is infinite for an element without mass; `stiffening` is the
+/// factor on K for the fastest motions.
 double mass_scaling_factor(double time_step, const Rayleigh& damping, double frequency,
                            double stiffening = 1);
 

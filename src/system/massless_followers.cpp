@@ -64,8 +64,8 @@ class Body {
     }
   }
 
-  /// Mass, its centre, and the length: to the farthest node, or the radius of gyration of what
-  /// turns at the nodes.
+  /// Mass, its centre, and the length: to the farthest node, or the radius of gyration of the parts
+  /// that turn at the nodes.
   void find_centre() {
     double rotary = 0;
     for_each_dof([&](LocalIndex node, std::size_t c, LocalIndex dof) {

@@ -18,9 +18,9 @@ namespace pounding {
 ///     damping.mtx     optional: D beside alpha M + beta K [N s/m]
 ///
 /// each .mtx, or the same name with .petsc in PETSc's binary format. The mesh says where faces and
-/// probes are and what is clamped: rows find their dofs by position and component; rows of clamped
-/// dofs are left out. Stiffness and damping are checked entry by entry as far as that tells whether
-/// some motion has negative energy; the rest is require_passive_matrices' in modal/. Throws
+/// probes are and which nodes are clamped: rows find their dofs by position and component; rows of
+/// clamped dofs are left out. Stiffness and damping are checked entry by entry as far as that shows
+/// whether some motion has negative energy; the rest is require_passive_matrices' in modal/. Throws
 /// UserError on every rank alike. Collective.
 LinearSystem build_matrix_system(const Structure& structure, const Mesh& mesh);
 

@@ -14,7 +14,7 @@ struct NodeDofs {
   int count = 0;
 };
 
-/// Six by six numbers of a pair of nodes, row by row; what a node has no dof for stays 0.
+/// Six by six numbers of a pair of nodes, row by row; 0 where a node has no dof.
 using NodeBlock = std::array<double, 36>;
 
 /// A symmetric matrix over the dofs of a few nodes of this rank, by blocks of two nodes.

@@ -11,13 +11,13 @@
 namespace pounding {
 
 /// Rigid body: nodes of a structure whose dofs follow at most six motions R, as a mat or equipment
-/// feet do, or three, as a level floor that is rigid in its plane. What follows moves by
+/// feet do, or three, as a level floor that is rigid in its plane. Its nodes move by
 ///
 ///     v = R (R^T M R)^-1 R^T M v* = W W^T M v*,      W^T M W = I
 ///
-/// where v* is what the nodes would do alone: the projection that is orthogonal in M. It changes no
-/// momentum, the forces that it stands for do no work, and no frequency rises by it. W has a column
-/// for every motion that the nodes see: fewer than six for solids whose nodes stand in a line.
+/// where v* is the velocity of the nodes alone: the projection that is orthogonal in M. It changes
+/// no momentum, its forces of constraint do no work, and no frequency rises by it. W has a column
+/// for every motion that the nodes see: fewer than six for solids whose nodes lie in a line.
 ///
 /// Fields have six places per node, in the order of the node's dofs; dofs that do not follow have
 /// their own mass. One rank owns all of it. Products allocate nothing.
@@ -56,7 +56,7 @@ class RigidBody {
   std::vector<LocalIndex> dofs_;
   std::vector<std::size_t> slots_;  ///< of dofs_ in a field
   std::vector<NodeBlock> rows_;     ///< of W, node by node; 0 where nothing follows
-  std::vector<NodeBlock> columns_;  ///< of W, likewise
+  std::vector<NodeBlock> columns_;  ///< of W, node by node, transposed
   std::vector<double> root_mass_;   ///< M^1/2 per place of a field; 0 where there is no dof
   std::vector<double> alone_;       ///< M^-1 where a dof does not follow, else 0
 };

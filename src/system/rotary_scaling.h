@@ -20,7 +20,7 @@ struct AddedRadii {
 struct RotaryScaling {
   GlobalIndex elements = 0;     ///< that were given some, over all ranks
   double bending = 0;           ///< largest ratio of added to own inertia, in bending [-]
-  double drilling = 0;          ///< likewise about the normal [-]
+  double drilling = 0;          ///< the same about the normal [-]
   std::vector<double> inertia;  ///< added per owned dof [kg m2]; empty: none asked for
 };
 
@@ -33,9 +33,9 @@ struct RotaryScaling {
 ///
 ///     a J' >= b K_rr + b^2 K_ru (a M_uu - b K_uu)^-1 K_ur
 ///
-/// J' gets m_a r^2 at each node of mass m_a: r^2 is the largest eigenvalue of what is missing, in
-/// the plane and about the normal apart; what couples the two in a warped shell is added to both by
-/// its norm. Nothing if the displacements alone allow no such step. `coordinates` (n, 3) [m],
+/// J' gets m_a r^2 at each node of mass m_a: r^2 is the largest eigenvalue of the missing part, in
+/// the plane and about the normal apart; the coupling of the two in a warped shell is added to both
+/// by its norm. Nothing if the displacements alone allow no such step. `coordinates` (n, 3) [m],
 /// `stiffness` (6 n, 6 n), `mass` (6 n).
 std::optional<AddedRadii> needed_radii(double time_step, const Rayleigh& damping, double stiffening,
                                        std::span<const double> coordinates,
@@ -49,7 +49,7 @@ void add_radii(const AddedRadii& radii, std::span<const double> coordinates,
                std::span<double> mass);
 
 /// Gives shells the rotational inertia that they need for the time step of their structure, element
-/// by element from what the element is alone: the same on any number of ranks.
+/// by element from the element alone: the same on any number of ranks.
 class AddedInertia {
  public:
   AddedInertia(const Structure& structure, const Mesh& mesh);
@@ -57,7 +57,7 @@ class AddedInertia {
   /// Adds to the lumped mass of an element in `work` where it is a shell and the structure scales
   /// shells. False for a shell that no rotational inertia can bring there.
   bool add(const ElementBlock& block, std::size_t element, ElementWork& work);
-  /// Fills in what was added, over all ranks. Collective.
+  /// Fills in the added inertia, over all ranks. Collective.
   void share(RotaryScaling& scaling);
 
  private:

@@ -25,7 +25,7 @@ class ScaledMass {
   /// ranks; see `coupled_nodes`.
   double add(const ElementBlock& block, std::size_t element, const Region& region,
              std::span<const double> stiffness, std::span<const double> mass);
-  /// Fills in what `system` knows of this rank; its lumped mass is complete.
+  /// Fills in the data of `system` on this rank; its lumped mass is complete.
   void finish(LinearSystem& system);
   /// LinearSystem::mass_scaling and rigid_bodies over all ranks. Collective.
   void share(LinearSystem& system) const;

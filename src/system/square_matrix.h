@@ -8,8 +8,8 @@
 
 namespace pounding {
 
-/// Rows of a square matrix out of a file, those of this rank's dofs, with what is needed to check
-/// them; rows and columns are numbered as in the file, from 0.
+/// Rows of a square matrix out of a file, those of this rank's dofs, with the numbers needed to
+/// check them; rows and columns are numbered as in the file, from 0.
 class SquareMatrix {
  public:
   using Entry = std::pair<PetscInt, double>;  ///< column, value
@@ -25,8 +25,8 @@ class SquareMatrix {
   void finish();
 
   /// Throws UserError naming file, row and column where the diagonal is negative, where K_ij and
-  /// K_ji differ by more than 1e-9 of the largest entry, or where K_ij^2 > K_ii K_jj: what is
-  /// symmetric and has no negative eigenvalue passes.
+  /// K_ji differ by more than 1e-9 of the largest entry, or where K_ij^2 > K_ii K_jj: a matrix that
+  /// is symmetric and has no negative eigenvalue passes.
   void check() const;
 
   /// Per owned dof its entries by column.
@@ -41,7 +41,7 @@ class SquareMatrix {
   const std::vector<PetscInt>& owned_dof_;
   const std::vector<PetscInt>& number_;
   std::vector<std::vector<Entry>> rows_;      ///< per owned dof: K_ij
-  std::vector<std::vector<Entry>> mirrored_;  ///< per owned dof: K_ji, likewise by j
+  std::vector<std::vector<Entry>> mirrored_;  ///< per owned dof: K_ji, by j
   std::vector<double> diagonal_;              ///< per row of the file
   double largest_ = 0;                        ///< |K_ij|
 };

@@ -15,10 +15,10 @@ namespace pounding {
 ///
 ///     v = B (B^T M B)^-1 B^T f
 ///
-/// the projection of what the nodes would do alone that is orthogonal in M. It changes neither
-/// momentum nor angular momentum, since B holds every rigid motion; the forces that it stands for
-/// do no work, and no frequency rises by it. B^T M B is M of the carriers and B^T M B of the
-/// nodes that follow: sparse, and factorised once.
+/// the projection, orthogonal in M, of the motion of the nodes alone. It changes neither momentum
+/// nor angular momentum, since B holds every rigid motion; its forces of constraint do no work, and
+/// no frequency rises by it. B^T M B is M of the carriers and B^T M B of the nodes that follow:
+/// sparse, and factorised once.
 ///
 /// Fields have six places per node, in the order of the node's dofs: the carriers, then those that
 /// follow. One rank owns all of it. Products allocate nothing.
@@ -34,10 +34,10 @@ class TiedPart {
 
   /// Forces to changes of velocity: x = B (B^T M B)^-1 B^T x.
   void solve(double* x) const;
-  /// x = G^-1 B^T x, 0 for what follows, and x = B G^-T x, with B^T M B = G G^T.
+  /// x = G^-1 B^T x, 0 for followers, and x = B G^-T x, with B^T M B = G G^T.
   void solve_half(double* x) const;
   void solve_transposed_half(double* x) const;
-  /// x = B^T x, 0 for what follows, and x = B x.
+  /// x = B^T x, 0 for followers, and x = B x.
   void collect(double* x) const;
   void spread(double* x) const;
 

@@ -27,7 +27,7 @@ bool announces(const std::string& text, std::smatch& match) {
   return std::regex_search(text, match, pattern);
 }
 
-/// Acceleration blocks of a file, with what the words above each say.
+/// Acceleration blocks of a file, with the statements of the words above each.
 std::vector<Channel> channels_of(std::span<const TextLine> lines, std::size_t most) {
   static const std::regex name(R"(\bchan(?:nel)?\s*(\d+)\s*:\s*(.*?)(?:\s{2,}|$))",
                                std::regex::icase);

@@ -13,7 +13,7 @@ bool is_digit(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
-/// A word of a line of numbers, told apart at its commas.
+/// A word of a line of numbers, split at its commas.
 struct Word {
   std::string_view whole;     ///< before the comma
   std::string_view decimals;  ///< digits behind it; empty where there is no comma
@@ -57,7 +57,7 @@ std::vector<std::string_view> words_of(std::string_view text) {
   return words;
 }
 
-/// Made of what numbers are written with, digits among them.
+/// Made of the characters of numbers, digits among them.
 bool is_of_numbers(const std::string& text) {
   return !is_comment(text) && text.find_first_of("0123456789") != std::string::npos &&
          text.find_first_not_of("0123456789+-.,;eEdD \t") == std::string::npos;
@@ -69,7 +69,7 @@ struct Commas {
   bool possible = true;    ///< every word may have a decimal comma
   bool single = true;      ///< one word per line
   bool proof = false;      ///< decimals such as 05, a whole part such as -0
-  bool increasing = true;  ///< what stands before the commas
+  bool increasing = true;  ///< the parts before the commas
   long long before = -1;
 
   void take(const std::string& text) {

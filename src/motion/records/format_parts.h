@@ -24,7 +24,7 @@ std::optional<double> number_in(std::string_view text);
 /// The text between blanks.
 std::string stripped(std::string_view text);
 
-/// Values of a block of rows, and where the line behind it stands.
+/// Values of a block of rows, and the place of the line behind it.
 struct NumberBlock {
   std::vector<double> values;
   std::size_t end = 0;
@@ -35,7 +35,7 @@ struct NumberBlock {
 NumberBlock read_block(const std::string& file, std::span<const TextLine> lines, std::size_t begin,
                        std::size_t count);
 
-/// Throws UserError when numbers follow a block whose count the line `announced` tells.
+/// Throws UserError when numbers follow a block whose count the line `announced` states.
 void require_end(const std::string& file, std::span<const TextLine> lines, const NumberBlock& block,
                  int announced);
 

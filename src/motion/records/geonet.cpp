@@ -92,7 +92,7 @@ Stated read_numbers(const std::string& file, std::span<const TextLine> lines,
   return stated;
 }
 
-/// Velocity and displacement, or nothing, stand between the values and the next component.
+/// Velocity and displacement, or nothing, lie between the values and the next component.
 void require_rest(const std::string& file, std::span<const TextLine> lines, std::size_t begin,
                   std::size_t rows) {
   std::size_t end = begin;

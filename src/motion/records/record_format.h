@@ -12,18 +12,18 @@
 
 namespace pounding {
 
-/// A record of a format that says all of itself: values in the file's unit, and what they are.
+/// A record of a format that describes itself: values in the file's unit, and their description.
 struct FormatRecord {
   std::vector<double> values;
   double time_step = 0;   ///< [s]
   std::string unit;       ///< name, see record_unit
   std::string component;  ///< as the file names it, with its azimuth where it has one
-  std::string layout;     ///< format, and what was done to the numbers
+  std::string layout;     ///< format, and changes of the numbers
   std::vector<std::string> doubts{};
 };
 
-/// A published format of records, told by marks that nothing else has. `read` is called for files
-/// that `recognises` and throws UserError when they are not what the marks promise.
+/// A published format of records, known by marks that nothing else has. `read` is called for files
+/// that `recognises` and throws UserError when they break the promise of the marks.
 struct RecordFormat {
   std::string_view name;
   bool (*recognises)(std::span<const TextLine> lines);

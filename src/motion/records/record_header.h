@@ -43,7 +43,7 @@ class RecordHeader {
   void require_acceleration() const;
 
   /// `asked` ("", "g", "m/s2", "cm/s2", "mm/s2"), which the header must not contradict, or else the
-  /// header's unit. Throws UserError when neither tells it.
+  /// header's unit. Throws UserError when neither states it.
   RecordUnit unit(const std::string& asked) const;
 
   /// Units of the values, or those of a peak that is quoted where there are none.

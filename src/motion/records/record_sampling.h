@@ -5,7 +5,7 @@
 
 namespace pounding {
 
-/// The sampling that a line of a header tells, in whatever words and languages headers use.
+/// The sampling that a line of a header states, in whatever words and languages headers use.
 struct StatedSampling {
   std::optional<double> count;      ///< number of values
   std::optional<double> time_step;  ///< [s]
@@ -18,8 +18,8 @@ struct StatedSampling {
 /// Sampling Freq(Hz) 100Hz; 50 sps; VEL. DE MUESTREO : /100; ... A rate given in seconds is a step.
 StatedSampling read_sampling(const std::string& text);
 
-/// The line without words that tell a sampling rate, which may speak of a "velocity" (Spanish) or a
-/// "frequency" that is not that of the values.
+/// The line without words that state a sampling rate, which may speak of a "velocity" (Spanish) or
+/// a "frequency" that is not that of the values.
 std::string without_rate(const std::string& text);
 
 /// The name behind which a number is missing ("NPTS= ****"), or "".

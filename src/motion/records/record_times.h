@@ -5,7 +5,7 @@
 
 namespace pounding {
 
-/// A time of a record [s] and the line it stands in.
+/// A time of a record [s] and its line.
 struct TimeOfLine {
   double time = 0;
   int line = 0;

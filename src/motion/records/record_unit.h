@@ -24,7 +24,7 @@ inline constexpr const char* units_to_ask = "g, m/s2, cm/s2 or mm/s2";
 RecordUnit agreed_unit(const std::string& file, const std::string& asked,
                        const std::string& stated);
 
-/// The unit and who said it: "cm/s2 (header)".
+/// The unit and its source: "cm/s2 (header)".
 std::string unit_text(const RecordUnit& unit, const std::string& asked);
 
 }  // namespace pounding

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t words = 11, whole_lines = 6, real_lines = 10;
 constexpr double no_whole = -32768;
-constexpr double largest_real = 1e38;  // what is not known is above it
+constexpr double largest_real = 1e38;  // unknown values are above it
 
 bool is_title(const std::string& text) {
   static const std::regex pattern(
