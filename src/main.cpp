@@ -19,7 +19,7 @@
 
 namespace {
 
-/// Does what the words ask. PETSc is started when the scene is read, and outlives the run.
+/// Executes the command line. PETSc is started when the scene is read, and outlives the run.
 void run_words(MPI_Comm comm, std::span<const std::string> words,
                std::optional<pounding::PetscSession>& petsc) {
   const pounding::CommandLine line = pounding::read_command_line(words);

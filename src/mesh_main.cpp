@@ -13,8 +13,8 @@
 #include "mesh/gmsh_model.h"
 #include "mesh/raw_mesh.h"
 
-/// The program pounding-mesh, which `pounding` runs once per mesh: Gmsh's failures, and what a .geo
-/// file may do, stay in a process of its own, which can read files and answer, and nothing else.
+/// The program pounding-mesh, which `pounding` runs once per mesh: Gmsh's failures, and all deeds
+/// of a .geo file, stay in a process of its own, which can read files and answer, and nothing else.
 ///
 ///     pounding-mesh FILE make|open [-setnumber NAME NUMBER | -setstring NAME WORD]...
 ///
@@ -57,7 +57,7 @@ void answer_no_memory() {
   _exit(0);
 }
 
-/// Answers what the file was stopped at, and ends.
+/// Answers the deed at which the file was stopped, and ends.
 void answer_denied(const std::string& deed) {
   pounding::RawAnswer answer;
   answer.denied = deed;
@@ -82,5 +82,5 @@ int main(int count, char** words) {
   } catch (const std::runtime_error&) {
     return 1;
   }
-  _exit(0);  // what libraries do at the end is of no use
+  _exit(0);  // the end of libraries is of no use
 }

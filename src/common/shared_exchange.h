@@ -16,8 +16,8 @@ namespace pounding {
 ///     exchange.publish(mine);
 ///     for each rank: read exchange.wait_for(rank)
 ///
-/// In every turn a rank waits for everybody who reads its values, whether it reads theirs or not:
-/// its published values then stay readable until those have published their next values.
+/// In every turn a rank waits for all readers of its values, whether it reads theirs or not: its
+/// published values then stay readable until those have published their next values.
 class SharedExchange {
  public:
   /// `capacity`: values that this rank may write in a turn. Where the ranks have no memory in

@@ -280,8 +280,8 @@ struct SupportColumn {
   Vector3 point{0, 0, 0};  ///< about which it turns [m]
 };
 
-/// How the stiffness is applied: as a sparse matrix, element by element without one, or by what the
-/// mesh is (element by element where enough elements have a kernel of their own).
+/// How the stiffness is applied: as a sparse matrix, element by element without one, or as suits
+/// the mesh (element by element where enough elements have a kernel of their own).
 enum class StiffnessMethod { automatic, assembled, element };
 
 /// Things shared out among the ranks: the elements of all structures, structures as a whole, or
