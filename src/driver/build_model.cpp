@@ -61,7 +61,7 @@ void share_findings(MPI_Comm comm, Scene& scene, WholeMeshes& whole,
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     share_foundation(comm, whole.mats[s], scene.structures[s]);
   }
-  broadcast_interface(comm, model.interface);
+  interactions::broadcast_interface(comm, model.interface);
   if (contacts_known) {
     broadcast_array(comm, whole.gap_shares);
     contacts_known(model.interface, whole.gap_shares);

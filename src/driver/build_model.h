@@ -7,15 +7,16 @@
 #include <mpi.h>
 
 #include "common/profile.h"
-#include "contact/find_interface.h"
 #include "driver/model.h"
+#include "interactions/pairing/find_interface.h"
 #include "scene/scene.h"
 
 namespace pounding {
 
 /// Work on every rank once it is known who faces whom, before bases are computed, with the places
 /// of the rows on their faces. The reports of the interface are on rank 0 only.
-using ContactsKnown = std::function<void(const Interface&, const std::vector<GapShare>&)>;
+using ContactsKnown =
+    std::function<void(const interactions::Interface&, const std::vector<interactions::GapShare>&)>;
 
 /// Reads, partitions, distributes and assembles; finds modes, omega_max and the time step. Soil
 /// gets its foundation from the mesh, and the scene keeps it. The model borrows from the scene.

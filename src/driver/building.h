@@ -29,13 +29,13 @@ struct MeshFindings {
 /// One structure of the scene as it was built: its mesh and its system, and all that was found out
 /// about them. Constant during a run.
 struct Building {
-  const Structure* structure = nullptr;  ///< what the user asked for; borrowed from the scene
-  const Mesh* mesh = nullptr;            ///< this rank's part; borrowed from the model
-  const LinearSystem* system = nullptr;  ///< likewise
-  MeshFindings findings;                 ///< on rank 0 only
-  AbsorbingReport absorbing;             ///< likewise
-  std::vector<SpreadReport> spread;      ///< likewise
-  std::optional<ModalBasis> basis;       ///< if the structure is reduced; no rows
+  const Structure* structure = nullptr;     ///< what the user asked for; borrowed from the scene
+  const Mesh* mesh = nullptr;               ///< this rank's part; borrowed from the model
+  const LinearSystem* system = nullptr;     ///< likewise
+  MeshFindings findings;                    ///< on rank 0 only
+  interactions::AbsorbingReport absorbing;  ///< likewise
+  std::vector<SpreadReport> spread;         ///< likewise
+  std::optional<ModalBasis> basis;          ///< if the structure is reduced; no rows
   ModalResult modal;
   std::vector<double> mode_gaps;     ///< of each mode, what it adds to the gap of each contact row,
                                      ///< shape (modes, rows), see modes_at_contacts

@@ -11,17 +11,19 @@ constexpr double round_off = 1e-6;
 
 }  // namespace
 
-ClosingWatch::ClosingWatch(std::size_t contacts, const std::vector<Constraint>& rows,
+ClosingWatch::ClosingWatch(std::size_t contacts, const std::vector<interactions::Constraint>& rows,
                            std::span<const double> start_gaps)
     : start_gaps_(start_gaps.begin(), start_gaps.end()), closings_(contacts) {
-  for (const Constraint& row : rows) contacts_.push_back(row.contact);
+  for (const interactions::Constraint& row : rows) contacts_.push_back(row.contact);
 }
 
 void ClosingWatch::look(std::span<const double> gaps) {
   for (std::size_t row = 0; row < gaps.size(); ++row) {
     const double start = start_gaps_[row];
     const double closing = start - gaps[row];
-    if (start == open_gap || gaps[row] == open_gap || !(closing > 0)) continue;
+    if (start == interactions::open_gap || gaps[row] == interactions::open_gap || !(closing > 0)) {
+      continue;
+    }
     JointClosing& joint = closings_[contacts_[row]];
     joint.largest = std::max(joint.largest, closing);
     if (closing > round_off * start) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/saved_state.h"
-#include "contact/interface.h"
+#include "interactions/pairing/interface.h"
 
 namespace pounding {
 
@@ -21,7 +21,7 @@ struct JointClosing {
 class ClosingWatch {
  public:
   /// `start_gaps`: per row of the interface [m].
-  ClosingWatch(std::size_t contacts, const std::vector<Constraint>& rows,
+  ClosingWatch(std::size_t contacts, const std::vector<interactions::Constraint>& rows,
                std::span<const double> start_gaps);
   /// Gaps per row [m].
   void look(std::span<const double> gaps);

@@ -111,7 +111,8 @@ void print_fields(MPI_Comm comm, const Scene& scene, const Model& model) {
 }
 
 std::unique_ptr<FieldWriter> make_field_writer(MPI_Comm comm, const Scene& scene,
-                                               const Model& model, const ContactProblem* contact,
+                                               const Model& model,
+                                               const interactions::ContactProblem* contact,
                                                bool continued) {
   const auto steps = planned_fields(scene, model);
   if (!steps) return nullptr;
@@ -126,7 +127,7 @@ std::unique_ptr<FieldWriter> make_field_writer(MPI_Comm comm, const Scene& scene
   layout.steps = *steps;
   layout.labels = mesh_labels(scene, model.interface);
   if (contact != nullptr) {
-    for (const InterfaceDof& dof : contact->dof_list()) {
+    for (const interactions::InterfaceDof& dof : contact->dof_list()) {
       layout.places.push_back({dof.structure, dof.node, dof.component});
     }
   }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "contact/contact_problem.h"
 #include "driver/model.h"
+#include "interactions/contact_problem.h"
 #include "output/field_writer.h"
 
 namespace pounding {
@@ -28,7 +28,8 @@ void print_fields(MPI_Comm comm, const Scene& scene, const Model& model);
 /// The writer of these frames; null if there are none. `contact` may be null; `continued`: the run
 /// goes on from the scene's checkpoint. Collective.
 std::unique_ptr<FieldWriter> make_field_writer(MPI_Comm comm, const Scene& scene,
-                                               const Model& model, const ContactProblem* contact,
+                                               const Model& model,
+                                               const interactions::ContactProblem* contact,
                                                bool continued);
 
 }  // namespace pounding

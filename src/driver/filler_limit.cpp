@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "contact/filler_rows.h"
+#include "interactions/filler_rows.h"
 #include "stability/stable_time_step.h"
 #include "stability/structure_limits.h"
 
@@ -39,10 +39,10 @@ bool is_stable(const Model& model, const std::vector<double>& eta, double time_s
 
 double filler_limit(MPI_Comm comm, const Scene& scene, const Model& model) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  if (!has_fillers(model.interface)) return infinity;
-  const FillerRows rows(comm, model.interface, model.systems, model.meshes);
+  if (!interactions::has_fillers(model.interface)) return infinity;
+  const interactions::FillerRows rows(comm, model.interface, model.systems, model.meshes);
   std::vector<double> stiffness;
-  for (const FillerRows::Row& row : rows.rows()) {
+  for (const interactions::FillerRows::Row& row : rows.rows()) {
     stiffness.push_back(
         scene.contacts[row.contact].filler->stiffness(row.part.thickness, row.part.area));
   }

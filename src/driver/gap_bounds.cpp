@@ -20,8 +20,8 @@ namespace {
 constexpr double work = 1e8;
 
 /// L T over the owned coordinates, all rows.
-std::vector<double> coordinate_rows(const ContactProblem& contact, std::size_t structure,
-                                    const LinearSystem& system) {
+std::vector<double> coordinate_rows(const interactions::ContactProblem& contact,
+                                    std::size_t structure, const LinearSystem& system) {
   std::vector<double> rows;
   for (int row = 0; row < contact.rows(); ++row) {
     const std::vector<double> one = contact.row_force(row, structure, system.owned_dofs());
@@ -30,7 +30,7 @@ std::vector<double> coordinate_rows(const ContactProblem& contact, std::size_t s
   return rows;
 }
 
-GapWatch::Bound energy_bound(const ContactProblem& contact, std::size_t structure,
+GapWatch::Bound energy_bound(const interactions::ContactProblem& contact, std::size_t structure,
                              const LinearSystem& system, double time_step, double margin,
                              Progress& progress) {
   GapWatch::Bound bound;
@@ -74,7 +74,8 @@ GapWatch::Bound energy_bound(const ContactProblem& contact, std::size_t structur
 
 std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSystem> systems,
                                         std::span<const double> energy_margins, double time_step,
-                                        const ContactProblem* contact, double progress_interval) {
+                                        const interactions::ContactProblem* contact,
+                                        double progress_interval) {
   std::vector<GapWatch::Bound> bounds(systems.size());
   for (std::size_t s = 0; contact != nullptr && s < bounds.size(); ++s) {
     const LinearSystem& system = systems[s];

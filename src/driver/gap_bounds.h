@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "contact/contact_problem.h"
 #include "dynamics/gap_watch.h"
+#include "interactions/contact_problem.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -14,6 +14,7 @@ namespace pounding {
 /// Progress. Collective over `comm`.
 std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSystem> systems,
                                         std::span<const double> energy_margins, double time_step,
-                                        const ContactProblem* contact, double progress_interval);
+                                        const interactions::ContactProblem* contact,
+                                        double progress_interval);
 
 }  // namespace pounding

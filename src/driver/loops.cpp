@@ -27,7 +27,7 @@ struct Candidate {
   int rank = 0;
   int index = 0;  ///< among the links or rows there
 
-  bool is_dashpot() const { return part == static_cast<int>(SpringPart::dashpot); }
+  bool is_dashpot() const { return part == static_cast<int>(interactions::SpringPart::dashpot); }
   auto key() const { return std::tuple(item, number, component, is_dashpot()); }
 };
 
@@ -54,9 +54,9 @@ void add_links(const Model& model, const Loop& loop, int item, int rank,
     if (model.systems[s].name != loop.structure || !model.systems[s].links) continue;
     const std::vector<Link>& links = model.systems[s].links->links();
     for (std::size_t b = 0; b < links.size(); ++b) {
-      const LinkOrigin& origin = links[b].origin;
+      const interactions::LinkOrigin& origin = links[b].origin;
       if (origin.region == nullptr || origin.region->group != loop.group ||
-          origin.part == SpringPart::gauge) {
+          origin.part == interactions::SpringPart::gauge) {
         continue;
       }
       found.push_back({item, origin.component, static_cast<int>(origin.part),
@@ -70,7 +70,7 @@ void add_links(const Model& model, const Loop& loop, int item, int rank,
 void add_rows(const Scene& scene, const FillerStep& fillers, const Loop& loop, int item, int rank,
               std::vector<Candidate>& found) {
   std::int64_t number = 0;
-  const std::vector<FillerRows::Row>& rows = fillers.rows().rows();
+  const std::vector<interactions::FillerRows::Row>& rows = fillers.rows().rows();
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (scene.contacts[rows[r].contact].name != loop.contact) continue;
     found.push_back({item, 0, -1, 0, ++number, {}, rank, static_cast<int>(r)});

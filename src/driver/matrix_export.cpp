@@ -150,8 +150,8 @@ class Export {
     gaps.comment("initial gap of every row of contact.mtx, g = g0 + L u; m");
     gaps.header("contact,initial_gap");
     PetscInt row = 0;
-    for (const Constraint& constraint : model_.interface.constraints) {
-      for (const ConstraintTerm& term : constraint.terms) {
+    for (const interactions::Constraint& constraint : model_.interface.constraints) {
+      for (const interactions::ConstraintTerm& term : constraint.terms) {
         const bool mine = term.structure == static_cast<int>(structure_);
         const PetscInt column = mine ? row_of(term.node, term.component) : -1;
         if (column >= 0) entries.push_back({row, column, term.coefficient});

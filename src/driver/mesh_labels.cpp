@@ -4,7 +4,7 @@
 
 namespace pounding {
 
-MeshLabels mesh_labels(const Scene& scene, const Interface& interface) {
+MeshLabels mesh_labels(const Scene& scene, const interactions::Interface& interface) {
   MeshLabels labels;
   for (const Structure& structure : scene.structures) {
     labels.first.push_back(labels.groups.size());
@@ -15,8 +15,8 @@ MeshLabels mesh_labels(const Scene& scene, const Interface& interface) {
   for (const Contact& contact : scene.contacts) labels.contacts.push_back(contact.name);
   labels.contact_nodes.assign(scene.structures.size(),
                               std::vector<std::vector<GlobalIndex>>(scene.contacts.size()));
-  for (const Constraint& row : interface.constraints) {
-    for (const ConstraintTerm& term : row.terms) {
+  for (const interactions::Constraint& row : interface.constraints) {
+    for (const interactions::ConstraintTerm& term : row.terms) {
       labels.contact_nodes[term.structure][row.contact].push_back(term.node);
     }
   }

@@ -6,6 +6,6 @@
 namespace pounding {
 
 /// Groups and contacts of a scene as its pictures name them. Local.
-MeshLabels mesh_labels(const Scene& scene, const Interface& interface);
+MeshLabels mesh_labels(const Scene& scene, const interactions::Interface& interface);
 
 }  // namespace pounding

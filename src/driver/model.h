@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "common/profile.h"
-#include "contact/interface.h"
 #include "driver/building.h"
 #include "driver/separation_rules.h"
 #include "driver/step_limits.h"
+#include "interactions/pairing/interface.h"
 #include "mesh/force_places.h"
 #include "mesh/mesh.h"
 #include "mesh/probe_set.h"
@@ -36,7 +36,7 @@ struct Model {
   std::vector<Mesh> meshes;           ///< per structure, one after the other for the solver
   std::vector<LinearSystem> systems;  ///< likewise
   std::vector<Building> buildings;    ///< per structure: these two and what is known of them
-  Interface interface;                ///< reports on rank 0 only
+  interactions::Interface interface;  ///< reports on rank 0 only
   std::vector<ResolvedProbe> probes;
   std::vector<ResolvedForce> forces;
   std::unique_ptr<GroundMotion> motion;

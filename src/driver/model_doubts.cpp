@@ -50,7 +50,7 @@ void doubt_mat(const Structure& structure, const GlobalMesh& mesh,
 class Joint {
  public:
   Joint(const Scene& scene, std::span<const GlobalMesh> meshes, const Contact& contact,
-        const InterfaceReport& report, double model_size)
+        const interactions::InterfaceReport& report, double model_size)
       : scene_(scene),
         meshes_(meshes),
         contact_(contact),
@@ -150,7 +150,7 @@ class Joint {
   const Scene& scene_;
   std::span<const GlobalMesh> meshes_;
   const Contact& contact_;
-  const InterfaceReport& report_;
+  const interactions::InterfaceReport& report_;
   double model_size_;
 };
 
@@ -199,7 +199,7 @@ void doubt_floors(const Scene& scene, std::span<const GlobalMesh> meshes,
 }  // namespace
 
 std::vector<std::string> place_doubts(const Scene& scene, std::span<const GlobalMesh> meshes,
-                                      const Interface& interface,
+                                      const interactions::Interface& interface,
                                       std::span<const ResolvedProbe> probes) {
   std::vector<std::string> doubts;
   for (std::size_t s = 0; s < meshes.size(); ++s) doubt_mat(scene.structures[s], meshes[s], doubts);

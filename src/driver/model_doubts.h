@@ -14,7 +14,7 @@ namespace pounding {
 /// Doubts that whole meshes show: a mat on soil that is not level, contacts that go through a
 /// building or across it, floors that are no floors. Serial, rank 0.
 std::vector<std::string> place_doubts(const Scene& scene, std::span<const GlobalMesh> meshes,
-                                      const Interface& interface,
+                                      const interactions::Interface& interface,
                                       std::span<const ResolvedProbe> probes);
 
 /// Doubts about masses and frequencies of a structure that is built: point masses that are nothing

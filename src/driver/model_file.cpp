@@ -9,8 +9,8 @@
 #include "common/error.h"
 #include "common/matrix3.h"
 #include "common/parallel.h"
-#include "contact/tangential_rows.h"
 #include "driver/mesh_labels.h"
+#include "interactions/pairing/tangential_rows.h"
 #include "io/new_file.h"
 #include "io/schema.h"
 #include "mesh/node_table.h"
@@ -125,14 +125,14 @@ Marks contact_marks(const Scene& scene, const Model& model,
                     const std::vector<std::vector<double>>& coordinates) {
   Marks marks;
   for (std::size_t r = 0; r < model.interface.constraints.size(); ++r) {
-    const Constraint& row = model.interface.constraints[r];
-    if (row.initial_gap == open_gap) continue;
+    const interactions::Constraint& row = model.interface.constraints[r];
+    if (row.initial_gap == interactions::open_gap) continue;
     const bool at_rest = scene.contacts[row.contact].gap_at_rest && !model.start_gaps.empty();
     const double gap = at_rest ? model.start_gaps[r] : row.initial_gap;
     std::array<Vector3, 2> places{};  // of the two sides, weighted
     std::array<double, 2> weights{};
-    const Vector3 normal = normal_of(row);
-    for (const ConstraintTerm& term : row.terms) {
+    const Vector3 normal = interactions::normal_of(row);
+    for (const interactions::ConstraintTerm& term : row.terms) {
       const double weight = term.coefficient * normal[static_cast<std::size_t>(term.component)];
       const std::size_t side = weight < 0 ? 0 : 1;
       const Vector3 x = position(coordinates[static_cast<std::size_t>(term.structure)], term.node);

@@ -13,10 +13,12 @@ constexpr std::size_t share = 4;  // one node in four
 
 using NodeSet = std::set<std::pair<int, GlobalIndex>>;  // structure and node
 
-NodeSet contact_nodes(const Interface& interface) {
+NodeSet contact_nodes(const interactions::Interface& interface) {
   NodeSet nodes;
-  for (const Constraint& constraint : interface.constraints) {
-    for (const ConstraintTerm& term : constraint.terms) nodes.emplace(term.structure, term.node);
+  for (const interactions::Constraint& constraint : interface.constraints) {
+    for (const interactions::ConstraintTerm& term : constraint.terms) {
+      nodes.emplace(term.structure, term.node);
+    }
   }
   return nodes;
 }
@@ -32,7 +34,7 @@ std::string subject(const ResolvedProbe& probe, std::size_t count) {
 
 std::vector<std::string> probe_warnings(std::span<const ResolvedProbe> probes,
                                         std::span<const GlobalMesh> meshes,
-                                        const Interface& interface) {
+                                        const interactions::Interface& interface) {
   constexpr std::uint8_t translations = 7;
   const NodeSet touching = contact_nodes(interface);
   std::vector<std::string> warnings;

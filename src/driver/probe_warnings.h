@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/interface.h"
+#include "interactions/pairing/interface.h"
 #include "mesh/global_mesh.h"
 #include "mesh/probe_set.h"
 
@@ -14,6 +14,6 @@ namespace pounding {
 /// clamped nodes, or on nodes of a contact. One line each. Serial, rank 0.
 std::vector<std::string> probe_warnings(std::span<const ResolvedProbe> probes,
                                         std::span<const GlobalMesh> meshes,
-                                        const Interface& interface);
+                                        const interactions::Interface& interface);
 
 }  // namespace pounding

@@ -13,8 +13,8 @@ namespace {
 constexpr double round_off = 1e-9;
 
 /// Whether a row faces something at the start.
-bool is_paired(const Constraint& row) {
-  return row.geometric_gap != open_gap;
+bool is_paired(const interactions::Constraint& row) {
+  return row.geometric_gap != interactions::open_gap;
 }
 
 /// Widens a range to hold a value.
@@ -23,15 +23,16 @@ void take(double value, std::array<double, 2>& range) {
 }
 
 /// Width of the joint that the gap of hard contact leaves out, where a filler is dense [m].
-double dense_width(const Contact& contact, const Constraint& row) {
+double dense_width(const Contact& contact, const interactions::Constraint& row) {
   return contact.filler ? row.filler.thickness * (1 - contact.filler->dense()) : 0;
 }
 
 /// Gaps of pairs that are found anew count from the same rest: by the row's own opening, by the
 /// mean of the contact where it faces nothing yet.
 void shift_sliding_rows(std::span<const double> opening, std::span<const char> at_rest,
-                        const std::vector<Constraint>& rows, SlidingFaces& sliding) {
-  for (SlidingFaces::Row& row : sliding.rows) {
+                        const std::vector<interactions::Constraint>& rows,
+                        interactions::SlidingFaces& sliding) {
+  for (interactions::SlidingFaces::Row& row : sliding.rows) {
     const auto number = static_cast<std::size_t>(row.constraint);
     if (at_rest[number] == 0) continue;
     double shift = opening[number];
@@ -51,9 +52,9 @@ void shift_sliding_rows(std::span<const double> opening, std::span<const char> a
 
 }  // namespace
 
-std::vector<char> rows_open_at_rest(const Scene& scene, const Interface& interface) {
+std::vector<char> rows_open_at_rest(const Scene& scene, const interactions::Interface& interface) {
   std::vector<char> open;
-  for (const Constraint& row : interface.constraints) {
+  for (const interactions::Constraint& row : interface.constraints) {
     const Contact& contact = scene.contacts[row.contact];
     open.push_back(contact.gap_at_rest ? 1 : 0);
     if (!contact.gap_at_rest || row.initial_gap >= -round_off * interface.model_size) continue;
@@ -67,7 +68,7 @@ std::vector<char> rows_open_at_rest(const Scene& scene, const Interface& interfa
 }
 
 void find_start_gaps(const Scene& scene, Model& model) {
-  std::vector<Constraint>& rows = model.interface.constraints;
+  std::vector<interactions::Constraint>& rows = model.interface.constraints;
   constexpr double none = std::numeric_limits<double>::infinity();
   model.joint_gaps.assign(scene.contacts.size(), {{none, -none}, {none, -none}});
   model.start_gaps.clear();

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "contact/slide_watch.h"
 #include "driver/closing_watch.h"
 #include "driver/forces.h"
 #include "driver/loops.h"
@@ -13,6 +12,7 @@
 #include "driver/uplift_watch.h"
 #include "dynamics/energy_balance.h"
 #include "dynamics/filler_step.h"
+#include "interactions/slide_watch.h"
 #include "output/impact_catalogue.h"
 #include "output/recorder.h"
 
@@ -35,7 +35,7 @@ struct RunStatistics {
   std::vector<FillerTotals> fillers;         ///< per contact; empty without fillers
   std::vector<LoopReport> loops;             ///< per item of the option
   std::vector<ForceReport> forces;           ///< per item of the option; rank 0
-  std::vector<Slide> slides;                 ///< per contact
+  std::vector<interactions::Slide> slides;   ///< per contact
   std::vector<JointClosing> closings;        ///< per contact, of the samples of the gaps
   std::vector<ContactRatio> contact_ratios;  ///< per structure; empty where nothing may lift off
   StatedPeaks peaks;                         ///< rank 0

@@ -156,7 +156,7 @@ const Building* building_of(const Model& model, const ContactSide& side) {
 std::vector<double> modes_at_contacts(MPI_Comm comm, const Model& model, std::size_t structure) {
   const Building& building = model.buildings[structure];
   const Mesh& mesh = model.meshes[structure];
-  const std::vector<Constraint>& rows = model.interface.constraints;
+  const std::vector<interactions::Constraint>& rows = model.interface.constraints;
   const std::size_t modes = building.modal.modes.size();
   std::vector<double> gaps(modes * rows.size(), 0);
   std::vector<std::size_t> vectors;  // of the basis that are modes
@@ -170,7 +170,7 @@ std::vector<double> modes_at_contacts(MPI_Comm comm, const Model& model, std::si
   }
   int having = building.basis && vectors.empty() ? 0 : 1;
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    for (const ConstraintTerm& term : rows[r].terms) {
+    for (const interactions::ConstraintTerm& term : rows[r].terms) {
       if (term.structure != static_cast<int>(structure)) continue;
       if (building.basis) {
         const auto place = places.find({term.node, term.component});
@@ -207,7 +207,7 @@ std::vector<Separation> find_separations(const Scene& scene, const Model& model)
   for (const Building& building : model.buildings) {
     peaks.push_back(modal_peaks(building, *model.motion));
   }
-  const std::vector<Constraint>& rows = model.interface.constraints;
+  const std::vector<interactions::Constraint>& rows = model.interface.constraints;
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     const Contact& contact = scene.contacts[c];
     const Building* secondary = building_of(model, contact.secondary);

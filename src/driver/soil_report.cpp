@@ -27,7 +27,7 @@ std::vector<std::string> groups_of(const Structure& structure, bool base_only) {
 
 }  // namespace
 
-void print_absorbing(const Structure& structure, const AbsorbingReport& report) {
+void print_absorbing(const Structure& structure, const interactions::AbsorbingReport& report) {
   if (structure.absorbing.empty()) return;
   std::printf("  absorbing faces:");
   for (const std::string& group : groups_of(structure, false)) std::printf(" %s", group.c_str());
@@ -39,7 +39,7 @@ void print_absorbing(const Structure& structure, const AbsorbingReport& report) 
 }
 
 nlohmann::ordered_json describe_absorbing(const Structure& structure,
-                                          const AbsorbingReport& report) {
+                                          const interactions::AbsorbingReport& report) {
   return {{"groups", groups_of(structure, false)},
           {"base", groups_of(structure, true)},
           {"nodes", report.nodes},

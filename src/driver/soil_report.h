@@ -6,7 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "contact/absorbing_faces.h"
+#include "interactions/pairing/absorbing_faces.h"
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"
 
@@ -14,11 +14,11 @@ namespace pounding {
 
 /// Prints the absorbing faces of a structure and which of them the motion enters through; nothing
 /// without such faces.
-void print_absorbing(const Structure& structure, const AbsorbingReport& report);
+void print_absorbing(const Structure& structure, const interactions::AbsorbingReport& report);
 
 /// Absorbing faces of a structure for the summary, in SI.
 nlohmann::ordered_json describe_absorbing(const Structure& structure,
-                                          const AbsorbingReport& report);
+                                          const interactions::AbsorbingReport& report);
 
 /// A group of springs that are spread over an area or along lines.
 struct SpreadReport {

@@ -7,10 +7,10 @@
 namespace pounding {
 namespace {
 
-std::unique_ptr<ContactProblem> make_contact(const Solver::Parts& parts) {
+std::unique_ptr<interactions::ContactProblem> make_contact(const Solver::Parts& parts) {
   if (parts.interface->constraints.empty()) return nullptr;
-  auto contact = std::make_unique<ContactProblem>(parts.comm, *parts.interface, parts.systems,
-                                                  parts.meshes, parts.gap_tolerance);
+  auto contact = std::make_unique<interactions::ContactProblem>(
+      parts.comm, *parts.interface, parts.systems, parts.meshes, parts.gap_tolerance);
   contact->set_time_step(parts.time_step);
   return contact;
 }
@@ -18,7 +18,7 @@ std::unique_ptr<ContactProblem> make_contact(const Solver::Parts& parts) {
 }  // namespace
 
 Solver::Solver(Parts parts) : parts_(std::move(parts)), contact_(make_contact(parts_)) {
-  if (has_fillers(*parts_.interface) || !parts_.interface->sliding.empty()) {
+  if (interactions::has_fillers(*parts_.interface) || !parts_.interface->sliding.empty()) {
     // Energy that a filler holds is no structure's, and the bounds are those of the first pairs:
     // gaps are looked at in every step.
     bounds_.resize(parts_.systems.size());
@@ -40,7 +40,7 @@ void Solver::restart() {
 }
 
 void Solver::make_stepper() {
-  if (has_fillers(*parts_.interface)) {
+  if (interactions::has_fillers(*parts_.interface)) {
     fillers_ = std::make_unique<FillerStep>(parts_.comm, *parts_.interface, parts_.contacts,
                                             parts_.systems, parts_.meshes, parts_.time_step);
   }

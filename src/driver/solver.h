@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "common/profile.h"
-#include "contact/contact_problem.h"
-#include "contact/interface.h"
 #include "dynamics/cd_lagrange.h"
 #include "dynamics/filler_step.h"
 #include "dynamics/gap_watch.h"
+#include "interactions/contact_problem.h"
+#include "interactions/pairing/interface.h"
 #include "mesh/mesh.h"
 #include "motion/ground_motion.h"
 #include "system/linear_system.h"
@@ -26,7 +26,7 @@ class Solver {
     MPI_Comm comm = MPI_COMM_NULL;
     std::span<const LinearSystem> systems;
     std::span<const Mesh> meshes;
-    const Interface* interface = nullptr;
+    const interactions::Interface* interface = nullptr;
     const GroundMotion* motion = nullptr;
     double gap_tolerance = 0;            ///< [m]
     double time_step = 0;                ///< [s]
@@ -43,8 +43,8 @@ class Solver {
   /// stepper are new objects. Collective.
   void restart();
 
-  ContactProblem* contact() { return contact_.get(); }  ///< null without contacts
-  const ContactProblem* contact() const { return contact_.get(); }
+  interactions::ContactProblem* contact() { return contact_.get(); }  ///< null without contacts
+  const interactions::ContactProblem* contact() const { return contact_.get(); }
   FillerStep* fillers() { return fillers_.get(); }
   const FillerStep* fillers() const { return fillers_.get(); }  ///< null without fillers
   CdLagrange& stepper() { return *stepper_; }
@@ -56,7 +56,7 @@ class Solver {
 
   Parts parts_;
   std::vector<GapWatch::Bound> bounds_;
-  std::unique_ptr<ContactProblem> contact_;
+  std::unique_ptr<interactions::ContactProblem> contact_;
   std::unique_ptr<FillerStep> fillers_;
   std::unique_ptr<CdLagrange> stepper_;
 };

@@ -310,7 +310,7 @@ Json describe_drift(const Storey& storey, const std::array<DriftPeak, 2>& peaks)
           {"time", {peaks[0].time, peaks[1].time}}};
 }
 
-Json describe_filler(const InterfaceReport& report, const FillerTotals& totals) {
+Json describe_filler(const interactions::InterfaceReport& report, const FillerTotals& totals) {
   return {{"area", report.filler_area},
           {"thickness", report.filler_thickness},
           {"peak_pressure", totals.peak_pressure},
@@ -319,8 +319,8 @@ Json describe_filler(const InterfaceReport& report, const FillerTotals& totals) 
           {"energy_lost", totals.loss}};
 }
 
-Json describe_contact(const InterfaceReport& report, const JointGaps& gaps, const Slide& slide,
-                      const JointClosing& closing) {
+Json describe_contact(const interactions::InterfaceReport& report, const JointGaps& gaps,
+                      const interactions::Slide& slide, const JointClosing& closing) {
   return {{"largest_closing", closing.largest},
           {"closing_factor", std::isfinite(closing.factor) ? Json(closing.factor) : Json()},
           {"pairs", report.pairs},
@@ -392,7 +392,7 @@ void write_summary(const std::string& path, const FinishedRun& run) {
   }
   summary["contacts"] = Json::object();
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
-    const InterfaceReport& report = model.interface.reports[c];
+    const interactions::InterfaceReport& report = model.interface.reports[c];
     summary["impacts"][scene.contacts[c].name] = describe_impacts(statistics.impacts[c]);
     summary["contacts"][scene.contacts[c].name] =
         describe_contact(report, model.joint_gaps[c], statistics.slides[c], statistics.closings[c]);

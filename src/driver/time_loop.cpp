@@ -21,15 +21,19 @@ namespace {
 /// Faces slide with the sway of their structures: looked at this often, a slide is seen [s].
 constexpr double slide_interval = 1e-3;
 
-std::vector<int> contacts_of(const Interface& interface) {
+std::vector<int> contacts_of(const interactions::Interface& interface) {
   std::vector<int> contacts;
-  for (const Constraint& constraint : interface.constraints) contacts.push_back(constraint.contact);
+  for (const interactions::Constraint& constraint : interface.constraints) {
+    contacts.push_back(constraint.contact);
+  }
   return contacts;
 }
 
-std::vector<std::array<double, 2>> places_of(const Interface& interface) {
+std::vector<std::array<double, 2>> places_of(const interactions::Interface& interface) {
   std::vector<std::array<double, 2>> places;
-  for (const Constraint& constraint : interface.constraints) places.push_back(constraint.place);
+  for (const interactions::Constraint& constraint : interface.constraints) {
+    places.push_back(constraint.place);
+  }
   return places;
 }
 
@@ -67,10 +71,10 @@ TimeLoop::TimeLoop(MPI_Comm comm, const Scene& scene, const Model& model, Profil
       model_(model),
       profile_(profile),
       solver_(solver_parts(comm, scene, model, profile)),
-      slides_(solver_.contact() != nullptr
-                  ? std::make_unique<SlideWatch>(comm, model.interface, model.systems, model.meshes,
+      slides_(solver_.contact() != nullptr ? std::make_unique<interactions::SlideWatch>(
+                                                 comm, model.interface, model.systems, model.meshes,
                                                  static_cast<int>(scene.contacts.size()))
-                  : nullptr),
+                                           : nullptr),
       catalogue_(static_cast<int>(scene.contacts.size()), contacts_of(model.interface),
                  places_of(model.interface),
                  {scene.impact_merge_time, scene.force_window, model.time_step}),
@@ -178,7 +182,7 @@ void TimeLoop::observe(std::int64_t step) {
   const bool reports =
       solver_.stepper().interface_known() && solver_.contact()->root() == rank_of(comm_);
   if (reports && solver_.stepper().touching()) {
-    const ContactProblem& contact = *solver_.contact();
+    const interactions::ContactProblem& contact = *solver_.contact();
     ContactStep impulses{contact.gaps(), contact.impulses(), contact.works(), {}, {}, {}};
     if (contact.friction().has_any()) {
       impulses.tangential_impulses = contact.friction().tangential_impulses();

@@ -3,7 +3,6 @@
 #include <memory>
 #include <vector>
 
-#include "contact/slide_watch.h"
 #include "driver/closing_watch.h"
 #include "driver/forces.h"
 #include "driver/loops.h"
@@ -12,6 +11,7 @@
 #include "driver/run_statistics.h"
 #include "driver/solver.h"
 #include "driver/uplift_watch.h"
+#include "interactions/slide_watch.h"
 #include "output/checkpoint.h"
 #include "output/energy_ledger.h"
 #include "output/field_writer.h"
@@ -61,7 +61,7 @@ class TimeLoop {
   const Model& model_;
   Profile& profile_;
   Solver solver_;
-  std::unique_ptr<SlideWatch> slides_;  ///< null without contacts
+  std::unique_ptr<interactions::SlideWatch> slides_;  ///< null without contacts
   ImpactCatalogue catalogue_;
   std::unique_ptr<Loops> loops_;    ///< null if no link is recorded
   std::unique_ptr<Forces> forces_;  ///< null if none is recorded

@@ -88,7 +88,7 @@ void watch_passivity(const EnergyLine& line, double largest_term) {
   }
 }
 
-void watch_contact(MPI_Comm comm, const ContactProblem* contact, double time) {
+void watch_contact(MPI_Comm comm, const interactions::ContactProblem* contact, double time) {
   double residual = contact != nullptr ? contact->largest_residual() : 0;
   MPI_Allreduce(MPI_IN_PLACE, &residual, 1, MPI_DOUBLE, MPI_MAX, comm);
   if (!std::isfinite(residual)) {

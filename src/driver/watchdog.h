@@ -2,10 +2,10 @@
 
 #include <span>
 
-#include "contact/contact_problem.h"
 #include "driver/model.h"
 #include "dynamics/energy_balance.h"
 #include "dynamics/state.h"
+#include "interactions/contact_problem.h"
 
 /// Stops runs whose numbers cannot be trusted, at every line of the energy ledger.
 namespace pounding {
@@ -32,6 +32,6 @@ void watch_passivity(const EnergyLine& line, double largest_term);
 
 /// Throws DivergenceError if some rank's contact problem had no finite answer and so was left out.
 /// `contact` may be null. Collective.
-void watch_contact(MPI_Comm comm, const ContactProblem* contact, double time);
+void watch_contact(MPI_Comm comm, const interactions::ContactProblem* contact, double time);
 
 }  // namespace pounding

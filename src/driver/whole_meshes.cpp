@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "common/progress.h"
-#include "contact/absorbing_faces.h"
 #include "driver/mesh_checks.h"
 #include "driver/model_doubts.h"
 #include "driver/probe_warnings.h"
 #include "driver/shear_doubts.h"
 #include "driver/warnings.h"
+#include "interactions/pairing/absorbing_faces.h"
 #include "mesh/find_supported_nodes.h"
 #include "mesh/gmsh_reader.h"
 #include "mesh/sliding_order.h"
@@ -46,7 +46,7 @@ void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, WholeMeshes& wh
     whole.mats[s] = mat_place(structure, mesh);
     lay_foundation(whole.mats[s], structure);
   }
-  model.buildings[s].absorbing = find_absorbing_nodes(scene, structure, mesh);
+  model.buildings[s].absorbing = interactions::find_absorbing_nodes(scene, structure, mesh);
   model.buildings[s].spread = find_spread_springs(structure, mesh);
   order_sliding_bearings(structure, mesh);
   find_supported_nodes(scene, structure, mesh);
@@ -66,7 +66,7 @@ WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model) {
         "seccomp alone");
   }
   const Progress progress(comm, "faces in contact and probes", scene.progress_interval);
-  model.interface = find_interface(scene, whole.meshes, &whole.gap_shares);
+  model.interface = interactions::find_interface(scene, whole.meshes, &whole.gap_shares);
   model.probes = resolve_probes(scene, whole.meshes);
   model.forces = resolve_forces(scene, whole.meshes);
   append(probe_warnings(model.probes, whole.meshes, model.interface), model.warnings);
@@ -75,15 +75,15 @@ WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model) {
 }
 
 Partition cut_meshes(const Scene& scene, std::span<const GlobalMesh> meshes,
-                     const Interface& interface, int parts) {
+                     const interactions::Interface& interface, int parts) {
   std::vector<NodeCluster> clusters;
   for (std::size_t s = 0; s < meshes.size(); ++s) {
     if (scene.structures[s].modal) continue;  // coordinates are scaled, not elements
     const auto more = coupled_nodes(scene.structures[s], meshes[s], static_cast<int>(s));
     clusters.insert(clusters.end(), more.begin(), more.end());
   }
-  return partition_meshes(meshes, facing_nodes(interface), parts, owners_of_reduced(parts, scene),
-                          clusters, scene.partition_by);
+  return partition_meshes(meshes, interactions::facing_nodes(interface), parts,
+                          owners_of_reduced(parts, scene), clusters, scene.partition_by);
 }
 
 }  // namespace pounding

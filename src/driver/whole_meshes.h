@@ -5,8 +5,8 @@
 
 #include <mpi.h>
 
-#include "contact/find_interface.h"
 #include "driver/model.h"
+#include "interactions/pairing/find_interface.h"
 #include "mesh/global_mesh.h"
 #include "mesh/partition.h"
 #include "scene/scene.h"
@@ -16,9 +16,9 @@ namespace pounding {
 /// The meshes of a scene as they stand on rank 0 before they are cut, and what they tell beside the
 /// model's own part.
 struct WholeMeshes {
-  std::vector<GlobalMesh> meshes;    ///< per structure
-  std::vector<MatPlace> mats;        ///< likewise, of those on soil
-  std::vector<GapShare> gap_shares;  ///< of the rows of the interface
+  std::vector<GlobalMesh> meshes;                  ///< per structure
+  std::vector<MatPlace> mats;                      ///< likewise, of those on soil
+  std::vector<interactions::GapShare> gap_shares;  ///< of the rows of the interface
 };
 
 /// Reads the mesh of a structure, lays its soil under the mat and finds what stands on absorbing
@@ -32,6 +32,6 @@ WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model);
 
 /// Shares the meshes out among `parts` ranks. Rank 0.
 Partition cut_meshes(const Scene& scene, std::span<const GlobalMesh> meshes,
-                     const Interface& interface, int parts);
+                     const interactions::Interface& interface, int parts);
 
 }  // namespace pounding

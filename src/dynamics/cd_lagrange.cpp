@@ -11,8 +11,8 @@
 namespace pounding {
 
 CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
-                       const GroundMotion& motion, ContactProblem* contact, FillerStep* fillers,
-                       GapWatch watch, double time_step, Profile& profile,
+                       const GroundMotion& motion, interactions::ContactProblem* contact,
+                       FillerStep* fillers, GapWatch watch, double time_step, Profile& profile,
                        const SupportMotion* supports)
     : systems_(systems),
       motion_(motion),
@@ -119,7 +119,7 @@ void CdLagrange::free_velocity(bool with_energies, bool with_forces) {
   with_energies = with_energies || energy_.needs_energies();
   for (std::size_t s = 0; with_energies && s < systems_.size(); ++s) {
     const double* const velocity = state_.structures[s].velocity.data();
-    StoredForces store(stiffness_velocity_[s].data());
+    stiffness::StoredForces store(stiffness_velocity_[s].data());
     systems_[s].stiffness->apply({velocity, velocity, 0}, store);
     sums_[s].rest_before = about_rest(s);
   }
@@ -213,7 +213,7 @@ void CdLagrange::load(const SavedState& saved) {
   }
 }
 
-StiffnessArgument CdLagrange::argument(std::size_t s) const {
+stiffness::StiffnessArgument CdLagrange::argument(std::size_t s) const {
   const StructureState& state = state_.structures[s];
   return {state.displacement.data(), state.velocity.data(), systems_[s].damping.beta};
 }

@@ -6,7 +6,6 @@
 
 #include "common/log_event.h"
 #include "common/profile.h"
-#include "contact/contact_problem.h"
 #include "dynamics/energy_balance.h"
 #include "dynamics/filler_step.h"
 #include "dynamics/gap_watch.h"
@@ -14,6 +13,7 @@
 #include "dynamics/state.h"
 #include "dynamics/structure_step.h"
 #include "dynamics/support_step.h"
+#include "interactions/contact_problem.h"
 #include "motion/ground_motion.h"
 #include "motion/support_motion.h"
 #include "system/linear_system.h"
@@ -48,8 +48,8 @@ class CdLagrange {
   /// All references must outlive this object. `contact` and `fillers` may be null, and `supports`
   /// where the ground moves as one. Collective.
   CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems, const GroundMotion& motion,
-             ContactProblem* contact, FillerStep* fillers, GapWatch watch, double time_step,
-             Profile& profile, const SupportMotion* supports = nullptr);
+             interactions::ContactProblem* contact, FillerStep* fillers, GapWatch watch,
+             double time_step, Profile& profile, const SupportMotion* supports = nullptr);
 
   /// The step to t_n, n = state().step; the start at t_0 on the first call. `look_at_gap` makes the
   /// interface gather whatever its distance; `with_energies`: the ledger's line before this step
@@ -85,7 +85,7 @@ class CdLagrange {
   bool touching() const { return touching_; }
   /// Steps so far in which the interface was looked at; members of the interface only.
   std::int64_t looks() const { return looks_; }
-  const ContactProblem* contact() const { return contact_; }
+  const interactions::ContactProblem* contact() const { return contact_; }
   /// Compression-only springs of a structure after the last step, those of this rank.
   LinkStep::Bedding bedding(std::size_t structure) const {
     return link_steps_[structure] ? link_steps_[structure]->bedding() : LinkStep::Bedding{};
@@ -116,7 +116,7 @@ class CdLagrange {
   /// The ledger of the step.
   void close_energy();
 
-  StiffnessArgument argument(std::size_t structure) const;
+  stiffness::StiffnessArgument argument(std::size_t structure) const;
   /// Forces of the extra damping D; returns v-^T D v- [W].
   double apply_extra_damping(std::size_t structure);
 
@@ -131,7 +131,7 @@ class CdLagrange {
   std::span<const LinearSystem> systems_;
   const GroundMotion& motion_;
   const SupportMotion* support_motion_;
-  ContactProblem* contact_;
+  interactions::ContactProblem* contact_;
   FillerStep* fillers_;
   GapWatch watch_;
   double time_step_;

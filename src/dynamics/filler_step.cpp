@@ -17,20 +17,22 @@ constexpr std::size_t saved_totals = 4;
 
 }  // namespace
 
-FillerStep::FillerStep(MPI_Comm comm, const Interface& interface, std::span<const Contact> contacts,
-                       std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
-                       double time_step)
+FillerStep::FillerStep(MPI_Comm comm, const interactions::Interface& interface,
+                       std::span<const Contact> contacts, std::span<const LinearSystem> systems,
+                       std::span<const Mesh> meshes, double time_step)
     : rows_(comm, interface, systems, meshes),
       counts_(rows_.root() == rank_of(comm)),
       time_step_(time_step),
       totals_(contacts.size()),
       contact_force_(contacts.size(), 0.0) {
-  for (const FillerRows::Row& row : rows_.rows()) {
+  for (const interactions::FillerRows::Row& row : rows_.rows()) {
     laws_.emplace_back(*contacts[row.contact].filler, row.part.thickness, row.part.area);
   }
-  for (const std::vector<FillerRows::Coupling>& coupled : rows_.couplings()) {
+  for (const std::vector<interactions::FillerRows::Coupling>& coupled : rows_.couplings()) {
     double sum = 0;
-    for (const FillerRows::Coupling& other : coupled) sum += std::abs(other.compliance);
+    for (const interactions::FillerRows::Coupling& other : coupled) {
+      sum += std::abs(other.compliance);
+    }
     reach_.push_back(sum);
   }
   const std::size_t count = laws_.size();
@@ -119,7 +121,9 @@ bool FillerStep::hold(double share) {
   for (std::size_t r = 0; r < laws_.size(); ++r) {
     const std::span<const double> memory(&memory_[remembered * r], remembered);
     const double least = free_after_[r] - square * reach_[r] * largest;
-    if (force_[r] > 0 && least < FillerLaw::holds_down_to(before_[r], memory)) return false;
+    if (force_[r] > 0 && least < interactions::FillerLaw::holds_down_to(before_[r], memory)) {
+      return false;
+    }
   }
   return true;
 }
@@ -132,7 +136,7 @@ void FillerStep::solve(double share) {
     for (std::size_t r = 0; r < laws_.size(); ++r) {
       const std::span<const double> memory(&memory_[remembered * r], remembered);
       if (laws_[r].is_idle(now_[r], memory)) continue;
-      const std::vector<FillerRows::Coupling>& coupled = rows_.couplings()[r];
+      const std::vector<interactions::FillerRows::Coupling>& coupled = rows_.couplings()[r];
       double after = free_after_[r];
       for (std::size_t k = 1; k < coupled.size(); ++k) {
         after -= square * coupled[k].compliance * force_[coupled[k].row];

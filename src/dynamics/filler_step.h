@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "common/saved_state.h"
-#include "contact/filler_rows.h"
 #include "dynamics/link_records.h"
 #include "dynamics/state.h"
 #include "dynamics/step_sums.h"
 #include "dynamics/structure_step.h"
 #include "dynamics/support_step.h"
-#include "links/filler_law.h"
+#include "interactions/filler_rows.h"
+#include "interactions/laws/filler_law.h"
 #include "scene/scene.h"
 
 namespace pounding {
@@ -32,8 +32,9 @@ struct FillerTotals {
 class FillerStep {
  public:
   /// `contacts` of the scene. References must outlive this object. Collective over `comm`.
-  FillerStep(MPI_Comm comm, const Interface& interface, std::span<const Contact> contacts,
-             std::span<const LinearSystem> systems, std::span<const Mesh> meshes, double time_step);
+  FillerStep(MPI_Comm comm, const interactions::Interface& interface,
+             std::span<const Contact> contacts, std::span<const LinearSystem> systems,
+             std::span<const Mesh> meshes, double time_step);
 
   /// Before the structures' step to t_n: d_n, its rate, what they crush, and what the dofs hold.
   /// Members of the rows communicate.
@@ -49,7 +50,7 @@ class FillerStep {
   /// Per contact of the scene; members only.
   const std::vector<FillerTotals>& totals() const { return totals_; }
   int root() const { return rows_.root(); }
-  const FillerRows& rows() const { return rows_; }
+  const interactions::FillerRows& rows() const { return rows_; }
   /// Records some rows from now on, on members. Their work comes with the step after.
   void record(std::vector<std::size_t> rows) { records_.watch(std::move(rows), true); }
   const LinkRecords& records() const { return records_; }
@@ -64,10 +65,10 @@ class FillerStep {
   void note_peaks();
   std::vector<std::string> record_names() const;
 
-  FillerRows rows_;
+  interactions::FillerRows rows_;
   bool counts_;  ///< this rank adds to the ledger
   double time_step_;
-  std::vector<FillerLaw> laws_;
+  std::vector<interactions::FillerLaw> laws_;
   std::vector<double> memory_;        ///< shape (rows, 2), see FillerLaw
   std::vector<double> now_;           ///< d_n
   std::vector<double> rate_;          ///< of d, at the start of the step

@@ -4,13 +4,11 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <span>
-#include <stdexcept>
 
 #include "common/dense_solver.h"
 #include "common/disjoint_sets.h"
 #include "common/row_products.h"
-#include "links/law_of.h"
+#include "interactions/laws/law_of.h"
 #include "system/support_shapes.h"
 
 namespace pounding {
@@ -52,7 +50,7 @@ LinkStep::LinkStep(const LinearSystem& system, const StructureState& state, Stru
       rate_(links_.size(), 0.0) {
   step.watch(trace_.dofs(), true);
   for (const Link& link : links_) {
-    laws_.push_back(law_of(link.origin, time_step));
+    laws_.push_back(interactions::law_of(link.origin, time_step));
     memory_.emplace_back(laws_.back()->memory_size(), 0.0);
   }
   if (system.supports) find_carried();
@@ -87,9 +85,11 @@ void LinkStep::find_yielding() {
   std::map<std::int64_t, std::size_t> circles;  // by element
   std::map<std::int64_t, int> gauges;
   for (std::size_t b = 0; b < links_.size(); ++b) {
-    const LinkOrigin& origin = links_[b].origin;
-    if (origin.part == SpringPart::gauge) gauges[links_[b].number] = static_cast<int>(b);
-    if (origin.part != SpringPart::stiffness || origin.region == nullptr ||
+    const interactions::LinkOrigin& origin = links_[b].origin;
+    if (origin.part == interactions::SpringPart::gauge) {
+      gauges[links_[b].number] = static_cast<int>(b);
+    }
+    if (origin.part != interactions::SpringPart::stiffness || origin.region == nullptr ||
         !origin.region->nonlinear.yields(static_cast<std::size_t>(origin.component))) {
       continue;
     }
@@ -465,7 +465,7 @@ bool LinkStep::overpressed() const {
 LinkStep::Bedding LinkStep::bedding() const {
   Bedding bedding;
   for (std::size_t b = 0; b < links_.size(); ++b) {
-    if (!is_pressed(links_[b].origin)) continue;
+    if (!interactions::is_pressed(links_[b].origin)) continue;
     const double stiffness = links_[b].origin.share * links_[b].origin.region->stiffness[2];
     bedding.all += stiffness;
     if (after_[b] > 0) bedding.pressed += stiffness;

@@ -13,7 +13,7 @@
 #include "dynamics/step_sums.h"
 #include "dynamics/structure_step.h"
 #include "dynamics/support_step.h"
-#include "links/link_law.h"
+#include "interactions/laws/link_law.h"
 #include "system/links.h"
 #include "system/trace.h"
 
@@ -131,10 +131,10 @@ class LinkStep {
   const std::vector<Link>& links_;
   Trace trace_;
   StructureStep::Before held_;
-  std::vector<std::unique_ptr<LinkLaw>> laws_;  ///< per link
-  std::vector<std::vector<double>> memory_;     ///< per link; see LinkLaw
-  std::vector<OnBody> on_body_;                 ///< per link
-  std::unique_ptr<DashpotModes> modes_;         ///< null: link by link
+  std::vector<std::unique_ptr<interactions::LinkLaw>> laws_;  ///< per link
+  std::vector<std::vector<double>> memory_;                   ///< per link; see LinkLaw
+  std::vector<OnBody> on_body_;                               ///< per link
+  std::unique_ptr<DashpotModes> modes_;                       ///< null: link by link
   std::vector<Motion> pull_;        ///< per body: sum of W^T b N of links without a rate on it
   std::vector<Motion> block_pull_;  ///< likewise of those with a rate
   /// Per link: itself first, none of its block, none on the same body.

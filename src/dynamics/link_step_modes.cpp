@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "dynamics/link_step.h"
-#include "links/dashpot_law.h"
+#include "interactions/laws/dashpot_law.h"
 
 namespace pounding {
 
@@ -10,9 +10,10 @@ bool LinkStep::are_dashpots(const LinearSystem& system) const {
   const bool driven = std::ranges::any_of(links_, [](const Link& link) {
     return link.incident != Vector3{0, 0, 0};
   });
-  return !driven && std::ranges::all_of(laws_, [](const std::unique_ptr<LinkLaw>& law) {
-    return dynamic_cast<const DashpotLaw*>(law.get()) != nullptr;
-  });
+  return !driven &&
+         std::ranges::all_of(laws_, [](const std::unique_ptr<interactions::LinkLaw>& law) {
+           return dynamic_cast<const interactions::DashpotLaw*>(law.get()) != nullptr;
+         });
 }
 
 void LinkStep::make_modes(const LinearSystem& system) {

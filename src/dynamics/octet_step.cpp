@@ -33,7 +33,7 @@ StepTerms<double> take_terms(const StepTerms<Octet>& from, std::size_t lane) {
 }
 
 /// Diagonal of a matrix that is nothing else.
-std::vector<double> diagonal_of(const LinearSystem& system, const Stiffness& matrix) {
+std::vector<double> diagonal_of(const LinearSystem& system, const stiffness::Stiffness& matrix) {
   std::vector<double> diagonal(system.lumped_mass.size());
   const VecHandle vector = wrap_vector(system, diagonal);
   POUNDING_PETSC(MatGetDiagonal(matrix.matrix(), vector.get()));

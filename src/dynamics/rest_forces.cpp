@@ -17,7 +17,7 @@ std::vector<double> rest_forces(const LinearSystem& system) {
   if (!any_damped_about_rest(system)) return {};
   const double* const rest = system.rest_displacement.data();
   std::vector<double> forces(system.rest_displacement.size());
-  StoredForces store(forces.data());
+  stiffness::StoredForces store(forces.data());
   system.stiffness->apply({rest, rest, 0}, store);
   return forces;
 }

@@ -34,7 +34,7 @@ struct StepRequest {
 /// one step on (update.h) while the range is in the nearest cache; the sums for the energy balance
 /// are taken on the way. Dofs whose mass is coupled wait for `complete`. v+ is free of contact
 /// until `correct` is called.
-class StructureStep final : public ForceReceiver {
+class StructureStep final : public stiffness::ForceReceiver {
  public:
   /// References must outlive this object.
   StructureStep(const LinearSystem& system, StructureState& state, double time_step);

@@ -6,9 +6,9 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
-#include "contact/contact_checks.h"
 #include "driver/run_warnings.h"
 #include "driver/warnings.h"
+#include "interactions/pairing/contact_checks.h"
 #include "motion/synthetic.h"
 #include "motion/synthetic_doubts.h"
 
@@ -97,26 +97,28 @@ double check_motion(const MemberScene& member, std::vector<std::string>& doubts)
   return interval;
 }
 
-void check_member_gaps(std::span<const MemberScene> members, const Interface& interface,
-                       std::span<const GapShare> shares, MemberDoubts& doubts) {
+void check_member_gaps(std::span<const MemberScene> members,
+                       const interactions::Interface& interface,
+                       std::span<const interactions::GapShare> shares, MemberDoubts& doubts) {
   for (std::size_t m = 0; m < members.size(); ++m) {
     const Scene& scene = members[m].scene;
-    std::vector<InterfaceReport> reports = interface.reports;
-    for (InterfaceReport& report : reports) {
+    std::vector<interactions::InterfaceReport> reports = interface.reports;
+    for (interactions::InterfaceReport& report : reports) {
       report.smallest_gap = std::numeric_limits<double>::infinity();
       report.largest_gap = -report.smallest_gap;
       report.overlapping = 0;
     }
     for (std::size_t row = 0; row < interface.constraints.size(); ++row) {
       const double gap = member_gap(scene, interface.constraints[row], shares[row]);
-      InterfaceReport& report = reports[interface.constraints[row].contact];
+      interactions::InterfaceReport& report = reports[interface.constraints[row].contact];
       report.smallest_gap = std::min(report.smallest_gap, gap);
       report.largest_gap = std::max(report.largest_gap, gap);
       report.overlapping += gap < 0 ? 1 : 0;
     }
     try {
       for (std::size_t c = 0; c < reports.size(); ++c) {
-        doubts.add(m, check_gaps(scene.contacts[c], reports[c], interface.model_size));
+        doubts.add(m,
+                   interactions::check_gaps(scene.contacts[c], reports[c], interface.model_size));
       }
     } catch (const UserError& error) {
       throw UserError(members[m].place + error.what());

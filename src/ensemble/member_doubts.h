@@ -35,8 +35,9 @@ double check_motion(const MemberScene& member, std::vector<std::string>& doubts)
 
 /// Checks the gaps of every member as those of a single run are. Rank 0. Throws UserError with the
 /// line of the table.
-void check_member_gaps(std::span<const MemberScene> members, const Interface& interface,
-                       std::span<const GapShare> shares, MemberDoubts& doubts);
+void check_member_gaps(std::span<const MemberScene> members,
+                       const interactions::Interface& interface,
+                       std::span<const interactions::GapShare> shares, MemberDoubts& doubts);
 
 /// Doubts about the damping of a member, whose frequencies are those of the model, scaled.
 std::vector<std::string> member_damping_doubts(const MemberScene& member, const Model& model);

@@ -10,14 +10,16 @@
 namespace pounding {
 namespace {
 
-std::unique_ptr<ContactProblem> make_contact(const Model& model, const Model& shared,
-                                             double tolerance) {
+std::unique_ptr<interactions::ContactProblem> make_contact(const Model& model, const Model& shared,
+                                                           double tolerance) {
   if (model.interface.constraints.empty()) return nullptr;
-  return std::make_unique<ContactProblem>(MPI_COMM_SELF, model.interface, model.systems,
-                                          shared.meshes, tolerance * model.interface.model_size);
+  return std::make_unique<interactions::ContactProblem>(MPI_COMM_SELF, model.interface,
+                                                        model.systems, shared.meshes,
+                                                        tolerance * model.interface.model_size);
 }
 
-std::unique_ptr<GapWatch> make_watch(const Model& model, const ContactProblem* contact) {
+std::unique_ptr<GapWatch> make_watch(const Model& model,
+                                     const interactions::ContactProblem* contact) {
   std::vector<double> margins;
   for (const Building& building : model.buildings) margins.push_back(building.energy_margin);
   return std::make_unique<GapWatch>(
@@ -30,7 +32,7 @@ std::unique_ptr<GapWatch> make_watch(const Model& model, const ContactProblem* c
 ImpactCatalogue make_catalogue(const Scene& scene, const Model& model) {
   std::vector<int> contacts;
   std::vector<std::array<double, 2>> places;
-  for (const Constraint& constraint : model.interface.constraints) {
+  for (const interactions::Constraint& constraint : model.interface.constraints) {
     contacts.push_back(constraint.contact);
     places.push_back(constraint.place);
   }

@@ -5,12 +5,12 @@
 #include <span>
 #include <vector>
 
-#include "contact/contact_problem.h"
 #include "driver/model.h"
 #include "dynamics/energy_balance.h"
 #include "dynamics/gap_watch.h"
 #include "dynamics/octet_step.h"
 #include "ensemble/member_scene.h"
+#include "interactions/contact_problem.h"
 #include "output/impact_catalogue.h"
 
 namespace pounding {
@@ -72,7 +72,7 @@ class MemberRun {
 
   std::size_t lane_;
   Model model_;
-  std::unique_ptr<ContactProblem> contact_;  ///< null without contacts
+  std::unique_ptr<interactions::ContactProblem> contact_;  ///< null without contacts
   std::unique_ptr<GapWatch> watch_;
   EnergyBalance energy_;
   ImpactCatalogue catalogue_;

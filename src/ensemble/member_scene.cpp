@@ -90,9 +90,10 @@ StepLimits member_limits(const MemberScene& member, const std::vector<ModalBasis
   return limits;
 }
 
-double member_gap(const Scene& scene, const Constraint& row, const GapShare& share) {
+double member_gap(const Scene& scene, const interactions::Constraint& row,
+                  const interactions::GapShare& share) {
   const std::vector<double>& gap = scene.contacts[row.contact].gap.values;
-  return gap.empty() ? row.geometric_gap : given_gap(gap, share);
+  return gap.empty() ? row.geometric_gap : interactions::given_gap(gap, share);
 }
 
 Model member_model(const MemberScene& member, const EnsembleModel& shared) {
@@ -106,7 +107,7 @@ Model member_model(const MemberScene& member, const EnsembleModel& shared) {
   model.interface.constraints = shared.model->interface.constraints;
   model.interface.model_size = shared.model->interface.model_size;
   for (std::size_t row = 0; row < model.interface.constraints.size(); ++row) {
-    Constraint& constraint = model.interface.constraints[row];
+    interactions::Constraint& constraint = model.interface.constraints[row];
     constraint.initial_gap = member_gap(scene, constraint, shared.gap_shares[row]);
   }
   model.time_step = shared.model->time_step;

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "contact/find_interface.h"
 #include "driver/model.h"
+#include "interactions/pairing/find_interface.h"
 #include "modal/modal_basis.h"
 #include "scene/member_table.h"
 #include "scene/scene_reader.h"
@@ -27,13 +27,14 @@ void require_ensemble_scene(const Scene& scene);
 MemberScene read_member(const OptionsDatabase& scene, const MemberTable& table, std::size_t member);
 
 /// Initial gap of a row [m]: as the scene of a member gives it, or by the meshes.
-double member_gap(const Scene& scene, const Constraint& row, const GapShare& share);
+double member_gap(const Scene& scene, const interactions::Constraint& row,
+                  const interactions::GapShare& share);
 
 /// Model that the members share on a rank.
 struct EnsembleModel {
-  const Model* model = nullptr;      ///< of the ensemble's scene, on this rank alone
-  std::vector<ModalBasis> bases;     ///< of every structure, with rows, without a factor
-  std::vector<GapShare> gap_shares;  ///< of the rows of its interface
+  const Model* model = nullptr;   ///< of the ensemble's scene, on this rank alone
+  std::vector<ModalBasis> bases;  ///< of every structure, with rows, without a factor
+  std::vector<interactions::GapShare> gap_shares;  ///< of the rows of its interface
 };
 
 /// The part of the model that is a member's own, for this process alone: systems and limits of its

@@ -96,8 +96,8 @@ class Ensemble {
     }
     Profile profile;
     const std::vector<double> ones(scene_.structures.size(), 1.0);
-    const auto check_gaps = [this](const Interface& interface,
-                                   const std::vector<GapShare>& shares) {
+    const auto check_gaps = [this](const interactions::Interface& interface,
+                                   const std::vector<interactions::GapShare>& shares) {
       parts_.gap_shares = shares;
       on_rank0(comm_, [&] { check_member_gaps(members_, interface, shares, doubts_); });
     };

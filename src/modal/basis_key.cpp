@@ -56,7 +56,7 @@ std::string hash_of(const std::vector<Region>& regions) {
   Hash hash;
   hash.add(static_cast<double>(element_formulations));
   for (const Region& region : regions) {
-    const ElementProperties p = element_properties(region);
+    const ElementProperties p = stiffness::element_properties(region);
     hash.add(region.group);
     hash.add(static_cast<double>(region.element));
     hash.add_all(std::array{p.young, p.poisson, p.density, p.area, p.inertia_y, p.inertia_z,

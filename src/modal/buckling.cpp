@@ -26,10 +26,11 @@ std::map<std::string, double> works_of(const Structure& structure, const Mesh& m
                                        const std::vector<double>& motion) {
   const std::vector<double> values = with_ghosts(mesh, motion);
   std::map<std::string, double> works;
-  ElementWork work;
+  stiffness::ElementWork work;
   for (const ElementBlock& block : mesh.blocks) {
     if (!has_axial_force(block.type)) continue;
-    const ElementProperties properties = element_properties(structure.regions[block.region]);
+    const ElementProperties properties =
+        stiffness::element_properties(structure.regions[block.region]);
     const ElementLayout layout = element_layout(block.type);
     const auto size = static_cast<std::size_t>(layout.size());
     double sum = 0;
@@ -39,7 +40,7 @@ std::map<std::string, double> works_of(const Structure& structure, const Mesh& m
       std::fill(matrix.begin(), matrix.end(), 0.0);
       add_geometric_stiffness(block.type, gather_coordinates(mesh, block, e, work), properties,
                               block.axial_force[e], matrix);
-      const auto dofs = element_dofs(mesh, block, e, layout);
+      const auto dofs = stiffness::element_dofs(mesh, block, e, layout);
       for (std::size_t i = 0; i < size; ++i) {
         for (std::size_t j = 0; j < size && dofs[i] >= 0; ++j) {
           if (dofs[j] >= 0) sum += values[dofs[i]] * matrix[i * size + j] * values[dofs[j]];

@@ -132,7 +132,7 @@ LinearSystem build_reduced_system(MPI_Comm comm, int owner, const Structure& str
   system.mass_scaling.dofs = std::ranges::count_if(masses, [](double mass) { return mass > 1; });
   const auto share = [&](std::vector<double> values) {
     values.resize(owned);
-    return std::make_unique<DiagonalStiffness>(comm, std::move(values));
+    return std::make_unique<stiffness::DiagonalStiffness>(comm, std::move(values));
   };
   system.stiffness = share(basis.squared_frequency);
   system.stiffness_method = "modal, K = diag(omega^2)";

@@ -7,7 +7,7 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
-#include "contact/tangential_rows.h"
+#include "interactions/pairing/tangential_rows.h"
 #include "io/new_file.h"
 #include "mesh/mesh.h"
 #include "modal/basis_key.h"
@@ -29,7 +29,8 @@ namespace {
 /// and links, and every node for its fields. Links are known on rank 0 alone, which has the mesh.
 /// Collective.
 ModalRequest request_of(MPI_Comm comm, const Scene& scene, int s, const GlobalMesh& mesh,
-                        const Interface& interface, std::span<const ResolvedProbe> probes,
+                        const interactions::Interface& interface,
+                        std::span<const ResolvedProbe> probes,
                         std::span<const ResolvedForce> forces) {
   const ModalModel& modal = *scene.structures[s].modal;
   ModalRequest request;
@@ -40,21 +41,23 @@ ModalRequest request_of(MPI_Comm comm, const Scene& scene, int s, const GlobalMe
   request.patches = modal.patches;
   if (scene.preload) request.gravity = scene.structures[s].gravity;
   std::set<TracePoint> known;
-  const auto add = [&](std::span<const Constraint> rows, std::vector<TracePoint>& points) {
-    for (const Constraint& row : rows) {
-      for (const ConstraintTerm& term : row.terms) {
+  const auto add = [&](std::span<const interactions::Constraint> rows,
+                       std::vector<TracePoint>& points) {
+    for (const interactions::Constraint& row : rows) {
+      for (const interactions::ConstraintTerm& term : row.terms) {
         const TracePoint point{term.node, term.component};
         if (term.structure == s && known.insert(point).second) points.push_back(point);
       }
     }
   };
   add(interface.constraints, request.contact_points);
-  std::vector<Constraint> across = tangential_rows(interface.constraints);
-  const auto smooth =
-      std::ranges::stable_partition(across, [](const Constraint& row) { return row.friction > 0; });
+  std::vector<interactions::Constraint> across =
+      interactions::tangential_rows(interface.constraints);
+  const auto smooth = std::ranges::stable_partition(
+      across, [](const interactions::Constraint& row) { return row.friction > 0; });
   add({across.begin(), smooth.begin()}, request.contact_points);
   add(smooth, request.other_points);
-  for (const SlidingFaces::Node& node : interface.sliding.nodes) {
+  for (const interactions::SlidingFaces::Node& node : interface.sliding.nodes) {
     for (int d = 0; node.structure == s && d < 3; ++d) {
       const TracePoint point{node.node, d};
       if (known.insert(point).second) request.other_points.push_back(point);
@@ -172,8 +175,8 @@ class WorkerChoice {
 /// Gives the elements of a whole mesh their axial forces under the weight alone, without contacts.
 LargestCompression turn_weight_with_columns(const Structure& structure, const LinearSystem& system,
                                             Mesh& mesh) {
-  const Equilibrium rest = find_equilibrium(mesh.comm, {&system, 1}, {&mesh, 1}, Interface{}, {},
-                                            SolverChoice::automatic);
+  const Equilibrium rest = find_equilibrium(mesh.comm, {&system, 1}, {&mesh, 1},
+                                            interactions::Interface{}, {}, SolverChoice::automatic);
   return set_axial_forces(structure, rest.displacement[0], mesh);
 }
 
@@ -239,7 +242,7 @@ std::vector<int> owners_of_reduced(int ranks, const Scene& scene) {
 
 std::vector<std::optional<ModalBasis>> find_bases(
     MPI_Comm comm, const Scene& scene, std::span<const GlobalMesh> meshes,
-    const Interface& interface, std::span<const ResolvedProbe> probes,
+    const interactions::Interface& interface, std::span<const ResolvedProbe> probes,
     std::span<const ResolvedForce> forces, std::span<const ResolvedProbe> storey_bases,
     std::span<const SupportColumn> columns, Profile& profile) {
   const auto structure_of = [&](const Reduction& r) -> const Structure& {

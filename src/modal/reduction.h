@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/profile.h"
-#include "contact/interface.h"
+#include "interactions/pairing/interface.h"
 #include "mesh/force_places.h"
 #include "mesh/global_mesh.h"
 #include "mesh/probe_set.h"
@@ -26,7 +26,7 @@ std::vector<int> owners_of_reduced(int ranks, const Scene& scene);
 /// on every rank alike. Collective.
 std::vector<std::optional<ModalBasis>> find_bases(
     MPI_Comm comm, const Scene& scene, std::span<const GlobalMesh> meshes,
-    const Interface& interface, std::span<const ResolvedProbe> probes,
+    const interactions::Interface& interface, std::span<const ResolvedProbe> probes,
     std::span<const ResolvedForce> forces, std::span<const ResolvedProbe> storey_bases,
     std::span<const SupportColumn> columns, Profile& profile);
 

@@ -13,8 +13,8 @@ namespace pounding {
 class ScaledOperator final : public SymmetricOperator {
  public:
   struct Term {
-    double factor = 1;                   ///< f_i
-    const Stiffness* operand = nullptr;  ///< B_i; must outlive the operator
+    double factor = 1;                              ///< f_i
+    const stiffness::Stiffness* operand = nullptr;  ///< B_i; must outlive the operator
   };
   /// Collective.
   ScaledOperator(const LinearSystem& system, std::vector<Term> terms, double shift = 0);

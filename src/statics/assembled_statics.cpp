@@ -162,7 +162,7 @@ void AssembledStatics::prepare_iteration(const Mesh& mesh) {
 
 void AssembledStatics::apply(const std::vector<double>& u, std::vector<double>& q) const {
   q.resize(u.size());
-  StoredForces store(q.data());
+  stiffness::StoredForces store(q.data());
   system_.stiffness->apply({u.data(), u.data(), 0}, store);
   for (const LinkTerms& link : linear_links_) {
     const double force = link.stiffness * link.elongation(u);

@@ -9,8 +9,8 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
-#include "contact/contact_problem.h"
-#include "contact/lcp.h"
+#include "interactions/contact_problem.h"
+#include "interactions/solvers/lcp.h"
 #include "mesh/location.h"
 #include "statics/link_terms.h"
 #include "statics/make_static_stiffness.h"
@@ -34,25 +34,28 @@ constexpr double violation = 1e-13;
 using Fields = std::vector<std::vector<double>>;  // per structure, owned dofs
 
 /// Rows that are told to be open, and those that face nothing yet.
-std::vector<char> all_open(const Interface& interface, std::span<const char> told) {
+std::vector<char> all_open(const interactions::Interface& interface, std::span<const char> told) {
   std::vector<char> open(told.begin(), told.end());
   for (std::size_t row = 0; row < open.size(); ++row) {
-    if (interface.constraints[row].initial_gap == open_gap) open[row] = 1;
+    if (interface.constraints[row].initial_gap == interactions::open_gap) open[row] = 1;
   }
   return open;
 }
 
-std::vector<double> initial_gaps(const Interface& interface) {
+std::vector<double> initial_gaps(const interactions::Interface& interface) {
   std::vector<double> gaps;
-  for (const Constraint& constraint : interface.constraints) gaps.push_back(constraint.initial_gap);
+  for (const interactions::Constraint& constraint : interface.constraints) {
+    gaps.push_back(constraint.initial_gap);
+  }
   return gaps;
 }
 
-std::unique_ptr<ContactProblem> contact_of(MPI_Comm comm, const Interface& interface,
-                                           std::span<const LinearSystem> systems,
-                                           std::span<const Mesh> meshes) {
+std::unique_ptr<interactions::ContactProblem> contact_of(MPI_Comm comm,
+                                                         const interactions::Interface& interface,
+                                                         std::span<const LinearSystem> systems,
+                                                         std::span<const Mesh> meshes) {
   if (interface.constraints.empty()) return nullptr;
-  return std::make_unique<ContactProblem>(comm, interface, systems, meshes, 0);
+  return std::make_unique<interactions::ContactProblem>(comm, interface, systems, meshes, 0);
 }
 
 double largest_size(const Vector3& v) {
@@ -62,7 +65,8 @@ double largest_size(const Vector3& v) {
 class Search {
  public:
   Search(MPI_Comm comm, std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
-         const Interface& interface, std::span<const char> open_rows, SolverChoice solver)
+         const interactions::Interface& interface, std::span<const char> open_rows,
+         SolverChoice solver)
       : comm_(comm),
         systems_(systems),
         meshes_(meshes),
@@ -203,7 +207,7 @@ class Search {
       for (std::size_t j = 0; j < n; ++j) free[i] -= matrix[i * n + j] * before[tried_[j]];
       force[i] = force_[tried_[i]];
     }
-    LcpSolver(static_cast<int>(n)).solve(matrix, free, force);
+    interactions::LcpSolver(static_cast<int>(n)).solve(matrix, free, force);
     for (std::size_t i = 0; i < n; ++i) force_[tried_[i]] = force[i];
   }
 
@@ -310,7 +314,7 @@ class Search {
     StructureRest rest;
     rest.method = stiffness_[s]->method();
     for (std::size_t k = 0; k < interface_.constraints.size(); ++k) {
-      for (const ConstraintTerm& term : interface_.constraints[k].terms) {
+      for (const interactions::ConstraintTerm& term : interface_.constraints[k].terms) {
         if (term.structure != static_cast<int>(s)) continue;
         rest.contact[term.component] += term.coefficient * force_[k];
       }
@@ -378,9 +382,9 @@ class Search {
   MPI_Comm comm_;
   std::span<const LinearSystem> systems_;
   std::span<const Mesh> meshes_;
-  const Interface& interface_;
-  std::unique_ptr<ContactProblem> contact_;  ///< null without contacts
-  bool any_told_open_;                       ///< contacts open by what was told of their gaps
+  const interactions::Interface& interface_;
+  std::unique_ptr<interactions::ContactProblem> contact_;  ///< null without contacts
+  bool any_told_open_;  ///< contacts open by what was told of their gaps
   UnilateralRows rows_;
   std::vector<std::unique_ptr<StaticStiffness>> stiffness_;  ///< per structure
   Fields weight_;
@@ -398,7 +402,7 @@ class Search {
 }  // namespace
 
 Equilibrium find_equilibrium(MPI_Comm comm, std::span<const LinearSystem> systems,
-                             std::span<const Mesh> meshes, const Interface& interface,
+                             std::span<const Mesh> meshes, const interactions::Interface& interface,
                              std::span<const char> open_rows, SolverChoice solver) {
   return Search(comm, systems, meshes, interface, open_rows, solver).find();
 }

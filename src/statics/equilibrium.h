@@ -6,7 +6,7 @@
 
 #include <mpi.h>
 
-#include "contact/interface.h"
+#include "interactions/pairing/interface.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
 #include "system/linear_system.h"
@@ -62,7 +62,7 @@ struct Equilibrium {
 /// `open_rows`: per row of the interface, whether the contact is open whatever its gap is: its gap
 /// is told of the rest. Collective.
 Equilibrium find_equilibrium(MPI_Comm comm, std::span<const LinearSystem> systems,
-                             std::span<const Mesh> meshes, const Interface& interface,
+                             std::span<const Mesh> meshes, const interactions::Interface& interface,
                              std::span<const char> open_rows, SolverChoice solver);
 
 }  // namespace pounding

@@ -1,6 +1,6 @@
 #include "statics/link_terms.h"
 
-#include "links/law_of.h"
+#include "interactions/laws/law_of.h"
 #include "system/links.h"
 
 namespace pounding {
@@ -8,10 +8,10 @@ namespace {
 
 /// Largest force per elongation of a link, whether or not K holds it already [N/m].
 double tangent_of(const Link& link) {
-  LinkOrigin origin = link.origin;
+  interactions::LinkOrigin origin = link.origin;
   origin.in_stiffness = false;
   constexpr double any_step = 1;  // s: the tangent does not depend on it
-  return law_of(origin, any_step)->tangent();
+  return interactions::law_of(origin, any_step)->tangent();
 }
 
 bool is_one_way_link(const Link& link) {

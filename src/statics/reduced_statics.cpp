@@ -25,7 +25,7 @@ ReducedStatics::ReducedStatics(const LinearSystem& system, double shift) {
   // K is diagonal: one product tells it.
   const std::vector<double> ones(n, 1.0);
   std::vector<double> diagonal(n, 0.0);
-  StoredForces store(diagonal.data());
+  stiffness::StoredForces store(diagonal.data());
   system.stiffness->apply({ones.data(), ones.data(), 0}, store);
   stiffness_.assign(n * n, 0.0);
   for (std::size_t i = 0; i < n; ++i) stiffness_[i * n + i] = diagonal[i];

@@ -7,7 +7,7 @@
 
 namespace pounding {
 
-UnilateralRows::UnilateralRows(MPI_Comm comm, const ContactProblem* contact,
+UnilateralRows::UnilateralRows(MPI_Comm comm, const interactions::ContactProblem* contact,
                                std::span<const double> gaps, std::span<const char> open,
                                std::span<const LinearSystem> systems)
     : comm_(comm) {
@@ -16,8 +16,8 @@ UnilateralRows::UnilateralRows(MPI_Comm comm, const ContactProblem* contact,
   for (std::size_t s = 0; s < systems.size(); ++s) add_links(s, systems[s]);
 }
 
-void UnilateralRows::add_contacts(const ContactProblem& contact, std::span<const double> gaps,
-                                  std::span<const char> open,
+void UnilateralRows::add_contacts(const interactions::ContactProblem& contact,
+                                  std::span<const double> gaps, std::span<const char> open,
                                   std::span<const LinearSystem> systems) {
   for (int i = 0; i < contact.rows(); ++i) {
     Row& row = rows_.emplace_back();

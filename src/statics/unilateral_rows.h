@@ -6,7 +6,7 @@
 
 #include <mpi.h>
 
-#include "contact/contact_problem.h"
+#include "interactions/contact_problem.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -26,8 +26,9 @@ class UnilateralRows {
  public:
   /// `contact` may be null. `open`: per contact point, whether it is open whatever the
   /// displacements are. Collective over `comm`.
-  UnilateralRows(MPI_Comm comm, const ContactProblem* contact, std::span<const double> gaps,
-                 std::span<const char> open, std::span<const LinearSystem> systems);
+  UnilateralRows(MPI_Comm comm, const interactions::ContactProblem* contact,
+                 std::span<const double> gaps, std::span<const char> open,
+                 std::span<const LinearSystem> systems);
 
   int size() const { return static_cast<int>(rows_.size()); }
   int contacts() const { return contacts_; }  ///< rows of contact points, the first ones
@@ -53,7 +54,7 @@ class UnilateralRows {
     bool open = false;
     std::vector<Entry> entries;
   };
-  void add_contacts(const ContactProblem& contact, std::span<const double> gaps,
+  void add_contacts(const interactions::ContactProblem& contact, std::span<const double> gaps,
                     std::span<const char> open, std::span<const LinearSystem> systems);
   /// Links of one structure, those of rank 0 first.
   void add_links(std::size_t structure, const LinearSystem& system);

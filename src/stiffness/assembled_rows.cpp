@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace pounding {
+namespace pounding::stiffness {
 
 void AssembledRows::Pattern::add(std::span<const LocalIndex> places) {
   for (const LocalIndex row : places) {
@@ -79,4 +79,4 @@ void AssembledRows::add_product(const Part& part, const double* w, double* q) {
   }
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -5,7 +5,7 @@
 
 #include "common/types.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// A sparse matrix over the owned rows of a rank, its columns split into owned dofs and ghosts, for
 /// the few elements that nothing better fits. Rows without entries cost nothing.
@@ -52,4 +52,4 @@ class AssembledRows {
   Part ghost_part_;
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

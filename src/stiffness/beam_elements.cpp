@@ -4,7 +4,7 @@
 
 #include "elements/local_frame.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 constexpr std::size_t beams_at_once = sizeof(Lanes) / sizeof(double);
@@ -125,4 +125,4 @@ void BeamElements::apply(const double* w, double* q) const {
   }
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -9,7 +9,7 @@
 #include "common/types.h"
 #include "elements/element.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Euler-Bernoulli beams, four at a time, from their eight local stiffnesses and their axes instead
 /// of 12 x 12 matrices. With d = u_1 - u_2 and the rotations r_1, r_2 in local axes:
@@ -52,4 +52,4 @@ class BeamElements {
   std::vector<Batch> batches_;
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

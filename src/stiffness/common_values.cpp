@@ -7,7 +7,7 @@
 
 #include "common/parallel.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 constexpr std::size_t most_ranges = 10000;  // per rank; a mesh without equal elements has no use
@@ -59,4 +59,4 @@ double CommonValues::operator()(double value) const {
   return range->first + (range->second - range->first) / 2;
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -4,7 +4,7 @@
 
 #include <mpi.h>
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Values that differ by round-off become one, the same on every rank and for any number of ranks.
 class CommonValues {
@@ -27,4 +27,4 @@ class CommonValues {
   bool too_many_ = false;
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

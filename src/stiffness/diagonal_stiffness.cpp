@@ -1,6 +1,6 @@
 #include "stiffness/diagonal_stiffness.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 DiagonalStiffness::DiagonalStiffness(MPI_Comm comm, std::vector<double> diagonal)
     : diagonal_(std::move(diagonal)), force_(diagonal_.size(), 0.0) {
@@ -33,4 +33,4 @@ void DiagonalStiffness::apply(Vec w, Vec q) const {
   POUNDING_PETSC(VecRestoreArrayWrite(q, &force));
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

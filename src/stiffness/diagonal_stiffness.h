@@ -4,7 +4,7 @@
 
 #include "stiffness/stiffness.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// K as a diagonal: omega^2 of generalised coordinates whose basis is orthonormal in M. Nothing is
 /// exchanged between ranks.
@@ -24,4 +24,4 @@ class DiagonalStiffness final : public Stiffness {
   MatHandle matrix_;
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

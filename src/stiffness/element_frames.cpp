@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 constexpr std::size_t rectangle_size = 4 * 3;
@@ -103,4 +103,4 @@ std::optional<Matrix3> ElementFrames::axes_of_box(std::span<const double> coordi
   return axes && box_in(*axes, coordinates, tolerance) ? axes : std::nullopt;
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -7,7 +7,7 @@
 
 #include "common/matrix3.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// An element whose nodes are the corners of a rectangular box, in the axes of frame number
 /// `frame`; or those of a rectangle, a box that is flat along axis `normal`.
@@ -38,4 +38,4 @@ class ElementFrames {
   std::vector<Matrix3> axes_{{Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}}};
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

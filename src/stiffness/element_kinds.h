@@ -2,7 +2,7 @@
 
 #include "common/types.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// How many elements of a structure, over all ranks, are applied in which way.
 struct ElementKinds {
@@ -13,4 +13,4 @@ struct ElementKinds {
   GlobalIndex other = 0;       ///< in a sparse matrix
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -8,7 +8,7 @@
 #include "mesh/mesh.h"
 
 /// Place and dofs of an element, which every sweep over a mesh asks first.
-namespace pounding {
+namespace pounding::stiffness {
 
 /// One element's matrices in arrays reused from element to element.
 struct ElementWork {
@@ -44,4 +44,4 @@ inline std::array<LocalIndex, max_element_size> element_dofs(const Mesh& mesh,
   return dofs;
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

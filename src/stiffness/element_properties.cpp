@@ -1,6 +1,6 @@
 #include "stiffness/element_properties.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 ElementProperties element_properties(const Region& region, double share) {
   ElementProperties properties;
@@ -33,4 +33,4 @@ ElementProperties element_properties(const Region& region, double share) {
   return properties;
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -7,7 +7,7 @@
 #include "common/parallel.h"
 #include "stiffness/element_loop.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 constexpr double congruence = 1e-10;  // of the shortest edge
@@ -146,4 +146,4 @@ std::vector<double> ElementShapes::coordinates(std::size_t block, std::size_t el
   return x;
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -6,7 +6,7 @@
 #include "stiffness/common_values.h"
 #include "stiffness/element_frames.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Shapes of the hexahedra and quadrangles of a mesh, to 1e-10 of the shortest edge: elements that
 /// differ by less get one shape, the same on every rank and for any number of ranks, so that the
@@ -37,4 +37,4 @@ class ElementShapes {
   std::vector<CommonValues> distances_;
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -5,7 +5,7 @@
 #include "elements/geometric_stiffness.h"
 #include "stiffness/element_properties.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 /// The sets of a map with their keys, the largest first.
@@ -281,4 +281,4 @@ ElementSorter::Places ElementSorter::places(const Element& element) const {
   return dofs;
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

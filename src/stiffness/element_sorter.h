@@ -18,7 +18,7 @@
 #include "stiffness/shells/shell_lines.h"
 #include "stiffness/strain_sorter.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Sorts the elements of a rank by how their product is done best. Local.
 class ElementSorter {
@@ -82,4 +82,4 @@ class ElementSorter {
   std::vector<Element> others_;
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -7,7 +7,7 @@
 #include "common/parallel.h"
 #include "stiffness/element_sorter.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 constexpr LocalIndex dofs_per_node = 6;
@@ -188,4 +188,4 @@ void ElementStiffness::add_general(const Part& part) const {
   part.beams->apply(argument_.data(), force_.data());
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -15,7 +15,7 @@
 #include "stiffness/stiffness.h"
 #include "stiffness/strain_sorter.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// K applied element by element, without reading a matrix: bricks and rectangles share theirs,
 /// others bring the numbers of their strains. A rank holds every element that touches an owned
@@ -72,4 +72,4 @@ class ElementStiffness final : public Stiffness {
   ZeroedArray force_;     ///< of owned dofs zero between products
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -4,7 +4,7 @@
 
 #include "elements/element.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 /// Number of entries per owned row in the own and the other columns.
@@ -69,4 +69,4 @@ std::vector<PetscInt> global_numbers(const Mesh& mesh) {
   return numbers;
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -7,7 +7,7 @@
 #include "mesh/mesh.h"
 
 /// Empty PETSc matrices, from which an assembly starts.
-namespace pounding {
+namespace pounding::stiffness {
 
 /// An empty symmetric AIJ matrix with room for what the elements of some blocks of a structure
 /// couple (all if `chosen` is empty); rows and columns over its owned dofs. Collective.
@@ -17,4 +17,4 @@ MatHandle create_matrix(const Mesh& mesh,
 /// Global numbers of all local dofs, owned then ghost.
 std::vector<PetscInt> global_numbers(const Mesh& mesh);
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

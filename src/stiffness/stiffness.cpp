@@ -1,6 +1,6 @@
 #include "stiffness/stiffness.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 AssembledStiffness::AssembledStiffness(MatHandle matrix) : matrix_(std::move(matrix)) {
   POUNDING_PETSC(MatCreateVecs(matrix_.get(), argument_.out(), force_.out()));
@@ -18,4 +18,4 @@ void AssembledStiffness::finish(const StiffnessArgument& w, ForceReceiver& recei
   receiver.receive(0, static_cast<LocalIndex>(size), force.data());
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

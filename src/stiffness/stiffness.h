@@ -3,7 +3,7 @@
 #include "common/petsc.h"
 #include "stiffness/rows/product.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// How K is applied. Vectors are distributed over the structure's communicator, owned dofs only.
 class Stiffness {
@@ -42,4 +42,4 @@ class AssembledStiffness final : public Stiffness {
   VecHandle force_;
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -8,7 +8,7 @@
 #include "stiffness/element_properties.h"
 #include "stiffness/strains/extrusion.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 /// Places along a curve that fills space: what is close there is close in space. By the bits of the
@@ -181,4 +181,4 @@ std::vector<LocalIndex> StrainSorter::dofs(bool outer, const DofPlaces& places) 
   return dofs;
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -15,7 +15,7 @@
 #include "stiffness/strains/strain_elements.h"
 #include "stiffness/strains/triangle_strains.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Elements of every kind that is applied by its strains.
 struct GeneralElements {
@@ -82,4 +82,4 @@ class StrainSorter {
   GlobalIndex counted_ = 0;
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

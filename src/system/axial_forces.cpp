@@ -57,15 +57,16 @@ std::vector<double> with_ghosts(const Mesh& mesh, const std::vector<double>& own
 LargestCompression set_axial_forces(const Structure& structure,
                                     const std::vector<double>& displacement, Mesh& mesh) {
   const std::vector<double> values = with_ghosts(mesh, displacement);
-  ElementWork work;
+  stiffness::ElementWork work;
   double largest = 0;
   for (ElementBlock& block : mesh.blocks) {
     block.axial_force.clear();
     if (!has_axial_force(block.type)) continue;
-    const ElementProperties properties = element_properties(structure.regions[block.region]);
+    const ElementProperties properties =
+        stiffness::element_properties(structure.regions[block.region]);
     const ElementLayout layout = element_layout(block.type);
     for (std::size_t e = 0; e < block.count(); ++e) {
-      const auto dofs = element_dofs(mesh, block, e, layout);
+      const auto dofs = stiffness::element_dofs(mesh, block, e, layout);
       std::array<double, 6> ends{};
       for (std::size_t i = 0; i < ends.size(); ++i) {
         const LocalIndex dof = dofs[i / 3 * static_cast<std::size_t>(layout.components) + i % 3];

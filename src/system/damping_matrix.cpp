@@ -4,7 +4,7 @@
 #include <array>
 
 #include "elements/element.h"
-#include "links/law_of.h"
+#include "interactions/laws/law_of.h"
 #include "stiffness/element_loop.h"
 #include "stiffness/element_properties.h"
 #include "stiffness/sparse_matrix.h"
@@ -15,21 +15,22 @@ namespace {
 /// The dashpots of all springs.
 MatHandle dashpot_matrix(const Structure& structure, const Mesh& mesh) {
   const auto has_dashpots = [&](const ElementBlock& block) {
-    return is_spring(block.type) && has_links(structure.regions[block.region]);
+    return is_spring(block.type) && interactions::has_links(structure.regions[block.region]);
   };
   if (std::ranges::none_of(mesh.blocks, has_dashpots)) return {};
-  MatHandle matrix = create_matrix(mesh, has_dashpots);
-  const std::vector<PetscInt> numbers = global_numbers(mesh);
+  MatHandle matrix = stiffness::create_matrix(mesh, has_dashpots);
+  const std::vector<PetscInt> numbers = stiffness::global_numbers(mesh);
   std::array<double, max_element_size * max_element_size> values{};
   for (const ElementBlock& block : mesh.blocks) {
     if (!has_dashpots(block)) continue;
     const ElementLayout layout = element_layout(block.type);
     const std::size_t size = layout.size();
     for (std::size_t e = 0; e < block.count(); ++e) {
-      element_dashpots(block.type,
-                       element_properties(structure.regions[block.region], block.share_of(e)),
-                       {values.data(), size * size});
-      const auto dofs = element_dofs(mesh, block, e, layout);
+      element_dashpots(
+          block.type,
+          stiffness::element_properties(structure.regions[block.region], block.share_of(e)),
+          {values.data(), size * size});
+      const auto dofs = stiffness::element_dofs(mesh, block, e, layout);
       std::array<PetscInt, max_element_size> rows{};
       std::array<PetscInt, max_element_size> columns{};
       for (std::size_t i = 0; i < size; ++i) {

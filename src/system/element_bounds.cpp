@@ -171,7 +171,7 @@ double ElementBounds::time_step(const ElementBlock& block, std::size_t element, 
   const double square = frequency * frequency;
   const double rate = damping.alpha + damping.beta * square;
   const ElementLayout layout = element_layout(block.type);
-  const auto dofs = element_dofs(mesh_, block, element, layout);
+  const auto dofs = stiffness::element_dofs(mesh_, block, element, layout);
   for (std::size_t i = 0; i < static_cast<std::size_t>(layout.size()); ++i) {
     // A dof without mass follows others, which carry the forces on it.
     if (dofs[i] >= 0 && dofs[i] < mesh_.owned_dofs && lumped_mass[dofs[i]] > 0) {

@@ -45,7 +45,7 @@ void for_each_chosen(const Structure& structure, const Mesh& mesh, const Resolve
   for_each_element(
       structure, mesh, wanted,
       [&](const ElementBlock& block, std::size_t e, const ElementLayout& layout,
-          ElementWork& work) {
+          stiffness::ElementWork& work) {
         const auto size = static_cast<std::size_t>(layout.size());
         Chosen chosen{block,
                       places.at({block.region, block.tags[e]}),
@@ -117,7 +117,7 @@ std::vector<ElementForces::Row> member_rows(const Structure& structure, const Me
   for_each_chosen(structure, mesh, chosen, [&](const Chosen& element) {
     const ElementType type = element.block.type;
     const ElementProperties properties =
-        element_properties(structure.regions[element.block.region]);
+        stiffness::element_properties(structure.regions[element.block.region]);
     const std::size_t count = element_force_names(type).size();
     const std::vector<double> forces =
         is_shell(type) ? shell_force_rows(type, element.coordinates, properties)

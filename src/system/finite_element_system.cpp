@@ -33,13 +33,13 @@ class Assembly {
         bounds_(structure, mesh),
         added_inertia_(structure, mesh),
         added_mass_(structure, mesh) {
-    if (with_matrix) matrix_ = create_matrix(mesh);
+    if (with_matrix) matrix_ = stiffness::create_matrix(mesh);
     for (const ElementBlock& block : mesh.blocks) {
       if (follows_law(structure.regions[block.region]) && taut_.get() == nullptr) {
-        taut_ = create_matrix(mesh);
+        taut_ = stiffness::create_matrix(mesh);
       }
       if (has_extra_damping(block) && extra_damping_.get() == nullptr) {
-        extra_damping_ = create_matrix(
+        extra_damping_ = stiffness::create_matrix(
             mesh, [this](const ElementBlock& other) { return has_extra_damping(other); });
       }
     }
@@ -47,12 +47,12 @@ class Assembly {
 
   void run() {
     system_.lumped_mass.assign(mesh_.owned_dofs, 0.0);
-    numbers_ = global_numbers(mesh_);
+    numbers_ = stiffness::global_numbers(mesh_);
     on_every_rank(mesh_.comm, [&] {
       for_each_element(
           structure_, mesh_, [](const auto&, std::size_t) { return true; },
           [&](const ElementBlock& block, std::size_t e, const ElementLayout& layout,
-              ElementWork& work) { add(block, e, layout, work); });
+              stiffness::ElementWork& work) { add(block, e, layout, work); });
       lent_ = lend_mass(mesh_, system_.lumped_mass);
       check_mass();
     });
@@ -69,12 +69,12 @@ class Assembly {
 
  private:
   void add(const ElementBlock& block, std::size_t element, const ElementLayout& layout,
-           ElementWork& work) {
+           stiffness::ElementWork& work) {
     const std::size_t size = layout.size();
     const std::span<const double> stiffness(work.stiffness.data(), size * size);
     const std::span<const double> mass(work.mass.data(), size);
     added_inertia_.add(block, element, work);
-    const auto dofs = element_dofs(mesh_, block, element, layout);
+    const auto dofs = stiffness::element_dofs(mesh_, block, element, layout);
     std::array<PetscInt, max_element_size> rows{};
     std::array<PetscInt, max_element_size> columns{};
     for (std::size_t i = 0; i < size; ++i) {
@@ -106,7 +106,7 @@ class Assembly {
       if (!block.axial_force.empty()) {
         // The part that the weight adds may be negative in a rotation: it damps nothing.
         add_geometric_stiffness(block.type, gather_coordinates(mesh_, block, element, work),
-                                element_properties(region), -block.axial_force[element],
+                                stiffness::element_properties(region), -block.axial_force[element],
                                 {work.stiffness.data(), size * size});
       }
       for (std::size_t i = 0; i < stiffness.size(); ++i) damping_[i] = extra.beta * stiffness[i];
@@ -117,7 +117,7 @@ class Assembly {
 
   /// Adds the stiffness that laws of springs hold, at its largest.
   static void add_law_stiffness(const Region& region, double share, const ElementLayout& layout,
-                                ElementWork& work) {
+                                stiffness::ElementWork& work) {
     if (!is_spring(region.element)) return;
     const std::size_t size = layout.size();
     const std::size_t components = layout.components;
@@ -133,11 +133,11 @@ class Assembly {
   }
 
   /// Null if there is no matrix.
-  static std::unique_ptr<Stiffness> finished(MatHandle matrix) {
+  static std::unique_ptr<stiffness::Stiffness> finished(MatHandle matrix) {
     if (matrix.get() == nullptr) return nullptr;
     POUNDING_PETSC(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
     POUNDING_PETSC(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
-    return std::make_unique<AssembledStiffness>(std::move(matrix));
+    return std::make_unique<stiffness::AssembledStiffness>(std::move(matrix));
   }
 
   /// Damping of a block's region beside the structure's. One-way elements are damped while they
@@ -208,7 +208,7 @@ bool multiplies_elements(const Mesh& mesh, StiffnessMethod method) {
           measured_costs::elements_per_shaped * shaped >= elements);
 }
 
-std::string describe(const ElementKinds& kinds) {
+std::string describe(const stiffness::ElementKinds& kinds) {
   return "element by element (" + std::to_string(kinds.bricks) + " bricks, " +
          std::to_string(kinds.rectangles) + " rectangles, " + std::to_string(kinds.general) +
          " general, " + std::to_string(kinds.beams) + " beams, " + std::to_string(kinds.other) +
@@ -227,7 +227,8 @@ LinearSystem build_finite_element_system(const Structure& structure, const Mesh&
   Assembly(structure, mesh, !by_element || for_modes, system).run();
   system.stiffness_method = "assembled";
   if (by_element) {
-    auto product = std::make_unique<ElementStiffness>(structure, mesh, std::move(system.stiffness));
+    auto product =
+        std::make_unique<stiffness::ElementStiffness>(structure, mesh, std::move(system.stiffness));
     system.stiffness_method = describe(product->kinds());
     system.stiffness = std::move(product);
   }

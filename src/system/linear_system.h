@@ -64,13 +64,14 @@ struct LinearSystem {
   std::vector<std::int8_t> direction;
   /// Null for a model whose dofs are components of nodes.
   std::unique_ptr<GeneralisedCoordinates> generalised;
-  std::unique_ptr<Stiffness> stiffness;  ///< K of the linear elements
-  std::string stiffness_method;          ///< how it is applied, for the report
-  std::unique_ptr<Stiffness> taut;       ///< K with every link at its stiffest; null without links
-  std::shared_ptr<Links> links;          ///< null if there are none
+  std::unique_ptr<stiffness::Stiffness> stiffness;  ///< K of the linear elements
+  std::string stiffness_method;                     ///< how it is applied, for the report
+  std::unique_ptr<stiffness::Stiffness>
+      taut;                      ///< K with every link at its stiffest; null without links
+  std::shared_ptr<Links> links;  ///< null if there are none
   /// How it follows supports that move on their own; null where the ground moves as one.
   std::shared_ptr<const SupportShapes> supports;
-  std::unique_ptr<Stiffness> extra_damping;  ///< D [N s/m, N m s]; null if there is none
+  std::unique_ptr<stiffness::Stiffness> extra_damping;  ///< D [N s/m, N m s]; null if there is none
   MassScaling mass_scaling;
   RotaryScaling rotary_scaling;               ///< in `lumped_mass` already
   std::vector<RigidBodyReport> rigid_bodies;  ///< and ties, of all ranks
@@ -98,7 +99,7 @@ struct LinearSystem {
   /// Dofs over all ranks; rigid bodies count by their motions, followers of a tie do not count.
   GlobalIndex independent_dofs() const;
   /// K for eigenvalues: every link at its stiffest.
-  const Stiffness& stiffest() const { return taut ? *taut : *stiffness; }
+  const stiffness::Stiffness& stiffest() const { return taut ? *taut : *stiffness; }
   Mat stiffest_matrix() const { return stiffest().matrix(); }
   /// Factor of K for the fastest motions [-].
   double stiffening() const { return uniform_damping ? uniform_damping->at_once() : 1; }

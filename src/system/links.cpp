@@ -33,7 +33,7 @@ std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh
   std::unique_ptr<Links> found(new Links);
   GlobalIndex count = 0;  // of all ranks
   for (const ElementBlock& block : mesh.blocks) {
-    if (!has_links(structure.regions[block.region])) continue;
+    if (!interactions::has_links(structure.regions[block.region])) continue;
     count += block.global_count;
     found->hold_stiffness_ = found->hold_stiffness_ || follows_law(structure.regions[block.region]);
     for (std::size_t e = 0; e < block.count(); ++e) {
@@ -62,11 +62,11 @@ std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh
 void Links::refuse_unpressed(const Structure& structure) const {
   std::set<std::int64_t> pressed;
   for (const Link& link : links_) {
-    if (link.origin.part == SpringPart::gauge) pressed.insert(link.number);
+    if (link.origin.part == interactions::SpringPart::gauge) pressed.insert(link.number);
   }
   for (const Link& link : links_) {
     if (link.origin.region == nullptr || !(link.origin.region->nonlinear.friction > 0) ||
-        link.origin.part != SpringPart::stiffness || pressed.contains(link.number)) {
+        link.origin.part != interactions::SpringPart::stiffness || pressed.contains(link.number)) {
       continue;
     }
     throw UserError("structure " + structure.name + ": element " + std::to_string(link.number) +
@@ -89,7 +89,7 @@ void Links::add_bar(const Structure& structure, const Mesh& mesh, const ElementB
   const bool reduced = structure.modal.has_value();
   link.origin = {&region, 0,
                  length,  reduced ? 0 : structure.damping_of(region).beta,
-                 reduced, SpringPart::stiffness};
+                 reduced, interactions::SpringPart::stiffness};
   for (std::size_t d = 0; d < 3; ++d) {
     for (std::size_t end = 0; end < 2; ++end) {
       link.place[3 * end + d] = mesh.dof(nodes[end], static_cast<int>(d));
@@ -108,19 +108,19 @@ void Links::add_springs(const Structure& structure, const Mesh& mesh, const Elem
   const std::size_t ends = element_layout(block.type).nodes;
   const LocalIndex* nodes = &block.connectivity[ends * element];
   const bool reduced = structure.modal.has_value();
-  const auto add = [&](std::size_t c, SpringPart part) {
+  const auto add = [&](std::size_t c, interactions::SpringPart part) {
     Link link;
     link.number = block.tags[element];
     link.origin = {&region, static_cast<int>(c), 0, 0, false, part};
     link.origin.share = block.share_of(element);
-    const bool pressed = is_pressed(link.origin);
+    const bool pressed = interactions::is_pressed(link.origin);
     if (pressed) link.origin.beta = reduced ? 0 : structure.damping.beta;
-    link.origin.in_stiffness = reduced && part == SpringPart::stiffness;
+    link.origin.in_stiffness = reduced && part == interactions::SpringPart::stiffness;
     for (std::size_t end = 0; end < ends; ++end) {
       link.place[end] = mesh.dof(nodes[end], static_cast<int>(c));
       link.weight[end] = end + 1 == ends && !pressed ? 1 : -1;
     }
-    if (part == SpringPart::gauge && structure.gravity[c] > 0) {
+    if (part == interactions::SpringPart::gauge && structure.gravity[c] > 0) {
       for (double& weight : link.weight) weight = -weight;  // weight presses it towards greater c
     }
     for (std::size_t end = 0; end < ends; ++end) {
@@ -135,11 +135,11 @@ void Links::add_springs(const Structure& structure, const Mesh& mesh, const Elem
   };
   for (std::size_t c = 0; c < region.dashpot.size(); ++c) {
     const bool pressed = region.compression_only && c == 2;
-    if (region.dashpot[c] > 0 && !pressed) add(c, SpringPart::dashpot);
-    if (region.nonlinear.yields(c) || pressed) add(c, SpringPart::stiffness);
+    if (region.dashpot[c] > 0 && !pressed) add(c, interactions::SpringPart::dashpot);
+    if (region.nonlinear.yields(c) || pressed) add(c, interactions::SpringPart::stiffness);
   }
   if (region.nonlinear.friction > 0) {
-    add(static_cast<std::size_t>(region.nonlinear.circle[2]), SpringPart::gauge);
+    add(static_cast<std::size_t>(region.nonlinear.circle[2]), interactions::SpringPart::gauge);
   }
 }
 
@@ -227,7 +227,7 @@ std::vector<TracePoint> link_points(const Structure& structure, const GlobalMesh
   std::vector<TracePoint> points;
   for (const ElementSet& set : mesh.regions) {
     const Region& region = structure.regions[set.region];
-    if (!has_links(region)) continue;
+    if (!interactions::has_links(region)) continue;
     for (const GlobalIndex node : set.connectivity) {
       for (int c = 0; c < 6; ++c) {
         const bool pulls = region.foundation.has_value() ? true

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "links/law_of.h"
+#include "interactions/laws/law_of.h"
 #include "mesh/global_mesh.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
@@ -32,7 +32,7 @@ struct Link {
   std::vector<HeldEnd> held{};     ///< ends that may be on a support
   std::vector<double> supports{};  ///< elongation by them, per column of SupportShapes; or empty
   Vector3 incident{};  ///< force along it of a wave from below, per its velocity [N s/m]
-  LinkOrigin origin;
+  interactions::LinkOrigin origin;
   std::int64_t number = 0;  ///< among the elements of its structure's file; its name in checkpoints
 
   /// b . w of a field w at the places of the trace: the second end's less the first one's [m, rad].

@@ -13,7 +13,7 @@
 #include "common/disjoint_sets.h"
 #include "common/error.h"
 #include "elements/element.h"
-#include "links/law_of.h"
+#include "interactions/laws/law_of.h"
 #include "stiffness/element_properties.h"
 #include "system/elimination_order.h"
 
@@ -111,7 +111,8 @@ class Decision {
 
   bool scales(const ElementSet& set, std::size_t element, std::span<const GlobalIndex> nodes) {
     const Region& region = structure_.regions[set.region];
-    const ElementProperties properties = element_properties(region, set.share_of(element));
+    const ElementProperties properties =
+        stiffness::element_properties(region, set.share_of(element));
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       const Vector3 x = mesh_.position(nodes[a]);
       std::copy(x.begin(), x.end(), &coordinates_[3 * a]);
@@ -174,7 +175,7 @@ std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalM
   };
   for (const ElementSet& set : mesh.regions) {
     const std::size_t width = element_layout(set.type).nodes;
-    const bool links = width == 2 && has_links(structure.regions[set.region]);
+    const bool links = width == 2 && interactions::has_links(structure.regions[set.region]);
     const bool looked_at = links || (scaling && traits_of(set.type).scalable);
     for (std::size_t e = 0; looked_at && e < set.tags.size(); ++e) {
       const std::span<const GlobalIndex> nodes(&set.connectivity[e * width], width);

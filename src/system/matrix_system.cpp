@@ -102,9 +102,10 @@ class MatrixSystem {
   void fill(LinearSystem& system) {
     on_every_rank(mesh_.comm, [&] { read_mass(system); });
     MPI_Allreduce(MPI_IN_PLACE, &system.total_mass, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm);
-    system.stiffness = std::make_unique<AssembledStiffness>(read_square("stiffness"));
+    system.stiffness = std::make_unique<stiffness::AssembledStiffness>(read_square("stiffness"));
     if (!matrix_file(folder_, "damping").empty()) {
-      system.extra_damping = std::make_unique<AssembledStiffness>(read_square("damping"));
+      system.extra_damping =
+          std::make_unique<stiffness::AssembledStiffness>(read_square("damping"));
     }
     bound_frequency(system);
   }

@@ -177,7 +177,8 @@ AddedInertia::AddedInertia(const Structure& structure, const Mesh& mesh)
   if (structure.step_target) scaling_.inertia.assign(mesh.owned_dofs, 0.0);
 }
 
-bool AddedInertia::add(const ElementBlock& block, std::size_t element, ElementWork& work) {
+bool AddedInertia::add(const ElementBlock& block, std::size_t element,
+                       stiffness::ElementWork& work) {
   if (!is_shell(block.type) || !structure_.step_target || structure_.step_target->shells == 0) {
     return true;
   }
@@ -197,7 +198,7 @@ bool AddedInertia::add(const ElementBlock& block, std::size_t element, ElementWo
   scaling_.drilling = std::max(scaling_.drilling, radii->drilling / own);
   const std::array<double, max_element_size> before = work.mass;
   add_radii(*radii, coordinates, {work.mass.data(), size});
-  const auto dofs = element_dofs(mesh_, block, element, layout);
+  const auto dofs = stiffness::element_dofs(mesh_, block, element, layout);
   for (std::size_t i = 0; i < size; ++i) {
     if (dofs[i] >= 0 && dofs[i] < mesh_.owned_dofs) {
       scaling_.inertia[dofs[i]] += work.mass[i] - before[i];
@@ -218,7 +219,7 @@ void AddedInertia::share(RotaryScaling& scaling) {
 StepPlan plan_step(const Structure& structure, const Mesh& mesh) {
   StepPlan plan;
   AddedInertia inertia(structure, mesh);
-  ElementWork work;
+  stiffness::ElementWork work;
   std::vector<double> added;
   bool feasible = true;
   for (const ElementBlock& block : mesh.blocks) {
@@ -229,7 +230,7 @@ StepPlan plan_step(const Structure& structure, const Mesh& mesh) {
       const std::span<double> stiffness(work.stiffness.data(), size * size);
       const std::span<double> mass(work.mass.data(), size);
       element_matrices(block.type, gather_coordinates(mesh, block, e, work),
-                       element_properties(region, block.share_of(e)), stiffness, mass);
+                       stiffness::element_properties(region, block.share_of(e)), stiffness, mass);
       if (is_shell(block.type)) {
         feasible = inertia.add(block, e, work);
       } else if (traits_of(block.type).scalable) {

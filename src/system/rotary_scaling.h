@@ -56,7 +56,7 @@ class AddedInertia {
 
   /// Adds to the lumped mass of an element in `work` where it is a shell and the structure scales
   /// shells. False for a shell that no rotational inertia can bring there.
-  bool add(const ElementBlock& block, std::size_t element, ElementWork& work);
+  bool add(const ElementBlock& block, std::size_t element, stiffness::ElementWork& work);
   /// Fills in the added inertia, over all ranks. Collective.
   void share(RotaryScaling& scaling);
 

@@ -35,7 +35,7 @@ void ScaledMass::add_blocks(const ElementBlock& block, std::size_t element) {
   const ElementLayout layout = element_layout(block.type);
   const std::size_t components = layout.components;
   const std::size_t size = layout.size();
-  const auto dofs = element_dofs(mesh_, block, element, layout);
+  const auto dofs = stiffness::element_dofs(mesh_, block, element, layout);
   const auto node_at = [&](std::size_t a) {
     return block.connectivity[element * static_cast<std::size_t>(layout.nodes) + a / components];
   };
@@ -65,7 +65,7 @@ void ScaledMass::add_rows(const ElementBlock& block, std::size_t element,
                           std::span<const double> stiffness) {
   const ElementLayout layout = element_layout(block.type);
   const std::size_t size = layout.size();
-  const auto dofs = element_dofs(mesh_, block, element, layout);
+  const auto dofs = stiffness::element_dofs(mesh_, block, element, layout);
   for (std::size_t i = 0; i < size; ++i) {
     for (std::size_t j = 0; j < size; ++j) {
       if (dofs[i] >= 0 && dofs[i] < mesh_.owned_dofs) {

@@ -54,8 +54,8 @@ std::vector<double> support_force(const Structure& structure, const Mesh& mesh,
   };
   for_each_element(structure, mesh, is_moved,
                    [&](const ElementBlock& block, std::size_t element, const ElementLayout& layout,
-                       const ElementWork& work) {
-                     const auto dofs = element_dofs(mesh, block, element, layout);
+                       const stiffness::ElementWork& work) {
+                     const auto dofs = stiffness::element_dofs(mesh, block, element, layout);
                      const std::size_t size = layout.size();
                      for (std::size_t i = 0; i < size; ++i) {
                        if (dofs[i] < 0 || dofs[i] >= mesh.owned_dofs) continue;

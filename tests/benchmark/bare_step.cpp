@@ -33,17 +33,17 @@ struct Half {
   double sign;
 };
 
-Half::Even plain(const EvenBlock& k) {
+Half::Even plain(const stiffness::EvenBlock& k) {
   return {{k.own_0.centre[0], k.own_1.centre[0], k.own_2.centre[0]},
           {k.own_0.side[0], k.own_1.side[0], k.own_2.side[0]},
           k.slope[0]};
 }
 
-Half::Odd plain(const OddBlock& k) {
+Half::Odd plain(const stiffness::OddBlock& k) {
   return {k.cross.centre[0], k.cross.side[0], k.slope[0], k.end[0]};
 }
 
-Half plain(const HalfStencil& k, double sign) {
+Half plain(const stiffness::HalfStencil& k, double sign) {
   return {plain(k.within), plain(k.within_both), plain(k.across_even),
           plain(k.skew),   plain(k.across_odd),  sign};
 }
@@ -216,9 +216,10 @@ class BareStep final : public TimedStep {
     if (request.cells[2] != 1 || request.skew || count_ < 1) {
       throw std::invalid_argument("a bare step needs a slab of one layer of boxes");
     }
-    const ElementProperties properties = element_properties(model.structures.at(0).regions.at(0));
-    const BrickStencil stencil =
-        brick_stencil(split_brick(ElementType::hex8, properties, cell_size).value());
+    const ElementProperties properties =
+        stiffness::element_properties(model.structures.at(0).regions.at(0));
+    const stiffness::BrickStencil stencil = stiffness::brick_stencil(
+        stiffness::split_brick(ElementType::hex8, properties, cell_size).value());
     halves_[0] = plain(stencil.membrane, -1);
     halves_[1] = plain(stencil.bending, 1);
     corner_mass_ = properties.density * cell_size[0] * cell_size[1] * cell_size[2] / 8;

@@ -122,7 +122,8 @@ Json describe(const std::vector<PartLoad>& loads) {
 
 Json study(const StoreyPair& pair, int parts) {
   const auto start = std::chrono::steady_clock::now();
-  const Partition partition = partition_meshes(pair.meshes, facing_nodes(pair.interface), parts);
+  const Partition partition =
+      partition_meshes(pair.meshes, interactions::facing_nodes(pair.interface), parts);
   const std::chrono::duration<double> lasted = std::chrono::steady_clock::now() - start;
   std::vector<PartLoad> loads(static_cast<std::size_t>(parts));
   long dofs = 0;
@@ -131,8 +132,8 @@ Json study(const StoreyPair& pair, int parts) {
     add_structure(pair.meshes[s], partition.node_owner[s], loads);
     elements += pair.meshes[s].regions[0].tags.size();
   }
-  for (const Constraint& constraint : pair.interface.constraints) {
-    for (const ConstraintTerm& term : constraint.terms) {
+  for (const interactions::Constraint& constraint : pair.interface.constraints) {
+    for (const interactions::ConstraintTerm& term : constraint.terms) {
       const int owner = partition.node_owner[static_cast<std::size_t>(term.structure)]
                                             [static_cast<std::size_t>(term.node)];
       ++loads[static_cast<std::size_t>(owner)].contact_dofs;

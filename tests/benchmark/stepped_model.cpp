@@ -76,7 +76,8 @@ GlobalMesh plate_mesh(int nx, int ny, bool opening) {
 }
 
 /// The meshes as rank 0 sees them before they are distributed.
-std::vector<GlobalMesh> make_meshes(const ModelRequest& request, Interface& interface) {
+std::vector<GlobalMesh> make_meshes(const ModelRequest& request,
+                                    interactions::Interface& interface) {
   std::vector<GlobalMesh> meshes;
   if (request.cells_per_metre > 0) {
     StoreyPair pair = build_storey_pair(request.cells_per_metre);
@@ -104,9 +105,10 @@ void distribute(MPI_Comm comm, const ModelRequest& request, SteppedModel& model)
   Partition partition;
   on_rank0(comm, [&] {
     meshes = make_meshes(request, model.interface);
-    partition = partition_meshes(meshes, facing_nodes(model.interface), size_of(comm));
+    partition =
+        partition_meshes(meshes, interactions::facing_nodes(model.interface), size_of(comm));
   });
-  broadcast_interface(comm, model.interface);
+  interactions::broadcast_interface(comm, model.interface);
   for (std::size_t s = 0; s < meshes.size(); ++s) {
     model.meshes.push_back(distribute_mesh(comm, "s" + std::to_string(s + 1), meshes[s], partition,
                                            static_cast<int>(s)));
@@ -162,7 +164,7 @@ void leave_out(const std::string& form, SteppedModel& model) {
     if (form == "update_vectors") {
       hide_nodes(model.systems[s]);
     } else {
-      model.systems[s].stiffness = std::make_unique<ElementStiffness>(
+      model.systems[s].stiffness = std::make_unique<stiffness::ElementStiffness>(
           model.structures[s], model.meshes[s], nullptr, testing::forms_without(form));
     }
   }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/interface.h"
+#include "interactions/pairing/interface.h"
 #include "mesh/mesh.h"
 #include "motion/ground_motion.h"
 #include "motion/support_motion.h"
@@ -34,7 +34,7 @@ struct SteppedModel {
   std::vector<Structure> structures;
   std::vector<Mesh> meshes;
   std::vector<LinearSystem> systems;
-  Interface interface;
+  interactions::Interface interface;
   std::vector<Contact> contacts;  ///< of a scene
   std::unique_ptr<GroundMotion> motion;
   std::unique_ptr<SupportMotion> supports;  ///< of a scene; null where the ground moves as one

@@ -39,7 +39,8 @@ struct Block {
     mesh =
         distribute_mesh(PETSC_COMM_SELF, "block", global, partition_meshes({&global, 1}, {}, 1), 0);
     system = build_finite_element_system(structure, mesh);
-    stiffness = std::make_unique<ElementStiffness>(structure, mesh, std::move(system.stiffness));
+    stiffness =
+        std::make_unique<stiffness::ElementStiffness>(structure, mesh, std::move(system.stiffness));
     w.resize(system.lumped_mass.size());
     q.resize(w.size());
     for (std::size_t i = 0; i < w.size(); ++i) w[i] = 1e-3 * static_cast<double>(i * 7919 % 1013);
@@ -55,7 +56,7 @@ struct Block {
 
   Mesh mesh;
   LinearSystem system;
-  std::unique_ptr<ElementStiffness> stiffness;
+  std::unique_ptr<stiffness::ElementStiffness> stiffness;
   std::vector<double> w;
   std::vector<double> q;
   VecHandle argument;
@@ -84,16 +85,17 @@ void brick_kernel(benchmark::State& state) {
   concrete.young = 30e9;
   concrete.poisson = 0.2;
   concrete.density = 2400;
-  const auto split = split_brick(ElementType::hex8, concrete, {0.25, 0.3, 0.22});
-  const BrickStencil stencil = brick_stencil(split.value());
+  const auto split = stiffness::split_brick(ElementType::hex8, concrete, {0.25, 0.3, 0.22});
+  const stiffness::BrickStencil stencil = stiffness::brick_stencil(split.value());
   std::vector<double> memory(static_cast<std::size_t>(36 * stride), 1e-3);
-  std::array<PairLine, 3> lines;
+  std::array<stiffness::PairLine, 3> lines;
   for (std::size_t l = 0; l < 3; ++l) {
     double* const line = memory.data() + static_cast<std::ptrdiff_t>(l) * 12 * stride;
     lines[l] = {line, line + 6 * stride};
   }
   for (auto _ : state) {
-    add_line_forces(stencil, Sides::both, true, lines[1], lines[0], lines[2], stride, count);
+    stiffness::add_line_forces(stencil, stiffness::Sides::both, true, lines[1], lines[0], lines[2],
+                               stride, count);
     benchmark::ClobberMemory();
   }
   using benchmark::Counter;

@@ -89,8 +89,9 @@ class StoreyMesh {
   std::vector<GlobalIndex> number_;  ///< per place of the full grid; -1: no node
 };
 
-Constraint facing(const GlobalMesh& mesh, GlobalIndex secondary, GlobalIndex primary) {
-  Constraint constraint;
+interactions::Constraint facing(const GlobalMesh& mesh, GlobalIndex secondary,
+                                GlobalIndex primary) {
+  interactions::Constraint constraint;
   constraint.terms = {{1, primary, 0, 1.0}, {0, secondary, 0, -1.0}};
   constraint.initial_gap = constraint.geometric_gap = gap;
   const Vector3 x = mesh.position(secondary);

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "contact/interface.h"
+#include "interactions/pairing/interface.h"
 #include "mesh/global_mesh.h"
 
 namespace pounding::measuring {
@@ -11,8 +11,8 @@ namespace pounding::measuring {
 /// thick on four stout columns, clamped at the base, all bricks of one size. The edges of the slabs
 /// face node to node.
 struct StoreyPair {
-  std::array<GlobalMesh, 2> meshes;  ///< regions: "body" of hex8
-  Interface interface;               ///< one row per pair of facing nodes
+  std::array<GlobalMesh, 2> meshes;   ///< regions: "body" of hex8
+  interactions::Interface interface;  ///< one row per pair of facing nodes
 };
 
 /// `cells_per_metre`: bricks along one metre; the pair has about 600 times its cube dofs.

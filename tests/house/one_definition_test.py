@@ -50,7 +50,8 @@ class OneDefinition(unittest.TestCase):
                                 for found in types(file.read()):
                                     places[found].append(os.path.relpath(os.path.join(folder, name), ROOT))
             self.assertGreater(len(places), 400)
-            for type_name in ("pounding::SparseRows", "pounding::AssembledRows::Pattern", "pounding::ElementType"):
+            for type_name in ("pounding::interactions::SparseRows", "pounding::stiffness::AssembledRows::Pattern",
+                              "pounding::ElementType"):
                 self.assertEqual(len(places[type_name]), 1, f"{type_name}: {places[type_name]}")
             self.assertEqual({name: files for name, files in places.items() if len(files) > 1}, {})
 

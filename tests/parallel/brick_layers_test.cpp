@@ -200,7 +200,7 @@ TEST(BrickLayers, SymmetricAndTheSameOnAnyNumberOfRanks) {
       add_noise(mesh);
       testing::clamp(mesh, "x_min");
       const auto built = build_stiffness(mesh, concrete());
-      const ElementKinds kinds = built.stiffness->kinds();
+      const stiffness::ElementKinds kinds = built.stiffness->kinds();
       EXPECT_EQ(kinds.bricks > 0, kind == Kind::straight || kind == Kind::turned);
       EXPECT_EQ(kinds.general > 0, kind == Kind::sheared || kind == Kind::distorted);
       const auto name = static_cast<int>(kind);

@@ -1,4 +1,4 @@
-#include "contact/interface_gather.h"
+#include "interactions/interface_gather.h"
 
 #include <gtest/gtest.h>
 #include <petscsys.h>
@@ -29,14 +29,14 @@ TEST_P(InterfaceGathered, EveryMemberGetsAllValuesInEveryTurn) {
   const MPI_Comm comm = PETSC_COMM_WORLD;
   constexpr int dofs = 37;
   const std::vector<int> mine = dofs_of(rank_of(comm), size_of(comm), dofs);
-  InterfaceGather gather(comm, mine, GetParam());
+  interactions::InterfaceGather gather(comm, mine, GetParam());
   EXPECT_EQ(gather.member(), !mine.empty());
   EXPECT_EQ(gather.root(), 0);
   EXPECT_EQ(gather.members(), size_of(comm) > 2 ? size_of(comm) - 1 : size_of(comm));
   if (!gather.member()) return;
   int wrong = 0;
   for (int turn = 0; turn < 3000; ++turn) {
-    const int fields = 1 + turn % InterfaceGather::max_fields;
+    const int fields = 1 + turn % interactions::InterfaceGather::max_fields;
     std::vector<double> known;
     for (const int dof : mine) {
       for (int field = 0; field < fields; ++field) known.push_back(value(turn, field, dof));

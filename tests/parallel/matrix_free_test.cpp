@@ -73,7 +73,7 @@ TEST(MatrixFree, ModesAskForTheMatrixAndGiveItBack) {
 TEST(MatrixFree, ScaledOperatorSumsItsTerms) {
   BuiltSystem built =
       build_system(clamped_block(), testing::solid_structure("block", 30e9, 0.2, 2400));
-  const Stiffness& stiffness = built.system.stiffest();
+  const stiffness::Stiffness& stiffness = built.system.stiffest();
   const ScaledOperator found(built.system, {{2, &stiffness}, {3, &stiffness}}, 7);
   const ScaledOperator once(built.system, {{1, &stiffness}});
   std::vector<double> x = testing::random_field(built.mesh, 3);

@@ -24,7 +24,7 @@ void expect_same_without_any_form(const GlobalMesh& mesh, const Structure& struc
   for (const auto& [name, form] : named_forms) {
     auto [distributed, system] = build_system(mesh, structure);
     BuiltStiffness built{std::move(distributed), std::move(system), nullptr};
-    built.stiffness = std::make_unique<ElementStiffness>(
+    built.stiffness = std::make_unique<stiffness::ElementStiffness>(
         structure, built.mesh, std::move(built.system.stiffness), testing::forms_without(name));
     EXPECT_LT(difference_to_assembled(built), tolerance) << "without " << name;
   }

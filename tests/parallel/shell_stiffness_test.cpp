@@ -194,7 +194,7 @@ TEST(ShellStiffness, OtherElementsAtTheSameNodes) {
 }
 
 /// A receiver of a product of w = u + beta v that changes u and v at once, as a time step does.
-class Spoiler final : public ForceReceiver {
+class Spoiler final : public stiffness::ForceReceiver {
  public:
   Spoiler(std::vector<double>& u, std::vector<double>& v) : u_(u), v_(v), force(u.size(), NAN) {}
   void receive(LocalIndex begin, LocalIndex end, const double* q) override {
@@ -227,7 +227,7 @@ TEST(ShellStiffness, HandsEveryDofOverOnce) {
     for (std::size_t i = 0; i < n; ++i) w[i] += beta * v[i];
     Spoiler spoiler(u, v);
     built.stiffness->apply(w.data(), expected.data());
-    built.stiffness->apply(StiffnessArgument{u.data(), v.data(), beta}, spoiler);
+    built.stiffness->apply(stiffness::StiffnessArgument{u.data(), v.data(), beta}, spoiler);
     const double scale = std::accumulate(
         expected.begin(), expected.end(), 0.0,
         [](double largest, double value) { return std::max(largest, std::abs(value)); });

@@ -16,13 +16,13 @@ namespace pounding::testing {
 struct BuiltStiffness {
   Mesh mesh;
   LinearSystem system;
-  std::unique_ptr<ElementStiffness> stiffness;
+  std::unique_ptr<stiffness::ElementStiffness> stiffness;
 };
 
 inline BuiltStiffness with_elements(const Structure& structure, BuiltSystem&& assembled) {
   BuiltStiffness built{std::move(assembled.mesh), std::move(assembled.system), nullptr};
-  built.stiffness =
-      std::make_unique<ElementStiffness>(structure, built.mesh, std::move(built.system.stiffness));
+  built.stiffness = std::make_unique<stiffness::ElementStiffness>(
+      structure, built.mesh, std::move(built.system.stiffness));
   return built;
 }
 

@@ -12,12 +12,12 @@ namespace pounding::testing {
 /// A form by its name in ProductForms.
 struct NamedForm {
   std::string_view name;
-  bool ProductForms::*form;
+  bool stiffness::ProductForms::*form;
 };
 
-#define POUNDING_FORM(name)    \
-  NamedForm {                  \
-#name, &ProductForms::name \
+#define POUNDING_FORM(name)               \
+  NamedForm {                             \
+#name, &stiffness::ProductForms::name \
   }
 inline constexpr std::array named_forms{
     POUNDING_FORM(bricks),        POUNDING_FORM(rectangles),     POUNDING_FORM(strains),
@@ -28,12 +28,12 @@ inline constexpr std::array named_forms{
     POUNDING_FORM(united_ranges), POUNDING_FORM(two_ranges),     POUNDING_FORM(fetch_ahead),
     POUNDING_FORM(shell_vectors)};
 #undef POUNDING_FORM
-static_assert(named_forms.size() == sizeof(ProductForms));
+static_assert(named_forms.size() == sizeof(stiffness::ProductForms));
 
 /// Every form but the named one; all of them for `nothing` and names that begin so. Throws
 /// std::invalid_argument.
-inline ProductForms forms_without(std::string_view name) {
-  ProductForms forms;
+inline stiffness::ProductForms forms_without(std::string_view name) {
+  stiffness::ProductForms forms;
   bool found = name.starts_with("nothing");
   for (const NamedForm& named : named_forms) {
     if (named.name != name) continue;

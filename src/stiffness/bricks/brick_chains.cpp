@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 using Place = std::array<LocalIndex, 6>;
@@ -88,4 +88,4 @@ LocalIndex BrickChains::place(const BrickChain& chain, int node, int component) 
   return places(chain)[node - chain.first] + component;
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

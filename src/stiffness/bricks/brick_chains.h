@@ -8,7 +8,7 @@
 #include "stiffness/rows/product.h"
 #include "stiffness/rows/product_forms.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// A node outside the core of its chain: its number in the chain, where x, y, z are (-1: nowhere).
 struct ChainEnd {
@@ -51,4 +51,4 @@ class BrickChains {
   std::vector<ChainEnd> ends_;
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -4,7 +4,7 @@
 
 #include "stiffness/rows/parity_split.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 constexpr std::size_t corner_count = 8;
@@ -32,4 +32,4 @@ std::optional<BrickSplit> split_brick(ElementType type, const ElementProperties&
   return picker.took_all() ? std::optional(split) : std::nullopt;
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -8,7 +8,7 @@
 /// Bricks: hexahedra whose corners are those of a rectangular box. A box is unchanged by reflection
 /// in its three mid-planes, which splits its element matrix into eight 3 x 3 blocks, one per
 /// parity.
-namespace pounding {
+namespace pounding::stiffness {
 
 /// A brick's stiffness split by parity in axes 0, 1, 2. H is the 8-point Walsh-Hadamard transform,
 /// entries prod_d of -1 (near) or +1 (far) over the axes d of a row; value "c|s" stands for
@@ -32,4 +32,4 @@ struct BrickSplit {
 std::optional<BrickSplit> split_brick(ElementType type, const ElementProperties& properties,
                                       const Vector3& lengths);
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -4,7 +4,7 @@
 
 #define POUNDING_INLINE inline __attribute__((always_inline))
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 /// One value of nodes i .. i + 3, and of i - 2 .. i + 1.
@@ -291,4 +291,4 @@ void add_line_forces(const BrickStencil& stencil, Sides sides, bool first_behind
   }
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

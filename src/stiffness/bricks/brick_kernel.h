@@ -5,7 +5,7 @@
 #include "stiffness/bricks/brick_stencil.h"
 #include "stiffness/bricks/pair_line.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Sides of a line on which the bricks lie, along axis 1.
 enum class Sides { before, behind, both };
@@ -19,4 +19,4 @@ void add_line_forces(const BrickStencil& stencil, Sides sides, bool first_behind
                      const PairLine& line, const PairLine& before, const PairLine& behind,
                      std::ptrdiff_t stride, int count);
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

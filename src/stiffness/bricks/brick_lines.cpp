@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <stdexcept>
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 /// Dofs whose forces, masses and motion stay in the nearest cache while they are handed over, of
@@ -326,4 +326,4 @@ void BrickLines::unite_ranges() {
   range_.assign(growing_ranges * static_cast<std::size_t>(range_stride_), 0.0);
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

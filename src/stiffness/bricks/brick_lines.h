@@ -13,7 +13,7 @@
 #include "stiffness/rows/element_lines.h"
 #include "stiffness/rows/element_rows.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Common data of congruent bricks.
 struct BrickShape {
@@ -103,4 +103,4 @@ class BrickLines final : public ElementLines {
   mutable LaneArray added_;  ///< of a chain that is added to q
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 /// Fewer bricks on both sides of a pair are not worth a step of their own.
@@ -191,4 +191,4 @@ BrickPairs pair_chains(const BrickRows& rows, const ProductForms& forms) {
   return count_neighbours(rows, 1, 3) >= count_neighbours(rows, 2, 3) ? third : second;
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -9,7 +9,7 @@
 
 /// Chains of nodes that face each other through the thickness of their bricks, and the order in
 /// which the bricks between pairs of chains are done.
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Node near_begin + p of one chain faces node far_begin + p of another, p < length.
 struct ChainPair {
@@ -46,4 +46,4 @@ struct BrickPairs {
 /// time.
 BrickPairs pair_chains(const BrickRows& rows, const ProductForms& forms = {});
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -1,6 +1,6 @@
 #include "stiffness/bricks/brick_stencil.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 /// A term of the energy of a brick in the sum (even) and the difference (odd) of its two ends.
@@ -97,4 +97,4 @@ BrickStencil brick_stencil(const BrickSplit& split) {
           half_stencil(bending_sum, bending_difference)};
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -22,7 +22,7 @@
 /// fourth number enters where a slope does,
 ///
 ///     end    v_i at the first node, -v_i at the last one
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Coefficients of the sum of the two neighbours of a node, and of the node itself.
 struct AlongRun {
@@ -72,4 +72,4 @@ struct BrickStencil {
 /// lane.
 BrickStencil brick_stencil(const BrickSplit& split);
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 constexpr int arrays_per_line = 6;
@@ -175,4 +175,4 @@ LineSchedule schedule_lines(const BrickPairs& pairs, const std::vector<ChainForm
   return Scheduler(pairs, chains, stride, forms).run();
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -10,7 +10,7 @@
 /// A line of the buffer holds six arrays: three of displacements, three of forces. A chain has a
 /// line of its nodes' values; a pair has two lines, of sums and of differences. The chains of a
 /// pair that is alone lend it theirs.
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Chain or pair that begins at `start` of the buffer, in the first array of a line.
 struct ChainLoad {
@@ -76,4 +76,4 @@ struct ChainForm {
 LineSchedule schedule_lines(const BrickPairs& pairs, const std::vector<ChainForm>& chains,
                             int stride, const ProductForms& forms = {});
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

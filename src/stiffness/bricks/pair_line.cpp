@@ -2,7 +2,7 @@
 
 #include "common/lanes.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 void split_pair(const double* near, const double* far, int count, std::ptrdiff_t stride,
                 const PairLine& pair) {
@@ -40,4 +40,4 @@ void join_pair(const PairLine& pair, int count, std::ptrdiff_t stride, std::arra
   }
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

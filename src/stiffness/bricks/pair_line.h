@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// A line of node pairs: sums and differences of their displacements, each three arrays (axis 0 of
 /// the split first) followed by three arrays of forces; array c starts c * stride doubles further.
@@ -19,4 +19,4 @@ void split_pair(const double* near, const double* far, int count, std::ptrdiff_t
 void join_pair(const PairLine& pair, int count, std::ptrdiff_t stride, std::array<bool, 2> first,
                double* near, double* far);
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

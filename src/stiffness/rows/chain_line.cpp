@@ -2,7 +2,7 @@
 
 #include "common/lanes.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 /// The argument at four dofs in a row, of which `first` is a direction.
@@ -161,4 +161,4 @@ void rotate_vectors(const Matrix3& rotation, bool back, int count, std::ptrdiff_
   }
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

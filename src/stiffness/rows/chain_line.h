@@ -8,7 +8,7 @@
 
 /// Moves values between the dofs of nodes and the arrays that the bricks work on. Arrays are
 /// written up to lane_count - 1 values beyond their length.
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Three arrays, one per component.
 struct ComponentArrays {
@@ -38,4 +38,4 @@ void store_row(const ComponentArrays& from, int count, double* q);
 void rotate_vectors(const Matrix3& rotation, bool back, int count, std::ptrdiff_t stride,
                     double* line);
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

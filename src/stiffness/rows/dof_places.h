@@ -5,7 +5,7 @@
 
 #include "common/types.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Where the value of a dof stands: owned dofs in an array of their own, ghosts in another. A place
 /// below owned_dofs is an owned dof; owned_dofs + i is ghost value i; -1 is a clamped component.
@@ -24,4 +24,4 @@ inline double value_at(LocalIndex place, LocalIndex owned_dofs, const Values& ow
   return place < owned_dofs ? owned[place] : ghosts[place - owned_dofs];
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

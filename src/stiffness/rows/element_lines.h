@@ -4,7 +4,7 @@
 
 #include "stiffness/rows/product.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// The product of elements in rows, of one kind and one frame. It visits chains of nodes in the
 /// order of the mesh's numbering and keeps those in use in a small buffer, so that w is read and q
@@ -36,4 +36,4 @@ class ElementLines {
                      ForceReceiver& receiver) const = 0;
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -7,7 +7,7 @@
 
 #include "common/lanes.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 std::size_t index(LocalIndex i) {
@@ -194,4 +194,4 @@ template ElementRows<4> find_rows(const std::vector<RowElement<4>>&, LocalIndex,
 template ElementRows<2> best_rows(const std::vector<RowElement<2>>&, LocalIndex);
 template ElementRows<4> best_rows(const std::vector<RowElement<4>>&, LocalIndex);
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

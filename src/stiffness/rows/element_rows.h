@@ -8,7 +8,7 @@
 /// Elements in rows: which nodes follow each other along an axis, which elements lie between them.
 /// Elements have a near and a far node on each of `lines` edges along that axis: four edges for
 /// bricks, two for rectangles.
-namespace pounding {
+namespace pounding::stiffness {
 
 /// An element of a shape (congruent elements share one); nodes by corner bits, see ElementFrames.
 template <std::size_t lines>
@@ -53,4 +53,4 @@ using RectangleElement = RowElement<2>;
 using RectangleRun = ElementRun<2>;
 using RectangleRows = ElementRows<2>;
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

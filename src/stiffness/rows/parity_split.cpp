@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 constexpr double largest_leak = 1e-13;
@@ -93,4 +93,4 @@ bool BlockPicker::took_all() const {
   return largest(matrix_) <= largest_leak * scale_;
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

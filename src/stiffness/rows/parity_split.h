@@ -8,7 +8,7 @@
 #include "elements/element.h"
 
 /// How the matrix of an element that is unchanged by reflections falls apart into small blocks.
-namespace pounding {
+namespace pounding::stiffness {
 
 /// B of an element with n nodes (4 or 8) at the corners of a rectangle or box with edges `lengths`
 /// [m]: bit d of corner_bits[a] says that node a is on the far side of axis d.
@@ -44,4 +44,4 @@ class BlockPicker {
   double scale_;
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

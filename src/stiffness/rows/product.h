@@ -6,7 +6,7 @@
 
 #include "common/types.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Argument of a stiffness, w = u + beta v over the owned dofs; formed where it is read.
 struct StiffnessArgument {
@@ -50,4 +50,4 @@ class StoredForces final : public ForceReceiver {
   double* product_;
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Forms of the element-wise product that serve its speed alone: without any of them it is the same
 /// to round-off. All are in use; only who measures what one earns leaves it out.
@@ -29,4 +29,4 @@ struct ProductForms {
   bool shell_vectors = true;  ///< nodes with six dofs move in vectors
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

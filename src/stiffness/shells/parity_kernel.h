@@ -5,7 +5,7 @@
 #include "common/lanes.h"
 
 /// Blocks of B, lane by lane: the common part of the kernels of rectangles and segments.
-namespace pounding {
+namespace pounding::stiffness {
 
 #define POUNDING_INLINE inline __attribute__((always_inline))
 
@@ -58,4 +58,4 @@ POUNDING_INLINE Lanes carry_over(const Lanes& far, Lanes& carry) {
   return shifted;
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -4,7 +4,7 @@
 
 #include "common/lanes.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 /// The argument at four dofs in a row.
@@ -104,4 +104,4 @@ void store_shell_nodes(const SixArrays& from, const LocalIndex* places, int coun
   if (count % 4 != 0) store_four(from, count - 4, places + count - 4, first, q);
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -6,7 +6,7 @@
 
 /// Moves values between the dofs of nodes that own six components in a row and the arrays that
 /// rectangles work on.
-namespace pounding {
+namespace pounding::stiffness {
 
 /// One array per component: x, y, z and the rotations about them.
 using SixArrays = std::array<double*, 6>;
@@ -19,4 +19,4 @@ void load_shell_nodes(const StiffnessArgument& w, const LocalIndex* places, int 
 void store_shell_nodes(const SixArrays& from, const LocalIndex* places, int count, LocalIndex first,
                        double* q);
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

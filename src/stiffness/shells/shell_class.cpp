@@ -4,7 +4,7 @@
 
 #include "stiffness/rows/parity_split.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 constexpr std::size_t corner_count = 4;
@@ -45,4 +45,4 @@ std::optional<ShellSplit> split_rectangle(const ElementProperties& properties,
   return picker.took_all() ? std::optional(split) : std::nullopt;
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -7,7 +7,7 @@
 
 /// Rectangular flat shells. A rectangle is unchanged by reflection in its two mid-lines, and its
 /// membrane knows nothing of its plate: its element matrix splits into blocks of at most 3 x 3.
-namespace pounding {
+namespace pounding::stiffness {
 
 /// A rectangle's stiffness split by parity. Axis 0 is the one along which rectangles follow each
 /// other in a run, 1 the other one in the plane. Components 0, 1, 2 are displacements along axis 0,
@@ -40,4 +40,4 @@ struct ShellSplit {
 std::optional<ShellSplit> split_rectangle(const ElementProperties& properties,
                                           const std::array<double, 2>& lengths, int run_axis);
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -2,7 +2,7 @@
 
 #include "stiffness/shells/parity_kernel.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 /// One component of the four nodes of each rectangle: rows of H with axis 1 as 0: no, 1: yes;
@@ -134,4 +134,4 @@ void add_shell_run(const ShellSplit& split, const std::array<ShellLine, 2>& line
   add_half<Plate>(split, lines, line_stride, count);
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

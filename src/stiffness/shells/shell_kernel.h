@@ -4,7 +4,7 @@
 
 #include "stiffness/shells/shell_class.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// A line of nodes: displacements and forces, component by component, those of the split's axes 0,
 /// 1 and the normal first, then the rotations about them; array c starts c * line_stride further.
@@ -20,4 +20,4 @@ struct ShellLine {
 void add_shell_run(const ShellSplit& split, const std::array<ShellLine, 2>& lines, int line_stride,
                    int count);
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

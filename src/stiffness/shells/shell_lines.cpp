@@ -8,7 +8,7 @@
 #include "stiffness/rows/chain_line.h"
 #include "stiffness/shells/shell_kernel.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 constexpr int components = 6;
@@ -208,4 +208,4 @@ void ShellLines::set_outcomes(const std::vector<Outcome>& outcomes) {
   }
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

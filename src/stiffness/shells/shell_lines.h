@@ -12,7 +12,7 @@
 #include "stiffness/shells/shell_chain.h"
 #include "stiffness/shells/shell_class.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Common data of congruent rectangles.
 struct RectangleShape {
@@ -87,4 +87,4 @@ class ShellLines final : public ElementLines {
   mutable LaneArray range_;  ///< forces of the range that is being handed over
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -9,7 +9,7 @@
 
 /// One number of each element of a batch: of eight where the machine has AVX-512, else of four.
 /// Nodes of elements stand in rows, component by component, which become columns and rows again.
-namespace pounding {
+namespace pounding::stiffness {
 
 #ifdef __AVX512F__
 
@@ -138,4 +138,4 @@ static inline __attribute__((always_inline)) void add_part(const ElementLanes& v
   store(place, sum + part);
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

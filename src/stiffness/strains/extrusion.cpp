@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 constexpr double tolerance = 1e-13;  // of the element's extent
@@ -48,4 +48,4 @@ std::optional<Extrusion> Extrusion::find(std::span<const double> coordinates) {
   return std::nullopt;
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// How a hexahedron whose ends are alike, and across a global axis, is seen along that axis.
 struct Extrusion {
@@ -19,4 +19,4 @@ struct Extrusion {
   std::size_t direction(std::size_t direction) const { return (axis + 1 + direction) % 3; }
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -3,7 +3,7 @@
 #include "common/matrix3.h"
 #include "elements/gauss_rule.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 constexpr std::size_t node_count = 8;
@@ -271,4 +271,4 @@ std::array<double, HexahedronStrains<extruded>::number_count> HexahedronStrains<
 template struct HexahedronStrains<false>;
 template struct HexahedronStrains<true>;
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -7,7 +7,7 @@
 #include "stiffness/strains/element_lanes.h"
 #include "stiffness/strains/lane_arithmetic.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Strains of a hexahedron. With the eight signs xi, eta, zeta of its corners, and their products
 /// eta zeta, zeta xi, xi eta, xi eta zeta, the sums U_k and U_m of a nodal field over them, and
@@ -51,4 +51,4 @@ struct HexahedronStrains {
   static void product(const ElementLanes* numbers, ElementLanes* values);
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -5,7 +5,7 @@
 #include "stiffness/strains/element_lanes.h"
 
 /// Sums of products of a batch of elements, rounded once per product where the machine can.
-namespace pounding {
+namespace pounding::stiffness {
 
 /// a b + c
 static inline __attribute__((always_inline)) ElementLanes plus(ElementLanes c,
@@ -72,4 +72,4 @@ static inline __attribute__((always_inline)) void turn_back(const ElementLanes* 
   }
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -12,7 +12,7 @@
 #include "common/types.h"
 #include "stiffness/strains/element_lanes.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Copies of nodes with 3 or 6 components, in the order in which elements ask for them first, 4 or
 /// 8 values apart: what neighbours share is close, and no node crosses a cache line. The values and
@@ -140,4 +140,4 @@ class NodeSlots {
   mutable LaneArray forces_;  ///< zero between products
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

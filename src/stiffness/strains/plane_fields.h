@@ -3,7 +3,7 @@
 #include "stiffness/strains/lane_arithmetic.h"
 
 /// Strains of a vector field in a plane, of a batch of elements at once.
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Gradient of a field times J: (y_r f_p - y_p f_r, x_p f_r - x_r f_p).
 struct PlaneGradient {
@@ -39,4 +39,4 @@ static inline __attribute__((always_inline)) void plane_stress(const ElementLane
   of_y = {slip, sum - difference};
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -3,7 +3,7 @@
 #include "stiffness/strains/plane_fields.h"
 #include "stiffness/strains/shell_fields.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 using Quadrangle = QuadrangleStrains;
@@ -183,4 +183,4 @@ std::array<double, QuadrangleStrains::number_count> QuadrangleStrains::numbers(
   return n;
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

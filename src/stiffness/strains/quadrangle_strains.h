@@ -7,7 +7,7 @@
 #include "stiffness/strains/element_lanes.h"
 #include "stiffness/strains/lane_arithmetic.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Strains of a quadrangle of a shell in axes of its own, z normal to its mean plane. With the
 /// diagonals p = x_3 - x_1, r = x_4 - x_2, J = |p x r| and f_p, f_r the differences of a nodal
@@ -48,4 +48,4 @@ struct QuadrangleStrains {
   static void product(const ElementLanes* numbers, ElementLanes* values);
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

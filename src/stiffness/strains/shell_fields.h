@@ -6,7 +6,7 @@
 
 #include "common/matrix3.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Displacement fields of a flat shell in its own axes, z normal to the plane, and the energies
 /// that a stiffness in global axes gives them: the numbers of its strains.
@@ -113,4 +113,4 @@ struct ShellFields {
   }
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -13,7 +13,7 @@
 #include "common/types.h"
 #include "stiffness/strains/node_slots.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Elements of general shape by their strains, a batch of four or eight at a time: K = B' S B,
 /// where B takes the displacements to those strains that are not rigid motions. An element keeps
@@ -142,4 +142,4 @@ void StrainElements<Shape>::apply(const double* w, double* q) const {
   slots_.add_to(q);
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -3,7 +3,7 @@
 #include "stiffness/strains/plane_fields.h"
 #include "stiffness/strains/shell_fields.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 using Triangle = TriangleStrains;
@@ -107,4 +107,4 @@ std::array<double, TriangleStrains::number_count> TriangleStrains::numbers(
   return n;
 }
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

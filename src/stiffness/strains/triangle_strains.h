@@ -7,7 +7,7 @@
 #include "stiffness/strains/element_lanes.h"
 #include "stiffness/strains/lane_arithmetic.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 
 /// Strains of a triangle of a shell in axes of its own, x along its first edge, z normal: three of
 /// the membrane, three curvatures, three drilling angles and the shear along the three edges, as
@@ -36,4 +36,4 @@ struct TriangleStrains {
   static void product(const ElementLanes* numbers, ElementLanes* values);
 };
 
-}  // namespace pounding
+}  // namespace pounding::stiffness

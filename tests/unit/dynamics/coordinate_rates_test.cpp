@@ -23,7 +23,7 @@ LinearSystem four_coordinates() {
   system.total_mass = 100;
   system.generalised = std::make_unique<GeneralisedCoordinates>();
   system.generalised->influence = {{{3, -2, 0.5, 0.1}, {0, 0, 0, 0}, {0, 0, 0, 0}}};
-  system.stiffness = std::make_unique<DiagonalStiffness>(MPI_COMM_SELF, stiffness);
+  system.stiffness = std::make_unique<stiffness::DiagonalStiffness>(MPI_COMM_SELF, stiffness);
   return system;
 }
 

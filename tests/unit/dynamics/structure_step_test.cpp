@@ -44,7 +44,7 @@ LinearSystem nodes_in_a_row(const std::vector<Kind>& kinds) {
     }
     POUNDING_PETSC(MatAssemblyBegin(matrix.get(), MAT_FINAL_ASSEMBLY));
     POUNDING_PETSC(MatAssemblyEnd(matrix.get(), MAT_FINAL_ASSEMBLY));
-    system.extra_damping = std::make_unique<AssembledStiffness>(std::move(matrix));
+    system.extra_damping = std::make_unique<stiffness::AssembledStiffness>(std::move(matrix));
   }
   return system;
 }

@@ -7,13 +7,13 @@
 namespace pounding::testing {
 
 /// Bricks of an nx x ny x nz grid, x fastest.
-inline std::vector<BrickElement> grid(int nx, int ny, int nz) {
-  std::vector<BrickElement> bricks;
+inline std::vector<stiffness::BrickElement> grid(int nx, int ny, int nz) {
+  std::vector<stiffness::BrickElement> bricks;
   const auto node = [&](int i, int j, int k) { return (k * (ny + 1) + j) * (nx + 1) + i; };
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j)
       for (int i = 0; i < nx; ++i) {
-        BrickElement brick;
+        stiffness::BrickElement brick;
         for (int bits = 0; bits < 8; ++bits) {
           brick.nodes[static_cast<std::size_t>(bits)] =
               node(i + (bits & 1), j + (bits >> 1 & 1), k + (bits >> 2));

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 TEST(CommonValues, AreTheMiddleOfThoseThatBelongTogether) {
@@ -39,4 +39,4 @@ TEST(CommonValues, TooManyAreRounded) {
 }
 
 }  // namespace
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -8,7 +8,7 @@
 
 #include "elements/gauss_rule.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 constexpr double tolerance = 1e-10;
@@ -116,4 +116,4 @@ TEST(ElementFrames, RefuseWhatIsNoRectangle) {
 }
 
 }  // namespace
-}  // namespace pounding
+}  // namespace pounding::stiffness

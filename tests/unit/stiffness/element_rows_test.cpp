@@ -4,7 +4,7 @@
 
 #include "unit/stiffness/brick_grid.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 using testing::grid;
@@ -62,4 +62,4 @@ TEST(ElementRows, TheBestRowsAreTheLongOnes) {
 }
 
 }  // namespace
-}  // namespace pounding
+}  // namespace pounding::stiffness

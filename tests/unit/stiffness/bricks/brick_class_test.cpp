@@ -6,7 +6,7 @@
 
 #include "elements/gauss_rule.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 ElementProperties concrete() {
@@ -33,4 +33,4 @@ TEST(BrickSplit, ConstantStrainsHaveTheModuliOfElasticity) {
 }
 
 }  // namespace
-}  // namespace pounding
+}  // namespace pounding::stiffness

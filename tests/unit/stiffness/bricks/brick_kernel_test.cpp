@@ -8,7 +8,7 @@
 
 #include "elements/gauss_rule.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 ElementProperties concrete() {
@@ -205,4 +205,4 @@ TEST(BrickKernel, AddsToForcesThatAreThere) {
 }
 
 }  // namespace
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -7,7 +7,7 @@
 
 #include "unit/stiffness/brick_grid.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 using testing::grid;
@@ -122,4 +122,4 @@ TEST(BrickPairs, EachBrickActsOnceOnEachSide) {
 }
 
 }  // namespace
-}  // namespace pounding
+}  // namespace pounding::stiffness

@@ -8,7 +8,7 @@
 
 #include "stiffness/shells/shell_kernel.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 ElementProperties concrete(double thickness) {
@@ -104,4 +104,4 @@ TEST(ShellSplit, IsTheElementMatrix) {
 }
 
 }  // namespace
-}  // namespace pounding
+}  // namespace pounding::stiffness

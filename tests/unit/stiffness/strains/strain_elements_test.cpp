@@ -15,7 +15,7 @@
 #include "stiffness/strains/quadrangle_strains.h"
 #include "stiffness/strains/triangle_strains.h"
 
-namespace pounding {
+namespace pounding::stiffness {
 namespace {
 
 constexpr double tolerance = 1e-13;
@@ -197,4 +197,4 @@ TYPED_TEST(StrainElementsTest, RigidMotionsGiveNothing) {
 }
 
 }  // namespace
-}  // namespace pounding
+}  // namespace pounding::stiffness

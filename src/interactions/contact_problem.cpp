@@ -1,0 +1,361 @@
+#include "interactions/contact_problem.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "common/magnitude.h"
+#include "interactions/contact_components.h"
+#include "interactions/delassus.h"
+#include "interactions/interface_traces.h"
+
+namespace pounding::interactions {
+namespace {
+
+/// Round-off of H lambda, relative to the free gap rates, above which the impulse is corrected.
+constexpr double correction_threshold = 1e-12;
+
+/// Gap rates that are round-off, relative to the largest free one so far.
+constexpr double rate_roundoff = 1e-14;
+
+}  // namespace
+
+ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
+                               std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
+                               double gap_tolerance)
+    : constraints_(interface.constraints),
+      operator_(comm, with_friction_rows(constraints_), meshes,
+                SlidingPairs::all_terms(interface.sliding)),
+      sliding_(operator_, interface),
+      structure_dofs_(dofs_by_structure(operator_, systems.size())),
+      traces_(make_traces(operator_, systems, meshes, true)),
+      gather_(comm, known_dofs(structure_dofs_, traces_)),
+      compliance_(comm, operator_.dof_list(), traces_),
+      friction_(operator_, compliance_, interface.constraints),
+      gap_tolerance_(gap_tolerance) {
+  const std::size_t dofs = operator_.dofs();
+  const std::size_t rows = interface.constraints.size();
+  for (const Constraint& constraint : interface.constraints) {
+    initial_gap_.push_back(constraint.initial_gap);
+  }
+  std::size_t known = 0;
+  known_place_.assign(dofs, -1);
+  for (std::size_t s = 0; s < traces_.size(); ++s) {
+    const std::vector<int>& places = traces_[s].known();
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const int dof = structure_dofs_[s][places[k]];
+      known_place_[dof] = static_cast<int>(k);
+    }
+    first_known_.push_back(known);
+    known += places.size();
+  }
+  mine_.assign(InterfaceGather::max_fields * known, 0.0);
+  place_impulse_.assign(known, 0.0);
+  displacement_.assign(dofs, 0.0);
+  velocities_.assign(InterfaceGather::max_fields * dofs, 0.0);
+  gap_ = initial_gap_;
+  impulse_.assign(rows, 0.0);
+  previous_.assign(rows, 0.0);
+  work_.assign(rows, 0.0);
+  active_.assign(rows, 0);
+  dof_impulse_.assign(dofs, 0.0);
+  dof_increment_.assign(dofs, 0.0);
+  smallest_gap_ = rows > 0 ? *std::min_element(gap_.begin(), gap_.end()) : 0;
+  build_delassus();
+}
+
+void ContactProblem::build_delassus() {
+  diagonal_.clear();
+  for (int row = 0; row < rows(); ++row) {
+    diagonal_.push_back(delassus_entry(operator_, compliance_, row, row));
+  }
+  find_components();
+}
+
+void ContactProblem::take_new_pairs() {
+  for (std::size_t row = 0; row < constraints_.size(); ++row) {
+    initial_gap_[row] = constraints_[row].initial_gap;
+  }
+  operator_.set_rows(with_friction_rows(constraints_));
+  build_delassus();
+}
+
+std::vector<double> ContactProblem::row_force(int row, std::size_t structure,
+                                              LocalIndex owned_dofs) const {
+  std::vector<double> force(owned_dofs, 0.0);
+  const auto dofs = operator_.row_dofs(row);
+  for (std::size_t a = 0; a < dofs.size(); ++a) {
+    const std::size_t dof = dofs[a];
+    if (structure_of(dof) == structure && known_place_[dof] >= 0) {
+      traces_[structure].add_force(static_cast<std::size_t>(known_place_[dof]),
+                                   operator_.row_coefficients(row)[a], force);
+    }
+  }
+  return force;
+}
+
+double ContactProblem::row_compliance(int row, std::size_t structure) const {
+  const auto dofs = operator_.row_dofs(row);
+  const auto values = operator_.row_coefficients(row);
+  double sum = 0;
+  for (std::size_t a = 0; a < dofs.size(); ++a) {
+    const std::size_t dof = dofs[a];
+    for (std::size_t b = 0; structure_of(dof) == structure && b < dofs.size(); ++b) {
+      sum += values[a] * values[b] * compliance_.entry(dof, static_cast<std::size_t>(dofs[b]));
+    }
+  }
+  return std::max(sum, 0.0);
+}
+
+void ContactProblem::find_components() {
+  components_.clear();
+  friction_.forget_components();
+  coupled_rows_ = 0;
+  std::vector<std::vector<int>> row_groups;
+  for (int row = 0; row < rows(); ++row) {
+    std::vector<int>& groups = row_groups.emplace_back();
+    const auto add_groups = [&](int operator_row) {
+      for (const int dof : operator_.row_dofs(operator_row)) {
+        groups.push_back(compliance_.group_of(static_cast<std::size_t>(dof)));
+      }
+    };
+    add_groups(row);
+    if (!friction_.has_friction(row)) continue;
+    add_groups(friction_.tangent(row));
+    add_groups(friction_.tangent(row) + 1);
+  }
+  DelassusPattern pattern(operator_, compliance_);
+  std::vector<int> place(operator_.rows(), -1);
+  std::size_t largest = 1;
+  std::size_t most_entries = 0;
+  for (std::vector<int>& rows : coupled_components(row_groups, operator_.dofs())) {
+    Component& component = components_.emplace_back(Component{std::move(rows), {}, -1});
+    const std::size_t size = component.rows.size();
+    if (size > 1) coupled_rows_ += static_cast<int>(size);
+    if (std::ranges::any_of(component.rows, [&](int row) { return friction_.has_friction(row); })) {
+      component.frictional = static_cast<int>(friction_.add(component.rows, pattern));
+      continue;
+    }
+    if (size == 1) continue;
+    for (std::size_t i = 0; i < size; ++i) place[component.rows[i]] = static_cast<int>(i);
+    for (const int row : component.rows) {
+      for (const int column : pattern.coupled_with({&row, 1})) {
+        component.delassus.add(place[column], delassus_entry(operator_, compliance_, row, column));
+      }
+      component.delassus.end_row();
+    }
+    largest = std::max(largest, size);
+    most_entries = std::max(most_entries, component.delassus.entries());
+  }
+  friction_.reserve();
+  active_places_.reserve(largest);
+  active_number_.reserve(largest);
+  matrix_.reserve(largest, most_entries);
+  rate_.resize(largest);
+  solution_.resize(largest);
+  increment_.resize(largest);
+  if (largest > 1) lcp_ = std::make_unique<CoupledLcp>(largest, most_entries);
+}
+
+void ContactProblem::set_displacement(std::size_t structure, const double* displacement,
+                                      std::span<const double> supports) {
+  traces_[structure].apply(displacement, mine_.data() + first_known_[structure], 1, supports);
+}
+
+void ContactProblem::set_place_displacement(std::size_t structure, std::span<const double> places) {
+  std::copy(places.begin(), places.end(),
+            mine_.begin() + static_cast<std::ptrdiff_t>(first_known_[structure]));
+}
+
+void ContactProblem::gather_displacements() {
+  gather_.gather(1, {mine_.data(), mine_.size() / InterfaceGather::max_fields}, displacement_);
+  if (sliding_.any() && sliding_.find(displacement_, constraints_)) take_new_pairs();
+  smallest_gap_ = std::numeric_limits<double>::max();
+  for (int row = 0; row < rows(); ++row) {
+    const std::size_t r = row;
+    gap_[r] = initial_gap_[r] + operator_.apply(row, displacement_);
+    smallest_gap_ = std::min(smallest_gap_, gap_[r]);
+  }
+}
+
+bool ContactProblem::detect_contact() {
+  bool any = false;
+  for (std::size_t r = 0; r < gap_.size(); ++r) {
+    // A row without mass on either side has nothing to move.
+    active_[r] = gap_[r] <= gap_tolerance_ && diagonal_[r] > 0 ? 1 : 0;
+    any = any || active_[r] != 0;
+  }
+  return any;
+}
+
+void ContactProblem::set_velocity_before(std::size_t structure, const double* velocity,
+                                         std::span<const double> supports) {
+  traces_[structure].apply(velocity, mine_.data() + 2 * first_known_[structure], 2, supports);
+}
+
+void ContactProblem::set_free_velocity(std::size_t structure, const double* velocity,
+                                       std::span<const double> supports) {
+  traces_[structure].apply(velocity, mine_.data() + 2 * first_known_[structure] + 1, 2, supports);
+}
+
+void ContactProblem::gather_velocities() {
+  gather_.gather(2, mine_, velocities_);
+}
+
+void ContactProblem::solve_with_friction(const Component& component) {
+  const std::size_t dofs = displacement_.size();
+  const FrictionalContact::Solution solution = friction_.solve(
+      static_cast<std::size_t>(component.frictional), active_, {velocities_.data(), dofs},
+      {velocities_.data() + dofs, dofs}, impulse_, work_, dof_impulse_);
+  note_residual(solution.residual, solution.free_rate);
+}
+
+void ContactProblem::solve_component(const Component& component) {
+  if (component.frictional >= 0) {
+    solve_with_friction(component);
+    return;
+  }
+  const std::size_t dofs = displacement_.size();
+  const std::span<const double> free_velocity(velocities_.data() + dofs, dofs);
+  active_places_.clear();
+  for (std::size_t i = 0; i < component.rows.size(); ++i) {
+    if (active_[component.rows[i]] != 0) active_places_.push_back(i);
+  }
+  if (active_places_.size() == 1) {
+    const int row = component.rows[active_places_[0]];
+    const std::size_t r = row;
+    impulse_[r] = std::max(0.0, -operator_.apply(row, free_velocity)) / diagonal_[r];
+    operator_.add_transposed(row, impulse_[r], dof_impulse_);
+  } else if (!active_places_.empty()) {
+    solve_coupled(component);
+  }
+}
+
+void ContactProblem::solve_coupled(const Component& component) {
+  const std::size_t dofs = displacement_.size();
+  const std::span<const double> free_velocity(velocities_.data() + dofs, dofs);
+  const std::size_t n = active_places_.size();
+  const auto row = [&](std::size_t i) { return component.rows[active_places_[i]]; };
+  active_number_.assign(component.rows.size(), -1);
+  for (std::size_t i = 0; i < n; ++i) {
+    rate_[i] = operator_.apply(row(i), free_velocity);
+    solution_[i] = previous_[row(i)];
+    active_number_[active_places_[i]] = static_cast<int>(i);
+  }
+  take_principal_part(component.delassus, active_number_, matrix_);
+  const LcpResult result = lcp_->solve(matrix_, {rate_.data(), n}, {solution_.data(), n});
+  note_residual(result.residual, largest_magnitude({rate_.data(), n}));
+  for (std::size_t i = 0; i < n; ++i) operator_.add_transposed(row(i), solution_[i], dof_impulse_);
+  if (result.roundoff > correction_threshold) correct_component(component);
+  for (std::size_t i = 0; i < n; ++i) impulse_[row(i)] = solution_[i];
+}
+
+void ContactProblem::note_residual(double residual, double rate) {
+  largest_rate_ = std::max(largest_rate_, rate);
+  // Where all is at rest, rates are round-off of larger ones, which fits no rigid body.
+  const double left = residual * rate;
+  const bool is_roundoff = left <= rate_roundoff * largest_rate_;
+  const double noted = is_roundoff && largest_rate_ > 0 ? left / largest_rate_ : residual;
+  largest_residual_ = std::max(largest_residual_, noted);
+}
+
+void ContactProblem::correct_component(const Component& component) {
+  const std::size_t dofs = displacement_.size();
+  const std::size_t n = active_places_.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const int row = component.rows[active_places_[i]];
+    const auto columns = operator_.row_dofs(row);
+    const auto values = operator_.row_coefficients(row);
+    rate_[i] = 0;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const std::size_t dof = columns[k];
+      rate_[i] +=
+          values[k] * (velocities_[dofs + dof] + compliance_.velocity_change(dof, dof_impulse_));
+    }
+  }
+  lcp_->correct({rate_.data(), n}, {solution_.data(), n}, {increment_.data(), n});
+  for (std::size_t i = 0; i < n; ++i) {
+    operator_.add_transposed(component.rows[active_places_[i]], increment_[i], dof_increment_);
+  }
+}
+
+void ContactProblem::clear_impulse() {
+  previous_ = impulse_;
+  std::fill(impulse_.begin(), impulse_.end(), 0.0);
+  std::fill(work_.begin(), work_.end(), 0.0);
+  friction_.clear();
+}
+
+void ContactProblem::solve_impulse() {
+  clear_impulse();
+  std::fill(dof_impulse_.begin(), dof_impulse_.end(), 0.0);
+  std::fill(dof_increment_.begin(), dof_increment_.end(), 0.0);
+  for (const Component& component : components_) solve_component(component);
+  const std::span<const double> velocity_before(velocities_.data(), displacement_.size());
+  for (const Component& component : components_) {
+    for (const int row : component.rows) {
+      const double impulse = impulse_[row];
+      if (impulse > 0 && component.frictional < 0) {
+        work_[row] = 0.5 * impulse * operator_.apply(row, velocity_before);
+      }
+    }
+  }
+}
+
+void ContactProblem::add_velocity_change(std::size_t structure, double* velocity) {
+  for (const std::vector<double>* impulse : {&dof_impulse_, &dof_increment_}) {
+    pick_impulses(structure, *impulse);
+    traces_[structure].add_impulse(place_impulse_.data(), velocity);
+  }
+}
+
+void ContactProblem::pick_impulses(std::size_t structure, const std::vector<double>& impulse) {
+  const std::vector<int>& known = traces_[structure].known();
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    const int dof = structure_dofs_[structure][known[k]];
+    place_impulse_[k] = impulse[dof];
+  }
+}
+
+void ContactProblem::add_dof_impulses(std::span<double> sum) const {
+  for (std::size_t dof = 0; dof < sum.size(); ++dof) {
+    sum[dof] += dof_impulse_[dof] + dof_increment_[dof];
+  }
+}
+
+double ContactProblem::support_work(std::size_t structure, std::span<const double> velocity) {
+  double work = 0;
+  for (const std::vector<double>* impulse : {&dof_impulse_, &dof_increment_}) {
+    pick_impulses(structure, *impulse);
+    work += traces_[structure].support_work(place_impulse_, velocity);
+  }
+  return work;
+}
+
+void ContactProblem::save(SavedState& saved) const {
+  saved.put("contact_impulse", impulse_);
+  saved.put("contact_largest_residual", {largest_residual_, largest_rate_});
+  friction_.save(saved);
+  sliding_.save(saved);
+}
+
+void ContactProblem::load(const SavedState& saved) {
+  saved.get("contact_impulse", impulse_);
+  std::array<double, 2> largest{};
+  saved.get("contact_largest_residual", largest);
+  largest_residual_ = largest[0];
+  largest_rate_ = largest[1];
+  friction_.load(saved);
+  if (!sliding_.any()) return;
+  sliding_.load(saved, constraints_);
+  take_new_pairs();
+}
+
+double ContactProblem::total_work() const {
+  double sum = 0;
+  for (const double work : work_) sum += work;
+  return sum;
+}
+
+}  // namespace pounding::interactions

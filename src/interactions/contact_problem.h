@@ -1,0 +1,169 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "common/saved_state.h"
+#include "interactions/contact_operator.h"
+#include "interactions/frictional_contact.h"
+#include "interactions/interface_compliance.h"
+#include "interactions/interface_gather.h"
+#include "interactions/pairing/interface.h"
+#include "interactions/sliding_pairs.h"
+#include "interactions/solvers/coupled_lcp.h"
+#include "interactions/solvers/sparse_rows.h"
+#include "system/linear_system.h"
+#include "system/trace.h"
+
+namespace pounding::interactions {
+
+/// The unilateral contact problem of one step, gathered at the ranks that know the interface and
+/// solved there by each of them alike:
+///
+///     A = { i : g_i(u_n) <= g_tol },     0 <= lambda _|_ H lambda + L v_free >= 0   on A
+///
+/// The columns of L are displacements of the interface, T u of the dofs of each structure (see
+/// system/trace.h), so that H = L T M^-1 T^T L^T [1/kg]; it is built once. Rows that share nothing
+/// that moves with another row are solved in closed form, lambda_i = max(0, -(L v_free)_i / H_ii);
+/// coupled rows by CoupledLcp, component by component; components with friction have tangential
+/// impulses beside the normal ones (see FrictionalContact). Nothing allocates after construction,
+/// but where sliding pairs are found anew: then L and H are built again.
+class ContactProblem {
+ public:
+  /// Collective over `comm`. `gap_tolerance` [m].
+  ContactProblem(MPI_Comm comm, const Interface& interface, std::span<const LinearSystem> systems,
+                 std::span<const Mesh> meshes, double gap_tolerance);
+
+  /// Says how long the steps are [s], by which sliding pairs are looked at.
+  void set_time_step(double time_step) { sliding_.set_time_step(time_step); }
+
+  bool member() const { return gather_.member(); }
+  int root() const { return gather_.root(); }
+  int members() const { return gather_.members(); }
+  /// Constraints, friction apart.
+  int rows() const { return static_cast<int>(initial_gap_.size()); }
+  int coupled_rows() const { return coupled_rows_; }
+
+  /// The interface of a structure, as far as this rank knows it.
+  const Trace& trace(std::size_t structure) const { return traces_[structure]; }
+  /// u_n over the owned dofs of the structure; `supports`: that of the supports, see Trace::apply.
+  void set_displacement(std::size_t structure, const double* displacement,
+                        std::span<const double> supports = {});
+  /// u_n at the known places of the structure's trace, where it is at hand, in place of that over
+  /// the dofs.
+  void set_place_displacement(std::size_t structure, std::span<const double> places);
+  /// Gathers the displacements, finds sliding pairs anew and computes the gaps. Members only,
+  /// collective over them.
+  void gather_displacements();
+  /// Active set; true if it is not empty.
+  bool detect_contact();
+  /// v_{n-1/2} and v_free over the owned dofs of the structure, after the displacements of both
+  /// have been gathered; `supports`: those of the supports likewise.
+  void set_velocity_before(std::size_t structure, const double* velocity,
+                           std::span<const double> supports = {});
+  void set_free_velocity(std::size_t structure, const double* velocity,
+                         std::span<const double> supports = {});
+  /// Gathers the velocities. Members only, collective over them.
+  void gather_velocities();
+  /// Impulses of the active rows, 0 elsewhere.
+  void solve_impulse();
+  /// No impulse anywhere: what solve_impulse() says of an empty active set.
+  void clear_impulse();
+  /// v += M^-1 T^T L^T lambda over the dofs of the structure's trace.
+  void add_velocity_change(std::size_t structure, double* velocity);
+  /// Work of the impulses, friction's included, on a structure's supports that move with `velocity`
+  /// [J]: that of the places that this rank knows.
+  double support_work(std::size_t structure, std::span<const double> velocity);
+
+  /// Gaps of the last gather, per row. Members only.
+  const std::vector<double>& gaps() const { return gap_; }          ///< [m]
+  const std::vector<double>& impulses() const { return impulse_; }  ///< [N s]
+  const std::vector<double>& works() const { return work_; }        ///< 1/2 lambda L v- [J]
+  double smallest_gap() const { return smallest_gap_; }
+  /// Contact work 1/2 lambda^T L v- of the last solve, that of friction apart [J].
+  double total_work() const;
+  const FrictionalContact& friction() const { return friction_; }
+  /// Places that contacts move, the same on every rank.
+  const std::vector<InterfaceDof>& dof_list() const { return operator_.dof_list(); }
+  /// Adds the impulses L^T lambda of the last solve, friction's included, to `sum` [N s], per place
+  /// of dof_list(). Members only.
+  void add_dof_impulses(std::span<double> sum) const;
+  double largest_residual() const { return largest_residual_; }
+  double gap_tolerance() const { return gap_tolerance_; }
+  /// A structure's part of (row of L T)^T over the dofs that this rank owns.
+  std::vector<double> row_force(int row, std::size_t structure, LocalIndex owned_dofs) const;
+  /// L M^-1 L^T of a row with only one structure's columns [1/kg]; the same on all ranks.
+  double row_compliance(int row, std::size_t structure) const;
+  /// Adds the values of all members up. Members only, collective over them.
+  void add_over_members(std::span<double> values) { gather_.add(values); }
+
+  /// The impulses of the last solve, from which the LCP starts, and the largest residual.
+  void save(SavedState& saved) const;
+  void load(const SavedState& saved);
+
+ private:
+  /// Coupled rows, ascending, with their part of H.
+  struct Component {
+    std::vector<int> rows;
+    SparseRows delassus;  ///< without rows for a single row, or with friction
+    int frictional = -1;  ///< its number there; -1: no row has friction
+  };
+
+  /// H, its components and room for them, from the rows of L as they are.
+  void build_delassus();
+  void take_new_pairs();
+  std::size_t structure_of(std::size_t dof) const {
+    return static_cast<std::size_t>(operator_.dof_list()[dof].structure);
+  }
+  /// L^T lambda at the known places of a structure, of one of the two that are kept.
+  void pick_impulses(std::size_t structure, const std::vector<double>& impulse);
+  void find_components();
+  void solve_component(const Component& component);
+  void solve_with_friction(const Component& component);
+  void solve_coupled(const Component& component);
+  /// Second pass where masses differ so much that a double loses the gap rates.
+  void correct_component(const Component& component);
+  /// Keeps the residual of the system just solved, if it is the largest; `rate`: its largest free
+  /// gap rate.
+  void note_residual(double residual, double rate);
+
+  std::vector<Constraint> constraints_;  ///< as they are now
+  ContactOperator operator_;
+  SlidingPairs sliding_;
+  std::vector<std::vector<int>> structure_dofs_;  ///< per structure: its interface dofs
+  std::vector<Trace> traces_;                     ///< per structure
+  std::vector<std::size_t> first_known_;          ///< per structure, into the values of this rank
+  std::vector<int> known_place_;                  ///< per interface dof, in its trace; -1: none
+  InterfaceGather gather_;
+  InterfaceCompliance compliance_;
+  FrictionalContact friction_;
+  double gap_tolerance_;
+  std::vector<double> initial_gap_;
+  std::vector<double> diagonal_;  ///< H_ii
+  std::vector<Component> components_;
+  int coupled_rows_ = 0;
+  std::vector<double> mine_;           ///< shape (known, 1 or 2)
+  std::vector<double> displacement_;   ///< per interface dof
+  std::vector<double> velocities_;     ///< shape (2, dofs): before, free
+  std::vector<double> place_impulse_;  ///< of the known dofs of a structure
+  std::vector<double> gap_;
+  std::vector<double> impulse_;
+  std::vector<double> previous_;  ///< impulses of the last solve: where the LCP starts
+  std::vector<double> work_;
+  std::vector<char> active_;
+  std::vector<double> dof_impulse_;    ///< L^T lambda
+  std::vector<double> dof_increment_;  ///< L^T of the correction
+  double smallest_gap_ = 0;
+  double largest_residual_ = 0;
+  double largest_rate_ = 0;  ///< of the free gap rates so far [m/s]
+  std::unique_ptr<CoupledLcp> lcp_;
+  std::vector<std::size_t> active_places_;  ///< of the component's active rows in it
+  std::vector<int> active_number_;          ///< per row of the component; -1: not active
+  SparseRows matrix_;                       ///< H of the active rows
+  std::vector<double> rate_;
+  std::vector<double> solution_;
+  std::vector<double> increment_;
+};
+
+}  // namespace pounding::interactions

@@ -1,0 +1,77 @@
+#include "interactions/laws/law_of.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "interactions/laws/damper_law.h"
+#include "interactions/laws/dashpot_law.h"
+#include "interactions/laws/gauge_law.h"
+#include "interactions/laws/pendulum_law.h"
+#include "interactions/laws/relieving_law.h"
+#include "interactions/laws/soil_law.h"
+#include "interactions/laws/tension_law.h"
+#include "interactions/laws/yield_law.h"
+
+namespace pounding::interactions {
+
+bool has_links(const Region& region) {
+  return follows_law(region) || region.foundation ||
+         (is_spring(region.element) &&
+          std::ranges::any_of(region.dashpot, [](double rate) { return rate > 0; }));
+}
+
+bool is_pressed(const LinkOrigin& origin) {
+  return origin.region != nullptr && is_spring(origin.region->element) &&
+         origin.region->compression_only && origin.component == 2 &&
+         origin.part == SpringPart::stiffness;
+}
+
+namespace {
+
+std::unique_ptr<LinkLaw> dashpot_of(const LinkOrigin& origin, double time_step) {
+  const Region& region = *origin.region;
+  const double strength = origin.share * region.dashpot[origin.component];
+  const double exponent = region.nonlinear.dashpot_exponent;
+  if (exponent != 1) return std::make_unique<DamperLaw>(strength, exponent, time_step);
+  return std::make_unique<DashpotLaw>(strength / (2 * time_step));
+}
+
+/// Law of a bar, or of a component of a spring, whose stiffness is no part of K.
+std::unique_ptr<LinkLaw> stiff_law(const LinkOrigin& origin, double time_step) {
+  const Region& region = *origin.region;
+  const bool spring = is_spring(region.element);
+  const double stiffness = spring ? origin.share * region.stiffness[origin.component]
+                                  : region.material.young * region.area / origin.length;
+  if (region.nonlinear.radius > 0 && region.nonlinear.is_in_circle(origin.component)) {
+    return std::make_unique<PendulumLaw>(stiffness, region.nonlinear.hardening,
+                                         region.nonlinear.radius);
+  }
+  if (region.nonlinear.yields(origin.component)) {
+    return std::make_unique<YieldLaw>(stiffness, region.nonlinear.hardening,
+                                      region.nonlinear.yield_force[origin.component]);
+  }
+  // The elongation of a compression-only spring is how far it is pressed down.
+  const double damping = origin.beta * stiffness + (spring ? origin.share * region.dashpot[2] : 0);
+  return std::make_unique<TensionLaw>(stiffness, damping / (2 * time_step), region.nonlinear.slack);
+}
+
+}  // namespace
+
+std::unique_ptr<LinkLaw> law_of(const LinkOrigin& origin, double time_step) {
+  if (origin.region == nullptr) {
+    return std::make_unique<DashpotLaw>(origin.absorbing / (2 * time_step));
+  }
+  const Region& region = *origin.region;
+  if (region.foundation) {
+    return std::make_unique<SoilLaw>(region.foundation->impedances[origin.component], time_step);
+  }
+  if (origin.part == SpringPart::gauge) return std::make_unique<GaugeLaw>();
+  if (is_spring(region.element) && origin.part == SpringPart::dashpot) {
+    return dashpot_of(origin, time_step);
+  }
+  auto law = stiff_law(origin, time_step);
+  if (!origin.in_stiffness) return law;
+  return std::make_unique<RelievingLaw>(std::move(law));
+}
+
+}  // namespace pounding::interactions

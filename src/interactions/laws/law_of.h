@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+
+#include "interactions/laws/link_law.h"
+#include "scene/scene.h"
+
+namespace pounding::interactions {
+
+/// Whether the elements of a region are links, or hold some: tension-only bars, compression-only
+/// springs, what yields, springs with dashpots, soil under a mat.
+bool has_links(const Region& region);
+
+/// Part of a spring that a link is: its dashpot, what it does along its stiffness by a law, or a
+/// gauge of its elongation.
+enum class SpringPart { dashpot, stiffness, gauge };
+
+/// Origin of a link: what its law follows from.
+struct LinkOrigin {
+  const Region* region = nullptr;  ///< borrowed from the structure; null of an absorbing face
+  int component = 0;          ///< along or about which a spring's dashpot or soil acts; 0 of a bar
+  double length = 0;          ///< of a bar [m]
+  double beta = 0;            ///< stiffness damping of its structure [s]
+  bool in_stiffness = false;  ///< K of its structure holds it at its tangent already
+  SpringPart part = SpringPart::dashpot;
+  double share = 1;      ///< of a grounded spring, see ElementSet
+  double absorbing = 0;  ///< dashpot of an absorbing face [N s/m]
+};
+
+/// Whether a link is the part along z of a compression-only spring.
+bool is_pressed(const LinkOrigin& origin);
+
+/// Law of a link by what the options of its region say: the only place that chooses among laws.
+/// `time_step` [s].
+std::unique_ptr<LinkLaw> law_of(const LinkOrigin& origin, double time_step);
+
+}  // namespace pounding::interactions

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace pounding::interactions {
+
+/// Law by which a link pulls its two ends together along its axis in a step of central differences,
+/// from elongations e [m] one step apart: `before` e_{n-1}, `now` e_n, `after` e_{n+1}. The force
+/// N_n [N] acts in the step from t_n; its work is N_n (e_{n+1} - e_{n-1}) / 2, of which the link
+/// keeps the change of its energy W and loses the rest. A law that never loses less than nothing,
+/// for any elongations, cannot make a step unstable.
+///
+/// N_n must not fall as e_{n+1} grows: then a step has one solution. What a law remembers, a
+/// plastic elongation say, stands in `memory`, which the step keeps for each link and the
+/// checkpoint stores. Pure functions: no MPI, no PETSc.
+class LinkLaw {
+ public:
+  virtual ~LinkLaw() = default;
+
+  /// N_n [N] of known elongations [m].
+  virtual double force(double before, double now, double after,
+                       std::span<const double> memory = {}) const = 0;
+  /// N_n [N] where e_{n+1} = free_after - compliance N_n; `free_after` [m] without the link,
+  /// `compliance` = dt^2 b^T M^-1 b [m/N], not negative.
+  virtual double solve(double before, double now, double free_after, double compliance,
+                       std::span<const double> memory = {}) const = 0;
+  /// W_{n+1/2} [J], what the link holds between two elongations one step apart.
+  virtual double energy(double now, double after, std::span<const double> memory = {}) const = 0;
+  /// Largest dN/de [N/m], that of the element in the matrix that sets the stable step.
+  virtual double tangent() const = 0;
+  /// Whether it pulls at no elongation that it can reach in this step: it need not be looked at.
+  virtual bool is_idle(double now, std::span<const double> memory = {}) const = 0;
+
+  /// Force at e_n [N] that K of its structure holds already: what it pulls in all is N_n and this.
+  virtual double counted(double /*now*/) const { return 0; }
+  /// Whether it has left its straight line for good.
+  virtual bool has_yielded(std::span<const double> /*memory*/) const { return false; }
+
+  /// Rate r [N/m] of a law N_n = r (e_{n+1} - e_{n-1}) + offset, 0 of any other: such links are
+  /// solved for together, and their elongations are counted from e_n, so that these have no
+  /// round-off of a large one. `share`: of a step, for which the force acts; half of the first one.
+  virtual double rate(double /*share*/ = 1) const { return 0; }
+  /// Its offset [N], which knows differences of elongations only.
+  virtual double offset(double /*before*/, double /*now*/, double /*share*/,
+                        std::span<const double> /*memory*/) const {
+    return 0;
+  }
+  /// Force that a law would carry in a step from e_n if it did not yield in it [N]; 0 of a law that
+  /// never yields.
+  virtual double trial(double /*now*/, std::span<const double> /*memory*/) const { return 0; }
+  /// Most of its trial that it carries [N]; 0 of a law that never yields.
+  virtual double capacity() const { return 0; }
+  /// Takes the force that presses on it in a step from t_n [N], before any force of its own is
+  /// asked for.
+  virtual void press(double /*force*/, std::span<double> /*memory*/) const {}
+  /// Whether it was ever pressed harder than the law goes.
+  virtual bool was_overpressed(std::span<const double> /*memory*/) const { return false; }
+  /// Energy that the change of this force since the last step gives it from outside [J].
+  virtual double given(double /*before*/, double /*now*/,
+                       std::span<const double> /*memory*/) const {
+    return 0;
+  }
+  /// Yields in a step from e_n, before any force of it is asked for, until `kept` of its trial is
+  /// left; 1: it does not yield.
+  virtual void yield(double /*now*/, double /*kept*/, std::span<double> /*memory*/) const {}
+  /// Number of values that the law remembers; they start at 0.
+  virtual std::size_t memory_size() const { return 0; }
+  /// Brings the memory to the end of a step, after contact. `share` as above.
+  virtual void remember(double /*before*/, double /*now*/, double /*after*/, double /*share*/,
+                        std::span<double> /*memory*/) const {}
+};
+
+}  // namespace pounding::interactions

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "interactions/pairing/interface.h"
+#include "mesh/global_mesh.h"
+#include "scene/scene.h"
+
+namespace pounding::interactions {
+
+/// Place of a row on its secondary face, from 0 to 1 along the tangent axes.
+using GapShare = std::array<double, 2>;
+
+/// The gap [m] there of one number, two or four (see InitialGap).
+double given_gap(const std::vector<double>& values, const GapShare& share);
+
+/// Finds the pairs of every contact of the scene: for each node of the secondary group the facet of
+/// the primary group that the normal through the node meets; weights are the facet's shape
+/// functions there, one node alone where it meets a node (matched). `meshes` in the order of the
+/// scene's structures. A facet is met only if its outward normal looks against that of the node,
+/// and behind the node, where bodies overlap, only within the elements behind the node. The gap is
+/// that between surfaces: half of the thickness of shells is off on either side, but for edges in
+/// the plane of their shell. `shares`: unless null, receives that of every row.
+/// Serial, rank 0. Throws UserError as find_sides does, for no pair at all, and as check_contact
+/// does.
+Interface find_interface(const Scene& scene, std::span<const GlobalMesh> meshes,
+                         std::vector<GapShare>* shares = nullptr);
+
+}  // namespace pounding::interactions

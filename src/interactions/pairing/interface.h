@@ -1,0 +1,95 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <mpi.h>
+
+#include "interactions/pairing/sliding_faces.h"
+#include "mesh/global_mesh.h"
+#include "mesh/node_links.h"
+
+/// Contact geometry: which secondary node faces which place of the primary face, along what normal,
+/// at what initial gap.
+///
+/// Signs, for the whole program: the normal n points from the secondary side outwards, to the
+/// primary. The gap is g = g0 + L u with L u = n . (u_primary - u_secondary); g > 0 is open. The
+/// impulse lambda >= 0 [N s] is a compression; L^T lambda acts on the dofs, which pushes the
+/// primary along +n and the secondary along -n.
+namespace pounding::interactions {
+
+/// One term of a constraint: coefficient times the displacement component of a node.
+struct ConstraintTerm {
+  int structure = 0;
+  GlobalIndex node = 0;  ///< file order
+  int component = 0;     ///< 0-2
+  double coefficient = 0;
+};
+
+/// Filler of a joint at one pair of a contact.
+struct FillerPart {
+  double area = 0;       ///< [m2]; 0: there is none
+  double thickness = 0;  ///< [m]
+  double clearance = 0;  ///< by which the joint closes before it is pressed [m]
+};
+
+/// One row of L with its initial gap.
+struct Constraint {
+  int contact = 0;  ///< index into the scene's contacts
+  std::vector<ConstraintTerm> terms;
+  double initial_gap = 0;         ///< of hard contact: with a filler, until it is dense [m]
+  double geometric_gap = 0;       ///< as the meshes stand, between the surfaces of shells [m]
+  double facet_size = 0;          ///< of the facet that it faces, or twice how far pairs may slide
+                                  ///< where they are found anew; 0: a wall, endless [m]
+  std::array<double, 2> place{};  ///< secondary node on the tangent axes [m]
+  bool matched = false;           ///< faces one primary node exactly
+  double friction = 0;            ///< Coulomb's coefficient [-]
+  FillerPart filler;
+};
+
+/// Initial gap of a row that faces nothing yet [m].
+constexpr double open_gap = 1e30;
+
+/// Report of the pairs found for one contact.
+struct InterfaceReport {
+  std::string contact;
+  int pairs = 0;
+  int matched = 0;
+  int unmatched_nodes = 0;  ///< secondary nodes that face nothing
+  double smallest_gap = 0;  ///< initial [m]
+  double largest_gap = 0;
+  std::array<double, 2> geometric_gap{};     ///< smallest and largest as the meshes stand, not
+                                             ///< numbers for a wall [m]
+  std::array<double, 2> half_thickness{};    ///< of the shells at the faces of the secondary and of
+                                             ///< the primary, the largest [m]
+  int overlapping = 0;                       ///< pairs whose initial gap is negative
+  int carried = 0;                           ///< nodes without a row, which ties let follow others
+                                             ///< of the face that have friction
+  int left_behind = 0;                       ///< of the unmatched nodes, those with a facet too far
+                                             ///< behind them
+  double farthest_behind = 0;                ///< how far that is at most [m]
+  int inner_facets = 0;                      ///< facets with elements on both of their sides
+  Vector3 normal{0, 0, 0};                   ///< mean
+  std::array<int, 2> tangent_axes{};         ///< global axes of `place`
+  double filler_area = 0;                    ///< of all pairs [m2]; 0: no filler
+  std::array<double, 2> filler_thickness{};  ///< smallest and largest [m]
+};
+
+struct Interface {
+  std::vector<Constraint> constraints;  ///< in the order of the contacts, nodes in file order
+  std::vector<InterfaceReport> reports;
+  SlidingFaces sliding;
+  double model_size = 0;              ///< largest extent of the scene [m]
+  std::vector<std::string> warnings;  ///< what may not be meant; rank 0 only
+};
+
+/// Whether the joint of some contact has a filler.
+bool has_fillers(const Interface& interface);
+
+/// Facing nodes, for the partition.
+std::vector<NodeLink> facing_nodes(const Interface& interface);
+
+/// The interface of rank 0 on every rank. Collective.
+void broadcast_interface(MPI_Comm comm, Interface& interface);
+
+}  // namespace pounding::interactions

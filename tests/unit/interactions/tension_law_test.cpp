@@ -1,0 +1,152 @@
+#include "interactions/laws/tension_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace pounding::interactions {
+namespace {
+
+constexpr double damping_rate = 0.7;  // of the damped one [N/m]
+const TensionLaw undamped{3, 0};
+const TensionLaw damped{3, damping_rate};
+
+/// Elongations of both signs, of very different size, and some exactly zero.
+std::vector<double> elongations() {
+  std::vector<double> values{0, 1, -1, 1e-9, -1e-9, 1e-30, -1e-30};
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 9; ++i) {
+    values.push_back(normal(random) * std::pow(10.0, i % 3 - 2));
+  }
+  return values;
+}
+
+TEST(TensionLaw, IsCentralDifferencesWhileTautAndNothingWhileSlack) {
+  EXPECT_DOUBLE_EQ(undamped.force(0.2, 0.5, 0.1), 1.5);
+  EXPECT_DOUBLE_EQ(undamped.solve(0.2, 0.5, 0.4, 0.01), 1.5);
+  EXPECT_EQ(undamped.force(0.2, -0.5, 0.1), 0);
+  EXPECT_EQ(undamped.force(-0.2, 0.5, -0.1), 0);
+  EXPECT_DOUBLE_EQ(damped.force(0.2, 0.5, 0.1), 1.5 - 0.07);
+}
+
+TEST(TensionLaw, NeverPushesAndGrowsWithTheElongation) {
+  for (const TensionLaw& law : {undamped, damped}) {
+    for (const double before : elongations()) {
+      for (const double now : elongations()) {
+        std::vector<double> afters = elongations();
+        std::sort(afters.begin(), afters.end());
+        double last = 0;
+        for (const double after : afters) {
+          const double tension = law.force(before, now, after);
+          EXPECT_GE(tension, last * (1 - 1e-12)) << before << " " << now << " " << after;
+          last = tension;
+        }
+      }
+    }
+  }
+}
+
+TEST(TensionLaw, WorkIsTheChangeOfItsEnergyAndWithDampingMore) {
+  for (const double before : elongations()) {
+    for (const double now : elongations()) {
+      for (const double after : elongations()) {
+        const auto given = [&](const TensionLaw& law) {
+          return law.energy(now, after) - law.energy(before, now) -
+                 law.force(before, now, after) * (after - before) / 2;
+        };
+        const double scale = std::abs(now) * (std::abs(after) + std::abs(before));
+        EXPECT_NEAR(given(undamped), 0, 1e-15 * scale) << before << " " << now << " " << after;
+        EXPECT_LE(given(damped), 1e-15 * scale) << before << " " << now << " " << after;
+      }
+    }
+  }
+}
+
+TEST(TensionLaw, SolutionIsTheTensionOfTheElongationThatItLeaves) {
+  for (const TensionLaw& law : {undamped, damped}) {
+    for (const double compliance : {1e-6, 0.01, 0.3, 1.3, 20.0}) {
+      for (const double before : elongations()) {
+        for (const double now : elongations()) {
+          for (const double free_after : elongations()) {
+            const double tension = law.solve(before, now, free_after, compliance);
+            // Round-off of the elongation may change the tension, where the bar just switches
+            // much: it lies between those of elongations that close.
+            const double after = free_after - compliance * tension;
+            const double unsure = 1e-14 * (std::abs(free_after) + std::abs(before) +
+                                           compliance * law.tangent() * std::abs(now));
+            const double tolerance =
+                1e-12 * law.tangent() * std::abs(now) + 2 * damping_rate * unsure;
+            EXPECT_GE(tension, law.force(before, now, after - unsure) - tolerance)
+                << before << " " << now << " " << free_after << " " << compliance;
+            EXPECT_LE(tension, law.force(before, now, after + unsure) + tolerance)
+                << before << " " << now << " " << free_after << " " << compliance;
+          }
+        }
+      }
+    }
+  }
+}
+
+/// A unit mass on a spring of unit stiffness and a bar `ratio` times as stiff, from rest with unit
+/// velocity. Largest energy over the first; dt in parts of the limit 2 / sqrt(1 + ratio).
+double largest_energy(double ratio, double fraction, double damping) {
+  const double dt = fraction * 2 / std::sqrt(1 + ratio);
+  const TensionLaw law{ratio, damping / (2 * dt)};
+  double before = -dt;
+  double now = 0;
+  double first = 0;
+  double largest = 0;
+  for (int n = 0; n < 20000; ++n) {
+    const double free_after = 2 * now - before - dt * dt * now;
+    const double after = free_after - dt * dt * law.solve(before, now, free_after, dt * dt);
+    const double velocity = (after - now) / dt;
+    const double energy = velocity * velocity / 2 + now * after / 2 + law.energy(now, after);
+    if (n == 0) {
+      first = energy;
+    }
+    largest = std::max(largest, energy);
+    before = now;
+    now = after;
+  }
+  return largest / first;
+}
+
+TEST(TensionLaw, SwitchingMapDoesNotGrowAtAnyRatioOfStiffnesses) {
+  for (double ratio = 0.01; ratio < 200; ratio *= 1.37) {
+    for (const double fraction : {0.05, 0.4, 0.6, 0.9, 0.99, 0.9999}) {
+      EXPECT_LT(largest_energy(ratio, fraction, 0), 1 + 1e-9) << ratio << " " << fraction;
+      EXPECT_LT(largest_energy(ratio, fraction, 0.01), 1 + 1e-9) << ratio << " " << fraction;
+    }
+  }
+}
+
+/// Second order: period of the bilinear oscillator, pi (1 + 1 / sqrt(1 + ratio)).
+TEST(TensionLaw, PeriodConvergesInSecondOrder) {
+  const double ratio = 3;
+  const double exact = std::numbers::pi * (1 + 1 / std::sqrt(1 + ratio));
+  const auto error = [&](double dt) {
+    const TensionLaw law{ratio, 0};
+    double before = -dt;
+    double now = 0;
+    int crossings = 0;
+    for (int n = 1;; ++n) {
+      const double free_after = 2 * now - before - dt * dt * now;
+      const double after = free_after - dt * dt * law.solve(before, now, free_after, dt * dt);
+      if (now < 0 && after >= 0 && ++crossings == 20) {
+        return std::abs((n - 1 - now / (after - now)) * dt / 20 - exact);
+      }
+      before = now;
+      now = after;
+    }
+  };
+  EXPECT_LT(error(0.01), 1e-4);
+  EXPECT_LT(error(0.0025), error(0.01) / 12);
+}
+
+}  // namespace
+}  // namespace pounding::interactions
