@@ -7,6 +7,9 @@
 #include <immintrin.h>
 #endif
 
+/// Parts of a kernel that must not become calls.
+#define POUNDING_INLINE inline __attribute__((always_inline))
+
 /// Four doubles at once, by the compiler's vector types: AVX where the build allows it, two SSE
 /// halves elsewhere.
 namespace pounding {
@@ -18,35 +21,34 @@ using Lanes = double __attribute__((vector_size(32)));
 using LaneMask = std::int64_t __attribute__((vector_size(32)));
 using HalfLanes = double __attribute__((vector_size(16)));
 
-static inline __attribute__((always_inline)) void load(const double* from, Lanes& to) {
+static POUNDING_INLINE void load(const double* from, Lanes& to) {
   std::memcpy(&to, from, sizeof to);
 }
-static inline __attribute__((always_inline)) void store(double* to, const Lanes& from) {
+static POUNDING_INLINE void store(double* to, const Lanes& from) {
   std::memcpy(to, &from, sizeof from);
 }
-static inline __attribute__((always_inline)) void load(const double* from, HalfLanes& to) {
+static POUNDING_INLINE void load(const double* from, HalfLanes& to) {
   std::memcpy(&to, from, sizeof to);
 }
-static inline __attribute__((always_inline)) void store(double* to, const HalfLanes& from) {
+static POUNDING_INLINE void store(double* to, const HalfLanes& from) {
   std::memcpy(to, &from, sizeof from);
 }
 
-static inline __attribute__((always_inline)) Lanes all_lanes(double value) {
+static POUNDING_INLINE Lanes all_lanes(double value) {
   return Lanes{value, value, value, value};
 }
-static inline __attribute__((always_inline)) double add_up(const Lanes& values) {
+static POUNDING_INLINE double add_up(const Lanes& values) {
   return (values[0] + values[2]) + (values[1] + values[3]);
 }
-static inline __attribute__((always_inline)) double add_up(const HalfLanes& values) {
+static POUNDING_INLINE double add_up(const HalfLanes& values) {
   return values[0] + values[1];
 }
-static inline __attribute__((always_inline)) double add_up(double value) {
+static POUNDING_INLINE double add_up(double value) {
   return value;
 }
 
 /// c += a b, rounded once where the machine can: by the source, not by the compiler's choice.
-static inline __attribute__((always_inline)) void add_product(const Lanes& a, const Lanes& b,
-                                                              Lanes& c) {
+static POUNDING_INLINE void add_product(const Lanes& a, const Lanes& b, Lanes& c) {
 #ifdef __FMA__
   c = _mm256_fmadd_pd(a, b, c);
 #else
@@ -54,8 +56,7 @@ static inline __attribute__((always_inline)) void add_product(const Lanes& a, co
 #endif
 }
 
-static inline __attribute__((always_inline)) void add_product(const HalfLanes& a,
-                                                              const HalfLanes& b, HalfLanes& c) {
+static POUNDING_INLINE void add_product(const HalfLanes& a, const HalfLanes& b, HalfLanes& c) {
 #ifdef __FMA__
   c = _mm_fmadd_pd(a, b, c);
 #else
@@ -65,7 +66,7 @@ static inline __attribute__((always_inline)) void add_product(const HalfLanes& a
 
 /// Multiplies and adds single values, rounded like those of a vector: the rest of a range must not
 /// move otherwise than the range itself.
-static inline __attribute__((always_inline)) void add_product(double a, double b, double& c) {
+static POUNDING_INLINE void add_product(double a, double b, double& c) {
 #ifdef __FMA__
   c = __builtin_fma(a, b, c);
 #else
@@ -74,11 +75,10 @@ static inline __attribute__((always_inline)) void add_product(double a, double b
 }
 
 /// c -= a b, in every lane.
-static inline __attribute__((always_inline)) void subtract_product(double a, double b, double& c) {
+static POUNDING_INLINE void subtract_product(double a, double b, double& c) {
   add_product(-a, b, c);
 }
-static inline __attribute__((always_inline)) void subtract_product(const Lanes& a, const Lanes& b,
-                                                                   Lanes& c) {
+static POUNDING_INLINE void subtract_product(const Lanes& a, const Lanes& b, Lanes& c) {
 #ifdef __FMA__
   c = _mm256_fnmadd_pd(a, b, c);
 #else

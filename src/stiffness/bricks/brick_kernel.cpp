@@ -2,8 +2,6 @@
 
 #include <type_traits>
 
-#define POUNDING_INLINE inline __attribute__((always_inline))
-
 namespace pounding::stiffness {
 namespace {
 

@@ -7,8 +7,6 @@
 /// Blocks of B, lane by lane: the common part of the kernels of rectangles and segments.
 namespace pounding::stiffness {
 
-#define POUNDING_INLINE inline __attribute__((always_inline))
-
 /// c += b x for a number b.
 POUNDING_INLINE void add_times(double b, const Lanes& x, Lanes& c) {
   add_product(Lanes{b, b, b, b}, x, c);
