@@ -7,7 +7,7 @@ namespace pounding {
 namespace {
 
 /// Closings below this part of the gap are no motion.
-constexpr double round_off = 1e-6;
+constexpr double least_share = 1e-6;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ void ClosingWatch::look(std::span<const double> gaps) {
     }
     JointClosing& joint = closings_[contacts_[row]];
     joint.largest = std::max(joint.largest, closing);
-    if (closing > round_off * start) {
+    if (closing > least_share * start) {
       joint.factor = std::min(joint.factor, std::max(0.0, start) / closing);
     }
   }

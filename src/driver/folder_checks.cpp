@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const std::string& option, const std::string& folder,
-                         const std::string& why) {
+[[noreturn]] void refuse_folder(const std::string& option, const std::string& folder,
+                                const std::string& why) {
   throw UserError("option -" + option + " " + folder +
                   ": the folder cannot be created or written (" + why + "); give another one");
 }
@@ -35,7 +35,7 @@ void try_writing(const std::string& option, const std::string& folder) {
     close(file);
     unlink(trial.c_str());
   }
-  if (!written) refuse(option, folder, why);
+  if (!written) refuse_folder(option, folder, why);
 }
 
 bool tells_the_scene(const std::string& option) {
@@ -58,8 +58,8 @@ void try_folder(const std::string& option, const std::string& folder) {
   std::error_code failure;
   const std::vector<fs::path> missing = missing_folders(fs::path(folder).lexically_normal());
   fs::create_directories(folder, failure);
-  if (failure) refuse(option, folder, failure.message());
-  if (!fs::is_directory(folder, failure)) refuse(option, folder, "it is a file");
+  if (failure) refuse_folder(option, folder, failure.message());
+  if (!fs::is_directory(folder, failure)) refuse_folder(option, folder, "it is a file");
   const auto restore = [&missing] {
     std::error_code ignored;
     for (const fs::path& made : missing) fs::remove(made, ignored);

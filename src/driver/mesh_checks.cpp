@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "common/place_text.h"
 #include "mesh/bounding_box.h"
 
 namespace pounding {
@@ -22,13 +23,6 @@ constexpr double outside = 0.05;
 
 /// Joins are beams and slabs that lie on each other.
 constexpr double longest_join = 1;  // m
-
-std::string place_text(const Vector3& place) {
-  std::ostringstream text;
-  text.precision(6);
-  text << "(" << place[0] << ", " << place[1] << ", " << place[2] << ")";
-  return text.str();
-}
 
 std::string found_at(const Places& places, const char* what) {
   return std::to_string(places.count) + what + place_text(places.first);
@@ -115,7 +109,7 @@ bool may_fly(const Scene& scene, const Structure& structure) {
   return !is_shaken(scene) || starts_in_motion(structure) || may_rest(scene, structure);
 }
 
-[[noreturn]] void refuse(const Structure& structure, const std::string& what) {
+[[noreturn]] void refuse_loose(const Structure& structure, const std::string& what) {
   throw UserError("structure " + structure.name + ": " + what + ", or give -" + structure.name +
                   "_allow_loose if that is meant");
 }
@@ -158,30 +152,32 @@ void check_connectivity(const Scene& scene, const Structure& structure,
                         const Connectivity& connectivity) {
   if (structure.allow_loose) return;
   if (connectivity.coincident_apart.count > 0) {
-    refuse(
+    refuse_loose(
         structure,
         found_at(connectivity.coincident_apart,
                  " pairs of nodes of pieces that nothing joins lie on each other, the first at ") +
             "; make them one node (Coherence in a .geo file)");
   }
   if (connectivity.ends_inside.count > 0) {
-    refuse(structure, found_at(connectivity.ends_inside,
-                               " ends of lines lie in an element without a node of it, the first "
-                               "at ") +
-                          "; let the mesh have a node there that both share");
+    refuse_loose(structure,
+                 found_at(connectivity.ends_inside,
+                          " ends of lines lie in an element without a node of it, the first "
+                          "at ") +
+                     "; let the mesh have a node there that both share");
   }
   if (connectivity.nothing_held() && !may_fly(scene, structure)) {
-    refuse(structure, "nothing holds it to the ground that shakes; give -" + structure.name +
-                          "_clamp or grounded springs");
+    refuse_loose(structure, "nothing holds it to the ground that shakes; give -" + structure.name +
+                                "_clamp or grounded springs");
   }
   if (connectivity.loose_pieces() > 0 && !connectivity.nothing_held() &&
       !starts_in_motion(structure)) {
     const Piece& piece = connectivity.loose_piece();
-    refuse(structure, std::to_string(connectivity.loose_pieces()) + " of its " +
-                          std::to_string(connectivity.pieces.size()) +
-                          " pieces are neither held nor joined to another, the largest with " +
-                          std::to_string(piece.nodes) + " nodes, one at " +
-                          place_text(piece.place) + "; join or clamp them");
+    refuse_loose(structure,
+                 std::to_string(connectivity.loose_pieces()) + " of its " +
+                     std::to_string(connectivity.pieces.size()) +
+                     " pieces are neither held nor joined to another, the largest with " +
+                     std::to_string(piece.nodes) + " nodes, one at " + place_text(piece.place) +
+                     "; join or clamp them");
   }
 }
 

@@ -39,7 +39,7 @@ std::string piece_path(const Scene& scene, int rank) {
   return scene.mesh_pieces + name.data();
 }
 
-[[noreturn]] void refuse(const Scene& scene, const std::string& why) {
+[[noreturn]] void refuse_pieces(const Scene& scene, const std::string& why) {
   throw UserError("option -mesh_pieces " + scene.mesh_pieces + ": " + why);
 }
 
@@ -298,14 +298,15 @@ void read_sealed(const std::string& path, const std::function<void(ByteReader&)>
 void read_sealed_of(const Scene& scene, const std::string& path,
                     const std::function<void(ByteReader&)>& read) {
   if (std::error_code failure; !fs::is_regular_file(path, failure)) {
-    refuse(scene, path + " is not there; cut the meshes first (-write_mesh_pieces RANKS)");
+    refuse_pieces(scene, path + " is not there; cut the meshes first (-write_mesh_pieces RANKS)");
   }
   try {
     read_sealed(path, read);
   } catch (const UserError&) {
     throw;
   } catch (const std::runtime_error& error) {
-    refuse(scene, std::string(error.what()) + "; cut the meshes anew (-write_mesh_pieces RANKS)");
+    refuse_pieces(scene,
+                  std::string(error.what()) + "; cut the meshes anew (-write_mesh_pieces RANKS)");
   }
 }
 
@@ -436,15 +437,16 @@ CommonPiece read_common_piece(const Scene& scene, int ranks, Model& model) {
     const std::vector<Ingredient> now = ingredients_of(scene, head.opened);
     const std::string differ = differences(head.ingredients, now);
     if (!differ.empty()) {
-      refuse(scene, "the pieces are of another model (" + differ +
-                        "); cut the meshes anew (-write_mesh_pieces " + std::to_string(ranks) +
-                        ")");
+      refuse_pieces(scene, "the pieces are of another model (" + differ +
+                               "); cut the meshes anew (-write_mesh_pieces " +
+                               std::to_string(ranks) + ")");
     }
     if (head.ranks != ranks) {
-      refuse(scene, "the meshes are cut for " + std::to_string(head.ranks) +
-                        " ranks, and this run has " + std::to_string(ranks) + "; run it on " +
-                        std::to_string(head.ranks) + ", or cut them anew (-write_mesh_pieces " +
-                        std::to_string(ranks) + ")");
+      refuse_pieces(scene, "the meshes are cut for " + std::to_string(head.ranks) +
+                               " ranks, and this run has " + std::to_string(ranks) +
+                               "; run it on " + std::to_string(head.ranks) +
+                               ", or cut them anew (-write_mesh_pieces " + std::to_string(ranks) +
+                               ")");
     }
     common.identity = identity_of(now, ranks);
     std::vector<std::vector<SpreadRecord>> spread(count);

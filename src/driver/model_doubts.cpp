@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "common/matrix3.h"
+#include "common/place_text.h"
 #include "mesh/distributed_box.h"
 
 namespace pounding {
@@ -20,13 +21,6 @@ constexpr double small_mass = 50;      ///< of a part of a building [kg]
 constexpr double small_part = 1e-4;    ///< and over that of the building
 constexpr double slow = 3;             ///< first frequency times longest side [m/s]
 constexpr double light = 2;            ///< mass over the volume of the box around it [kg/m3]
-
-std::string place_text(const Vector3& place) {
-  std::ostringstream text;
-  text.precision(6);
-  text << "(" << place[0] << ", " << place[1] << ", " << place[2] << ")";
-  return text.str();
-}
 
 void doubt_mat(const Structure& structure, const GlobalMesh& mesh,
                std::vector<std::string>& doubts) {
@@ -47,10 +41,10 @@ void doubt_mat(const Structure& structure, const GlobalMesh& mesh,
 }
 
 /// The two faces of a contact, along their normal.
-class Joint {
+class JointDoubts {
  public:
-  Joint(const Scene& scene, std::span<const GlobalMesh> meshes, const Contact& contact,
-        const interactions::InterfaceReport& report, double model_size)
+  JointDoubts(const Scene& scene, std::span<const GlobalMesh> meshes, const Contact& contact,
+              const interactions::InterfaceReport& report, double model_size)
       : scene_(scene),
         meshes_(meshes),
         contact_(contact),
@@ -205,7 +199,7 @@ std::vector<std::string> place_doubts(const Scene& scene, std::span<const Global
   for (std::size_t s = 0; s < meshes.size(); ++s) doubt_mat(scene.structures[s], meshes[s], doubts);
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     if (scene.contacts[c].primary.is_wall()) continue;
-    Joint(scene, meshes, scene.contacts[c], interface.reports[c], interface.model_size)
+    JointDoubts(scene, meshes, scene.contacts[c], interface.reports[c], interface.model_size)
         .doubt(doubts);
   }
   doubt_floors(scene, meshes, probes, doubts);

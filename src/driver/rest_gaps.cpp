@@ -10,7 +10,7 @@ namespace pounding {
 namespace {
 
 /// Overlap that round-off may make of a joint that is just closed, over the model's longest side.
-constexpr double round_off = 1e-9;
+constexpr double none_below = 1e-9;
 
 /// Whether a row faces something at the start.
 bool is_paired(const interactions::Constraint& row) {
@@ -57,7 +57,7 @@ std::vector<char> rows_open_at_rest(const Scene& scene, const interactions::Inte
   for (const interactions::Constraint& row : interface.constraints) {
     const Contact& contact = scene.contacts[row.contact];
     open.push_back(contact.gap_at_rest ? 1 : 0);
-    if (!contact.gap_at_rest || row.initial_gap >= -round_off * interface.model_size) continue;
+    if (!contact.gap_at_rest || row.initial_gap >= -none_below * interface.model_size) continue;
     std::ostringstream text;
     text << "option -" << contact.name << "_gap_at rest: the meshes overlap by "
          << -1000 * row.initial_gap << " mm somewhere, and a joint is open or just closed at rest; "
@@ -100,7 +100,7 @@ std::vector<std::string> rest_gap_warnings(const Scene& scene, const Model& mode
     const JointGaps& gaps = model.joint_gaps[c];
     const double overlap = -gaps.unloaded[0];
     if (!scene.contacts[c].gap_at_rest || !(gaps.at_rest[0] > 0)) continue;
-    if (overlap <= round_off * model.interface.model_size) continue;
+    if (overlap <= none_below * model.interface.model_size) continue;
     std::ostringstream text;
     text.precision(4);
     text << "contact " << scene.contacts[c].name << ": the weight opens the joint by more than the "

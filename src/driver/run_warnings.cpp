@@ -11,7 +11,7 @@
 namespace pounding {
 namespace {
 
-constexpr double round_off = 1 + 1e-9;
+constexpr double nearly = 1 + 1e-9;
 
 bool stands_still(const Scene& scene) {
   const Vector3 zero{0, 0, 0};
@@ -35,7 +35,7 @@ void add_short_record(const Scene& scene, const Model& model, int direction,
   const auto& asked = scene.motion[direction];
   const double last = component.end();
   if (std::holds_alternative<RecordedMotion>(asked->source) &&
-      scene.end_time > (last + component.time_step) * round_off) {
+      scene.end_time > (last + component.time_step) * nearly) {
     std::ostringstream text;
     text << "option -end_time " << scene.end_time << " s: the record along "
          << direction_names[direction] << " ends at " << last
@@ -48,7 +48,7 @@ void add_short_record(const Scene& scene, const Model& model, int direction,
 double peak_until(const Accelerogram& component, double end) {
   double peak = std::abs(component.at(end));  // linear between samples, 0 beyond the last
   for (std::size_t i = 0; i < component.acceleration.size(); ++i) {
-    if (component.start + component.time_step * static_cast<double>(i) > end * round_off) break;
+    if (component.start + component.time_step * static_cast<double>(i) > end * nearly) break;
     peak = std::max(peak, std::abs(component.acceleration[i]));
   }
   return peak;
@@ -81,7 +81,7 @@ double given_interval(const Model& model, int direction) {
 
 void add_long_step(const std::string& of, double sample, double step,
                    std::vector<std::string>& warnings) {
-  if (step > sample * round_off) {
+  if (step > sample * nearly) {
     std::ostringstream text;
     text << "the time step " << step << " s is longer than " << of << ", " << sample
          << " s; give -time_step " << sample << " or less";
@@ -103,7 +103,7 @@ void add_high_spectra(const Scene& scene, const Model& model, std::vector<std::s
   if (scene.probes.empty()) return;
   const double highest = scene.spectra.frequencies.back();
   const auto add = [&](const std::string& of, double interval, const std::string& what) {
-    if (!(highest * 2 * interval > round_off)) return;
+    if (!(highest * 2 * interval > nearly)) return;
     std::ostringstream text;
     text.precision(4);
     text << "spectra go to " << highest << " Hz (-spectra_frequencies), " << of << " every "

@@ -67,10 +67,10 @@ ModalPeaks modal_peaks(const Building& building, const GroundMotion& motion) {
 }
 
 /// The modes of both sides of a joint one after the other.
-class Joint {
+class JointPeaks {
  public:
-  Joint(const Building* secondary, const Building* primary, const std::vector<ModalPeaks>& all,
-        std::span<const Building> buildings)
+  JointPeaks(const Building* secondary, const Building* primary, const std::vector<ModalPeaks>& all,
+             std::span<const Building> buildings)
       : sides_{secondary, primary} {
     for (const Building* side : sides_) {
       if (side == nullptr) continue;
@@ -224,7 +224,7 @@ std::vector<Separation> find_separations(const Scene& scene, const Model& model)
     separation.secondary.structure = contact.secondary.structure;
     separation.primary.structure = contact.primary.structure;
     separation.gap = model.joint_gaps[c].at_rest[0];
-    Joint joint(secondary, primary, peaks, model.buildings);
+    JointPeaks joint(secondary, primary, peaks, model.buildings);
     const std::size_t stride = 1 + (own.size() - 1) / most_pairs;
     for (std::size_t i = 0; i < own.size(); i += stride) {
       joint.take(own[i], rows.size(), separation);

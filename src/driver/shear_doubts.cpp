@@ -6,6 +6,7 @@
 #include <map>
 #include <sstream>
 
+#include "common/place_text.h"
 #include "driver/beam_members.h"
 
 namespace pounding {
@@ -184,13 +185,6 @@ void examine(const GlobalMesh& mesh, const BeamChains& chains, const BeamChain& 
       first = last;
     }
   }
-}
-
-std::string place_text(const Vector3& place) {
-  std::ostringstream text;
-  text.precision(6);
-  text << "(" << place[0] << ", " << place[1] << ", " << place[2] << ")";
-  return text.str();
 }
 
 }  // namespace

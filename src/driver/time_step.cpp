@@ -13,7 +13,7 @@
 namespace pounding {
 namespace {
 
-constexpr double round_off = 1 + 1e-9;
+constexpr double noticeable = 1 + 1e-9;
 constexpr double turn = 2 * std::numbers::pi;
 
 bool has_reduced(const Scene& scene) {
@@ -37,7 +37,7 @@ void choose_automatically(const Scene& scene, const StepLimits& limits, Model& m
 }
 
 /// "2 Hz, the highest mode of a up to 400 Hz".
-std::string name_of(const Scene& scene, const ResolvedMotion& resolved) {
+std::string frequency_text(const Scene& scene, const ResolvedMotion& resolved) {
   std::ostringstream text;
   text.precision(4);
   const double last = scene.spectra.frequencies.back();
@@ -127,7 +127,7 @@ std::string step_source_text(const Scene& scene, const Model& model) {
       break;
     case StepSource::resolution:
       text << "set by what it resolves within 0.3 %: "
-           << name_of(scene, model.step_limits.resolved);
+           << frequency_text(scene, model.step_limits.resolved);
       break;
     case StepSource::samples:
       text << "set by -output_interval, since a structure is reduced";
@@ -144,11 +144,11 @@ double earlier_time_step(const Scene& scene, const Model& model) {
 std::vector<std::string> long_step_warnings(const Scene& scene, const Model& model) {
   const ResolvedMotion& resolved = model.step_limits.resolved;
   const double accurate = round_down(resolved.accurate_step());
-  if (!(scene.time_step > accurate * round_off)) return {};
+  if (!(scene.time_step > accurate * noticeable)) return {};
   std::ostringstream text;
   text.precision(3);
-  text << "the time step " << scene.time_step << " s makes " << name_of(scene, resolved) << ", "
-       << 100 * resolved.error(scene.time_step) << " % too high, and none up to "
+  text << "the time step " << scene.time_step << " s makes " << frequency_text(scene, resolved)
+       << ", " << 100 * resolved.error(scene.time_step) << " % too high, and none up to "
        << resolved_frequency(scene.time_step) << " Hz by more than 0.3 %; give -time_step "
        << accurate << " or less, leave it out, or end -spectra_frequencies there";
   return {text.str()};

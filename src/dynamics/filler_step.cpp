@@ -8,8 +8,8 @@
 namespace pounding {
 namespace {
 
-constexpr int most_sweeps = 1000;
-constexpr double converged = 1e-15;  ///< change of a force over the largest
+constexpr int most_filler_sweeps = 1000;
+constexpr double filler_converged = 1e-15;  ///< change of a force over the largest
 
 constexpr std::size_t remembered = 2;  // values of FillerLaw
 constexpr std::size_t saved_values = 4;
@@ -130,7 +130,7 @@ bool FillerStep::hold(double share) {
 
 void FillerStep::solve(double share) {
   const double square = share * time_step_ * time_step_;
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+  for (int sweep = 0; sweep < most_filler_sweeps; ++sweep) {
     double change = 0;
     double largest = 0;
     for (std::size_t r = 0; r < laws_.size(); ++r) {
@@ -147,7 +147,7 @@ void FillerStep::solve(double share) {
       force_[r] = force;
       largest = std::max(largest, force);
     }
-    if (change <= converged * largest) break;
+    if (change <= filler_converged * largest) break;
   }
 }
 

@@ -36,7 +36,7 @@ CellList own_cells(const Mesh& mesh) {
 }
 
 /// A cell on rank 0 while all are sorted.
-struct Place {
+struct TaggedCell {
   std::int64_t set;
   std::int64_t tag;
   std::size_t first;  ///< node
@@ -79,7 +79,7 @@ CellTable gather_cells(const Mesh& mesh) {
     return {};
   }
   std::vector<GlobalIndex> nodes;
-  std::vector<Place> places;
+  std::vector<TaggedCell> places;
   for (int rank = 0; rank < size_of(mesh.comm); ++rank) {
     if (rank > 0) {
       receive_array(mesh.comm, rank, list.heads);
@@ -93,10 +93,10 @@ CellTable gather_cells(const Mesh& mesh) {
     }
     nodes.insert(nodes.end(), list.nodes.begin(), list.nodes.end());
   }
-  std::ranges::stable_sort(places, {},
-                           [](const Place& place) { return std::tuple(place.set, place.tag); });
+  std::ranges::stable_sort(
+      places, {}, [](const TaggedCell& place) { return std::tuple(place.set, place.tag); });
   CellTable table;
-  for (const Place& place : places) {
+  for (const TaggedCell& place : places) {
     const ElementBlock& block = mesh.blocks[static_cast<std::size_t>(place.set)];
     add_cell({&nodes[place.first], place.width}, is_solid(block.type), table.topology);
     table.region.push_back(block.region);

@@ -14,7 +14,7 @@ namespace {
 /// A longer run of elements is no faster.
 constexpr idx_t longest_piece = 64;
 
-using Place = std::array<std::int64_t, 3>;
+using GridPlace = std::array<std::int64_t, 3>;
 
 /// Place of an element of a row.
 struct RowPlace {
@@ -34,13 +34,13 @@ struct RowPlace {
 };
 
 /// `places` of the nodes of the structure, whose first node has the number `offset` in the list.
-RowPlace row_place(const ElementList& list, std::size_t e, const std::vector<Place>& places,
+RowPlace row_place(const ElementList& list, std::size_t e, const std::vector<GridPlace>& places,
                    GlobalIndex offset) {
   const auto nodes = list.nodes_of(e);
-  Place low = places[nodes.front() - offset];
-  Place high = low;
+  GridPlace low = places[nodes.front() - offset];
+  GridPlace high = low;
   for (const GlobalIndex node : nodes) {
-    const Place& place = places[node - offset];
+    const GridPlace& place = places[node - offset];
     for (std::size_t d = 0; d < 3; ++d) {
       low[d] = std::min(low[d], place[d]);
       high[d] = std::max(high[d], place[d]);
@@ -52,7 +52,7 @@ RowPlace row_place(const ElementList& list, std::size_t e, const std::vector<Pla
 /// Elements in rows of one structure, row after row.
 std::vector<RowPlace> sorted_rows(const GlobalMesh& mesh, const ElementList& list, std::size_t s) {
   const NodePlanes planes(mesh);
-  std::vector<Place> places;
+  std::vector<GridPlace> places;
   for (GlobalIndex node = 0; node < mesh.node_count(); ++node) {
     places.push_back(planes.place(mesh.position(node)));
   }

@@ -59,7 +59,7 @@ double area_of(const Polygon& polygon) {
   return twice / 2;
 }
 
-Vector3 between(const Vector3& a, const Vector3& b, double t) {
+Vector3 point_between(const Vector3& a, const Vector3& b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
 }
 
@@ -73,7 +73,7 @@ Polygon cut(const Polygon& polygon, const Vector3& a, const Vector3& b) {
     const double next = turn(a, b, to);
     if (left >= 0) kept.push_back(from);
     if ((left > 0 && next < 0) || (left < 0 && next > 0)) {
-      kept.push_back(between(from, to, left / (left - next)));
+      kept.push_back(point_between(from, to, left / (left - next)));
     }
   }
   return kept;
@@ -144,7 +144,7 @@ std::vector<OverlapPlace> of_lines(std::span<const Vector3> facet, std::span<con
   if (to - from <= sliver) return places;
   const GaussRule& gauss = rule(false);
   for (std::size_t q = 0; q < gauss.points.size(); ++q) {
-    const Vector3 x = between(facet[0], facet[1], from + (to - from) * gauss.points[q]);
+    const Vector3 x = point_between(facet[0], facet[1], from + (to - from) * gauss.points[q]);
     places.push_back(place_at(facet, facet, x, (to - from) * std::sqrt(square) * gauss.weights[q]));
   }
   return places;
@@ -172,8 +172,8 @@ std::vector<OverlapPlace> overlap_places(std::span<const Vector3> facet,
     if (twice <= nothing) continue;
     for (std::size_t a = 0; a < gauss.points.size(); ++a) {
       for (std::size_t b = 0; b < gauss.points.size(); ++b) {
-        const Vector3 side = between(common[i - 1], common[i], gauss.points[b]);
-        const Vector3 x = between(common[0], side, gauss.points[a]);
+        const Vector3 side = point_between(common[i - 1], common[i], gauss.points[b]);
+        const Vector3 x = point_between(common[0], side, gauss.points[a]);
         places.push_back(place_at(facet, seen, x,
                                   twice * gauss.points[a] * gauss.weights[a] * gauss.weights[b]));
       }

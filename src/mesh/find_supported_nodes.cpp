@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "common/place_text.h"
 #include "mesh/group_names.h"
 #include "scene/support_reader.h"
 
@@ -15,15 +16,8 @@ int clamped(const GlobalMesh& mesh, GlobalIndex node) {
   return mesh.components[node] & ~mesh.free_components[node];
 }
 
-std::string place_text(const GlobalMesh& mesh, GlobalIndex node) {
-  const Vector3 x = mesh.position(node);
-  std::ostringstream text;
-  text << "(" << x[0] << ", " << x[1] << ", " << x[2] << ")";
-  return text.str();
-}
-
-[[noreturn]] void refuse(const Support& support, const SupportedGroup& group,
-                         const std::string& why) {
+[[noreturn]] void refuse_clamped(const Support& support, const SupportedGroup& group,
+                                 const std::string& why) {
   throw UserError("option -" + support.name + "_groups " + group.structure + ":" + group.group +
                   ": " + why);
 }
@@ -35,7 +29,7 @@ void refuse_ties(const Structure& structure, const GlobalMesh& mesh) {
       for (const Carrier& carrier : tied.carriers) held = held || clamped(mesh, carrier.node) != 0;
       if (held) {
         throw UserError("option -" + structure.name + "_tie " + part.group + ": the node at " +
-                        place_text(mesh, tied.node) +
+                        place_text(mesh.position(tied.node)) +
                         " is clamped, or follows a clamped one, and the structure stands on a "
                         "support that moves on its own; tie them elsewhere, or clamp less");
       }
@@ -57,7 +51,8 @@ std::map<GlobalIndex, int> support_of_nodes(const Scene& scene, const Structure&
       if (group.structure != structure.name) continue;
       const auto nodes = mesh.groups.find(group.group);
       if (nodes == mesh.groups.end()) {
-        refuse(support, group, "there is no such group, the mesh has: " + group_names(mesh));
+        refuse_clamped(support, group,
+                       "there is no such group, the mesh has: " + group_names(mesh));
       }
       bool any = false;
       for (const GlobalIndex node : nodes->second.nodes) {
@@ -65,14 +60,14 @@ std::map<GlobalIndex, int> support_of_nodes(const Scene& scene, const Structure&
         any = true;
         const auto [at, is_new] = found.try_emplace(node, static_cast<int>(s));
         if (!is_new && at->second != static_cast<int>(s)) {
-          refuse(support, group,
-                 "its clamped node at " + place_text(mesh, node) + " stands on support " +
-                     scene.supports[at->second].name + " as well");
+          refuse_clamped(support, group,
+                         "its clamped node at " + place_text(mesh.position(node)) +
+                             " stands on support " + scene.supports[at->second].name + " as well");
         }
       }
       if (!any) {
-        refuse(support, group,
-               "no node of it is clamped; name it in -" + structure.name + "_clamp");
+        refuse_clamped(support, group,
+                       "no node of it is clamped; name it in -" + structure.name + "_clamp");
       }
     }
   }
@@ -90,7 +85,7 @@ void find_supported_nodes(const Scene& scene, const Structure& structure, Global
     const auto at = found.find(node);
     if (at == found.end()) {
       throw UserError("structure " + structure.name + ": its clamped node at " +
-                      place_text(mesh, node) +
+                      place_text(mesh.position(node)) +
                       " stands on none of -supports, and others of it do; name its group in the "
                       "_groups of one, which may move with the ground");
     }

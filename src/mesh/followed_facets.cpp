@@ -12,9 +12,9 @@ namespace pounding {
 namespace {
 
 /// Parts of a facet's longest edge: offsets up to `nothing` are none; places nearer to each other
-/// than `same` are one.
+/// than `same_place` are one.
 constexpr double nothing = 1e-13;
-constexpr double same = 1e-6;
+constexpr double same_place = 1e-6;
 
 /// Where a facet turns, arms up to this length are eccentricities of beams and slabs, however fine
 /// the mesh [m].
@@ -25,7 +25,7 @@ double between(double low, double high, double other_low, double other_high) {
   return std::max({low - other_high, other_low - high, 0.0});
 }
 
-double distance(const BoundingBox& a, const BoundingBox& b) {
+double box_distance(const BoundingBox& a, const BoundingBox& b) {
   double square = 0;
   for (std::size_t d = 0; d < 3; ++d) {
     const double out = between(a.low[d], a.high[d], b.low[d], b.high[d]);
@@ -96,8 +96,8 @@ std::vector<FollowedPlace> FollowedFacets::nearest(const Vector3& x) const {
   std::vector<FollowedPlace> found;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t f = 0; f < facets_.size(); ++f) {
-    const double margin = same * boxes_[f].diagonal();
-    if (distance(boxes_[f], {x, x}) > least + margin) continue;
+    const double margin = same_place * boxes_[f].diagonal();
+    if (box_distance(boxes_[f], {x, x}) > least + margin) continue;
     const FollowedPlace followed{&facets_[f], nearest_place(corners_of(mesh_, facets_[f]), x)};
     if (followed.at.distance > least + margin) continue;
     found.push_back(followed);
@@ -105,7 +105,7 @@ std::vector<FollowedPlace> FollowedFacets::nearest(const Vector3& x) const {
   }
   const FollowedPlace best = *std::ranges::min_element(
       found, {}, [](const FollowedPlace& followed) { return followed.at.distance; });
-  const double margin = same * longest_edge(*best.facet);
+  const double margin = same_place * longest_edge(*best.facet);
   std::erase_if(found, [&](const FollowedPlace& followed) {
     return pounding::distance(followed.at.place, best.at.place) > margin ||
            turns(*followed.facet) != turns(*best.facet) ||
@@ -117,7 +117,7 @@ std::vector<FollowedPlace> FollowedFacets::nearest(const Vector3& x) const {
 std::vector<const Facet*> FollowedFacets::near(const BoundingBox& box) const {
   std::vector<const Facet*> found;
   for (std::size_t f = 0; f < facets_.size(); ++f) {
-    if (distance(boxes_[f], box) <= reaches_[f]) found.push_back(&facets_[f]);
+    if (box_distance(boxes_[f], box) <= reaches_[f]) found.push_back(&facets_[f]);
   }
   return found;
 }

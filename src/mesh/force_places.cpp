@@ -14,7 +14,7 @@ namespace pounding {
 namespace {
 
 /// An element of a set of the mesh.
-struct Place {
+struct ElementPlace {
   const ElementSet* set = nullptr;
   std::size_t element = 0;
 
@@ -24,8 +24,8 @@ struct Place {
   }
 };
 
-std::vector<Place> places_of(const GlobalMesh& mesh) {
-  std::vector<Place> places;
+std::vector<ElementPlace> places_of(const GlobalMesh& mesh) {
+  std::vector<ElementPlace> places;
   for (const ElementSet& set : mesh.regions) {
     for (std::size_t e = 0; e < set.tags.size(); ++e) places.push_back({&set, e});
   }
@@ -33,13 +33,13 @@ std::vector<Place> places_of(const GlobalMesh& mesh) {
 }
 
 /// The element of the group whose middle is nearest to a point.
-Place nearest(const ForceItem& force, const GlobalMesh& mesh, const std::vector<Place>& group,
-              const Vector3& point) {
+ElementPlace nearest(const ForceItem& force, const GlobalMesh& mesh,
+                     const std::vector<ElementPlace>& group, const Vector3& point) {
   // The part of the extent of the mesh that is allowed beyond the size of the element.
   const double far = force.kind == ForceKind::shells ? 0 : 0.05;
   double least = std::numeric_limits<double>::infinity();
-  Place best;
-  for (const Place& place : group) {
+  ElementPlace best;
+  for (const ElementPlace& place : group) {
     const double away = distance(centroid(mesh, place.nodes()), point);
     if (!(away < least * (1 - 1e-9))) continue;
     least = away;
@@ -59,19 +59,20 @@ Place nearest(const ForceItem& force, const GlobalMesh& mesh, const std::vector<
   return best;
 }
 
-std::vector<Place> chosen_elements(const ForceItem& force, const GlobalMesh& mesh) {
-  std::vector<Place> group;
-  for (const Place& place : places_of(mesh)) {
+std::vector<ElementPlace> chosen_elements(const ForceItem& force, const GlobalMesh& mesh) {
+  std::vector<ElementPlace> group;
+  for (const ElementPlace& place : places_of(mesh)) {
     if (place.set->group == force.group) group.push_back(place);
   }
   if (force.points.empty()) {
-    std::ranges::stable_sort(group, {}, [](const Place& p) { return p.set->tags[p.element]; });
+    std::ranges::stable_sort(group, {},
+                             [](const ElementPlace& p) { return p.set->tags[p.element]; });
     return group;
   }
-  std::vector<Place> chosen;
+  std::vector<ElementPlace> chosen;
   for (const Vector3& point : force.points) {
-    const Place place = nearest(force, mesh, group, point);
-    const bool again = std::ranges::any_of(chosen, [&](const Place& other) {
+    const ElementPlace place = nearest(force, mesh, group, point);
+    const bool again = std::ranges::any_of(chosen, [&](const ElementPlace& other) {
       return other.set == place.set && other.element == place.element;
     });
     if (!again) chosen.push_back(place);
@@ -83,7 +84,7 @@ std::vector<Place> chosen_elements(const ForceItem& force, const GlobalMesh& mes
 [[noreturn]] void refuse_missed(const ForceItem& force, const GlobalMesh& mesh) {
   double least = std::numeric_limits<double>::infinity();
   double most = -least;
-  for (const Place& place : places_of(mesh)) {
+  for (const ElementPlace& place : places_of(mesh)) {
     if (place.set->group != force.group) continue;
     for (const GlobalIndex node : place.nodes()) {
       const double along = dot(force.normal, mesh.position(node));
@@ -99,9 +100,9 @@ std::vector<Place> chosen_elements(const ForceItem& force, const GlobalMesh& mes
 }
 
 /// Elements of which a total counts some force but not all: their own sum is zero.
-std::vector<Place> passing_elements(const ForceItem& force, const GlobalMesh& mesh) {
-  std::vector<Place> passing;
-  for (const Place& place : places_of(mesh)) {
+std::vector<ElementPlace> passing_elements(const ForceItem& force, const GlobalMesh& mesh) {
+  std::vector<ElementPlace> passing;
+  for (const ElementPlace& place : places_of(mesh)) {
     if (force.kind == ForceKind::cut && place.set->group != force.group) continue;
     const ElementTraits& traits = traits_of(place.set->type);
     if (traits.stiffness == nullptr || traits.family == ElementFamily::point_mass) continue;
@@ -151,14 +152,14 @@ std::vector<ResolvedForce> resolve_forces(const Scene& scene, std::span<const Gl
     ResolvedForce& resolved = forces.emplace_back();
     resolved.structure = static_cast<int>(s);
     require_storey(force, meshes[s]);
-    std::vector<Place> places;
+    std::vector<ElementPlace> places;
     if (force.of_elements()) {
       places = chosen_elements(force, meshes[s]);
     } else if (force.kind == ForceKind::cut || scene.structures[s].modal) {
       places = passing_elements(force, meshes[s]);
     }
     std::set<GlobalIndex> nodes;
-    for (const Place& place : places) {
+    for (const ElementPlace& place : places) {
       resolved.elements.push_back(place.set->tags[place.element]);
       resolved.regions.push_back(place.set->region);
       nodes.insert(place.nodes().begin(), place.nodes().end());

@@ -133,7 +133,7 @@ int dimension_of(const Region& region) {
 
 /// Parts of a group that a region takes: a name of several dimensions, as of a volume and its skin,
 /// means those of the element that is asked for.
-std::vector<RawGroup> parts_of(const Region& region, const std::vector<RawGroup>& group) {
+std::vector<RawGroup> region_parts(const Region& region, const std::vector<RawGroup>& group) {
   std::vector<RawGroup> parts;
   std::ranges::copy_if(group, std::back_inserter(parts), [&](const RawGroup& part) {
     return part.dimension == dimension_of(region);
@@ -178,7 +178,7 @@ class MeshBuilder {
     const auto found = groups_.find(region.group);
     if (found == groups_.end()) unknown_group(region.group, option);
     const std::size_t before = mesh_.regions.size();
-    for (const RawGroup& part : parts_of(region, found->second)) {
+    for (const RawGroup& part : region_parts(region, found->second)) {
       taken_.insert({part.name, part.dimension});
       for (const int entity : part.entities) {
         const std::vector<RawElements>& elements = elements_on(part.dimension, entity);

@@ -8,7 +8,7 @@
 namespace pounding {
 namespace {
 
-constexpr int tag = 1;
+constexpr int halo_tag = 1;
 
 /// Start of each rank's share in an array of the given counts; one entry more than ranks.
 std::vector<int> starts_of(const std::vector<int>& counts) {
@@ -73,13 +73,13 @@ void Halo::prepare_messages() {
   for (const Neighbour& other : neighbours_) {
     if (other.received > 0) {
       MPI_Recv_init(received_.data() + other.received_begin, other.received, MPI_DOUBLE, other.rank,
-                    tag, comm_, &requests_.emplace_back());
+                    halo_tag, comm_, &requests_.emplace_back());
     }
   }
   for (const Neighbour& other : neighbours_) {
     if (other.sent > 0) {
-      MPI_Send_init(send_.data() + other.sent_begin, other.sent, MPI_DOUBLE, other.rank, tag, comm_,
-                    &requests_.emplace_back());
+      MPI_Send_init(send_.data() + other.sent_begin, other.sent, MPI_DOUBLE, other.rank, halo_tag,
+                    comm_, &requests_.emplace_back());
     }
   }
 }

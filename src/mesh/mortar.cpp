@@ -21,7 +21,7 @@ constexpr double hardly = 1e-2;
 constexpr double mostly = 0.5;
 
 /// Parts of a node's largest entry that are round-off.
-constexpr double round_off = 1e-12;
+constexpr double relative_round_off = 1e-12;
 
 double size_of(const std::vector<OverlapPlace>& places) {
   double sum = 0;
@@ -200,7 +200,7 @@ class Mortar {
     }
     const auto is_nothing = [&](const Carrier& carrier) {
       for (std::size_t k = 0; k < entries; ++k) {
-        if (std::abs(carrier.block[k]) > round_off * largest[kind(k)]) return false;
+        if (std::abs(carrier.block[k]) > relative_round_off * largest[kind(k)]) return false;
       }
       return true;
     };

@@ -8,21 +8,21 @@
 namespace pounding {
 namespace {
 
-using Cell = std::array<std::int64_t, 3>;
+using GridCell = std::array<std::int64_t, 3>;
 
-struct Entry {
-  Cell cell;
+struct NodeInCell {
+  GridCell cell;
   GlobalIndex node;
-  auto operator<=>(const Entry&) const = default;
+  auto operator<=>(const NodeInCell&) const = default;
 };
 
 /// The cells that a node's surroundings reach into: mostly one.
 void add_cells(const Vector3& x, double side, double distance, GlobalIndex node,
-               std::vector<Entry>& entries) {
+               std::vector<NodeInCell>& entries) {
   // Meshes like round numbers: their planes are kept off the borders of cells.
   constexpr double offset = 0.3819660112501051;
-  Cell low{};
-  Cell high{};
+  GridCell low{};
+  GridCell high{};
   for (std::size_t d = 0; d < 3; ++d) {
     low[d] = static_cast<std::int64_t>(std::floor((x[d] - distance) / side + offset));
     high[d] = static_cast<std::int64_t>(std::floor((x[d] + distance) / side + offset));
@@ -38,7 +38,7 @@ void add_cells(const Vector3& x, double side, double distance, GlobalIndex node,
 
 std::vector<std::pair<GlobalIndex, GlobalIndex>> near_nodes(const GlobalMesh& mesh, double near) {
   constexpr double cell_side = 16;  // in distances
-  std::vector<Entry> entries;
+  std::vector<NodeInCell> entries;
   entries.reserve(static_cast<std::size_t>(mesh.node_count()) * 3 / 2);
   for (GlobalIndex node = 0; node < mesh.node_count(); ++node) {
     add_cells(mesh.position(node), cell_side * near, near, node, entries);

@@ -12,7 +12,7 @@
 namespace pounding {
 namespace {
 
-struct Entry {
+struct HashedElement {
   std::uint64_t hash = 0;  ///< of the nodes in increasing order
   const ElementSet* set = nullptr;
   std::size_t element = 0;
@@ -39,17 +39,17 @@ std::uint64_t hash_of(const std::vector<GlobalIndex>& nodes) {
 void check(const std::string& structure, std::span<const ElementSet* const> sets) {
   std::size_t count = 0;
   for (const ElementSet* set : sets) count += set->tags.size();
-  std::vector<Entry> entries;
+  std::vector<HashedElement> entries;
   entries.reserve(count);
   for (const ElementSet* set : sets) {
     for (std::size_t e = 0; e < set->tags.size(); ++e) {
       entries.push_back({hash_of(sorted_nodes(*set, e)), set, e});
     }
   }
-  std::ranges::stable_sort(entries, {}, &Entry::hash);
+  std::ranges::stable_sort(entries, {}, &HashedElement::hash);
   for (std::size_t i = 1; i < entries.size(); ++i) {
-    const Entry& one = entries[i - 1];
-    const Entry& other = entries[i];
+    const HashedElement& one = entries[i - 1];
+    const HashedElement& other = entries[i];
     if (one.hash == other.hash &&
         sorted_nodes(*one.set, one.element) == sorted_nodes(*other.set, other.element)) {
       throw UserError("structure " + structure + ": element " +

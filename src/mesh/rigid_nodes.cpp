@@ -16,7 +16,7 @@ namespace pounding {
 namespace {
 
 /// Least height between two floors [m].
-constexpr double storey = 1;
+constexpr double least_storey = 1;
 
 using Cluster = std::vector<GlobalIndex>;
 
@@ -25,8 +25,8 @@ std::string option_text(const Structure& structure, const RigidGroup& rigid) {
   return "option -" + structure.name + option.substr(option.find('_')) + " " + rigid.name();
 }
 
-[[noreturn]] void refuse(const Structure& structure, const RigidGroup& rigid,
-                         const std::string& what, const Vector3& x) {
+[[noreturn]] void refuse_rigid(const Structure& structure, const RigidGroup& rigid,
+                               const std::string& what, const Vector3& x) {
   std::ostringstream text;
   text << option_text(structure, rigid) << ": its node at (" << x[0] << ", " << x[1] << ", " << x[2]
        << ") " << what;
@@ -61,7 +61,7 @@ std::vector<Cluster> pinned(const GlobalMesh& mesh, const Cluster& nodes) {
   return clusters_of(sets, nodes);
 }
 
-double distance(const GlobalMesh& mesh, GlobalIndex a, GlobalIndex b) {
+double distance_between(const GlobalMesh& mesh, GlobalIndex a, GlobalIndex b) {
   const Vector3 x = mesh.position(a);
   const Vector3 y = mesh.position(b);
   return std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
@@ -79,7 +79,7 @@ std::vector<Cluster> joined(const GlobalMesh& mesh, const Cluster& nodes, const 
     double nearest = std::numeric_limits<double>::infinity();
     GlobalIndex found = -1;
     const auto look = [&](GlobalIndex other) {
-      const double apart = distance(mesh, node, other);
+      const double apart = distance_between(mesh, node, other);
       if (apart < nearest || (apart == nearest && other < found)) {
         nearest = apart;
         found = other;
@@ -96,21 +96,21 @@ std::vector<Cluster> joined(const GlobalMesh& mesh, const Cluster& nodes, const 
   return clusters_of(sets, all);
 }
 
-/// Floors of a group: parted where no node is for `storey` in height.
+/// Floors of a group: parted where no node is for `least_storey` in height.
 std::vector<Cluster> levels(const Structure& structure, const RigidGroup& rigid,
                             const GlobalMesh& mesh, Cluster nodes) {
   const auto height = [&](GlobalIndex node) { return mesh.position(node)[2]; };
   std::ranges::stable_sort(nodes, {}, height);
   std::vector<Cluster> floors;
   for (const GlobalIndex node : nodes) {
-    if (floors.empty() || height(node) - height(floors.back().back()) > storey) {
+    if (floors.empty() || height(node) - height(floors.back().back()) > least_storey) {
       floors.emplace_back();
     }
     floors.back().push_back(node);
-    if (height(node) - height(floors.back().front()) > storey) {
-      refuse(structure, rigid,
-             "lies more than 1 m above the lowest of its floor: that is not level",
-             mesh.position(node));
+    if (height(node) - height(floors.back().front()) > least_storey) {
+      refuse_rigid(structure, rigid,
+                   "lies more than 1 m above the lowest of its floor: that is not level",
+                   mesh.position(node));
     }
   }
   for (Cluster& floor : floors) std::ranges::sort(floor);
@@ -195,14 +195,15 @@ std::vector<RigidNodes> find_rigid_nodes(const Structure& structure, const Globa
       for (const GlobalIndex node : cluster) {
         const auto [other, is_new] = group_of.try_emplace(node, rigid.name());
         if (!is_new) {
-          refuse(structure, rigid,
-                 "is in " + other->second + " as well; make them one group, or keep them apart",
-                 mesh.position(node));
+          refuse_rigid(
+              structure, rigid,
+              "is in " + other->second + " as well; make them one group, or keep them apart",
+              mesh.position(node));
         }
         if ((clamped_components(mesh, node) & following) != 0) {
-          refuse(structure, rigid,
-                 "is clamped; clamp all that moves with it instead, or none of it",
-                 mesh.position(node));
+          refuse_rigid(structure, rigid,
+                       "is clamped; clamp all that moves with it instead, or none of it",
+                       mesh.position(node));
         }
       }
     }

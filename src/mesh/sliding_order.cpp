@@ -9,6 +9,7 @@
 
 #include "common/disjoint_sets.h"
 #include "common/error.h"
+#include "common/place_text.h"
 #include "mesh/bounding_box.h"
 #include "mesh/connectivity.h"
 
@@ -90,14 +91,8 @@ class Storeys {
   std::map<std::size_t, int> storey_;  ///< by part
 };
 
-std::string place_text(const Vector3& x) {
-  std::ostringstream text;
-  text << "(" << x[0] << ", " << x[1] << ", " << x[2] << ")";
-  return text.str();
-}
-
-[[noreturn]] void refuse(const Structure& structure, const Region& region, const Vector3& x,
-                         std::size_t across) {
+[[noreturn]] void refuse_level(const Structure& structure, const Region& region, const Vector3& x,
+                               std::size_t across) {
   const std::string axis(1, "xyz"[across]);
   throw UserError("structure " + structure.name + ": the two nodes of a bearing of group '" +
                   region.group + "' that slides lie at one level, at " + place_text(x) +
@@ -130,7 +125,7 @@ void order_sliding_bearings(const Structure& structure, GlobalMesh& mesh) {
       const bool apart = rise > level || rise < -level;
       const int first = storeys.of(below);
       const int second = storeys.of(above);
-      if (!apart && first == second) refuse(structure, region, mesh.position(below), across);
+      if (!apart && first == second) refuse_level(structure, region, mesh.position(below), across);
       if (apart ? rise < 0 : first > second) std::swap(below, above);
       const bool hangs = storeys.of(above) < storeys.of(below);
       if (hangs && structure.gravity[across] != 0) on_heads.add(mesh.position(above));

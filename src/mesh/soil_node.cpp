@@ -11,7 +11,7 @@
 namespace pounding {
 namespace {
 
-[[noreturn]] void refuse(const Structure& structure, const std::string& why) {
+[[noreturn]] void refuse_mat(const Structure& structure, const std::string& why) {
   throw UserError("option -" + structure.name + "_soil_mat " + structure.soil->mat + ": " + why);
 }
 
@@ -42,7 +42,8 @@ GlobalIndex carrying_node(const Structure& structure, const GlobalMesh& mesh,
   for (const GlobalIndex node : nodes) {
     const std::size_t n = node;
     if (mesh.components[n] != mesh.free_components[n]) {
-      refuse(structure, "the group has clamped nodes; soil holds a mat that nothing else holds");
+      refuse_mat(structure,
+                 "the group has clamped nodes; soil holds a mat that nothing else holds");
     }
     if ((mesh.components[n] & rotations) != rotations) continue;
     const Vector3 x = mesh.position(node);
@@ -56,9 +57,10 @@ GlobalIndex carrying_node(const Structure& structure, const GlobalMesh& mesh,
     }
   }
   if (best < 0) {
-    refuse(structure,
-           "no node of the group has rotations; give it a node of shells or beams, or a point mass "
-           "with rotary inertia");
+    refuse_mat(
+        structure,
+        "no node of the group has rotations; give it a node of shells or beams, or a point mass "
+        "with rotary inertia");
   }
   return best;
 }
@@ -69,7 +71,8 @@ void add_soil(const Structure& structure, GlobalMesh& mesh) {
   if (!structure.soil) return;
   const auto found = mesh.groups.find(structure.soil->mat);
   if (found == mesh.groups.end() || found->second.nodes.empty()) {
-    refuse(structure, "no element of the scene uses a node of such a group of " + structure.mesh);
+    refuse_mat(structure,
+               "no element of the scene uses a node of such a group of " + structure.mesh);
   }
   const auto region = std::ranges::find(structure.regions, ElementType::soil, &Region::element);
   ElementSet set;
@@ -82,8 +85,8 @@ void add_soil(const Structure& structure, GlobalMesh& mesh) {
   const MatPlace place = mat_place(structure, mesh);
   const std::array<double, 2> sides = sides_of(*structure.soil, place);
   if (!(sides[0] > 0) || !(sides[1] > 0)) {
-    refuse(structure,
-           "the nodes of the group span no area; give -" + structure.name + "_soil_size");
+    refuse_mat(structure,
+               "the nodes of the group span no area; give -" + structure.name + "_soil_size");
   }
 }
 

@@ -8,6 +8,7 @@
 #include "common/disjoint_sets.h"
 #include "common/error.h"
 #include "common/matrix3.h"
+#include "common/place_text.h"
 #include "mesh/component_bits.h"
 #include "mesh/followed_facets.h"
 #include "mesh/mortar.h"
@@ -16,19 +17,13 @@ namespace pounding {
 namespace {
 
 /// Parts of a facet's longest edge: a node farther than `beside` over the border is doubted; beside
-/// a line farther than `same` it is refused.
-constexpr double same = 1e-6;
+/// a line farther than `at_line` it is refused.
+constexpr double at_line = 1e-6;
 constexpr double beside = 1e-2;
 
 /// Facets of nodes that follow at their places are doubted if so many times longer than those
 /// followed.
 constexpr double coarser = 1.5;
-
-std::string place_text(const Vector3& x) {
-  std::ostringstream text;
-  text << "(" << x[0] << ", " << x[1] << ", " << x[2] << ")";
-  return text.str();
-}
 
 /// One tie of a structure.
 class Tie {
@@ -115,7 +110,7 @@ class Tie {
       return;
     }
     const bool node_turns = (mesh_.components[node] & rotations) != 0;
-    if (!facets_.turns(*facet.facet) && (node_turns || facet.at.distance > same * edge)) {
+    if (!facets_.turns(*facet.facet) && (node_turns || facet.at.distance > at_line * edge)) {
       refuse(node, std::string(node_turns ? "turns" : "lies beside its line") +
                        ", but the line of '" + rigid_.other +
                        "' that it would follow has no rotations; name a face");

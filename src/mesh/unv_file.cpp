@@ -59,7 +59,7 @@ constexpr auto unread_sets = std::to_array<UnreadSet>({{15, "nodes"},
                                                        {2430, "groups"},
                                                        {2432, "groups"}});
 
-bool contains(const auto& list, int value) {
+bool has_code(const auto& list, int value) {
   return std::ranges::find(list, value) != list.end();
 }
 
@@ -171,7 +171,7 @@ class UnvReader {
       read_nodes();
     } else if (set == 2412) {
       read_elements();
-    } else if (contains(group_sets, set)) {
+    } else if (has_code(group_sets, set)) {
       read_groups();
     } else {
       while (next_record()) {
@@ -227,7 +227,7 @@ class UnvReader {
       const auto kind = static_cast<int>(head[1]);
       const std::int64_t count = head[5];
       if (count < 1 || count > 100) refuse("an element of " + std::to_string(count) + " nodes");
-      if (contains(oriented, kind)) require_record();
+      if (has_code(oriented, kind)) require_record();
       Cell cell;
       cell.property = static_cast<int>(head[2]);
       while (static_cast<std::int64_t>(cell.nodes.size()) < count) {

@@ -18,7 +18,7 @@ namespace {
 
 /// Eigenvalue of the stiffness, scaled to a unit diagonal, by which round-off may put one below
 /// zero.
-constexpr double round_off = 1e-13;
+constexpr double zero_eigenvalue = 1e-13;
 constexpr int iterations = 60;
 
 /// Work of the axial forces in a motion, phi^T K_G phi, by group [J]. Collective.
@@ -64,7 +64,7 @@ std::vector<double> inverse_roots(const LinearSystem& system, Mat matrix) {
 
 /// Motion of the lowest eigenvalue, in coordinates of the matrix. Collective.
 std::vector<double> lowest_vector(const LinearSystem& system, Mat matrix) {
-  double shift = -round_off;
+  double shift = -zero_eigenvalue;
   while (ShiftedSolver(system, matrix, shift).eigenvalues_below() > 0) shift *= 10;
   const ShiftedSolver solver(system, matrix, shift);
   std::vector<double> x(system.lumped_mass.size());
@@ -95,7 +95,7 @@ void require_no_buckling(const Structure& structure, const Mesh& mesh, const Lin
   const VecHandle diagonal = wrap_vector(system, scale);
   POUNDING_PETSC(MatDiagonalScale(matrix.get(), diagonal.get(), diagonal.get()));
   POUNDING_PETSC(MatSetOption(matrix.get(), MAT_SYMMETRIC, PETSC_TRUE));
-  if (ShiftedSolver(system, matrix.get(), -round_off).eigenvalues_below() == 0) return;
+  if (ShiftedSolver(system, matrix.get(), -zero_eigenvalue).eigenvalues_below() == 0) return;
   std::vector<double> motion = lowest_vector(system, matrix.get());
   for (std::size_t i = 0; i < motion.size(); ++i) motion[i] *= scale[i];
   if (admissible) admissible->to_motion(motion);

@@ -9,14 +9,15 @@ namespace pounding {
 namespace {
 
 /// Part of the largest eigenvalue by which round-off may put one below zero.
-constexpr double round_off = 1e-11;
+constexpr double round_off_share = 1e-11;
 
 void require_semidefinite(const LinearSystem& system, Mat matrix, const std::string& path) {
   const MatHandle scaled = mass_scaled(system, matrix);
   double bound = 0;  // of the largest eigenvalue, by Gershgorin
   POUNDING_PETSC(MatNorm(scaled.get(), NORM_INFINITY, &bound));
   if (bound == 0) return;
-  const int negative = ShiftedSolver(system, scaled.get(), -round_off * bound).eigenvalues_below();
+  const int negative =
+      ShiftedSolver(system, scaled.get(), -round_off_share * bound).eigenvalues_below();
   if (negative > 0) {
     throw UserError(path + ": not positive semidefinite, " + std::to_string(negative) +
                     " of its eigenvalues lie below zero: some motion would give energy; look for "

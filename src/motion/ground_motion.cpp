@@ -15,8 +15,6 @@ namespace pounding {
 
 namespace {
 
-constexpr double resampled_step = 5e-4;  // s
-
 constexpr double doubtful_pga = 3 * standard_gravity;  // m/s2
 constexpr double small_pga = 0.5;                      // m/s2: might be a number in g
 

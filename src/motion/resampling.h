@@ -4,6 +4,9 @@
 
 namespace pounding {
 
+/// Time step to which motions are resampled before they are integrated [s].
+inline constexpr double resampled_step = 5e-4;
+
 /// The band-limited signal through the values of an accelerogram, sampled at the largest whole
 /// fraction of its time step that is <= `largest_step` [s]: Fourier coefficients padded with zeros.
 /// Before the transform each end continues as its own point reflection, fading to zero, so that

@@ -14,13 +14,11 @@
 namespace pounding {
 namespace {
 
-constexpr double resampled_step = 5e-4;  // s
-
 /// Beyond the rotation of any foundation [rad/s2]: its edge at 1 m would have ten thousand g.
 constexpr double impossible_rotation = impossible_peak;
 
 /// Parts of the largest velocity, and of the largest displacement, that may be left at the end.
-constexpr double resting = 0.05;
+constexpr double still_moving = 0.05;
 constexpr double returned = 0.5;
 
 /// Steps of the rule that finds how far a support moves.
@@ -200,7 +198,7 @@ std::vector<std::string> SupportMotion::doubts() const {
     const Reach way = reach(c);
     const bool turns = columns_[c].component >= 3;
     const std::string unit = turns ? " rad" : " m";
-    if (std::abs(way.end_velocity) > resting * way.largest_speed) {
+    if (std::abs(way.end_velocity) > still_moving * way.largest_speed) {
       doubts.push_back(describe(c) + ": once its records are over it goes on at " +
                        text_of(way.end_velocity) + unit + "/s against the ground, its largest is " +
                        text_of(way.largest_speed) + ", and it is " + text_of(way.end) + unit +

@@ -12,7 +12,7 @@ namespace {
 constexpr std::int64_t capacity = 5000;
 
 /// A line as numbers, in the order of its members.
-constexpr std::size_t columns = 10;
+constexpr std::size_t ledger_columns = 10;
 
 void append_numbers(const EnergyLine& line, std::vector<double>& numbers) {
   numbers.insert(numbers.end(), {line.time, line.kinetic, line.strain, line.damping_loss,
@@ -43,7 +43,7 @@ void EnergyLedger::add(const EnergyLine& line) {
 void EnergyLedger::save(SavedState& saved) const {
   std::vector<double> numbers;
   for (const EnergyLine& line : lines_) append_numbers(line, numbers);
-  saved.put("ledger", numbers, columns);
+  saved.put("ledger", numbers, ledger_columns);
   numbers.clear();
   append_numbers(last_, numbers);
   saved.put("ledger_last", numbers);
@@ -51,12 +51,12 @@ void EnergyLedger::save(SavedState& saved) const {
 }
 
 void EnergyLedger::load(const SavedState& saved) {
-  const std::vector<double>& numbers = saved.table("ledger", columns);
+  const std::vector<double>& numbers = saved.table("ledger", ledger_columns);
   lines_.clear();
-  for (std::size_t i = 0; i < numbers.size(); i += columns) {
-    lines_.push_back(line_of_numbers({&numbers[i], columns}));
+  for (std::size_t i = 0; i < numbers.size(); i += ledger_columns) {
+    lines_.push_back(line_of_numbers({&numbers[i], ledger_columns}));
   }
-  std::array<double, columns> last{};
+  std::array<double, ledger_columns> last{};
   saved.get("ledger_last", last);
   last_ = line_of_numbers(last);
   added_ = saved.integer("ledger_added");

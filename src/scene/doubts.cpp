@@ -32,7 +32,7 @@ constexpr Plausible bearing_friction{"sliding_friction", 0, 1, "-",
 constexpr Plausible soil_velocity{"soil_vs", 20, 5000, "m/s", "is it in km/s?"};
 constexpr Plausible soil_density{"soil_density", 500, 4000, "kg/m3", "is it in t/m3 or kN/m3?"};
 constexpr Plausible delay{"delay", 0, 10, "s", "is it in ms?"};
-constexpr Plausible weight{"gravity", 1.5, 30, "m/s2", "is it in g or cm/s2?"};
+constexpr Plausible likely_gravity{"gravity", 1.5, 30, "m/s2", "is it in g or cm/s2?"};
 constexpr Plausible gyration{"radius of gyration", 1e-3, 20, "m",
                              "do area and inertias have one unit of length?"};
 
@@ -123,7 +123,7 @@ void look_at_direction(const Structure& structure, Doubts& doubts) {
   const auto& [x, y, z] = structure.gravity;
   const double strength = std::hypot(x, y, z);
   if (strength == 0) return;
-  doubts.look_at("structure " + structure.name, weight, strength);
+  doubts.look_at("structure " + structure.name, likely_gravity, strength);
   if (z > 0) {
     doubts.add("structure " + structure.name +
                ": its gravity acts upwards, along z; -z is downwards");

@@ -43,13 +43,13 @@ Setting parse_setting(const std::string& line, const std::string& where) {
 }
 
 /// Results of a fidelity study, and the structures that it was made on.
-struct Table {
+struct SettingTable {
   std::string structures_key;  ///< empty if the file does not say it
   std::string structures;      ///< in words
   std::vector<Setting> settings;
 };
 
-Table read_table(const std::string& path) {
+SettingTable read_table(const std::string& path) {
   constexpr std::string_view key = "# structures: ";
   require_finite_file(path, "option -fidelity_table ");
   std::ifstream file(path);
@@ -58,7 +58,7 @@ Table read_table(const std::string& path) {
         "option -fidelity_table " + path +
         ": no such file; run/tradeoff (pounding-tools tradeoff) writes one, fidelity.csv");
   }
-  Table table;
+  SettingTable table;
   std::vector<Setting>& settings = table.settings;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
@@ -75,7 +75,7 @@ Table read_table(const std::string& path) {
 }
 
 /// Errors measured on other structures say nothing of these.
-void require_same_structures(const Table& table, const std::string& path,
+void require_same_structures(const SettingTable& table, const std::string& path,
                              const std::string& structures_key) {
   if (table.structures_key.empty()) {
     throw UserError("option -fidelity_table " + path +
@@ -153,7 +153,7 @@ ChosenFidelity choose_fidelity(const OptionsDatabase& given, const std::string& 
   if (!reader.given("fidelity_target")) return chosen;
   const double target = reader.real("fidelity_target");
   const std::string path = reader.text("fidelity_table");
-  const Table table = read_table(path);
+  const SettingTable table = read_table(path);
   require_same_structures(table, path, structures_key);
   const std::vector<std::string> structures = reader.list("structures");
   const Setting& setting = fastest(table.settings, target, given, structures, path);

@@ -57,7 +57,7 @@ std::vector<std::string> fields_of(const std::string& line, char separator) {
   return fields;
 }
 
-std::string read_text(const std::string& file) {
+std::string read_member_text(const std::string& file) {
   require_finite_file(file, "option -ensemble ");
   std::ifstream stream(file, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(stream), {});
@@ -136,7 +136,7 @@ MemberTable read_member_table(MPI_Comm comm, const std::string& file,
                               const std::vector<std::string>& structures,
                               const std::vector<std::string>& contacts) {
   std::string text;
-  on_rank0(comm, [&] { text = read_text(file); });
+  on_rank0(comm, [&] { text = read_member_text(file); });
   broadcast(comm, text);
   MemberTable table = parse_table(file, text);
   check_columns(table, structures, contacts);

@@ -38,7 +38,7 @@ constexpr Preset absent(std::string_view when) {
 }
 
 // clang-format off
-constexpr std::array table{
+constexpr std::array option_rows{
     OptionRow{Block::run, "title", Kind::text, "text", value(""), any, "text", "one line that names the run"},
     OptionRow{Block::run, "structures", Kind::names, "names", required, any, "", "the buildings"},
     OptionRow{Block::run, "contacts", Kind::names, "names", value("none"), any, "", "the places where they may hit"},
@@ -272,12 +272,12 @@ std::string Range::text() const {
 }
 
 std::span<const OptionRow> option_table() {
-  return table;
+  return option_rows;
 }
 
 const OptionRow& option_row(std::string_view pattern) {
-  const auto row = std::ranges::find(table, pattern, &OptionRow::pattern);
-  if (row == table.end()) {
+  const auto row = std::ranges::find(option_rows, pattern, &OptionRow::pattern);
+  if (row == option_rows.end()) {
     throw std::logic_error("no option has the pattern " + std::string(pattern));
   }
   return *row;

@@ -11,21 +11,21 @@
 namespace pounding {
 namespace {
 
-enum class Value { flag, count, integer, positive, solver };
+enum class Value { flag, count, integer, above_zero, solver };
 
 struct PetscOption {
   std::string_view pattern;  ///< '*' ends a prefix
   Value value;
 };
 
-constexpr auto options = std::to_array<PetscOption>({
+constexpr auto known_options = std::to_array<PetscOption>({
     {"log_view", Value::flag},
     {"lowest_eps_converged_reason", Value::flag},
     {"lowest_eps_max_it", Value::count},
     {"lowest_eps_monitor", Value::flag},
     {"lowest_eps_mpd", Value::count},
     {"lowest_eps_ncv", Value::count},
-    {"lowest_eps_tol", Value::positive},
+    {"lowest_eps_tol", Value::above_zero},
     {"lowest_eps_type", Value::solver},
     {"lowest_eps_view", Value::flag},
     {"lowest_st_mat_mumps_icntl_*", Value::integer},
@@ -38,14 +38,14 @@ constexpr auto options = std::to_array<PetscOption>({
     {"rest_ksp_converged_reason", Value::flag},
     {"rest_ksp_max_it", Value::count},
     {"rest_ksp_monitor", Value::flag},
-    {"rest_ksp_rtol", Value::positive},
+    {"rest_ksp_rtol", Value::above_zero},
     {"rest_ksp_view", Value::flag},
     {"rest_mat_mumps_icntl_*", Value::integer},
 });
 
 constexpr auto patterns = [] {
-  std::array<std::string_view, options.size()> names;
-  std::ranges::transform(options, names.begin(), &PetscOption::pattern);
+  std::array<std::string_view, known_options.size()> names;
+  std::ranges::transform(known_options, names.begin(), &PetscOption::pattern);
   return names;
 }();
 
@@ -69,8 +69,8 @@ bool is_petsc_option(std::string_view name) {
 
 std::optional<std::string> petsc_value_fault(const std::string& name, const std::string& value) {
   const auto option = std::ranges::find_if(
-      options, [&](const PetscOption& known) { return matches(known.pattern, name); });
-  if (option == options.end()) return std::nullopt;
+      known_options, [&](const PetscOption& known) { return matches(known.pattern, name); });
+  if (option == known_options.end()) return std::nullopt;
   switch (option->value) {
     case Value::flag:
       return parse_boolean(value)
@@ -83,7 +83,7 @@ std::optional<std::string> petsc_value_fault(const std::string& name, const std:
                                                   : std::optional("expected an integer >= 1");
     case Value::integer:
       return parse_integer(value) ? std::nullopt : std::optional("expected an integer");
-    case Value::positive:
+    case Value::above_zero:
       return parse_real(value).value_or(0) > 0 ? std::nullopt
                                                : std::optional("expected a number > 0");
     case Value::solver:

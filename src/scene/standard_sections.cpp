@@ -161,14 +161,15 @@ constexpr std::array w{
 
 enum class Family { parallel, channel, inches };
 
-struct Table {
+struct SectionTable {
   Family family;
   std::span<const Row> rows;
 };
 
-std::array<Table, 6> tables() {
-  return {Table{Family::parallel, ipe}, Table{Family::parallel, hea}, Table{Family::parallel, heb},
-          Table{Family::parallel, hem}, Table{Family::channel, upn},  Table{Family::inches, w}};
+std::array<SectionTable, 6> tables() {
+  return {SectionTable{Family::parallel, ipe}, SectionTable{Family::parallel, hea},
+          SectionTable{Family::parallel, heb}, SectionTable{Family::parallel, hem},
+          SectionTable{Family::channel, upn},  SectionTable{Family::inches, w}};
 }
 
 constexpr double millimetre = 1e-3;
@@ -251,7 +252,7 @@ std::string usual_order(const std::string& name) {
 
 std::optional<SectionNumbers> standard_section(std::string_view name) {
   const std::string wanted = usual_order(upper_case(name));
-  for (const Table& table : tables()) {
+  for (const SectionTable& table : tables()) {
     for (const Row& row : table.rows) {
       if (row.name == wanted) return numbers_of(table.family, row);
     }
@@ -261,7 +262,7 @@ std::optional<SectionNumbers> standard_section(std::string_view name) {
 
 std::vector<std::string> standard_section_names() {
   std::vector<std::string> names;
-  for (const Table& table : tables()) {
+  for (const SectionTable& table : tables()) {
     for (const Row& row : table.rows) names.emplace_back(row.name);
   }
   return names;

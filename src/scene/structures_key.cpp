@@ -78,9 +78,9 @@ bool is_of(const std::string& name, const OptionRow& row,
 
 /// Whether it states a preset: options that are new to the program leave the key of a scene that
 /// does not use them.
-bool is_preset(const std::string& name, const std::string& value,
-               const std::vector<std::string>& structures,
-               const std::vector<std::string>& contacts) {
+bool is_preset_option(const std::string& name, const std::string& value,
+                      const std::vector<std::string>& structures,
+                      const std::vector<std::string>& contacts) {
   return std::ranges::any_of(option_table(), [&](const OptionRow& row) {
     return row.preset.has_value && row.preset.text == value &&
            is_of(name, row, structures, contacts);
@@ -129,7 +129,7 @@ std::string structures_key(const Options& in_force) {
   for (const auto& [name, value] : sorted) {
     if (!belongs(name, structures, contacts) || is_of_block(name, OptionBlock::probe, probes) ||
         is_of_block(name, OptionBlock::force, forces) ||
-        is_preset(name, value, structures, contacts)) {
+        is_preset_option(name, value, structures, contacts)) {
       continue;
     }
     hash.add(name);

@@ -91,7 +91,7 @@ std::optional<Embedment> read_embedment(OptionReader& options, const Support& su
   return embedment;
 }
 
-void refuse(const OptionReader& options, const Support& support, const std::string& why) {
+void refuse_groups(const OptionReader& options, const Support& support, const std::string& why) {
   options.refuse(groups_option, {support.name}, why);
 }
 
@@ -116,44 +116,44 @@ void require_effect(const OptionReader& options, const Scene& scene, const Suppo
 void require_plain(const OptionReader& options, const Scene& scene, const Support& support,
                    const Structure& structure, bool all_ground) {
   const auto refuse_with = [&](const std::string& option) {
-    refuse(options, support,
-           "structure " + structure.name + ": not with -" + structure.name + option);
+    refuse_groups(options, support,
+                  "structure " + structure.name + ": not with -" + structure.name + option);
   };
   if (!structure.matrices.empty()) {
-    refuse(options, support,
-           "structure " + structure.name + ": -" + structure.name +
-               "_matrices do not tell what its clamped dofs do to the others");
+    refuse_groups(options, support,
+                  "structure " + structure.name + ": -" + structure.name +
+                      "_matrices do not tell what its clamped dofs do to the others");
   }
   if (structure.soil && !all_ground) refuse_with("_soil_mat, unless all its ground moves with one");
   if (!structure.absorbing.empty()) refuse_with("_absorbing");
   if (all_ground && turns(support) && structure.p_delta) {
-    refuse(options, support,
-           "structure " + structure.name +
-               ": its weight would not turn with its ground; not with -" + structure.name +
-               "_p_delta");
+    refuse_groups(options, support,
+                  "structure " + structure.name +
+                      ": its weight would not turn with its ground; not with -" + structure.name +
+                      "_p_delta");
   }
   if (!scene.export_matrices.empty()) {
-    refuse(options, support, "not with -export_matrices: no matrix tells how supports move");
+    refuse_groups(options, support, "not with -export_matrices: no matrix tells how supports move");
   }
   for (const Region& region : structure.regions) {
     if (!region.nonlinear.yields() || all_ground) continue;
     if (std::ranges::any_of(structure.regions, [&](const Region& other) {
           return structure.damping_of(other).alpha > 0;
         })) {
-      refuse(options, support,
-             "structure " + structure.name +
-                 ": damping alpha brakes against what linear elements " +
-                 "alone carry along, not what yields as " + region.group +
-                 "; give beta or damping_uniform");
+      refuse_groups(options, support,
+                    "structure " + structure.name +
+                        ": damping alpha brakes against what linear elements " +
+                        "alone carry along, not what yields as " + region.group +
+                        "; give beta or damping_uniform");
     }
   }
   if (!structure.modal) return;
   if (!structure.modal->basis_file.empty()) refuse_with("_modal_basis");
   for (const Region& region : structure.regions) {
     if (follows_law(region)) {
-      refuse(options, support,
-             "structure " + structure.name + " is reduced: not with -" +
-                 option_name(law_option(region), {structure.name, region.group}));
+      refuse_groups(options, support,
+                    "structure " + structure.name + " is reduced: not with -" +
+                        option_name(law_option(region), {structure.name, region.group}));
     }
   }
 }
@@ -194,27 +194,29 @@ void check_supports(const OptionReader& options, const Scene& scene) {
       const auto& [name, group] = item;
       const auto structure = std::ranges::find(scene.structures, name, &Structure::name);
       if (structure == scene.structures.end()) {
-        refuse(options, support,
-               "there is no structure '" + name + "'" + suggestion(name, known) +
-                   (item.is_all_ground() ? "; a group is named with its structure before it" : ""));
+        refuse_groups(
+            options, support,
+            "there is no structure '" + name + "'" + suggestion(name, known) +
+                (item.is_all_ground() ? "; a group is named with its structure before it" : ""));
       }
       if (seen.contains({name, group})) {
-        refuse(options, support,
-               "'" + name + (group.empty() ? "" : ":" + group) + "' stands on a support already");
+        refuse_groups(
+            options, support,
+            "'" + name + (group.empty() ? "" : ":" + group) + "' stands on a support already");
       }
       const auto first = seen.lower_bound({name, ""});  // all ground stands before groups
       if (first != seen.end() && first->first == name &&
           (first->second.empty() || item.is_all_ground())) {
-        refuse(options, support,
-               "'" + name +
-                   "' means all ground of the structure, and another support, or another " +
-                   "name here, has a group of it");
+        refuse_groups(options, support,
+                      "'" + name +
+                          "' means all ground of the structure, and another support, or another " +
+                          "name here, has a group of it");
       }
       seen.emplace(name, group);
       require_plain(options, scene, support, *structure, item.is_all_ground());
     }
     if (scene.motion_from_below) {
-      refuse(options, support, "not with -motion_input below");
+      refuse_groups(options, support, "not with -motion_input below");
     }
     require_effect(options, scene, support);
   }

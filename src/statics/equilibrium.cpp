@@ -21,7 +21,7 @@ namespace pounding {
 namespace {
 
 constexpr double shift = 1;  // sigma [1/s2]
-constexpr int most_iterations = 500;
+constexpr int most_gradient_steps = 500;
 /// Residual that round-off may leave, where light nodes hang on stiff elements.
 constexpr double largest_residual = 1e-4;
 /// Iterations in a row that gain nothing, after which nothing will.
@@ -104,7 +104,8 @@ class Search {
       idle = left < 0.9 * best ? 0 : idle + 1;
       best = std::min(best, left);
       if (idle == most_idle_iterations && left < largest_residual) break;  // round-off
-      if (iterations_ == most_iterations || idle == most_idle_iterations || !std::isfinite(left)) {
+      if (iterations_ == most_gradient_steps || idle == most_idle_iterations ||
+          !std::isfinite(left)) {
         refuse(left);
       }
     }

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double lent_part = 1e-6;
 constexpr double least_part = 1e-4;  ///< of a body's mass that resists a motion of one of its dofs
-constexpr std::size_t width = 6;
+constexpr std::size_t motions = 6;
 
-using Row = std::array<double, width>;
+using MotionRow = std::array<double, motions>;
 
 double square_between(const Vector3& a, const Vector3& b) {
   double sum = 0;
@@ -39,11 +39,11 @@ class Body {
         [&](LocalIndex, std::size_t, LocalIndex dof) { count += lumped_mass_[dof] > 0 ? 0 : 1; });
     for_each_dof([&](LocalIndex node, std::size_t c, LocalIndex dof) {
       if (lumped_mass_[dof] > 0) return;
-      const Row row = row_of(node, c);
+      const MotionRow row = row_of(node, c);
       double compliance = 0;
-      for (std::size_t i = 0; i < width; ++i) {
-        for (std::size_t j = 0; j < width; ++j) {
-          compliance += row[i] * inverse_[width * i + j] * row[j];
+      for (std::size_t i = 0; i < motions; ++i) {
+        for (std::size_t j = 0; j < motions; ++j) {
+          compliance += row[i] * inverse_[motions * i + j] * row[j];
         }
       }
       if (!(compliance * least_part < 1)) return;
@@ -86,12 +86,12 @@ class Body {
     if (square_length_ == 0) square_length_ = 1;
   }
 
-  Row row_of(LocalIndex node, std::size_t c) const {
+  MotionRow row_of(LocalIndex node, std::size_t c) const {
     Vector3 arm = mesh_.position(node);
     const double length = std::sqrt(square_length_);
     for (std::size_t d = 0; d < 3; ++d) arm[d] = (arm[d] - centre_[d]) / length;
-    Row row = rigid_motion_row(c, arm);
-    for (std::size_t motion = 0; motion < width; ++motion) {
+    MotionRow row = rigid_motion_row(c, arm);
+    for (std::size_t motion = 0; motion < motions; ++motion) {
       if ((part_.components >> motion & 1) == 0) row[motion] = 0;
     }
     return row;
@@ -100,13 +100,14 @@ class Body {
   /// Inverse of the body's mass matrix over its mass; a motion without mass comes out large.
   void find_inertia() {
     constexpr double floor = 1e-4 * least_part;
-    inverse_.assign(width * width, 0.0);
-    for (std::size_t i = 0; i < width; ++i) inverse_[width * i + i] = floor;
+    inverse_.assign(motions * motions, 0.0);
+    for (std::size_t i = 0; i < motions; ++i) inverse_[motions * i + i] = floor;
     for_each_dof([&](LocalIndex node, std::size_t c, LocalIndex dof) {
       const double part = lumped_mass_[dof] / mass_ / (c < 3 ? 1 : square_length_);
-      const Row row = row_of(node, c);
-      for (std::size_t i = 0; i < width; ++i) {
-        for (std::size_t j = 0; j < width; ++j) inverse_[width * i + j] += part * row[i] * row[j];
+      const MotionRow row = row_of(node, c);
+      for (std::size_t i = 0; i < motions; ++i) {
+        for (std::size_t j = 0; j < motions; ++j)
+          inverse_[motions * i + j] += part * row[i] * row[j];
       }
     });
     if (!invert_definite(inverse_)) mass_ = 0;

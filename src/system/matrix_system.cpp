@@ -24,21 +24,21 @@ namespace {
 constexpr double same_place = 1e-6;
 
 /// Meaning of a row of the matrices.
-struct Row {
+struct ListedDof {
   Vector3 position{0, 0, 0};
   int component = 0;
 };
 
-std::vector<Row> read_rows(const std::string& path) {
+std::vector<ListedDof> read_rows(const std::string& path) {
   require_finite_file(path);
   std::ifstream file(path);
   if (!file) throw UserError(path + ": no such file, or it cannot be read");
-  std::vector<Row> rows;
+  std::vector<ListedDof> rows;
   std::string line;
   for (long number = 1; std::getline(file, line); ++number) {
     std::ranges::replace(line, ',', ' ');
     std::istringstream words(line);
-    Row row;
+    ListedDof row;
     std::string component;
     if (line.empty() || line[0] == '#' || line.starts_with("x y z")) continue;
     words >> row.position[0] >> row.position[1] >> row.position[2] >> component;
@@ -119,7 +119,7 @@ class MatrixSystem {
     return path;
   }
 
-  /// Row by row the dof that it is; every free dof of the mesh must have one row.
+  /// ListedDof by row the dof that it is; every free dof of the mesh must have one row.
   void find_dofs() {
     const NodeFinder finder(mesh_);
     std::vector<int> known(rows_.size(), 0);
@@ -280,7 +280,7 @@ class MatrixSystem {
 
   std::string folder_;
   const Mesh& mesh_;
-  std::vector<Row> rows_;
+  std::vector<ListedDof> rows_;
   std::vector<PetscInt> number_;     ///< per row of the files, global dof; -1: clamped
   std::vector<PetscInt> owned_dof_;  ///< local dof, -1: of another rank, or clamped
 };

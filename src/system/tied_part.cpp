@@ -13,7 +13,7 @@ NodeDofs dofs_of(const Mesh& mesh, LocalIndex node) {
 }
 
 /// Place of a component among a node's dofs; -1 if it has none.
-int place_of(const Mesh& mesh, LocalIndex node, int component) {
+int dof_place(const Mesh& mesh, LocalIndex node, int component) {
   const LocalIndex dof = mesh.dof(node, component);
   return dof < 0 ? -1 : static_cast<int>(dof - mesh.first_dof[node]);
 }
@@ -58,8 +58,8 @@ void TiedPart::add_terms(const Mesh& mesh, const TiedNode& tied) {
     term.carrier = static_cast<std::size_t>(found - local_.begin());
     for (int i = 0; i < 6; ++i) {
       for (int j = 0; j < 6; ++j) {
-        const int row = place_of(mesh, follower, i);
-        const int column = place_of(mesh, node, j);
+        const int row = dof_place(mesh, follower, i);
+        const int column = dof_place(mesh, node, j);
         if (row < 0 || column < 0) continue;
         const double value =
             carrier.block[6 * static_cast<std::size_t>(i) + static_cast<std::size_t>(j)];

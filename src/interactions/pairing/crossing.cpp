@@ -9,13 +9,13 @@ namespace {
 constexpr double alongside = 0.1;
 
 /// A place this close to an end is the end, and this far beyond it still on the edge.
-constexpr double snap = 1e-6;
+constexpr double corner = 1e-6;
 
 /// Snaps a place to the ends of its edge; nothing beyond them.
 std::optional<double> onto_edge(double place) {
-  if (place < -snap || place > 1 + snap) return std::nullopt;
-  if (place < snap) return 0;
-  return place > 1 - snap ? 1 : place;
+  if (place < -corner || place > 1 + corner) return std::nullopt;
+  if (place < corner) return 0;
+  return place > 1 - corner ? 1 : place;
 }
 
 }  // namespace

@@ -10,12 +10,12 @@ namespace pounding::interactions {
 namespace {
 
 /// Part of the joint by which a filler may be thicker for round-off.
-constexpr double round_off = 1e-9;
+constexpr double thicker = 1e-9;
 
 void require_room(const Contact& contact, const Constraint& constraint) {
   const double thickness = contact.filler->thickness;
   const double width = constraint.initial_gap;
-  if (width > 0 && thickness <= width * (1 + round_off)) return;
+  if (width > 0 && thickness <= width * (1 + thicker)) return;
   std::ostringstream text;
   text << "contact " << contact.name << ": the joint is " << width << " m wide somewhere, ";
   if (width > 0) {

@@ -6,16 +6,16 @@ namespace pounding::interactions {
 namespace {
 
 /// A weight this close to 1 is the node itself; one this close to 0 is not there.
-constexpr double snap = 1e-6;
+constexpr double negligible = 1e-6;
 
 }  // namespace
 
 std::array<double, 4> snapped(std::array<double, 4> weights) {
   for (double& weight : weights) {
-    if (std::abs(weight) <= snap) weight = 0;
+    if (std::abs(weight) <= negligible) weight = 0;
   }
   for (std::size_t a = 0; a < weights.size(); ++a) {
-    if (weights[a] <= 1 - snap) continue;
+    if (weights[a] <= 1 - negligible) continue;
     weights.fill(0);
     weights[a] = 1;
   }

@@ -3,22 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "common/dense_solver.h"
 #include "common/magnitude.h"
+#include "interactions/solvers/double_limits.h"
 
 namespace pounding::interactions {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Coupling of a point's normal and tangents below which it is round-off.
 constexpr double no_coupling = 1e-14;
 /// Residual that is wanted, and how far above the round-off of v it may end.
 constexpr double wanted_residual = 1e-14;
 constexpr double above_noise = 4;
-constexpr int most_rounds = 40;
+constexpr int most_newton_rounds = 40;
 constexpr int first_sweeps = 10;
 constexpr int most_cheap_sweeps = 500;
 constexpr int most_sweeps = 200;
@@ -41,7 +39,7 @@ constexpr double too_far = 4;
 /// Points above which Newton's matrix would cost more than sweeps.
 constexpr std::size_t most_newton_points = 256;
 /// Share of H_nn, h_t that keeps Newton's matrix regular where H is not.
-constexpr double regular = 1e-10;
+constexpr double regular_share = 1e-10;
 
 using Pair = std::array<double, 2>;
 
@@ -265,7 +263,7 @@ void FrictionSolver::linearise(const FrictionProblem& problem, std::span<const d
   };
   const auto wants_rate = [&](std::size_t d, double h) {  // v_d = 0
     add_delassus(d, 1, row(d));
-    row(d)[point.first + d] += regular * h;
+    row(d)[point.first + d] += regular_share * h;
     step_[point.first + d] = -v[d];
   };
   const auto wants_no_impulse = [&](std::size_t d, double h) {
@@ -383,7 +381,7 @@ void FrictionSolver::solve_coupled(const FrictionProblem& problem, std::span<dou
   double last = infinity;
   double best = infinity;
   const int cheap = sweeps_for_one_newton(problem);
-  for (int round = 0; round < most_rounds && result.sweeps < most_sweeps_of_all;) {
+  for (int round = 0; round < most_newton_rounds && result.sweeps < most_sweeps_of_all;) {
     // Sweeps that go round in circles are led out of them by shorter steps.
     const double relaxation = relaxations[static_cast<std::size_t>(round) % relaxations.size()];
     for (int i = 0; i < sweeps; ++i) {

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
 #include "common/dot_product.h"
 #include "common/magnitude.h"
+#include "interactions/solvers/double_limits.h"
 
 namespace pounding::interactions {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int max_sweeps = 20;
 
 std::size_t index(int i) {

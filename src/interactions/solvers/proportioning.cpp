@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "common/dot_product.h"
 #include "common/magnitude.h"
+#include "interactions/solvers/double_limits.h"
 
 namespace pounding::interactions {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Length of projected steps times the bound of |A|; any length below 2 makes the objective fall.
 constexpr double step_times_norm = 1.9;
 /// Residuals in round-offs: where the steps end, and where the answer is believed.
