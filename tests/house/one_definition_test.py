@@ -1,5 +1,6 @@
 """One definition of a type: no two files of src or of the tests' helpers define a class, struct, union or enum of one
-qualified name outside unnamed namespaces, which no compiler or linker tells and which is undefined behaviour."""
+qualified name outside unnamed namespaces, which no compiler or linker tells and which is undefined behaviour. Files of a
+room that are compiled together share one unnamed namespace as well."""
 import collections
 import os
 import re
@@ -14,28 +15,48 @@ TYPE = re.compile(r"\b(?:enum\s+(?:class|struct)|enum|class|struct|union)\s+(?:a
 NAMESPACE = re.compile(r"\bnamespace\s*([\w:]*)\s*$")
 
 
-def types(text):
-    """Qualified names of the types that a file defines with external linkage. A scope is the name of a namespace or type,
-    or None where what is inside belongs to a function, an initialiser or an unnamed namespace."""
+VARIABLE = re.compile(r"<[^(){};]*>|\[\[.*?\]\]|\balignas\s*\([^)]*\)|__attribute__\s*\(\(.*?\)\)|\[[^\]]*\]")
+COMPILED_ALONE = re.compile(r'room MATCHES "(\^\(.*\)\$)"')
+
+
+def heads(text):
+    """What stands before each opening brace or semicolon, with the scopes around it: names of namespaces (empty where
+    unnamed) and types, or None where what is inside belongs to a function or an initialiser."""
     text = WORDLESS.sub(" ", text)
     scopes, head = [], 0
     for found in re.finditer("[{};]", text):
         at, mark = found.start(), found.group()
-        if mark == "{":
-            before = text[head:at]
-            bare = TEMPLATE.sub(" ", before).rstrip()
-            namespace, kind = NAMESPACE.search(bare), TYPE.search(bare)
-            if namespace:
-                scopes.append(namespace.group(1) or None)
-            elif kind:
-                scopes.append(kind.group(1))
-                if None not in scopes:
-                    yield "::".join(scopes)
-            else:
-                scopes.append(None)
-        elif mark == "}":
+        if mark == "}":
             scopes.pop()
+        else:
+            before = TEMPLATE.sub(" ", text[head:at]).strip()
+            yield before, mark, scopes
+        if mark == "{":
+            namespace, kind = NAMESPACE.search(before), TYPE.search(before)
+            scopes.append(namespace.group(1) if namespace else kind.group(1) if kind else None)
         head = at + 1
+
+
+def types(text):
+    """Qualified names of the types that a file defines with external linkage."""
+    for before, mark, scopes in heads(text):
+        kind = TYPE.search(before)
+        if mark == "{" and kind and not NAMESPACE.search(before) and "" not in scopes and None not in scopes:
+            yield "::".join([*scopes, kind.group(1)])
+
+
+def hidden_names(text):
+    """Names of types, functions and variables that a file defines right inside an unnamed namespace; other names of a type
+    or of a namespace may be repeated."""
+    for before, _, scopes in heads(text):
+        if not before or not scopes or scopes[-1] != "" or None in scopes or NAMESPACE.search(before):
+            continue
+        kind = TYPE.search(before)
+        name = re.search(r"\w+$", re.split(r"[(=]", VARIABLE.sub(" ", before), maxsplit=1)[0].strip())
+        if kind:
+            yield kind.group(1)
+        elif name and not before.startswith(("using ", "namespace ")):
+            yield name.group()
 
 
 class OneDefinition(unittest.TestCase):
@@ -54,6 +75,36 @@ class OneDefinition(unittest.TestCase):
                               "pounding::ElementType"):
                 self.assertEqual(len(places[type_name]), 1, f"{type_name}: {places[type_name]}")
             self.assertEqual({name: files for name, files in places.items() if len(files) > 1}, {})
+
+    def test_files_that_are_compiled_together_hide_no_name_twice(self):
+        with open(os.path.join(ROOT, "CMakeLists.txt")) as file:
+            alone = re.compile(COMPILED_ALONE.search(file.read()).group(1))
+        rooms = 0
+        for folder, _, names in os.walk(os.path.join(ROOT, "src")):
+            if alone.search(os.path.relpath(folder, os.path.join(ROOT, "src"))):
+                continue
+            rooms += 1
+            files = collections.defaultdict(set)
+            for name in names:
+                if name.endswith(".cpp"):
+                    with open(os.path.join(folder, name)) as file:
+                        for found in hidden_names(file.read()):
+                            files[found].add(name)
+            self.assertEqual({name: sorted(of) for name, of in files.items() if len(of) > 1}, {}, folder)
+        self.assertGreater(rooms, 10)
+
+    def test_a_hidden_name_is_found(self):
+        text = """namespace pounding {
+        int seen(double x) { return 0; }
+        namespace {
+        constexpr std::array<double, 3> weights{1, 2, 3};
+        constexpr double limit = 2;
+        using Row = std::vector<double>;
+        struct Place : Base { int node = 0; };
+        template <typename T> std::optional<T> half(const T& value, double by = 2) { int local; return value; }
+        }  // namespace
+        }"""
+        self.assertEqual(list(hidden_names(text)), ["weights", "limit", "Place", "half"])
 
     def test_a_second_type_is_found(self):
         text = """namespace pounding {  // struct Said {
