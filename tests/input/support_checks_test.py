@@ -1,12 +1,9 @@
 """Supports that move on their own and cannot be meant: one line each, on every rank."""
 import os
-import sys
 import unittest
 
 import program
-
-sys.path.insert(0, os.path.join(program.SOURCE, "tests", "verification"))
-from support_motion_test import SECTION, STEEL, braces, viaduct  # noqa: E402
+from decks import SECTION, STEEL, braces, viaduct
 
 
 class WithRecord(unittest.TestCase):

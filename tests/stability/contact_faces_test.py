@@ -10,8 +10,8 @@ import unittest
 import numpy
 
 import program
+from decks import SMALL_MODAL_PAIR as PAIR
 from history import History, refused, scenes
-from modal_restart_test import PAIR
 from small_meshes import Mesh
 
 THICKNESS, STEP = 0.2, 1e-4

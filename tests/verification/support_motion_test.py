@@ -10,34 +10,12 @@ import os
 import tempfile
 import unittest
 
-import h5py
 import numpy
 import scipy.io
 
 import program
+from decks import SECTION, SPAN, STEEL, braces, viaduct
 from recorded import Recorded, assert_continues, assert_follows, write_samples, write_sine
-
-STEEL = ["-material_steel_young", "2.1e11", "-material_steel_poisson", 0.3, "-material_steel_density", 7850]
-SECTION = ["-section_leg_area", 0.04, "-section_leg_inertia_y", "4e-4", "-section_leg_inertia_z", "2e-4",
-           "-section_leg_torsion", "3e-4", "-section_leg_z_axis", "0,1,0"]
-SPAN, HEIGHT, BEARING = 6.0, 5.0, "3e7,4e7,2e8,1e6,1e6,1e6"
-
-
-def viaduct(name, spans, x0, *more):
-    """A deck on piers; the feet are clamped."""
-    words = [f"-{name}_mesh", "tests/meshes/viaduct.geo", f"-{name}_mesh_set", f"spans={spans},x0={x0!r}",
-             f"-{name}_clamp", "feet", f"-{name}_deck_element", "shell", f"-{name}_deck_material", "steel",
-             f"-{name}_deck_thickness", 0.3, f"-{name}_piers_element", "beam", f"-{name}_piers_material", "steel",
-             f"-{name}_piers_section", "leg", f"-{name}_bearings_element", "spring",
-             f"-{name}_bearings_stiffness", BEARING]
-    words += [f"-{name}_ignore", "braces"] if not any("braces" in str(word) for word in more) else []
-    return words + list(more)
-
-
-def braces(name):
-    return [f"-{name}_braces_element", "bar", f"-{name}_braces_material", "steel", f"-{name}_braces_area", 1e-4,
-            f"-{name}_braces_tension_only", "true"]
-
 
 class Pulse:
     """Acceleration of a smooth displacement that comes back to zero, along an axis."""

@@ -8,7 +8,7 @@ import unittest
 import h5py
 import numpy
 
-from command import computed, frequencies, impulse_factor, read, spectra
+from spectra_command import computed, frequencies, impulse_factor, read, spectra
 
 STEP = 1e-4  # of the samples [s]
 SOLVER_STEP = 2e-6

@@ -6,7 +6,7 @@ import unittest
 import numpy
 
 import program
-from command import computed, frequencies, impulse_factor, overshoot, write_record
+from spectra_command import computed, frequencies, impulse_factor, overshoot, write_record
 
 DAMPINGS = (0.0, 0.02, 0.05, 0.1)
 RATIOS = ",".join(map(str, DAMPINGS))

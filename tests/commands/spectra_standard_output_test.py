@@ -6,7 +6,7 @@ import subprocess
 import tempfile
 import unittest
 
-from command import SPECTRA, frequencies, spectra, write_record
+from spectra_command import SPECTRA, frequencies, spectra, write_record
 
 
 class StandardOutput(unittest.TestCase):

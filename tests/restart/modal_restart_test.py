@@ -8,14 +8,10 @@ import h5py
 import numpy
 
 import program
+from decks import SMALL_MODAL_PAIR as PAIR
 from restart_test import RestartCase, checkpoint
 
-SMALL = "cells_x=3,cells_y=3,column_elements=1"
-TIME_STEP = 5e-5
-PAIR = ["-options_file", "petsc-options/azalee/gap2.yaml", "-s1_mesh_set", SMALL, "-s2_mesh_set", SMALL,
-        "-motion_x_pga", 20, "-motion_x_envelope", "0.02,20", "-floor2_gap", "4e-4,2e-4",
-        "-floor1_gap", 0.02, "-modes", 3, "-time_step", TIME_STEP, "-spectra_frequencies", "1:200:5lin",
-        "-s1_model", "modal", "-s1_modal_vectors", 20, "-s2_model", "modal", "-s2_modal_vectors", 20]
+TIME_STEP = 5e-5  # of the pair
 END = ["-end_time", 0.4]
 STEP = 7030  # in the middle of the pounding
 
