@@ -1,6 +1,7 @@
 """Every promise of docs/promises.md names tests that exist, and what a test is called is read from the
 sources: methods of unittest classes, TEST macros, and tests that CMake adds for a program."""
 import ast
+import functools
 import os
 import re
 import unittest
@@ -43,16 +44,22 @@ def promised(text):
     return [(row[0].strip(), re.findall(r"`([^`]+)`", row[1])) for row in rows if row[0].strip() != "promise"]
 
 
-def exists(name):
-    path, _, test = name.partition("::")
+@functools.lru_cache(maxsize=None)
+def tests_of(path):
+    """Names of the tests of a file; none of one that is not there."""
     full = os.path.join(TESTS, path)
     if not os.path.isfile(full):
-        return False
+        return frozenset()
     with open(full) as file:
         text = file.read()
     if path.endswith("_test.py"):
-        return test in python_tests(text)
-    return test in (cpp_tests(text) if path.endswith("_test.cpp") else program_tests())
+        return python_tests(text)
+    return cpp_tests(text) if path.endswith("_test.cpp") else program_tests()
+
+
+def exists(name):
+    path, _, test = name.partition("::")
+    return test in tests_of(path)
 
 
 class Promises(unittest.TestCase):
