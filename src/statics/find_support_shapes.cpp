@@ -12,7 +12,7 @@
 namespace pounding {
 namespace {
 
-constexpr double support_shift = 1;  // 1/s2
+constexpr double unit_shift = 1;  // 1/s2
 
 /// A correction this small against the solution, by mass, is round-off.
 constexpr double round_off = 1e-15;
@@ -77,8 +77,9 @@ std::shared_ptr<SupportShapes> find_support_shapes(const Structure& structure, c
     } else {
       shape.assign(static_cast<std::size_t>(mesh.owned_dofs), 0.0);
     }
-    if (!statics)
-      statics.emplace(system, mesh, support_shift, solver, AssembledStatics::Held::elements);
+    if (!statics) {
+      statics.emplace(system, mesh, unit_shift, solver, AssembledStatics::Held::elements);
+    }
     std::vector<double> force;
     on_every_rank(mesh.comm, [&] { force = support_force(structure, mesh, columns[c]); });
     shape = follow(system, *statics, force, std::move(shape));

@@ -106,8 +106,9 @@ class Body {
       const double part = lumped_mass_[dof] / mass_ / (c < 3 ? 1 : square_length_);
       const MotionRow row = row_of(node, c);
       for (std::size_t i = 0; i < motions; ++i) {
-        for (std::size_t j = 0; j < motions; ++j)
+        for (std::size_t j = 0; j < motions; ++j) {
           inverse_[motions * i + j] += part * row[i] * row[j];
+        }
       }
     });
     if (!invert_definite(inverse_)) mass_ = 0;
