@@ -87,7 +87,7 @@ def _check_numbers(path, file):
         for name in names:
             found = zlib.crc32(np.ascontiguousarray(file[name][member]).tobytes(), found)
         if found != sums[member]:
-            raise ResultError(f"{path}: the numbers of member {member + 1} are not what was written; the same command "
+            raise ResultError(f"{path}: the numbers of member {member + 1} are not those written; the same command "
                               "(-ensemble) steps it again")
 
 

@@ -217,7 +217,7 @@ class Ensemble {
     MPI_Barrier(comm_);  // nobody writes before all have read
     if (const std::size_t damaged = file_->damaged(); root() && damaged > 0) {
       std::printf(
-          "warning: %s: the numbers of %zu members that are said to be done are not what was "
+          "warning: %s: the numbers of %zu members that are said to be done are not those "
           "written; they are stepped again\n",
           path("ensemble.h5").c_str(), damaged);
     }

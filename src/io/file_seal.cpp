@@ -112,7 +112,7 @@ void check_seal(const std::string& path) {
   due.resize(seal_size, '\0');
   if (due != written) {
     throw std::runtime_error(path +
-                             ": its content is not what was sealed; it is damaged, or it was "
+                             ": its content is not the sealed one; it is damaged, or it was "
                              "changed and not sealed anew (run/seal; pounding-tools seal)");
   }
 }

@@ -21,7 +21,7 @@ void free_name(const std::string& path) {
   const fs::file_status there = fs::symlink_status(path, failure);
   if (!fs::exists(there)) return;
   if (!fs::is_regular_file(there) && !fs::is_symlink(there)) {
-    throw UserError(path + ": cannot be written: what has that name is no file");
+    throw UserError(path + ": cannot be written: something that is no file has that name");
   }
   if (unlink(path.c_str()) != 0 && errno != ENOENT) {
     throw UserError(path + ": cannot be written (" + std::strerror(errno) + ")");

@@ -30,7 +30,7 @@ void refuse_ties(const Structure& structure, const GlobalMesh& mesh) {
       if (held) {
         throw UserError("option -" + structure.name + "_tie " + part.group + ": the node at " +
                         place_text(mesh.position(tied.node)) +
-                        " is clamped, or follows a clamped one, and the structure stands on a "
+                        " is clamped, or follows a clamped one, and the structure is on a "
                         "support that moves on its own; tie them elsewhere, or clamp less");
       }
     }
@@ -62,7 +62,7 @@ std::map<GlobalIndex, int> support_of_nodes(const Scene& scene, const Structure&
         if (!is_new && at->second != static_cast<int>(s)) {
           refuse_clamped(support, group,
                          "its clamped node at " + place_text(mesh.position(node)) +
-                             " stands on support " + scene.supports[at->second].name + " as well");
+                             " is on support " + scene.supports[at->second].name + " as well");
         }
       }
       if (!any) {
@@ -86,7 +86,7 @@ void find_supported_nodes(const Scene& scene, const Structure& structure, Global
     if (at == found.end()) {
       throw UserError("structure " + structure.name + ": its clamped node at " +
                       place_text(mesh.position(node)) +
-                      " stands on none of -supports, and others of it do; name its group in the "
+                      " is on none of -supports, and others of it do; name its group in the "
                       "_groups of one, which may move with the ground");
     }
     nodes.push_back({node, at->second, clamped(mesh, node)});

@@ -225,7 +225,7 @@ class MeshBuilder {
         if (!seen_[is_spring(*kind) ? 1 : 0].insert(tag)) {
           throw UserError("option " + option + ": element " + std::to_string(tag) + " of group '" +
                           region.group +
-                          "' stands twice in it, or already belongs to another region of " +
+                          "' is listed twice in it, or already belongs to another region of " +
                           structure_.name + "; name each element once");
         }
         set.tags.push_back(tag);
@@ -251,10 +251,11 @@ class MeshBuilder {
       const std::size_t width = part.nodes.size() / std::max<std::size_t>(1, part.tags.size());
       for (std::size_t e = 0; e < part.tags.size(); ++e) {
         if (!seen_[1].insert(part.tags[e])) {
-          throw UserError("option " + option + ": element " + std::to_string(part.tags[e]) +
-                          " of group '" + region.group +
-                          "' stands twice in it, or already carries springs of another region of " +
-                          structure_.name + "; name each element once");
+          throw UserError(
+              "option " + option + ": element " + std::to_string(part.tags[e]) + " of group '" +
+              region.group +
+              "' is listed twice in it, or already carries springs of another region of " +
+              structure_.name + "; name each element once");
         }
         Facet facet;
         facet.count = static_cast<int>(width);

@@ -96,7 +96,7 @@ class Storeys {
   const std::string axis(1, "xyz"[across]);
   throw UserError("structure " + structure.name + ": the two nodes of a bearing of group '" +
                   region.group + "' that slides lie at one level, at " + place_text(x) +
-                  ", and as far from the ground as each other: nothing tells which one it carries; "
+                  ", and as far from the ground as each other: the carried one is not known; "
                   "in the mesh move the carried node by a millimetre against gravity (without "
                   "gravity along " +
                   axis + ", towards greater " + axis + ")");
@@ -135,7 +135,7 @@ void order_sliding_bearings(const Structure& structure, GlobalMesh& mesh) {
                           std::to_string(on_heads.count) +
                           " of its bearings that slide, the first at " +
                           place_text(on_heads.first) +
-                          ", have what stands on the ground above and what hangs from it below: "
+                          ", have the nodes held by the ground above and the hanging ones below: "
                           "nothing presses on them, so that they hold nothing; are they upside "
                           "down?");
   }

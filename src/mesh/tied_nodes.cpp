@@ -100,7 +100,7 @@ class Tie {
     if (facet.at.distance > reach) {
       text << "lies " << facet.at.distance << " m from " << whose << ", more than "
            << (reach > edge ? "" : "its longest edge, ") << reach
-           << " m: that is no joint; name what lies on it, or let a mesh fill what is between";
+           << " m: that is no joint; name the nodes on it, or let a mesh fill the space between";
       refuse(node, text.str());
     }
     if (facet.facet->count > 2) {
@@ -136,7 +136,7 @@ class Tie {
         for (std::size_t k = 0; k < 6; ++k) {
           if ((mesh_.free_components[carrier.node] >> k & 1) != 0 &&
               carrier.block[6 * c + k] != 0) {
-            refuse(tied.node, "is clamped in what would follow '" + rigid_.other +
+            refuse(tied.node, "is clamped in components that would follow '" + rigid_.other +
                                   "', which is free; leave it out of '" + rigid_.group +
                                   "', or clamp both");
           }

@@ -213,7 +213,7 @@ class UnvReader {
   void read_nodes() {
     while (next_record()) {
       const std::int64_t label = integers(1)[0];
-      if (!nodes_.insert(label).second) refuse("node " + std::to_string(label) + " stands twice");
+      if (!nodes_.insert(label).second) refuse("node " + std::to_string(label) + " occurs twice");
       require_record();
       const std::array<double, 3> place = reals();
       mesh_.node_tags.push_back(label);
@@ -236,12 +236,12 @@ class UnvReader {
       }
       describe(kind, cell);
       if (!cells_.emplace(head[0], static_cast<std::int64_t>(order_.size())).second) {
-        refuse("element " + std::to_string(head[0]) + " stands twice");
+        refuse("element " + std::to_string(head[0]) + " occurs twice");
       }
       for (const std::int64_t node : cell.nodes) {
         if (!nodes_.contains(node)) {
           refuse("element " + std::to_string(head[0]) + " has the node " + std::to_string(node) +
-                 ", which does not stand before it");
+                 ", which does not come before it");
         }
       }
       labels_.push_back(head[0]);
@@ -297,7 +297,7 @@ class UnvReader {
       const auto found = cells_.find(label);
       if (found == cells_.end()) {
         refuse("group '" + group.name + "' names element " + std::to_string(label) +
-               ", which does not stand before it");
+               ", which does not come before it");
       }
       std::vector<int>& groups = order_[static_cast<std::size_t>(found->second)].groups;
       if (groups.empty() || groups.back() != place) groups.push_back(place);

@@ -55,7 +55,7 @@ double reference_frequency(const Structure& structure, const ModalResult& modal)
       (first != nullptr && !first->location.empty()
            ? ", the first, along " + first->direction + ", moves most at " + first->location
            : "") +
-      ": look at what holds it (-" + structure.name +
+      ": look at its supports (-" + structure.name +
       "_clamp), and at the units of mesh and materials; if that is meant, -" + structure.name +
       "_damping_uniform needs a -" + structure.name + "_damping_reference, or more -modes");
 }

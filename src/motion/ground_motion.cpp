@@ -216,7 +216,7 @@ void GroundMotion::add_start_doubts() {
       doubts_.push_back(name_ + " " + late.direction + ": the times of " + late.source +
                         " begin at " + text_of(late.file_start) + " s, so it sets in at " +
                         text_of(late.start) + " s; " + other.source +
-                        " tells no times and sets in at " + text_of(other.start) +
+                        " has no times and sets in at " + text_of(other.start) +
                         " s: do they belong together like that?");
     }
   }

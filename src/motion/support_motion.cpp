@@ -205,7 +205,7 @@ std::vector<std::string> SupportMotion::doubts() const {
                        " away: it drifts off; give records that end at rest");
     } else if (std::abs(way.end) > returned * way.largest) {
       doubts.push_back(describe(c) + ": its records leave it " + text_of(way.end) + unit +
-                       " away from where it stood on the ground, its largest is " +
+                       " away from its first place on the ground, its largest is " +
                        text_of(way.largest) + "; is that meant, or the base line of a record?");
     }
   }

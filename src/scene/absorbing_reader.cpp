@@ -18,14 +18,15 @@ void check_driven(const OptionReader& options, const Structure& structure) {
   };
   if (!structure.is_driven_from_below()) {
     refuse("has no -" + structure.name +
-           "_absorbing_base: one that stands on the moving ground and one that a wave moves "
+           "_absorbing_base: one on the moving ground and one that a wave moves "
            "cannot be in one scene");
   }
   for (const Region& region : structure.regions) {
     if (is_grounded(region.element)) {
-      refuse("has springs to the ground (" + region.group +
-             "), which would stand still under the wave; clamp what must not move, or leave them "
-             "out");
+      refuse(
+          "has springs to the ground (" + region.group +
+          "), which would be at rest under the wave; clamp nodes that must not move, or leave them "
+          "out");
     }
     if (structure.damping_of(region).alpha > 0) {
       refuse(
@@ -57,7 +58,7 @@ std::vector<AbsorbingFace> read_absorbing(OptionReader& options, const Structure
     for (const std::string& group : options.list(pattern, {structure.name})) {
       if (std::ranges::count(faces, group, &AbsorbingFace::group) > 0) {
         options.refuse(pattern, {structure.name},
-                       "'" + group + "' stands in absorbing and in absorbing_base");
+                       "'" + group + "' is in absorbing and in absorbing_base");
       }
       faces.push_back({group, pattern == base});
     }

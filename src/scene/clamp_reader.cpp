@@ -16,7 +16,7 @@ std::vector<Clamp> read_clamps(OptionReader& options, const std::string& structu
     }
     Clamp clamp{sides[0]};
     if (std::ranges::count(clamps, clamp.group, &Clamp::group) > 0) {
-      options.refuse(pattern, {structure}, "group '" + clamp.group + "' stands there twice");
+      options.refuse(pattern, {structure}, "group '" + clamp.group + "' is listed twice");
     }
     if (sides.size() == 2) {
       clamp.components = 0;

@@ -86,7 +86,7 @@ std::optional<UniformDamping> read_uniform_damping(OptionReader& options,
   const std::string why = "give either this or -" + option_name(uniform, names) + ", not both";
   for (const std::string_view pattern : {structure_damping.alpha, structure_damping.beta}) {
     if (options.real(pattern, names) != 0) {
-      options.refuse(pattern, names, why + " (0 takes back what an included file says)");
+      options.refuse(pattern, names, why + " (0 takes back the value of an included file)");
     }
   }
   options.forbid(structure_damping.ratio, names, why);

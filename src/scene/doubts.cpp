@@ -113,7 +113,7 @@ void look_at_support(const Scene& scene, const Support& support, Doubts& doubts)
   if (support.delay > 0 && support.delay >= scene.end_time) {
     std::ostringstream text;
     text << owner << ": the motion arrives after " << support.delay << " s, the run ends at "
-         << scene.end_time << " s: it stands still all the time";
+         << scene.end_time << " s: it is at rest all the time";
     doubts.add(text.str());
   }
 }
@@ -150,7 +150,7 @@ void look_at_weight(const Structure& structure, const Region& region, Doubts& do
   const auto across = static_cast<std::size_t>(region.nonlinear.circle[2]);
   if (region.nonlinear.friction > 0 && structure.gravity[across] == 0) {
     doubts.add(owner + "slides, but no gravity acts along " + "xyz"[across] +
-               ", across its plane: it holds only what the motion presses on it; give -gravity and "
+               ", across its plane: it holds only by the pressure of the motion; give -gravity and "
                "-preload static");
   }
   if (region.compression_only && !(structure.gravity[2] < 0)) {

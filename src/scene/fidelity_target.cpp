@@ -89,7 +89,7 @@ void require_same_structures(const SettingTable& table, const std::string& path,
                     " were measured on other structures (" + table.structures + "; key " +
                     table.structures_key + ", of this scene " + structures_key +
                     "); nothing is known of these: leave the target out, or measure them as "
-                    "docs/fidelity.md tells");
+                    "docs/fidelity.md says");
   }
 }
 

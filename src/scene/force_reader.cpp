@@ -84,9 +84,8 @@ ForceItem read_force(OptionReader& options, const Scene& scene, const std::strin
   if (structure.modal && structure.p_delta && force.kind != ForceKind::shells) {
     options.refuse("<force>_kind", {name},
                    "structure " + structure.name +
-                       " is reduced, where what its weight adds as columns lean (-" +
-                       structure.name + "_p_delta) is not told by its elements; give -" +
-                       structure.name + "_model full");
+                       " is reduced, where its elements do not know the part of the weight (-" +
+                       structure.name + "_p_delta); give -" + structure.name + "_model full");
   }
   const bool of_group = force.of_elements() || force.kind == ForceKind::cut;
   const auto only_for = [&](bool used, std::string_view pattern, const std::string& kinds) {

@@ -72,7 +72,7 @@ void append(std::string& text, const OptionRow& row) {
 
 std::string help_text() {
   std::string text =
-      "pounding: what floors feel when two buildings hit each other in an earthquake\n"
+      "pounding: response of floors when two buildings hit each other in an earthquake\n"
       "\n"
       "  mpirun -n 2 pounding -options_file case.yaml [-name value ...]\n"
       "  pounding -help | -version\n"

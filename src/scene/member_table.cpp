@@ -113,7 +113,7 @@ MemberTable parse_table(const std::string& file, const std::string& text) {
       throw UserError(file + ", line " + std::to_string(number) + ": " +
                       std::to_string(fields.size()) + " values, " +
                       std::to_string(table.columns.size()) +
-                      " columns; a value that holds the separator stands in double quotes");
+                      " columns; a value that holds the separator needs double quotes");
     }
     table.lines.push_back(number);
     table.values.insert(table.values.end(), fields.begin(), fields.end());

@@ -27,11 +27,11 @@ void refuse_couplings(const OptionReader& options, const Structure& structure) {
                                " modal; leave it out, or give -" +
                                option_name(model, {structure.name}) + " full";
     if (follows_law(region) && structure.uniform_damping) {
-      options.forbid(law_option(region), names,
-                     "not with -" + option_name(model, {structure.name}) + " modal and -" +
-                         structure.name +
-                         "_damping_uniform, which would damp what is slack or yields; leave one of "
-                         "the three out");
+      options.forbid(
+          law_option(region), names,
+          "not with -" + option_name(model, {structure.name}) + " modal and -" + structure.name +
+              "_damping_uniform, which would damp slack and yielding elements; leave one of "
+              "the three out");
     }
     if (region.damping) {
       for (const char* option : {"alpha", "beta", "ratio"}) {

@@ -136,7 +136,7 @@ class OptionsReader {
   [[noreturn]] void refuse_twice(const yaml_node_t& key, const std::string& option,
                                  std::size_t line) const {
     refuse(file_, key.start_mark,
-           shown_value(option) + " stands in line " + std::to_string(line) +
+           shown_value(option) + " is in line " + std::to_string(line) +
                " already; leave one of them out");
   }
 

@@ -22,7 +22,7 @@ std::vector<RigidGroup> read_rigid_groups(OptionReader& options, const std::stri
       }
       if (std::ranges::count(groups, rigid.name(), &RigidGroup::name) > 0) {
         options.refuse(pattern, {structure},
-                       "'" + item + "' stands here, or in another such option, already");
+                       "'" + item + "' is given here, or in another such option, already");
       }
       groups.push_back(rigid);
     }

@@ -52,7 +52,7 @@ void check_pendulum(const OptionReader& options, const Names& names,
   if (!(spring.hardening > 0)) {
     options.refuse(radius, names,
                    "give -" + option_name(hardening, names) +
-                       ", the most that what presses on it over the radius may be, over stiffness");
+                       ", the largest pressure on it over radius, as a part of stiffness");
   }
 }
 

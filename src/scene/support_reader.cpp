@@ -122,7 +122,7 @@ void require_plain(const OptionReader& options, const Scene& scene, const Suppor
   if (!structure.matrices.empty()) {
     refuse_groups(options, support,
                   "structure " + structure.name + ": -" + structure.name +
-                      "_matrices do not tell what its clamped dofs do to the others");
+                      "_matrices do not hold the forces of its clamped dofs on the others");
   }
   if (structure.soil && !all_ground) refuse_with("_soil_mat, unless all its ground moves with one");
   if (!structure.absorbing.empty()) refuse_with("_absorbing");
@@ -133,7 +133,8 @@ void require_plain(const OptionReader& options, const Scene& scene, const Suppor
                       "_p_delta");
   }
   if (!scene.export_matrices.empty()) {
-    refuse_groups(options, support, "not with -export_matrices: no matrix tells how supports move");
+    refuse_groups(options, support,
+                  "not with -export_matrices: no matrix holds the motion of supports");
   }
   for (const Region& region : structure.regions) {
     if (!region.nonlinear.yields() || all_ground) continue;
@@ -142,8 +143,8 @@ void require_plain(const OptionReader& options, const Scene& scene, const Suppor
         })) {
       refuse_groups(options, support,
                     "structure " + structure.name +
-                        ": damping alpha brakes against what linear elements " +
-                        "alone carry along, not what yields as " + region.group +
+                        ": damping alpha brakes against the motion of linear elements " +
+                        "alone, not of yielding ones as " + region.group +
                         "; give beta or damping_uniform");
     }
   }
@@ -171,7 +172,7 @@ Support read_support(OptionReader& options, const std::string& name) {
     support.factor[d] = factor[d];
     support.motion[d] = read_motion(options, axis, name);
     if (!support.motion[d] && options.given("<support>_motion_<x|y|z>_record", {name, axis})) {
-      support.factor[d] = 0;  // it stands still
+      support.factor[d] = 0;  // it is at rest
     }
     support.motion[3 + d] = read_rotation(options, name, axis);
   }
@@ -202,9 +203,9 @@ void check_supports(const OptionReader& options, const Scene& scene) {
       if (seen.contains({name, group})) {
         refuse_groups(
             options, support,
-            "'" + name + (group.empty() ? "" : ":" + group) + "' stands on a support already");
+            "'" + name + (group.empty() ? "" : ":" + group) + "' is on a support already");
       }
-      const auto first = seen.lower_bound({name, ""});  // all ground stands before groups
+      const auto first = seen.lower_bound({name, ""});  // all ground comes before groups
       if (first != seen.end() && first->first == name &&
           (first->second.empty() || item.is_all_ground())) {
         refuse_groups(options, support,

@@ -74,7 +74,7 @@ double time_step_of_run(const NamedSignal& named) {
   const auto summary = nlohmann::json::parse(std::ifstream(path), nullptr, false);
   const auto found = summary.is_object() ? summary.find("time_step") : summary.end();
   if (!summary.is_object() || found == summary.end() || !found->is_number()) {
-    throw UserError(path + " does not tell the time step of the run; give --dirac-step");
+    throw UserError(path + " does not state the time step of the run; give --dirac-step");
   }
   return found->get<double>();
 }

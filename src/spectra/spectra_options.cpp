@@ -120,8 +120,7 @@ constexpr std::array option_specs{
                [](const std::string& t, SpectraOptions& o) {
                  return read_number(t, tiny, no_limit, o.time_step);
                }},
-    OptionSpec{"start", "S", "a number above 0",
-               "leave out what comes before: the oscillators are at rest then [s]",
+    OptionSpec{"start", "S", "a number above 0", "begin there, with oscillators at rest [s]",
                [](const std::string& t, SpectraOptions& o) {
                  return read_number(t, tiny, no_limit, o.start);
                }},
@@ -156,7 +155,7 @@ constexpr std::array option_specs{
                }},
     OptionSpec{"treatment", "NAMES",
                "complete, all_peaks, highest_peak, without_peaks, dirac or all",
-               "what is kept of a signal with impacts, one or more of:\n"
+               "part of a signal with impacts that is kept, one or more of:\n"
                "  complete       everything (default)\n"
                "  all_peaks      the samples during contacts, zero between them\n"
                "  highest_peak   of these the one with the largest impulse\n"

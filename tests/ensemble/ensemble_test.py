@@ -140,11 +140,11 @@ class Members(unittest.TestCase):
             file["spectra/pseudo_acceleration"][1] = np.nan
             file["gaps/smallest"][4, 0] *= 1.001
             file["done"][9] = 7
-        with self.assertRaisesRegex(pounding.ResultError, "member 2 are not what was written"):
+        with self.assertRaisesRegex(pounding.ResultError, "member 2 are not those written"):
             pounding.load_ensemble(folder)
         run = program.run([*self.words, "-output", folder], 2)
         self.assertEqual(run.returncode, 0, run.stderr[-2000:])
-        self.assertIn("the numbers of 3 members that are said to be done are not what was written", run.stdout)
+        self.assertIn("the numbers of 3 members that are said to be done are not those written", run.stdout)
         self.same_as(folder)
 
     def test_a_damaged_file_is_refused(self):

@@ -169,7 +169,7 @@ class ResultFolder(unittest.TestCase):
         result = program.run([*BAR, "-output", self.folder], 2)
         self.assertEqual(result.returncode, 1)
         line, = program.error_lines(result)
-        self.assertIn("summary.json.new: cannot be written: what has that name is no file", line)
+        self.assertIn("summary.json.new: cannot be written: something that is no file has that name", line)
         self.assertFalse(os.path.exists(self.path("summary.json")))
 
 

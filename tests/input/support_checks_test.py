@@ -41,9 +41,9 @@ class Refused(WithRecord):
         self.refuse("-east_groups", "'v' means all ground of the structure", groups=("v:foot0", "v"))
         self.refuse("-west_groups v:abutment", "no such group", "foot0", groups=("v:abutment", "v:foot1"))
         self.refuse("-west_groups v:deck", "no node of it is clamped", groups=("v:deck", "v:foot1"))
-        self.refuse("stands on a support already", groups=("v:foot0", "v:foot0"))
-        self.refuse("-east_groups v:feet", "stands on support west as well", groups=("v:foot0", "v:feet"))
-        self.refuse("clamped node at (6, 0, 0)", "stands on none of -supports", supports="west", groups=("v:foot0",))
+        self.refuse("is on a support already", groups=("v:foot0", "v:foot0"))
+        self.refuse("-east_groups v:feet", "is on support west as well", groups=("v:foot0", "v:feet"))
+        self.refuse("clamped node at (6, 0, 0)", "is on none of -supports", supports="west", groups=("v:foot0",))
         program.must_refuse(self, ["-structures", "v", *viaduct("v", 1, 0.0), *STEEL, *SECTION, "-end_time", 0.02,
                                    "-supports", "west"], "-west_groups", "missing")
 

@@ -20,7 +20,7 @@ class Refused(unittest.TestCase):
         self.refused(HELD + ["-t_tie", "edge:fcae"], "-t_tie", "group 'fcae' is not in")
         self.refused(HELD + ["-t_tie", "egde:face"], "-t_tie", "group 'egde' is not in", on=(1, 2))
         self.refused(HELD + ["-t_tie", "edge:face,edge:face"], "-t_tie", "appears twice")
-        self.refused(HELD + ["-t_tie", "edge:face", "-t_join", "edge:face"], "stands here, or in another")
+        self.refused(HELD + ["-t_tie", "edge:face", "-t_join", "edge:face"], "is given here, or in another")
         self.refused(HELD + ["-t_tie", "edge:corner"], "-t_tie edge:corner", "no faces or lines")
         self.refused(HELD + ["-t_tie", "edge:first"], "-t_tie edge:first", "no faces or lines")
 
@@ -37,8 +37,8 @@ class Refused(unittest.TestCase):
         self.refused(HELD + ["-t_tie", "corner:edge"], "its node at (1, 1, 0)", "mesh joins them already")
 
     def test_clamped(self):
-        self.refused(["-t_clamp", "edge", "-t_tie", "edge:face"], "is clamped in what would follow 'face'", on=(1, 2))
-        self.refused(["-t_clamp", "x_min,edge:y", "-t_tie", "edge:face"], "is clamped in what would follow 'face'")
+        self.refused(["-t_clamp", "edge", "-t_tie", "edge:face"], "in components that would follow 'face'", on=(1, 2))
+        self.refused(["-t_clamp", "x_min,edge:y", "-t_tie", "edge:face"], "in components that would follow 'face'")
 
     def test_in_rigid_groups(self):
         self.refused(HELD + ["-t_rigid", "edge", "-t_tie", "edge:face"], "is in rigid group edge", on=(1, 2))

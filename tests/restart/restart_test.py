@@ -385,7 +385,7 @@ class Refusals(RestartCase):
         data = content(folder, "checkpoint.h5")
         for size in (len(data) // 4, len(data) // 2, len(data) - 1):
             self.write(folder, "checkpoint.h5", data[:size])
-            self.refuse(folder, ["is not what was sealed"])
+            self.refuse(folder, ["is not the sealed one"])
 
     def test_flipped_bits(self):
         """HDF5 does not see the file: it ends the program on some of these."""

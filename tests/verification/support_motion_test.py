@@ -436,7 +436,7 @@ class AllGround(WithPulses):
     def test_mistakes(self):
         for more, part in ((["-supports", "s", "-s_groups", "v,v:feet"], "means all ground"),
                            (["-supports", "s,t", "-s_groups", "v:feet", "-t_groups", "v"], "means all ground"),
-                           (["-supports", "s", "-s_groups", "v,v"], "stands on a support already"),
+                           (["-supports", "s", "-s_groups", "v,v"], "is on a support already"),
                            (["-supports", "s", "-s_groups", "v:"], "neither structure:group nor a structure"),
                            (["-supports", "s", "-s_groups", "viaduct"], "there is no structure 'viaduct'"),
                            (["-supports", "s", "-s_groups", "v", "-s_vs", 300], "goes with -s_embedment"),

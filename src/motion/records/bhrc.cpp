@@ -99,7 +99,7 @@ FormatRecord read_bhrc(const RecordedMotion& motion, std::span<const TextLine> l
   } else if (numbers < count || numbers > count + widest) {
     throw UserError(at_line(motion.file, one.line) + "the header announces " +
                     std::to_string(count) + " values but " + std::to_string(numbers) +
-                    " numbers stand below those about the record; correct the file");
+                    " numbers follow those about the record; correct the file");
   } else {
     record.values = read_block(motion.file, lines.first(one.end), begin, count).values;
     record.time_step = *one.duration / static_cast<double>(count);

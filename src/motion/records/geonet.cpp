@@ -83,7 +83,7 @@ Stated read_numbers(const std::string& file, std::span<const TextLine> lines,
   const bool other_count = one.count && *one.count != stated.count;
   const bool other_step = one.step && !(std::abs(*one.step - stated.step) < 0.01 * stated.step);
   if (other_count || other_step) {
-    throw UserError(at_line(file, one.title_line) + "the words of the header tell " +
+    throw UserError(at_line(file, one.title_line) + "the words of the header say " +
                     text_of(one.count.value_or(stated.count)) + " points every " +
                     text_of(one.step.value_or(stated.step)) + " s, its numbers " +
                     text_of(stated.count) + " every " + text_of(stated.step) +

@@ -44,7 +44,7 @@ bool is_table(const RecordContent& content, int column) {
 void refuse_row(const std::string& file, const NumberRow& row, std::size_t width) {
   throw UserError(at_line(file, row.line) + std::to_string(row.values.size()) +
                   " numbers where the lines before have " + std::to_string(width) +
-                  "; complete or remove the line, or take off what is not the record's");
+                  "; complete or remove the line, or remove text that is not the record's");
 }
 
 void require_equal_rows(const std::string& file, const std::vector<NumberRow>& rows) {

@@ -52,9 +52,9 @@ NO_SCENE = [
 ]
 
 TOO_MUCH = [
-    spoilt("a key twice", ["{folder}/scene.yaml", "end_time stands in line"],
+    spoilt("a key twice", ["{folder}/scene.yaml", "end_time is in line"],
            ("modes: 0\n", "modes: 0\nend_time: 2\n")),
-    spoilt("a structure described twice", ["{folder}/scene.yaml", "right stands in line"],
+    spoilt("a structure described twice", ["{folder}/scene.yaml", "right is in line"],
            ("material:\n", "right:\n  mesh: other.msh\nmaterial:\n")),
     spoilt("a second document", ["{folder}/scene.yaml", "second document"],
            ("modes: 0\n", "modes: 0\n---\nend_time: 2\n")),

@@ -61,7 +61,7 @@ TEST_F(FileSeal, FindsEveryChange) {
   for (const std::size_t size : {0UL, 100UL, seal_size, bytes_.size() / 2, bytes_.size() - 1}) {
     EXPECT_THAT(complaint(bytes_.substr(0, size)), testing::HasSubstr("damaged")) << size;
   }
-  EXPECT_THAT(complaint(bytes_ + "more"), testing::HasSubstr("not what was sealed"));
+  EXPECT_THAT(complaint(bytes_ + "more"), testing::HasSubstr("not the sealed one"));
 }
 
 TEST_F(FileSeal, LeavesPlacesOpen) {

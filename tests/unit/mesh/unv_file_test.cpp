@@ -144,9 +144,9 @@ TEST_F(UnvFile, WhatIsNotReadIsRefusedWithItsLine) {
   refuses(nodes(), "no elements");
   refuses(nodes() + elements() + dataset(2417, ""), "dataset 2417 of groups is not read");
   refuses(dataset(15, ""), "dataset 15 of nodes");
-  refuses(elements(), "node 1, which does not stand before it");
-  refuses(nodes() + nodes(), "node 1 stands twice");
-  refuses(nodes() + elements() + elements(), "element 7 stands twice");
+  refuses(elements(), "node 1, which does not come before it");
+  refuses(nodes() + nodes(), "node 1 occurs twice");
+  refuses(nodes() + elements() + elements(), "element 7 occurs twice");
   refuses(nodes() + elements() + dataset(2467, group(1, "g", {8, 70})), "element 70");
   refuses(nodes() + elements() + dataset(2467, group(1, "g", {7, 70})), "a node that is missing");
   refuses(nodes() + dataset(2412, line({7, 115, 3, 1, 7, -8})), "an element of -8 nodes");

@@ -62,16 +62,15 @@ TEST(OptionsFile, EarlierMergeWins) {
 TEST(OptionsFile, NamesThatStandTwiceAreRefusedWithBothLines) {
   EXPECT_THAT(refusal("end_time: 1\ncourant: 1\nend_time: 2\n"),
               testing::AllOf(testing::HasSubstr("case.yaml, line 3, column 1"),
-                             testing::HasSubstr("end_time stands in line 1 already")));
+                             testing::HasSubstr("end_time is in line 1 already")));
   EXPECT_THAT(
       refusal("s1: {mesh: a}\n\ns1_mesh: b\n"),
-      testing::AllOf(testing::HasSubstr("line 3"), testing::HasSubstr("s1_mesh stands in line 1")));
-  EXPECT_THAT(
-      refusal("s1:\n  mesh: a\ns2: {}\ns1:\n  clamp: b\n"),
-      testing::AllOf(testing::HasSubstr("line 4"), testing::HasSubstr("s1 stands in line 1")));
+      testing::AllOf(testing::HasSubstr("line 3"), testing::HasSubstr("s1_mesh is in line 1")));
+  EXPECT_THAT(refusal("s1:\n  mesh: a\ns2: {}\ns1:\n  clamp: b\n"),
+              testing::AllOf(testing::HasSubstr("line 4"), testing::HasSubstr("s1 is in line 1")));
   EXPECT_THAT(
       refusal("s1:\n  slab: {element: hex8}\n  slab: {element: shell}\n"),
-      testing::AllOf(testing::HasSubstr("line 3"), testing::HasSubstr("s1_slab stands in line 2")));
+      testing::AllOf(testing::HasSubstr("line 3"), testing::HasSubstr("s1_slab is in line 2")));
 }
 
 TEST(OptionsFile, WhatIsNotYamlIsRefusedWithItsPlace) {

@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadValue{"tower_mesh_set", "h=1,h=2", "h is set twice"},
                     BadValue{"tower_clamp", "base,,core", "empty name"},
                     BadValue{"tower_clamp", "base,base", "base appears twice"},
-                    BadValue{"tower_clamp", "base,base:x", "'base' stands there twice"},
+                    BadValue{"tower_clamp", "base,base:x", "'base' is listed twice"},
                     BadValue{"tower_clamp", "base:x+w", "'w' is no component of x, y, z"},
                     BadValue{"tower_clamp", "base:", "'' is no component"},
                     BadValue{"tower_clamp", "base:x:y", "is not group or group:components"},
