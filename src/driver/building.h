@@ -31,10 +31,10 @@ struct MeshFindings {
 struct Building {
   const Structure* structure = nullptr;     ///< what the user asked for; borrowed from the scene
   const Mesh* mesh = nullptr;               ///< this rank's part; borrowed from the model
-  const LinearSystem* system = nullptr;     ///< likewise
+  const LinearSystem* system = nullptr;     ///< borrowed from the model
   MeshFindings findings;                    ///< on rank 0 only
-  interactions::AbsorbingReport absorbing;  ///< likewise
-  std::vector<SpreadReport> spread;         ///< likewise
+  interactions::AbsorbingReport absorbing;  ///< on rank 0 only
+  std::vector<SpreadReport> spread;         ///< on rank 0 only
   std::optional<ModalBasis> basis;          ///< if the structure is reduced; no rows
   ModalResult modal;
   std::vector<double> mode_gaps;     ///< of each mode, what it adds to the gap of each contact row,

@@ -32,7 +32,7 @@ class ClosingWatch {
 
  private:
   std::vector<int> contacts_;       ///< per row
-  std::vector<double> start_gaps_;  ///< likewise [m]
+  std::vector<double> start_gaps_;  ///< per row [m]
   std::vector<JointClosing> closings_;
 };
 

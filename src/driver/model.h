@@ -34,7 +34,7 @@ struct JointGaps {
 /// Everything about a scene that is constant in time, on this rank.
 struct Model {
   std::vector<Mesh> meshes;           ///< per structure, one after the other for the solver
-  std::vector<LinearSystem> systems;  ///< likewise
+  std::vector<LinearSystem> systems;  ///< per structure
   std::vector<Building> buildings;    ///< per structure: these two and what is known of them
   interactions::Interface interface;  ///< reports on rank 0 only
   std::vector<ResolvedProbe> probes;

@@ -35,7 +35,7 @@ class AndersonMixing {
   bool has_last_ = false;
   std::vector<double> last_image_;
   std::vector<double> last_change_;           ///< weighted
-  std::vector<double> change_;                ///< likewise
+  std::vector<double> change_;                ///< of the image, weighted
   std::vector<std::vector<double>> changes_;  ///< dF
   std::vector<std::vector<double>> images_;   ///< dG
   std::vector<double> matrix_;                ///< dF^T dF, scaled; then its Cholesky factor

@@ -33,7 +33,7 @@ struct QuadrangleStrains {
   static constexpr std::size_t spin = edges + 6;     ///< 1 / (2 J)
   static constexpr std::size_t skew = spin + 1;      ///< a, b
   static constexpr std::size_t stretch = skew + 2;   ///< of the sum, of difference and slip
-  static constexpr std::size_t bend = stretch + 2;   ///< likewise
+  static constexpr std::size_t bend = stretch + 2;   ///< of the plate: sum, difference and slip
   static constexpr std::size_t membrane = bend + 2;  ///< of u_h, v_h, drilling
   static constexpr std::size_t twist = membrane + packed_size(6);  ///< of the fibres' f_h
   static constexpr std::size_t shear = twist + packed_size(2);     ///< of the edges

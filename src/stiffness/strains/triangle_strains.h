@@ -22,7 +22,7 @@ struct TriangleStrains {
   static constexpr std::size_t edges = axes + 9;      ///< x_p, x_r, y_r
   static constexpr std::size_t spin = edges + 3;      ///< 1 / (2 J)
   static constexpr std::size_t stretch = spin + 1;    ///< of the sum, of difference and slip
-  static constexpr std::size_t bend = stretch + 2;    ///< likewise
+  static constexpr std::size_t bend = stretch + 2;    ///< of the plate: sum, difference and slip
   static constexpr std::size_t drilling = bend + 2;   ///< of an angle and of the sum of the three
   static constexpr std::size_t shear = drilling + 1;  ///< of the edges
   static constexpr std::size_t number_count = shear + packed_size(3);
