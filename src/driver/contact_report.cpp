@@ -75,7 +75,7 @@ void print_impacts(const Scene& scene, const RunStatistics& statistics,
 void print_fillers(const Scene& scene, const RunStatistics& statistics) {
   for (std::size_t c = 0; c < statistics.fillers.size(); ++c) {
     if (!scene.contacts[c].filler) continue;
-    const FillerTotals& filler = statistics.fillers[c];
+    const interactions::FillerTotals& filler = statistics.fillers[c];
     std::printf(
         "  %-12s filler pressed by at most %.4g kPa, %.4g kN in all, crushed by %.3g %%, "
         "took %.4g J\n",
@@ -86,7 +86,7 @@ void print_fillers(const Scene& scene, const RunStatistics& statistics) {
 
 void print_loops(const RunStatistics& statistics) {
   for (const LoopReport& loop : statistics.loops) {
-    const LinkTotals most = loop.whole();
+    const interactions::LinkTotals most = loop.whole();
     std::printf(
         "  %-12s %.0f of %zu links yielded, elongation at most %.4g mm (or mrad), force %.4g "
         "kN (or kN m), took %.4g J\n",

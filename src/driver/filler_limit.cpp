@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "interactions/filler_rows.h"
+#include "interactions/filler_pairs.h"
 #include "stability/stable_time_step.h"
 #include "stability/structure_limits.h"
 
@@ -40,9 +40,9 @@ bool is_stable(const Model& model, const std::vector<double>& eta, double time_s
 double filler_limit(MPI_Comm comm, const Scene& scene, const Model& model) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (!interactions::has_fillers(model.interface)) return infinity;
-  const interactions::FillerRows rows(comm, model.interface, model.systems, model.meshes);
+  const interactions::FillerPairs pairs(comm, model.interface, model.systems, model.meshes);
   std::vector<double> stiffness;
-  for (const interactions::FillerRows::Row& row : rows.rows()) {
+  for (const interactions::FillerPairs::Pair& row : pairs.all()) {
     stiffness.push_back(
         scene.contacts[row.contact].filler->stiffness(row.part.thickness, row.part.area));
   }
@@ -50,7 +50,7 @@ double filler_limit(MPI_Comm comm, const Scene& scene, const Model& model) {
   double together = 0;
   double low = infinity;
   for (std::size_t s = 0; s < model.buildings.size(); ++s) {
-    eta.push_back(rows.largest_eigenvalue(s, stiffness));
+    eta.push_back(pairs.largest_eigenvalue(s, stiffness));
     together += eta.back();
     if (eta.back() > 0) low = std::min(low, model.buildings[s].limits.stable_time_step);
   }

@@ -139,11 +139,12 @@ void Forces::begin(const State& state) {
   }
 }
 
-void Forces::end(const CdLagrange& stepper) {
+void Forces::end(const Solver& solver) {
+  const CdLagrange& stepper = solver.stepper();
   for (const Total& total : totals_) {
     Wrench sum{};
     total.force->add(stepper.state().structures[total.structure], stepper.forces(total.structure),
-                     stepper.link_step(total.structure), sum);
+                     solver.links(total.structure), sum);
     for (std::size_t k = 0; k < sum.size(); ++k) part_[total.first + k] += sum[k];
   }
   MPI_Reduce(part_.data(), columns_.data(), static_cast<int>(part_.size()), MPI_DOUBLE, MPI_SUM, 0,

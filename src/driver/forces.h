@@ -51,7 +51,7 @@ class Forces {
   /// Before the step to t_n that is sampled, which is asked for forces. Local.
   void begin(const State& state);
   /// After it; on rank 0 `values` has the columns with a history then. Collective.
-  void end(const CdLagrange& stepper);
+  void end(const Solver& solver);
   std::span<const double> values() const { return {columns_.data(), recorded_.size()}; }
 
   /// Peaks so far, of rank 0. A continued run may count them from another time on where none that

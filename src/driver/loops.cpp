@@ -67,10 +67,10 @@ void add_links(const Model& model, const Loop& loop, int item, int rank,
   }
 }
 
-void add_rows(const Scene& scene, const FillerStep& fillers, const Loop& loop, int item, int rank,
-              std::vector<Candidate>& found) {
+void add_rows(const Scene& scene, const interactions::FillerRows& fillers, const Loop& loop,
+              int item, int rank, std::vector<Candidate>& found) {
   std::int64_t number = 0;
-  const std::vector<interactions::FillerRows::Row>& rows = fillers.rows().rows();
+  const std::vector<interactions::FillerPairs::Pair>& rows = fillers.pairs().all();
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (scene.contacts[rows[r].contact].name != loop.contact) continue;
     found.push_back({item, 0, -1, 0, ++number, {}, rank, static_cast<int>(r)});
@@ -124,9 +124,9 @@ std::string name_of(const std::string& item, const Candidate& link) {
 
 }  // namespace
 
-LinkTotals LoopReport::whole() const {
-  LinkTotals most;
-  for (const LinkTotals& link : totals) {
+interactions::LinkTotals LoopReport::whole() const {
+  interactions::LinkTotals most;
+  for (const interactions::LinkTotals& link : totals) {
     most.largest_elongation = std::max(most.largest_elongation, link.largest_elongation);
     most.largest_force = std::max(most.largest_force, link.largest_force);
     most.work += link.work;
@@ -144,7 +144,7 @@ Loops::Loops(MPI_Comm comm, const Scene& scene, const Model& model, Solver& solv
     items_.push_back(loop.name);
     if (loop.contact.empty()) {
       add_links(model, loop, item, rank, all);
-    } else if (solver.fillers() != nullptr && solver.fillers()->root() == rank) {
+    } else if (solver.fillers() != nullptr && solver.fillers()->pairs().rows().root() == rank) {
       add_rows(scene, *solver.fillers(), loop, item, rank, all);
     }
   }
@@ -165,16 +165,16 @@ Loops::Loops(MPI_Comm comm, const Scene& scene, const Model& model, Solver& solv
       std::size_t s = 0;
       while (s < model.systems.size() && model.systems[s].name != loop.structure) ++s;
       mine_.push_back(static_cast<int>(names_.size()));
-      own_.push_back({s < model.systems.size() ? &solver.stepper().link_step(s)->records()
-                                               : &solver.fillers()->records(),
-                      chosen[s].size()});
+      own_.push_back(
+          {s < model.systems.size() ? &solver.links(s)->records() : &solver.fillers()->records(),
+           chosen[s].size()});
       chosen[s].push_back(static_cast<std::size_t>(link.index));
     }
     item_of_.push_back(link.item);
     names_.push_back(name_of(loop.name, link));
   }
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    if (!chosen[s].empty()) solver.stepper().link_step(s)->record(chosen[s]);
+    if (!chosen[s].empty()) solver.links(s)->record(chosen[s]);
   }
   if (!chosen.back().empty()) solver.fillers()->record(chosen.back());
   values_.assign(2 * own_.size(), 0.0);
@@ -192,7 +192,7 @@ std::vector<LoopReport> Loops::report() const {
   constexpr std::size_t width = 4;
   std::vector<double> all(width * names_.size(), 0.0);
   for (std::size_t k = 0; k < own_.size(); ++k) {
-    const LinkTotals& t = own_[k].records->totals(own_[k].number);
+    const interactions::LinkTotals& t = own_[k].records->totals(own_[k].number);
     double* const to = &all[width * static_cast<std::size_t>(mine_[k])];
     to[0] = t.largest_elongation;
     to[1] = t.largest_force;

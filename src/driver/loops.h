@@ -6,7 +6,7 @@
 
 #include "driver/model.h"
 #include "driver/solver.h"
-#include "dynamics/link_records.h"
+#include "interactions/link_records.h"
 #include "scene/scene.h"
 
 namespace pounding {
@@ -15,10 +15,10 @@ namespace pounding {
 struct LoopReport {
   std::string name;
   std::vector<std::string> links;
-  std::vector<LinkTotals> totals;  ///< per link
+  std::vector<interactions::LinkTotals> totals;  ///< per link
 
   /// Extremes over all links; `work` and `yielded` are sums.
-  LinkTotals whole() const;
+  interactions::LinkTotals whole() const;
 };
 
 /// Links that the scene wants recorded: finds them, has their steps record them, and tells their
@@ -41,7 +41,7 @@ class Loops {
 
  private:
   struct Own {
-    const LinkRecords* records = nullptr;
+    const interactions::LinkRecords* records = nullptr;
     std::size_t number = 0;  ///< among those
   };
 

@@ -11,7 +11,7 @@
 #include "driver/stated_peaks.h"
 #include "driver/uplift_watch.h"
 #include "dynamics/energy_balance.h"
-#include "dynamics/filler_step.h"
+#include "interactions/filler_rows.h"
 #include "interactions/slide_watch.h"
 #include "output/impact_catalogue.h"
 #include "output/recorder.h"
@@ -32,11 +32,11 @@ struct RunStatistics {
   std::int64_t interface_looks = 0;   ///< steps that looked at the gaps
   std::vector<ImpactTotals> impacts;  ///< per contact
   ImpactTotals all_impacts;
-  std::vector<FillerTotals> fillers;         ///< per contact; empty without fillers
-  std::vector<LoopReport> loops;             ///< per item of the option
-  std::vector<ForceReport> forces;           ///< per item of the option; rank 0
-  std::vector<interactions::Slide> slides;   ///< per contact
-  std::vector<JointClosing> closings;        ///< per contact, of the samples of the gaps
+  std::vector<interactions::FillerTotals> fillers;  ///< per contact; empty without fillers
+  std::vector<LoopReport> loops;                    ///< per item of the option
+  std::vector<ForceReport> forces;                  ///< per item of the option; rank 0
+  std::vector<interactions::Slide> slides;          ///< per contact
+  std::vector<JointClosing> closings;               ///< per contact, of the samples of the gaps
   std::vector<ContactRatio> contact_ratios;  ///< per structure; empty where nothing may lift off
   StatedPeaks peaks;                         ///< rank 0
   std::vector<std::string> overpressed;      ///< structures with a pendulum whose slope was cut

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "driver/gap_bounds.h"
+#include "interactions/make_links.h"
 
 namespace pounding {
 namespace {
@@ -40,14 +41,26 @@ void Solver::restart() {
 }
 
 void Solver::make_stepper() {
-  if (interactions::has_fillers(*parts_.interface)) {
-    fillers_ = std::make_unique<FillerStep>(parts_.comm, *parts_.interface, parts_.contacts,
-                                            parts_.systems, parts_.meshes, parts_.time_step);
+  const Parts& parts = parts_;
+  stepper_ = std::make_unique<CdLagrange>(parts.comm, parts.systems, *parts.motion, parts.time_step,
+                                          *parts.profile, parts.supports);
+  links_.clear();
+  for (std::size_t s = 0; s < parts.systems.size(); ++s) {
+    const LinearSystem& system = parts.systems[s];
+    links_.push_back(system.links
+                         ? &stepper_->add(interactions::make_links(system, s, parts.time_step))
+                         : nullptr);
   }
-  stepper_ = std::make_unique<CdLagrange>(
-      parts_.comm, parts_.systems, *parts_.motion, contact_.get(), fillers_.get(),
-      GapWatch(parts_.systems, bounds_, parts_.motion->peaks(), parts_.time_step), parts_.time_step,
-      *parts_.profile, parts_.supports);
+  if (interactions::has_fillers(*parts.interface)) {
+    fillers_ = &stepper_->add(
+        std::make_unique<interactions::FillerRows>(parts.comm, *parts.interface, parts.contacts,
+                                                   parts.systems, parts.meshes, parts.time_step));
+  }
+  if (contact_) {
+    GapWatch watch(parts.systems, bounds_, parts.motion->peaks(), parts.time_step);
+    unilateral_ = &stepper_->add(std::make_unique<UnilateralContact>(
+        parts.comm, *contact_, std::move(watch), stepper_->state()));
+  }
 }
 
 }  // namespace pounding

@@ -7,10 +7,12 @@
 
 #include "common/profile.h"
 #include "dynamics/cd_lagrange.h"
-#include "dynamics/filler_step.h"
 #include "dynamics/gap_watch.h"
+#include "dynamics/unilateral_contact.h"
 #include "interactions/contact_problem.h"
+#include "interactions/filler_rows.h"
 #include "interactions/pairing/interface.h"
+#include "interactions/structure_links.h"
 #include "mesh/mesh.h"
 #include "motion/ground_motion.h"
 #include "system/linear_system.h"
@@ -45,20 +47,39 @@ class Solver {
 
   interactions::ContactProblem* contact() { return contact_.get(); }  ///< null without contacts
   const interactions::ContactProblem* contact() const { return contact_.get(); }
-  FillerStep* fillers() { return fillers_.get(); }
-  const FillerStep* fillers() const { return fillers_.get(); }  ///< null without fillers
+  /// Null without fillers.
+  interactions::FillerRows* fillers() { return fillers_; }
+  const interactions::FillerRows* fillers() const { return fillers_; }
+  /// The links of a structure on this rank; null if it has none.
+  interactions::StructureLinks* links(std::size_t structure) { return links_[structure]; }
+  const interactions::StructureLinks* links(std::size_t structure) const {
+    return links_[structure];
+  }
+  /// Impulses act in the step just made.
+  bool touching() const { return unilateral_ != nullptr && unilateral_->touching(); }
+  /// This rank holds the gaps and impulses of that step.
+  bool interface_known() const { return unilateral_ != nullptr && unilateral_->interface_known(); }
+  /// See UnilateralContact; 0 without contacts.
+  std::int64_t looks() const { return unilateral_ != nullptr ? unilateral_->looks() : 0; }
+  /// See GapWatch::energies_known.
+  void note_energies(std::int64_t step, std::span<const StructureEnergy> energies,
+                     std::span<const double> round_off) {
+    if (unilateral_ != nullptr) unilateral_->watch().energies_known(step, energies, round_off);
+  }
   CdLagrange& stepper() { return *stepper_; }
   const CdLagrange& stepper() const { return *stepper_; }
 
  private:
-  /// Fillers and stepper.
+  /// The scheme with its interactions: links, fillers, contact.
   void make_stepper();
 
   Parts parts_;
   std::vector<GapWatch::Bound> bounds_;
   std::unique_ptr<interactions::ContactProblem> contact_;
-  std::unique_ptr<FillerStep> fillers_;
   std::unique_ptr<CdLagrange> stepper_;
+  std::vector<interactions::StructureLinks*> links_;  ///< per structure, of the stepper
+  interactions::FillerRows* fillers_ = nullptr;       ///< of the stepper
+  UnilateralContact* unilateral_ = nullptr;           ///< of the stepper
 };
 
 }  // namespace pounding

@@ -277,7 +277,7 @@ Json describe_separation(const Separation& one) {
 }
 
 Json describe_loop(const LoopReport& loop) {
-  const LinkTotals most = loop.whole();
+  const interactions::LinkTotals most = loop.whole();
   Json yielded = Json::array();
   for (std::size_t i = 0; i < loop.links.size(); ++i) {
     if (loop.totals[i].yielded > 0) yielded.push_back(loop.links[i]);
@@ -310,7 +310,8 @@ Json describe_drift(const Storey& storey, const std::array<DriftPeak, 2>& peaks)
           {"time", {peaks[0].time, peaks[1].time}}};
 }
 
-Json describe_filler(const interactions::InterfaceReport& report, const FillerTotals& totals) {
+Json describe_filler(const interactions::InterfaceReport& report,
+                     const interactions::FillerTotals& totals) {
   return {{"area", report.filler_area},
           {"thickness", report.filler_thickness},
           {"peak_pressure", totals.peak_pressure},

@@ -179,9 +179,8 @@ void TimeLoop::observe(std::int64_t step) {
   std::array<double, 3> ground_step = solver_.stepper().ground_acceleration();
   for (double& value : ground_step) value *= solver_.stepper().force_duration();
   recorder_->add_step(ground_step);
-  const bool reports =
-      solver_.stepper().interface_known() && solver_.contact()->root() == rank_of(comm_);
-  if (reports && solver_.stepper().touching()) {
+  const bool reports = solver_.interface_known() && solver_.contact()->root() == rank_of(comm_);
+  if (reports && solver_.touching()) {
     const interactions::ContactProblem& contact = *solver_.contact();
     ContactStep impulses{contact.gaps(), contact.impulses(), contact.works(), {}, {}, {}};
     if (contact.friction().has_any()) {
@@ -205,7 +204,7 @@ void TimeLoop::observe(std::int64_t step) {
       gap = std::min(gap, solver_.contact()->gaps()[row]);
     }
   }
-  if (forces_) forces_->end(solver_.stepper());
+  if (forces_) forces_->end(solver_);
   recorder_->record(solver_.stepper().state(), smallest_gaps_,
                     loops_ ? loops_->values() : std::span<const double>(),
                     forces_ ? forces_->values() : std::span<const double>());
@@ -213,7 +212,7 @@ void TimeLoop::observe(std::int64_t step) {
 
 void TimeLoop::observe_fields(std::int64_t step) {
   const ScopedTimer timer(profile_, Phase::output);
-  if (solver_.stepper().touching() && fields_->counts(step)) {
+  if (solver_.touching() && fields_->counts(step)) {
     solver_.contact()->add_dof_impulses(fields_->impulses());
   }
   if (fields_->due(step)) fields_->record(solver_.stepper().state());
@@ -248,13 +247,12 @@ void TimeLoop::close_ledger_line() {
   for (std::size_t s = 0; s < energies_.size(); ++s) {
     energy_round_off_[s] = energy_round_off(model_, s, energies_[s]);
   }
-  solver_.stepper().gap_watch().energies_known(energy.closed_steps() - 1, energies_,
-                                               energy_round_off_);
+  solver_.note_energies(energy.closed_steps() - 1, energies_, energy_round_off_);
   ledger_.add(line);
   if (uplift_) {
     const std::int64_t rest = step() % scene_.energy_interval;  // of the last line
     const std::int64_t steps = rest == 0 ? scene_.energy_interval : rest;
-    uplift_->look(solver_.stepper(), static_cast<double>(steps) * model_.time_step);
+    uplift_->look(solver_, static_cast<double>(steps) * model_.time_step);
   }
 }
 
@@ -322,7 +320,7 @@ void TimeLoop::fill(RunStatistics& statistics) const {
     statistics.contact_rows = solver_.contact()->rows();
     statistics.coupled_rows = solver_.contact()->coupled_rows();
     statistics.interface_ranks = solver_.contact()->members();
-    statistics.interface_looks = solver_.stepper().looks();
+    statistics.interface_looks = solver_.looks();
     MPI_Allreduce(MPI_IN_PLACE, &statistics.interface_looks, 1, MPI_INT64_T, MPI_MAX, comm_);
     statistics.complementarity_residual = solver_.contact()->largest_residual();
     statistics.slides = slides_->slides();
@@ -332,10 +330,10 @@ void TimeLoop::fill(RunStatistics& statistics) const {
   }
   if (solver_.fillers() != nullptr) {
     statistics.fillers = solver_.fillers()->totals();
-    broadcast_array(comm_, statistics.fillers, solver_.fillers()->root());
+    broadcast_array(comm_, statistics.fillers, solver_.fillers()->pairs().rows().root());
   }
   for (std::size_t s = 0; s < model_.systems.size(); ++s) {
-    const LinkStep* const links = solver_.stepper().link_step(s);
+    const interactions::StructureLinks* const links = solver_.links(s);
     int overpressed = links != nullptr && links->overpressed() ? 1 : 0;
     MPI_Allreduce(MPI_IN_PLACE, &overpressed, 1, MPI_INT, MPI_MAX, comm_);
     if (overpressed != 0) statistics.overpressed.push_back(model_.systems[s].name);

@@ -36,8 +36,8 @@ std::vector<LocalIndex> TotalForce::dofs() const {
   return dofs;
 }
 
-void TotalForce::add(const StructureState& state, const KeptForces& forces, const LinkStep* links,
-                     Wrench& total) const {
+void TotalForce::add(const StructureState& state, const KeptForces& forces,
+                     const interactions::StructureLinks* links, Wrench& total) const {
   for (const Counted& counted : counted_) {
     double force = forces.at(counted.dof).acting;
     if (!state.extra_force.empty()) force += state.extra_force[counted.dof];

@@ -3,7 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/cd_lagrange.h"
+#include "dynamics/kept_forces.h"
+#include "dynamics/state.h"
+#include "interactions/structure_links.h"
 #include "mesh/force_places.h"
 #include "mesh/mesh.h"
 #include "system/linear_system.h"
@@ -31,8 +33,8 @@ class TotalForce {
   std::vector<LocalIndex> dofs() const;
   /// Adds this rank's part of R after the step to t_n; `forces`: those of the step; `links` may be
   /// null.
-  void add(const StructureState& state, const KeptForces& forces, const LinkStep* links,
-           Wrench& total) const;
+  void add(const StructureState& state, const KeptForces& forces,
+           const interactions::StructureLinks* links, Wrench& total) const;
 
  private:
   /// A dof that is counted, and where it is.

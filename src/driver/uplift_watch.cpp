@@ -2,10 +2,12 @@
 
 namespace pounding {
 
-void UpliftWatch::look(const CdLagrange& stepper, double interval) {
+void UpliftWatch::look(const Solver& solver, double interval) {
   std::vector<double> sums;  // pressed and all, structure by structure
   for (std::size_t s = 0; s < ratios_.size(); ++s) {
-    const LinkStep::Bedding bedding = stepper.bedding(s);
+    const interactions::StructureLinks* const links = solver.links(s);
+    const auto bedding =
+        links != nullptr ? links->bedding() : interactions::StructureLinks::Bedding{};
     sums.insert(sums.end(), {bedding.pressed, bedding.all});
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
@@ -17,7 +19,7 @@ void UpliftWatch::look(const CdLagrange& stepper, double interval) {
     if (ratio.now < ContactRatio::low) ratio.low_duration += interval;
     if (ratio.now < ratio.smallest) {
       ratio.smallest = ratio.now;
-      ratio.time = stepper.time();
+      ratio.time = solver.stepper().time();
     }
   }
 }

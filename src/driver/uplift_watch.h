@@ -5,7 +5,7 @@
 #include <mpi.h>
 
 #include "common/saved_state.h"
-#include "dynamics/cd_lagrange.h"
+#include "driver/solver.h"
 
 namespace pounding {
 
@@ -28,7 +28,7 @@ class UpliftWatch {
   UpliftWatch(MPI_Comm comm, std::size_t structures) : comm_(comm), ratios_(structures) {}
 
   /// `interval` since the look before [s]. Collective.
-  void look(const CdLagrange& stepper, double interval);
+  void look(const Solver& solver, double interval);
   const std::vector<ContactRatio>& ratios() const { return ratios_; }  ///< per structure
 
   /// Ratios are alike on all ranks; one saves.

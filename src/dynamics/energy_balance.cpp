@@ -30,8 +30,7 @@ EnergyBalance::EnergyBalance(MPI_Comm comm, std::span<const LinearSystem> system
 }
 
 void EnergyBalance::add_step(std::span<const StepSums> sums,
-                             const std::array<double, 3>& ground_acceleration,
-                             const ContactWork& contact) {
+                             const std::array<double, 3>& ground_acceleration) {
   lagged_damping_ = 0;
   for (std::size_t b = 0; b < systems_.size(); ++b) {
     lagged_damping_ += time_step_ / 4 * sums[b].extra_damping_before;
@@ -64,7 +63,7 @@ void EnergyBalance::add_step(std::span<const StepSums> sums,
   for (std::size_t b = 0; b < systems_.size(); ++b) {
     open_filtered_[b] = time_step_ / 2 * sums[b].filtered;
   }
-  open_ = works(sums, ground_acceleration, contact);
+  open_ = works(sums, ground_acceleration);
   ++steps_;
 }
 
@@ -80,11 +79,8 @@ double EnergyBalance::stored_work(std::span<const StepSums> sums) const {
 
 /// Works of the step just made.
 EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
-                                          const std::array<double, 3>& ground_acceleration,
-                                          const ContactWork& contact) const {
+                                          const std::array<double, 3>& ground_acceleration) const {
   Works result;
-  result.contact = contact.normal;
-  result.friction = contact.friction_loss;
   for (std::size_t b = 0; b < systems_.size(); ++b) {
     const Rayleigh& damping = systems_[b].damping;
     result.damping += time_step_ / 4 * mass_damping(systems_[b]) * sums[b].mass_sum;
@@ -96,6 +92,8 @@ EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
     }
     result.device += time_step_ / 2 * sums[b].device;
     result.links += sums[b].link_loss;
+    result.contact += sums[b].contact_work;
+    result.friction += sums[b].friction_loss;
     result.input += sums[b].link_input + sums[b].support_input + sums[b].contact_support_input;
     result.contact_supports += sums[b].contact_support_input;
   }

@@ -55,12 +55,6 @@ struct StructureEnergy {
   double energy() const { return kinetic + strain; }
 };
 
-/// Work of contact in one step [J].
-struct ContactWork {
-  double normal = 0;         ///< 1/2 lambda^T L v-
-  double friction_loss = 0;  ///< -1/2 lambda_t^T L_t (v- + v+)
-};
-
 /// Exact energy identity of the scheme, with vbar = (v_{n+1/2} + v_{n-1/2}) / 2:
 ///
 ///     E_{n+1/2} - E_{n-1/2} = -dt vbar^T C vbar + dt vbar^T (f_n - x_n) + 1/2 lambda^T L v_{n-1/2}
@@ -92,10 +86,8 @@ class EnergyBalance {
   EnergyBalance(MPI_Comm comm, std::span<const LinearSystem> systems, double time_step);
 
   /// Called at the end of every step: closes the one before, and opens this one with its sums per
-  /// structure, its ground acceleration, and what contact did if this rank counts it (nothing on
-  /// the others).
-  void add_step(std::span<const StepSums> sums, const std::array<double, 3>& ground_acceleration,
-                const ContactWork& contact);
+  /// structure and its ground acceleration.
+  void add_step(std::span<const StepSums> sums, const std::array<double, 3>& ground_acceleration);
   /// The energies are read from the sums of the next step.
   bool needs_energies() const { return steps_ == 1; }
 
@@ -141,8 +133,8 @@ class EnergyBalance {
   /// alpha as the step has it [1/s]: it multiplies by 1 - dt alpha, a number so close to 1 that
   /// rounding it changes alpha by up to 1e-16 / (dt alpha) of itself.
   double mass_damping(const LinearSystem& system) const;
-  Works works(std::span<const StepSums> sums, const std::array<double, 3>& ground_acceleration,
-              const ContactWork& contact) const;
+  Works works(std::span<const StepSums> sums,
+              const std::array<double, 3>& ground_acceleration) const;
   /// Stored part of the work of q at a line, of structures with beta: above, in brackets [J].
   double stored_work(std::span<const StepSums> sums) const;
   StructureEnergy energy(std::size_t structure, const StepSums& sums) const;

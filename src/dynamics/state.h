@@ -6,6 +6,7 @@
 
 #include "common/petsc.h"
 #include "common/saved_state.h"
+#include "interactions/support_step.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -37,16 +38,9 @@ class StateVectors {
   VecHandle velocity_;
 };
 
-/// Motion of supports relative to the scene's ground, per column of SupportShapes; empty where the
-/// ground moves as one. Before the step to t_n:
-struct SupportState {
-  std::vector<double> displacement;  ///< r_n [m, rad]
-  std::vector<double> velocity;      ///< r'_{n-1/2} [m/s, rad/s]
-};
-
 struct State {
   std::vector<StructureState> structures;
-  SupportState supports;
+  interactions::SupportState supports;
   std::int64_t step = 0;  ///< n of the next step
 
   /// Starts at rest but for the initial displacement and velocity of every structure.

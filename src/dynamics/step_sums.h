@@ -3,23 +3,19 @@
 #include <array>
 
 #include "dynamics/update.h"
+#include "interactions/ledger_part.h"
 
 namespace pounding {
 
 /// Sums over the owned dofs of a structure that one step leaves for the energy balance, with
-/// v- = v_{n-1/2}, v+ = v_{n+1/2}, s = v+ + v-.
-struct StepSums {
+/// v- = v_{n-1/2}, v+ = v_{n+1/2}, s = v+ + v-, and those of interactions. The support input
+/// is that of the loads on the dofs as well.
+struct StepSums : interactions::LedgerPart {
   double stiffness_work = 0;         ///< q^T s [W]
   double mass_sum = 0;               ///< s^T M s [J]
   std::array<double, 3> momentum{};  ///< iota_d^T M s [kg m/s]
   double filtered = 0;               ///< (f - q)^T s, f the force that uniform damping filters [W]
   double device = 0;                 ///< x^T s, x the force of the extra damping [W]
-  double link_energy_before = 0;     ///< of links, between u_{n-1} and u_n [J]
-  double link_loss = 0;              ///< what the step made them take and not keep [J]
-  double link_loss_before = 0;       ///< likewise of fillers, in the step before [J]
-  double link_input = 0;             ///< work of a wave from below on them [J]
-  double support_input = 0;          ///< work of supports' motion, contacts apart [J]
-  double contact_support_input = 0;  ///< of supports against contact impulses [J]
   double kinetic_before = 0;         ///< v-^T M v- [J], if energies are asked for
   double added_kinetic_before = 0;   ///< v-^T S v- [J] likewise
   double stiffness_before = 0;       ///< v-^T K v- [W] likewise

@@ -336,7 +336,7 @@ void StructureStep::complete() {
   }
 }
 
-void StructureStep::remember(std::span<const LocalIndex> dofs, Before& before) const {
+void StructureStep::remember(std::span<const LocalIndex> dofs, interactions::Before& before) const {
   for (std::size_t k = 0; k < dofs.size(); ++k) {
     const std::size_t i = dofs[k];
     before.displacement[k] = state_.displacement[i];
@@ -344,7 +344,7 @@ void StructureStep::remember(std::span<const LocalIndex> dofs, Before& before) c
   }
 }
 
-void StructureStep::correct(std::span<const LocalIndex> dofs, const Before& before,
+void StructureStep::correct(std::span<const LocalIndex> dofs, const interactions::Before& before,
                             std::span<const double> velocity) {
   for (std::size_t k = 0; k < dofs.size(); ++k) {
     const std::size_t i = dofs[k];

@@ -11,6 +11,7 @@
 #include "dynamics/state.h"
 #include "dynamics/step_sums.h"
 #include "dynamics/update.h"
+#include "interactions/interaction.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -34,14 +35,16 @@ struct StepRequest {
 /// one step on (update.h) while the range is in the nearest cache; the sums for the energy balance
 /// are taken on the way. Dofs whose mass is coupled wait for `complete`. v+ is free of contact
 /// until `correct` is called.
-class StructureStep final : public stiffness::ForceReceiver {
+class StructureStep final : public stiffness::ForceReceiver, public interactions::SteppedStructure {
  public:
   /// References must outlive this object.
   StructureStep(const LinearSystem& system, StructureState& state, double time_step);
 
+  const std::vector<double>& displacement() const override { return state_.displacement; }
+  const std::vector<double>& velocity() const override { return state_.velocity; }
   /// Dofs whose forces a step can be asked for, and whose velocity `correct` may change. Allocates;
   /// before the first step. `always`: they are kept in every step in which a correction needs them.
-  void watch(std::span<const LocalIndex> dofs, bool always);
+  void watch(std::span<const LocalIndex> dofs, bool always) override;
   /// `duration`: of the velocity's step [s]; `supports`: r_c'' of every column of SupportShapes
   /// [m/s2, rad/s2].
   void begin(double duration, const std::array<double, 3>& ground_acceleration,
@@ -49,19 +52,13 @@ class StructureStep final : public stiffness::ForceReceiver {
   void receive(LocalIndex begin, LocalIndex end, const double* force) override;
   /// After every range of the step.
   void complete();
-  /// State of some dofs before the step.
-  struct Before {
-    explicit Before(std::size_t dofs) : displacement(dofs), velocity(dofs) {}
-    std::vector<double> displacement;
-    std::vector<double> velocity;
-  };
-  void remember(std::span<const LocalIndex> dofs, Before& before) const;
+  void remember(std::span<const LocalIndex> dofs, interactions::Before& before) const override;
   /// Forces of this step at the watched dofs, where they were asked for.
   const KeptForces& forces() const { return forces_; }
-  /// v+ = `velocity` at these dofs, after contact; sums and displacement follow. The dofs are
-  /// watched, and their forces were asked for.
-  void correct(std::span<const LocalIndex> dofs, const Before& before,
-               std::span<const double> velocity);
+  /// v+ = `velocity` at these dofs; sums and displacement follow. The dofs are watched, and their
+  /// forces were asked for.
+  void correct(std::span<const LocalIndex> dofs, const interactions::Before& before,
+               std::span<const double> velocity) override;
   /// Sums of the whole step.
   StepSums sums() const;
 

@@ -140,9 +140,11 @@ void MemberRun::resolve(std::span<OctetStep> steps, std::span<OctetState> states
 void MemberRun::close(double time, double duration, bool records,
                       std::span<const OctetStep> steps) {
   for (std::size_t s = 0; s < steps.size(); ++s) sums_[s] = steps[s].sums(lane_);
-  ContactWork work;
-  if (touching_) work = {contact_->total_work(), contact_->friction().total_loss()};
-  energy_.add_step(sums_, acceleration_, work);
+  if (touching_) {
+    sums_.front().contact_work = contact_->total_work();
+    sums_.front().friction_loss = contact_->friction().total_loss();
+  }
+  energy_.add_step(sums_, acceleration_);
   if (touching_) {
     ContactStep impulses{contact_->gaps(), contact_->impulses(), contact_->works(), {}, {}, {}};
     if (contact_->friction().has_any()) {

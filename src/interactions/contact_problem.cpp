@@ -8,7 +8,6 @@
 #include "common/magnitude.h"
 #include "interactions/contact_components.h"
 #include "interactions/delassus.h"
-#include "interactions/interface_traces.h"
 
 namespace pounding::interactions {
 namespace {
@@ -25,33 +24,16 @@ ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
                                std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
                                double gap_tolerance)
     : constraints_(interface.constraints),
-      operator_(comm, with_friction_rows(constraints_), meshes,
-                SlidingPairs::all_terms(interface.sliding)),
-      sliding_(operator_, interface),
-      structure_dofs_(dofs_by_structure(operator_, systems.size())),
-      traces_(make_traces(operator_, systems, meshes, true)),
-      gather_(comm, known_dofs(structure_dofs_, traces_)),
-      compliance_(comm, operator_.dof_list(), traces_),
-      friction_(operator_, compliance_, interface.constraints),
+      interface_(comm, with_friction_rows(constraints_), systems, meshes,
+                 SlidingPairs::all_terms(interface.sliding)),
+      sliding_(interface_.rows(), interface),
+      friction_(interface_.rows(), interface_.compliance(), interface.constraints),
       gap_tolerance_(gap_tolerance) {
-  const std::size_t dofs = operator_.dofs();
+  const std::size_t dofs = interface_.dofs();
   const std::size_t rows = interface.constraints.size();
   for (const Constraint& constraint : interface.constraints) {
     initial_gap_.push_back(constraint.initial_gap);
   }
-  std::size_t known = 0;
-  known_place_.assign(dofs, -1);
-  for (std::size_t s = 0; s < traces_.size(); ++s) {
-    const std::vector<int>& places = traces_[s].known();
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      const int dof = structure_dofs_[s][places[k]];
-      known_place_[dof] = static_cast<int>(k);
-    }
-    first_known_.push_back(known);
-    known += places.size();
-  }
-  mine_.assign(InterfaceGather::max_fields * known, 0.0);
-  place_impulse_.assign(known, 0.0);
   displacement_.assign(dofs, 0.0);
   velocities_.assign(InterfaceGather::max_fields * dofs, 0.0);
   gap_ = initial_gap_;
@@ -68,7 +50,7 @@ ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
 void ContactProblem::build_delassus() {
   diagonal_.clear();
   for (int row = 0; row < rows(); ++row) {
-    diagonal_.push_back(delassus_entry(operator_, compliance_, row, row));
+    diagonal_.push_back(delassus_entry(interface_.rows(), interface_.compliance(), row, row));
   }
   find_components();
 }
@@ -77,32 +59,34 @@ void ContactProblem::take_new_pairs() {
   for (std::size_t row = 0; row < constraints_.size(); ++row) {
     initial_gap_[row] = constraints_[row].initial_gap;
   }
-  operator_.set_rows(with_friction_rows(constraints_));
+  interface_.rows().set_rows(with_friction_rows(constraints_));
   build_delassus();
 }
 
 std::vector<double> ContactProblem::row_force(int row, std::size_t structure,
                                               LocalIndex owned_dofs) const {
   std::vector<double> force(owned_dofs, 0.0);
-  const auto dofs = operator_.row_dofs(row);
+  const auto dofs = interface_.rows().row_dofs(row);
   for (std::size_t a = 0; a < dofs.size(); ++a) {
     const std::size_t dof = dofs[a];
-    if (structure_of(dof) == structure && known_place_[dof] >= 0) {
-      traces_[structure].add_force(static_cast<std::size_t>(known_place_[dof]),
-                                   operator_.row_coefficients(row)[a], force);
+    const int place = interface_.known_place(dof);
+    if (interface_.structure_of(dof) == structure && place >= 0) {
+      interface_.trace(structure).add_force(static_cast<std::size_t>(place),
+                                            interface_.rows().row_coefficients(row)[a], force);
     }
   }
   return force;
 }
 
 double ContactProblem::row_compliance(int row, std::size_t structure) const {
-  const auto dofs = operator_.row_dofs(row);
-  const auto values = operator_.row_coefficients(row);
+  const auto dofs = interface_.rows().row_dofs(row);
+  const auto values = interface_.rows().row_coefficients(row);
   double sum = 0;
   for (std::size_t a = 0; a < dofs.size(); ++a) {
     const std::size_t dof = dofs[a];
-    for (std::size_t b = 0; structure_of(dof) == structure && b < dofs.size(); ++b) {
-      sum += values[a] * values[b] * compliance_.entry(dof, static_cast<std::size_t>(dofs[b]));
+    for (std::size_t b = 0; interface_.structure_of(dof) == structure && b < dofs.size(); ++b) {
+      sum += values[a] * values[b] *
+             interface_.compliance().entry(dof, static_cast<std::size_t>(dofs[b]));
     }
   }
   return std::max(sum, 0.0);
@@ -116,8 +100,8 @@ void ContactProblem::find_components() {
   for (int row = 0; row < rows(); ++row) {
     std::vector<int>& groups = row_groups.emplace_back();
     const auto add_groups = [&](int operator_row) {
-      for (const int dof : operator_.row_dofs(operator_row)) {
-        groups.push_back(compliance_.group_of(static_cast<std::size_t>(dof)));
+      for (const int dof : interface_.rows().row_dofs(operator_row)) {
+        groups.push_back(interface_.compliance().group_of(static_cast<std::size_t>(dof)));
       }
     };
     add_groups(row);
@@ -125,11 +109,11 @@ void ContactProblem::find_components() {
     add_groups(friction_.tangent(row));
     add_groups(friction_.tangent(row) + 1);
   }
-  DelassusPattern pattern(operator_, compliance_);
-  std::vector<int> place(operator_.rows(), -1);
+  DelassusPattern pattern(interface_.rows(), interface_.compliance());
+  std::vector<int> place(interface_.rows().rows(), -1);
   std::size_t largest = 1;
   std::size_t most_entries = 0;
-  for (std::vector<int>& rows : coupled_components(row_groups, operator_.dofs())) {
+  for (std::vector<int>& rows : coupled_components(row_groups, interface_.rows().dofs())) {
     Component& component = components_.emplace_back(Component{std::move(rows), {}, -1});
     const std::size_t size = component.rows.size();
     if (size > 1) coupled_rows_ += static_cast<int>(size);
@@ -141,7 +125,8 @@ void ContactProblem::find_components() {
     for (std::size_t i = 0; i < size; ++i) place[component.rows[i]] = static_cast<int>(i);
     for (const int row : component.rows) {
       for (const int column : pattern.coupled_with({&row, 1})) {
-        component.delassus.add(place[column], delassus_entry(operator_, compliance_, row, column));
+        component.delassus.add(
+            place[column], delassus_entry(interface_.rows(), interface_.compliance(), row, column));
       }
       component.delassus.end_row();
     }
@@ -160,21 +145,20 @@ void ContactProblem::find_components() {
 
 void ContactProblem::set_displacement(std::size_t structure, const double* displacement,
                                       std::span<const double> supports) {
-  traces_[structure].apply(displacement, mine_.data() + first_known_[structure], 1, supports);
+  interface_.set(structure, 0, 1, displacement, supports);
 }
 
 void ContactProblem::set_place_displacement(std::size_t structure, std::span<const double> places) {
-  std::copy(places.begin(), places.end(),
-            mine_.begin() + static_cast<std::ptrdiff_t>(first_known_[structure]));
+  interface_.set_places(structure, places);
 }
 
 void ContactProblem::gather_displacements() {
-  gather_.gather(1, {mine_.data(), mine_.size() / InterfaceGather::max_fields}, displacement_);
+  interface_.gather(1, displacement_);
   if (sliding_.any() && sliding_.find(displacement_, constraints_)) take_new_pairs();
   smallest_gap_ = std::numeric_limits<double>::max();
   for (int row = 0; row < rows(); ++row) {
     const std::size_t r = row;
-    gap_[r] = initial_gap_[r] + operator_.apply(row, displacement_);
+    gap_[r] = initial_gap_[r] + interface_.rows().apply(row, displacement_);
     smallest_gap_ = std::min(smallest_gap_, gap_[r]);
   }
 }
@@ -191,16 +175,16 @@ bool ContactProblem::detect_contact() {
 
 void ContactProblem::set_velocity_before(std::size_t structure, const double* velocity,
                                          std::span<const double> supports) {
-  traces_[structure].apply(velocity, mine_.data() + 2 * first_known_[structure], 2, supports);
+  interface_.set(structure, 0, 2, velocity, supports);
 }
 
 void ContactProblem::set_free_velocity(std::size_t structure, const double* velocity,
                                        std::span<const double> supports) {
-  traces_[structure].apply(velocity, mine_.data() + 2 * first_known_[structure] + 1, 2, supports);
+  interface_.set(structure, 1, 2, velocity, supports);
 }
 
 void ContactProblem::gather_velocities() {
-  gather_.gather(2, mine_, velocities_);
+  interface_.gather(2, velocities_);
 }
 
 void ContactProblem::solve_with_friction(const Component& component) {
@@ -225,8 +209,8 @@ void ContactProblem::solve_component(const Component& component) {
   if (active_places_.size() == 1) {
     const int row = component.rows[active_places_[0]];
     const std::size_t r = row;
-    impulse_[r] = std::max(0.0, -operator_.apply(row, free_velocity)) / diagonal_[r];
-    operator_.add_transposed(row, impulse_[r], dof_impulse_);
+    impulse_[r] = std::max(0.0, -interface_.rows().apply(row, free_velocity)) / diagonal_[r];
+    interface_.rows().add_transposed(row, impulse_[r], dof_impulse_);
   } else if (!active_places_.empty()) {
     solve_coupled(component);
   }
@@ -239,14 +223,16 @@ void ContactProblem::solve_coupled(const Component& component) {
   const auto row = [&](std::size_t i) { return component.rows[active_places_[i]]; };
   active_number_.assign(component.rows.size(), -1);
   for (std::size_t i = 0; i < n; ++i) {
-    rate_[i] = operator_.apply(row(i), free_velocity);
+    rate_[i] = interface_.rows().apply(row(i), free_velocity);
     solution_[i] = previous_[row(i)];
     active_number_[active_places_[i]] = static_cast<int>(i);
   }
   take_principal_part(component.delassus, active_number_, matrix_);
   const LcpResult result = lcp_->solve(matrix_, {rate_.data(), n}, {solution_.data(), n});
   note_residual(result.residual, largest_magnitude({rate_.data(), n}));
-  for (std::size_t i = 0; i < n; ++i) operator_.add_transposed(row(i), solution_[i], dof_impulse_);
+  for (std::size_t i = 0; i < n; ++i) {
+    interface_.rows().add_transposed(row(i), solution_[i], dof_impulse_);
+  }
   if (result.roundoff > correction_threshold) correct_component(component);
   for (std::size_t i = 0; i < n; ++i) impulse_[row(i)] = solution_[i];
 }
@@ -265,18 +251,19 @@ void ContactProblem::correct_component(const Component& component) {
   const std::size_t n = active_places_.size();
   for (std::size_t i = 0; i < n; ++i) {
     const int row = component.rows[active_places_[i]];
-    const auto columns = operator_.row_dofs(row);
-    const auto values = operator_.row_coefficients(row);
+    const auto columns = interface_.rows().row_dofs(row);
+    const auto values = interface_.rows().row_coefficients(row);
     rate_[i] = 0;
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const std::size_t dof = columns[k];
-      rate_[i] +=
-          values[k] * (velocities_[dofs + dof] + compliance_.velocity_change(dof, dof_impulse_));
+      rate_[i] += values[k] * (velocities_[dofs + dof] +
+                               interface_.compliance().velocity_change(dof, dof_impulse_));
     }
   }
   lcp_->correct({rate_.data(), n}, {solution_.data(), n}, {increment_.data(), n});
   for (std::size_t i = 0; i < n; ++i) {
-    operator_.add_transposed(component.rows[active_places_[i]], increment_[i], dof_increment_);
+    interface_.rows().add_transposed(component.rows[active_places_[i]], increment_[i],
+                                     dof_increment_);
   }
 }
 
@@ -297,7 +284,7 @@ void ContactProblem::solve_impulse() {
     for (const int row : component.rows) {
       const double impulse = impulse_[row];
       if (impulse > 0 && component.frictional < 0) {
-        work_[row] = 0.5 * impulse * operator_.apply(row, velocity_before);
+        work_[row] = 0.5 * impulse * interface_.rows().apply(row, velocity_before);
       }
     }
   }
@@ -305,16 +292,7 @@ void ContactProblem::solve_impulse() {
 
 void ContactProblem::add_velocity_change(std::size_t structure, double* velocity) {
   for (const std::vector<double>* impulse : {&dof_impulse_, &dof_increment_}) {
-    pick_impulses(structure, *impulse);
-    traces_[structure].add_impulse(place_impulse_.data(), velocity);
-  }
-}
-
-void ContactProblem::pick_impulses(std::size_t structure, const std::vector<double>& impulse) {
-  const std::vector<int>& known = traces_[structure].known();
-  for (std::size_t k = 0; k < known.size(); ++k) {
-    const int dof = structure_dofs_[structure][known[k]];
-    place_impulse_[k] = impulse[dof];
+    interface_.add_velocity_change(structure, *impulse, velocity);
   }
 }
 
@@ -327,8 +305,7 @@ void ContactProblem::add_dof_impulses(std::span<double> sum) const {
 double ContactProblem::support_work(std::size_t structure, std::span<const double> velocity) {
   double work = 0;
   for (const std::vector<double>* impulse : {&dof_impulse_, &dof_increment_}) {
-    pick_impulses(structure, *impulse);
-    work += traces_[structure].support_work(place_impulse_, velocity);
+    work += interface_.support_work(structure, *impulse, velocity);
   }
   return work;
 }

@@ -5,16 +5,13 @@
 #include <vector>
 
 #include "common/saved_state.h"
-#include "interactions/contact_operator.h"
 #include "interactions/frictional_contact.h"
-#include "interactions/interface_compliance.h"
-#include "interactions/interface_gather.h"
+#include "interactions/interface_rows.h"
 #include "interactions/pairing/interface.h"
 #include "interactions/sliding_pairs.h"
 #include "interactions/solvers/coupled_lcp.h"
 #include "interactions/solvers/sparse_rows.h"
 #include "system/linear_system.h"
-#include "system/trace.h"
 
 namespace pounding::interactions {
 
@@ -38,15 +35,15 @@ class ContactProblem {
   /// Says how long the steps are [s], by which sliding pairs are looked at.
   void set_time_step(double time_step) { sliding_.set_time_step(time_step); }
 
-  bool member() const { return gather_.member(); }
-  int root() const { return gather_.root(); }
-  int members() const { return gather_.members(); }
+  bool member() const { return interface_.member(); }
+  int root() const { return interface_.root(); }
+  int members() const { return interface_.members(); }
   /// Constraints, friction apart.
   int rows() const { return static_cast<int>(initial_gap_.size()); }
   int coupled_rows() const { return coupled_rows_; }
 
   /// The interface of a structure, as far as this rank knows it.
-  const Trace& trace(std::size_t structure) const { return traces_[structure]; }
+  const Trace& trace(std::size_t structure) const { return interface_.trace(structure); }
   /// u_n over the owned dofs of the structure; `supports`: that of the supports, see Trace::apply.
   void set_displacement(std::size_t structure, const double* displacement,
                         std::span<const double> supports = {});
@@ -85,7 +82,7 @@ class ContactProblem {
   double total_work() const;
   const FrictionalContact& friction() const { return friction_; }
   /// Places that contacts move, the same on every rank.
-  const std::vector<InterfaceDof>& dof_list() const { return operator_.dof_list(); }
+  const std::vector<InterfaceDof>& dof_list() const { return interface_.rows().dof_list(); }
   /// Adds the impulses L^T lambda of the last solve, friction's included, to `sum` [N s], per place
   /// of dof_list(). Members only.
   void add_dof_impulses(std::span<double> sum) const;
@@ -96,7 +93,7 @@ class ContactProblem {
   /// L M^-1 L^T of a row with only one structure's columns [1/kg]; the same on all ranks.
   double row_compliance(int row, std::size_t structure) const;
   /// Adds the values of all members up. Members only, collective over them.
-  void add_over_members(std::span<double> values) { gather_.add(values); }
+  void add_over_members(std::span<double> values) { interface_.add_over_members(values); }
 
   /// The impulses of the last solve, from which the LCP starts, and the largest residual.
   void save(SavedState& saved) const;
@@ -113,11 +110,6 @@ class ContactProblem {
   /// H, its components and room for them, from the rows of L as they are.
   void build_delassus();
   void take_new_pairs();
-  std::size_t structure_of(std::size_t dof) const {
-    return static_cast<std::size_t>(operator_.dof_list()[dof].structure);
-  }
-  /// L^T lambda at the known places of a structure, of one of the two that are kept.
-  void pick_impulses(std::size_t structure, const std::vector<double>& impulse);
   void find_components();
   void solve_component(const Component& component);
   void solve_with_friction(const Component& component);
@@ -129,24 +121,16 @@ class ContactProblem {
   void note_residual(double residual, double rate);
 
   std::vector<Constraint> constraints_;  ///< as they are now
-  ContactOperator operator_;
+  InterfaceRows interface_;
   SlidingPairs sliding_;
-  std::vector<std::vector<int>> structure_dofs_;  ///< per structure: its interface dofs
-  std::vector<Trace> traces_;                     ///< per structure
-  std::vector<std::size_t> first_known_;          ///< per structure, into the values of this rank
-  std::vector<int> known_place_;                  ///< per interface dof, in its trace; -1: none
-  InterfaceGather gather_;
-  InterfaceCompliance compliance_;
   FrictionalContact friction_;
   double gap_tolerance_;
   std::vector<double> initial_gap_;
   std::vector<double> diagonal_;  ///< H_ii
   std::vector<Component> components_;
   int coupled_rows_ = 0;
-  std::vector<double> mine_;           ///< shape (known, 1 or 2)
-  std::vector<double> displacement_;   ///< per interface dof
-  std::vector<double> velocities_;     ///< shape (2, dofs): before, free
-  std::vector<double> place_impulse_;  ///< of the known dofs of a structure
+  std::vector<double> displacement_;  ///< per interface dof
+  std::vector<double> velocities_;    ///< shape (2, dofs): before, free
   std::vector<double> gap_;
   std::vector<double> impulse_;
   std::vector<double> previous_;  ///< impulses of the last solve: where the LCP starts

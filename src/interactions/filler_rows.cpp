@@ -1,177 +1,192 @@
 #include "interactions/filler_rows.h"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <limits>
-#include <map>
 
-#include "interactions/delassus.h"
-#include "interactions/interface_traces.h"
+#include "common/parallel.h"
 
 namespace pounding::interactions {
 namespace {
 
-constexpr std::size_t fields = 2;  // displacement and velocity
+constexpr std::size_t saved_values = 4;
+constexpr std::size_t saved_totals = 4;
 
-/// Rounds by which a bound of an eigenvalue is sharpened.
-constexpr int rounds = 50;
-
-std::vector<Constraint> filled(const Interface& interface) {
-  std::vector<Constraint> found;
-  std::ranges::copy_if(interface.constraints, std::back_inserter(found),
-                       [](const Constraint& c) { return c.filler.area > 0; });
-  return found;
-}
-
-std::vector<FillerRows::Row> rows_of(const Interface& interface) {
-  std::vector<FillerRows::Row> rows;
-  for (const Constraint& c : filled(interface)) rows.push_back({c.contact, c.filler});
-  return rows;
+std::vector<std::unique_ptr<LinkLaw>> filler_laws(const FillerPairs& pairs,
+                                                  std::span<const Contact> contacts) {
+  std::vector<std::unique_ptr<LinkLaw>> laws;
+  for (const auto& [contact, part] : pairs.all()) {
+    laws.push_back(
+        std::make_unique<FillerLaw>(*contacts[contact].filler, part.thickness, part.area));
+  }
+  return laws;
 }
 
 }  // namespace
 
-FillerRows::FillerRows(MPI_Comm comm, const Interface& interface,
-                       std::span<const LinearSystem> systems, std::span<const Mesh> meshes)
-    : rows_(rows_of(interface)),
-      operator_(comm, filled(interface), meshes),
-      structure_dofs_(dofs_by_structure(operator_, systems.size())),
-      traces_(make_traces(operator_, systems, meshes, true)),
-      gather_(comm, known_dofs(structure_dofs_, traces_)),
-      compliance_(comm, operator_.dof_list(), traces_) {
-  std::size_t known = 0;
-  for (const Trace& trace : traces_) {
-    first_known_.push_back(known);
-    known += trace.known().size();
+FillerRows::FillerRows(MPI_Comm comm, const Interface& interface, std::span<const Contact> contacts,
+                       std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
+                       double time_step)
+    : pairs_(comm, interface, systems, meshes),
+      counts_(pairs_.rows().root() == rank_of(comm)),
+      time_step_(time_step),
+      laws_(filler_laws(pairs_, contacts)),
+      memory_(laws_),
+      solver_(laws_, pairs_.couplings(), {}, time_step),
+      compression_(laws_.size()),
+      totals_(contacts.size()),
+      contact_force_(contacts.size(), 0.0) {
+  for (auto* values :
+       {&rate_, &rate_before_, &force_, &force_before_, &held_, &driven_, &impulse_}) {
+    values->assign(laws_.size(), 0.0);
   }
-  const std::size_t dofs = operator_.dofs();
-  mine_.assign(fields * known, 0.0);
-  place_impulse_.assign(known, 0.0);
-  values_.assign(fields * dofs, 0.0);
-  dof_impulse_.assign(dofs, 0.0);
-  find_couplings(systems.size());
-  count_from_rest(systems);
-}
-
-void FillerRows::find_couplings(std::size_t structures) {
-  DelassusPattern pattern(operator_, compliance_);
-  parts_.assign(structures, std::vector<std::vector<Coupling>>(rows_.size()));
-  couplings_.resize(rows_.size());
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    const auto dofs = operator_.row_dofs(static_cast<int>(r));
-    const auto values = operator_.row_coefficients(static_cast<int>(r));
-    const int row = static_cast<int>(r);
-    for (const int column : pattern.coupled_with({&row, 1})) {
-      const auto other = static_cast<std::size_t>(column);
-      const auto other_dofs = operator_.row_dofs(static_cast<int>(other));
-      const auto other_values = operator_.row_coefficients(static_cast<int>(other));
-      std::map<int, double> part;  // by structure
-      for (std::size_t a = 0; a < dofs.size(); ++a) {
-        for (std::size_t b = 0; b < other_dofs.size(); ++b) {
-          const double entry = compliance_.entry(static_cast<std::size_t>(dofs[a]),
-                                                 static_cast<std::size_t>(other_dofs[b]));
-          if (entry == 0) continue;
-          part[operator_.dof_list()[dofs[a]].structure] += values[a] * entry * other_values[b];
-        }
-      }
-      double sum = 0;
-      for (const auto& [structure, compliance] : part) {
-        parts_[structure][r].push_back({other, compliance});
-        sum += compliance;
-      }
-      if (other == r) {
-        couplings_[r].insert(couplings_[r].begin(), {r, std::max(0.0, sum)});
-      } else if (sum != 0) {
-        couplings_[r].push_back({other, sum});
-      }
-    }
-  }
-}
-
-void FillerRows::count_from_rest(std::span<const LinearSystem> systems) {
   for (std::size_t s = 0; s < systems.size(); ++s) {
-    const std::vector<double> none(systems[s].lumped_mass.size(), 0.0);
-    const std::vector<double>& rest = systems[s].rest_displacement;
-    set_state(s, rest.empty() ? none.data() : rest.data(), none.data(), {});
-  }
-  if (!member()) return;
-  std::vector<double> compression(rows_.size());
-  std::vector<double> rate(rows_.size());
-  gather(compression, rate);
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    rows_[r].part.clearance += compression[r] + rows_[r].part.clearance;
+    const std::size_t dofs = pairs_.rows().trace(s).dofs().size();
+    before_step_.emplace_back(dofs);
+    velocity_.emplace_back(dofs, 0.0);
   }
 }
 
-void FillerRows::set_state(std::size_t structure, const double* displacement,
-                           const double* velocity, const Supports& supports) {
-  double* const values = mine_.data() + fields * first_known_[structure];
-  traces_[structure].apply(displacement, values, fields, supports.displacement);
-  traces_[structure].apply(velocity, values + 1, fields, supports.velocity);
-}
-
-void FillerRows::gather(std::span<double> compression, std::span<double> rate) {
-  gather_.gather(static_cast<int>(fields), mine_, values_);
-  const std::size_t dofs = operator_.dofs();
-  const std::span<const double> displacement(values_.data(), dofs);
-  const std::span<const double> velocity(values_.data() + dofs, dofs);
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    const int row = static_cast<int>(r);
-    compression[r] = -operator_.apply(row, displacement) - rows_[r].part.clearance;
-    rate[r] = -operator_.apply(row, velocity);
+void FillerRows::attach(std::span<SteppedStructure* const> structures) {
+  for (std::size_t s = 0; s < structures.size(); ++s) {
+    structures[s]->watch(pairs_.rows().trace(s).dofs(), true);
   }
 }
 
-double FillerRows::largest_eigenvalue(std::size_t structure,
-                                      std::span<const double> stiffness) const {
-  // The spectral radius of |B| bounds that of B, and max_i (|B| x)_i / x_i that of |B|, x > 0.
-  const std::vector<std::vector<Coupling>>& part = parts_[structure];
-  std::vector<double> x(rows_.size(), 1.0);
-  std::vector<double> product(rows_.size(), 0.0);
-  double bound = std::numeric_limits<double>::infinity();
-  for (int round = 0; round < rounds; ++round) {
-    double largest = 0;
-    double most = 0;
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      product[r] = 0;
-      for (const Coupling& other : part[r]) {
-        product[r] += std::abs(other.compliance) * std::sqrt(stiffness[r] * stiffness[other.row]) *
-                      x[other.row];
-      }
-      largest = std::max(largest, product[r] / x[r]);
-      most = std::max(most, product[r]);
+void FillerRows::begin(const Step& step) {
+  if (!pairs_.rows().member()) return;
+  auto& [before, now, free_after] = compression_;
+  for (std::size_t s = 0; s < step.structures.size(); ++s) {
+    const SteppedStructure& structure = *step.structures[s];
+    pairs_.set_displacement(s, structure.displacement().data(), step.supports.displacement);
+    pairs_.set_velocity(s, structure.velocity().data(), step.supports.velocity_before);
+    structure.remember(pairs_.rows().trace(s).dofs(), before_step_[s]);
+  }
+  rate_before_.swap(rate_);
+  force_before_.swap(force_);
+  pairs_.gather(now, rate_);
+  for (std::size_t r = 0; r < laws_.size(); ++r) before[r] = now[r] - time_step_ * rate_[r];
+  close_step_before();
+  for (std::size_t r = 0; r < laws_.size(); ++r) laws_[r]->yield(now[r], 1, memory_[r]);
+  made_ = true;
+}
+
+void FillerRows::close_step_before() {
+  const auto& [before, now, free_after] = compression_;
+  loss_ = 0;
+  for (std::size_t r = 0; r < laws_.size(); ++r) {
+    const double held = laws_[r]->energy(before[r], now[r], memory_[r]);
+    if (made_) {
+      const double taken = force_before_[r] * time_step_ * (rate_[r] + rate_before_[r]) / 2;
+      const double loss = taken - (held - held_[r]);
+      loss_ += loss;
+      totals_[pairs_.all()[r].contact].loss += loss;
     }
-    bound = std::min(bound, largest);
-    if (!(most > 0)) return 0;
-    // Half of x stays, so that no entry dies out and none swings.
-    for (std::size_t r = 0; r < rows_.size(); ++r) x[r] = (x[r] + product[r] / most) / 2;
+    held_[r] = held;
   }
-  return bound;
-}
-
-void FillerRows::set_impulses(std::span<const double> impulses) {
-  std::fill(dof_impulse_.begin(), dof_impulse_.end(), 0.0);
-  for (std::size_t r = 0; r < impulses.size(); ++r) {
-    operator_.add_transposed(static_cast<int>(r), impulses[r], dof_impulse_);
+  for (std::size_t k = 0; made_ && k < records_.links().size(); ++k) {
+    const std::size_t r = records_.links()[k];
+    records_.add_work(k, force_before_[r] * time_step_ * (rate_[r] + rate_before_[r]) / 2);
   }
 }
 
-void FillerRows::pick_impulses(std::size_t structure) {
-  const std::vector<int>& known = traces_[structure].known();
-  for (std::size_t k = 0; k < known.size(); ++k) {
-    place_impulse_[k] = dof_impulse_[structure_dofs_[structure][known[k]]];
+void FillerRows::push(const Step& step) {
+  if (!pairs_.rows().member()) return;
+  auto& [before, now, free_after] = compression_;
+  std::fill(force_.begin(), force_.end(), 0.0);
+  support_input_ = 0;
+  if (solver_.is_idle(now, memory_)) return;
+  for (std::size_t s = 0; s < step.structures.size(); ++s) {
+    pairs_.set_velocity(s, step.structures[s]->velocity().data(), step.supports.velocity);
+  }
+  pairs_.gather(impulse_, free_after);  // the rates alone are used
+  for (std::size_t r = 0; r < laws_.size(); ++r) {
+    free_after[r] = now[r] + time_step_ * free_after[r];
+  }
+  solver_.solve(step.share(), compression_, driven_, memory_, force_);
+  for (std::size_t r = 0; r < laws_.size(); ++r) {
+    impulse_[r] = step.share() * time_step_ * force_[r];
+  }
+  pairs_.set_impulses(impulse_);
+  for (std::size_t s = 0; s < step.structures.size(); ++s) {
+    const Trace& trace = pairs_.rows().trace(s);
+    trace.restrict_to_dofs(step.structures[s]->velocity().data(), velocity_[s].data());
+    pairs_.add_velocity_change(s, velocity_[s].data());
+    step.structures[s]->correct(trace.dofs(), before_step_[s], velocity_[s]);
+    support_input_ -= pairs_.support_work(s, step.supports.velocity_mean);
+  }
+  note_peaks();
+}
+
+void FillerRows::note_peaks() {
+  std::fill(contact_force_.begin(), contact_force_.end(), 0.0);
+  for (std::size_t r = 0; r < laws_.size(); ++r) {
+    const auto& [contact, part] = pairs_.all()[r];
+    FillerTotals& totals = totals_[contact];
+    contact_force_[contact] += force_[r];
+    totals.peak_pressure = std::max(totals.peak_pressure, force_[r] / part.area);
+    totals.crushed_strain = std::max(totals.crushed_strain, memory_[r][1] / part.thickness);
+  }
+  for (std::size_t c = 0; c < totals_.size(); ++c) {
+    totals_[c].peak_force = std::max(totals_[c].peak_force, contact_force_[c]);
   }
 }
 
-void FillerRows::add_velocity_change(std::size_t structure, double* velocity) {
-  pick_impulses(structure);
-  traces_[structure].add_impulse(place_impulse_.data(), velocity);
+void FillerRows::finish(const Step& step) {
+  if (!pairs_.rows().member()) return;
+  LedgerPart& ledger = *step.ledger.front();
+  for (std::size_t r = 0; r < laws_.size(); ++r) {
+    laws_[r]->remember(0, compression_.now[r], 0, 1, memory_[r]);
+    if (counts_) ledger.link_energy_before += held_[r];
+  }
+  for (std::size_t k = 0; k < records_.links().size(); ++k) {
+    const std::size_t r = records_.links()[k];
+    records_.note(k, compression_.now[r], force_[r], memory_[r][0] > 0);
+  }
+  if (counts_) ledger.link_loss_before += loss_;
+  ledger.support_input += support_input_;
 }
 
-double FillerRows::support_work(std::size_t structure, std::span<const double> velocity) {
-  pick_impulses(structure);
-  return traces_[structure].support_work(place_impulse_, velocity);
+std::vector<std::string> FillerRows::record_names() const {
+  std::vector<std::string> names;
+  for (const std::size_t r : records_.links()) {
+    names.push_back("record of filler row " + std::to_string(r));
+  }
+  return names;
+}
+
+void FillerRows::save(SavedState& saved) const {
+  if (!counts_) return;
+  std::vector<double> values;
+  for (std::size_t r = 0; r < laws_.size(); ++r) {
+    values.insert(values.end(), {memory_[r][0], force_[r], rate_[r], held_[r]});
+  }
+  saved.put("fillers", values, saved_values);
+  values.clear();
+  for (const FillerTotals& totals : totals_) {
+    values.insert(values.end(),
+                  {totals.peak_pressure, totals.peak_force, totals.crushed_strain, totals.loss});
+  }
+  saved.put("filler_totals", values, saved_totals);
+  records_.save(record_names(), saved);
+}
+
+void FillerRows::load(const SavedState& saved) {
+  std::vector<double> values(saved_values * laws_.size());
+  saved.get("fillers", values);
+  for (std::size_t r = 0; r < laws_.size(); ++r) {
+    const double* const v = &values[saved_values * r];
+    memory_[r][0] = memory_[r][1] = v[0];
+    force_[r] = v[1];
+    rate_[r] = v[2];
+    held_[r] = v[3];
+  }
+  values.assign(saved_totals * totals_.size(), 0.0);
+  saved.get("filler_totals", values);
+  for (std::size_t c = 0; c < totals_.size(); ++c) {
+    const double* const v = &values[saved_totals * c];
+    totals_[c] = {v[0], v[1], v[2], v[3]};
+  }
+  if (pairs_.rows().member()) records_.load(record_names(), saved);
+  made_ = true;
 }
 
 }  // namespace pounding::interactions

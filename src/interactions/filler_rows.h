@@ -1,89 +1,80 @@
 #pragma once
 
-#include <cstddef>
+#include <memory>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
-#include <mpi.h>
-
-#include "interactions/contact_operator.h"
-#include "interactions/interface_compliance.h"
-#include "interactions/interface_gather.h"
-#include "interactions/pairing/interface.h"
-#include "system/linear_system.h"
-#include "system/trace.h"
+#include "interactions/filler_pairs.h"
+#include "interactions/interaction.h"
+#include "interactions/laws/filler_law.h"
+#include "interactions/link_records.h"
+#include "interactions/solvers/law_solver.h"
+#include "scene/scene.h"
 
 namespace pounding::interactions {
 
-/// The pairs of contacts with fillers as rows of their own, L u of their gaps: how far each filler
-/// is compressed, how fast, and what presses on the structures. Every rank that knows one of their
-/// dofs holds and computes the same. Constant but for the values of the last gather; nothing
-/// allocates after construction.
-class FillerRows {
+/// Largest load of the filler of a contact, and its loss.
+struct FillerTotals {
+  double peak_pressure = 0;   ///< of a pair [Pa]
+  double peak_force = 0;      ///< of all pairs together [N]
+  double crushed_strain = 0;  ///< largest that stays, of a pair [-]
+  double loss = 0;            ///< energy that it took and did not keep [J]
+};
+
+/// Fillers of all contacts, pair by pair: between the step of the structures without them and
+/// contact, their forces (FillerLaw) are solved for together and v+ and u_{n+1} corrected. The
+/// rates that a step ends with come with the gather of the next one, and so does its loss. Every
+/// member of the rows computes the same; one adds it to the ledger.
+class FillerRows final : public Interaction {
  public:
-  /// Collective over `comm`.
-  FillerRows(MPI_Comm comm, const Interface& interface, std::span<const LinearSystem> systems,
-             std::span<const Mesh> meshes);
+  /// `contacts` of the scene. References must outlive this object. Collective over `comm`.
+  FillerRows(MPI_Comm comm, const Interface& interface, std::span<const Contact> contacts,
+             std::span<const LinearSystem> systems, std::span<const Mesh> meshes, double time_step);
 
-  struct Row {
-    int contact = 0;  ///< index into the scene's contacts
-    FillerPart part;  ///< its clearance that of the state at rest, where the run starts from it
-  };
-  const std::vector<Row>& rows() const { return rows_; }
-  bool member() const { return gather_.member(); }  ///< this rank knows a dof of some row
-  int root() const { return gather_.root(); }       ///< the lowest member
+  void attach(std::span<SteppedStructure* const> structures) override;
+  void begin(const Step& step) override;
+  void push(const Step& step) override;
+  void finish(const Step& step) override;
+  void save(SavedState& saved) const override;
+  void load(const SavedState& saved) override;
 
-  /// Motion of supports that carry the structures along, see Trace::apply; empty without.
-  struct Supports {
-    std::span<const double> displacement{};
-    std::span<const double> velocity{};
-  };
-  /// Displacement and velocity over the owned dofs of a structure.
-  void set_state(std::size_t structure, const double* displacement, const double* velocity,
-                 const Supports& supports);
-  /// Compression d [m] and its rate [m/s] per row from these. Members only, collective over them.
-  void gather(std::span<double> compression, std::span<double> rate);
-
-  /// Another row that impulses of a row move.
-  struct Coupling {
-    std::size_t row = 0;
-    double compliance = 0;  ///< H of the two [1/kg]
-  };
-  /// H of each row with itself first, then with the others.
-  const std::vector<std::vector<Coupling>>& couplings() const { return couplings_; }
-  /// An upper bound of the largest eigenvalue [1/s2] of k^1/2 H_s k^1/2, H_s the part of H of one
-  /// structure, for springs k [N/m] at the rows. The same on all ranks; not collective.
-  double largest_eigenvalue(std::size_t structure, std::span<const double> stiffness) const;
-
-  const Trace& trace(std::size_t structure) const { return traces_[structure]; }
-  /// Impulses [N s] of all rows that push the sides apart, for add_velocity_change.
-  void set_impulses(std::span<const double> impulses);
-  /// v += M^-1 T^T L^T lambda over the dofs of the structure's trace.
-  void add_velocity_change(std::size_t structure, double* velocity);
-  /// Work of the impulses on a structure's supports that move with `velocity` [J]: that of the
-  /// places that this rank knows.
-  double support_work(std::size_t structure, std::span<const double> velocity);
+  /// Per contact of the scene; members only.
+  const std::vector<FillerTotals>& totals() const { return totals_; }
+  const FillerPairs& pairs() const { return pairs_; }
+  /// Records some rows from now on, on members. Their work comes with the step after.
+  void record(std::vector<std::size_t> rows) { records_.watch(std::move(rows), true); }
+  const LinkRecords& records() const { return records_; }
 
  private:
-  /// L^T lambda at the known places of a structure.
-  void pick_impulses(std::size_t structure);
-  void find_couplings(std::size_t structures);
-  void count_from_rest(std::span<const LinearSystem> systems);
+  /// Closes the step before with the rates that it ended with.
+  void close_step_before();
+  void note_peaks();
+  std::vector<std::string> record_names() const;
 
-  std::vector<Row> rows_;
-  ContactOperator operator_;
-  std::vector<std::vector<int>> structure_dofs_;  ///< per structure: its dofs of the operator
-  std::vector<Trace> traces_;
-  std::vector<std::size_t> first_known_;  ///< per structure, into the values of this rank
-  InterfaceGather gather_;
-  InterfaceCompliance compliance_;
-  std::vector<std::vector<Coupling>> couplings_;
-  /// Per structure and row, its part of H.
-  std::vector<std::vector<std::vector<Coupling>>> parts_;
-  std::vector<double> mine_;         ///< shape (known, 2)
-  std::vector<double> values_;       ///< shape (2, dofs)
-  std::vector<double> dof_impulse_;  ///< L^T lambda
-  std::vector<double> place_impulse_;
+  FillerPairs pairs_;
+  bool counts_;  ///< this rank adds to the ledger
+  double time_step_;
+  std::vector<std::unique_ptr<LinkLaw>> laws_;
+  LawMemory memory_;
+  LawSolver solver_;
+  Elongations compression_;           ///< d
+  std::vector<double> rate_;          ///< of d, at the start of the step
+  std::vector<double> rate_before_;   ///< at that of the step before
+  std::vector<double> force_;         ///< N_n
+  std::vector<double> force_before_;  ///< N_{n-1}
+  std::vector<double> held_;          ///< W_{n-1/2}
+  std::vector<double> driven_;        ///< no wave drives a filler: zeros
+  std::vector<double> impulse_;
+  double support_input_ = 0;                   ///< work of supports against the fillers [J]
+  double loss_ = 0;                            ///< of the step before
+  bool made_ = false;                          ///< a step was
+  std::vector<Before> before_step_;            ///< per structure
+  std::vector<std::vector<double>> velocity_;  ///< per structure, of the trace's dofs
+  std::vector<FillerTotals> totals_;
+  std::vector<double> contact_force_;  ///< per contact
+  LinkRecords records_;
 };
 
 }  // namespace pounding::interactions

@@ -44,7 +44,8 @@ struct Link {
 /// springs along z, springs that yield, the dashpots of springs, one for each component, the
 /// dashpots and masses of soil in the six motions of a mat, and three dashpots at every node of
 /// absorbing faces. Links that share a node that can move live on one rank, with all that moves
-/// with their nodes (see `coupled_nodes`). Constant during a run; their state is with LinkStep.
+/// with their nodes (see `coupled_nodes`). Constant during a run; their state is with
+/// StructureLinks.
 class Links {
  public:
   /// Null if the structure has no link. Throws std::logic_error if the nodes of one live on several

@@ -62,8 +62,7 @@ class ProgramStep final : public TimedStep {
   void close_ledger_line() {
     EnergyBalance& energy = solver_.stepper().energy();
     energy.note(energy.line(energies_));
-    solver_.stepper().gap_watch().energies_known(energy.closed_steps() - 1, energies_,
-                                                 no_round_off_);
+    solver_.note_energies(energy.closed_steps() - 1, energies_, no_round_off_);
     if (!(energy.relative_residual() < 1e-6)) {
       throw std::runtime_error("the energy identity does not close");
     }

@@ -64,9 +64,7 @@ TEST(StateVectors, GivePetscWhatTheStepLeftInTheArrays) {
   const GroundMotion still({}, Resampling::linear);
   Profile profile;
   const double time_step = 0.5 * stable_time_step(Rayleigh{}, system.element_frequency_bound);
-  std::vector<GapWatch::Bound> bounds(1);
-  CdLagrange stepper(PETSC_COMM_WORLD, {&system, 1}, still, nullptr, nullptr,
-                     GapWatch({&system, 1}, bounds, {0, 0, 0}, time_step), time_step, profile);
+  CdLagrange stepper(PETSC_COMM_WORLD, {&system, 1}, still, time_step, profile);
   double last = 0;
   for (int n = 0; n < 5; ++n) {
     stepper.step(false, false);

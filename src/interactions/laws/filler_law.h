@@ -33,10 +33,9 @@ class FillerLaw final : public LinkLaw {
                std::span<const double> memory = {}) const override;
   double solve(double before, double now, double free_after, double compliance,
                std::span<const double> memory = {}) const override;
-  /// N_n of a step in which it does not let go, the most that it can be.
-  double full(double now, std::span<const double> memory) const;
-  /// Least e_{n+1} of such a step.
-  static double holds_down_to(double before, std::span<const double> memory) {
+  bool holds_a_known_force() const override { return true; }
+  double full(double now, std::span<const double> memory) const override;
+  double holds_down_to(double before, std::span<const double> memory) const override {
     return before > memory[1] ? memory[1] : before;
   }
   double energy(double now, double after, std::span<const double> memory = {}) const override;

@@ -34,6 +34,15 @@ class LinkLaw {
 
   /// Force at e_n [N] that K of its structure holds already: what it pulls in all is N_n and this.
   virtual double counted(double /*now*/) const { return 0; }
+  /// Whether `full` and `holds_down_to` are known: unless it lets go in a step, its force follows
+  /// from e_n alone.
+  virtual bool holds_a_known_force() const { return false; }
+  /// N_n [N] of a step in which it does not let go, the most that it can be.
+  virtual double full(double /*now*/, std::span<const double> /*memory*/) const { return 0; }
+  /// Least e_{n+1} of such a step [m].
+  virtual double holds_down_to(double /*before*/, std::span<const double> /*memory*/) const {
+    return 0;
+  }
   /// Whether it has left its straight line for good.
   virtual bool has_yielded(std::span<const double> /*memory*/) const { return false; }
 

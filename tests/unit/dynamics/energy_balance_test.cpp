@@ -61,7 +61,7 @@ class TwoMasses {
         v_[i] = after;
       }
       for (std::size_t i = 0; i < 2; ++i) taken += mean_[i] * product(mean_)[i];
-      balance.add_step({&sums, 1}, {}, {});
+      balance.add_step({&sums, 1}, {});
       if (n > 0 && n <= count) loss += dt * beta() * taken;
       for (std::size_t i = 0; i < 2; ++i) u_[i] += dt * v_[i];
     }

@@ -355,7 +355,7 @@ void expect_correction(bool with_filters) {
   const std::vector<LocalIndex> dofs{1, 4, 7};
   StructureState expected = given.state;
   StructureStep step(given.system, given.state, time_step);
-  StructureStep::Before before(dofs.size());
+  interactions::Before before(dofs.size());
   step.watch(dofs, false);
   step.remember(dofs, before);
   step.begin(time_step, ground, {given.stiffness_velocity.data(), true});

@@ -1,11 +1,11 @@
-#include "dynamics/link_records.h"
+#include "interactions/link_records.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
-namespace pounding {
+namespace pounding::interactions {
 
 void LinkRecords::watch(std::vector<std::size_t> links, bool push_only) {
   push_only_ = push_only;
@@ -40,4 +40,4 @@ void LinkRecords::load(const std::vector<std::string>& names, const SavedState& 
   }
 }
 
-}  // namespace pounding
+}  // namespace pounding::interactions

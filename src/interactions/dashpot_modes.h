@@ -5,7 +5,7 @@
 
 #include "system/linear_system.h"
 
-namespace pounding {
+namespace pounding::interactions {
 
 /// The dashpots of a structure in generalised coordinates, all of them together. In w = M^1/2 v
 /// their matrix is diagonal in its eigenvectors,
@@ -46,4 +46,4 @@ class DashpotModes {
   double share_ = 1;
 };
 
-}  // namespace pounding
+}  // namespace pounding::interactions

@@ -1,4 +1,4 @@
-#include "dynamics/dashpot_modes.h"
+#include "interactions/dashpot_modes.h"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 #include "common/dense_solver.h"
 
-namespace pounding {
+namespace pounding::interactions {
 namespace {
 
 /// Seven coordinates of different masses with dashpots of very different strengths between them.
@@ -95,4 +95,4 @@ TEST(DashpotModes, LeaveAloneWhatTheyDoNotHold) {
 }
 
 }  // namespace
-}  // namespace pounding
+}  // namespace pounding::interactions

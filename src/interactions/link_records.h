@@ -6,7 +6,7 @@
 
 #include "common/saved_state.h"
 
-namespace pounding {
+namespace pounding::interactions {
 
 /// Extremes of a recorded link, and the work it took.
 struct LinkTotals {
@@ -46,4 +46,4 @@ class LinkRecords {
   std::vector<LinkTotals> totals_;
 };
 
-}  // namespace pounding
+}  // namespace pounding::interactions

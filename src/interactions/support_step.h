@@ -2,9 +2,14 @@
 
 #include <vector>
 
-#include "dynamics/state.h"
+namespace pounding::interactions {
 
-namespace pounding {
+/// Motion of supports relative to the scene's ground, per column of SupportShapes; empty where the
+/// ground moves as one. Before the step to t_n:
+struct SupportState {
+  std::vector<double> displacement;  ///< r_n [m, rad]
+  std::vector<double> velocity;      ///< r'_{n-1/2} [m/s, rad/s]
+};
 
 /// Motion of the supports in one step, per column of SupportShapes; empty where the ground moves as
 /// one. It goes by the scheme of the structures, so that supports which all move alike give what a
@@ -45,4 +50,4 @@ struct SupportStep {
   }
 };
 
-}  // namespace pounding
+}  // namespace pounding::interactions

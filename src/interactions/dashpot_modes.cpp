@@ -1,4 +1,4 @@
-#include "dynamics/dashpot_modes.h"
+#include "interactions/dashpot_modes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "common/dense_matrix.h"
 #include "common/row_products.h"
 
-namespace pounding {
+namespace pounding::interactions {
 namespace {
 
 /// h lambda of motions that nothing is left of in a run: a damping of 1e-8 per second or less.
@@ -64,4 +64,4 @@ double DashpotModes::loss(std::span<const double> before, std::span<const double
   return sum / (2 * share_);
 }
 
-}  // namespace pounding
+}  // namespace pounding::interactions

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <mpi.h>
+
+#include "interactions/contact_operator.h"
+#include "interactions/interface_compliance.h"
+#include "interactions/interface_gather.h"
+#include "interactions/interface_traces.h"
+#include "system/linear_system.h"
+#include "system/trace.h"
+
+namespace pounding::interactions {
+
+/// Rows of L over places of structures that several ranks own, held alike by every rank that knows
+/// one of these places: fields gathered at them, L M^-1 L^T, and impulses on the structures.
+/// Allocates nothing after construction.
+class InterfaceRows {
+ public:
+  /// `constraints`: the rows; dofs of `more` get columns as well. Collective over `comm`.
+  InterfaceRows(MPI_Comm comm, const std::vector<Constraint>& constraints,
+                std::span<const LinearSystem> systems, std::span<const Mesh> meshes,
+                std::span<const ConstraintTerm> more = {});
+
+  const ContactOperator& rows() const { return operator_; }
+  ContactOperator& rows() { return operator_; }
+  const InterfaceCompliance& compliance() const { return compliance_; }
+  std::size_t dofs() const { return static_cast<std::size_t>(operator_.dofs()); }
+  bool member() const { return gather_.member(); }  ///< this rank knows a dof of some row
+  int root() const { return gather_.root(); }       ///< the lowest member
+  int members() const { return gather_.members(); }
+  std::size_t structure_of(std::size_t dof) const {
+    return static_cast<std::size_t>(operator_.dof_list()[dof].structure);
+  }
+  /// The interface of a structure, as far as this rank knows it.
+  const Trace& trace(std::size_t structure) const { return traces_[structure]; }
+  std::size_t structures() const { return traces_.size(); }
+  /// Place in the trace of its structure of a dof that this rank knows; -1 of the others.
+  int known_place(std::size_t dof) const { return known_place_[dof]; }
+
+  /// Field number `field` of `fields` that are gathered together, from values over the owned dofs
+  /// of a structure; `supports`: motion of the supports that carries it along, see Trace::apply.
+  void set(std::size_t structure, std::size_t field, std::size_t fields, const double* owned,
+           std::span<const double> supports);
+  /// A single field from its values at the known places of the structure's trace.
+  void set_places(std::size_t structure, std::span<const double> places);
+  /// Gathers the fields that were set: shape (fields, dofs). Members only, collective over them.
+  void gather(std::size_t fields, std::span<double> values);
+  /// Adds the values of all members up. Members only, collective over them.
+  void add_over_members(std::span<double> values) { gather_.add(values); }
+
+  /// v += M^-1 T^T f over the dofs of the structure's trace, f [N s] over the dofs of the rows.
+  void add_velocity_change(std::size_t structure, std::span<const double> impulses,
+                           double* velocity);
+  /// Work of impulses f on a structure's supports that move with `velocity` [J]: that of the places
+  /// that this rank knows.
+  double support_work(std::size_t structure, std::span<const double> impulses,
+                      std::span<const double> velocity);
+
+ private:
+  /// f at the known places of a structure.
+  void pick(std::size_t structure, std::span<const double> impulses);
+
+  ContactOperator operator_;
+  std::vector<std::vector<int>> structure_dofs_;  ///< per structure: its dofs of the operator
+  std::vector<Trace> traces_;                     ///< per structure
+  std::vector<std::size_t> first_known_;          ///< per structure, into the values of this rank
+  std::vector<int> known_place_;                  ///< per dof
+  InterfaceGather gather_;
+  InterfaceCompliance compliance_;
+  std::vector<double> mine_;           ///< shape (known, fields)
+  std::vector<double> place_impulse_;  ///< of the known places of a structure
+};
+
+}  // namespace pounding::interactions

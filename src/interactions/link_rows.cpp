@@ -1,0 +1,246 @@
+#include "interactions/link_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "system/support_shapes.h"
+
+namespace pounding::interactions {
+namespace {
+
+constexpr double unstretched = 1e-9;  ///< elongation per unit of a support's motion, round-off
+
+static_assert(std::tuple_size_v<OnBody::Motion> == RigidBody::width);
+
+double product(const OnBody::Motion& a, const OnBody::Motion& b) {
+  double sum = 0;
+  for (std::size_t m = 0; m < a.size(); ++m) sum += a[m] * b[m];
+  return sum;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> carried_by_supports(const LinearSystem& system) {
+  if (!system.supports) return {};
+  const std::size_t columns = system.supports->columns.size();
+  const Trace& trace = system.links->trace();
+  std::vector<std::vector<double>> carried;
+  for (const Link& link : system.links->links()) {
+    std::vector<double>& row = carried.emplace_back(link.supports);
+    row.resize(columns, 0.0);
+    for (std::size_t i = 0; i < link.place.size(); ++i) {
+      if (link.place[i] < 0) continue;
+      const auto of_place = trace.carried(static_cast<std::size_t>(link.place[i]));
+      for (std::size_t c = 0; c < columns; ++c) row[c] += link.weight[i] * of_place[c];
+    }
+  }
+  const auto is_stretched = [](const std::vector<double>& row) {
+    return std::ranges::any_of(row, [](double part) { return std::abs(part) > unstretched; });
+  };
+  if (std::ranges::none_of(carried, is_stretched)) carried.clear();
+  return carried;
+}
+
+LinkRows::LinkRows(const LinearSystem& system, std::size_t structure, double time_step)
+    : StructureLinks(system, structure, time_step),
+      carried_(carried_by_supports(system)),
+      solver_(make_solver(system)),
+      yields_(links_),
+      rates_only_(std::ranges::all_of(laws_, [](auto& law) { return law->rate() > 0; })),
+      elongations_(links_.size()),
+      after_(links_.size(), 0.0),
+      rate_(links_.size(), 0.0),
+      driven_(links_.size(), 0.0),
+      force_(links_.size(), 0.0),
+      stretch_(links_.size(), 0.0) {}
+
+LawSolver LinkRows::make_solver(const LinearSystem& system) {
+  std::vector<OnBody> on_body = find_bodies(system);
+  auto couplings = find_couplings(on_body, system.lumped_mass.size());
+  return {laws_, std::move(couplings), std::move(on_body), time_step_};
+}
+
+std::vector<OnBody> LinkRows::find_bodies(const LinearSystem& system) const {
+  std::vector<OnBody> on_body(links_.size());
+  if (!system.coupled_mass) return on_body;
+  std::map<LocalIndex, std::pair<int, std::span<const double, RigidBody::width>>> rows;
+  int number = 0;
+  for (const RigidBody& body : system.coupled_mass->bodies()) {
+    for (std::size_t k = 0; k < body.dofs().size(); ++k) {
+      rows.emplace(body.dofs()[k], std::pair(number, body.row(k)));
+    }
+    ++number;
+  }
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    int body = -1;
+    bool alone = true;  // it moves one body and nothing else
+    OnBody::Motion motion{};
+    for (std::size_t i = 0; i < links_[b].place.size(); ++i) {
+      if (links_[b].place[i] < 0) continue;
+      const auto found = rows.find(trace_.dofs()[static_cast<std::size_t>(links_[b].place[i])]);
+      alone = alone && found != rows.end() && (body < 0 || body == found->second.first);
+      if (!alone) break;
+      body = found->second.first;
+      for (std::size_t m = 0; m < motion.size(); ++m) {
+        motion[m] += links_[b].weight[i] * found->second.second[m];
+      }
+    }
+    if (alone && body >= 0) on_body[b] = {body, motion};
+  }
+  return on_body;
+}
+
+void LinkRows::respond(const Link& link, std::vector<double>& all, std::vector<double>& response) {
+  std::fill(field_.begin(), field_.end(), 0.0);
+  for (std::size_t i = 0; i < link.place.size(); ++i) {
+    if (link.place[i] >= 0) field_[link.place[i]] += link.weight[i];
+  }
+  std::fill(velocity_.begin(), velocity_.end(), 0.0);
+  trace_.add_impulse(field_.data(), velocity_.data());
+  for (std::size_t k = 0; k < velocity_.size(); ++k) all[trace_.dofs()[k]] = velocity_[k];
+  measure(all, response);
+}
+
+std::vector<std::vector<Coupling>> LinkRows::find_couplings(const std::vector<OnBody>& on_body,
+                                                            std::size_t owned_dofs) {
+  std::vector<std::vector<std::size_t>> at_place(field_.size());
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    for (const int place : links_[b].place) {
+      if (place >= 0) at_place[place].push_back(b);
+    }
+  }
+  std::vector<std::vector<Coupling>> couplings(links_.size());
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    const OnBody::Motion& motion = on_body[b].motion;
+    if (on_body[b].body >= 0) couplings[b].push_back({b, product(motion, motion)});
+  }
+  std::vector<double> moved(owned_dofs, 0.0);
+  std::vector<double> all(links_.size(), 0.0);
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    if (on_body[b].body >= 0) continue;
+    std::map<std::size_t, double> response;  // [1/kg]
+    if (std::ranges::any_of(links_[b].place,
+                            [&](int k) { return k >= 0 && trace_.moves_others(k); })) {
+      respond(links_[b], moved, all);
+      for (std::size_t other = 0; other < links_.size(); ++other) response[other] = all[other];
+    } else {
+      for (std::size_t i = 0; i < links_[b].place.size(); ++i) {
+        const int place = links_[b].place[i];
+        if (place < 0) continue;
+        const double own = trace_.compliance(place, place) * links_[b].weight[i];
+        for (const std::size_t other : at_place[place]) {
+          const auto& places = links_[other].place;
+          const auto there = std::ranges::find(places, place) - places.begin();
+          response[other] += links_[other].weight[there] * own;
+        }
+      }
+    }
+    couplings[b].push_back({b, std::max(0.0, response[b])});
+    for (const auto& [other, velocity] : response) {
+      if (other == b || velocity == 0) continue;
+      couplings[b].push_back({other, velocity});
+      if (on_body[other].body >= 0) couplings[other].push_back({b, velocity});
+    }
+  }
+  return couplings;
+}
+
+void LinkRows::measure_carried(const std::vector<double>& owned, std::span<const double> supports,
+                               std::vector<double>& elongations) {
+  measure(owned, elongations);
+  for (std::size_t b = 0; b < carried_.size(); ++b) {
+    add_columns(carried_[b], supports, &elongations[b], 1);
+  }
+}
+
+void LinkRows::begin(const Step& step) {
+  const SteppedStructure& structure = *step.structures[structure_];
+  auto& [before, now, free_after] = elongations_;
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    const Vector3& along = links_[b].incident;
+    driven_[b] =
+        along[0] * step.incident[0] + along[1] * step.incident[1] + along[2] * step.incident[2];
+  }
+  structure.remember(trace_.dofs(), held_);
+  const auto& displacement = structure.displacement();
+  if (!rates_only_) measure_carried(displacement, step.supports.displacement, now);
+  if (!records_.empty()) measure_carried(displacement, step.supports.displacement, recorded_);
+  if (!rates_known_) measure_carried(structure.velocity(), step.supports.velocity_before, rate_);
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    if (has_rate(b)) now[b] = 0;
+    before[b] = now[b] - time_step_ * rate_[b];
+  }
+}
+
+void LinkRows::push(const Step& step) {
+  SteppedStructure& structure = *step.structures[structure_];
+  auto& [before, now, free_after] = elongations_;
+  std::fill(force_.begin(), force_.end(), 0.0);
+  if (solver_.is_idle(now, memory_)) return;
+  yields_.yield(laws_, now, memory_);
+  measure_carried(structure.velocity(), step.supports.velocity, rate_);
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    free_after[b] = now[b] + time_step_ * rate_[b];
+  }
+  solver_.solve(step.share(), elongations_, driven_, memory_, force_);
+  std::fill(field_.begin(), field_.end(), 0.0);
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    for (std::size_t i = 0; i < links_[b].place.size(); ++i) {
+      if (links_[b].place[i] >= 0) {
+        field_[links_[b].place[i]] -= links_[b].weight[i] * step.share() * time_step_ * force_[b];
+      }
+    }
+  }
+  trace_.restrict_to_dofs(structure.velocity().data(), velocity_.data());
+  trace_.add_impulse(field_.data(), velocity_.data());
+  structure.correct(trace_.dofs(), held_, velocity_);
+}
+
+void LinkRows::finish(const Step& step) {
+  LedgerPart& ledger = *step.ledger[structure_];
+  const auto& [before, now, free_after] = elongations_;
+  measure_carried(step.structures[structure_]->velocity(), step.supports.velocity, rate_);
+  rates_known_ = true;
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    after_[b] = now[b] + time_step_ * rate_[b];
+    const double held = laws_[b]->energy(before[b], now[b], memory_[b]);
+    const double given = laws_[b]->given(before[b], now[b], memory_[b]);
+    ledger.link_energy_before += held;
+    laws_[b]->remember(before[b], now[b], after_[b], step.share(), memory_[b]);
+    stretch_[b] = (after_[b] - before[b]) / 2;
+    ledger.link_input += driven_[b] * stretch_[b] + given;
+    ledger.link_loss += (force_[b] + driven_[b]) * stretch_[b] -
+                        (laws_[b]->energy(now[b], after_[b], memory_[b]) - held) + given;
+    double carried = 0;  // part of the stretch that the supports make
+    if (!carried_.empty()) add_columns(carried_[b], step.supports.velocity_mean, &carried, 1);
+    ledger.support_input += time_step_ * carried * (force_[b] + driven_[b]);
+  }
+  note_records(now, stretch_, force_);
+}
+
+void LinkRows::load(const SavedState& saved) {
+  rates_known_ = false;
+  StructureLinks::load(saved);
+}
+
+bool LinkRows::overpressed() const {
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    if (laws_[b]->was_overpressed(memory_[b])) return true;
+  }
+  return false;
+}
+
+StructureLinks::Bedding LinkRows::bedding() const {
+  Bedding bedding;
+  for (std::size_t b = 0; b < links_.size(); ++b) {
+    if (!is_pressed(links_[b].origin)) continue;
+    const double stiffness = links_[b].origin.share * links_[b].origin.region->stiffness[2];
+    bedding.all += stiffness;
+    if (after_[b] > 0) bedding.pressed += stiffness;
+  }
+  return bedding;
+}
+
+}  // namespace pounding::interactions

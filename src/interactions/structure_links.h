@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "interactions/interaction.h"
+#include "interactions/laws/link_law.h"
+#include "interactions/link_records.h"
+#include "interactions/solvers/law_solver.h"
+#include "system/linear_system.h"
+#include "system/links.h"
+#include "system/trace.h"
+
+namespace pounding::interactions {
+
+/// Links of one structure in a step, on the rank that owns their nodes. Local.
+class StructureLinks : public Interaction {
+ public:
+  void attach(std::span<SteppedStructure* const> structures) override;
+  void save(SavedState& saved) const override;
+  void load(const SavedState& saved) override;
+  Phase phase() const override { return Phase::step; }
+
+  /// Stiffness of this rank's compression-only springs [N/m]: of those that are pressed at the end
+  /// of the step, and of all.
+  struct Bedding {
+    double pressed = 0;
+    double all = 0;
+  };
+  virtual Bedding bedding() const { return {}; }
+  /// A pendulum of this rank was pressed beyond the slope that its stiffness allows.
+  virtual bool overpressed() const { return false; }
+  /// Force N_n of a link of this rank in the step just made [N, N m].
+  virtual double force(std::size_t link) const = 0;
+  /// Records some of this rank's links from now on, numbers into `links()` of the system.
+  void record(std::vector<std::size_t> links);
+  const LinkRecords& records() const { return records_; }
+
+ protected:
+  StructureLinks(const LinearSystem& system, std::size_t structure, double time_step);
+
+  /// b . u of all links from values over the owned dofs.
+  void measure(const std::vector<double>& owned, std::vector<double>& elongations);
+  /// Notes them with the forces and the work of the step.
+  void note_records(std::span<const double> now, std::span<const double> stretch,
+                    std::span<const double> force);
+
+  std::size_t structure_;
+  double time_step_;
+  const std::vector<Link>& links_;
+  Trace trace_;
+  std::vector<std::unique_ptr<LinkLaw>> laws_;  ///< per link
+  LawMemory memory_;
+  Before held_;
+  std::vector<double> field_;     ///< per place of the trace
+  std::vector<double> velocity_;  ///< per dof of the trace
+  LinkRecords records_;
+  std::vector<double> recorded_;  ///< e_n of all links; empty if none is recorded
+};
+
+}  // namespace pounding::interactions
