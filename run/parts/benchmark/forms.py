@@ -32,16 +32,13 @@ LABELS = {
     "part_cores": "where some nodes move otherwise",
     "set_behind": "first forces on a pair set",
     "set_joins": "first forces on a chain set",
-    "united_ranges": "chains side by side handed over together",
-    "two_ranges": "two such unions in turns",
-    "fetch_ahead": "rows asked for in advance",
     "shell_vectors": "nodes with six dofs in vectors",
     "update_vectors": "update of nodes in vectors",
     "nothing": "(nothing left out)",
 }
 OF_ROWS = ["best_axis", "hand_over", "completed"]
 OF_BRICKS = ["bricks", *OF_ROWS, "best_thickness", "both_sides", "lent_lines", "row_pairs", "rows",
-             "part_cores", "set_behind", "set_joins", "united_ranges", "two_ranges", "fetch_ahead"]
+             "part_cores", "set_behind", "set_joins"]
 OF_SHELLS = ["rectangles", *OF_ROWS, "shell_vectors"]
 OF_ANY = ["update_vectors", "nothing"]
 
@@ -67,7 +64,7 @@ CASES = {
     "plate": Case("plate of shells, 36k", cells(PLATE), OF_SHELLS + OF_ANY),
     "opening": Case("plate with an opening, 33k", [*cells(PLATE), "-opening"], OF_SHELLS + OF_ANY),
     "million": Case("block of bricks, 1M", cells(block_cells(1_000_000)),
-                    ["set_behind", "fetch_ahead", "nothing"]),
+                    ["set_behind", "nothing"]),
     "skew": Case("slab of skew bricks, 36k", [*cells(SLAB), "-skew"], ["strains"] + OF_ANY),
     "pair": Case("two-storey pair, bricks", ["-scene", "petsc-options/azalee/gap2.yaml"],
                  OF_BRICKS + ["beams"] + OF_ANY),

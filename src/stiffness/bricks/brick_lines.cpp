@@ -7,13 +7,6 @@
 namespace pounding::stiffness {
 namespace {
 
-/// Dofs whose forces, masses and motion stay in the nearest cache while they are handed over, of
-/// each of as many ranges as grow in turns: near and far chains of a layer.
-constexpr LocalIndex most_united = 400;
-constexpr std::size_t growing_ranges = 2;
-/// How far ahead rows are asked for [doubles].
-constexpr int fetch_distance = 256;
-
 ComponentArrays shifted(const ComponentArrays& arrays, int nodes) {
   return {arrays.x + nodes, arrays.y + nodes, arrays.z + nodes};
 }
@@ -50,7 +43,7 @@ BrickLines::BrickLines(const DofPlaces& places, const Matrix3& axes,
   }
   schedule_ = schedule_lines(pairs, chain_forms, line_stride_, forms);
   for (const ChainStore& store : schedule_.stores) {
-    stores_.push_back({store, Outcome::add, 0, 0, 0});
+    stores_.push_back({store, Outcome::add});
   }
   for (const PairSplit& split : schedule_.splits) {
     pair_loads_.push_back(split.load ? plan_load(split.place) : PairLoad{});
@@ -81,7 +74,7 @@ void BrickLines::load_chain(const ChainLoad& load, const StiffnessArgument& w,
   const ComponentArrays to = displacements(load.start);
   const ComponentArrays core = shifted(to, chain.first);
   if (chain.row) {
-    load_row(w, chain.range.begin, chain.core, forms_.fetch_ahead ? fetch_distance : 0, core);
+    load_row(w, chain.range.begin, chain.core, core);
   } else {
     load_nodes(w, chains_.places(chain), chain.core, core);
   }
@@ -132,8 +125,8 @@ void BrickLines::load_pair(const PairPlace& place, const PairLoad& load, const S
                            const double* ghosts) const {
   const ComponentArrays sum = displacements(place.line[0]);
   const ComponentArrays difference = displacements(place.line[1]);
-  load_row_pair(w, load.first, load.count, forms_.fetch_ahead ? fetch_distance : 0,
-                shifted(sum, load.begin), shifted(difference, load.begin));
+  load_row_pair(w, load.first, load.count, shifted(sum, load.begin),
+                shifted(difference, load.begin));
   for (const PairEnd& end : load.ends) {
     const Vector3 near = value(end.near, w, ghosts);
     const Vector3 far = value(end.far, w, ghosts);
@@ -218,7 +211,7 @@ void BrickLines::collect_forces(const Store& store, double* range) const {
 }
 
 void BrickLines::store_chain(const Store& store, double* q, ForceReceiver& receiver) const {
-  const auto& [place, outcome, begin, end, growing] = store;
+  const auto& [place, outcome] = store;
   const BrickChain& chain = chains_.at(place.chain);
   if (rotated_) {
     rotate_vectors(axes_, true, chain.length, line_stride_,
@@ -229,8 +222,7 @@ void BrickLines::store_chain(const Store& store, double* q, ForceReceiver& recei
     add_core(store, q);
     return;
   }
-  double* const whole = range_.data() + growing * static_cast<std::size_t>(range_stride_);
-  double* const range = whole + (chain.range.begin - begin);
+  double* const range = range_.data();
   const LocalIndex size = chain.range.end - chain.range.begin;
   if (outcome == Outcome::complete) std::fill(range, range + size, 0.0);
   collect_forces(store, range);
@@ -239,7 +231,7 @@ void BrickLines::store_chain(const Store& store, double* q, ForceReceiver& recei
     for (LocalIndex i = 0; i < size; ++i) range[i] += already[i];
     std::fill(already, already + size, 0.0);
   }
-  if (end > 0) receiver.receive(begin, end, whole);
+  if (size > 0) receiver.receive(chain.range.begin, chain.range.end, range);
 }
 
 void BrickLines::apply(const StiffnessArgument& w, const double* ghosts, double* q,
@@ -280,7 +272,7 @@ void BrickLines::set_outcomes(const std::vector<Outcome>& outcomes) {
     sort_stores(begin, step.stores_end);
     begin = step.stores_end;
   }
-  unite_ranges();
+  make_room();
 }
 
 /// Those of one step, in the order of their dofs.
@@ -293,37 +285,17 @@ void BrickLines::sort_stores(std::size_t begin, std::size_t end) {
                    [&](const Store& a, const Store& b) { return first_of(a) < first_of(b); });
 }
 
-/// The last one of the stores whose ranges are united hands all of them over.
-void BrickLines::unite_ranges() {
-  std::array<Store*, growing_ranges> last{};
-  std::size_t oldest = 0;
-  LocalIndex longest = 0;
-  for (Store& store : stores_) {
+/// Room for the forces of the longest core.
+void BrickLines::make_room() {
+  LocalIndex added = 0;
+  LocalIndex handed_over = 0;
+  for (const Store& store : stores_) {
     const DofRange range = chains_.at(store.place.chain).range;
-    if (store.outcome == Outcome::add) {
-      const std::size_t size = range.end - range.begin;
-      if (added_.size() < size) added_.resize(size, 0.0);
-      continue;
-    }
-    store.begin = range.begin;
-    store.end = range.end;
-    const auto grown = std::find_if(last.begin(), last.end(), [&](const Store* before) {
-      return before != nullptr && before->end == range.begin &&
-             range.end - before->begin <= (forms_.united_ranges ? most_united : 0);
-    });
-    if (grown != last.end()) {
-      store.begin = (*grown)->begin;
-      (*grown)->end = 0;
-      store.growing = static_cast<std::size_t>(grown - last.begin());
-    } else {
-      store.growing = oldest;
-    }
-    last[store.growing] = &store;
-    if (store.growing == oldest) oldest = (oldest + 1) % (forms_.two_ranges ? growing_ranges : 1);
-    longest = std::max(longest, store.end - store.begin);
+    LocalIndex& longest = store.outcome == Outcome::add ? added : handed_over;
+    longest = std::max(longest, range.end - range.begin);
   }
-  range_stride_ = round_up(longest + lane_count);
-  range_.assign(growing_ranges * static_cast<std::size_t>(range_stride_), 0.0);
+  if (added_.size() < static_cast<std::size_t>(added)) added_.resize(added, 0.0);
+  range_.assign(static_cast<std::size_t>(round_up(handed_over + lane_count)), 0.0);
 }
 
 }  // namespace pounding::stiffness

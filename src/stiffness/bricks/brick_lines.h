@@ -48,9 +48,6 @@ class BrickLines final : public ElementLines {
   struct Store {
     ChainStore place;
     Outcome outcome = Outcome::add;
-    LocalIndex begin = 0;     ///< first dof of what is handed over with this chain
-    LocalIndex end = 0;       ///< one beyond its last if this chain completes it, else 0
-    std::size_t growing = 0;  ///< which of the ranges that grow in turns
   };
 
   struct PairEnd {
@@ -67,7 +64,7 @@ class BrickLines final : public ElementLines {
   };
 
   void sort_stores(std::size_t begin, std::size_t end);
-  void unite_ranges();
+  void make_room();
   void load_chain(const ChainLoad& load, const StiffnessArgument& w, const double* ghosts) const;
   Vector3 value(const std::array<LocalIndex, 3>& place, const StiffnessArgument& w,
                 const double* ghosts) const;
@@ -98,8 +95,7 @@ class BrickLines final : public ElementLines {
   int line_stride_ = 0;
   /// Lines of shape (6, line_stride): displacement, force. Work space of `apply`.
   mutable LaneArray buffer_;
-  mutable LaneArray range_;  ///< forces of the ranges that grow until handed over
-  int range_stride_ = 0;     ///< between those, in range_
+  mutable LaneArray range_;  ///< forces of a core until they are handed over
   mutable LaneArray added_;  ///< of a chain that is added to q
 };
 

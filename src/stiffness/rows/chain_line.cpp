@@ -33,22 +33,12 @@ inline void store_node(const ComponentArrays& from, int p, double* q) {
   q[2] = from.z[p];
 }
 
-/// Asks for the 12 values of four nodes; any address will do.
-inline void fetch(const double* values) {
-  constexpr int cache_line = 8;  // doubles
-  __builtin_prefetch(values);
-  __builtin_prefetch(values + cache_line);
-}
-
 /// Four nodes in a row in memory, x0 y0 z0 x1, y1 z1 x2 y2, z2 x3 y3 z3.
 struct FourNodes {
   Lanes a, b, c;
 };
 
-inline void load_row_of_four(const StiffnessArgument& w, LocalIndex first, int ahead,
-                             FourNodes& nodes) {
-  fetch(w.displacement + first + ahead);
-  fetch(w.velocity + first + ahead);
+inline void load_row_of_four(const StiffnessArgument& w, LocalIndex first, FourNodes& nodes) {
   load_argument<0>(w, first, nodes.a);
   load_argument<1>(w, first + 4, nodes.b);
   load_argument<2>(w, first + 8, nodes.c);
@@ -91,26 +81,25 @@ void load_nodes(const StiffnessArgument& w, const LocalIndex* places, int count,
   for (int p = 0; p < count; ++p) load_node(w, places[p], p, to);
 }
 
-void load_row(const StiffnessArgument& w, LocalIndex first, int count, int ahead,
-              const ComponentArrays& to) {
+void load_row(const StiffnessArgument& w, LocalIndex first, int count, const ComponentArrays& to) {
   by_fours(
       count,
       [&](int p) {
         FourNodes nodes;
-        load_row_of_four(w, first + 3 * p, ahead, nodes);
+        load_row_of_four(w, first + 3 * p, nodes);
         to_components(nodes, p, to);
       },
       [&](int p) { load_node(w, first + 3 * p, p, to); });
 }
 
 void load_row_pair(const StiffnessArgument& w, std::array<LocalIndex, 2> first, int count,
-                   int ahead, const ComponentArrays& sum, const ComponentArrays& difference) {
+                   const ComponentArrays& sum, const ComponentArrays& difference) {
   by_fours(
       count,
       [&](int p) {
         FourNodes near, far;
-        load_row_of_four(w, first[0] + 3 * p, ahead, near);
-        load_row_of_four(w, first[1] + 3 * p, ahead, far);
+        load_row_of_four(w, first[0] + 3 * p, near);
+        load_row_of_four(w, first[1] + 3 * p, far);
         to_components({far.a + near.a, far.b + near.b, far.c + near.c}, p, sum);
         to_components({far.a - near.a, far.b - near.b, far.c - near.c}, p, difference);
       },

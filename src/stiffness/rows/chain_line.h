@@ -20,14 +20,11 @@ struct ComponentArrays {
 /// w, less its origin, of `count` nodes with dofs x, y, z in a row from places[p].
 void load_nodes(const StiffnessArgument& w, const LocalIndex* places, int count,
                 const ComponentArrays& to);
-/// Loads nodes whose dofs follow each other from `first`: a row. Rows follow each other in memory,
-/// but between two of them other arrays are read: from far away the next row would come late.
-/// Asks for values `ahead` of those that are loaded, which need not exist; with 0 for none.
-void load_row(const StiffnessArgument& w, LocalIndex first, int count, int ahead,
-              const ComponentArrays& to);
+/// Loads nodes whose dofs follow each other from `first`: a row.
+void load_row(const StiffnessArgument& w, LocalIndex first, int count, const ComponentArrays& to);
 /// Two such rows: their sum, and the second one minus the first.
 void load_row_pair(const StiffnessArgument& w, std::array<LocalIndex, 2> first, int count,
-                   int ahead, const ComponentArrays& sum, const ComponentArrays& difference);
+                   const ComponentArrays& sum, const ComponentArrays& difference);
 
 /// The way back: dof `first` stands at q[0].
 void store_nodes(const ComponentArrays& from, const LocalIndex* places, int count, LocalIndex first,

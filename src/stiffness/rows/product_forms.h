@@ -22,9 +22,6 @@ struct ProductForms {
   bool part_cores = true;      ///< they do where some nodes of the chain move otherwise
   bool set_behind = true;      ///< the first forces on a pair are set, not added to zeros
   bool set_joins = true;       ///< the first forces on a chain likewise
-  bool united_ranges = true;   ///< chains side by side are handed over together
-  bool two_ranges = true;      ///< two such unions grow in turns
-  bool fetch_ahead = true;     ///< rows are asked for before they are loaded
   // Rectangles in rows:
   bool shell_vectors = true;  ///< nodes with six dofs move in vectors
 };
