@@ -102,13 +102,13 @@ class Fragility:
 def _check(x: np.ndarray, hits: np.ndarray, trials: np.ndarray) -> None:
     """A finite largest likelihood needs hits and misses that overlap, and a curve that rises."""
     if hits.sum() == 0:
-        raise FitRefused(f"no hit in {int(trials.sum())} trials: all levels are below what it takes")
+        raise FitRefused(f"no hit in {int(trials.sum())} trials: all levels are too low")
     if (trials - hits).sum() == 0:
-        raise FitRefused(f"a hit in each of {int(trials.sum())} trials: all levels are above what it takes")
+        raise FitRefused(f"a hit in each of {int(trials.sum())} trials: all levels are too high")
     first_hit, last_miss = x[hits > 0].min(), x[hits < trials].max()
     if not first_hit < last_miss:
         raise FitRefused(f"separated: no hit below {first_hit:.4g}, no miss above {last_miss:.4g}; "
-                         "levels between them would tell the curve")
+                         "levels between them would give the curve")
 
 
 def _likelihood(point: tuple, log_x: np.ndarray, hits: np.ndarray, trials: np.ndarray) -> float:
@@ -176,7 +176,7 @@ def fit_paired(x, hit: np.ndarray, confidence: float = 0.95, repeats: int = 400,
             pass
     if len(found) < 0.9 * repeats:
         raise FitRefused(f"hardly overlapping: {repeats - len(found)} of {repeats} draws of the samples are separated; "
-                         "levels closer to each other, or more samples, would tell the curve")
+                         "levels closer to each other, or more samples, would give the curve")
     low, high = np.quantile(found, ((1 - confidence) / 2, (1 + confidence) / 2), axis=0)
     return Fragility(best.theta, best.beta, *((float(a), float(b)) for a, b in zip(low, high)), confidence)
 

@@ -40,7 +40,7 @@ def inputs_of(summary: dict) -> dict:
         return {str(one["file"]): str(one["sha256"]) for one in summary["inputs"]
                 if not str(one["option"]).endswith(BASIS)}
     except (KeyError, TypeError) as error:
-        raise ValueError("it does not tell what the run read") from error
+        raise ValueError("it does not list the inputs of the run") from error
 
 
 def folders_of(summary: dict) -> dict:

@@ -154,7 +154,7 @@ class Report(unittest.TestCase):
         place = self.place / "found"
         shutil.copytree(self.place / "hit", place / "hit")
         self.plot(place / "hit")
-        self.assertIn("No run without pounding stands beside this one", answer_of(place / "hit"))
+        self.assertIn("No run without pounding is beside this one", answer_of(place / "hit"))
         line = html.unescape(re.search("<code>(.*?)</code>", page(place / "hit"))[1])
         self.assertIn("cd ", line)
         self.assertIn(shlex.quote(program.PROGRAM), line)

@@ -176,5 +176,5 @@ def joints(analysis: Analysis, rules: dict, folder: Path) -> list:
     axes.set_ylabel("part of the members that need more")
     axes.legend(fontsize=8, ncol=2)
     return save(figure, folder, "joint.png", "The joint that is wide enough",
-                "Of the runs without pounding, by peak ground acceleration; vertical lines are what rules say"
+                "Of the runs without pounding, by peak ground acceleration; vertical lines are those of the rules"
                 + (f" of {worst}." if worst else "."))

@@ -170,8 +170,8 @@ def _margin(run: Result) -> list:
 
 def _floors(run: Result, twin: Result | None, why: str) -> list:
     if twin is None:
-        return [f"No run without pounding stands beside this one{f' ({why})' if why else ''}: what the impacts do to the "
-                "floors cannot be told. The command at the end of this part makes it; then draw again."]
+        return [f"No run without pounding is beside this one{f' ({why})' if why else ''}: the effect of the impacts on the "
+                "floors is not known. The command at the end of this part makes it; then draw again."]
     change = largest_change(run, twin)
     if change is None:
         return [f"The run without pounding, {twin.folder.name}, has no floor spectra beside which these can be set."]
@@ -182,7 +182,7 @@ def _floors(run: Result, twin: Result | None, why: str) -> list:
         lines[0] += f" Up to {LOW:g} Hz it is at most {low.text()}."
     awake = awakened(run, twin)
     if awake:
-        lines.append(f"Impacts move what rests without them: {awake[0]} along {awake[1]} reaches {awake[2]:.3g} m/s² at "
+        lines.append(f"Impacts move floors at rest without them: {awake[0]} along {awake[1]} reaches {awake[2]:.3g} m/s² at "
                      f"{awake[3]:.3g} Hz.")
     peaks = _peaks(run, twin)
     return lines + ([peaks] if peaks else [])
@@ -222,7 +222,7 @@ def checks(run: Result) -> list:
                      f"faces went into each other by at most {1e6 * impacts.get('max_penetration', 0):.3g} µm, less than "
                      "they move in a step.")
     count = len(summary.get("warnings", []))
-    lines.append(f"The run warned {_plural(count, 'time')}; what it said stands under Warnings." if count
+    lines.append(f"The run warned {_plural(count, 'time')}; see Warnings." if count
                  else "The run gave no warning.")
     return lines
 

@@ -142,7 +142,7 @@ def energy_balance(result: Result) -> list:
     lower.set_ylabel("|residual| / largest\nwork of the ground" if scale > 0 else "|residual| [J]")
     lower.set_xlabel("time [s]")
     return save(figure, result.folder, "energy.png", "Energy balance",
-                "Terms of the energy balance of the scheme, and what it leaves unexplained.")
+                "Terms of the energy balance of the scheme, and its residual.")
 
 
 JOINT = [gaps, strongest_impact, impact_catalogue]

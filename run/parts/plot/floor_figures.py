@@ -52,7 +52,7 @@ def drifts(result: Result) -> list:
     rows[-1].set_xlabel("time [s]")
     return save(figure, result.folder, "drifts.png", "Drifts",
                 "Horizontal displacement of a floor less that of the one below, over their distance in height; "
-                "the lowest floor against what its structure stands on.")
+                "the lowest floor against the base of its structure.")
 
 
 def accelerations(result: Result) -> list:

@@ -59,8 +59,8 @@ def loops(result: Result) -> list:
         _panel(axes, item, kind, {names[k]: (result.history["link_elongation"][:, k],
                                              result.history["link_force"][:, k]) for k in members})
     return save(figure, result.folder, "loops.png", "Loops",
-                "Force over elongation of the links recorded, those that took most energy in each group, and what "
-                "each took. Springs that press only and fillers count compression as elongation.")
+                "Force over elongation of the links recorded, those that took most energy in each group, with the "
+                "energy of each. Springs that press only and fillers count compression as elongation.")
 
 
 ALL = [loops]

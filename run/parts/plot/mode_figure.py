@@ -34,5 +34,5 @@ def draw(modes: list, folder) -> list:
         axes.set_title(f"Model {mode.model}: {mode.frequency:.1f} Hz; along x {mode.at_dots:+.3f} at the dots, "
                        f"{mode.at_middle:+.3f} at mid-plane", fontsize=8)
     return save(figure, folder, "fig10_slab_mode.png", "Fig. 10: antisymmetric mode of the slabs",
-                "Structure 1, largest displacement 1, amplified; black: accelerometers of floor 1. They stand "
+                "Structure 1, largest displacement 1, amplified; black: accelerometers of floor 1. They lie "
                 "on the upper face in Model A, which moves along x, on the mid-plane in Model B, which hardly does.")

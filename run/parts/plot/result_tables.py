@@ -81,7 +81,7 @@ def joint_table(result: Result) -> str:
         hit = closing is not None and episodes.get(name, {}).get("episodes", 0) > 0
         cells = [1e3 * one[key] for key in ("gap", "modal", "ddc", "srss", "sum")]
         rows.append((name, *cells, "hit" if hit else None if closing is None else 1e3 * closing))
-    return html_table("Joints: width, and what would be needed by response spectrum so that nothing hits [mm]",
+    return html_table("Joints: width, and width needed by response spectrum so that nothing hits [mm]",
                       ["", "width", "modal", "DDC", "SRSS", "sum", "closed in the history"], rows)
 
 

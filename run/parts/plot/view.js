@@ -142,7 +142,7 @@ function draw() {
 
 // The bar under the picture.
 const bar = make("div", holder, {className: "bar"});
-const choice = make("select", bar, {title: "what is shown"});
+const choice = make("select", bar, {title: "quantity shown"});
 make("option", choice, {value: "model", textContent: "the model at rest"});
 modes.forEach((mode, i) => make("option", choice, {value: `mode ${i}`, textContent: mode.name}));
 if (motion) make("option", choice, {value: "motion", textContent: "the motion of the run"});
