@@ -141,6 +141,21 @@ TEST_F(RecordFormats, SmcWithTouchingValues) {
               HasSubstr("without a sampling rate"));
 }
 
+TEST_F(RecordFormats, NumbersBelowAnAnnouncedBlockAreRefused) {
+  const std::string row = rows(scaled(wave(), 0.01), 8, "%11.6f").substr(0, 8 * 11 + 1);
+  const auto with_row = [&](std::string text, const char* before) {
+    return text.insert(text.find(before), row);
+  };
+  for (const std::string& text :
+       {with_row(csmip(wave(), 1, "Up", true), "    64 points of veloc"),
+        csmip(scaled(wave(), 1e-3), 1, "Up", false) + row,
+        with_row(cosmos(wave(), "cm/s^2"), "End-of-data for Chan  1 acceleration")}) {
+    EXPECT_THAT(refused(text), AllOf(HasSubstr("numbers below the 64 values that line"),
+                                     HasSubstr("announces; correct the file")))
+        << text.substr(0, 40);
+  }
+}
+
 TEST_F(RecordFormats, WhatIsCutIsRefused) {
   for (const std::string& text :
        {keyed(wave()), geonet(wave(), "N10E", true), csmip(wave(), 1, "Up", true),
