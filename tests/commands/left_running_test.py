@@ -86,6 +86,32 @@ class Stopped(InFolder):
         self.stop(signal.SIGHUP, "sweep", "two-buildings.yaml", "--set", "end_time=900", "--out", self.place / "out")
 
 
+LONG = """
+\"\"\"A run of many minutes.\"\"\"
+import unittest
+import program
+
+class Long(unittest.TestCase):
+    def test_it(self):
+        program.run(["-options_file", PLACE + "/two-buildings.yaml", "-probes", "left_roof", "-end_time", 900,
+                     "-output", PLACE + "/out/run"], RANKS)
+"""
+
+
+class Verification(Stopped):
+    def test_killed(self):
+        self.verify(signal.SIGKILL, 2)
+
+    def test_terminated_and_hung_up(self):
+        self.verify(signal.SIGTERM, 2)
+
+    def verify(self, number, ranks):
+        (self.place / "problems").mkdir()
+        (self.place / "problems" / "long_test.py").write_text(
+            LONG.replace("PLACE", repr(str(self.place))).replace("RANKS", str(ranks)))
+        self.stop(number, "verification", "--problems", self.place / "problems", "--output", self.place / "figures")
+
+
 class Tied(unittest.TestCase):
     """A run ends with its command however that dies."""
 
