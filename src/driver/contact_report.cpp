@@ -110,7 +110,7 @@ void print_closings(const Scene& scene, const RunStatistics& statistics) {
 
 void print_slides(const Scene& scene, const RunStatistics& statistics) {
   for (std::size_t c = 0; c < statistics.slides.size(); ++c) {
-    const interactions::Slide& slide = statistics.slides[c];
+    const Slide& slide = statistics.slides[c];
     std::printf("  %-12s slid along itself by at most %.4g mm", scene.contacts[c].name.c_str(),
                 1000 * slide.distance);
     if (scene.contacts[c].sliding > 0) {

@@ -9,7 +9,6 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
-#include "driver/mesh_labels.h"
 
 namespace pounding {
 namespace {
@@ -44,6 +43,12 @@ double free_room(const std::string& folder) {
 
 int record_stride(const Scene& scene, const Model& model) {
   return static_cast<int>(whole(model, scene.output_interval / model.time_step));
+}
+
+std::int64_t gap_stride(const Scene& scene, const Model& model) {
+  const int sample = record_stride(scene, model);
+  const double records = whole(model, scene.gap_interval / (model.time_step * sample));
+  return sample * static_cast<std::int64_t>(records);
 }
 
 std::optional<FieldSteps> planned_fields(const Scene& scene, const Model& model) {
@@ -108,30 +113,6 @@ void print_fields(MPI_Comm comm, const Scene& scene, const Model& model) {
               static_cast<long long>(steps->count),
               static_cast<double>(steps->stride) * model.time_step,
               static_cast<double>(steps->first) * model.time_step, bytes / 1e6);
-}
-
-std::unique_ptr<FieldWriter> make_field_writer(MPI_Comm comm, const Scene& scene,
-                                               const Model& model,
-                                               const interactions::ContactProblem* contact,
-                                               bool continued) {
-  const auto steps = planned_fields(scene, model);
-  if (!steps) return nullptr;
-  FieldWriter::Layout layout;
-  layout.comm = comm;
-  layout.folder = scene.output;
-  if (continued) {
-    layout.continued = std::filesystem::path(scene.restart).replace_filename("fields.h5");
-  }
-  layout.title = scene.title;
-  layout.time_step = model.time_step;
-  layout.steps = *steps;
-  layout.labels = mesh_labels(scene, model.interface);
-  if (contact != nullptr) {
-    for (const interactions::InterfaceDof& dof : contact->dof_list()) {
-      layout.places.push_back({dof.structure, dof.node, dof.component});
-    }
-  }
-  return std::make_unique<FieldWriter>(std::move(layout), model.systems, model.meshes);
 }
 
 }  // namespace pounding

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +13,9 @@ namespace pounding {
 /// Steps between two samples of the probes.
 int record_stride(const Scene& scene, const Model& model);
 
+/// Steps between two samples of the gaps, which the probes record as well.
+std::int64_t gap_stride(const Scene& scene, const Model& model);
+
 /// Steps whose motion the scene keeps as a whole, all of which the probes record as well; nothing
 /// if it keeps none. Throws UserError: the run ends before the first.
 std::optional<FieldSteps> planned_fields(const Scene& scene, const Model& model);
@@ -24,12 +26,5 @@ std::vector<std::string> check_fields(MPI_Comm comm, const Scene& scene, const M
 
 /// Prints how many frames there will be and the room that they take. Collective.
 void print_fields(MPI_Comm comm, const Scene& scene, const Model& model);
-
-/// The writer of these frames; null if there are none. `contact` may be null; `continued`: the run
-/// goes on from the scene's checkpoint. Collective.
-std::unique_ptr<FieldWriter> make_field_writer(MPI_Comm comm, const Scene& scene,
-                                               const Model& model,
-                                               const interactions::ContactProblem* contact,
-                                               bool continued);
 
 }  // namespace pounding

@@ -7,9 +7,13 @@
 #include <sstream>
 
 #include "common/error.h"
+#include "common/number_rows.h"
 #include "common/parallel.h"
+#include "driver/run_statistics.h"
+#include "driver/total_forces.h"
 #include "elements/shell_forces.h"
 #include "io/csv_file.h"
+#include "system/element_forces.h"
 #include "system/links.h"
 
 namespace pounding {
@@ -45,27 +49,79 @@ const char* unit_of(const std::string& component) {
   return moment ? "N m" : "N";
 }
 
-}  // namespace
-
-std::size_t ForceReport::largest(std::size_t component) const {
-  std::size_t best = 0;
-  const auto size = [&](std::size_t e) {
-    return std::abs(peaks[e * components.size() + component].value);
-  };
-  for (std::size_t e = 1; e < elements.size(); ++e) best = size(e) > size(best) ? e : best;
-  return best;
+/// `forces.csv`: the peak of every component of every element, of `digits` significant digits.
+/// Throws UserError if it cannot be written.
+void write_forces(const std::string& path, std::span<const ForceReport> reports, int digits) {
+  CsvFile file(path, digits);
+  file.header("item,component,unit,element,peak,time");
+  for (const ForceReport& report : reports) {
+    for (std::size_t e = 0; e < report.elements.size(); ++e) {
+      for (std::size_t c = 0; c < report.components.size(); ++c) {
+        const ForcePeak& peak = report.peaks[e * report.components.size() + c];
+        const std::string& element = report.elements[e];
+        const std::string& component = report.components[c];
+        file.row(report.name + "," + component + "," + unit_of(component),
+                 {element.empty() ? 0.0 : std::stod(element), peak.value, peak.time});
+      }
+    }
+  }
+  file.close();
 }
 
-Forces::Forces(MPI_Comm comm, const Scene& scene, const Model& model)
-    : comm_(comm), peaks_start_(scene.spectra.start) {
-  lay_out(scene, model);
+/// The numbers of a peak in a saved state.
+constexpr auto peak_members = [](auto& peak, const auto& take) { take(peak.value, peak.time); };
+
+class Forces final : public Observer {
+ public:
+  explicit Forces(const ObservedRun& run);
+
+  std::int64_t next_due(std::int64_t step) const override { return run_.next_record_step(step); }
+  StepNeeds begin(const CdLagrange& stepper) override;
+  void observe(const CdLagrange& stepper) override;
+  void save(SavedState& saved) override;
+  void load(const SavedState& saved) override;
+  void report(RunStatistics& statistics) override;
+  std::optional<RecordColumns> columns() const override;
+
+ private:
+  struct Total {
+    std::size_t structure = 0;
+    std::size_t first = 0;
+    std::unique_ptr<TotalForce> force;
+  };
+  /// Elements of a structure whose forces are asked for.
+  struct Elements {
+    std::size_t structure = 0;
+    std::unique_ptr<ElementForces> forces;
+  };
+  void lay_out();
+
+  ObservedRun run_;
+  double peaks_start_;
+  std::vector<ForceReport> items_;
+  std::vector<std::size_t> first_;     ///< per item, of its columns
+  std::vector<std::string> recorded_;  ///< columns with a history, which are the first
+  std::string unit_ = "N, N m";
+  std::vector<Total> totals_;
+  std::vector<Elements> elements_;
+  std::vector<double> part_;     ///< of this rank, per column
+  std::vector<double> columns_;  ///< sums, rank 0
+  std::vector<ForcePeak> peaks_;
+};
+
+}  // namespace
+
+Forces::Forces(const ObservedRun& run) : run_(run), peaks_start_(run.scene.spectra.start) {
+  const Scene& scene = run.scene;
+  const Model& model = run.model;
+  lay_out();
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
     std::vector<ElementForces::Row> rows;
-    on_every_rank(comm, [&] {
+    on_every_rank(run.comm, [&] {
       for (std::size_t i = 0; i < items_.size(); ++i) {
         if (model.forces[i].structure != static_cast<int>(s)) continue;
         const ForceItem& force = scene.forces[i];
-        const std::size_t first = items_[i].first;
+        const std::size_t first = first_[i];
         const auto add = [&rows](std::vector<ElementForces::Row> more) {
           std::ranges::move(more, std::back_inserter(rows));
         };
@@ -87,12 +143,17 @@ Forces::Forces(MPI_Comm comm, const Scene& scene, const Model& model)
     elements_.push_back(
         {s, std::make_unique<ElementForces>(model.systems[s], model.meshes[s], rows)});
   }
+  for (const Total& total : totals_) {
+    run.solver.stepper().watch_forces(total.structure, total.force->dofs());
+  }
 }
 
-void Forces::lay_out(const Scene& scene, const Model& model) {
+void Forces::lay_out() {
+  const Scene& scene = run_.scene;
+  const Model& model = run_.model;
   for (std::size_t i = 0; i < scene.forces.size(); ++i) {
     const ForceItem& force = scene.forces[i];
-    Item& item = items_.emplace_back();
+    ForceReport& item = items_.emplace_back();
     item.name = force.name;
     item.components =
         components_of(force, scene.structures[static_cast<std::size_t>(model.forces[i].structure)]);
@@ -105,6 +166,7 @@ void Forces::lay_out(const Scene& scene, const Model& model) {
       item.elements.push_back(std::to_string(element));
     }
   }
+  first_.resize(items_.size());
   std::size_t next = 0;
   for (const bool recorded : {true, false}) {
     for (std::size_t i = 0; i < items_.size(); ++i) {
@@ -112,8 +174,8 @@ void Forces::lay_out(const Scene& scene, const Model& model) {
       if (recorded && scene.forces[i].kind == ForceKind::shells) {
         unit_ = "N, N m; of shells N/m, N m/m";
       }
-      items_[i].first = next;
-      next += items_[i].columns();
+      first_[i] = next;
+      next += items_[i].elements.size() * items_[i].components.size();
       for (std::size_t e = 0; recorded && e < items_[i].elements.size(); ++e) {
         const std::string& element = items_[i].elements[e];
         for (const std::string& component : items_[i].components) {
@@ -128,42 +190,46 @@ void Forces::lay_out(const Scene& scene, const Model& model) {
   peaks_.assign(next, {});
 }
 
-void Forces::watch(CdLagrange& stepper) const {
-  for (const Total& total : totals_) stepper.watch_forces(total.structure, total.force->dofs());
-}
-
-void Forces::begin(const State& state) {
+StepNeeds Forces::begin(const CdLagrange& stepper) {
+  const State& state = stepper.state();
   std::ranges::fill(part_, 0.0);
   for (Elements& of : elements_) {
     of.forces->add(state.structures[of.structure].displacement, state.supports.displacement, part_);
   }
+  return {.forces = true};
 }
 
-void Forces::end(const Solver& solver) {
-  const CdLagrange& stepper = solver.stepper();
+void Forces::observe(const CdLagrange& stepper) {
   for (const Total& total : totals_) {
     Wrench sum{};
     total.force->add(stepper.state().structures[total.structure], stepper.forces(total.structure),
-                     solver.links(total.structure), sum);
+                     run_.solver.links(total.structure), sum);
     for (std::size_t k = 0; k < sum.size(); ++k) part_[total.first + k] += sum[k];
   }
   MPI_Reduce(part_.data(), columns_.data(), static_cast<int>(part_.size()), MPI_DOUBLE, MPI_SUM, 0,
-             comm_);
-  if (rank_of(comm_) != 0 || stepper.time() < peaks_start_) return;
+             run_.comm);
+  if (rank_of(run_.comm) != 0 || stepper.time() < peaks_start_) return;
   for (std::size_t c = 0; c < peaks_.size(); ++c) {
     const ForcePeak now{columns_[c], stepper.time()};
     if (std::abs(now.value) > std::abs(peaks_[c].value)) peaks_[c] = now;
   }
 }
 
-void Forces::save(SavedState& saved) const {
-  std::vector<double> table;
-  for (const ForcePeak& peak : peaks_) table.insert(table.end(), {peak.value, peak.time});
-  saved.put("force_peaks", table, 2);
+std::optional<RecordColumns> Forces::columns() const {
+  if (recorded_.empty()) return std::nullopt;
+  RecordColumns columns{"forces", recorded_, {{"force", unit_}}, {}, {}};
+  if (rank_of(run_.comm) == 0) columns.take_all({columns_.data(), recorded_.size()});
+  return columns;
+}
+
+void Forces::save(SavedState& saved) {
+  if (rank_of(run_.comm) != 0) return;
+  saved.put("force_peaks", to_rows(peaks_, peak_members), 2);
   saved.put("force_peaks_start", {peaks_start_});
 }
 
-void Forces::load(const SavedState& saved, double time) {
+void Forces::load(const SavedState& saved) {
+  const double time = run_.solver.stepper().time();
   std::vector<double> table(2 * peaks_.size());
   saved.get("force_peaks", table);
   std::array<double, 1> start{};
@@ -180,37 +246,24 @@ void Forces::load(const SavedState& saved, double time) {
     }
     std::ranges::fill(table, 0.0);  // what counts is all to come
   }
-  for (std::size_t c = 0; c < peaks_.size(); ++c) peaks_[c] = {table[2 * c], table[2 * c + 1]};
+  from_rows(table, peaks_, peak_members);
 }
 
-std::vector<ForceReport> Forces::report() const {
-  std::vector<ForceReport> reports;
-  for (const Item& item : items_) {
-    const auto first = peaks_.begin() + static_cast<std::ptrdiff_t>(item.first);
-    reports.push_back({item.name,
-                       item.components,
-                       item.elements,
-                       {first, first + static_cast<std::ptrdiff_t>(item.columns())},
-                       item.about});
+void Forces::report(RunStatistics& statistics) {
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    const auto first = peaks_.begin() + static_cast<std::ptrdiff_t>(first_[i]);
+    const std::size_t columns = items_[i].elements.size() * items_[i].components.size();
+    items_[i].peaks.assign(first, first + static_cast<std::ptrdiff_t>(columns));
   }
-  return reports;
+  statistics.forces = items_;
+  if (!statistics.complete) return;
+  on_rank0(run_.comm, [&] {
+    write_forces(run_.scene.output + "/forces.csv", statistics.forces, run_.scene.csv_digits);
+  });
 }
 
-void write_forces(const std::string& path, std::span<const ForceReport> reports, int digits) {
-  CsvFile file(path, digits);
-  file.header("item,component,unit,element,peak,time");
-  for (const ForceReport& report : reports) {
-    for (std::size_t e = 0; e < report.elements.size(); ++e) {
-      for (std::size_t c = 0; c < report.components.size(); ++c) {
-        const ForcePeak& peak = report.peaks[e * report.components.size() + c];
-        const std::string& element = report.elements[e];
-        const std::string& component = report.components[c];
-        file.row(report.name + "," + component + "," + unit_of(component),
-                 {element.empty() ? 0.0 : std::stod(element), peak.value, peak.time});
-      }
-    }
-  }
-  file.close();
+std::unique_ptr<Observer> make_forces(const ObservedRun& run) {
+  return std::make_unique<Forces>(run);
 }
 
 void print_forces(std::span<const ForceReport> reports) {

@@ -11,6 +11,7 @@
 #include "common/error.h"
 #include "common/matrix3.h"
 #include "common/parallel.h"
+#include "driver/run_statistics.h"
 #include "system/links.h"
 
 namespace pounding {
@@ -122,21 +123,40 @@ std::string name_of(const std::string& item, const Candidate& link) {
   return name + "." + component + (link.is_dashpot() ? ".dashpot" : "");
 }
 
+class Loops final : public Observer {
+ public:
+  explicit Loops(const ObservedRun& run);
+
+  std::int64_t next_due(std::int64_t step) const override { return run_.next_record_step(step); }
+  void observe(const CdLagrange& stepper) override;
+  void report(RunStatistics& statistics) override;
+  std::optional<RecordColumns> columns() const override {
+    return RecordColumns{
+        "links", names_, {{"link_elongation", "m, rad"}, {"link_force", "N, N m"}}, mine_, values_};
+  }
+
+ private:
+  struct Own {
+    const interactions::LinkRecords* records = nullptr;
+    std::size_t number = 0;  ///< among those
+  };
+
+  ObservedRun run_;
+  std::vector<std::string> items_;  ///< of the option
+  std::vector<int> item_of_;        ///< per name
+  std::vector<std::string> names_;  ///< of all links, the same on all ranks
+  std::vector<int> mine_;           ///< those that this rank holds
+  std::vector<Own> own_;            ///< per link of this rank
+  std::vector<double> values_;      ///< elongation and force of each of these
+};
+
 }  // namespace
 
-interactions::LinkTotals LoopReport::whole() const {
-  interactions::LinkTotals most;
-  for (const interactions::LinkTotals& link : totals) {
-    most.largest_elongation = std::max(most.largest_elongation, link.largest_elongation);
-    most.largest_force = std::max(most.largest_force, link.largest_force);
-    most.work += link.work;
-    most.yielded += link.yielded;
-  }
-  return most;
-}
-
-Loops::Loops(MPI_Comm comm, const Scene& scene, const Model& model, Solver& solver) : comm_(comm) {
-  const int rank = rank_of(comm);
+Loops::Loops(const ObservedRun& run) : run_(run) {
+  const Scene& scene = run.scene;
+  const Model& model = run.model;
+  Solver& solver = run.solver;
+  const int rank = rank_of(run.comm);
   std::vector<Candidate> all;
   for (std::size_t i = 0; i < scene.loops.size(); ++i) {
     const Loop& loop = scene.loops[i];
@@ -148,7 +168,7 @@ Loops::Loops(MPI_Comm comm, const Scene& scene, const Model& model, Solver& solv
       add_rows(scene, *solver.fillers(), loop, item, rank, all);
     }
   }
-  all = of_all_ranks(comm, all);
+  all = of_all_ranks(run.comm, all);
   for (std::size_t i = 0; i < scene.loops.size(); ++i) {
     const int item = static_cast<int>(i);
     if (std::ranges::find(all, item, &Candidate::item) == all.end()) {
@@ -180,15 +200,14 @@ Loops::Loops(MPI_Comm comm, const Scene& scene, const Model& model, Solver& solv
   values_.assign(2 * own_.size(), 0.0);
 }
 
-std::span<const double> Loops::values() {
+void Loops::observe(const CdLagrange& /*stepper*/) {
   for (std::size_t k = 0; k < own_.size(); ++k) {
     values_[2 * k] = own_[k].records->elongation(own_[k].number);
     values_[2 * k + 1] = own_[k].records->force(own_[k].number);
   }
-  return values_;
 }
 
-std::vector<LoopReport> Loops::report() const {
+void Loops::report(RunStatistics& statistics) {
   constexpr std::size_t width = 4;
   std::vector<double> all(width * names_.size(), 0.0);
   for (std::size_t k = 0; k < own_.size(); ++k) {
@@ -199,16 +218,19 @@ std::vector<LoopReport> Loops::report() const {
     to[2] = t.work;
     to[3] = t.yielded;
   }
-  MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, comm_);
-  std::vector<LoopReport> reports;
-  for (const std::string& item : items_) reports.push_back({item, {}, {}});
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM,
+                run_.comm);
+  for (const std::string& item : items_) statistics.loops.push_back({item, {}, {}});
   for (std::size_t i = 0; i < names_.size(); ++i) {
-    LoopReport& report = reports[static_cast<std::size_t>(item_of_[i])];
+    LoopReport& loop = statistics.loops[static_cast<std::size_t>(item_of_[i])];
     const double* const from = &all[width * i];
-    report.links.push_back(names_[i]);
-    report.totals.push_back({from[0], from[1], from[2], from[3]});
+    loop.links.push_back(names_[i]);
+    loop.totals.push_back({from[0], from[1], from[2], from[3]});
   }
-  return reports;
+}
+
+std::unique_ptr<Observer> make_loops(const ObservedRun& run) {
+  return std::make_unique<Loops>(run);
 }
 
 }  // namespace pounding

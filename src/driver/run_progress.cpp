@@ -55,4 +55,52 @@ void RunProgress::show(const RunPosition& position) {
   std::fflush(stdout);
 }
 
+namespace {
+
+class ProgressWatch final : public Observer {
+ public:
+  ProgressWatch(const ObservedRun& run, const ImpactCatalogue& impacts)
+      : run_(run),
+        impacts_(impacts),
+        progress_(is_watched(), run.scene.progress_interval),
+        stride_(std::max<std::int64_t>(1, run.model.steps / 200)) {}
+
+  void start(const CdLagrange& stepper, const SavedState* continued) override {
+    begun_at_ = continued != nullptr ? stepper.time() : 0;
+    wall_start_ = MPI_Wtime();
+  }
+  std::int64_t next_due(std::int64_t step) const override {
+    return next_multiple(std::max<std::int64_t>(step, 1), stride_);
+  }
+  void observe(const CdLagrange& stepper) override;
+
+ private:
+  ObservedRun run_;
+  const ImpactCatalogue& impacts_;
+  RunProgress progress_;
+  std::int64_t stride_;    ///< steps between two looks
+  double begun_at_ = 0;    ///< simulated time at the start [s]
+  double wall_start_ = 0;  ///< [s]
+};
+
+}  // namespace
+
+void ProgressWatch::observe(const CdLagrange& stepper) {
+  const double no_gap = std::numeric_limits<double>::max();
+  std::array<double, 2> now{no_gap, 0};  // smallest gap, minus the number of impacts
+  if (run_.is_contact_root()) {
+    now = {run_.solver.contact()->smallest_gap(), -static_cast<double>(impacts_.episodes())};
+  }
+  MPI_Allreduce(MPI_IN_PLACE, now.data(), 2, MPI_DOUBLE, MPI_MIN, run_.comm);
+  if (rank_of(run_.comm) != 0) return;
+  progress_.show({stepper.time(), run_.scene.end_time, stepper.time() - begun_at_,
+                  MPI_Wtime() - wall_start_, now[0], std::llround(-now[1]),
+                  stepper.energy().relative_residual()});
+}
+
+std::unique_ptr<Observer> make_progress_watch(const ObservedRun& run,
+                                              const ImpactCatalogue& impacts) {
+  return std::make_unique<ProgressWatch>(run, impacts);
+}
+
 }  // namespace pounding

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <string>
+
+#include "driver/observed_run.h"
+#include "output/impact_catalogue.h"
 
 namespace pounding {
 
@@ -38,5 +42,9 @@ class RunProgress {
   double interval_;
   double next_;  ///< elapsed time of the next line [s]
 };
+
+/// Shows how far a run is; `impacts` must outlive it.
+std::unique_ptr<Observer> make_progress_watch(const ObservedRun& run,
+                                              const ImpactCatalogue& impacts);
 
 }  // namespace pounding

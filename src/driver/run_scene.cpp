@@ -26,7 +26,6 @@
 #include "driver/time_loop.h"
 #include "driver/warnings.h"
 #include "io/new_file.h"
-#include "output/energy_ledger.h"
 #include "output/result_folder.h"
 
 namespace pounding {
@@ -45,12 +44,6 @@ void begin_results(const Scene& scene, const std::string& resolved, const Proven
   const std::vector<std::string> removed = folder.clear(scene.restart);
   if (!removed.empty()) print_removed(scene, removed);
   write_whole_file(scene.output + "/resolved.yaml", resolved + provenance_comment(provenance));
-}
-
-std::vector<std::string> contact_names(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const Contact& contact : scene.contacts) names.push_back(contact.name);
-  return names;
 }
 
 [[noreturn]] void stop(const Scene& scene, const Model& model, int signal, std::int64_t step) {
@@ -137,11 +130,6 @@ void run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
   RunStatistics statistics;
   statistics.step_time = MPI_Wtime() - step_start;
   loop.fill(statistics);
-  on_rank0(comm, [&] {
-    write_impacts(scene.output + "/impacts.csv", contact_names(scene), loop.impacts().impacts(),
-                  scene.csv_digits);
-    write_energy(scene.output + "/energy.csv", loop.ledger().lines(), scene.csv_digits);
-  });
   if (signal != 0) stop(scene, model, signal, loop.step());
   std::vector<ProbeSpectrum> spectra = compute_floor_spectra(comm, scene, loop.recorder());
   on_rank0(comm, [&] {
@@ -158,9 +146,6 @@ void run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
            statistics.warnings);
     if (statistics.all_impacts.episodes > 0) {
       append(peak_warnings(scene, statistics.peaks, loop.recorder()), statistics.warnings);
-    }
-    if (!statistics.forces.empty()) {
-      write_forces(scene.output + "/forces.csv", statistics.forces, scene.csv_digits);
     }
     statistics.wall_time = MPI_Wtime() - start;
     write_summary(scene.output + "/summary.json",

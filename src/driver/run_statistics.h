@@ -1,25 +1,83 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "driver/closing_watch.h"
-#include "driver/forces.h"
-#include "driver/loops.h"
+#include "common/matrix3.h"
 #include "driver/phase_report.h"
 #include "driver/stated_peaks.h"
-#include "driver/uplift_watch.h"
 #include "dynamics/energy_balance.h"
 #include "interactions/filler_rows.h"
-#include "interactions/slide_watch.h"
+#include "interactions/link_records.h"
 #include "output/impact_catalogue.h"
 #include "output/recorder.h"
 
 namespace pounding {
 
+/// How far the pairs of a contact have closed since the start of a run.
+struct JointClosing {
+  double largest = 0;  ///< of all pairs [m]
+  /// Least over the pairs of gap at the start over closing: as long as everything stays linear, a
+  /// motion so many times as strong just closes the first of them [-]. Infinite where none closes.
+  double factor = std::numeric_limits<double>::infinity();
+};
+
+/// How far the two sides of a contact have slid along each other.
+struct Slide {
+  double distance = 0;    ///< of the pair that slid farthest beside the size of its facet [m]
+  double facet_size = 0;  ///< of that pair's facet; 0: a wall, endless [m]
+  double since = -1;      ///< when a pair was first seen beyond `limit` [s]; below 0: none was
+
+  /// Part of a facet beyond which a node may face another one, or none.
+  static constexpr double limit = 0.5;
+};
+
+/// Contact ratio of a mat on compression-only springs: the stiffness of those that are pressed over
+/// that of all, 1 as long as nothing lifts off.
+struct ContactRatio {
+  double now = 1;           ///< at the last look
+  double smallest = 1;      ///< of all looks
+  double time = 0;          ///< of the smallest [s]
+  double low_duration = 0;  ///< time below 80 % [s]
+
+  /// Ratio below which the time counts.
+  static constexpr double low = 0.8;
+};
+
+/// Links of one item of the option `loops`, after the run.
+struct LoopReport {
+  std::string name;
+  std::vector<std::string> links;
+  std::vector<interactions::LinkTotals> totals;  ///< per link
+
+  /// Extremes over all links; `work` and `yielded` are sums.
+  interactions::LinkTotals whole() const;
+};
+
+/// The value of a force that was largest in magnitude, and when.
+struct ForcePeak {
+  double value = 0;  ///< [N, N m], of shells per length [N/m, N]
+  double time = 0;   ///< [s]
+};
+
+/// Peaks of an item of the option `forces`.
+struct ForceReport {
+  std::string name;
+  std::vector<std::string> components;  ///< "Fx", "N", ...
+  std::vector<std::string> elements;    ///< numbers in the file; one empty name of a total
+  std::vector<ForcePeak> peaks;         ///< shape (elements, components)
+  std::optional<Vector3> about{};       ///< of a total: point that its moments are about [m]
+
+  /// The element whose peak of a component is the largest.
+  std::size_t largest(std::size_t component) const;
+};
+
 /// Findings of a run, beside the model; complete on rank 0.
 struct RunStatistics {
+  bool complete = false;                ///< the run came to its end, no signal stopped it
   double wall_time = 0;                 ///< of everything [s]
   double step_time = 0;                 ///< of the time loop [s]
   std::int64_t steps = 0;               ///< that it made: after the checkpoint if it continues one
@@ -35,7 +93,7 @@ struct RunStatistics {
   std::vector<interactions::FillerTotals> fillers;  ///< per contact; empty without fillers
   std::vector<LoopReport> loops;                    ///< per item of the option
   std::vector<ForceReport> forces;                  ///< per item of the option; rank 0
-  std::vector<interactions::Slide> slides;          ///< per contact
+  std::vector<Slide> slides;                        ///< per contact
   std::vector<JointClosing> closings;               ///< per contact, of the samples of the gaps
   std::vector<ContactRatio> contact_ratios;  ///< per structure; empty where nothing may lift off
   StatedPeaks peaks;                         ///< rank 0

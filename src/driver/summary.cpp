@@ -321,7 +321,7 @@ Json describe_filler(const interactions::InterfaceReport& report,
 }
 
 Json describe_contact(const interactions::InterfaceReport& report, const JointGaps& gaps,
-                      const interactions::Slide& slide, const JointClosing& closing) {
+                      const Slide& slide, const JointClosing& closing) {
   return {{"largest_closing", closing.largest},
           {"closing_factor", std::isfinite(closing.factor) ? Json(closing.factor) : Json()},
           {"pairs", report.pairs},

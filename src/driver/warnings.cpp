@@ -150,7 +150,7 @@ std::vector<std::string> contact_warnings(double residual) {
 std::vector<std::string> slide_warnings(const Scene& scene, const RunStatistics& statistics) {
   std::vector<std::string> warnings;
   for (std::size_t c = 0; c < statistics.slides.size(); ++c) {
-    const interactions::Slide& slide = statistics.slides[c];
+    const Slide& slide = statistics.slides[c];
     if (slide.since < 0) continue;
     std::ostringstream text;
     text.precision(4);

@@ -119,4 +119,20 @@ void watch_identity(const Model& model, const EnergyLine& line,
   }
 }
 
+ClosedLine close_line(MPI_Comm comm, const Model& model, const State& state,
+                      const interactions::ContactProblem* contact, EnergyBalance& energy) {
+  ClosedLine closed;
+  closed.energies.resize(model.systems.size());
+  closed.line = energy.line(closed.energies);
+  energy.note(closed.line);
+  watch_divergence(model, state, closed.line, closed.energies);
+  watch_identity(model, closed.line, closed.energies, energy.largest_term());
+  watch_passivity(closed.line, energy.largest_term());
+  watch_contact(comm, contact, closed.line.time);
+  for (std::size_t s = 0; s < closed.energies.size(); ++s) {
+    closed.round_off.push_back(energy_round_off(model, s, closed.energies[s]));
+  }
+  return closed;
+}
+
 }  // namespace pounding

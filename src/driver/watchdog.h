@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "driver/model.h"
 #include "dynamics/energy_balance.h"
@@ -29,6 +30,18 @@ void watch_identity(const Model& model, const EnergyLine& line,
 /// Throws DivergenceError if what can only take energy has given some: damping and devices
 /// together, or tension-only bars, by more than a millionth of the largest term [J] so far.
 void watch_passivity(const EnergyLine& line, double largest_term);
+
+/// A line of the ledger with the energies of the structures and their round-off [J].
+struct ClosedLine {
+  EnergyLine line;
+  std::vector<StructureEnergy> energies;
+  std::vector<double> round_off;
+};
+
+/// Closes a line of the ledger and looks at it with all that is here. `state`: after the step;
+/// `contact` may be null. Collective.
+ClosedLine close_line(MPI_Comm comm, const Model& model, const State& state,
+                      const interactions::ContactProblem* contact, EnergyBalance& energy);
 
 /// Throws DivergenceError if some rank's contact problem had no finite answer and so was left out.
 /// `contact` may be null. Collective.

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "driver/gap_bounds.h"
+#include "driver/impact_watch.h"
 #include "driver/watchdog.h"
 #include "dynamics/structure_step.h"
 
@@ -29,19 +30,6 @@ std::unique_ptr<GapWatch> make_watch(const Model& model,
       model.motion->peaks(), model.time_step);
 }
 
-ImpactCatalogue make_catalogue(const Scene& scene, const Model& model) {
-  std::vector<int> contacts;
-  std::vector<std::array<double, 2>> places;
-  for (const interactions::Constraint& constraint : model.interface.constraints) {
-    contacts.push_back(constraint.contact);
-    places.push_back(constraint.place);
-  }
-  return {static_cast<int>(scene.contacts.size()),
-          std::move(contacts),
-          std::move(places),
-          {scene.impact_merge_time, scene.force_window, model.time_step}};
-}
-
 }  // namespace
 
 MemberRun::MemberRun(const MemberScene& member, const EnsembleModel& shared, std::size_t lane)
@@ -53,8 +41,6 @@ MemberRun::MemberRun(const MemberScene& member, const EnsembleModel& shared, std
       catalogue_(make_catalogue(member.scene, model_)),
       state_(model_.systems),
       sums_(model_.systems.size()),
-      energies_(model_.systems.size()),
-      round_off_(model_.systems.size()),
       smallest_gaps_(member.scene.contacts.size(), std::numeric_limits<double>::infinity()) {
   for (std::size_t s = 0; s < model_.systems.size(); ++s) {
     const LinearSystem& system = model_.systems[s];
@@ -145,15 +131,7 @@ void MemberRun::close(double time, double duration, bool records,
     sums_.front().friction_loss = contact_->friction().total_loss();
   }
   energy_.add_step(sums_, acceleration_);
-  if (touching_) {
-    ContactStep impulses{contact_->gaps(), contact_->impulses(), contact_->works(), {}, {}, {}};
-    if (contact_->friction().has_any()) {
-      impulses.tangential_impulses = contact_->friction().tangential_impulses();
-      impulses.slip_rates = contact_->friction().slip_rates();
-      impulses.friction_losses = contact_->friction().losses();
-    }
-    catalogue_.add_step(time, duration, impulses);
-  }
+  if (touching_) add_contact(*contact_, time, duration, catalogue_);
   if (known_ && records) note_gaps();
 }
 
@@ -164,21 +142,13 @@ void MemberRun::note_gaps() {
   }
 }
 
-void MemberRun::close_line(std::int64_t step, std::span<const OctetState> states) {
+void MemberRun::close_ledger(std::int64_t step, std::span<const OctetState> states) {
   for (std::size_t s = 0; s < states.size(); ++s) {
     OctetState::take(states[s].velocity, lane_, state_.structures[s].velocity);
   }
   state_.step = step + 1;
-  const EnergyLine line = energy_.line(energies_);
-  energy_.note(line);
-  watch_divergence(model_, state_, line, energies_);
-  watch_identity(model_, line, energies_, energy_.largest_term());
-  watch_passivity(line, energy_.largest_term());
-  watch_contact(MPI_COMM_SELF, contact_.get(), line.time);
-  for (std::size_t s = 0; s < energies_.size(); ++s) {
-    round_off_[s] = energy_round_off(model_, s, energies_[s]);
-  }
-  watch_->energies_known(energy_.closed_steps() - 1, energies_, round_off_);
+  const ClosedLine closed = close_line(MPI_COMM_SELF, model_, state_, contact_.get(), energy_);
+  watch_->energies_known(energy_.closed_steps() - 1, closed.energies, closed.round_off);
 }
 
 void MemberRun::fill(MemberResult& result) {

@@ -55,7 +55,7 @@ class MemberRun {
   /// The ledger of the step, and its impulses; `records`: the gaps count as recorded ones.
   void close(double time, double duration, bool records, std::span<const OctetStep> steps);
   /// A line of the ledger: stops the ensemble if this member's numbers cannot be trusted.
-  void close_line(std::int64_t step, std::span<const OctetState> states);
+  void close_ledger(std::int64_t step, std::span<const OctetState> states);
   bool needs_energies() const { return energy_.needs_energies(); }
   std::int64_t looks() const { return looks_; }
 
@@ -81,8 +81,6 @@ class MemberRun {
   std::vector<OctetStep::Before> before_;
   std::vector<std::vector<double>> velocity_;  ///< per structure, after contact
   std::vector<StepSums> sums_;
-  std::vector<StructureEnergy> energies_;
-  std::vector<double> round_off_;
   std::vector<double> smallest_gaps_;  ///< per contact, of all recorded ones [m]
   std::array<double, 3> acceleration_{};
   bool known_ = false;

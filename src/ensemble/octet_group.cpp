@@ -1,10 +1,10 @@
 #include "ensemble/octet_group.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "common/error.h"
 #include "common/row_products.h"
+#include "driver/field_plan.h"
 #include "driver/stated_peak.h"
 #include "motion/response_spectrum.h"
 
@@ -14,15 +14,6 @@ namespace {
 /// Steps between two questions whether to stop.
 constexpr std::int64_t stop_interval = 2000;
 
-/// Steps between two samples of the gaps, as in a single run.
-std::int64_t gap_stride(const Scene& scene, const Model& model, double interval) {
-  constexpr double most = std::numeric_limits<int>::max();
-  const double records = std::clamp(scene.gap_interval / interval, 1.0,
-                                    std::min(static_cast<double>(model.steps) + 1, most));
-  return static_cast<std::int64_t>(interval / model.time_step + 0.5) *
-         static_cast<std::int64_t>(records);
-}
-
 }  // namespace
 
 OctetGroup::OctetGroup(std::span<const MemberScene* const> members, const Scene& scene,
@@ -30,7 +21,7 @@ OctetGroup::OctetGroup(std::span<const MemberScene* const> members, const Scene&
     : scene_(scene),
       shared_(*shared.model),
       recorder_(recorder),
-      gap_stride_(gap_stride(scene, shared_, recorder.interval())) {
+      gap_stride_(gap_stride(scene, shared_)) {
   for (std::size_t lane = 0; lane < members.size(); ++lane) {
     runs_.push_back(std::make_unique<MemberRun>(*members[lane], shared, lane));
   }
@@ -94,7 +85,7 @@ void OctetGroup::find_places() {
 
 void OctetGroup::close_lines(std::int64_t n) {
   for (failed_lane_ = 0; failed_lane_ < runs_.size(); ++failed_lane_) {
-    runs_[failed_lane_]->close_line(n, states_);
+    runs_[failed_lane_]->close_ledger(n, states_);
   }
 }
 

@@ -1,8 +1,8 @@
 #include "output/energy_ledger.h"
 
 #include <array>
-#include <span>
 
+#include "common/number_rows.h"
 #include "io/csv_file.h"
 
 namespace pounding {
@@ -11,21 +11,13 @@ namespace {
 /// Lines that are kept at most.
 constexpr std::int64_t capacity = 5000;
 
-/// A line as numbers, in the order of its members.
 constexpr std::size_t ledger_columns = 10;
 
-void append_numbers(const EnergyLine& line, std::vector<double>& numbers) {
-  numbers.insert(numbers.end(), {line.time, line.kinetic, line.strain, line.damping_loss,
-                                 line.contact_work, line.input_work, line.device_work,
-                                 line.residual, line.gravity_work, line.friction_loss});
-}
-
-EnergyLine line_of_numbers(std::span<const double> v) {
-  EnergyLine line{v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]};
-  line.gravity_work = v[8];
-  line.friction_loss = v[9];
-  return line;
-}
+/// The numbers of a line in a table.
+constexpr auto line_members = [](auto& line, const auto& take) {
+  take(line.time, line.kinetic, line.strain, line.damping_loss, line.contact_work, line.input_work,
+       line.device_work, line.residual, line.gravity_work, line.friction_loss);
+};
 
 }  // namespace
 
@@ -41,24 +33,20 @@ void EnergyLedger::add(const EnergyLine& line) {
 }
 
 void EnergyLedger::save(SavedState& saved) const {
-  std::vector<double> numbers;
-  for (const EnergyLine& line : lines_) append_numbers(line, numbers);
-  saved.put("ledger", numbers, ledger_columns);
-  numbers.clear();
-  append_numbers(last_, numbers);
-  saved.put("ledger_last", numbers);
+  saved.put("ledger", to_rows(lines_, line_members), ledger_columns);
+  saved.put("ledger_last", to_rows(std::vector{last_}, line_members));
   saved.put("ledger_added", {static_cast<double>(added_)});
 }
 
 void EnergyLedger::load(const SavedState& saved) {
   const std::vector<double>& numbers = saved.table("ledger", ledger_columns);
-  lines_.clear();
-  for (std::size_t i = 0; i < numbers.size(); i += ledger_columns) {
-    lines_.push_back(line_of_numbers({&numbers[i], ledger_columns}));
-  }
+  lines_.resize(numbers.size() / ledger_columns);
+  from_rows(numbers, lines_, line_members);
   std::array<double, ledger_columns> last{};
   saved.get("ledger_last", last);
-  last_ = line_of_numbers(last);
+  std::vector<EnergyLine> lines(1);
+  from_rows(last, lines, line_members);
+  last_ = lines[0];
   added_ = saved.integer("ledger_added");
 }
 

@@ -27,12 +27,14 @@ void copy_numbers(const PlacedFile& from, std::int64_t source, const PlacedFile&
 
 }  // namespace
 
-void FieldWriter::save(SavedState& saved, bool root) const {
-  if (root && !impulses_.empty()) saved.put("fields_impulse", impulses_);
-  if (rank_of(layout_.comm) == 0) saved.put("fields_frames", {static_cast<double>(frames_)});
+void FieldWriter::save(SavedState& saved) {
+  const int rank = rank_of(layout_.comm);
+  if (rank == layout_.impulse_root && !impulses_.empty()) saved.put("fields_impulse", impulses_);
+  if (rank == 0) saved.put("fields_frames", {static_cast<double>(frames_)});
+  flush();
 }
 
-void FieldWriter::check(const SavedState& saved) {
+void FieldWriter::load(const SavedState& saved) {
   frames_ = saved.integer("fields_frames");
   if (frames_ < 0) saved.refuse_values("fields_frames");
   if (!impulses_.empty()) saved.get("fields_impulse", impulses_);
@@ -65,7 +67,8 @@ void FieldWriter::check(const SavedState& saved) {
   });
 }
 
-void FieldWriter::load() {
+void FieldWriter::start(const CdLagrange& /*stepper*/, const SavedState* continued) {
+  if (continued == nullptr) return;
   const std::string path = layout_.folder + "/fields.h5";
   create(path + ".new");
   on_rank0(layout_.comm, [&] {

@@ -187,7 +187,15 @@ void FieldWriter::open() {
   });
 }
 
-void FieldWriter::take_displacements(const State& state) {
+std::int64_t FieldWriter::next_due(std::int64_t step) const {
+  const FieldSteps& steps = layout_.steps;
+  if (step > steps.last()) return never;
+  return step <= steps.first ? steps.first
+                             : steps.first + next_multiple(step - steps.first, steps.stride);
+}
+
+StepNeeds FieldWriter::begin(const CdLagrange& stepper) {
+  const State& state = stepper.state();
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     StructureFields& fields = structures_[s];
     const std::vector<double>& moved = state.structures[s].displacement;
@@ -198,9 +206,17 @@ void FieldWriter::take_displacements(const State& state) {
                              state.supports.displacement);
     }
   }
+  return {};
 }
 
-void FieldWriter::record(const State& state) {
+void FieldWriter::follow(const CdLagrange& stepper) {
+  const std::int64_t step = stepper.state().step - 1;
+  const FieldSteps& steps = layout_.steps;
+  if (step > steps.first - steps.stride && step <= steps.last()) layout_.add_impulses(impulses_);
+}
+
+void FieldWriter::observe(const CdLagrange& stepper) {
+  const State& state = stepper.state();
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     StructureFields& fields = structures_[s];
     fields.displacement.apply(state.structures[s].velocity.data(),
@@ -248,7 +264,7 @@ void FieldWriter::flush() {
   });
 }
 
-void FieldWriter::finish() {
+void FieldWriter::finish(bool /*complete*/) {
   flush();
   on_every_rank(layout_.comm, [&] { file_->sync(); });
 }

@@ -1,17 +1,17 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "common/saved_state.h"
-#include "dynamics/state.h"
 #include "io/placed_file.h"
 #include "mesh/mesh.h"
 #include "output/file_blocks.h"
 #include "output/mesh_grid.h"
+#include "output/observer.h"
 #include "system/trace.h"
 
 namespace pounding {
@@ -23,9 +23,6 @@ struct FieldSteps {
   std::int64_t count = 0;
 
   std::int64_t last() const { return first + (count - 1) * stride; }
-  bool contains(std::int64_t step) const {
-    return step >= first && step <= last() && (step - first) % stride == 0;
-  }
 };
 
 /// A displacement component of a node of a structure that contacts move.
@@ -48,7 +45,7 @@ struct ContactPlace {
 /// the file at the beginning; then every rank fills its part of them (FileBlocks) as the run goes.
 /// `frames` is the number of whole frames, written after them, and `fields.xdmf` lists these; what
 /// lies behind is no motion. A frame allocates nothing but the line of the list.
-class FieldWriter {
+class FieldWriter final : public Observer {
  public:
   struct Layout {
     MPI_Comm comm = MPI_COMM_SELF;
@@ -59,44 +56,38 @@ class FieldWriter {
     FieldSteps steps;
     MeshLabels labels;
     std::vector<ContactPlace> places;  ///< where contacts act, of all ranks
+    int impulse_root = 0;              ///< rank that knows all impulses
+    /// Adds the impulses of contacts in the step just made, per place [N s], on ranks that know
+    /// them.
+    std::function<void(std::span<double>)> add_impulses;
   };
 
   /// Creates the files, unless the run is a continued one. Throws UserError on every rank alike (no
   /// space). Collective.
   FieldWriter(Layout layout, std::span<const LinearSystem> systems, std::span<const Mesh> meshes);
-  FieldWriter(const FieldWriter&) = delete;
-  FieldWriter& operator=(const FieldWriter&) = delete;
 
   /// Bytes that the arrays take. Collective.
   static double size(const FieldSteps& steps, std::span<const LinearSystem> systems,
                      std::span<const Mesh> meshes, bool contacts);
 
-  bool due(std::int64_t step) const { return layout_.steps.contains(step); }
-  /// Whether impulses of the step come to a frame.
-  bool counts(std::int64_t step) const {
-    return step > layout_.steps.first - layout_.steps.stride && step <= layout_.steps.last();
-  }
-  /// Impulses of a step are added to this, per place of the layout [N s], on all ranks that own
-  /// their nodes.
-  std::span<double> impulses() { return impulses_; }
-  /// Before the step to be kept: takes the displacements.
-  void take_displacements(const State& state);
-  /// After it: writes the frame. Throws UserError on every rank alike (no space). Collective.
-  void record(const State& state);
+  /// Takes the frames over that `continued` knows from the file continued, which may be the one
+  /// that is then replaced. Throws UserError on every rank alike. Collective.
+  void start(const CdLagrange& stepper, const SavedState* continued) override;
+  std::int64_t next_due(std::int64_t step) const override;
+  StepNeeds begin(const CdLagrange& stepper) override;
+  /// Writes the frame. Throws UserError on every rank alike (no space). Collective.
+  void observe(const CdLagrange& stepper) override;
+  /// Adds the impulses of contacts up.
+  bool follows() const override { return !impulses_.empty(); }
+  void follow(const CdLagrange& stepper) override;
   /// Lists the frames that are there. Collective.
-  void flush();
+  void flush() override;
   /// Lists them, everything on the disk. Collective.
-  void finish();
-
-  /// Keeps the number of frames and the impulses since the last one. Local; `root`: this rank knows
-  /// the impulses.
-  void save(SavedState& saved, bool root) const;
-  /// Takes the number of frames and the impulses over, and refuses a file that cannot be continued.
-  /// Throws UserError on every rank alike. Collective.
-  void check(const SavedState& saved);
-  /// After check(): takes the frames over from the file continued, which may be the one that is
-  /// then replaced. Throws UserError on every rank alike. Collective.
-  void load();
+  void finish(bool complete) override;
+  /// Keeps the number of frames and the impulses since the last one, and lists the frames.
+  void save(SavedState& saved) override;
+  /// Refuses a file that cannot be continued.
+  void load(const SavedState& saved) override;
 
  private:
   /// A quantity of a structure.

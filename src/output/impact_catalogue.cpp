@@ -7,6 +7,7 @@
 
 #include "common/error.h"
 #include "common/matrix3.h"
+#include "common/number_rows.h"
 #include "common/parallel.h"
 #include "io/csv_file.h"
 #include "motion/records/record_text.h"
@@ -16,41 +17,12 @@ namespace {
 
 constexpr std::size_t impact_columns = 17;
 
-/// Impacts as rows of numbers.
-std::vector<double> to_table(std::span<const Impact> impacts) {
-  std::vector<double> table;
-  for (const Impact& i : impacts) {
-    table.insert(table.end(),
-                 {static_cast<double>(i.contact), i.start, i.end, i.impulse, i.peak_force,
-                  static_cast<double>(i.points), i.energy_lost, i.max_penetration, i.place[0],
-                  i.place[1], i.contact_time, i.low_share[0], i.low_share[1], i.tangential_impulse,
-                  i.slip, i.friction_loss, i.window_force});
-  }
-  return table;
-}
-
-std::vector<Impact> from_table(const std::vector<double>& table) {
-  std::vector<Impact> impacts;
-  for (std::size_t i = 0; i < table.size(); i += impact_columns) {
-    const double* v = &table[i];
-    impacts.push_back({static_cast<int>(v[0]),
-                       v[1],
-                       v[2],
-                       v[3],
-                       v[4],
-                       static_cast<int>(v[5]),
-                       v[6],
-                       v[7],
-                       {v[8], v[9]},
-                       v[10],
-                       {v[11], v[12]},
-                       v[13],
-                       v[14],
-                       v[15],
-                       v[16]});
-  }
-  return impacts;
-}
+/// The numbers of an impact in a table.
+constexpr auto impact_members = [](auto& i, const auto& take) {
+  take(i.contact, i.start, i.end, i.impulse, i.peak_force, i.points, i.energy_lost,
+       i.max_penetration, i.place[0], i.place[1], i.contact_time, i.low_share[0], i.low_share[1],
+       i.tangential_impulse, i.slip, i.friction_loss, i.window_force);
+};
 
 /// Whether every row names one of so many contacts.
 bool names_contacts(const std::vector<double>& table, std::size_t contacts) {
@@ -203,8 +175,8 @@ void ImpactCatalogue::finish(MPI_Comm comm, int root) {
 }
 
 void ImpactCatalogue::save(SavedState& saved) const {
-  saved.put("impacts", to_table(impacts_), impact_columns);
-  saved.put("impacts_open", to_table(open_), impact_columns);
+  saved.put("impacts", to_rows(impacts_, impact_members), impact_columns);
+  saved.put("impacts_open", to_rows(open_, impact_members), impact_columns);
   saved.put("impacts_is_open", std::vector<double>(is_open_.begin(), is_open_.end()));
   saved.put("impacts_touched_rows", std::vector<double>(touched_.begin(), touched_.end()));
   saved.put("impacts_slipped_rows", slipped_);
@@ -224,8 +196,9 @@ void ImpactCatalogue::load(const SavedState& saved) {
   const std::vector<double>& closed = saved.table("impacts", impact_columns);
   if (!names_contacts(closed, open_.size())) saved.refuse_values("impacts");
   if (!names_contacts(open, open_.size())) saved.refuse_values("impacts_open");
-  impacts_ = from_table(closed);
-  open_ = from_table(open);
+  impacts_.resize(closed.size() / impact_columns);
+  from_rows(closed, impacts_, impact_members);
+  from_rows(open, open_, impact_members);
   for (std::size_t c = 0; c < windows_.size(); ++c) {
     const std::vector<double>& table =
         saved.table("impacts_window_" + std::to_string(c), ForceWindow::columns);

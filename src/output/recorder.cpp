@@ -17,9 +17,6 @@ constexpr std::size_t buffer_records = 4096;
 /// Displacement and velocity, three components each.
 constexpr std::size_t values_per_node = 6;
 
-/// Elongation and force.
-constexpr std::size_t values_per_link = 2;
-
 /// Mean of a value of nodes.
 double mean(std::span<const double* const> nodes, std::size_t place) {
   double sum = 0;
@@ -42,33 +39,50 @@ Recorder::Recorder(Layout layout, std::span<const LinearSystem> systems,
     nodes_ += structures_.back().values.size() / 3;
   }
   bases_ = BaseMotion(layout_.bases, systems, meshes);
-  const bool root = rank_of(layout_.comm) == layout_.interface_root;
-  width_ = values_per_node * nodes_ + (root ? 2 * layout_.contacts.size() : 0) +
-           values_per_link * layout_.my_links.size() +
-           (rank_of(layout_.comm) == 0 ? layout_.forces.size() : 0) + bases_.values();
+  base_values_.resize(bases_.values());
+  if (!layout_.bases.empty()) layout_.columns.push_back(base_columns());
+  std::vector<int> places;  // table and column of each value beside those of nodes
+  for (const RecordColumns& columns : layout_.columns) {
+    for (const int column : columns.mine) {
+      for (std::size_t q = 0; q < columns.quantities.size(); ++q) {
+        places.insert(places.end(), {static_cast<int>(tables_.size() + q), column});
+      }
+    }
+    for (const RecordColumns::Quantity& quantity : columns.quantities) {
+      tables_.push_back({quantity.name, columns.names.size(), quantity.unit});
+    }
+  }
+  width_ = values_per_node * nodes_ + places.size() / 2;
   buffer_.resize(buffer_records * width_);
   ground_.resize(3 * buffer_records);
-  impulse_.assign(layout_.contacts.size(), 0.0);
   if (rank_of(layout_.comm) != 0) {
     send_array(layout_.comm, 0, mine);
-    send_array(layout_.comm, 0, std::vector<int>{static_cast<int>(width_)});
-    send_array(layout_.comm, 0, layout_.my_links);
+    send_array(layout_.comm, 0, places);
   }
   for (int rank = 0; rank_of(layout_.comm) == 0 && rank < size_of(layout_.comm); ++rank) {
-    std::vector<int> width{static_cast<int>(width_)};
-    rank_links_.push_back(layout_.my_links);
     if (rank > 0) {
       receive_array(layout_.comm, rank, mine);
-      receive_array(layout_.comm, rank, width);
-      receive_array(layout_.comm, rank, rank_links_.back());
+      receive_array(layout_.comm, rank, places);
     }
-    widths_.push_back(width[0]);
+    widths_.push_back(static_cast<int>(values_per_node * (mine.size() / 2) + places.size() / 2));
+    rank_places_.push_back(places);
     for (std::size_t i = 0; i < mine.size(); i += 2) {
       order_.push_back({static_cast<std::size_t>(mine[i]), static_cast<std::size_t>(mine[i + 1])});
     }
   }
   if (rank_of(layout_.comm) == 0) name_channels();
   if (layout_.continued.empty()) on_rank0(layout_.comm, [&] { create_file(layout_.path); });
+}
+
+RecordColumns Recorder::base_columns() const {
+  RecordColumns columns{"bases", {}, {{"base_displacement", "m"}}, {}, base_values_};
+  for (const ResolvedProbe& base : layout_.bases) {
+    for (const char* direction : direction_names) {
+      columns.mine.push_back(static_cast<int>(columns.names.size()));
+      columns.names.push_back(base.name + "." + direction);  // "tower.x"
+    }
+  }
+  return columns;
 }
 
 Recorder::StructureNodes Recorder::find_nodes(const LinearSystem& system, const Mesh& mesh,
@@ -118,14 +132,6 @@ void Recorder::name_channels() {
   drifts_ = StoreyDrifts(layout_.storeys);
 }
 
-std::vector<std::string> Recorder::base_names() const {
-  std::vector<std::string> names;
-  for (const ResolvedProbe& base : layout_.bases) {
-    for (const char* direction : direction_names) names.push_back(base.name + "." + direction);
-  }
-  return names;
-}
-
 std::vector<Recorder::Quantity> Recorder::quantities() const {
   std::vector<Quantity> list{{"time", 0, "s"}, {"ground_acceleration", 3, "m/s2"}};
   if (!channels_.empty()) {
@@ -133,20 +139,7 @@ std::vector<Recorder::Quantity> Recorder::quantities() const {
     list.push_back({"velocity", channels_.size(), "m/s"});
     list.push_back({"acceleration", channels_.size(), "m/s2"});
   }
-  if (!layout_.contacts.empty()) {
-    list.push_back({"gap", layout_.contacts.size(), "m"});
-    list.push_back({"contact_force", layout_.contacts.size(), "N"});
-  }
-  if (!layout_.forces.empty()) {
-    list.push_back({"force", layout_.forces.size(), layout_.force_unit.c_str()});
-  }
-  if (!layout_.bases.empty()) {
-    list.push_back({"base_displacement", bases_.values(), "m"});
-  }
-  if (!layout_.links.empty()) {
-    list.push_back({"link_elongation", layout_.links.size(), "m, rad"});
-    list.push_back({"link_force", layout_.links.size(), "N, N m"});
-  }
+  list.insert(list.end(), tables_.begin(), tables_.end());
   return list;
 }
 
@@ -155,10 +148,9 @@ void Recorder::create_file(const std::string& path) {
   schema::write(*file_, schema::history);
   file_->write_attribute("/", "title", layout_.title);
   file_->write_strings("channels", channels_);
-  file_->write_strings("contacts", layout_.contacts);
-  if (!layout_.links.empty()) file_->write_strings("links", layout_.links);
-  if (!layout_.forces.empty()) file_->write_strings("forces", layout_.forces);
-  if (!layout_.bases.empty()) file_->write_strings("bases", base_names());
+  for (const RecordColumns& columns : layout_.columns) {
+    file_->write_strings(columns.list, columns.names);
+  }
   for (const Quantity& quantity : quantities()) {
     file_->create_dataset(quantity.name, quantity.columns, quantity.unit);
   }
@@ -176,8 +168,10 @@ void Recorder::create_file(const std::string& path) {
   file_->stay_readable();
 }
 
-void Recorder::add_step(const std::array<double, 3>& ground_velocity_step) {
-  for (std::size_t d = 0; d < 3; ++d) ground_sum_[d] += ground_velocity_step[d];
+void Recorder::follow(const CdLagrange& stepper) {
+  for (std::size_t d = 0; d < 3; ++d) {
+    ground_sum_[d] += stepper.ground_acceleration()[d] * stepper.force_duration();
+  }
 }
 
 void Recorder::put(const State& state, std::vector<double> StructureState::*quantity,
@@ -198,24 +192,20 @@ void Recorder::put(const State& state, std::vector<double> StructureState::*quan
   }
 }
 
-void Recorder::take_displacements(const State& state) {
+StepNeeds Recorder::begin(const CdLagrange& stepper) {
+  const State& state = stepper.state();
   put(state, &StructureState::displacement, state.supports.displacement, 0);
-  bases_.put(state, buffer_.data() + (buffered_ + 1) * width_ - bases_.values());
+  bases_.put(state, base_values_.data());
+  return {};
 }
 
-void Recorder::record(const State& state, std::span<const double> gaps,
-                      std::span<const double> links, std::span<const double> forces) {
+void Recorder::observe(const CdLagrange& stepper) {
+  const State& state = stepper.state();
   put(state, &StructureState::velocity, state.supports.velocity, 3);
   double* out = buffer_.data() + buffered_ * width_ + values_per_node * nodes_;
-  if (rank_of(layout_.comm) == layout_.interface_root) {
-    for (std::size_t c = 0; c < layout_.contacts.size(); ++c) {
-      *out++ = gaps[c];
-      *out++ = impulse_[c] / interval();
-      impulse_[c] = 0;
-    }
+  for (const RecordColumns& columns : layout_.columns) {
+    out = std::copy(columns.values.begin(), columns.values.end(), out);
   }
-  out = std::copy(links.begin(), links.end(), out);
-  if (rank_of(layout_.comm) == 0) std::copy(forces.begin(), forces.end(), out);
   std::copy(ground_sum_.begin(), ground_sum_.end(), &ground_[3 * buffered_]);
   ground_sum_ = {0, 0, 0};
   if (++buffered_ == buffer_records) flush();
@@ -238,7 +228,12 @@ std::vector<double> Recorder::gather_rows(std::size_t rows, std::vector<int>& of
   return gathered;
 }
 
-void Recorder::begin(const State& state) {
+void Recorder::start(const CdLagrange& stepper, const SavedState* continued) {
+  if (continued != nullptr) return take_over(*continued);
+  take_start(stepper.state());
+}
+
+void Recorder::take_start(const State& state) {
   put(state, &StructureState::velocity, state.supports.velocity, 3);
   std::vector<int> offsets;
   const std::vector<double> gathered = gather_rows(1, offsets);
@@ -260,12 +255,6 @@ void Recorder::flush() {
   });
 }
 
-std::size_t Recorder::values_beside(std::size_t rank) const {
-  const bool root = static_cast<int>(rank) == layout_.interface_root;
-  return (root ? 2 * layout_.contacts.size() : 0) + values_per_link * rank_links_[rank].size() +
-         (rank == 0 ? layout_.forces.size() : 0) + bases_.values();
-}
-
 void Recorder::find_values(std::size_t row, const std::vector<double>& gathered,
                            const std::vector<int>& offsets, NodeValues& values) const {
   values.resize(recorded_nodes_.size());
@@ -274,51 +263,44 @@ void Recorder::find_values(std::size_t row, const std::vector<double>& gathered,
   for (std::size_t rank = 0; rank < widths_.size(); ++rank) {
     const std::size_t width = widths_[rank];
     const double* from = gathered.data() + offsets[rank] + row * width;
-    const double* const end = from + (width - values_beside(rank));
+    const double* const end = from + (width - rank_places_[rank].size() / 2);
     for (; from != end; ++node, from += values_per_node) {
       values[order_[node][0]][order_[node][1]] = from;
     }
   }
 }
 
+std::vector<std::vector<double>> Recorder::column_values(std::size_t rows,
+                                                         const std::vector<double>& gathered,
+                                                         const std::vector<int>& offsets) const {
+  std::vector<std::vector<double>> tables;
+  // Ranks add their parts to -0, which leaves a single part as it is to the bit.
+  for (const Quantity& table : tables_) tables.emplace_back(rows * table.columns, -0.0);
+  for (std::size_t rank = 0; rank < widths_.size(); ++rank) {
+    const std::vector<int>& places = rank_places_[rank];
+    for (std::size_t row = 0; row < rows; ++row) {
+      const std::size_t width = widths_[rank];
+      const double* from = gathered.data() + offsets[rank] + (row + 1) * width - places.size() / 2;
+      for (std::size_t i = 0; i < places.size(); i += 2) {
+        const std::size_t columns = tables_[places[i]].columns;
+        tables[places[i]][row * columns + places[i + 1]] += *from++;
+      }
+    }
+  }
+  return tables;
+}
+
 void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
                           const std::vector<int>& offsets) {
   const std::size_t channels = channels_.size();
-  const std::size_t contacts = layout_.contacts.size();
   std::vector<double> time;
   std::vector<double> displacement;
   std::vector<double> velocity;
-  std::vector<double> gap;
-  std::vector<double> force;
-  const std::size_t links = layout_.links.size();
-  std::vector<double> link_elongation(rows * links);
-  std::vector<double> link_force(rows * links);
-  std::vector<double> force_columns;
-  const std::size_t bases = bases_.values();
-  std::vector<double> base(rows * bases);
+  const std::vector<std::vector<double>> tables = column_values(rows, gathered, offsets);
   NodeValues values;
   const auto first = static_cast<std::ptrdiff_t>(accelerations_.size());
   for (std::size_t row = 0; row < rows; ++row) {
     find_values(row, gathered, offsets, values);
-    for (std::size_t rank = 0; rank < widths_.size(); ++rank) {
-      const std::size_t width = widths_[rank];
-      const double* from =
-          gathered.data() + offsets[rank] + (row + 1) * width - values_beside(rank);
-      const bool root = static_cast<int>(rank) == layout_.interface_root;
-      const std::size_t forces = rank == 0 ? layout_.forces.size() : 0;
-      for (std::size_t c = 0; root && c < contacts; ++c) {
-        gap.push_back(from[2 * c]);
-        force.push_back(from[2 * c + 1]);
-      }
-      if (root) from += 2 * contacts;
-      for (const int link : rank_links_[rank]) {
-        link_elongation[row * links + static_cast<std::size_t>(link)] = *from++;
-        link_force[row * links + static_cast<std::size_t>(link)] = *from++;
-      }
-      force_columns.insert(force_columns.end(), from, from + forces);
-      from += forces;
-      for (std::size_t b = 0; b < bases; ++b) base[row * bases + b] += *from++;
-    }
     time.push_back(static_cast<double>(records_++ * layout_.stride) * layout_.time_step);
     for (std::size_t channel = 0; channel < channels; ++channel) {
       const std::size_t d = channel % 3;
@@ -332,7 +314,8 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
     }
   }
   const std::span<const double> acceleration(accelerations_.begin() + first, accelerations_.end());
-  note_peaks(static_cast<std::size_t>(records_) - rows, displacement, acceleration, base);
+  note_peaks(static_cast<std::size_t>(records_) - rows, displacement, acceleration,
+             layout_.bases.empty() ? std::span<const double>() : tables.back());
   file_->append("time", time);
   if (channels > 0) {
     file_->append("displacement", displacement);
@@ -343,16 +326,7 @@ void Recorder::write_rows(std::size_t rows, const std::vector<double>& gathered,
                              ground_.begin() + static_cast<std::ptrdiff_t>(3 * rows));
   for (double& value : ground) value /= interval();
   file_->append("ground_acceleration", ground);
-  if (contacts > 0) {
-    file_->append("gap", gap);
-    file_->append("contact_force", force);
-  }
-  if (!layout_.forces.empty()) file_->append("force", force_columns);
-  if (bases > 0) file_->append("base_displacement", base);
-  if (links > 0) {
-    file_->append("link_elongation", link_elongation);
-    file_->append("link_force", link_force);
-  }
+  for (std::size_t t = 0; t < tables.size(); ++t) file_->append(tables_[t].name, tables[t]);
   count_rows();
 }
 

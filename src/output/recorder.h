@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "common/saved_state.h"
 #include "dynamics/state.h"
 #include "io/hdf5_file.h"
 #include "io/hdf5_reader.h"
 #include "mesh/mesh.h"
 #include "mesh/probe_set.h"
 #include "output/base_motion.h"
+#include "output/observer.h"
 #include "output/storey_drifts.h"
 #include "system/trace.h"
 
@@ -26,16 +26,15 @@ struct ChannelPeaks {
 
 /// Writes `history.h5`. A record is made every `stride` steps: displacement at t_n, velocity at
 /// t_n + dt/2, and as absolute acceleration the change of velocity since the last record over the
-/// interval (so that no impulse is lost between samples), ground included. Contacts: smallest gap
-/// at t_n and mean force over the interval. Links: elongation and force at t_n. Forces at t_n, and
-/// so what bases did.
+/// interval (so that no impulse is lost between samples), ground included. Bases: displacement at
+/// t_n. Beside these come the columns of the layout, as their owners bring them.
 ///
 /// Values wait in a buffer on the rank that owns them and travel to rank 0 a few thousand records
 /// at a time, or when they are told to; a record itself neither allocates nor communicates. The
 /// file can be read by others at any moment, also after the program was killed: `records`, a single
 /// number, tells how many rows of every dataset are whole, and is written after them. The attribute
 /// `complete` is 1 when the run has reached its end, 0 before.
-class Recorder {
+class Recorder final : public Observer {
  public:
   struct Layout {
     MPI_Comm comm = MPI_COMM_SELF;
@@ -43,12 +42,7 @@ class Recorder {
     std::string continued;  ///< history of the run that this one continues; empty: a new one
     std::string title;
     std::vector<ResolvedProbe> probes;
-    std::vector<std::string> contacts;
-    std::vector<std::string> links;   ///< recorded ones, of all ranks
-    std::vector<int> my_links;        ///< those that this rank passes, numbers among them
-    std::vector<std::string> forces;  ///< that rank 0 passes
-    std::string force_unit = "N, N m";
-    int interface_root = -1;  ///< rank that passes gaps and impulses, -1: none
+    std::vector<RecordColumns> columns;  ///< beside the motion of probes and bases
     int stride = 1;
     double time_step = 0;
     std::vector<ResolvedProbe> bases;  ///< that move, of structures with storeys; named after these
@@ -59,33 +53,25 @@ class Recorder {
   /// Rank 0 creates the file, unless the run is a continued one. Collective.
   Recorder(Layout layout, std::span<const LinearSystem> systems, std::span<const Mesh> meshes);
 
-  /// Before the first step of a run that is not continued: the velocities that it starts with.
-  /// Collective.
-  void begin(const State& state);
-  bool due(std::int64_t step) const { return step % layout_.stride == 0; }
-
-  /// Adds one step's velocity change of the ground, and on the interface root the impulse of each
-  /// contact.
-  void add_step(const std::array<double, 3>& ground_velocity_step);
-  void add_impulse(int contact, double impulse) { impulse_[contact] += impulse; }
-  /// Before the step to be recorded: takes the displacements.
-  void take_displacements(const State& state);
-  /// After it: makes the record; `gaps` per contact are read on the interface root, `links`,
-  /// elongation and force of each of this rank, on every one, `forces` on rank 0. Collective only
-  /// when the buffer is full.
-  void record(const State& state, std::span<const double> gaps, std::span<const double> links,
-              std::span<const double> forces = {});
+  /// Takes the velocities that a new run starts with, or the records known to `continued` over from
+  /// the history continued, which may be the file that is then replaced. Throws UserError on every
+  /// rank alike. Collective.
+  void start(const CdLagrange& stepper, const SavedState* continued) override;
+  std::int64_t next_due(std::int64_t step) const override {
+    return next_multiple(step, layout_.stride);
+  }
+  StepNeeds begin(const CdLagrange& stepper) override;
+  /// Makes the record. Collective only when the buffer is full.
+  void observe(const CdLagrange& stepper) override;
+  bool follows() const override { return true; }
+  void follow(const CdLagrange& stepper) override;
   /// Brings all records made to the file and to the operating system. Throws UserError on every
   /// rank alike (no space). Collective.
-  void flush();
-  /// Flushes and closes the file; `complete`: the run has reached its end. Collective.
-  void finish(bool complete);
-
+  void flush() override;
+  /// Flushes and closes the file. Collective.
+  void finish(bool complete) override;
   /// Writes all records to the file and keeps what the next one needs. Collective.
-  void save(SavedState& saved);
-  /// Takes the records known to `saved` over from the history continued, which may be the file that
-  /// is then replaced. Throws UserError on every rank alike. Collective.
-  void load(const SavedState& saved);
+  void save(SavedState& saved) override;
 
   /// After finish, rank 0: names "probe.x", samples of absolute acceleration of a channel, peaks.
   const std::vector<std::string>& channels() const { return channels_; }
@@ -115,9 +101,9 @@ class Recorder {
 
   /// A dataset of the file; `columns` 0: a plain vector.
   struct Quantity {
-    const char* name;
+    std::string name;
     std::size_t columns;
-    const char* unit;
+    std::string unit;
   };
 
   StructureNodes find_nodes(const LinearSystem& system, const Mesh& mesh, std::size_t structure,
@@ -125,9 +111,12 @@ class Recorder {
   /// Writes a quantity of the state into the record at hand, `offset` values into each node.
   void put(const State& state, std::vector<double> StructureState::*quantity,
            std::span<const double> supports, std::size_t offset);
+  /// The velocities that a run starts with.
+  void take_start(const State& state);
+  void take_over(const SavedState& saved);
   void name_channels();
+  RecordColumns base_columns() const;
   std::vector<Quantity> quantities() const;
-  std::vector<std::string> base_names() const;  ///< "tower.x"
   void create_file(const std::string& path);
   void check_history(const Hdf5Reader& history) const;
   void copy_history(const Hdf5Reader& history);
@@ -137,32 +126,36 @@ class Recorder {
   std::vector<double> gather_rows(std::size_t rows, std::vector<int>& offsets) const;
   void write_rows(std::size_t rows, const std::vector<double>& gathered,
                   const std::vector<int>& offsets);
+  /// Values of the columns in gathered records, per table, shape (records, columns).
+  std::vector<std::vector<double>> column_values(std::size_t rows,
+                                                 const std::vector<double>& gathered,
+                                                 const std::vector<int>& offsets) const;
   /// Where the values of the nodes of each probe are in a gathered record, in the probe's own
   /// order, so that means do not depend on the ranks.
   using NodeValues = std::vector<std::vector<const double*>>;
   void find_values(std::size_t row, const std::vector<double>& gathered,
                    const std::vector<int>& offsets, NodeValues& values) const;
-  /// Values beside those of nodes that a rank has in a record.
-  std::size_t values_beside(std::size_t rank) const;
   /// Sends appended rows to the disk before their number says that they are there. Rank 0.
   void count_rows();
 
   Layout layout_;
   std::vector<StructureNodes> structures_;
   BaseMotion bases_;
-  std::size_t nodes_ = 0;  ///< of this rank
-  std::size_t width_ = 0;  ///< values of this rank per record
+  std::vector<double> base_values_;
+  std::vector<Quantity> tables_;  ///< of the columns
+  std::size_t nodes_ = 0;         ///< of this rank
+  std::size_t width_ = 0;         ///< values of this rank per record
   std::vector<double> buffer_;
   std::size_t buffered_ = 0;
   std::vector<double> ground_;  ///< velocity change per record and direction, rank 0
   std::array<double, 3> ground_sum_{};
-  std::vector<double> impulse_;
 
   // Rank 0
   std::unique_ptr<Hdf5File> file_;
   std::vector<std::string> channels_;
-  std::vector<int> widths_;                        ///< per rank
-  std::vector<std::vector<int>> rank_links_;       ///< per rank, as my_links
+  std::vector<int> widths_;  ///< per rank
+  /// Per rank, table and column of each of its values beside those of nodes.
+  std::vector<std::vector<int>> rank_places_;
   std::vector<std::array<std::size_t, 2>> order_;  ///< probe and position of the gathered nodes
   std::vector<std::size_t> recorded_nodes_;        ///< per probe
   std::vector<double> last_velocity_;

@@ -17,16 +17,14 @@ constexpr std::size_t copied_records = 16384;
 void Recorder::save(SavedState& saved) {
   flush();
   saved.put("recorder_ground_velocity", ground_sum_);
-  if (rank_of(layout_.comm) == layout_.interface_root) saved.put("recorder_impulse", impulse_);
   if (rank_of(layout_.comm) == 0) {
     saved.put("recorder_records", {static_cast<double>(records_)});
     saved.put("recorder_last_velocity", last_velocity_);
   }
 }
 
-void Recorder::load(const SavedState& saved) {
+void Recorder::take_over(const SavedState& saved) {
   saved.get("recorder_ground_velocity", ground_sum_);
-  if (layout_.interface_root >= 0) saved.get("recorder_impulse", impulse_);
   records_ = saved.integer("recorder_records");
   if (records_ < 0) saved.refuse_values("recorder_records");
   on_rank0(layout_.comm, [&] {
@@ -53,11 +51,10 @@ void Recorder::check_history(const Hdf5Reader& history) const {
       throw std::runtime_error(layout_.continued + ": written by another run than the checkpoint");
     }
   };
-  refuse_unless(history.strings("channels") == channels_ &&
-                history.strings("contacts") == layout_.contacts);
-  refuse_unless(layout_.forces.empty() || history.strings("forces") == layout_.forces);
-  refuse_unless(layout_.links.empty() || history.strings("links") == layout_.links);
-  refuse_unless(layout_.bases.empty() || history.strings("bases") == base_names());
+  refuse_unless(history.strings("channels") == channels_);
+  for (const RecordColumns& columns : layout_.columns) {
+    refuse_unless(history.strings(columns.list) == columns.names);
+  }
   for (const Quantity& quantity : quantities()) {
     const Hdf5Reader::Shape shape = history.shape(quantity.name);
     refuse_unless(shape.columns == quantity.columns && shape.rows >= records);

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/profile.h"
+#include "common/saved_state.h"
+#include "dynamics/cd_lagrange.h"
+#include "output/record_columns.h"
+
+namespace pounding {
+
+struct RunStatistics;
+
+/// Results of a step beside the motion, for which an output asks.
+struct StepNeeds {
+  bool gaps = false;      ///< of the interface, however wide it is open
+  bool energies = false;  ///< for the line of the ledger before the step
+  bool forces = false;    ///< at the dofs that are watched
+};
+
+/// An output of a run: it sees the steps that it is due at, and those in between if it sums over
+/// them, keeps its findings in checkpoints, and adds them to the report. All calls but `follow`
+/// come on every rank in the same order and may be collective. A call that is not overridden does
+/// nothing.
+class Observer {
+ public:
+  static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+
+  Observer() = default;
+  Observer(const Observer&) = delete;
+  Observer& operator=(const Observer&) = delete;
+  virtual ~Observer() = default;
+
+  /// Before the first step: begins its files, or takes over those of the run that `continued` is
+  /// the state of, once `load` of all observers has accepted that. Null: a new run.
+  virtual void start(const CdLagrange& /*stepper*/, const SavedState* /*continued*/) {}
+  /// The first step from `step` on at which it is due, the same on every rank.
+  virtual std::int64_t next_due(std::int64_t /*step*/) const { return never; }
+  /// Before a step at which it is due, the state being u_n and v_{n-1/2}.
+  virtual StepNeeds begin(const CdLagrange& /*stepper*/) { return {}; }
+  /// After it, the state being u_{n+1} and v_{n+1/2}.
+  virtual void observe(const CdLagrange& /*stepper*/) {}
+  /// Whether this rank follows every step, to sum over those between; called before `observe`.
+  virtual bool follows() const { return false; }
+  virtual void follow(const CdLagrange& /*stepper*/) {}
+
+  /// Brings to its files all that it holds back.
+  virtual void flush() {}
+  /// After the last step, `complete` if that is the last one of the scene: closes its files.
+  virtual void finish(bool /*complete*/) {}
+  /// State that a continued run needs; `load` throws UserError on every rank alike.
+  virtual void save(SavedState& /*saved*/) {}
+  virtual void load(const SavedState& /*saved*/) {}
+  /// After `finish`: adds its findings, and writes its tables.
+  virtual void report(RunStatistics& /*statistics*/) {}
+
+  /// Columns that it brings to every record of the history. Local.
+  virtual std::optional<RecordColumns> columns() const { return std::nullopt; }
+  /// Phase of the profile that its time counts for.
+  virtual Phase phase() const { return Phase::output; }
+};
+
+/// The first multiple of `stride` from `step` on.
+inline std::int64_t next_multiple(std::int64_t step, std::int64_t stride) {
+  return (step + stride - 1) / stride * stride;
+}
+
+/// The observers of a run, in the order in which they are called. A step at which none is due costs
+/// one comparison, and a call for each that follows.
+class Observers {
+ public:
+  /// `profile` must outlive this object.
+  explicit Observers(Profile& profile) : profile_(profile) {}
+
+  template <typename Kind>
+  Kind& add(std::unique_ptr<Kind> observer) {
+    Kind& added = *observer;
+    list_.push_back(std::move(observer));
+    return added;
+  }
+  std::span<const std::unique_ptr<Observer>> list() const { return list_; }
+
+  /// `continued`: see Observer::start. Collective.
+  void start(const CdLagrange& stepper, const SavedState* continued);
+  /// Before a step: the needs of those that are due. Collective.
+  StepNeeds before(const CdLagrange& stepper);
+  /// After it. Collective.
+  void after(const CdLagrange& stepper);
+
+ private:
+  Profile& profile_;
+  std::vector<std::unique_ptr<Observer>> list_;
+  std::vector<Observer*> followers_;
+  std::vector<std::int64_t> next_;  ///< step at which each one is due
+  std::vector<std::size_t> due_;    ///< at the step at hand
+  std::int64_t earliest_ = 0;       ///< of `next_`
+};
+
+}  // namespace pounding
