@@ -16,7 +16,7 @@ from two_buildings import pounding
 
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 sys.dont_write_bytecode = True
-from parts.benchmark import tables  # noqa: E402
+from parts import tables  # noqa: E402
 from parts.plot import markup, style  # noqa: E402
 from pounding import files, runs, scenes  # noqa: E402
 

@@ -12,7 +12,7 @@ import program
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
 sys.dont_write_bytecode = True
 from parts import stop_when_terminated  # noqa: E402
-from parts.side_by_side import run_side_by_side  # noqa: E402
+from parts.study import run_side_by_side  # noqa: E402
 from pounding import runs  # noqa: E402
 
 

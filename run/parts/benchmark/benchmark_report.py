@@ -4,11 +4,11 @@ import json
 from pathlib import Path
 
 from parts.plot.style import log_scale, plt
+from parts.tables import markdown, number, write_csv
 from pounding.files import write_text
 
 from .comparison import BYTES_PER_DOF, LABELS
 from .machine import Machine
-from .tables import markdown, number, write_csv
 
 COLOURS = {"element": "#08519C", "bare": "#6BAED6", "assembled": "#B2182B", "aij": "#E69F00", "baij": "#C2A5CF",
            "sbaij": "#762A83", "scipy": "#1B7837", "octave": "#555555"}

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
+from parts.tables import markdown, write_csv
 from pounding.files import write_text
 from pounding.runs import ending_with_us
 
-from .tables import markdown, write_csv
 from .workers import SOURCE, MeasuringError, with_environment
 
 YOUNG, DENSITY = 30e9, 2400.0  # of concrete

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 
+from parts.tables import markdown, write_csv
 from pounding.files import write_text
 
 from .comparison import check_agreement
-from .tables import markdown, write_csv
 from .workers import Stepper, block_cells, slab_cells, step_benchmark
 
 # Where arrays come to lie differs from process to process, and with it the time by some percent.

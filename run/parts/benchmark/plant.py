@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
+from parts.tables import markdown, write_csv
 from pounding.files import write_text
 from pounding.runs import ending_with_us
 
-from .tables import markdown, write_csv
 from .workers import SOURCE, MeasuringError, with_environment
 
 SCENE = "petsc-options/plant/pair.yaml"

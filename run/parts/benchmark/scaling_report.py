@@ -4,11 +4,11 @@ import json
 from pathlib import Path
 
 from parts.plot.style import log_scale, plt
+from parts.tables import markdown, number, write_csv
 from pounding.files import write_text
 
 from .machine import Machine
 from .scaling_model import Messages
-from .tables import markdown, number, write_csv
 
 PARTS = ("compute", "halo", "gather", "rows")
 COLOURS = ("#08519C", "#B2182B", "#1B7837", "#762A83", "#E69F00", "#555555")

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 
+from parts.tables import markdown, write_csv
 from pounding.files import write_text
 
 from .comparison import LABELS, check_agreement
-from .tables import markdown, write_csv
 from .workers import SOURCE, Stepper, slab_cells, step_benchmark
 
 WAYS = ["element", "assembled", "aij", "sbaij"]

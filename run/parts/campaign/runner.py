@@ -6,8 +6,7 @@ import sys
 import time
 from pathlib import Path
 
-from parts import finished
-from parts.side_by_side import run_side_by_side
+from parts.study import Run, announcement, run_side_by_side
 from pounding.runs import Job, complaint, ending_with_us, environment
 
 from . import harvest
@@ -22,23 +21,12 @@ class SetUpError(Exception):
     """One line for the user."""
 
 
-def is_finished(case: Case, place: Path) -> bool:
-    """Whether the place holds the complete results of this very case, and every file that it read is still what it
-    was."""
-    return finished.is_finished(case.words, place, SOURCE) and harvest.is_complete(case, place)
+def run_of(case: Case, root: Path) -> Run:
+    return Run(case.words, root / case.name, SOURCE, kept=(harvest.SERIES, harvest.TREATED, harvest.PEAKS))
 
 
 def build_folder() -> Path:
     return SOURCE / os.environ.get("POUNDING_BUILD", "build")
-
-
-class CaseJob(Job):
-    """A case that runs now."""
-
-    def __init__(self, case: Case, folder: Path, ranks: int, variables: dict):
-        self.case, self.folder = case, folder
-        finished.begin_anew(folder)
-        super().__init__(case.words, folder, ranks, SOURCE, variables)
 
 
 class Clock:
@@ -65,7 +53,7 @@ class Clock:
         if not any(self.seconds.values()):
             return "time left not known yet"
         seconds = sum(self._mean(case.model) for case in waiting)
-        seconds += sum(max(0.0, self._mean(job.case.model) - job.wall_time) for job in running)
+        seconds += sum(max(0.0, self._mean(case.model) - job.wall_time) for case, job in running)
         seconds /= self.jobs
         return f"about {seconds / 60:.0f} min left" if seconds > 90 else f"about {seconds:.0f} s left"
 
@@ -80,7 +68,7 @@ def say(text: str) -> None:
 def show_running(running: list, left: str) -> None:
     """What runs now, on a line that is written over; for terminals only."""
     if sys.stdout.isatty():
-        now = ", ".join(f"{job.case.name} {job.wall_time:.0f} s" for job in running)
+        now = ", ".join(f"{case.name} {job.wall_time:.0f} s" for case, job in running)
         print(f"{CLEAR_LINE}  running {now}; {left}", end="", flush=True)
 
 
@@ -104,33 +92,39 @@ def run_all(cases: list, root: Path, jobs: int, ranks: int, keep_histories: bool
     """Case -> '' or why it failed. Finished ones are not run again; ends what it started if it is
     interrupted."""
     failures = {case: "" for case in cases}
-    waiting = [case for case in cases if not is_finished(case, root / case.name)]
-    say(f"campaign: {len(cases)} runs, {len(cases) - len(waiting)} finished before, {jobs} at a time on "
-        f"{ranks} rank{'s' if ranks > 1 else ''} each; results in {root}")
+    waiting = [case for case in cases
+               if not (run_of(case, root).is_finished() and harvest.is_complete(case, root / case.name))]
+    say(f"campaign: {announcement(len(cases), len(waiting), jobs, ranks)}; results in {root}")
     variables, clock, total = environment(), Clock(jobs), len(waiting)
-    finished = []
+    case_of, finished = {}, []
     prepare_bases(waiting, variables)
 
-    def start(case: Case) -> CaseJob:
-        return CaseJob(case, root / case.name, ranks, variables)
+    def start(case: Case) -> Job:
+        job = run_of(case, root).start(ranks, variables)
+        case_of[job] = case
+        return job
 
-    def ended(case: Case, job: CaseJob, left: list, running: list) -> None:
-        failures[case] = job.outcome() or close(job, keep_histories)
+    def now(running: list) -> list:
+        return [(case_of[job], job) for job in running]
+
+    def ended(case: Case, job: Job, left: list, running: list) -> None:
+        failures[case] = job.outcome() or close(case, root, keep_histories)
         finished.append(case)
         clock.add(case.model, job.wall_time)
-        result = failures[case] or harvest.one_line(job.folder)
-        say(f"  {len(finished)}/{total}  {case.name}: {result}; {job.wall_time:.0f} s; {clock.left(left, running)}")
+        result = failures[case] or harvest.one_line(root / case.name)
+        say(f"  {len(finished)}/{total}  {case.name}: {result}; {job.wall_time:.0f} s; {clock.left(left, now(running))}")
 
-    run_side_by_side(waiting, jobs, start, ended, lambda left, running: show_running(running, clock.left(left, running)))
+    run_side_by_side(waiting, jobs, start, ended, lambda left, running: show_running(now(running), clock.left(left, now(running))))
     return failures
 
 
-def close(job: CaseJob, keep_history: bool) -> str:
+def close(case: Case, root: Path, keep_history: bool) -> str:
     """Takes the harvest of a run that ended well, and signs it as finished."""
+    run = run_of(case, root)
     try:
-        harvest.take(job.case, job.folder, keep_history)
+        harvest.take(case, run.place, keep_history)
     except harvest.HarvestError as error:
         return str(error)
     except OSError as error:
-        return f"{job.folder}: {error}"
-    return finished.sign(job.case.words, job.folder, SOURCE, (harvest.SERIES, harvest.TREATED, harvest.PEAKS))
+        return f"{run.place}: {error}"
+    return run.sign()

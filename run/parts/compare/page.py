@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from parts.benchmark.tables import markdown, write_csv
+from parts.tables import markdown, write_csv
 from parts.plot.markup import html_figure, html_table, write_page
 from parts.plot.style import WIDTH, log_scale, plt, save
 from pounding.files import write_text

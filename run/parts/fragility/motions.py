@@ -8,7 +8,7 @@ import numpy as np
 
 from parts import called
 from parts.folder_lock import alone_in
-from parts.side_by_side import run_side_by_side
+from parts.study import run_side_by_side
 from pounding.files import write_text, written_beside
 from pounding.fragility import correlations
 from pounding.results import load

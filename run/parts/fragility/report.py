@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from parts.benchmark.tables import markdown, write_csv
+from parts.tables import markdown, write_csv
 from parts.plot.markup import html_figure, html_table, paragraphs, write_page
 from pounding.files import written_beside
 from pounding.fragility import Fragility

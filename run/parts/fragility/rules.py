@@ -4,7 +4,7 @@ import hashlib
 import json
 from pathlib import Path
 
-from parts.side_by_side import run_side_by_side
+from parts.study import run_side_by_side
 from pounding.files import write_text
 from pounding.results import load
 from pounding.runs import Job, clear, environment

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from parts import called, finished
 from parts.folder_lock import alone_in
-from parts.side_by_side import run_side_by_side
+from parts.study import announcement, run_side_by_side
 from parts.understood import understood
 from pounding.files import write_text, written_beside
 from pounding.results import ResultError, load
@@ -199,8 +199,7 @@ class Runner:
         places = {one: base / "single" / _digest(one.values)[:16] for one in members}
         todo = [one for one in members if outcomes.restore(places[one].with_suffix(".npz")) is None]
         what = "" if reduced else " at full order"
-        print(f"fragility: {len(members)} runs{what}, {len(members) - len(todo)} finished before, {self.jobs} at a "
-              f"time on {self.ranks} rank{'s' if self.ranks > 1 else ''} each", flush=True)
+        print(f"fragility: {announcement(len(members), len(todo), self.jobs, self.ranks, what)}", flush=True)
 
         def start(member) -> Job:
             return Job(self._words(member, reduced), places[member].absolute(), self.ranks, Path.cwd(), self.variables)

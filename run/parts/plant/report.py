@@ -5,7 +5,7 @@ from html import escape
 from pathlib import Path
 
 from parts import called
-from parts.benchmark.tables import markdown
+from parts.tables import markdown
 from parts.compare import page
 from parts.compare.runs import Runs
 from parts.plot.markup import html_table, write_page

@@ -3,8 +3,7 @@
 import time
 from pathlib import Path
 
-from parts import finished
-from parts.sweep.members import Member, is_finished, start
+from parts.sweep.members import Member
 from pounding.runs import SOURCE, environment, finish, program
 
 SIZES = ("small", "medium", "large")
@@ -61,14 +60,13 @@ def run_all(wanted: list, size: str, more: list, ranks: int, folder: Path) -> No
     folder.mkdir(parents=True, exist_ok=True)
     scene, variables = scene_of(size), environment()
     for member in wanted:
-        place = folder / member.name
-        if is_finished(member, scene, more, place, SOURCE):
+        run = member.run(scene, more, folder / member.name, SOURCE)
+        if run.is_finished():
             print(f"  {member.name}: finished before", flush=True)
             continue
         program()
         began = time.monotonic()
-        failure = (finish(lambda: start(member, scene, more, place, ranks, SOURCE, variables))
-                   or finished.sign(member.words(scene, more), place, SOURCE))
+        failure = finish(lambda run=run: run.start(ranks, variables)) or run.sign()
         if failure:
             raise StudyError(f"run {member.name}: {failure}")
         print(f"  {member.name}: done; {time.monotonic() - began:.0f} s", flush=True)

@@ -6,8 +6,8 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from parts import finished
-from pounding.runs import Job, words_of
+from parts.study import Run
+from pounding.runs import words_of
 
 
 class SweepError(Exception):
@@ -34,8 +34,9 @@ class Member:
     values: tuple
     options: tuple
 
-    def words(self, scene: Path, more: list) -> list:
-        return [*words_of(scene, dict(self.options)), *more]
+    def run(self, scene: Path, more: list, place: Path, folder: Path) -> Run:
+        """`place`: of its results; `folder`: where the program runs."""
+        return Run((*words_of(scene, dict(self.options)), *more), place, folder)
 
 
 def read_axis(text: str) -> Axis:
@@ -79,20 +80,3 @@ def all_members(axes: list, together: bool) -> list:
     return [Member(_folder_name(axes, values), values,
                    tuple((name, value) for axis, value in zip(axes, values) for name in axis.names))
             for values in tuples]
-
-
-def is_finished(member: Member, scene: Path, more: list, place: Path, folder: Path) -> bool:
-    """Whether the place holds the results of this very member, and no file that it read changed since; `folder`: where
-    the program would run."""
-    return finished.is_finished(member.words(scene, more), place, folder)
-
-
-def start(member: Member, scene: Path, more: list, place: Path, ranks: int, folder: Path, variables: dict) -> Job:
-    """A job that runs a member anew, from `folder`; what was in its place is finished no longer."""
-    finished.begin_anew(place)
-    return Job(member.words(scene, more), place.absolute(), ranks, folder, variables)
-
-
-def end(job: Job, member: Member, scene: Path, more: list, place: Path, folder: Path) -> str:
-    """Waits for the job and marks what it left as finished: '' if all went well, else one line."""
-    return job.outcome() or finished.sign(member.words(scene, more), place, folder)

@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from parts.benchmark import tables
+from parts import tables
 from pounding.files import write_text
 
 from .certificate import Certificate

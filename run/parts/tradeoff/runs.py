@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from parts import finished
+from parts.study import Run
 from parts.understood import understood
 from pounding.results import DIRECTIONS, ResultError, load
-from pounding.runs import Job, environment, finish, words_of
+from pounding.runs import environment, finish, words_of
 
 from .metrics import GRID
 from .settings import Setting
@@ -104,17 +104,16 @@ class Outcome:
 def run(case: Case | SceneCase, setting: Setting, ranks: int, folder: Path, log) -> Outcome | None:
     """One run, or what an earlier one with the same command and files left; None if the program refuses it."""
     place = folder / case.name / setting.name
-    words = [str(ranks), *case.words(setting, folder)]
-    if finished.is_finished(words, place, case.folder):
+    wanted = Run(tuple(case.words(setting, folder)), place, case.folder, told=(str(ranks),))
+    if wanted.is_finished():
         try:
             return Outcome(place, case.directions)
         except ResultError as error:
             log(f"  {setting.name}: once more: {error}")
-    finished.begin_anew(place)
-    failure = finish(lambda: Job(words[1:], place, ranks, case.folder, environment()))
+    failure = finish(lambda: wanted.start(ranks, environment()))
     if not failure:
         (place / "history.h5").unlink(missing_ok=True)  # large, and not read here
-        failure = finished.sign(words, place, case.folder)
+        failure = wanted.sign()
     if failure:
         log(f"  {setting.name}: {failure}")
         return None
