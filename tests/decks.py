@@ -28,3 +28,18 @@ def viaduct(name, spans, x0, *more):
 def braces(name):
     return [f"-{name}_braces_element", "bar", f"-{name}_braces_material", "steel", f"-{name}_braces_area", 1e-4,
             f"-{name}_braces_tension_only", "true"]
+
+
+def oscillators(mass, stiffness, alpha):
+    """Two bricks that are clamped at their far faces and face each other over a gap: each an oscillator, with its mass
+    [kg], stiffness [N/m] and damping alpha [1/s]; probes of the faces."""
+    words = ["-structures", "left,right", "-contacts", "gap", "-gap_secondary", "left:x_max", "-gap_primary", "right:x_min",
+             "-probes", "face1,face2", "-face1_structure", "left", "-face1_group", "x_max",
+             "-face2_structure", "right", "-face2_group", "x_min"]
+    for i, (name, start, wall) in enumerate((("left", -1, "x_min"), ("right", 0, "x_max"))):
+        words += [f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set", f"x0={start}",
+                  f"-{name}_clamp", wall, f"-{name}_body_element", "hex8",
+                  f"-{name}_body_material", name, f"-{name}_damping_alpha", alpha[i],
+                  f"-material_{name}_young", stiffness[i], f"-material_{name}_poisson", 0,
+                  f"-material_{name}_density", 2 * mass[i]]
+    return words

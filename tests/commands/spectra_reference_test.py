@@ -6,6 +6,7 @@ import unittest
 import numpy
 
 import program
+from references.response_spectra import HALF_SINE
 from spectra_command import computed, frequencies, impulse_factor, overshoot, write_record
 
 DAMPINGS = (0.0, 0.02, 0.05, 0.1)
@@ -46,21 +47,13 @@ class ClosedForms(unittest.TestCase):
             table = computed(self, *record, *frequencies([10, 100, 200, 400]))
             self.assertLess(abs(table["pseudo_acceleration"] / values - 1).max(), 5e-8)
 
-    # half sine of 1 m/s2 for 0.01 s: f td: PSA for xi = 0, 2, 5 %
-    HALF_SINE = {0.05: (0.199533, 0.19343809, 0.18490564), 0.1: (0.39627355, 0.38416904, 0.36722358),
-                 0.2: (0.77049238, 0.74695726, 0.71401052), 0.3: (1.1020973, 1.0684346, 1.0213153),
-                 0.5: (1.5707965, 1.5228372, 1.4557783), 0.75: (1.7633558, 1.7117394, 1.6398006),
-                 0.8: (1.7683271, 1.7172921, 1.6462061), 1.0: (1.7320508, 1.6851707, 1.620059),
-                 1.5: (1.5, 1.4659129, 1.4191854), 2.0: (1.2680754, 1.2436963, 1.2110912),
-                 4.0: (1.1254946, 1.1004523, 1.0720731), 10.0: (1.0496882, 1.0272012, 1.0111564)}
-
     def test_half_sine(self):
         duration, count = 0.01, 4000
         values = [math.sin(math.pi * i / count) for i in range(count)] + [0.0]
         record = write_record(self, values, duration / count)
         table = computed(self, *record, "--damping", "0,0.02,0.05",
-                         *frequencies([product / duration for product in self.HALF_SINE]))
-        exact = numpy.array(list(self.HALF_SINE.values())).T.ravel()
+                         *frequencies([product / duration for product in HALF_SINE]))
+        exact = numpy.array(list(HALF_SINE.values())).T.ravel()
         self.assertLess(abs(table["pseudo_acceleration"] / exact - 1).max(), 1e-6)
 
     # 10 Hz, 1 m/s2 for 2 s from rest, 5 %

@@ -17,6 +17,7 @@ import numpy
 from scipy.interpolate import CubicSpline
 
 import program
+from decks import oscillators
 from recorded import write_sine
 
 MASS = (9200.0, 7000.0)
@@ -29,20 +30,10 @@ FILES = {"history.h5", "spectra.csv", "impacts.csv", "energy.csv", "summary.json
 
 
 def scene(record, interval, merge_time=1e-3):
-    words = ["-structures", "left,right", "-end_time", END, "-time_step", TIME_STEP, "-modes", 0,
-             "-output_interval", interval, "-impact_merge_time", merge_time, "-energy_interval", 7,
-             "-contacts", "gap", "-gap_secondary", "left:x_max", "-gap_primary", "right:x_min", "-gap_gap", 0.02,
-             "-motion_x_record", record, "-motion_x_unit", "m/s2", "-title", "two oscillators",
-             "-spectra_frequencies", "1,5,20", "-spectra_damping", "0.02,0.05",
-             "-probes", "face1,face2", "-face1_structure", "left", "-face1_group", "x_max",
-             "-face2_structure", "right", "-face2_group", "x_min"]
-    for i, (name, start, wall) in enumerate((("left", -1, "x_min"), ("right", 0, "x_max"))):
-        words += [f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set", f"x0={start}",
-                  f"-{name}_clamp", wall, f"-{name}_body_element", "hex8",
-                  f"-{name}_body_material", name, f"-{name}_damping_alpha", ALPHA[i],
-                  f"-material_{name}_young", STIFFNESS[i], f"-material_{name}_poisson", 0,
-                  f"-material_{name}_density", 2 * MASS[i]]
-    return words
+    return [*oscillators(MASS, STIFFNESS, ALPHA), "-end_time", END, "-time_step", TIME_STEP, "-modes", 0,
+            "-output_interval", interval, "-impact_merge_time", merge_time, "-energy_interval", 7, "-gap_gap", 0.02,
+            "-motion_x_record", record, "-motion_x_unit", "m/s2", "-title", "two oscillators",
+            "-spectra_frequencies", "1,5,20", "-spectra_damping", "0.02,0.05"]
 
 
 class Results:

@@ -14,6 +14,7 @@ import numpy
 
 from recorded import Recorded, write_samples
 from references import earthquake, response_spectra
+from references.response_spectra import HALF_SINE
 
 SAMPLING = 5e-5
 DAMPINGS = (0.0, 0.02, 0.05, 0.1)
@@ -71,17 +72,9 @@ class FreeMass(unittest.TestCase):
 
 
 class Ground(unittest.TestCase):
-    # half sine of 1 m/s2 for 0.01 s: f td: PSA for xi = 0, 2, 5 %
-    HALF_SINE = {0.05: (0.199533, 0.19343809, 0.18490564), 0.1: (0.39627355, 0.38416904, 0.36722358),
-                 0.2: (0.77049238, 0.74695726, 0.71401052), 0.3: (1.1020973, 1.0684346, 1.0213153),
-                 0.5: (1.5707965, 1.5228372, 1.4557783), 0.75: (1.7633558, 1.7117394, 1.6398006),
-                 0.8: (1.7683271, 1.7172921, 1.6462061), 1.0: (1.7320508, 1.6851707, 1.620059),
-                 1.5: (1.5, 1.4659129, 1.4191854), 2.0: (1.2680754, 1.2436963, 1.2110912),
-                 4.0: (1.1254946, 1.1004523, 1.0720731), 10.0: (1.0496882, 1.0272012, 1.0111564)}
-
     def test_half_sine(self):
         td = 0.01
-        frequencies = [product / td for product in self.HALF_SINE]
+        frequencies = [product / td for product in HALF_SINE]
         values = [math.sin(math.pi * i / 200) for i in range(200)] + [0.0] * 3
         record = write_samples(values, td / 200)
         run = Recorded(self, ground(record, 0.3, frequencies, dampings="0,0.02,0.05",
@@ -89,7 +82,7 @@ class Ground(unittest.TestCase):
         os.remove(record)
         for k, ratio in enumerate((0.0, 0.02, 0.05)):
             _, found = run.spectrum("base", "x", ratio)
-            exact = numpy.array([row[k] for row in self.HALF_SINE.values()])
+            exact = numpy.array([row[k] for row in HALF_SINE.values()])
             self.assertLess(abs(found / exact - 1).max(), 2.2e-5)  # 200 lines for the half sine
 
     # 10 Hz, 1 m/s2 for 2 s, 5 %

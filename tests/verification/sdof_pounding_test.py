@@ -16,6 +16,7 @@ import unittest
 
 import numpy
 
+import decks
 import program
 from recorded import Recorded, assert_follows, write_samples, write_sine
 from references import earthquake, oscillators
@@ -37,19 +38,9 @@ RANKS = (2, 1, 3, 2)  # for these
 
 
 def scene(gap, time_step, record, end_time):
-    words = ["-structures", "left,right", "-end_time", end_time, "-time_step", repr(time_step),
-             "-output_interval", repr(time_step / 2), "-impact_merge_time", 1e-9,
-             "-contacts", "gap", "-gap_secondary", "left:x_max", "-gap_primary", "right:x_min",
-             "-gap_gap", gap, "-motion_x_record", record, "-motion_x_unit", "m/s2",
-             "-probes", "face1,face2", "-face1_structure", "left", "-face1_group", "x_max",
-             "-face2_structure", "right", "-face2_group", "x_min"]
-    for i, (name, start, wall) in enumerate((("left", -1, "x_min"), ("right", 0, "x_max"))):
-        words += [f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set", f"x0={start}",
-                  f"-{name}_clamp", wall, f"-{name}_body_element", "hex8",
-                  f"-{name}_body_material", name, f"-{name}_damping_alpha", ALPHA[i],
-                  f"-material_{name}_young", STIFFNESS[i], f"-material_{name}_poisson", 0,
-                  f"-material_{name}_density", 2 * MASS[i]]
-    return words
+    return [*decks.oscillators(MASS, STIFFNESS, ALPHA), "-end_time", end_time, "-time_step", repr(time_step),
+            "-output_interval", repr(time_step / 2), "-impact_merge_time", 1e-9, "-gap_gap", gap,
+            "-motion_x_record", record, "-motion_x_unit", "m/s2"]
 
 
 def impacts(run):
