@@ -103,8 +103,8 @@ class Compare(unittest.TestCase):
                           if row["option"] == "(number of ranks)"], ["2"])
 
     def test_probes_that_are_not_common_are_told(self):
-        two_buildings.run(self.place / "roofs", gap=0.01, probes="left_roof,right_roof")
-        two_buildings.run(self.place / "floor", gap=0.01, probes="left_floor")
+        two_buildings.run(self.place / "roofs", ranks=1, gap=0.01, probes="left_roof,right_roof")
+        two_buildings.run(self.place / "floor", ranks=1, end_time=0.1, gap=0.01, probes="left_floor")
         result = self.compare("narrow", "roofs")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("probes of narrow that are not in every run, left out: left_floor; common are left_roof",
@@ -112,8 +112,8 @@ class Compare(unittest.TestCase):
         self.refused("roofs", "floor", parts=("no probe that all runs have", "floor has left_floor"))
 
     def test_unlike_spectra_are_refused(self):
-        two_buildings.run(self.place / "coarse", spectra_frequencies="1:100:20log")
-        two_buildings.run(self.place / "damped", spectra_damping=0.02)
+        two_buildings.run(self.place / "coarse", ranks=1, end_time=0.1, spectra_frequencies="1:100:20log")
+        two_buildings.run(self.place / "damped", ranks=1, end_time=0.1, spectra_damping=0.02)
         self.refused("wide", "coarse", parts=("unlike frequencies", "20 from 1 to 100 Hz", "-spectra_frequencies"))
         self.refused("wide", "damped", parts=("no damping ratio", "damped has 2 %"))
 
