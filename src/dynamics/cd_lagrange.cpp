@@ -39,14 +39,14 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
 
 void CdLagrange::step(bool look_at_gap, bool with_energies, bool with_forces) {
   move_ground();
-  const interactions::Step step{state_.step, look_at_gap, incident_,
+  const interactions::Step step{state_.step, look_at_gap, incident_, profile_,
                                 supports_,   structures_, ledger_};
-  begin(step);                                // A = { i : g_i(u_n) <= g_tol }, elongations
-  free_velocity(with_energies, with_forces);  // v_free = v- + dt (g - iota a_g - alpha v-)
-                                              //        - dt M^-1 (K (u_n + beta v-) + D v-)
-  push(step);          // v+ = v_free + M^-1 b^T lambda, u_{n+1} = u_n + dt v+
-  close_energy(step);  // E+ - E- = -dt vbar^T C vbar + dt vbar^T f
-                       //           + what interactions held and lost
+  begin(step, Phase::contact);                      // A = { i : g_i(u_n) <= g_tol }
+  free_velocity(step, with_energies, with_forces);  // v_free = v- + dt (g - iota a_g - alpha v-)
+                                                    //        - dt M^-1 (K (u_n + beta v-) + D v-)
+  push(step, Phase::contact);  // v+ = v_free + M^-1 b^T lambda, u_{n+1} = u_n + dt v+
+  close_energy(step);          // E+ - E- = -dt vbar^T C vbar + dt vbar^T f
+                               //           + what interactions held and lost
   supports_.finish(time_step_, state_.supports);
   ++state_.step;
 }
@@ -60,17 +60,15 @@ void CdLagrange::move_ground() {
   supports_.begin(state_.supports, force_duration_);
 }
 
-void CdLagrange::begin(const interactions::Step& step) {
+void CdLagrange::begin(const interactions::Step& step, Phase phase) {
   for (const auto& interaction : interactions_) {
-    const ScopedTimer timer(profile_, interaction->phase());
-    interaction->begin(step);
+    if (interaction->phase() == phase) interaction->begin(step);
   }
 }
 
-void CdLagrange::push(const interactions::Step& step) {
+void CdLagrange::push(const interactions::Step& step, Phase phase) {
   for (const auto& interaction : interactions_) {
-    const ScopedTimer timer(profile_, interaction->phase());
-    interaction->push(step);
+    if (interaction->phase() == phase) interaction->push(step);
   }
 }
 
@@ -86,9 +84,11 @@ double CdLagrange::about_rest(std::size_t structure) const {
   return sum;
 }
 
-void CdLagrange::free_velocity(bool with_energies, bool with_forces) {
+void CdLagrange::free_velocity(const interactions::Step& step, bool with_energies,
+                               bool with_forces) {
   const ScopedEvent event(events_.free_velocity);
   const ScopedTimer timer(profile_, Phase::step);
+  begin(step, Phase::step);
   for (const auto& interaction : interactions_) with_forces |= interaction->corrects();
   with_energies = with_energies || energy_.needs_energies();
   for (std::size_t s = 0; with_energies && s < systems_.size(); ++s) {
@@ -106,6 +106,7 @@ void CdLagrange::free_velocity(bool with_energies, bool with_forces) {
     systems_[s].stiffness->finish(argument(s), structure_steps_[s]);
     structure_steps_[s].complete();
   }
+  push(step, Phase::step);
 }
 
 void CdLagrange::close_energy(const interactions::Step& step) {

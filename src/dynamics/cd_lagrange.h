@@ -89,12 +89,13 @@ class CdLagrange {
  private:
   /// Motion of ground and supports at t_n.
   void move_ground();
-  /// Elongations and gaps of u_n.
-  void begin(const interactions::Step& step);
-  /// v_free and the u_{n+1} that it leads to; sums for the ledger.
-  void free_velocity(bool with_energies, bool with_forces);
-  /// v_{n+1/2}, u_{n+1} at the dofs that interactions move.
-  void push(const interactions::Step& step);
+  /// Elongations and gaps of u_n, of the interactions of a phase.
+  void begin(const interactions::Step& step, Phase phase);
+  /// v_free and the u_{n+1} that it leads to, with the interactions that belong to the structures'
+  /// step; sums for the ledger.
+  void free_velocity(const interactions::Step& step, bool with_energies, bool with_forces);
+  /// v_{n+1/2}, u_{n+1} at the dofs that interactions of a phase move.
+  void push(const interactions::Step& step, Phase phase);
   /// The ledger of the step.
   void close_energy(const interactions::Step& step);
 

@@ -39,6 +39,7 @@ void UnilateralContact::push(const interactions::Step& step) {
 
 void UnilateralContact::detect_contact(const interactions::Step& step) {
   const ScopedEvent event(events_.detect_contact);
+  const ScopedTimer timer(step.profile, Phase::contact);
   ++looks_;
   for (std::size_t s = 0; s < before_.size(); ++s) {
     problem_.set_displacement(s, step.structures[s]->displacement().data(),
@@ -61,6 +62,7 @@ void UnilateralContact::detect_contact(const interactions::Step& step) {
 
 void UnilateralContact::solve_impulse(const interactions::Step& step) {
   const ScopedEvent event(events_.solve_impulse);
+  const ScopedTimer timer(step.profile, Phase::contact);
   for (std::size_t s = 0; s < before_.size(); ++s) {
     problem_.set_free_velocity(s, step.structures[s]->velocity().data(), step.supports.velocity);
   }
@@ -70,6 +72,7 @@ void UnilateralContact::solve_impulse(const interactions::Step& step) {
 
 void UnilateralContact::correct_velocity(const interactions::Step& step) {
   const ScopedEvent event(events_.correct_velocity);
+  const ScopedTimer timer(step.profile, Phase::contact);
   for (std::size_t s = 0; s < before_.size(); ++s) {
     const Trace& trace = problem_.trace(s);
     trace.restrict_to_dofs(step.structures[s]->velocity().data(), velocity_[s].data());

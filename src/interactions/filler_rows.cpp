@@ -53,6 +53,7 @@ void FillerRows::attach(std::span<SteppedStructure* const> structures) {
 
 void FillerRows::begin(const Step& step) {
   if (!pairs_.rows().member()) return;
+  const ScopedTimer timer(step.profile, Phase::contact);
   auto& [before, now, free_after] = compression_;
   for (std::size_t s = 0; s < step.structures.size(); ++s) {
     const SteppedStructure& structure = *step.structures[s];
@@ -90,6 +91,7 @@ void FillerRows::close_step_before() {
 
 void FillerRows::push(const Step& step) {
   if (!pairs_.rows().member()) return;
+  const ScopedTimer timer(step.profile, Phase::contact);
   auto& [before, now, free_after] = compression_;
   std::fill(force_.begin(), force_.end(), 0.0);
   support_input_ = 0;

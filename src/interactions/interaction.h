@@ -43,6 +43,7 @@ struct Step {
   /// The interface is to be gathered whatever its distance.
   bool look_at_gap = false;
   Vector3 incident{};  ///< velocity of the wave from below [m/s]
+  Profile& profile;
   const SupportStep& supports;
   std::span<SteppedStructure* const> structures;
   std::span<LedgerPart* const> ledger;  ///< per structure
@@ -73,7 +74,8 @@ class Interaction {
 
   virtual void save(SavedState& saved) const = 0;
   virtual void load(const SavedState& saved) = 0;
-  /// Phase of the profile that `begin` and `push` belong to.
+  /// Phase of the profile that `begin` and `push` belong to: that of the structures' step, within
+  /// whose time they are called, or that of contact, which they charge themselves where they act.
   virtual Phase phase() const { return Phase::contact; }
 };
 
