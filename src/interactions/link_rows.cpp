@@ -238,7 +238,7 @@ StructureLinks::Bedding LinkRows::bedding() const {
     if (!is_pressed(links_[b].origin)) continue;
     const double stiffness = links_[b].origin.share * links_[b].origin.region->stiffness[2];
     bedding.all += stiffness;
-    if (after_[b] > 0) bedding.pressed += stiffness;
+    if (after_[b] > laws_[b]->slack(memory_[b])) bedding.pressed += stiffness;
   }
   return bedding;
 }

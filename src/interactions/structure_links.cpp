@@ -23,9 +23,12 @@ std::vector<std::string> record_names(std::size_t structure, const std::vector<L
   return names;
 }
 
-std::vector<std::unique_ptr<LinkLaw>> laws_of(const std::vector<Link>& links, double time_step) {
+std::vector<std::unique_ptr<LinkLaw>> laws_of(const LinearSystem& system, double time_step) {
+  const UniformDamping* const uniform = system.uniform_damping ? &*system.uniform_damping : nullptr;
   std::vector<std::unique_ptr<LinkLaw>> laws;
-  for (const Link& link : links) laws.push_back(law_of(link.origin, time_step));
+  for (const Link& link : system.links->links()) {
+    laws.push_back(law_of(link.origin, time_step, uniform));
+  }
   return laws;
 }
 
@@ -36,11 +39,16 @@ StructureLinks::StructureLinks(const LinearSystem& system, std::size_t structure
       time_step_(time_step),
       links_(system.links->links()),
       trace_(system.links->trace()),
-      laws_(laws_of(links_, time_step)),
+      laws_(laws_of(system, time_step)),
       memory_(laws_),
       held_(trace_.dofs().size()),
       field_(trace_.known().size(), 0.0),
-      velocity_(trace_.dofs().size(), 0.0) {}
+      velocity_(trace_.dofs().size(), 0.0) {
+  if (system.rest_displacement.empty()) return;
+  std::vector<double> rest(links_.size(), 0.0);
+  measure(system.rest_displacement, rest);
+  for (std::size_t b = 0; b < links_.size(); ++b) laws_[b]->rest(rest[b], memory_[b]);
+}
 
 void StructureLinks::attach(std::span<SteppedStructure* const> structures) {
   structures[structure_]->watch(trace_.dofs(), true);

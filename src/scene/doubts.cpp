@@ -160,18 +160,6 @@ void look_at_weight(const Structure& structure, const Region& region, Doubts& do
   }
 }
 
-/// Damping of the structure that its filters, which follow the product with K, do not give to
-/// elements that are no part of it and have none of their own.
-void look_at_damping(const Structure& structure, const Region& region, Doubts& doubts) {
-  if (!structure.uniform_damping || !(structure.uniform_damping->ratio > 0)) return;
-  if (!is_one_way(region) || (region.compression_only && region.dashpot[2] > 0)) return;
-  doubts.add("structure " + structure.name + ", group " + region.group + ": -" + structure.name +
-             "_damping_uniform does not reach elements that act in one direction only, so that " +
-             (region.compression_only ? "along z these have no damping; give them a -" +
-                                            structure.name + "_" + region.group + "_dashpot"
-                                      : "these have no damping; Rayleigh damping reaches them"));
-}
-
 }  // namespace
 
 bool is_held(const Structure& structure, std::size_t direction) {
@@ -189,7 +177,6 @@ std::vector<std::string> scene_doubts(const Scene& scene) {
     for (const Region& region : structure.regions) {
       look_at_region("structure " + structure.name, region, doubts);
       look_at_weight(structure, region, doubts);
-      look_at_damping(structure, region, doubts);
     }
     if (structure.soil) {
       doubts.look_at("structure " + structure.name, soil_velocity,

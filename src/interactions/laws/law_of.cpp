@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "interactions/laws/damper_law.h"
 #include "interactions/laws/dashpot_law.h"
@@ -37,7 +38,8 @@ std::unique_ptr<LinkLaw> dashpot_of(const LinkOrigin& origin, double time_step) 
 }
 
 /// Law of a bar, or of a component of a spring, whose stiffness is no part of K.
-std::unique_ptr<LinkLaw> stiff_law(const LinkOrigin& origin, double time_step) {
+std::unique_ptr<LinkLaw> stiff_law(const LinkOrigin& origin, double time_step,
+                                   const UniformDamping* uniform) {
   const Region& region = *origin.region;
   const bool spring = is_spring(region.element);
   const double stiffness = spring ? origin.share * region.stiffness[origin.component]
@@ -52,12 +54,21 @@ std::unique_ptr<LinkLaw> stiff_law(const LinkOrigin& origin, double time_step) {
   }
   // The elongation of a compression-only spring is how far it is pressed down.
   const double damping = origin.beta * stiffness + (spring ? origin.share * region.dashpot[2] : 0);
-  return std::make_unique<TensionLaw>(stiffness, damping / (2 * time_step), region.nonlinear.slack);
+  const double rate = damping / (2 * time_step);
+  const double slack = region.nonlinear.slack;
+  if (uniform == nullptr) return std::make_unique<TensionLaw>(stiffness, rate, slack);
+  std::vector<MaxwellBranch> branches;
+  for (const DampingFilter& filter : uniform->filters) {
+    branches.push_back({uniform->at_rest() * filter.weight * stiffness, filter.rate});
+  }
+  return std::make_unique<TensionLaw>(stiffness, rate, slack, uniform->at_rest(),
+                                      std::move(branches), time_step);
 }
 
 }  // namespace
 
-std::unique_ptr<LinkLaw> law_of(const LinkOrigin& origin, double time_step) {
+std::unique_ptr<LinkLaw> law_of(const LinkOrigin& origin, double time_step,
+                                const UniformDamping* uniform) {
   if (origin.region == nullptr) {
     return std::make_unique<DashpotLaw>(origin.absorbing / (2 * time_step));
   }
@@ -69,7 +80,7 @@ std::unique_ptr<LinkLaw> law_of(const LinkOrigin& origin, double time_step) {
   if (is_spring(region.element) && origin.part == SpringPart::dashpot) {
     return dashpot_of(origin, time_step);
   }
-  auto law = stiff_law(origin, time_step);
+  auto law = stiff_law(origin, time_step, uniform);
   if (!origin.in_stiffness) return law;
   return std::make_unique<RelievingLaw>(std::move(law));
 }

@@ -31,7 +31,9 @@ struct LinkOrigin {
 bool is_pressed(const LinkOrigin& origin);
 
 /// Law of a link by what the options of its region say: the only place that chooses among laws.
-/// `time_step` [s].
-std::unique_ptr<LinkLaw> law_of(const LinkOrigin& origin, double time_step);
+/// `time_step` [s]. `uniform`: damping of its structure, its reference known, which what acts in
+/// one direction has as well; may be null.
+std::unique_ptr<LinkLaw> law_of(const LinkOrigin& origin, double time_step,
+                                const UniformDamping* uniform = nullptr);
 
 }  // namespace pounding::interactions

@@ -43,6 +43,10 @@ class LinkLaw {
   virtual double holds_down_to(double /*before*/, std::span<const double> /*memory*/) const {
     return 0;
   }
+  /// Elongation up to which it never pulls [m].
+  virtual double slack(std::span<const double> /*memory*/) const { return 0; }
+  /// Takes e_0 of the rest from which the run starts, before its first step.
+  virtual void rest(double /*now*/, std::span<double> /*memory*/) const {}
   /// Whether it has left its straight line for good.
   virtual bool has_yielded(std::span<const double> /*memory*/) const { return false; }
 

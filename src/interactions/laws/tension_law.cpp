@@ -14,47 +14,96 @@ double positive_root(double a, double b, double c) {
 
 }  // namespace
 
-double TensionLaw::energy(double now, double after, std::span<const double>) const {
-  return stiffness_ * std::max(0.0, now - slack_) * std::max(0.0, after - slack_) / 2;
+double TensionLaw::energy(double now, double after, std::span<const double> memory) const {
+  const double slack = this->slack(memory);
+  double held = stiffness_ * std::max(0.0, now - slack) * std::max(0.0, after - slack) / 2;
+  for (std::size_t i = 0; i < branches_.size() && !memory.empty(); ++i) {
+    held += memory[i] * memory[i] / (2 * branches_[i].stiffness);
+  }
+  return held;
 }
 
-double TensionLaw::force(double before, double now, double after, std::span<const double>) const {
-  return stretched_force(before - slack_, now - slack_, after - slack_);
+double TensionLaw::force(double before, double now, double after,
+                         std::span<const double> memory) const {
+  const double slack = this->slack(memory);
+  return stretched_force(damping(1, memory), before - slack, now - slack, after - slack);
 }
 
 double TensionLaw::solve(double before, double now, double free_after, double compliance,
-                         std::span<const double>) const {
-  return solve_stretched(before - slack_, now - slack_, free_after - slack_, compliance);
+                         std::span<const double> memory) const {
+  const double slack = this->slack(memory);
+  return solve_stretched(damping(1, memory), before - slack, now - slack, free_after - slack,
+                         compliance);
 }
 
-double TensionLaw::stretched_force(double before, double now, double after) const {
-  if (now <= 0) return 0;
+TensionLaw::Damping TensionLaw::damping(double share, std::span<const double> memory) const {
+  Damping all{damping_rate_, 0};
+  for (std::size_t i = 0; i < branches_.size() && !memory.empty(); ++i) {
+    const double kept = 1 + branches_[i].rate * share * time_step_ / 2;
+    all.rate += share * branches_[i].stiffness / (4 * kept);
+    all.offset += memory[i] / kept;
+  }
+  return all;
+}
+
+double TensionLaw::spring_force(double before, double now, double after) const {
   double share = before > 0 ? 1 : 0;
   if ((before > 0) != (after > 0) && before != after) {
     share = (std::max(0.0, after) - std::max(0.0, before)) / (after - before);
   }
-  return std::max(0.0, stiffness_ * now * share + damping_rate_ * (after - before));
+  return stiffness_ * now * share;
 }
 
-double TensionLaw::solve_stretched(double before, double now, double free_after,
-                                   double compliance) const {
-  if (now <= 0 || compliance <= 0) return stretched_force(before, now, free_after);
+double TensionLaw::stretched_force(const Damping& damping, double before, double now,
+                                   double after) const {
+  if (now <= 0) return 0;
+  return std::max(
+      0.0, spring_force(before, now, after) + damping.rate * (after - before) + damping.offset);
+}
+
+double TensionLaw::solve_stretched(const Damping& damping, double before, double now,
+                                   double free_after, double compliance) const {
+  if (now <= 0 || compliance <= 0) return stretched_force(damping, before, now, free_after);
   const double pull = stiffness_ * now;
   const double r = compliance;
-  const double a = 1 + r * damping_rate_;
+  const double a = 1 + r * damping.rate;
+  const double way = free_after - before - r * damping.offset;  // e_{n+1} - e_{n-1} of the branches
+  const double damped = damping.rate * (free_after - before) + damping.offset;
   if (before > 0) {
-    const double taut = (pull + damping_rate_ * (free_after - before)) / a;
+    const double taut = (pull + damped) / a;
     if (free_after - r * taut >= 0) return std::max(0.0, taut);
     // it goes slack: z = before - after
-    const double z = positive_root(a, before - free_after, r * pull * before);
-    return std::max(0.0, pull * before / z - damping_rate_ * z);
+    const double z = positive_root(a, -way, r * pull * before);
+    return std::max(0.0, pull * before / z - damping.rate * z + damping.offset);
   }
-  const double slack = damping_rate_ * (free_after - before) / a;
+  const double slack = damped / a;
   if (free_after - r * slack < 0) return std::max(0.0, slack);
   // it was slack before and is taut after: z = after - before
-  const double z = positive_root(a, free_after - before - r * pull, -r * pull * before);
-  return z > 0 ? pull * (before + z) / z + damping_rate_ * z
-               : std::min(pull, (free_after - before) / r);
+  const double z = positive_root(a, way - r * pull, -r * pull * before);
+  const double tension = z > 0 ? pull * (before + z) / z + damping.rate * z + damping.offset
+                               : std::min(pull + damping.offset, (free_after - before) / r);
+  return std::max(0.0, tension);
+}
+
+void TensionLaw::rest(double now, std::span<double> memory) const {
+  if (!memory.empty()) memory.back() = std::max(0.0, now - slack_) * (1 - 1 / at_rest_);
+}
+
+void TensionLaw::remember(double before, double now, double after, double share,
+                          std::span<double> memory) const {
+  if (memory.empty()) return;
+  const double slack = this->slack(memory);
+  double way = 0;  // 2 dt r'
+  if (now > slack) {
+    const Damping all = damping(share, memory);
+    const double spring = spring_force(before - slack, now - slack, after - slack);
+    way = std::max(after - before, -(spring + all.offset) / all.rate);
+  }
+  for (std::size_t i = 0; i < branches_.size(); ++i) {
+    const double turn = branches_[i].rate * share * time_step_ / 2;
+    const double grown = share * branches_[i].stiffness * way / 2;
+    memory[i] = (memory[i] * (1 - turn) + grown) / (1 + turn);
+  }
 }
 
 }  // namespace pounding::interactions

@@ -1,27 +1,54 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "interactions/laws/link_law.h"
 
 namespace pounding::interactions {
 
+/// A spring in series with a dashpot, beside the spring of a bar: dq/dt = A de/dt - omega q.
+struct MaxwellBranch {
+  double stiffness = 0;  ///< A [N/m]
+  double rate = 0;       ///< omega [1/s]
+};
+
 /// Law of a tension-only bar: it pulls so that its energy can be told at every half step. With the
 /// elongations e_{n-1}, e_n, e_{n+1}, less its slack, the stiffness k, e+ = max(0, e), and the
-/// damping c while e_n > 0,
+/// force D_n of its damping while e_n > 0,
 ///
-///     W_{n+1/2} = 1/2 k e_n+ e_{n+1}+                                       the bar's energy, >= 0
-///     N_n       = max(0, k e_n+ (e_{n+1}+ - e_{n-1}+) / (e_{n+1} - e_{n-1})
-///                        + c (e_{n+1} - e_{n-1}) / (2 dt))                  its tension
+///     W_{n+1/2} = 1/2 k e_n+ e_{n+1}+ + sum_i q_i^2 / (2 A_i)               the bar's energy, >= 0
+///     S_n       = k e_n+ (e_{n+1}+ - e_{n-1}+) / (e_{n+1} - e_{n-1})        of its spring
+///     D_n       = c r + sum_i (q_i- + q_i+) / 2,   r = (e_{n+1} - e_{n-1}) / (2 dt)
+///     N_n       = max(0, S_n + D_n)                                         its tension
 ///
-/// While the bar stays taut N_n = k e_n, central differences; while it stays slack, none. Its work
-/// over the step is N_n (e_{n+1} - e_{n-1}) / 2 >= W_{n+1/2} - W_{n-1/2}, equal without damping:
-/// it gives back no more than it took, for any step and however it switches. (Frozen at k e_n the
-/// tension feeds growing orbits below the limit of the taut bar.) N_n grows with e_{n+1}, and is at
-/// most k e_n but for damping, so that the step has one solution.
+/// of a dashpot c and of Maxwell branches, whose forces q_i it remembers:
+///
+///     (q_i+ - q_i-) / d = A_i r' - omega_i (q_i- + q_i+) / 2
+///
+/// over the time d (dt, half of it in the first step). r' = r while the bar pulls; where S_n + D_n
+/// would push, r' >= r is the rate that leaves D_n = -S_n, the rest is slip; while the bar is slack
+/// r' = 0. While the bar stays taut S_n = k e_n, central differences; while it stays slack, none.
+/// Its work N_n (e_{n+1} - e_{n-1}) / 2 less W_{n+1/2} - W_{n-1/2} is at least
+/// d (c r'^2 + sum_i omega_i qbar_i^2 / A_i) >= 0, and 0 without damping: it gives back no more
+/// than it took, for any step and however it switches. (Frozen at k e_n the tension feeds growing
+/// orbits below the limit of the taut bar.) N_n grows with e_{n+1}, so that the step has one
+/// solution; damping does not limit it.
 class TensionLaw final : public LinkLaw {
  public:
   /// `stiffness` k [N/m]; `damping_rate` c / (2 dt) [N/m]; `slack` [m].
   TensionLaw(double stiffness, double damping_rate, double slack = 0)
       : stiffness_(stiffness), damping_rate_(damping_rate), slack_(slack) {}
+  /// Law under uniform damping: the spring is `at_rest` times as stiff as the bar at rest, whose
+  /// `stiffness` [N/m] is given, and has branches beside it; `time_step` dt [s].
+  TensionLaw(double stiffness, double damping_rate, double slack, double at_rest,
+             std::vector<MaxwellBranch> branches, double time_step)
+      : stiffness_(at_rest * stiffness),
+        damping_rate_(damping_rate),
+        slack_(slack),
+        at_rest_(at_rest),
+        branches_(std::move(branches)),
+        time_step_(time_step) {}
 
   double force(double before, double now, double after,
                std::span<const double> memory = {}) const override;
@@ -29,17 +56,37 @@ class TensionLaw final : public LinkLaw {
                std::span<const double> memory = {}) const override;
   double energy(double now, double after, std::span<const double> memory = {}) const override;
   double tangent() const override { return stiffness_; }
-  bool is_idle(double now, std::span<const double> /*memory*/ = {}) const override {
-    return now <= slack_;
+  bool is_idle(double now, std::span<const double> memory = {}) const override {
+    return now <= slack(memory);
   }
+  double slack(std::span<const double> memory) const override {
+    return memory.empty() ? slack_ : slack_ + memory.back();
+  }
+  /// q of the branches, and what a rest adds to the slack.
+  std::size_t memory_size() const override { return branches_.empty() ? 0 : branches_.size() + 1; }
+  void rest(double now, std::span<double> memory) const override;
+  void remember(double before, double now, double after, double share,
+                std::span<double> memory) const override;
 
  private:
-  double stretched_force(double before, double now, double after) const;
-  double solve_stretched(double before, double now, double free_after, double compliance) const;
+  /// D_n = rate (e_{n+1} - e_{n-1}) + offset as long as the bar pulls.
+  struct Damping {
+    double rate = 0;    ///< [N/m]
+    double offset = 0;  ///< [N]
+  };
+  Damping damping(double share, std::span<const double> memory) const;
+  /// S_n; elongations here and below less the slack.
+  double spring_force(double before, double now, double after) const;
+  double stretched_force(const Damping& damping, double before, double now, double after) const;
+  double solve_stretched(const Damping& damping, double before, double now, double free_after,
+                         double compliance) const;
 
   double stiffness_;
   double damping_rate_;
   double slack_;
+  double at_rest_ = 1;
+  std::vector<MaxwellBranch> branches_;
+  double time_step_ = 0;
 };
 
 }  // namespace pounding::interactions

@@ -92,6 +92,72 @@ TEST(TensionLaw, SolutionIsTheTensionOfTheElongationThatItLeaves) {
   }
 }
 
+/// Branches of uniform damping beside a bar at rest, and forces that they remember.
+const TensionLaw branched{3, damping_rate, 0.01, 0.8, {{2, 5}, {0.7, 60}}, 0.01};
+
+std::vector<std::vector<double>> memories() {
+  std::vector<std::vector<double>> values;
+  for (const double first : {0.0, 0.4, -3.0}) {
+    for (const double second : {0.0, 0.02, -0.5}) values.push_back({first, second, -0.02});
+  }
+  return values;
+}
+
+TEST(TensionLaw, BranchesGiveNoMoreThanTheyTookHoweverItSwitches) {
+  for (const std::vector<double>& memory : memories()) {
+    for (const double before : elongations()) {
+      for (const double now : elongations()) {
+        double last = 0;
+        std::vector<double> afters = elongations();
+        std::sort(afters.begin(), afters.end());
+        for (const double after : afters) {
+          const double tension = branched.force(before, now, after, memory);
+          EXPECT_GE(tension, last * (1 - 1e-12)) << before << " " << now << " " << after;
+          last = tension;
+          std::vector<double> next = memory;
+          branched.remember(before, now, after, 1, next);
+          const double held = branched.energy(before, now, memory);
+          const double given =
+              branched.energy(now, after, next) - held - tension * (after - before) / 2;
+          const double scale = held + std::abs(now) * (std::abs(after) + std::abs(before)) +
+                               tension * std::abs(after - before);
+          EXPECT_LE(given, 1e-14 * scale) << before << " " << now << " " << after;
+        }
+      }
+    }
+  }
+}
+
+TEST(TensionLaw, SolutionWithBranchesIsTheTensionOfTheElongationThatItLeaves) {
+  for (const std::vector<double>& memory : memories()) {
+    for (const double compliance : {1e-6, 0.01, 0.3, 20.0}) {
+      for (const double before : elongations()) {
+        for (const double now : elongations()) {
+          for (const double free_after : elongations()) {
+            const double tension = branched.solve(before, now, free_after, compliance, memory);
+            const double after = free_after - compliance * tension;
+            const double size = std::abs(free_after) + std::abs(before) + compliance * tension;
+            const double unsure = 1e-13 * (size + std::abs(now));
+            const double tolerance = 1e-11 * (size + std::abs(now) + std::abs(memory[0]) + tension);
+            EXPECT_GE(tension, branched.force(before, now, after - unsure, memory) - tolerance)
+                << before << " " << now << " " << free_after << " " << compliance;
+            EXPECT_LE(tension, branched.force(before, now, after + unsure, memory) + tolerance)
+                << before << " " << now << " " << free_after << " " << compliance;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(TensionLaw, RestPullsWithTheStiffnessOfTheMaterialWhateverIsBesideIt) {
+  std::vector<double> memory{0, 0, 0};
+  branched.rest(0.21, memory);
+  EXPECT_DOUBLE_EQ(branched.force(0.21, 0.21, 0.21, memory), 3 * 0.2);
+  branched.rest(-0.3, memory);
+  EXPECT_EQ(branched.slack(memory), 0.01);
+}
+
 /// A unit mass on a spring of unit stiffness and a bar `ratio` times as stiff, from rest with unit
 /// velocity. Largest energy over the first; dt in parts of the limit 2 / sqrt(1 + ratio).
 double largest_energy(double ratio, double fraction, double damping) {

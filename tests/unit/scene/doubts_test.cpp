@@ -146,18 +146,5 @@ TEST(SceneDoubts, NothingPressesWithoutWeight) {
   EXPECT_TRUE(scene_doubts(heavy).empty());
 }
 
-TEST(SceneDoubts, UniformDampingLeavesOutWhatActsInOneDirection) {
-  const auto damped = [](double ratio) {
-    return changed([&](Structure& s) {
-      s.uniform_damping.emplace();
-      s.uniform_damping->ratio = ratio;
-    });
-  };
-  EXPECT_TRUE(damped(0).empty());
-  const std::vector<std::string> lines = damped(0.05);
-  ASSERT_EQ(lines.size(), 1U);
-  EXPECT_THAT(lines[0], HasSubstr("group brace: -tower_damping_uniform does not reach"));
-}
-
 }  // namespace
 }  // namespace pounding
