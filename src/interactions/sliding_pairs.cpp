@@ -97,7 +97,8 @@ void SlidingPairs::pair(std::size_t row, std::span<const double> displacement) {
     if (!point) continue;
     const double gap = point->distance - node.half_thickness - facet.half_thickness;
     const double margin = 1e-9 * facet.size;
-    if (gap < -node.depth - margin || (best && std::abs(gap) >= std::abs(*best) - margin)) continue;
+    if (gap < -node.depth - facet_tolerance * facet.size) continue;
+    if (best && std::abs(gap) >= std::abs(*best) - margin) continue;
     best = gap;
     found = {number, snapped(point->weights), {}, false};
   }

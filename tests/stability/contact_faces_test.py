@@ -87,6 +87,38 @@ class Surfaces(unittest.TestCase):
         self.meets_after(0.05, (storey(0, -3), storey(0.25, 3)), "edge", ("floor", "wall"))
 
 
+class InOnePlane(unittest.TestCase):
+    """Shells that are drawn in one plane, their gap given as a number: what else their structures have says
+    which sides face each other, whatever the order of their nodes and the last digits of their place."""
+    ORDERS = ((1, 1), (1, -1), (-1, 1), (-1, -1))
+
+    def words(self, folder, meshes, orders, *arguments):
+        for mesh, order in zip(meshes, orders):
+            for group, (kind, cells) in mesh.groups.items():
+                mesh.groups[group] = (kind, [cell[::order] for cell in cells])
+        return [*pair(folder, *meshes, *arguments), "-joint_gap", 0.04]
+
+    def test_bodies_say_which_sides_face_each_other(self):
+        found = []
+        for orders in self.ORDERS:
+            for offset in (-2e-9, 2e-9):
+                with tempfile.TemporaryDirectory() as folder:
+                    run = History(self, self.words(folder, (storey(0, -3), storey(offset, 3)), orders, "wall",
+                                                   ("floor", "wall")))
+                self.assertAlmostEqual(run.column("start")[0], 0.04, delta=1.01 * STEP)
+                found.append([run.column("impulse").sum(), *run.ledger["contact_work"][-1:]])
+        found = numpy.array(found, dtype=float)
+        self.assertGreater(found[0][0], 1)
+        self.assertLess(abs(found / found[0] - 1).max(), 1e-12)
+
+    def test_bare_walls_are_refused(self):
+        for orders in self.ORDERS:
+            for offset, ranks in ((-2e-9, 1), (2e-9, 2)):
+                with tempfile.TemporaryDirectory() as folder:
+                    refused(self, self.words(folder, (wall(0), wall(offset)), orders, "body"),
+                            "-joint_secondary one:body", "lie in one plane", ranks=ranks)
+
+
 def flight(velocity, gap=0.1, end_time=0.12, width=0.3):
     """Two bricks with faces 0.3 m wide (one facet); the first flies at `velocity`."""
     words = scenes.blocks((2.0, 2.0), gap=gap, time_step=5e-4, end_time=end_time)

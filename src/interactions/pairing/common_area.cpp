@@ -45,7 +45,7 @@ std::array<double, 4> shares_of(const FaceSide& side, std::size_t f, const FaceS
     const Sums sums = sums_of(overlap_places(corners, corners_of(*other.mesh, faced)));
     if (!(sums.area > 0)) continue;
     const auto met = meet_facet(*other.mesh, faced, sums.middle, normal, facet_tolerance);
-    const double depth = side.face.facet_depth[f] + 1e-9 * radius;
+    const double depth = side.face.facet_depth[f] + facet_tolerance * radius;
     const double reach = side.face.facet_half_thickness[f] + other.face.facet_half_thickness[g];
     if (met && met->distance - reach < -depth) continue;
     all.area += sums.area;

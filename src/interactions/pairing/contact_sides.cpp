@@ -43,8 +43,8 @@ class SideFinder {
     sides.primary = side_of("primary", contact_.primary);
     refuse_common_nodes(sides);
     decide(sides);
-    turn_towards(sides.secondary.face, centre(contact_.primary));
-    turn_towards(sides.primary.face, centre(contact_.secondary));
+    turn_towards_other(sides.secondary, contact_.secondary, contact_.primary);
+    turn_towards_other(sides.primary, contact_.primary, contact_.secondary);
     check_beams(sides);
     check_facing(sides);
     return sides;
@@ -114,12 +114,48 @@ class SideFinder {
     }
     decide(side, contact_.secondary, side.face.mean_normal);
     // Shells have two sides: a mat stands on the wall, what it carries is on the other one.
-    std::vector<GlobalIndex> all(side.mesh->node_count());
+    const Vector3 body = centre_of_body(contact_.secondary);
+    if (leaves_plane(side, body)) turn_towards(side.face, behind(side.face, body));
+  }
+
+  Vector3 centre_of_body(const ContactSide& side) const {
+    std::vector<GlobalIndex> all(mesh(side).node_count());
     std::iota(all.begin(), all.end(), 0);
-    const Vector3 rest = minus(centroid(*side.mesh, all), side.face.centroid);
-    if (std::abs(dot(rest, side.face.mean_normal)) > off_the_plane * std::sqrt(dot(rest, rest))) {
-      turn_towards(side.face, minus(side.face.centroid, rest));
+    return centroid(mesh(side), all);
+  }
+
+  /// The point on the other side of a face.
+  static Vector3 behind(const ContactFace& face, const Vector3& point) {
+    return minus(face.centroid, minus(point, face.centroid));
+  }
+
+  /// Whether a point lies on one side of a face, beyond round-off of its coordinates.
+  static bool leaves_plane(const FaceSide& side, const Vector3& point) {
+    const Vector3 way = minus(point, side.face.centroid);
+    double size = norm(way);
+    for (const GlobalIndex node : side.face.nodes) {
+      size = std::max(size, norm(minus(side.mesh->position(node), side.face.centroid)));
     }
+    return std::abs(dot(way, side.face.mean_normal)) > off_the_plane * size;
+  }
+
+  /// Shells look at the other side. Where that lies in their plane they look away from the rest of
+  /// their structure, or towards the rest of the other one.
+  void turn_towards_other(FaceSide& side, const ContactSide& own, const ContactSide& other) const {
+    const auto& two_sided = side.face.two_sided;
+    if (std::ranges::none_of(two_sided, [](char open) { return open != 0; })) return;
+    if (leaves_plane(side, centre(other))) return turn_towards(side.face, centre(other));
+    const bool apart = own.structure != other.structure;
+    if (apart && leaves_plane(side, centre_of_body(own))) {
+      return turn_towards(side.face, behind(side.face, centre_of_body(own)));
+    }
+    if (apart && leaves_plane(side, centre_of_body(other))) {
+      return turn_towards(side.face, centre_of_body(other));
+    }
+    throw UserError(side_option(contact_, "secondary") + " and -" + contact_.name + "_primary " +
+                    contact_.primary.structure + ":" + contact_.primary.group +
+                    ": the shells lie in one plane, and nothing beside it says which of its sides "
+                    "each one looks to; place them apart, if only by a hundredth of their gap");
   }
 
   /// Facets that several elements hold: they look where the rest of their own face looks, else
@@ -132,10 +168,10 @@ class SideFinder {
       if (!side->face.facets.empty()) decide(*side, *s, side->face.mean_normal);
     }
     if (!primary.face.facets.empty()) {
-      turn_towards(primary.face, centre(contact_.secondary));
+      turn_towards_other(primary, contact_.primary, contact_.secondary);
       decide(secondary, contact_.secondary, opposite(primary.face.mean_normal));
     } else if (!secondary.face.facets.empty()) {
-      turn_towards(secondary.face, centre(contact_.primary));
+      turn_towards_other(secondary, contact_.secondary, contact_.primary);
       decide(primary, contact_.primary, opposite(secondary.face.mean_normal));
     } else {
       const Vector3 apart = *std::ranges::max_element(

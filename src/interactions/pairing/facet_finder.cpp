@@ -54,7 +54,7 @@ FacetFinder::Result FacetFinder::find(const Vector3& origin, const Vector3& dire
     if (!point) continue;
     const double gap = point->distance - half_thickness - face_.facet_half_thickness[f];
     const double margin = 1e-9 * radius_[f];
-    if (gap < -depth - margin) {
+    if (gap < -depth - facet_tolerance * radius_[f]) {
       result.behind = result.behind < 0 ? std::max(result.behind, gap) : gap;
     } else if (!result.faced || std::abs(gap) < std::abs(result.faced->gap) - margin) {
       result.faced = {f, *point, gap};

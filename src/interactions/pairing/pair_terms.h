@@ -7,7 +7,8 @@
 
 namespace pounding::interactions {
 
-/// How far outside a facet, relative to its size, a node may lie and still face it.
+/// How far outside a facet, or deeper than its elements are, relative to its size, a node may lie
+/// and still face it: shells in one plane lie as deep as they are thick.
 constexpr double facet_tolerance = 1e-6;
 
 /// Weights of a facet's nodes where those within 1e-6 of 0 are 0, and one within 1e-6 of 1 is the
