@@ -277,6 +277,7 @@ class SceneReader {
     const std::string state = options_.choice("<contact>_gap_at", {contact.name});
     const std::vector<double>& values = contact.gap.values;
     const auto negative = [](double gap) { return gap < 0; };
+    const auto above_zero = [](double gap) { return gap > 0; };
     if (state == "rest" && std::ranges::any_of(values, negative)) {
       options_.refuse("<contact>_gap_at", {contact.name},
                       "at rest the joint is open or just closed; give a gap of 0 or more");
@@ -285,9 +286,16 @@ class SceneReader {
       options_.refuse("<contact>_gap_at", {contact.name},
                       "the filler is laid into the joint as it is at rest; leave it out");
     }
-    const bool open = !values.empty() &&
-                      std::ranges::all_of(values, [](double gap) { return gap > 0; }) &&
-                      !contact.primary.is_wall();
+    const bool open =
+        !values.empty() && std::ranges::all_of(values, above_zero) && !contact.primary.is_wall();
+    const bool open_in_part =
+        !open && std::ranges::any_of(values, above_zero) && !contact.primary.is_wall();
+    if (state == "auto" && scene_.preload && open_in_part && !contact.filler) {
+      options_.refuse("<contact>_gap", {contact.name},
+                      "open in one part and not in another, under -preload static; say with -" +
+                          option_name("<contact>_gap_at", {contact.name}) +
+                          " rest or unloaded in which state the joint has these gaps");
+    }
     const bool assumed = state == "auto" && (open || contact.filler);
     contact.gap_at_rest = scene_.preload && (state == "rest" || assumed);
     contact.gap_assumed_so = contact.gap_at_rest && assumed;

@@ -84,6 +84,9 @@ class GivenGap(unittest.TestCase):
 
     def test_refused_and_doubted(self):
         program.must_refuse(self, scene("-joint_gap_at", "rest", gap="0.001,-0.001"), "-joint_gap_at", "0 or more")
+        for gap in ("0.04,0", "0.04,-0.01"):
+            program.must_refuse(self, scene(gap=gap), "-joint_gap " + gap, "open in one part", "-joint_gap_at rest or unloaded")
+        program.must_run(self, scene("-joint_gap_at", "unloaded", gap="0.04,0"))
         program.must_refuse(self, scene("-joint_gap_at", "sometimes"), "-joint_gap_at", "auto")
         filler = ["-joint_filler", "0.2:1e5,0.8:1e6", "-joint_filler_unloading", 1e8]
         program.must_refuse(self, scene("-joint_gap_at", "unloaded", *filler, gap=0.01), "-joint_gap_at", "filler")
