@@ -82,6 +82,11 @@ void check_mesh_file(const std::string& option, const std::filesystem::path& fil
                     ": no such file; give the path of a Gmsh .geo or .msh file");
   }
   const std::string ending = file.extension().string();
+  if (ending == ".inp" || ending == ".med") {
+    throw UserError("option " + option + ": Gmsh does not read files with the ending '" + ending +
+                    "'; convert it to .msh with python3-meshio by the lines of docs/scene.md, "
+                    "\"Meshes of other programs\"");
+  }
   if (!is_geometry(file) && !contains(meshes, ending)) {
     throw UserError("option " + option + ": files with the ending '" + ending +
                     "' are not read; give a Gmsh .geo or .msh file (or .unv, .mesh, .bdf, .nas)");

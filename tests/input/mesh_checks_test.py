@@ -188,6 +188,11 @@ class Groups(MeshCase):
              *(f"{e + 1} {kind} 2 {group} {entity} " + " ".join(map(str, nodes))
                for e, (kind, group, entity, nodes) in enumerate(elements)), "$EndElements", ""]), ".msh")
 
+    def test_formats_that_gmsh_does_not_read_say_how_to_convert(self):
+        for ending in (".inp", ".med"):
+            mesh = self.with_file("*NODE\n1, 0, 0, 0\n", ending)
+            self.refuse(self.cube(mesh, "body", "base"), "-t_mesh", f"'{ending}'", "python3-meshio", "docs/scene.md")
+
     NAMES = ((3, 1, "tower"), (2, 2, "tower"), (2, 3, "base"))
     BRICK = (5, 1, 1, range(1, 9))
     BASE = (3, 3, 3, (1, 2, 3, 4))
