@@ -15,9 +15,9 @@
 #include "driver/report.h"
 #include "driver/rest.h"
 #include "driver/rest_gaps.h"
-#include "driver/run_warnings.h"
 #include "driver/separation.h"
 #include "driver/storeys.h"
+#include "driver/subject_facts.h"
 #include "driver/time_step.h"
 #include "driver/warnings.h"
 #include "driver/whole_meshes.h"
@@ -309,7 +309,7 @@ Model build_model(MPI_Comm comm, Scene& scene, std::span<const double> stiffness
     build_structures(comm, scene, profile, model);
   } catch (const UserError&) {
     // Doubts about the meshes may tell why, and would not be printed otherwise.
-    if (rank_of(comm) == 0) print_warnings(model.warnings);
+    if (rank_of(comm) == 0) print(warning_facts(model.warnings));
     throw;
   }
   const ScopedTimer timer(profile, Phase::modes);

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "driver/soil_report.h"
+#include "driver/spread_springs.h"
+#include "interactions/pairing/absorbing_faces.h"
 #include "mesh/connectivity.h"
 #include "mesh/mesh.h"
 #include "mesh/mesh_files.h"

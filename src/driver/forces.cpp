@@ -266,22 +266,4 @@ std::unique_ptr<Observer> make_forces(const ObservedRun& run) {
   return std::make_unique<Forces>(run);
 }
 
-void print_forces(std::span<const ForceReport> reports) {
-  if (reports.empty()) return;
-  std::printf("\nforce       largest kN, kN m (of shells per m) of samples      at s   element\n");
-  for (const ForceReport& report : reports) {
-    for (std::size_t c = 0; c < report.components.size(); ++c) {
-      const std::size_t e = report.largest(c);
-      const ForcePeak& peak = report.peaks[e * report.components.size() + c];
-      std::printf("  %-18s %24.6g %19.5f   %s\n",
-                  (report.name + "." + report.components[c]).c_str(), peak.value / 1000, peak.time,
-                  report.elements[e].c_str());
-    }
-    if (report.about) {
-      const auto& [x, y, z] = *report.about;
-      std::printf("    moments about (%.6g, %.6g, %.6g) m\n", x, y, z);
-    }
-  }
-}
-
 }  // namespace pounding

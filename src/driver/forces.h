@@ -19,7 +19,4 @@ namespace pounding {
 /// without such forces. Collective.
 std::unique_ptr<Observer> make_forces(const ObservedRun& run);
 
-/// The table of the console.
-void print_forces(std::span<const ForceReport> reports);
-
 }  // namespace pounding

@@ -17,6 +17,7 @@
 #include "driver/folder_checks.h"
 #include "driver/phase_report.h"
 #include "driver/report.h"
+#include "driver/subject_facts.h"
 #include "io/file_digest.h"
 #include "io/file_seal.h"
 #include "io/new_file.h"
@@ -383,7 +384,7 @@ void cut_and_write(const Scene& scene, const WholeMeshes& whole, Model& model) {
   for (std::size_t s = 0; s < nodes.size(); ++s) {
     print_pieces(scene.structures[s], whole.meshes[s], nodes[s]);
   }
-  print_partition(model);
+  print(partition_facts(model));
   std::printf("pieces: %d in %s, %.4g MB, for runs on as many ranks with -mesh_pieces %s\n", ranks,
               scene.mesh_pieces.c_str(), bytes / 1e6, scene.mesh_pieces.c_str());
 }
@@ -408,9 +409,9 @@ void write_mesh_pieces(MPI_Comm comm, Scene& scene, Profile& profile) {
   }
   std::size_t dofs = 0;
   for (const GlobalMesh& mesh : whole.meshes) dofs += dofs_of(mesh);
-  if (rank_of(comm) == 0) print_warnings(model.warnings);
+  if (rank_of(comm) == 0) print(warning_facts(model.warnings));
   const PhaseReport phases = report_phases(comm, profile, dofs);
-  if (rank_of(comm) == 0) print_phases(phases);
+  if (rank_of(comm) == 0) print(phase_facts(phases));
 }
 
 double write_mesh_piece(const Scene& scene, int rank, const std::string& identity,

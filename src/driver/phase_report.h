@@ -28,7 +28,4 @@ struct PhaseReport {
 /// Time and memory that the ranks noted. Collective.
 PhaseReport report_phases(MPI_Comm comm, const Profile& profile, std::size_t dofs);
 
-/// Prints a table: seconds and memory of each phase.
-void print_phases(const PhaseReport& report);
-
 }  // namespace pounding

@@ -1,9 +1,9 @@
-#include "driver/probe_warnings.h"
-
 #include <algorithm>
 #include <set>
-#include <sstream>
 #include <utility>
+
+#include "driver/facts.h"
+#include "driver/warnings.h"
 
 namespace pounding {
 namespace {
@@ -26,8 +26,7 @@ NodeSet contact_nodes(const interactions::Interface& interface) {
 /// "probe roof: 2 of its 4 nodes are"; "probe roof: its node is".
 std::string subject(const ResolvedProbe& probe, std::size_t count) {
   if (probe.nodes.size() == 1) return "probe " + probe.name + ": its node is";
-  return "probe " + probe.name + ": " + std::to_string(count) + " of its " +
-         std::to_string(probe.nodes.size()) + " nodes are";
+  return sentence("probe {}: {} of its {} nodes are", {probe.name, count, probe.nodes.size()});
 }
 
 }  // namespace
@@ -40,12 +39,10 @@ std::vector<std::string> probe_warnings(std::span<const ResolvedProbe> probes,
   std::vector<std::string> warnings;
   for (const ResolvedProbe& probe : probes) {
     if (probe.snap_distance > far_snap * probe.element_size) {
-      std::ostringstream text;
-      text.precision(3);
-      text << "probe " << probe.name << ": its node is " << probe.snap_distance
-           << " m away from the point asked for, where elements measure " << probe.element_size
-           << " m; give the place of a node, or refine the mesh";
-      warnings.push_back(text.str());
+      warnings.push_back(sentence(
+          "probe {}: its node is {:.3g} m away from the point asked for, where elements measure "
+          "{:.3g} m; give the place of a node, or refine the mesh",
+          {probe.name, probe.snap_distance, probe.element_size}));
     }
     const GlobalMesh& mesh = meshes[probe.structure];
     const std::size_t clamped = std::ranges::count_if(probe.nodes, [&](GlobalIndex node) {

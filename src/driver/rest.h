@@ -19,17 +19,4 @@ void put_at_rest(MPI_Comm comm, const Scene& scene, Profile& profile, Model& mod
 /// that do not sum up to the weight.
 std::vector<std::string> rest_warnings(const Model& model);
 
-/// Load of one contact at rest.
-struct ContactLoad {
-  int points = 0;    ///< of its pairs
-  int closed = 0;    ///< of them, those that carry
-  double force = 0;  ///< [N]
-};
-
-/// Loads of all contacts of a model that starts at rest.
-std::vector<ContactLoad> contact_loads(const Scene& scene, const Model& model);
-
-/// Prints what holds the scene at rest, nothing where it does not start there. Rank 0.
-void print_rest(const Scene& scene, const Model& model);
-
 }  // namespace pounding

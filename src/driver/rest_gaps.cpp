@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
 
 #include "common/error.h"
+#include "driver/facts.h"
 
 namespace pounding {
 namespace {
@@ -58,11 +58,10 @@ std::vector<char> rows_open_at_rest(const Scene& scene, const interactions::Inte
     const Contact& contact = scene.contacts[row.contact];
     open.push_back(contact.gap_at_rest ? 1 : 0);
     if (!contact.gap_at_rest || row.initial_gap >= -none_below * interface.model_size) continue;
-    std::ostringstream text;
-    text << "option -" << contact.name << "_gap_at rest: the meshes overlap by "
-         << -1000 * row.initial_gap << " mm somewhere, and a joint is open or just closed at rest; "
-         << "give -" << contact.name << "_gap, or -" << contact.name << "_gap_at unloaded";
-    throw UserError(text.str());
+    throw UserError(sentence(
+        "option -{}_gap_at rest: the meshes overlap by {:g mm} somewhere, and a joint is open or "
+        "just closed at rest; give -{}_gap, or -{}_gap_at unloaded",
+        {contact.name, -row.initial_gap, contact.name, contact.name}));
   }
   return open;
 }
@@ -101,13 +100,12 @@ std::vector<std::string> rest_gap_warnings(const Scene& scene, const Model& mode
     const double overlap = -gaps.unloaded[0];
     if (!scene.contacts[c].gap_at_rest || !(gaps.at_rest[0] > 0)) continue;
     if (overlap <= none_below * model.interface.model_size) continue;
-    std::ostringstream text;
-    text.precision(4);
-    text << "contact " << scene.contacts[c].name << ": the weight opens the joint by more than the "
-         << 1000 * gaps.at_rest[0] << " mm that it has at rest; without it the faces would overlap "
-         << "by " << 1000 * overlap << " mm; is the gap that of the rest (-"
-         << scene.contacts[c].name << "_gap_at)?";
-    warnings.push_back(text.str());
+    const std::string& name = scene.contacts[c].name;
+    warnings.push_back(sentence(
+        "contact {}: the weight opens the joint by more than the {:.4g mm} that it has at rest; "
+        "without it the faces would overlap by {:.4g mm}; is the gap that of the rest "
+        "(-{}_gap_at)?",
+        {name, gaps.at_rest[0], overlap, name}));
   }
   return warnings;
 }

@@ -22,7 +22,7 @@
 #include "driver/report.h"
 #include "driver/run_identity.h"
 #include "driver/stop_signal.h"
-#include "driver/summary.h"
+#include "driver/subject_facts.h"
 #include "driver/time_loop.h"
 #include "driver/warnings.h"
 #include "io/new_file.h"
@@ -122,7 +122,7 @@ void run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
   if (scene.dry_run) {
     profile.note_memory(Phase::step);
     const PhaseReport phases = report_phases(comm, profile, model.dofs());
-    if (root) print_phases(phases);
+    if (root) print(phase_facts(phases));
     return;
   }
   const double step_start = MPI_Wtime();
@@ -148,9 +148,10 @@ void run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
       append(peak_warnings(scene, statistics.peaks, loop.recorder()), statistics.warnings);
     }
     statistics.wall_time = MPI_Wtime() - start;
-    write_summary(scene.output + "/summary.json",
-                  {provenance, scene, resolved, model, statistics, loop.recorder(), size_of(comm)});
-    print_results(scene, statistics, loop.impacts(), loop.recorder(), spectra);
+    const FinishedRun finished{provenance,     scene,           resolved, model,        statistics,
+                               loop.impacts(), loop.recorder(), spectra,  size_of(comm)};
+    write_summary(scene.output + "/summary.json", finished);
+    print_results(finished);
   });
 }
 

@@ -1,10 +1,9 @@
-#include "driver/run_warnings.h"
-
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "driver/facts.h"
 #include "driver/time_step.h"
+#include "driver/warnings.h"
 #include "scene/option_table.h"
 #include "scene/option_values.h"
 
@@ -36,11 +35,10 @@ void add_short_record(const Scene& scene, const Model& model, int direction,
   const double last = component.end();
   if (std::holds_alternative<RecordedMotion>(asked->source) &&
       scene.end_time > (last + component.time_step) * nearly) {
-    std::ostringstream text;
-    text << "option -end_time " << scene.end_time << " s: the record along "
-         << direction_names[direction] << " ends at " << last
-         << " s, the ground stands still afterwards";
-    warnings.push_back(text.str());
+    warnings.push_back(
+        sentence("option -end_time {} s: the record along {} ends at {} s, the ground stands still "
+                 "afterwards",
+                 {scene.end_time, direction_names[direction], last}));
   }
 }
 
@@ -61,12 +59,10 @@ void add_late_peak(const Scene& scene, const Accelerogram& component, int direct
   const double peak = component.peak();
   const double felt = peak_until(component, scene.end_time);
   if (felt >= whole * peak) return;
-  std::ostringstream text;
-  text.precision(4);
-  text << "option -end_time " << scene.end_time << " s: the motion along "
-       << direction_names[direction] << " has its peak of " << peak << " m/s2 later; the run feels "
-       << felt << " m/s2 at most";
-  warnings.push_back(text.str());
+  warnings.push_back(sentence(
+      "option -end_time {:.4g} s: the motion along {} has its peak of {:.4g} m/s2 later; the run "
+      "feels {:.4g} m/s2 at most",
+      {scene.end_time, direction_names[direction], peak, felt}));
 }
 
 /// Between the samples of a direction as they are given: resampling adds nothing to step over.
@@ -82,10 +78,9 @@ double given_interval(const Model& model, int direction) {
 void add_long_step(const std::string& of, double sample, double step,
                    std::vector<std::string>& warnings) {
   if (step > sample * nearly) {
-    std::ostringstream text;
-    text << "the time step " << step << " s is longer than " << of << ", " << sample
-         << " s; give -time_step " << sample << " or less";
-    warnings.push_back(text.str());
+    warnings.push_back(
+        sentence("the time step {} s is longer than {}, {} s; give -time_step {} or less",
+                 {step, of, sample, sample}));
   }
 }
 
@@ -104,11 +99,10 @@ void add_high_spectra(const Scene& scene, const Model& model, std::vector<std::s
   const double highest = scene.spectra.frequencies.back();
   const auto add = [&](const std::string& of, double interval, const std::string& what) {
     if (!(highest * 2 * interval > nearly)) return;
-    std::ostringstream text;
-    text.precision(4);
-    text << "spectra go to " << highest << " Hz (-spectra_frequencies), " << of << " every "
-         << interval << " s tell nothing above " << 0.5 / interval << " Hz" << what;
-    warnings.push_back(text.str());
+    warnings.push_back(sentence(
+        "spectra go to {:.4g} Hz (-spectra_frequencies), {} every {:.4g} s tell nothing above "
+        "{:.4g} Hz{}",
+        {highest, of, interval, 0.5 / interval, what}));
   };
   if (scene.output_interval != parse_real(option_row("output_interval").preset.text)) {
     add("samples of the probes", scene.output_interval, "; give a shorter -output_interval");

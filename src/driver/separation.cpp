@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <numbers>
 
@@ -233,32 +232,6 @@ std::vector<Separation> find_separations(const Scene& scene, const Model& model)
     found.push_back(separation);
   }
   return found;
-}
-
-void print_separations(const Scene& scene, const std::vector<Separation>& separations) {
-  for (const Separation& one : separations) {
-    const auto print_side = [](const SeparationSide& side) {
-      std::printf(" %s %.4g mm", side.structure.c_str(), 1000 * side.peak);
-      if (side.modes > 0) {
-        std::printf(" (%d modes, most at %.4g Hz, %.3g %%)", side.modes, side.frequency,
-                    100 * side.ratio);
-      }
-    };
-    std::printf("\njoint %s, %.4g mm: peaks along its normal by response spectrum:",
-                scene.contacts[one.contact].name.c_str(), 1000 * one.gap);
-    print_side(one.secondary);
-    std::printf(",");
-    print_side(one.primary);
-    std::printf(
-        "\n  needed so that nothing hits: modal %.4g mm, DDC %.4g (correlation %.3f), SRSS %.4g, "
-        "sum %.4g\n",
-        1000 * one.modal, 1000 * one.ddc, one.correlation, 1000 * one.srss, 1000 * one.sum);
-  }
-  if (!separations.empty()) {
-    std::printf(
-        "  SRSS is the rule of EN 1998-1 4.4.2.7 (times 0.7 where all floors are level) and of "
-        "ASCE 7-16 12.12.3;\n  displacements are elastic, factors q and Cd/Ie not in them\n");
-  }
 }
 
 }  // namespace pounding

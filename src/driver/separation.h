@@ -18,7 +18,4 @@ std::vector<double> modes_at_contacts(MPI_Comm comm, const Model& model, std::si
 /// modes are known. None where the ground rests or does not move as one. Rank 0.
 std::vector<Separation> find_separations(const Scene& scene, const Model& model);
 
-/// Prints them. Rank 0.
-void print_separations(const Scene& scene, const std::vector<Separation>& separations);
-
 }  // namespace pounding

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "driver/facts.h"
 #include "driver/stated_peak.h"
 #include "motion/low_pass.h"
 
@@ -56,21 +56,15 @@ std::vector<std::string> lowered_peak_warnings(const Scene& scene, double interv
   const double frequency = stated_frequency(scene, interval);
   const double needed = low_pass_limit / scene.spectra.peak_frequency;
   if (scene.probes.empty() || !(frequency < scene.spectra.peak_frequency * (1 - 1e-9))) return {};
-  std::ostringstream text;
-  text.precision(4);
-  text << "peak accelerations are those below " << frequency << " Hz, not "
-       << scene.spectra.peak_frequency << " Hz: samples every " << interval
-       << " s hold no more; give "
-       << (time_step > needed ? "-time_step and -output_interval " : "-output_interval ") << needed
-       << " or less, or a lower -peak_frequency";
-  return {text.str()};
+  return {sentence(
+      "peak accelerations are those below {:.4g} Hz, not {:.4g} Hz: samples every {:.4g} s hold no "
+      "more; give {}-output_interval {:.4g} or less, or a lower -peak_frequency",
+      {frequency, scene.spectra.peak_frequency, interval,
+       time_step > needed ? "-time_step and " : "", needed})};
 }
 
 std::vector<std::string> peak_warnings(const Scene& scene, const StatedPeaks& peaks,
                                        const Recorder& recorder) {
-  std::vector<std::string> warnings;
-  std::ostringstream text;
-  text.precision(4);
   constexpr std::size_t named = 3;
   std::vector<std::string> names;
   double most = 1;
@@ -82,18 +76,17 @@ std::vector<std::string> peak_warnings(const Scene& scene, const StatedPeaks& pe
     most = std::max(most, times);
     reduced = reduced || scene.structures[recorder.probes()[p].structure].modal.has_value();
   }
-  if (names.empty()) return warnings;
-  text << (names.size() == 1 ? "probe " : "probes ");
+  if (names.empty()) return {};
+  std::string text = names.size() == 1 ? "probe " : "probes ";
   for (std::size_t i = 0; i < std::min(named, names.size()); ++i) {
-    text << (i > 0 ? ", " : "") << names[i];
+    text += (i > 0 ? ", " : "") + names[i];
   }
-  if (names.size() > named) text << " and " << names.size() - named << " more";
-  text << ": sampled accelerations reach " << most << " times the peak below " << peaks.frequency
-       << " Hz; that sampled value goes with 1/output_interval where an impulse acts beside the "
-          "probe"
-       << (reduced ? " or its structure is reduced" : "") << ", so take the other";
-  warnings.push_back(text.str());
-  return warnings;
+  if (names.size() > named) text += sentence(" and {} more", {names.size() - named});
+  return {text +
+          sentence(": sampled accelerations reach {:.4g} times the peak below {:.4g} Hz; that "
+                   "sampled value goes with 1/output_interval where an impulse acts beside the "
+                   "probe{}, so take the other",
+                   {most, peaks.frequency, reduced ? " or its structure is reduced" : ""})};
 }
 
 }  // namespace pounding

@@ -1,7 +1,6 @@
 #include "driver/storeys.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <sstream>
 
@@ -117,20 +116,6 @@ std::vector<Storey> find_storeys(MPI_Comm comm, const Scene& scene, const Model&
     }
   }
   return storeys;
-}
-
-void print_drifts(const StoreyDrifts& drifts) {
-  if (drifts.storeys().empty()) return;
-  std::printf(
-      "\nstorey                                 height m   drift x %%      at s   drift y %%      "
-      "at s\n");
-  for (std::size_t s = 0; s < drifts.storeys().size(); ++s) {
-    const Storey& storey = drifts.storeys()[s];
-    const auto& [x, y] = drifts.peaks()[s];
-    std::printf("  %-36s %8.3f %11.4f %9.4f %11.4f %9.4f\n",
-                (storey.upper + " over " + storey.lower).c_str(), storey.height, 100 * x.drift,
-                x.time, 100 * y.drift, y.time);
-  }
 }
 
 }  // namespace pounding

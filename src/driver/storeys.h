@@ -17,7 +17,4 @@ std::vector<ResolvedProbe> find_storey_bases(MPI_Comm comm, const Scene& scene, 
 /// Throws UserError for two floors of a structure at one height. Collective.
 std::vector<Storey> find_storeys(MPI_Comm comm, const Scene& scene, const Model& model);
 
-/// The table of the console, from the records that count.
-void print_drifts(const StoreyDrifts& drifts);
-
 }  // namespace pounding

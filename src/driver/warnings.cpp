@@ -3,27 +3,67 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
+#include "driver/facts.h"
 #include "stability/stable_time_step.h"
 
 namespace pounding {
+namespace {
+
+/// Rayleigh damping above half of the critical one at one of these frequencies [Hz].
+void doubt_rayleigh(const std::string& owner, const Rayleigh& damping,
+                    const std::vector<double>& frequencies, std::vector<std::string>& warnings) {
+  constexpr double doubtful_ratio = 0.5;
+  for (const double frequency : frequencies) {
+    const double ratio = damping_ratio(damping, 2 * std::numbers::pi * frequency);
+    if (!(ratio > doubtful_ratio) || !(frequency > 0)) continue;
+    warnings.push_back(sentence(
+        "{}: alpha {:.4g} 1/s and beta {:.4g} s damp {:.4g %} of critical at {:.4g} Hz; are they "
+        "meant? -damping_ratio with two frequencies is surer",
+        {owner, damping.alpha, damping.beta, ratio, frequency}));
+    return;
+  }
+}
+
+/// Uniform damping whose filters are too few, or whose band is too narrow for the modes.
+void doubt_uniform(const Structure& structure, const std::vector<Mode>& modes,
+                   std::vector<std::string>& warnings) {
+  constexpr double large_ripple = 0.2;
+  constexpr double doubtful_part = 0.8;
+  const UniformDamping& uniform = *structure.uniform_damping;
+  const std::string& name = structure.name;
+  if (uniform.ripple > large_ripple) {
+    warnings.push_back(sentence(
+        "structure {}: {} filters hold the uniform damping within {:.3g %} of its ratio only; give "
+        "more -{}_damping_filters, or a narrower band",
+        {name, uniform.filters.size(), uniform.ripple, name}));
+  }
+  for (const Mode& mode : modes) {
+    const double found = uniform.ratio_at(2 * std::numbers::pi * mode.frequency);
+    const bool inside = mode.frequency >= uniform.lowest && mode.frequency <= uniform.highest;
+    if (!mode.location.empty() || inside || found >= doubtful_part * uniform.ratio) continue;
+    warnings.push_back(sentence(
+        "structure {}: a mode of {:.3g} Hz lies outside of the band of its uniform damping and has "
+        "{:.3g %} of critical instead of {:.3g %}; give a wider -{}_damping_band",
+        {name, mode.frequency, found, uniform.ratio, name}));
+    return;
+  }
+}
+
+}  // namespace
 
 std::vector<std::string> sliver_warnings(const LinearSystem& system) {
   std::vector<std::string> warnings;
   for (const Sliver& sliver : system.slivers) {
-    std::ostringstream text;
-    text.precision(4);
-    text << "structure " << system.name << ": sliver: " << sliver.element << " allows by itself "
-         << sliver.time_step << " s, the median of its group " << sliver.median << " s ("
-         << sliver.count << " such elements in it); mend the mesh";
-    warnings.push_back(text.str());
+    warnings.push_back(sentence(
+        "structure {}: sliver: {} allows by itself {:.4g} s, the median of its group {:.4g} s ({} "
+        "such elements in it); mend the mesh",
+        {system.name, sliver.element, sliver.time_step, sliver.median, sliver.count}));
   }
   return warnings;
 }
 
 std::vector<std::string> damping_warnings(const Structure& structure, const ModalResult& modal) {
-  constexpr double doubtful_ratio = 0.5;
   constexpr double highest = 50;  // Hz
   std::vector<double> frequencies;
   for (const Mode& mode : modal.modes) {
@@ -34,93 +74,55 @@ std::vector<std::string> damping_warnings(const Structure& structure, const Moda
   }
   if (frequencies.empty()) frequencies = {1, highest};
   std::vector<std::string> warnings;
-  const auto look_at = [&](const std::string& owner, const Rayleigh& damping) {
-    for (const double frequency : frequencies) {
-      const double ratio = damping_ratio(damping, 2 * std::numbers::pi * frequency);
-      if (!(ratio > doubtful_ratio) || !(frequency > 0)) continue;
-      std::ostringstream text;
-      text.precision(4);
-      text << owner << ": alpha " << damping.alpha << " 1/s and beta " << damping.beta << " s damp "
-           << 100 * ratio << " % of critical at " << frequency
-           << " Hz; are they meant? -damping_ratio with two frequencies is surer";
-      warnings.push_back(text.str());
-      return;
-    }
-  };
   const bool by_mode = structure.modal && !structure.modal->damping_ratios.empty();
-  const std::optional<UniformDamping>& uniform = structure.uniform_damping;
-  constexpr double large_ripple = 0.2;
-  if (uniform && uniform->ripple > large_ripple) {
-    std::ostringstream text;
-    text.precision(3);
-    text << "structure " << structure.name << ": " << uniform->filters.size()
-         << " filters hold the uniform damping within " << 100 * uniform->ripple
-         << " % of its ratio only; give more -" << structure.name
-         << "_damping_filters, or a narrower band";
-    warnings.push_back(text.str());
+  const std::string owner = "structure " + structure.name;
+  if (structure.uniform_damping) {
+    doubt_uniform(structure, modal.modes, warnings);
+  } else if (!by_mode) {
+    doubt_rayleigh(owner, structure.damping, frequencies, warnings);
   }
-  for (const Mode& mode : uniform ? modal.modes : std::vector<Mode>()) {
-    const double found = uniform->ratio_at(2 * std::numbers::pi * mode.frequency);
-    const bool inside = mode.frequency >= uniform->lowest && mode.frequency <= uniform->highest;
-    constexpr double doubtful_part = 0.8;
-    if (mode.location.empty() && !inside && found < doubtful_part * uniform->ratio) {
-      std::ostringstream text;
-      text.precision(3);
-      text << "structure " << structure.name << ": a mode of " << mode.frequency
-           << " Hz lies outside of the band of its uniform damping and has " << 100 * found
-           << " % of critical instead of " << 100 * uniform->ratio << " %; give a wider -"
-           << structure.name << "_damping_band";
-      warnings.push_back(text.str());
-      break;
-    }
-  }
-  if (!by_mode && !uniform) look_at("structure " + structure.name, structure.damping);
   for (const Region& region : structure.regions) {
-    if (region.damping && !by_mode) {
-      look_at("structure " + structure.name + ", group " + region.group, *region.damping);
-    }
+    if (!region.damping || by_mode) continue;
+    doubt_rayleigh(owner + ", group " + region.group, *region.damping, frequencies, warnings);
   }
   return warnings;
 }
 
 std::vector<std::string> shift_warnings(const LinearSystem& system, const ModalResult& modal) {
   constexpr double highest = 33;  // Hz
-  constexpr double doubtful = 0.1;
+  double worst = 0.1;
   if (!system.uniform_damping) return {};
-  double worst = doubtful;
-  std::ostringstream text;
+  const UniformDamping& uniform = *system.uniform_damping;
+  std::vector<std::string> warnings;
   for (const Mode& mode : modal.modes) {
     if (!mode.location.empty() || !(mode.frequency > 0) || mode.frequency > highest) continue;
-    const double moved = system.uniform_damping->moved(mode.frequency);
+    const double moved = uniform.moved(mode.frequency);
     const double shift = moved / mode.frequency - 1;
     if (!(std::abs(shift) > worst)) continue;
     worst = std::abs(shift);
-    text.str("");
-    text.precision(3);
-    text << "structure " << system.name << ": uniform damping of "
-         << 100 * system.uniform_damping->ratio << " % moves its mode of " << mode.frequency
-         << " Hz by " << 100 * shift << " % to " << moved << " Hz, since modes keep their place at "
-         << system.uniform_damping->reference << " Hz; give -" << system.name
-         << "_damping_reference where it matters most";
+    warnings = {sentence(
+        "structure {}: uniform damping of {:.3g %} moves its mode of {:.3g} Hz by {:.3g %} to "
+        "{:.3g} Hz, since modes keep their place at {:.3g} Hz; give -{}_damping_reference where it "
+        "matters most",
+        {system.name, uniform.ratio, mode.frequency, shift, moved, uniform.reference,
+         system.name})};
   }
-  return text.str().empty() ? std::vector<std::string>() : std::vector{text.str()};
+  return warnings;
 }
 
 std::vector<std::string> mechanism_warnings(const Scene& scene, const Model& model) {
   std::vector<std::string> warnings;
+  const auto has_no_stiffness = [](const Mode& mode) { return !mode.location.empty(); };
   for (std::size_t s = 0; s < model.buildings.size(); ++s) {
     const std::vector<Mode>& modes = model.buildings[s].modal.modes;
-    const auto count =
-        std::ranges::count_if(modes, [](const Mode& mode) { return !mode.location.empty(); });
+    const auto count = std::ranges::count_if(modes, has_no_stiffness);
     const Connectivity& connectivity = model.buildings[s].findings.connectivity;
     if (count == 0 || !connectivity.wholly_held() || scene.structures[s].allow_loose) continue;
-    const auto first =
-        std::ranges::find_if(modes, [](const Mode& mode) { return !mode.location.empty(); });
-    std::ostringstream text;
-    text << "structure " << scene.structures[s].name << ": " << count
-         << " of its lowest modes have no stiffness (0 Hz), the first moves most at "
-         << first->location << "; look for hinges, missing elements and supports";
-    warnings.push_back(text.str());
+    warnings.push_back(sentence(
+        "structure {}: {} of its lowest modes have no stiffness (0 Hz), the first moves most at "
+        "{}; look for hinges, missing elements and supports",
+        {scene.structures[s].name, count,
+         std::ranges::find_if(modes, has_no_stiffness)->location}));
   }
   return warnings;
 }
@@ -128,23 +130,20 @@ std::vector<std::string> mechanism_warnings(const Scene& scene, const Model& mod
 std::vector<std::string> displacement_warnings(double largest, double model_size) {
   constexpr double small = 0.05;                                      // of the model
   if (!(largest > small * model_size) || model_size == 0) return {};  // 0: a point
-  std::ostringstream text;
-  text.precision(3);
-  text << "displacements reach " << largest << " m in a model of " << model_size
-       << " m; the theory is one of small displacements";
-  return {text.str()};
+  return {
+      sentence("displacements reach {:.3g} m in a model of {:.3g} m; the theory is one of small "
+               "displacements",
+               {largest, model_size})};
 }
 
 std::vector<std::string> contact_warnings(double residual) {
   constexpr double solved = 1e-8;
   if (!(residual > solved)) return {};
-  std::ostringstream text;
-  text.precision(3);
-  text << "the contact problem of some step was not solved to the end: complementarity residual "
-       << residual << " of the largest closing velocity (below " << solved
-       << " is as good as exact); look at contacts that hold the same place twice, and at friction "
-          "of bodies wedged between each other";
-  return {text.str()};
+  return {sentence(
+      "the contact problem of some step was not solved to the end: complementarity residual "
+      "{:.3g} of the largest closing velocity (below {:.3g} is as good as exact); look at contacts "
+      "that hold the same place twice, and at friction of bodies wedged between each other",
+      {residual, solved})};
 }
 
 std::vector<std::string> slide_warnings(const Scene& scene, const RunStatistics& statistics) {
@@ -152,23 +151,22 @@ std::vector<std::string> slide_warnings(const Scene& scene, const RunStatistics&
   for (std::size_t c = 0; c < statistics.slides.size(); ++c) {
     const Slide& slide = statistics.slides[c];
     if (slide.since < 0) continue;
-    std::ostringstream text;
-    text.precision(4);
     const std::string& name = scene.contacts[c].name;
-    text << "contact " << name << ": its faces slid along each other by up to " << slide.distance
-         << " m, more than ";
-    if (scene.contacts[c].sliding > 0) {
-      text << "-" << name << "_sliding " << scene.contacts[c].sliding
-           << " m, from t = " << slide.since
-           << " s on; what lies farther is not looked for: give more";
-    } else {
-      text
-          << "half of the facet there (" << slide.facet_size << " m), from t = " << slide.since
-          << " s on; nodes stay with the facets that they face at the start, so that impacts after "
-             "that may hit what has moved away, or miss; -"
-          << name << "_sliding finds pairs anew";
-    }
-    warnings.push_back(text.str());
+    const double sliding = scene.contacts[c].sliding;
+    const std::string limit =
+        sliding > 0
+            ? sentence(
+                  "-{}_sliding {:.4g} m, from t = {:.4g} s on; what lies farther is not "
+                  "looked for: give more",
+                  {name, sliding, slide.since})
+            : sentence(
+                  "half of the facet there ({:.4g} m), from t = {:.4g} s on; nodes stay with "
+                  "the facets that they face at the start, so that impacts after that may "
+                  "hit what has moved away, or miss; -{}_sliding finds pairs anew",
+                  {slide.facet_size, slide.since, name});
+    warnings.push_back(
+        sentence("contact {}: its faces slid along each other by up to {:.4g} m, more than {}",
+                 {name, slide.distance, limit}));
   }
   return warnings;
 }

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "driver/model.h"
 #include "driver/run_statistics.h"
+#include "mesh/global_mesh.h"
 
 /// Lines of doubt, each about one thing that a user should look at. The program prints them with
 /// "warning: " before them and lists them in summary.json.
@@ -43,5 +45,20 @@ std::vector<std::string> slide_warnings(const Scene& scene, const RunStatistics&
 
 /// Names pendulums that were pressed so hard that their slope was cut.
 std::vector<std::string> pendulum_warnings(const RunStatistics& statistics);
+
+/// Doubts about end time and time step beside the motion and the records: nothing that could
+/// move, a record that ends before the run does, a step longer than a sample. One line each.
+std::vector<std::string> run_warnings(const Scene& scene, const Model& model);
+
+/// The line about a step longer than what lies between two samples of `of`, both in s; none where
+/// it is not.
+void add_long_step(const std::string& of, double sample, double step,
+                   std::vector<std::string>& warnings);
+
+/// Probes that may record something else than what is meant: far from the points asked for, on
+/// clamped nodes, or on nodes of a contact. One line each. Serial, rank 0.
+std::vector<std::string> probe_warnings(std::span<const ResolvedProbe> probes,
+                                        std::span<const GlobalMesh> meshes,
+                                        const interactions::Interface& interface);
 
 }  // namespace pounding

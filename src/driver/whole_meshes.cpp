@@ -5,7 +5,6 @@
 #include "common/progress.h"
 #include "driver/mesh_checks.h"
 #include "driver/model_doubts.h"
-#include "driver/probe_warnings.h"
 #include "driver/shear_doubts.h"
 #include "driver/warnings.h"
 #include "interactions/pairing/absorbing_faces.h"

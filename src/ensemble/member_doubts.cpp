@@ -6,7 +6,6 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
-#include "driver/run_warnings.h"
 #include "driver/warnings.h"
 #include "interactions/pairing/contact_checks.h"
 #include "motion/synthetic.h"

@@ -17,10 +17,11 @@
 #include "driver/report.h"
 #include "driver/run_progress.h"
 #include "driver/run_scene.h"
-#include "driver/run_warnings.h"
 #include "driver/stated_peaks.h"
 #include "driver/stop_signal.h"
+#include "driver/subject_facts.h"
 #include "driver/time_step.h"
+#include "driver/warnings.h"
 #include "ensemble/ensemble_file.h"
 #include "ensemble/ensemble_identity.h"
 #include "ensemble/member_doubts.h"
@@ -140,13 +141,13 @@ class Ensemble {
     choose_time_step(scene_, limits, shared_);
     choose_time_step(scene_, limits, model());
     if (root() && limits.resolved.omega > before) {
-      print_warnings(long_step_warnings(scene_, shared_));
+      print(warning_facts(long_step_warnings(scene_, shared_)));
     }
     times_ = {shared_.time_step, record_stride(scene_, shared_), shared_.steps,
               scene_.spectra.start};
     if (root()) {
-      print_warnings(
-          lowered_peak_warnings(scene_, times_.time_step * times_.stride, times_.time_step));
+      print(warning_facts(
+          lowered_peak_warnings(scene_, times_.time_step * times_.stride, times_.time_step)));
     }
     for (const ResolvedProbe& probe : shared_.probes) {
       for (const char* direction : direction_names) {
@@ -178,7 +179,7 @@ class Ensemble {
       doubts_.add(m, doubts);
     }
     doubts_.gather(comm_);
-    if (root()) print_warnings(doubts_.told(table_));
+    if (root()) print(warning_facts(doubts_.told(table_)));
   }
 
   void check_memory() const {
@@ -280,7 +281,7 @@ class Ensemble {
       for (std::size_t m = 0; m < flags.size(); ++m) {
         if (flags[m]) doubts.add(m, result_doubts(file_->read(m), shared_.interface.model_size));
       }
-      print_warnings(doubts.told(table_));
+      print(warning_facts(doubts.told(table_)));
       std::printf("ensemble: %zu of %zu members in %s, stepped in %.2f s\n", done, flags.size(),
                   path("ensemble.h5").c_str(), seconds_);
     });

@@ -1,0 +1,150 @@
+#include <algorithm>
+
+#include "driver/subject_facts.h"
+
+namespace pounding {
+
+Facts loop_facts(const RunStatistics& run) {
+  Facts facts;
+  for (const LoopReport& loop : run.loops) {
+    const interactions::LinkTotals most = loop.whole();
+    Json yielded = Json::array();
+    for (std::size_t i = 0; i < loop.links.size(); ++i) {
+      if (loop.totals[i].yielded > 0) yielded.push_back(loop.links[i]);
+    }
+    const Json& of =
+        facts.values["loops"][loop.name] = {{"links", loop.links.size()},
+                                            {"yielded", yielded},
+                                            {"largest_elongation", most.largest_elongation},
+                                            {"largest_force", most.largest_force},
+                                            {"energy_taken", most.work}};
+    facts.text += told(
+        "  {:-12s} {:.0f} of {links} links yielded, elongation at most "
+        "{largest_elongation:.4g mm} (or mrad), force {largest_force:.4g kN} (or kN m), took "
+        "{energy_taken:.4g} J\n",
+        of, {loop.name, most.yielded});
+  }
+  return facts;
+}
+
+Facts contact_ratio_facts(const Scene& scene, const RunStatistics& run) {
+  Facts facts;
+  for (std::size_t s = 0; s < run.contact_ratios.size(); ++s) {
+    const ContactRatio& ratio = run.contact_ratios[s];
+    const std::string& name = scene.structures[s].name;
+    const Json& of =
+        facts.values["contact_ratio"][name] = {{"end", ratio.now},
+                                               {"smallest", ratio.smallest},
+                                               {"time_of_smallest", ratio.time},
+                                               {"time_below_80_percent", ratio.low_duration}};
+    facts.text += told(
+        "  {:-12s} contact ratio of its compression-only springs {end:.3f} at the end, at least "
+        "{smallest:.3f} at {time_of_smallest:.4g} s, below {:.0f %} for "
+        "{time_below_80_percent:.4g} s\n",
+        of, {name, ContactRatio::low});
+  }
+  return facts;
+}
+
+Facts force_facts(const RunStatistics& run) {
+  Facts facts;
+  if (run.forces.empty()) return facts;
+  facts.say("\nforce       largest kN, kN m (of shells per m) of samples      at s   element\n");
+  for (const ForceReport& force : run.forces) {
+    Facts components;
+    for (std::size_t c = 0; c < force.components.size(); ++c) {
+      const std::size_t e = force.largest(c);
+      const ForcePeak& peak = force.peaks[e * force.components.size() + c];
+      Json& of =
+          components.values[force.components[c]] = {{"peak", peak.value}, {"time", peak.time}};
+      if (!force.elements[e].empty()) of["element"] = std::stoll(force.elements[e]);
+      components.text += told("  {:-18s} {peak:24.6g [kN]} {time:19.5f}   [{element}]\n", of,
+                              {force.name + "." + force.components[c]});
+    }
+    facts.values["forces"][force.name] = components.values;
+    facts.text += components.text;
+    if (!force.about) continue;
+    facts.values["moments_about"][force.name] = *force.about;
+    facts.say("    moments about {:.6g} m\n", {*force.about});
+  }
+  return facts;
+}
+
+Facts drift_facts(const StoreyDrifts& drifts) {
+  Facts facts{Json::array()};
+  if (!drifts.storeys().empty()) {
+    facts.say(
+        "\nstorey                                 height m   drift x %      at s   drift y %      "
+        "at s\n");
+  }
+  for (std::size_t s = 0; s < drifts.storeys().size(); ++s) {
+    const Storey& storey = drifts.storeys()[s];
+    const auto& [x, y] = drifts.peaks()[s];
+    const Json& of = facts.values.emplace_back(Json{{"structure", storey.structure},
+                                                    {"upper", storey.upper},
+                                                    {"lower", storey.lower},
+                                                    {"height", storey.height},
+                                                    {"peak", {x.drift, y.drift}},
+                                                    {"time", {x.time, y.time}}});
+    facts.text += told(
+        "  {:-36s} {height:8.3f} {peak/0:11.4f [%]} {time/0:9.4f} {peak/1:11.4f [%]} "
+        "{time/1:9.4f}\n",
+        of, {storey.upper + " over " + storey.lower});
+  }
+  return facts;
+}
+
+namespace {
+
+/// Peak of each spectrum of a probe in one direction.
+std::string told_spectra(const std::vector<ProbeSpectrum>& spectra, const std::string& probe,
+                         const std::string& direction) {
+  std::string text;
+  for (const ProbeSpectrum& spectrum : spectra) {
+    if (spectrum.probe != probe || spectrum.direction != direction) continue;
+    const auto peak =
+        std::ranges::max_element(spectrum.points, {}, &SpectrumPoint::pseudo_acceleration);
+    text += sentence(" {:14.2f} at {:.4g} ({:g %})",
+                     {peak->pseudo_acceleration, peak->frequency, spectrum.damping_ratio});
+  }
+  return text;
+}
+
+}  // namespace
+
+Facts probe_facts(const Scene& scene, const RunStatistics& run, const Recorder& recorder,
+                  const std::vector<ProbeSpectrum>& spectra) {
+  Facts facts{{{"peak_frequency", run.peaks.frequency}, {"probes", Json::object()}}};
+  if (!recorder.channels().empty() && scene.spectra.start > 0) {
+    facts.say("\npeaks and spectra from {} s on, the oscillators at rest then\n",
+              {scene.spectra.start});
+  }
+  if (!recorder.channels().empty()) {
+    facts.say(
+        "\npeak accelerations below {peak_frequency:.4g} Hz, and as sampled every {:.4g} s, where "
+        "an impulse counts by 1/interval"
+        "\nprobe          peak acceleration m/s2   as sampled   peak displacement mm   spectrum "
+        "peak m/s2 at Hz\n",
+        {recorder.interval()});
+  }
+  for (std::size_t p = 0; p < recorder.probes().size(); ++p) {
+    const ResolvedProbe& probe = recorder.probes()[p];
+    Json& of =
+        facts.values["probes"][probe.name] = {{"structure", scene.structures[probe.structure].name},
+                                              {"position", probe.position},
+                                              {"nodes", probe.nodes.size()}};
+    for (std::size_t channel = 3 * p; channel < 3 * p + 3; ++channel) {
+      const double stated = run.peaks.acceleration[channel];
+      const auto& sampled = recorder.peaks()[channel];
+      of["peak_acceleration"].push_back(stated);
+      of["sampled_peak_acceleration"].push_back(sampled.acceleration);
+      of["peak_displacement"].push_back(sampled.displacement);
+      facts.say("  {:-18s} {:14.3f} {:15.3f} {:17.3f [mm]}{}\n",
+                {recorder.channels()[channel], stated, sampled.acceleration, sampled.displacement,
+                 told_spectra(spectra, probe.name, direction_names[channel % 3])});
+    }
+  }
+  return facts;
+}
+
+}  // namespace pounding

@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <array>
+
+#include "driver/subject_facts.h"
+#include "elements/element_traits.h"
+#include "scene/spread_words.h"
+
+namespace pounding {
+namespace {
+
+/// Elements, materials and sections by group, in numbers.
+Json regions_of(const Structure& structure) {
+  Json regions = Json::object();
+  for (const Region& region : structure.regions) {
+    Json material;
+    Json section;
+    if (const Material& of = region.material; of.young > 0) {
+      material = {
+          {"name", of.name}, {"young", of.young}, {"poisson", of.poisson}, {"density", of.density}};
+    }
+    if (const auto& of = region.section) {
+      section = {{"name", of->name},           {"area", of->area},
+                 {"inertia_y", of->inertia_y}, {"inertia_z", of->inertia_z},
+                 {"torsion", of->torsion},     {"z_axis", of->z_axis}};
+    }
+    const std::string per = per_extent(region.spread);
+    regions[region.group] = without_nothing({{"element", element_name(region.element)},
+                                             {"material", material},
+                                             {"section", section},
+                                             {"area", region.area},
+                                             {"thickness", region.thickness},
+                                             {"added_mass", region.added_mass},
+                                             {"mass", region.mass},
+                                             {"rotary_inertia", region.rotary_inertia},
+                                             {"stiffness" + per, region.stiffness},
+                                             {"dashpot" + per, region.dashpot},
+                                             {"yield_force", region.nonlinear.yield_force},
+                                             {"sliding_friction", region.nonlinear.friction},
+                                             {"one_way", is_one_way(region)}});
+  }
+  return regions;
+}
+
+/// Facts of the elements by group. A group of shells may have quadrangles and triangles, each in a
+/// block of its own.
+Facts group_facts(const Mesh& mesh) {
+  Facts facts;
+  for (const ElementBlock& block : mesh.blocks) {
+    facts.values[block.group] =
+        facts.values.value(block.group, GlobalIndex{0}) + block.global_count;
+    facts.say("  {:-14s} {:7d} {}\n", {block.group, block.global_count, element_name(block.type)});
+  }
+  return facts;
+}
+
+/// Facts of how the mesh hangs together.
+Facts connectivity_facts(const MeshFindings& findings) {
+  const Connectivity& connectivity = findings.connectivity;
+  Facts facts{{{"pieces", connectivity.pieces.size()},
+               {"pieces_not_held", connectivity.loose_pieces()},
+               {"held_against_every_rigid_motion", connectivity.wholly_held()}}};
+  facts.say("  {pieces} connected piece{}, ", {connectivity.pieces.size() == 1 ? "" : "s"});
+  if (connectivity.loose_pieces() == 0) {
+    facts.say("held{}\n", {connectivity.wholly_held() ? "" : ", not against every rigid motion"});
+  } else {
+    facts.say("{pieces_not_held} not held, one at {:.6g}\n", {connectivity.loose_piece().place});
+  }
+  for (const Piece& piece : connectivity.pieces) {
+    if (piece.held) continue;
+    facts.values["not_held"].push_back({{"nodes", piece.nodes}, {"place", piece.place}});
+  }
+  const auto add = [&](const char* key, const Places& places, const std::string& what) {
+    Json& of = facts.values[key] = Json{{"count", places.count}};
+    if (places.count > 0) of["first"] = places.first;
+    if (!what.empty()) facts.text += told("[  {count} " + what + ", the first at {first}\n]", of);
+  };
+  add("coincident_nodes_apart", connectivity.coincident_apart,
+      "pairs of nodes of unjoined pieces coincide");
+  add("coincident_nodes_inside", connectivity.coincident_inside, "");
+  add("line_ends_in_elements", connectivity.ends_inside,
+      "ends of lines lie in elements without a node there");
+  add("hinges_at_solids", connectivity.hinges,
+      "nodes of solids, which hold no rotation, carry beams or shells");
+  add("single_beams_at_solids", connectivity.lone_hinges, "of them carry one beam alone: a hinge");
+  std::string groups;
+  facts.add("groups_without_use", Json::array());
+  for (const UnusedElements& unused : findings.unused) {
+    groups += (groups.empty() ? "" : ", ") + unused.group;
+    facts.values["groups_without_use"].push_back(
+        {{"group", unused.group}, {"kind", unused.kind}, {"elements", unused.count}});
+  }
+  facts.say("[  groups without a use: {}\n]", {groups});
+  return facts;
+}
+
+/// Facts of the groups that move as one.
+Facts rigid_facts(const Building& building) {
+  constexpr std::array words{"rigid",  "rigid in its plane", "joined",
+                             "pinned", "tied by height",     "tied"};
+  Facts facts{Json::array()};
+  for (const RigidGroup& rigid : building.structure->rigid_groups) {
+    const std::string option = rigid_option(rigid.kind);
+    Json& of = facts.values.emplace_back(
+        Json{{"group", rigid.name()}, {"kind", option.substr(option.find('_') + 1)}});
+    facts.text += told("  {}: {group}", of, {words[static_cast<std::size_t>(rigid.kind)]});
+    for (const RigidBodyReport& report : building.system->rigid_bodies) {
+      if (report.group != rigid.name()) continue;
+      of.update({{"bodies", report.bodies},
+                 {"nodes", report.nodes},
+                 {"mass", report.mass},
+                 {"dofs", report.dofs},
+                 {"motions", report.motions}});
+      facts.text += told(", {nodes} nodes of {mass:.0f} kg", of);
+      if (report.bodies > 1) facts.text += told(" in {bodies}", of);
+      facts.text += told(rigid.kind == RigidKind::tie ? ", {dofs} dofs that follow"
+                                                      : ", {dofs} dofs by {motions} motions",
+                         of);
+    }
+    facts.say("\n");
+  }
+  return facts;
+}
+
+}  // namespace
+
+Facts structure_facts(const Building& building) {
+  const Structure& structure = *building.structure;
+  const Mesh& mesh = *building.mesh;
+  const Facts groups = group_facts(mesh);
+  const Facts rigid = rigid_facts(building);
+  const Facts connectivity = connectivity_facts(building.findings);
+  const Facts reduction = building.basis ? reduction_facts(building) : Facts{};
+  const Facts spread = spread_facts(building);
+  const Facts scaling = scaling_facts(building);
+  GlobalIndex elements = 0;
+  for (const ElementBlock& block : mesh.blocks) elements += block.global_count;
+  Facts facts{{{"nodes", mesh.global_nodes},
+               {"dofs", mesh.global_dofs},
+               {"dofs_before_clamping", mesh.global_dofs_unclamped},
+               {"groups", groups.values},
+               {"elements", elements},
+               {"regions", regions_of(structure)},
+               {"connectivity", connectivity.values},
+               {"mass", building.system->total_mass},
+               {"stiffness", building.system->stiffness_method}}};
+  facts.say(
+      "\nstructure {}: {nodes} nodes, {dofs} dofs ({dofs_before_clamping} before clamping), mass "
+      "{mass:.0f} kg\n",
+      {building.name()});
+  facts.text += groups.text + rigid.text + connectivity.text;
+  facts.say("  stiffness: {stiffness}\n");
+  facts.text += reduction.text;
+  facts.add(damping_facts(building));
+  if (const auto& compression = building.compression) {
+    facts.add("p_delta",
+              {{"largest_compression", compression->force}, {"place", compression->place}},
+              "  P-Delta: at rest up to {p_delta/largest_compression} N press {p_delta/place}\n");
+  }
+  if (structure.soil) facts.add("soil", soil_facts(structure));
+  if (!building.spread.empty()) facts.add("spread_springs", spread.values);
+  if (!structure.absorbing.empty()) facts.add("absorbing", absorbing_facts(building));
+  facts.text += spread.text;
+  if (!structure.rigid_groups.empty()) facts.add("rigid_groups", rigid.values);
+  if (building.basis) facts.add("modal", reduction.values);
+  facts.values.update(scaling.values);
+  facts.add(mode_facts(building));
+  if (!building.basis) facts.text += scaling.text;
+  facts.add(step_limit_facts(building));
+  return facts;
+}
+
+}  // namespace pounding

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "driver/facts.h"
+#include "driver/floor_spectra.h"
+#include "driver/model.h"
+#include "driver/run_statistics.h"
+#include "output/impact_catalogue.h"
+#include "output/recorder.h"
+#include "scene/scene.h"
+
+/// Facts of each subject of a run, for rank 0: what the report prints and summary.json has.
+namespace pounding {
+
+/// Facts of the ground motion by direction as it was understood, null where there is none, and of
+/// the components in which supports move otherwise (motion_facts.cpp).
+Facts motion_facts(const GroundMotion& motion);
+Facts support_facts(const SupportMotion& supports);
+
+/// Facts of a structure as it was built (structure_facts.cpp), and of its parts: damping; soil
+/// under its mat, spread springs and absorbing faces (soil_facts.cpp); basis and modes; scaled mass
+/// and stable step (step_limit_facts.cpp).
+Facts structure_facts(const Building& building);
+Facts damping_facts(const Building& building);
+Facts soil_facts(const Structure& structure);
+Facts spread_facts(const Building& building);
+Facts absorbing_facts(const Building& building);
+Facts reduction_facts(const Building& building);
+Facts mode_facts(const Building& building);
+Facts scaling_facts(const Building& building);
+Facts step_limit_facts(const Building& building);
+
+/// Facts of a contact as it was found, those of a run null; of all contacts after a run; of the
+/// impacts; of the joints that would be needed (contact_facts.cpp).
+Facts contact_facts(const Scene& scene, const Model& model, std::size_t contact);
+Facts joint_facts(const Scene& scene, const Model& model, const RunStatistics& run);
+Facts impact_facts(const Scene& scene, const RunStatistics& run, const ImpactCatalogue& impacts);
+Facts separation_facts(const Scene& scene, const Model& model);
+
+/// Facts of the forces that hold a scene at rest that starts there (rest_facts.cpp).
+Facts rest_facts(const Scene& scene, const Model& model);
+
+/// Facts of the ranks' parts, the time step, energies, phases and warnings (run_facts.cpp).
+Facts partition_facts(const Model& model);
+Facts time_step_facts(const Scene& scene, const Model& model);
+Facts energy_facts(const RunStatistics& run);
+Facts phase_facts(const PhaseReport& report);
+Facts warning_facts(std::span<const std::string> lines);
+
+/// Facts of what was recorded: loops, contact ratios of springs that press only, forces, drifts,
+/// probes; the report has the peaks of spectra too (record_facts.cpp).
+Facts loop_facts(const RunStatistics& run);
+Facts contact_ratio_facts(const Scene& scene, const RunStatistics& run);
+Facts force_facts(const RunStatistics& run);
+Facts drift_facts(const StoreyDrifts& drifts);
+Facts probe_facts(const Scene& scene, const RunStatistics& run, const Recorder& recorder,
+                  const std::vector<ProbeSpectrum>& spectra);
+
+}  // namespace pounding
