@@ -20,7 +20,7 @@ std::string told_ratios(const Rayleigh& damping) {
   return told_ratios([&](double omega) { return damping_ratio(damping, omega); });
 }
 
-Json values_of(const Rayleigh& damping) {
+Json rayleigh_values(const Rayleigh& damping) {
   return {{"alpha", damping.alpha}, {"beta", damping.beta}};
 }
 
@@ -60,7 +60,7 @@ Facts damping_facts(const Building& building) {
   if (uniform) {
     facts.add("damping", uniform_damping_facts(*uniform));
   } else {
-    facts.add("damping", values_of(structure.damping));
+    facts.add("damping", rayleigh_values(structure.damping));
   }
   if (!uniform && by_mode) {
     facts.say(
@@ -73,7 +73,7 @@ Facts damping_facts(const Building& building) {
   }
   for (const Region& region : structure.regions) {
     if (!region.damping) continue;
-    facts.values["region_damping"][region.group] = values_of(*region.damping);
+    facts.values["region_damping"][region.group] = rayleigh_values(*region.damping);
     if (uniform || by_mode) continue;
     facts.say("    of {}:{}", {region.group, told_ratios(*region.damping)});
   }

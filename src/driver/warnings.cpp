@@ -13,10 +13,10 @@ namespace {
 /// Rayleigh damping above half of the critical one at one of these frequencies [Hz].
 void doubt_rayleigh(const std::string& owner, const Rayleigh& damping,
                     const std::vector<double>& frequencies, std::vector<std::string>& warnings) {
-  constexpr double doubtful_ratio = 0.5;
+  constexpr double doubtful_share = 0.5;
   for (const double frequency : frequencies) {
     const double ratio = damping_ratio(damping, 2 * std::numbers::pi * frequency);
-    if (!(ratio > doubtful_ratio) || !(frequency > 0)) continue;
+    if (!(ratio > doubtful_share) || !(frequency > 0)) continue;
     warnings.push_back(sentence(
         "{}: alpha {:.4g} 1/s and beta {:.4g} s damp {:.4g %} of critical at {:.4g} Hz; are they "
         "meant? -damping_ratio with two frequencies is surer",
