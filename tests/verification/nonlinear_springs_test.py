@@ -195,7 +195,7 @@ class BetweenTwoNodes(unittest.TestCase):
     def test_nothing_tells(self):
         with tempfile.TemporaryDirectory(prefix="pounding-") as folder:
             words = self.words(bearing(folder, "lower first"), clamp="other")
-            program.must_refuse(self, words, "group 'bearing'", "which one it carries", "a millimetre")
+            program.must_refuse(self, words, "group 'bearing'", "the carried one is not known", "a millimetre")
 
     def test_upside_down(self):
         """What is clamped lies above what hangs: nothing presses on it."""
