@@ -36,7 +36,6 @@ class InterfaceRows {
   }
   /// The interface of a structure, as far as this rank knows it.
   const Trace& trace(std::size_t structure) const { return traces_[structure]; }
-  std::size_t structures() const { return traces_.size(); }
   /// Place in the trace of its structure of a dof that this rank knows; -1 of the others.
   int known_place(std::size_t dof) const { return known_place_[dof]; }
 
