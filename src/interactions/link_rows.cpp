@@ -48,13 +48,15 @@ LinkRows::LinkRows(const LinearSystem& system, std::size_t structure, double tim
       carried_(carried_by_supports(system)),
       solver_(make_solver(system)),
       yields_(links_),
-      rates_only_(std::ranges::all_of(laws_, [](auto& law) { return law->rate() > 0; })),
       elongations_(links_.size()),
       after_(links_.size(), 0.0),
       rate_(links_.size(), 0.0),
       driven_(links_.size(), 0.0),
       force_(links_.size(), 0.0),
-      stretch_(links_.size(), 0.0) {}
+      stretch_(links_.size(), 0.0) {
+  for (const auto& law : laws_) has_rate_.push_back(law->rate() > 0 ? 1 : 0);
+  rates_only_ = std::ranges::all_of(has_rate_, [](char has_rate) { return has_rate != 0; });
+}
 
 LawSolver LinkRows::make_solver(const LinearSystem& system) {
   std::vector<OnBody> on_body = find_bodies(system);
@@ -169,7 +171,7 @@ void LinkRows::begin(const Step& step) {
   if (!records_.empty()) measure_carried(displacement, step.supports.displacement, recorded_);
   if (!rates_known_) measure_carried(structure.velocity(), step.supports.velocity_before, rate_);
   for (std::size_t b = 0; b < links_.size(); ++b) {
-    if (has_rate(b)) now[b] = 0;
+    if (has_rate_[b] != 0) now[b] = 0;
     before[b] = now[b] - time_step_ * rate_[b];
   }
 }
@@ -204,17 +206,20 @@ void LinkRows::finish(const Step& step) {
   measure_carried(step.structures[structure_]->velocity(), step.supports.velocity, rate_);
   rates_known_ = true;
   for (std::size_t b = 0; b < links_.size(); ++b) {
+    const LinkLaw& law = *laws_[b];
+    const std::span<double> memory = memory_[b];
     after_[b] = now[b] + time_step_ * rate_[b];
-    const double held = laws_[b]->energy(before[b], now[b], memory_[b]);
-    const double given = laws_[b]->given(before[b], now[b], memory_[b]);
+    const double held = law.energy(before[b], now[b], memory);
+    const double given = law.given(before[b], now[b], memory);
     ledger.link_energy_before += held;
-    laws_[b]->remember(before[b], now[b], after_[b], step.share(), memory_[b]);
+    law.remember(before[b], now[b], after_[b], step.share(), memory);
     stretch_[b] = (after_[b] - before[b]) / 2;
     ledger.link_input += driven_[b] * stretch_[b] + given;
     ledger.link_loss += (force_[b] + driven_[b]) * stretch_[b] -
-                        (laws_[b]->energy(now[b], after_[b], memory_[b]) - held) + given;
+                        (law.energy(now[b], after_[b], memory) - held) + given;
+    if (carried_.empty()) continue;
     double carried = 0;  // part of the stretch that the supports make
-    if (!carried_.empty()) add_columns(carried_[b], step.supports.velocity_mean, &carried, 1);
+    add_columns(carried_[b], step.supports.velocity_mean, &carried, 1);
     ledger.support_input += time_step_ * carried * (force_[b] + driven_[b]);
   }
   note_records(now, stretch_, force_);

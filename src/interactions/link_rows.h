@@ -40,13 +40,13 @@ class LinkRows final : public StructureLinks {
   /// b . u of all links, with the supports' motion that carries them along, per column.
   void measure_carried(const std::vector<double>& owned, std::span<const double> supports,
                        std::vector<double>& elongations);
-  bool has_rate(std::size_t link) const { return laws_[link]->rate() > 0; }
 
   std::vector<std::vector<double>> carried_;  ///< see carried_by_supports
   LawSolver solver_;
   YieldGroups yields_;
-  bool rates_only_;           ///< every link has a rate
-  bool rates_known_ = false;  ///< rate_ is that of v-
+  std::vector<char> has_rate_;  ///< per link
+  bool rates_only_ = false;     ///< every link has one
+  bool rates_known_ = false;    ///< rate_ is that of v-
   Elongations elongations_;
   std::vector<double> after_;    ///< e_{n+1}
   std::vector<double> rate_;     ///< b . v

@@ -265,7 +265,8 @@ double LawSolver::sweep(const Problem& problem) {
   for (Block& block : blocks_) solve_block(problem, block);
   double change = 0;
   for (const std::size_t b : others_) {
-    if (laws_[b]->is_idle(now[b], problem.memory[b])) continue;
+    // A bar that is slack is solved for as fast as it is asked.
+    if (!reach_.empty() && laws_[b]->is_idle(now[b], problem.memory[b])) continue;
     double& old = problem.force[b];
     const double force = laws_[b]->solve(before[b], now[b], left_over(problem, b),
                                          share_ * coupled_[b][0].compliance, problem.memory[b]);
