@@ -10,8 +10,7 @@
 #include "dynamics/cd_lagrange.h"
 #include "interactions/laws/yield_law.h"
 #include "stability/stable_time_step.h"
-#include "support/built_system.h"
-#include "support/dense_damping.h"
+#include "support/mast.h"
 
 namespace pounding {
 namespace {
@@ -96,35 +95,14 @@ class YieldingGround final : public interactions::Interaction {
   std::vector<double> velocity_;
 };
 
-/// A beam along z, clamped at its foot and thrown sideways.
-struct Mast {
-  testing::DampedStructure parts;
-  testing::BuiltSystem built;
+/// A mast that is thrown sideways.
+testing::Mast thrown_mast() {
+  return testing::build_mast({0, 0, 0}, {1, 0.5, 0});
+}
 
-  static testing::DampedStructure line() {
-    testing::DampedStructure mast;
-    mast.structure.name = "mast";
-    mast.structure.initial_velocity = {1, 0.5, 0};
-    std::vector<GlobalIndex> nodes;
-    for (GlobalIndex node = 0; node < 6; ++node) {
-      mast.mesh.node_tags.push_back(node + 1);
-      mast.mesh.coordinates.insert(mast.mesh.coordinates.end(), {0, 0, static_cast<double>(node)});
-      mast.mesh.components.push_back(0x3f);
-      if (node > 0) nodes.insert(nodes.end(), {node - 1, node});
-    }
-    mast.mesh.free_components = mast.mesh.components;
-    mast.mesh.free_components[0] = 0;
-    Region& stem = testing::add_region(mast, "stem", ElementType::beam, nodes);
-    stem.material = {"steel", 2e11, 0.3, 7800};
-    stem.section = Section{"tube", 1e-2, 1e-6, 1e-6, 1e-6, {1, 0, 0}};
-    return mast;
-  }
-
-  Mast() : parts(line()), built(testing::build_system(parts.mesh, parts.structure)) {}
-  double time_step() const {
-    return 0.3 * stable_time_step(Rayleigh{}, built.system.element_frequency_bound);
-  }
-};
+double time_step_of(const testing::Mast& mast) {
+  return 0.3 * stable_time_step(Rayleigh{}, mast.built.system.element_frequency_bound);
+}
 
 /// The stepper of a mast on such ground.
 struct OnGround {
@@ -133,10 +111,10 @@ struct OnGround {
   CdLagrange stepper;
   YieldingGround& ground;
 
-  explicit OnGround(const Mast& mast)
-      : stepper(PETSC_COMM_WORLD, {&mast.built.system, 1}, still, mast.time_step(), profile),
+  explicit OnGround(const testing::Mast& mast)
+      : stepper(PETSC_COMM_WORLD, {&mast.built.system, 1}, still, time_step_of(mast), profile),
         ground(stepper.add(std::make_unique<YieldingGround>(mast.built.mesh, mast.built.system,
-                                                            mast.time_step()))) {}
+                                                            time_step_of(mast)))) {}
   /// Sum of u^2 over all ranks after some steps.
   double run(int steps) {
     for (int n = 0; n < steps; ++n) stepper.step(false, false);
@@ -148,7 +126,7 @@ struct OnGround {
 };
 
 TEST(Interaction, ThatNoRoomKnowsYieldsAndClosesTheLedger) {
-  const Mast mast;
+  const testing::Mast mast = thrown_mast();
   OnGround run(mast);
   EnergyBalance& energy = run.stepper.energy();
   std::vector<StructureEnergy> energies(1);
@@ -170,13 +148,13 @@ TEST(Interaction, ThatNoRoomKnowsYieldsAndClosesTheLedger) {
 }
 
 TEST(Interaction, GivesOneMotionOnAnyRanks) {
-  const Mast mast;
+  const testing::Mast mast = thrown_mast();
   constexpr double of_one_rank = 1.0898403641672343e-3;
   EXPECT_NEAR(OnGround(mast).run(500), of_one_rank, 1e-12 * of_one_rank);
 }
 
 TEST(Interaction, GoesOnFromWhatItSaved) {
-  const Mast mast;
+  const testing::Mast mast = thrown_mast();
   OnGround whole(mast);
   whole.run(300);
   SavedState saved;
