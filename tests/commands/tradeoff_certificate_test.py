@@ -172,11 +172,7 @@ class OwnScene(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory(prefix="pounding-")
-        cls.scene = os.path.join(cls.folder.name, "mine.yaml")
-        with open(cls.scene, "w") as file:
-            file.write(f"include: {two_buildings.SCENE}\nend_time: 1.2\nprobes: left_roof\n"
-                       "left: {damping: {reference: 3}}\nright: {damping: {reference: 4}}\n"
-                       "floor1: {gap: 0.01}\nfloor2: {gap: 0.01}\n")
+        cls.scene = two_buildings.own_scene(cls.folder.name)
         cls.out = os.path.join(cls.folder.name, "study")
         cls.words = ["tradeoff", "--scene", cls.scene, "--target", "0.9", "--output", cls.out]
         cls.done = program.command(*cls.words, "--check")

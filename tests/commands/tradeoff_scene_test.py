@@ -16,11 +16,7 @@ class SceneStudy(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory(prefix="pounding-")
-        cls.scene = os.path.join(cls.folder.name, "mine.yaml")
-        with open(cls.scene, "w") as file:
-            file.write(f"include: {two_buildings.SCENE}\nmodes: 0\nend_time: 1.2\nprobes: left_roof\n"
-                       "left: {damping: {reference: 3}}\nright: {damping: {reference: 4}}\n"
-                       "floor1: {gap: 0.01}\nfloor2: {gap: 0.01}\n")
+        cls.scene = two_buildings.own_scene(cls.folder.name, "modes: 0\n")
         cls.out = os.path.join(cls.folder.name, "study")
         cls.words = ["tradeoff", "--scene", cls.scene, "--only", "modal-50", "--output", cls.out]
         cls.done = program.command(*cls.words)
