@@ -164,19 +164,22 @@ Facts separation_facts(const Scene& scene, const Model& model) {
   Facts facts;
   for (const Separation& one : model.separations) {
     const std::string& name = scene.contacts[one.contact].name;
-    const Json& of = facts.values["separations"][name] = {{"gap", one.gap},
-                                                          {"secondary", values_of(one.secondary)},
-                                                          {"primary", values_of(one.primary)},
-                                                          {"correlation", one.correlation},
-                                                          {"sum", one.sum},
-                                                          {"srss", one.srss},
-                                                          {"ddc", one.ddc},
-                                                          {"modal", one.modal}};
-    facts.text += told(
+    const Json secondary = values_of(one.secondary);
+    const Json primary = values_of(one.primary);
+    facts.add(
+        "separations", name,
+        {{"gap", one.gap},
+         {"secondary", secondary},
+         {"primary", primary},
+         {"correlation", one.correlation},
+         {"sum", one.sum},
+         {"srss", one.srss},
+         {"ddc", one.ddc},
+         {"modal", one.modal}},
         "\njoint {}, {gap:.4g mm}: peaks along its normal by response spectrum:{},{}\n"
         "  needed so that nothing hits: modal {modal:.4g mm}, DDC {ddc:.4g [mm]} (correlation "
         "{correlation:.3f}), SRSS {srss:.4g [mm]}, sum {sum:.4g [mm]}\n",
-        of, {name, told_side(of["secondary"]), told_side(of["primary"])});
+        {name, told_side(secondary), told_side(primary)});
   }
   if (!model.separations.empty()) {
     facts.say(

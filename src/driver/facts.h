@@ -51,6 +51,12 @@ struct Facts {
     values[key] = part.values;
     text += part.text;
   }
+  /// Adds the facts of one of several parts by its name under a key, and a sentence about them.
+  void add(const std::string& key, const std::string& name, Json part, std::string_view pattern,
+           std::initializer_list<Json> more = {}) {
+    text += told(pattern, part, more);
+    values[key][name] = std::move(part);
+  }
   /// Adds the facts of a part beside those that are here.
   void add(const Facts& part) {
     values.update(part.values);

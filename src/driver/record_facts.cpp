@@ -12,17 +12,16 @@ Facts loop_facts(const RunStatistics& run) {
     for (std::size_t i = 0; i < loop.links.size(); ++i) {
       if (loop.totals[i].yielded > 0) yielded.push_back(loop.links[i]);
     }
-    const Json& of =
-        facts.values["loops"][loop.name] = {{"links", loop.links.size()},
-                                            {"yielded", yielded},
-                                            {"largest_elongation", most.largest_elongation},
-                                            {"largest_force", most.largest_force},
-                                            {"energy_taken", most.work}};
-    facts.text += told(
-        "  {:-12s} {:.0f} of {links} links yielded, elongation at most "
-        "{largest_elongation:.4g mm} (or mrad), force {largest_force:.4g kN} (or kN m), took "
-        "{energy_taken:.4g} J\n",
-        of, {loop.name, most.yielded});
+    facts.add("loops", loop.name,
+              {{"links", loop.links.size()},
+               {"yielded", yielded},
+               {"largest_elongation", most.largest_elongation},
+               {"largest_force", most.largest_force},
+               {"energy_taken", most.work}},
+              "  {:-12s} {:.0f} of {links} links yielded, elongation at most "
+              "{largest_elongation:.4g mm} (or mrad), force {largest_force:.4g kN} (or kN m), took "
+              "{energy_taken:.4g} J\n",
+              {loop.name, most.yielded});
   }
   return facts;
 }
@@ -32,16 +31,15 @@ Facts contact_ratio_facts(const Scene& scene, const RunStatistics& run) {
   for (std::size_t s = 0; s < run.contact_ratios.size(); ++s) {
     const ContactRatio& ratio = run.contact_ratios[s];
     const std::string& name = scene.structures[s].name;
-    const Json& of =
-        facts.values["contact_ratio"][name] = {{"end", ratio.now},
-                                               {"smallest", ratio.smallest},
-                                               {"time_of_smallest", ratio.time},
-                                               {"time_below_80_percent", ratio.low_duration}};
-    facts.text += told(
-        "  {:-12s} contact ratio of its compression-only springs {end:.3f} at the end, at least "
-        "{smallest:.3f} at {time_of_smallest:.4g} s, below {:.0f %} for "
-        "{time_below_80_percent:.4g} s\n",
-        of, {name, ContactRatio::low});
+    facts.add("contact_ratio", name,
+              {{"end", ratio.now},
+               {"smallest", ratio.smallest},
+               {"time_of_smallest", ratio.time},
+               {"time_below_80_percent", ratio.low_duration}},
+              "  {:-12s} contact ratio of its compression-only springs {end:.3f} at the end, at "
+              "least {smallest:.3f} at {time_of_smallest:.4g} s, below {:.0f %} for "
+              "{time_below_80_percent:.4g} s\n",
+              {name, ContactRatio::low});
   }
   return facts;
 }
