@@ -41,6 +41,7 @@ void TotalForce::add(const StructureState& state, const KeptForces& forces,
   for (const Counted& counted : counted_) {
     double force = forces.at(counted.dof).acting;
     if (!state.extra_force.empty()) force += state.extra_force[counted.dof];
+    if (!state.inelastic_force.empty()) force += state.inelastic_force[counted.dof];
     add_force(counted, -force, total);
   }
   for (std::size_t b = 0; links != nullptr && b < links_.size(); ++b) {

@@ -8,7 +8,7 @@ namespace pounding {
 /// Forces of a step at a dof [N, N m].
 struct DofForces {
   double stiffness = 0;  ///< q
-  double acting = 0;     ///< f, which is q where nothing filters it
+  double acting = 0;     ///< f without inelastic elements, which is q where nothing filters it
 };
 
 /// Brings a dof, which has settled with v_free, to v+ = `velocity` after contact, and corrects its

@@ -1,6 +1,7 @@
 #include "dynamics/coupled_step.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "common/lanes.h"
 
@@ -31,7 +32,8 @@ CoupledStep::CoupledStep(const LinearSystem& system, StructureState& state,
     node.regular = node.count == 6 && !system.extra_damping;
     for (std::size_t c = 0; c < node.count; ++c) {
       const int expected = c < 3 ? static_cast<int>(c) : -1;
-      node.regular = node.regular && system.direction[node.begin + c] == expected;
+      const bool apart = !system.inelastic.empty() && system.inelastic[node.begin + c] != 0;
+      node.regular = node.regular && !apart && system.direction[node.begin + c] == expected;
     }
     nodes_.push_back(node);
     force += node.count;
@@ -95,6 +97,7 @@ void CoupledStep::filter_forces() {
     const std::size_t i = node.begin + c;
     Value q;
     load(&force_[node.force + c], q);
+    if constexpr (std::is_same_v<Value, double>) q += inelastic(i);
     Value f = filters.passing * q;
     for (std::size_t k = 0; k < filters.count; ++k) {
       Value memory;
@@ -117,7 +120,8 @@ double CoupledStep::filtered_work() const {
   for (const Node& node : nodes_) {
     for (std::size_t c = 0; !filtered_.empty() && c < node.count; ++c) {
       const double sum = 2 * state_.velocity[node.begin + c] - field_[node.field + c];
-      work += (filtered_[node.force + c] - force_[node.force + c]) * sum;
+      const double q = force_[node.force + c] + inelastic(node.begin + c);
+      work += (filtered_[node.force + c] - q) * sum;
     }
   }
   return work;
@@ -157,6 +161,7 @@ void CoupledStep::form_impulses(const StepTerms<double>& terms,
         const double ground = direction < 0 ? 0 : ground_step[direction];
         impulse = -(system_.lumped_mass[i] * (decay * state_.velocity[i] + ground)) -
                   terms.duration * acting[node.force + c];
+        if (filtered_.empty()) impulse -= terms.duration * inelastic(i);
         if (!state_.extra_force.empty()) impulse -= terms.duration * state_.extra_force[i];
       }
       field_[node.field + c] = impulse;

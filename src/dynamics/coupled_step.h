@@ -38,13 +38,17 @@ class CoupledStep {
     std::size_t count = 0;
     std::size_t force = 0;  ///< place in force_
     std::size_t field = 0;  ///< place in field_
-    bool regular = false;   ///< x y z and three rotations, no extra damping: goes by vectors
+    bool regular = false;   ///< x y z and three rotations, no extra forces: goes by vectors
   };
 
   void form_impulses(const StepTerms<double>& terms, const std::array<double, 3>& ground_step);
   void form_regular(const Node& node, const StepTerms<double>& terms,
                     const std::array<double, 3>& ground_step);
-  /// f of all dofs from q and the filters' memories.
+  /// Force of inelastic elements on an owned dof.
+  double inelastic(std::size_t dof) const {
+    return state_.inelastic_force.empty() ? 0 : state_.inelastic_force[dof];
+  }
+  /// f of all dofs from q, inelastic elements and the filters' memories.
   void filter_forces();
   /// Takes the loads of the supports off the impulses.
   void add_support_loads(std::span<const double> support_step);

@@ -22,13 +22,14 @@ void KeptForces::watch(std::span<const LocalIndex> dofs) {
 }
 
 void KeptForces::take(LocalIndex begin, LocalIndex end, const double* force,
-                      const Filters<double>& filters,
+                      std::span<const double> inelastic, const Filters<double>& filters,
                       std::span<const std::vector<double>> memories) {
   for (std::size_t k = place(begin); dofs_[k] < end; ++k) {
     const auto dof = static_cast<std::size_t>(dofs_[k]);
     const double q = force[dofs_[k] - begin];
     const auto memory = [&](std::size_t i) { return memories[i][dof]; };
-    forces_[k] = {q, filtered_force(filters, q, memory)};
+    const double apart = inelastic.empty() ? 0 : inelastic[dof];
+    forces_[k] = {q, filtered_force(filters, q + apart, memory) - apart};
   }
 }
 

@@ -11,7 +11,8 @@
 namespace pounding {
 
 /// Nodal forces of a step at a few dofs of a structure, kept as the product hands them over: q, and
-/// the force f that uniform damping filters. The product leaves no array of them.
+/// the force f that uniform damping filters, that of inelastic elements apart. The product leaves
+/// no array of them.
 class KeptForces {
  public:
   /// `dofs`: owned ones.
@@ -22,8 +23,10 @@ class KeptForces {
   bool none() const { return dofs_.empty(); }
 
   /// Keeps the forces q of the dofs [begin, end), force[0] that of `begin`, and f by the memories
-  /// before the step, by filter over the owned dofs.
-  void take(LocalIndex begin, LocalIndex end, const double* force, const Filters<double>& filters,
+  /// before the step, by filter over the owned dofs; `inelastic`: forces that are filtered with q,
+  /// over the owned dofs, or empty.
+  void take(LocalIndex begin, LocalIndex end, const double* force,
+            std::span<const double> inelastic, const Filters<double>& filters,
             std::span<const std::vector<double>> memories);
   /// Those of a dof that is watched, in the last step in which they were kept.
   const DofForces& at(LocalIndex dof) const { return forces_[place(dof)]; }

@@ -38,7 +38,9 @@ State::State(std::span<const LinearSystem> systems, std::size_t support_columns)
   for (const LinearSystem& system : systems) {
     const std::size_t dofs = system.lumped_mass.size();
     const std::vector<double> extra_force(system.has_extra_damping() ? dofs : 0, 0.0);
-    structures.push_back({zeros_on_large_pages(dofs), zeros_on_large_pages(dofs), extra_force});
+    const std::vector<double> inelastic_force(system.inelastic.size(), 0.0);
+    structures.push_back(
+        {zeros_on_large_pages(dofs), zeros_on_large_pages(dofs), extra_force, inelastic_force});
     StructureState& structure = structures.back();
     if (system.uniform_damping) {
       const std::size_t held = any_damped_about_rest(system) ? 1 : 0;

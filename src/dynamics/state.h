@@ -16,6 +16,7 @@ struct StructureState {
   std::vector<double> displacement;             ///< u_n [m, rad]
   std::vector<double> velocity;                 ///< v_{n-1/2} [m/s, rad/s]
   std::vector<double> extra_force;              ///< of the extra damping in the step; empty without
+  std::vector<double> inelastic_force;          ///< of elements in the step; empty without
   std::vector<std::vector<double>> filtered{};  ///< Z_i by filter, last (1 - s) K u_0 [N, N m]
 };
 

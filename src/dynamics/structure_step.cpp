@@ -62,7 +62,7 @@ StructureStep::StructureStep(const LinearSystem& system, StructureState& state, 
       forces_(system.lumped_mass.size()) {
   terms_.time_step = time_step;
   if (system.supports) support_step_.assign(system.lumped_mass.size(), 0.0);
-  find_segments(damped_dofs(system));
+  find_segments(dofs_of_extra_forces(system));
   if (system.coupled_mass) coupled_ = std::make_unique<CoupledStep>(system, state, filters_);
 }
 
@@ -92,20 +92,20 @@ void StructureStep::add_momentum(std::size_t dof, double momentum) {
 }
 
 StructureStep::Order StructureStep::order_at(std::size_t dof,
-                                             const std::vector<char>& damped) const {
-  const auto is_damped = [&](std::size_t from, std::size_t count) {
-    return std::any_of(damped.begin() + static_cast<std::ptrdiff_t>(from),
-                       damped.begin() + static_cast<std::ptrdiff_t>(from + count),
-                       [](char acts) { return acts != 0; });
+                                             const std::vector<char>& acted_on) const {
+  const auto acts = [&](std::size_t from, std::size_t count) {
+    return std::any_of(acted_on.begin() + static_cast<std::ptrdiff_t>(from),
+                       acted_on.begin() + static_cast<std::ptrdiff_t>(from + count),
+                       [](char any) { return any != 0; });
   };
   if (system_.coupled_mass && system_.coupled_mass->node_of(static_cast<LocalIndex>(dof)) >= 0) {
     return Order::coupled;
   }
-  if (is_damped(dof, 1)) return Order::none;
+  if (acts(dof, 1)) return Order::none;
   if (system_.generalised) return Order::generalised;
-  if (!directions_are(system_, dof, {0, 1, 2}) || is_damped(dof, 3)) return Order::none;
+  if (!directions_are(system_, dof, {0, 1, 2}) || acts(dof, 3)) return Order::none;
   if (directions_are(system_, dof + 3, {-1, -1, -1})) {
-    return is_damped(dof, 6) ? Order::none : Order::nodes_of_six;
+    return acts(dof, 6) ? Order::none : Order::nodes_of_six;
   }
   const double* const mass = &system_.lumped_mass[dof];
   return mass[0] == mass[1] && mass[1] == mass[2] ? Order::translations : Order::none;
@@ -127,11 +127,11 @@ std::size_t StructureStep::length_at(std::size_t dof, Order order) const {
   }
 }
 
-void StructureStep::find_segments(const std::vector<char>& damped) {
+void StructureStep::find_segments(const std::vector<char>& acted_on) {
   const std::size_t dofs = system_.lumped_mass.size();
   std::size_t coupled = 0;
   for (std::size_t dof = 0; dof < dofs;) {
-    const Order order = order_at(dof, damped);
+    const Order order = order_at(dof, acted_on);
     if (segments_.empty() || segments_.back().order != order) {
       const auto begin = static_cast<LocalIndex>(dof);
       segments_.push_back({begin, begin, order, node_mass_.size(), coupled});
@@ -185,7 +185,9 @@ void StructureStep::begin(double duration, const std::array<double, 3>& ground_a
 }
 
 void StructureStep::receive(LocalIndex begin, LocalIndex end, const double* force) {
-  if (keeps_) forces_.take(begin, end, force, filters_, state_.filtered);
+  if (keeps_) {
+    forces_.take(begin, end, force, state_.inelastic_force, filters_, state_.filtered);
+  }
   auto segment = std::upper_bound(segments_.begin(), segments_.end(), begin,
                                   [](LocalIndex dof, const Segment& s) { return dof < s.end; });
   for (LocalIndex dof = begin; dof < end; ++segment) {
@@ -276,11 +278,12 @@ void StructureStep::advance_dofs(std::size_t first, std::size_t end, const doubl
     if constexpr (with_energies) {
       add_energies(terms_, mass, *force, stiffness_velocity_[i], dof, dof_energies_);
     }
-    double f = *force;
+    const double q = state_.inelastic_force.empty() ? *force : *force + state_.inelastic_force[i];
+    double f = q;
     if (system_.uniform_damping) {
       f *= filters_.passing;
       for (std::size_t k = 0; k < filters_.count; ++k) {
-        pass_filter(filters_.filters[k], *force, state_.filtered[k][i], f);
+        pass_filter(filters_.filters[k], q, state_.filtered[k][i], f);
       }
     }
     double after = free_velocity(terms_, before, f, system_.inverse_mass[i], ground_step_at(i));
@@ -288,7 +291,7 @@ void StructureStep::advance_dofs(std::size_t first, std::size_t end, const doubl
       subtract_product(terms_.duration, system_.inverse_mass[i] * state_.extra_force[i], after);
       sums_.device += state_.extra_force[i] * (after + before);
     }
-    dof_sums_.filtered += (f - *force) * (after + before);
+    dof_sums_.filtered += (f - q) * (after + before);
     add_momentum(i, settle(terms_, *force, after, mass, dof, dof_sums_));
     state_.displacement[i] = dof.displacement;
     state_.velocity[i] = dof.velocity;
@@ -333,6 +336,17 @@ void StructureStep::complete() {
   if (coupled_) {
     coupled_->advance(terms_, ground_step_, support_step_, stiffness_velocity_, dof_sums_,
                       dof_energies_, sums_);
+  }
+}
+
+void StructureStep::act(std::span<const LocalIndex> dofs, std::span<const double> force,
+                        bool from_rest) {
+  for (std::size_t k = 0; k < dofs.size(); ++k) {
+    const std::size_t i = dofs[k];
+    state_.inelastic_force[i] = force[k];
+    for (std::size_t f = 0; from_rest && f < state_.filtered.size(); ++f) {
+      state_.filtered[f][i] += (1 - filters_.filters[f].newest()) * force[k];
+    }
   }
 }
 

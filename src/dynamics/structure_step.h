@@ -52,6 +52,8 @@ class StructureStep final : public stiffness::ForceReceiver, public interactions
   void receive(LocalIndex begin, LocalIndex end, const double* force) override;
   /// After every range of the step.
   void complete();
+  void act(std::span<const LocalIndex> dofs, std::span<const double> force,
+           bool from_rest) override;
   void remember(std::span<const LocalIndex> dofs, interactions::Before& before) const override;
   /// Forces of this step at the watched dofs, where they were asked for.
   const KeptForces& forces() const { return forces_; }
@@ -66,7 +68,7 @@ class StructureStep final : public stiffness::ForceReceiver, public interactions
   static constexpr std::size_t pattern_vectors = 3;  // in which directions repeat: 12 dofs
 
   /// Dofs whose directions repeat: x y z of one mass, or x y z and three rotations; generalised
-  /// coordinates; dofs of coupled mass; or in no order, as where extra damping acts.
+  /// coordinates; dofs of coupled mass; or in no order, as where extra forces act.
   enum class Order { translations, nodes_of_six, generalised, coupled, none };
   struct Segment {
     LocalIndex begin = 0;
@@ -76,8 +78,8 @@ class StructureStep final : public stiffness::ForceReceiver, public interactions
     std::size_t first_coupled = 0;  ///< of coupled dofs, their number among all of them
   };
 
-  void find_segments(const std::vector<char>& damped);
-  Order order_at(std::size_t dof, const std::vector<char>& damped) const;
+  void find_segments(const std::vector<char>& acted_on);
+  Order order_at(std::size_t dof, const std::vector<char>& acted_on) const;
   std::size_t length_at(std::size_t dof, Order order) const;
   template <bool with_energies, typename Damping>
   void advance(const Segment& segment, LocalIndex begin, LocalIndex end, const double* force,

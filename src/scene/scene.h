@@ -62,10 +62,12 @@ struct Region {
   Vector3 rotary_inertia{0, 0, 0};   ///< point masses [kg m2]
   /// Grounded springs: `stiffness` and `dashpot` are per length or area then.
   Spread spread = Spread::none;
-  std::array<double, 6> stiffness{};     ///< springs: along and about x, y, z [N/m, N m]
-  std::array<double, 6> dashpot{};       ///< springs [N s/m, N m s]
-  bool compression_only = false;         ///< grounded springs: along z they push up only
-  NonlinearSpring nonlinear;             ///< springs and bars
+  std::array<double, 6> stiffness{};  ///< springs: along and about x, y, z [N/m, N m]
+  std::array<double, 6> dashpot{};    ///< springs [N s/m, N m s]
+  bool compression_only = false;      ///< grounded springs: along z they push up only
+  NonlinearSpring nonlinear;          ///< springs and bars
+  /// Forces of its elements are those of an element law, not K u; see InelasticElements.
+  bool inelastic = false;
   std::optional<Rayleigh> damping;       ///< in place of the structure's
   std::optional<Foundation> foundation;  ///< soil: empty until the mesh is read, see lay_foundation
 };
@@ -77,7 +79,7 @@ inline bool is_one_way(const Region& region) {
 
 /// Elements whose stiffness, or some of it, is no part of K: one-way ones and those that yield.
 inline bool follows_law(const Region& region) {
-  return is_one_way(region) || region.nonlinear.yields();
+  return is_one_way(region) || region.nonlinear.yields() || region.inelastic;
 }
 
 /// The option that takes the stiffness of a region's elements out of K.

@@ -5,6 +5,7 @@
 #include <mpi.h>
 
 #include "common/parallel.h"
+#include "mesh/ghost_dofs.h"
 #include "stiffness/element_sorter.h"
 
 namespace pounding::stiffness {
@@ -73,13 +74,7 @@ void append(std::vector<DofRange>& ranges, LocalIndex dof) {
 ElementStiffness::ElementStiffness(const Structure& structure, const Mesh& mesh,
                                    std::unique_ptr<Stiffness> assembled, const ProductForms& forms)
     : owned_dofs_(mesh.owned_dofs), assembled_(std::move(assembled)) {
-  std::vector<GlobalIndex> ghosts(mesh.dof_count - mesh.owned_dofs);
-  for (LocalIndex node = mesh.owned_nodes; node < mesh.node_count(); ++node) {
-    for (int c = 0; c < 6; ++c) {
-      const LocalIndex dof = mesh.dof(node, c);
-      if (dof >= 0) ghosts[dof - mesh.owned_dofs] = mesh.dof_global(node, c);
-    }
-  }
+  const std::vector<GlobalIndex> ghosts = ghost_dofs(mesh);
   for (LocalIndex node = 0; node < mesh.owned_nodes && origin_dof_ < 0; ++node) {
     const bool moves = (mesh.free_components[node] & 0x7) == 0x7;
     origin_dof_ = moves ? mesh.dof(node, 0) : -1;

@@ -5,6 +5,7 @@
 
 #include "common/parallel.h"
 #include "elements/geometric_stiffness.h"
+#include "mesh/ghost_dofs.h"
 #include "mesh/halo.h"
 #include "mesh/location.h"
 #include "stiffness/element_loop.h"
@@ -36,13 +37,7 @@ void share_largest(MPI_Comm comm, LargestCompression& largest) {
 }  // namespace
 
 std::vector<double> with_ghosts(const Mesh& mesh, const std::vector<double>& owned) {
-  std::vector<GlobalIndex> ghosts(mesh.dof_count - mesh.owned_dofs);
-  for (LocalIndex node = mesh.owned_nodes; node < mesh.node_count(); ++node) {
-    for (int c = 0; c < 6; ++c) {
-      const LocalIndex dof = mesh.dof(node, c);
-      if (dof >= 0) ghosts[dof - mesh.owned_dofs] = mesh.dof_global(node, c);
-    }
-  }
+  const std::vector<GlobalIndex> ghosts = ghost_dofs(mesh);
   Halo halo(mesh.comm, mesh.first_owned_dof, mesh.owned_dofs, ghosts);
   halo.begin(owned.data());
   halo.end();

@@ -47,6 +47,9 @@ class Assembly {
 
   void run() {
     system_.lumped_mass.assign(mesh_.owned_dofs, 0.0);
+    if (std::ranges::any_of(structure_.regions, &Region::inelastic)) {
+      system_.inelastic.assign(mesh_.owned_dofs, 0);
+    }
     numbers_ = stiffness::global_numbers(mesh_);
     on_every_rank(mesh_.comm, [&] {
       for_each_element(
@@ -83,6 +86,7 @@ class Assembly {
       columns[i] = dof >= 0 ? numbers_[dof] : -1;
       rows[i] = owned ? columns[i] : -1;
       if (owned) system_.lumped_mass[dof] += work.mass[i];
+      if (owned && !system_.inelastic.empty()) system_.inelastic[dof] |= is_inelastic(block);
       if (block.counted[element] != 0 && static_cast<int>(i) % layout.components == 0) {
         system_.total_mass += work.mass[i];
       }
@@ -92,8 +96,10 @@ class Assembly {
       POUNDING_PETSC(
           MatSetValues(matrix.get(), n, rows.data(), n, columns.data(), values, ADD_VALUES));
     };
-    if (matrix_.get() != nullptr && is_linear(block.type)) insert(matrix_, work.stiffness.data());
     const Region& region = structure_.regions[block.region];
+    if (matrix_.get() != nullptr && is_linear(block.type) && !region.inelastic) {
+      insert(matrix_, work.stiffness.data());
+    }
     add_law_stiffness(region, block.share_of(element), layout, work);
     if (taut_.get() != nullptr) insert(taut_, work.stiffness.data());
     const double scaling = added_mass_.add(block, element, region, stiffness, mass);
@@ -146,6 +152,10 @@ class Assembly {
     const Rayleigh own = structure_.damping_of(structure_.regions[block.region]);
     const bool linear = !follows_law(structure_.regions[block.region]);
     return {own.alpha - structure_.damping.alpha, linear ? own.beta - structure_.damping.beta : 0};
+  }
+
+  char is_inelastic(const ElementBlock& block) const {
+    return structure_.regions[block.region].inelastic ? 1 : 0;
   }
 
   bool has_extra_damping(const ElementBlock& block) const {

@@ -44,21 +44,23 @@ void finish_system(const Mesh& mesh, LinearSystem& system) {
   }
 }
 
-std::vector<char> damped_dofs(const LinearSystem& system) {
-  std::vector<char> damped(system.lumped_mass.size(), system.has_extra_damping() ? 1 : 0);
-  const Mat matrix = system.has_extra_damping() ? system.extra_damping->matrix() : nullptr;
-  if (matrix == nullptr) return damped;
+std::vector<char> dofs_of_extra_forces(const LinearSystem& system) {
+  std::vector<char> acted_on = system.inelastic;
+  acted_on.resize(system.lumped_mass.size(), 0);
+  if (!system.has_extra_damping()) return acted_on;
+  const Mat matrix = system.extra_damping->matrix();
+  if (matrix == nullptr) return std::vector<char>(acted_on.size(), 1);
   PetscInt row = 0;
   POUNDING_PETSC(MatGetOwnershipRange(matrix, &row, nullptr));
-  for (char& acts : damped) {
+  for (char& acts : acted_on) {
     PetscInt count = 0;
     const PetscScalar* values = nullptr;
     POUNDING_PETSC(MatGetRow(matrix, row, &count, nullptr, &values));
-    acts = std::any_of(values, values + count, [](double value) { return value != 0; }) ? 1 : 0;
+    if (std::any_of(values, values + count, [](double value) { return value != 0; })) acts = 1;
     POUNDING_PETSC(MatRestoreRow(matrix, row, &count, nullptr, &values));
     ++row;
   }
-  return damped;
+  return acted_on;
 }
 
 VecHandle wrap_vector(const LinearSystem& system, std::vector<double>& storage) {

@@ -67,11 +67,13 @@ struct LinearSystem {
   std::unique_ptr<stiffness::Stiffness> stiffness;  ///< K of the linear elements
   std::string stiffness_method;                     ///< how it is applied, for the report
   std::unique_ptr<stiffness::Stiffness>
-      taut;                      ///< K with every link at its stiffest; null without links
+      taut;  ///< K with links and inelastic elements at their stiffest; null without any
   std::shared_ptr<Links> links;  ///< null if there are none
   /// How it follows supports that move on their own; null where the ground moves as one.
   std::shared_ptr<const SupportShapes> supports;
   std::unique_ptr<stiffness::Stiffness> extra_damping;  ///< D [N s/m, N m s]; null if there is none
+  /// Per owned dof, whether an inelastic element acts on it; empty if no rank has one.
+  std::vector<char> inelastic;
   MassScaling mass_scaling;
   RotaryScaling rotary_scaling;               ///< in `lumped_mass` already
   std::vector<RigidBodyReport> rigid_bodies;  ///< and ties, of all ranks
@@ -98,7 +100,7 @@ struct LinearSystem {
   bool mass_is_coupled() const { return mass_scaling.elements > 0 || !rigid_bodies.empty(); }
   /// Dofs over all ranks; rigid bodies count by their motions, followers of a tie do not count.
   GlobalIndex independent_dofs() const;
-  /// K for eigenvalues: every link at its stiffest.
+  /// K for eigenvalues: every link and inelastic element at its stiffest.
   const stiffness::Stiffness& stiffest() const { return taut ? *taut : *stiffness; }
   Mat stiffest_matrix() const { return stiffest().matrix(); }
   /// Factor of K for the fastest motions [-].
@@ -116,8 +118,8 @@ LinearSystem describe_system(const Structure& structure, const Mesh& mesh);
 /// Once the lumped mass is complete: its inverse, and the directions of the dofs.
 void finish_system(const Mesh& mesh, LinearSystem& system);
 
-/// Per owned dof, whether the extra damping may act on it.
-std::vector<char> damped_dofs(const LinearSystem& system);
+/// Per owned dof, whether the extra damping or an inelastic element may act on it.
+std::vector<char> dofs_of_extra_forces(const LinearSystem& system);
 
 /// Distributed vector over the owned dofs that uses `storage` as its memory (size: owned_dofs).
 VecHandle wrap_vector(const LinearSystem& system, std::vector<double>& storage);

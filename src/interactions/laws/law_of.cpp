@@ -16,7 +16,7 @@
 namespace pounding::interactions {
 
 bool has_links(const Region& region) {
-  return follows_law(region) || region.foundation ||
+  return (follows_law(region) && !region.inelastic) || region.foundation ||
          (is_spring(region.element) &&
           std::ranges::any_of(region.dashpot, [](double rate) { return rate > 0; }));
 }

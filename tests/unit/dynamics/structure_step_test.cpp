@@ -96,7 +96,7 @@ struct Case {
     stiffness_velocity = random_values(n, 3, 1e6);
     if (system.extra_damping) state.extra_force = random_values(n, 4, 30);
     for (std::size_t i = 0; i < state.extra_force.size(); ++i) {
-      if (damped_dofs(system)[i] == 0) state.extra_force[i] = 0;
+      if (dofs_of_extra_forces(system)[i] == 0) state.extra_force[i] = 0;
     }
     if (system.uniform_damping) {
       for (unsigned k = 0; k < system.uniform_damping->filters.size(); ++k) {
@@ -406,9 +406,9 @@ TEST(StructureStep, CorrectsSumsAndStateForAnotherVelocity) {
 
 TEST(DampedDofs, AreThoseWithARowOfTheExtraDamping) {
   const LinearSystem system = nodes_in_a_row({Kind::translations, Kind::damped, Kind::six});
-  const std::vector<char> damped = damped_dofs(system);
+  const std::vector<char> damped = dofs_of_extra_forces(system);
   EXPECT_EQ(damped, (std::vector<char>{0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(damped_dofs(nodes_in_a_row({Kind::lone})), std::vector<char>{0});
+  EXPECT_EQ(dofs_of_extra_forces(nodes_in_a_row({Kind::lone})), std::vector<char>{0});
 }
 
 }  // namespace

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "elements/element.h"
+#include "interactions/interaction.h"
+#include "interactions/laws/element_law.h"
+#include "mesh/halo.h"
+#include "mesh/mesh.h"
+#include "system/linear_system.h"
+
+namespace pounding::interactions {
+
+/// Elements of one structure whose forces follow an element law in place of K u, those of regions
+/// marked inelastic: known from u_n and their history, they act with K u in the free step,
+///
+///     f_n + beta (f_n - f_{n-1}) / dt
+///
+/// so that Rayleigh's beta damps the elastic part of their motion alone, and uniform damping
+/// filters f_n with K u_n. A rank computes every element that touches a node of its own, the same
+/// force as its neighbours. The ledger's part is
+///
+///     E_{n+1/2} = 1/2 f_n . u_{n+1} - W_n,      loss = f_n . (u_{n+1} - u_{n-1}) / 2 - change of E
+///
+/// over the owned dofs, W_n of counted elements (ElementLaw). Allocates nothing in a step.
+class InelasticElements final : public Interaction {
+ public:
+  /// Law of the elements of a region; `region`: its number in the structure.
+  struct RegionLaw {
+    int region = 0;
+    std::unique_ptr<ElementLaw> law;
+  };
+
+  /// Elements of structure number `structure` of the step. Mesh and system must outlive this
+  /// object. Throws std::logic_error where the structure starts from a rest. Collective over
+  /// the structure's communicator.
+  InelasticElements(std::size_t structure, const Mesh& mesh, const LinearSystem& system,
+                    double time_step, std::vector<RegionLaw> laws);
+
+  void attach(std::span<SteppedStructure* const>) override {}
+  void begin(const Step& step) override;
+  void push(const Step&) override {}
+  void finish(const Step& step) override;
+  void save(SavedState& saved) const override;
+  void load(const SavedState& saved) override;
+  Phase phase() const override { return Phase::step; }
+
+ private:
+  /// Elements of one block, which share a law.
+  struct Group {
+    std::size_t block = 0;  ///< of the mesh
+    ElementLayout layout;
+    const ElementLaw* law = nullptr;
+    std::vector<LocalIndex> places;  ///< of their dofs in displacement_, -1 where held
+    std::vector<double> memory;      ///< shape (elements, numbers of the law)
+  };
+
+  /// f over the places out of `displacement_`, histories brought there; returns W of the elements
+  /// that this rank counts.
+  double respond();
+  void exchange(const SteppedStructure& structure, double back);
+  std::string name_of(const Group& group, const char* numbers) const;
+
+  std::size_t structure_;
+  const Mesh& mesh_;
+  const LinearSystem& system_;
+  double time_step_;
+  std::vector<RegionLaw> laws_;
+  std::vector<Group> groups_;
+  std::unique_ptr<Halo> halo_;
+  std::vector<LocalIndex> dofs_;  ///< owned dofs that these elements act on, increasing
+  std::vector<double>
+      displacement_;            ///< of all local dofs, ghosts where the halo has them [m, rad]
+  std::vector<double> force_;   ///< f over all local dofs [N, N m]
+  std::vector<double> now_;     ///< f_n over dofs_
+  std::vector<double> before_;  ///< f_{n-1} likewise, and its W
+  std::vector<double> acting_;  ///< the force of the step
+  double offset_ = 0;           ///< W_n [J]
+  double offset_before_ = 0;
+  Before state_;  ///< u_n and v- over dofs_
+};
+
+}  // namespace pounding::interactions

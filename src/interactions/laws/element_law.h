@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace pounding::interactions {
+
+/// Law of the nodal forces of elements that yield or break, as a function of their displacements
+/// and of a history. Its secant energy is that of an elastic element about what it has lost: with
+/// f_n = B^T s(e_n - p_n), element and step hold together
+///
+///     E_{n+1/2} = 1/2 f_n . u_{n+1} - W_n,      W_n = 1/2 s . p_n less what hardening keeps
+///
+/// which for a linear element is 1/2 u_{n+1}^T K u_n, and a step in which p stays loses nothing.
+/// The tangent stays below the stiffness that the element has in LinearSystem::stiffest, so that
+/// the stable step is that of the elastic structure. Pure functions: no MPI, no PETSc.
+class ElementLaw {
+ public:
+  virtual ~ElementLaw() = default;
+
+  /// Numbers of the history of one element.
+  virtual std::size_t memory_size() const = 0;
+  /// Brings the history of an element to its displacements u_n [m, rad] and sets the forces f_n
+  /// [N, N m] with which it resists, both node by node, component by component. `element`: its
+  /// number among those that this rank has of the region. Returns W_n [J].
+  virtual double respond(std::size_t element, std::span<const double> displacement,
+                         std::span<double> memory, std::span<double> force) const = 0;
+};
+
+}  // namespace pounding::interactions

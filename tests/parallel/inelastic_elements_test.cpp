@@ -1,0 +1,210 @@
+#include "interactions/inelastic_elements.h"
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/parallel.h"
+#include "dynamics/cd_lagrange.h"
+#include "modal/modal_analysis.h"
+#include "scene/uniform_damping.h"
+#include "stability/stable_time_step.h"
+#include "support/built_system.h"
+#include "support/scaled_structure.h"
+#include "system/each_element.h"
+
+namespace pounding {
+namespace {
+
+using interactions::ElementLaw;
+using interactions::InelasticElements;
+using testing::build_system;
+using testing::BuiltSystem;
+using testing::DampedStructure;
+
+/// f = K (u - p), p following u so that sqrt((u - p)^T K (u - p)) stays at most `strength`: an
+/// element that is elastic up to there and then flows, known to no room of the program.
+class FlowingElement final : public ElementLaw {
+ public:
+  FlowingElement(const Structure& structure, const Mesh& mesh, int region, double strength)
+      : strength_(strength) {
+    for_each_element(
+        structure, mesh,
+        [&](const ElementBlock& block, std::size_t) { return block.region == region; },
+        [&](const ElementBlock&, std::size_t, const ElementLayout& layout,
+            const stiffness::ElementWork& work) {
+          size_ = layout.size();
+          const auto* const begin = work.stiffness.data();
+          stiffness_.insert(stiffness_.end(), begin, begin + size_ * size_);
+        });
+    MPI_Allreduce(MPI_IN_PLACE, &size_, 1, MPI_UNSIGNED_LONG, MPI_MAX, mesh.comm);
+  }
+
+  std::size_t memory_size() const override { return size_; }
+  double respond(std::size_t element, std::span<const double> displacement,
+                 std::span<double> memory, std::span<double> force) const override {
+    const double energy = resist(element, displacement, memory, force);
+    if (const double norm = std::sqrt(energy); norm > strength_) {
+      for (std::size_t i = 0; i < size_; ++i) {
+        memory[i] += (1 - strength_ / norm) * (displacement[i] - memory[i]);
+      }
+      resist(element, displacement, memory, force);
+    }
+    double lost = 0;
+    for (std::size_t i = 0; i < size_; ++i) lost += force[i] * memory[i] / 2;
+    return lost;
+  }
+
+ private:
+  /// f = K (u - p); returns f . (u - p).
+  double resist(std::size_t element, std::span<const double> u, std::span<const double> p,
+                std::span<double> force) const {
+    const double* const k = &stiffness_[element * size_ * size_];
+    double energy = 0;
+    for (std::size_t i = 0; i < size_; ++i) {
+      force[i] = 0;
+      for (std::size_t j = 0; j < size_; ++j) force[i] += k[i * size_ + j] * (u[j] - p[j]);
+      energy += force[i] * (u[i] - p[i]);
+    }
+    return energy;
+  }
+
+  double strength_;
+  std::size_t size_ = 0;
+  std::vector<double> stiffness_;  ///< shape (elements, size, size)
+};
+
+/// Bricks of three materials on springs, some of scaled mass; two of the materials are marked.
+DampedStructure thrown_body(bool inelastic, bool uniform) {
+  DampedStructure damped = testing::scaled_structure(3);
+  damped.structure.initial_velocity = {0.4, -0.1, 0.2};
+  damped.structure.initial_displacement = {1e-5, 0, 0};
+  for (Region& region : damped.structure.regions) {
+    if (region.element != ElementType::hex8) continue;
+    region.damping.reset();
+    region.inelastic = inelastic && region.group != "part0";
+  }
+  if (uniform) {
+    damped.structure.damping = {0, 0};
+    damped.structure.uniform_damping = fit_uniform_damping(0.04, 1, 200, 5);
+  }
+  return damped;
+}
+
+/// The stepper of such a body.
+struct BodyRun {
+  BodyRun(bool inelastic, bool uniform, double strength)
+      : damped(thrown_body(inelastic, uniform)),
+        built(build_system(damped.mesh, damped.structure)),
+        time_step(0.5 *
+                  stable_time_step(built.system.damping, built.system.element_frequency_bound *
+                                                             std::sqrt(built.system.stiffening()))),
+        stepper(PETSC_COMM_WORLD, {&built.system, 1}, still, time_step, profile) {
+    if (!inelastic) return;
+    std::vector<InelasticElements::RegionLaw> laws;
+    for (std::size_t r = 0; r < damped.structure.regions.size(); ++r) {
+      if (!damped.structure.regions[r].inelastic) continue;
+      const auto region = static_cast<int>(r);
+      laws.push_back({region, std::make_unique<FlowingElement>(damped.structure, built.mesh, region,
+                                                               strength)});
+    }
+    stepper.add(std::make_unique<InelasticElements>(0, built.mesh, built.system, time_step,
+                                                    std::move(laws)));
+  }
+  /// The ledger after some steps.
+  EnergyLine run(int steps) {
+    EnergyLine line;
+    std::vector<StructureEnergy> energies(1);
+    for (int n = 0; n < steps; ++n) {
+      const bool counted = n > 1 && n % 10 == 9;
+      stepper.step(false, counted);
+      if (!counted) continue;
+      line = stepper.energy().line(energies);
+      stepper.energy().note(line);
+      EXPECT_GE(line.link_loss, lost - 1e-12 * stepper.energy().largest_term()) << n;
+      lost = line.link_loss;
+    }
+    return line;
+  }
+  double squares() const {
+    double sum = 0;
+    for (const double u : stepper.state().structures[0].displacement) sum += u * u;
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+    return sum;
+  }
+
+  DampedStructure damped;
+  BuiltSystem built;
+  double time_step;
+  double lost = -1;
+  Profile profile;
+  GroundMotion still{{}, Resampling::linear};
+  CdLagrange stepper;
+};
+
+TEST(InelasticElements, AreLinearOnesWhileTheyAreElastic) {
+  for (const bool uniform : {false, true}) {
+    BodyRun linear(false, uniform, 0);
+    BodyRun marked(true, uniform, 1e30);
+    ASSERT_EQ(linear.time_step, marked.time_step);
+    const EnergyLine expected = linear.run(400);
+    const EnergyLine line = marked.run(400);
+    const auto& u = linear.stepper.state().structures[0].displacement;
+    const auto& v = marked.stepper.state().structures[0].displacement;
+    const double scale = std::sqrt(linear.squares());
+    ASSERT_GT(scale, 1e-5);
+    for (std::size_t i = 0; i < u.size(); ++i) EXPECT_NEAR(u[i], v[i], 1e-11 * scale) << i;
+    const double most = linear.stepper.energy().largest_term();
+    EXPECT_NEAR(line.strain, expected.strain, 1e-10 * most);
+    if (uniform) {
+      EXPECT_NEAR(line.kinetic, expected.kinetic, 1e-10 * most);
+      EXPECT_NEAR(line.damping_loss, expected.damping_loss, 1e-10 * most);
+    } else {  // what beta takes is a loss of the elements, not of the structure
+      EXPECT_GT(line.link_loss, 1e-6 * most);
+      EXPECT_NEAR(line.kinetic, expected.kinetic, 1e-4 * most);
+    }
+    EXPECT_LT(marked.stepper.energy().relative_residual(), 1e-12);
+  }
+}
+
+TEST(InelasticElements, AreAtTheirStiffestForTheStableStep) {
+  const BodyRun linear(false, false, 0);
+  const BodyRun marked(true, false, 1);
+  EXPECT_EQ(linear.built.system.element_frequency_bound,
+            marked.built.system.element_frequency_bound);
+  const double all = largest_frequency(linear.built.system, linear.built.mesh).omega_max;
+  EXPECT_NEAR(largest_frequency(marked.built.system, marked.built.mesh).omega_max / all, 1, 1e-9);
+}
+
+TEST(InelasticElements, CloseTheLedgerWhereTheyFlow) {
+  for (const bool uniform : {false, true}) {
+    BodyRun marked(true, uniform, 2);
+    const EnergyLine line = marked.run(600);
+    EXPECT_GT(line.link_loss, 0.01 * marked.stepper.energy().largest_term());
+    EXPECT_LT(marked.stepper.energy().relative_residual(), 1e-12);
+  }
+}
+
+TEST(InelasticElements, MoveAlikeOnAnyRanks) {
+  constexpr double of_one_rank = 7.3565833742436559e-09;
+  BodyRun marked(true, false, 2);
+  marked.run(300);
+  EXPECT_NEAR(marked.squares(), of_one_rank, 1e-11 * of_one_rank);
+}
+
+TEST(InelasticElements, GoOnFromWhatTheySaved) {
+  BodyRun whole(true, true, 2);
+  whole.run(200);
+  SavedState saved;
+  whole.stepper.save(saved);
+  BodyRun continued(true, true, 2);
+  continued.stepper.load(saved);
+  whole.run(200);
+  continued.run(200);
+  EXPECT_EQ(whole.squares(), continued.squares());
+}
+
+}  // namespace
+}  // namespace pounding
