@@ -39,7 +39,9 @@ void* map_memory(int file, std::size_t size) {
 }
 
 /// Maps the same memory on all ranks, zeros; null on all if one gets none. It has no name, so that
-/// nothing is left of it however the ranks end: the others find it among rank 0's open files.
+/// nothing is left of it however the ranks end: the others find it among rank 0's open files. A
+/// window of MPI_Win_allocate_shared is freed by all ranks together, so that one that is out of
+/// memory would wait for the others on its way out (`faults_test.py`).
 void* common_memory(MPI_Comm comm, std::size_t size) {
   std::array<long, 2> place{static_cast<long>(getpid()), -1};  // process and file
   int file = -1;
