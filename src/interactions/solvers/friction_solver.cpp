@@ -16,7 +16,7 @@ constexpr double no_coupling = 1e-14;
 /// Residual that is wanted, and how far above the round-off of v it may end.
 constexpr double wanted_residual = 1e-14;
 constexpr double above_noise = 4;
-constexpr int most_newton_rounds = 40;
+constexpr std::size_t most_newton_rounds = 40;
 constexpr int first_sweeps = 10;
 constexpr int most_cheap_sweeps = 500;
 constexpr int most_sweeps = 200;
@@ -28,12 +28,22 @@ constexpr int most_newton = 20;
 constexpr double least_part = 1.0 / 16;
 /// Points from which on sweeps are mixed: they are slow where many lie on each other.
 constexpr std::size_t least_mixed_points = 65;
-/// Sweeps after which mixed ones that have not come closer by half stop, and all of them.
+/// Sweeps after which those with momentum and mixed ones stop that have not come closer by half,
+/// and all of them.
+constexpr int most_idle_sweeps_with_momentum = 1000;
 constexpr int most_idle_sweeps = 400;
-constexpr int most_mixed_sweeps = 4000;
-constexpr int most_sweeps_of_all = 12000;
-/// Mixed sweeps between two looks at the residual.
-constexpr int mixed_stretch = 25;
+constexpr int most_sweeps_of_all = 20000;
+/// Sweeps with momentum or mixed ones between two looks at the residual.
+constexpr int stretch = 25;
+/// Momentum of a round: the largest part of the last step that is added, and the growth of the
+/// changes over those of the last sweep that ends it. Where one does not arrive another may.
+struct MomentumOfRound {
+  double most;
+  double growth;
+};
+constexpr std::array<MomentumOfRound, 3> momenta{{{0.95, infinity}, {0.99, 1.1}, {0.9, infinity}}};
+/// Growth of the changes over the least ones since momentum began that ends it.
+constexpr double grown = 10;
 /// Growth of the changes over the least ones from which on mixing begins anew there.
 constexpr double too_far = 4;
 /// Points above which Newton's matrix would cost more than sweeps.
@@ -332,20 +342,47 @@ double FrictionSolver::iterate(const FrictionProblem& problem, std::span<double>
   return residual;
 }
 
-double FrictionSolver::mix(const FrictionProblem& problem, double enough, std::span<double> impulse,
-                           FrictionResult& result) {
+void FrictionSolver::add_momentum(std::size_t round, std::span<const double> image,
+                                  std::span<double> impulse) {
+  const auto& [most, growth] = momenta[round % momenta.size()];
+  const std::size_t n = impulse.size();
+  double size = 0;
+  double against = 0;  // of the last step and of what the sweep changes now
+  for (std::size_t i = 0; i < n; ++i) {
+    const double change = weight_[i] * (image[i] - impulse[i]);
+    size += change * change;
+    against -= change * (image[i] - trial_[i]);
+  }
+  size = std::sqrt(size);
+  momentum_.least = std::min(momentum_.least, size);
+  if (against > 0 || size > growth * momentum_.last || size > grown * momentum_.least) {
+    momentum_ = {0, infinity, size};
+  } else {
+    momentum_.last = size;
+  }
+  const double part = std::min(most, momentum_.steps / (momentum_.steps + 3.0));
+  ++momentum_.steps;
+  for (std::size_t i = 0; i < n; ++i) impulse[i] = image[i] + part * (image[i] - trial_[i]);
+  std::ranges::copy(image, trial_.begin());
+}
+
+double FrictionSolver::hasten(const FrictionProblem& problem, std::optional<std::size_t> round,
+                              double enough, std::span<double> impulse, FrictionResult& result) {
   const std::size_t n = impulse.size();
   for (std::size_t i = 0; 3 * i < n; ++i) {
     const Point point(problem, i);
     for (std::size_t d = 0; d < 3; ++d) weight_[3 * i + d] = point.h(d, d);
   }
   const std::span<double> image(image_.data(), n);
+  const int most_idle = round ? most_idle_sweeps_with_momentum : most_idle_sweeps;
   double least = infinity;  // change of a sweep
   double mark = infinity;
   int idle = 0;
   mixing_.forget();
+  momentum_ = {};
   std::ranges::copy(impulse, least_.begin());
-  for (int i = 0; i < most_mixed_sweeps && idle < most_idle_sweeps; ++i, ++idle) {
+  std::ranges::copy(impulse, trial_.begin());
+  for (; idle < most_idle && result.sweeps < most_sweeps_of_all; ++idle) {
     ++result.sweeps;
     std::ranges::copy(impulse, image.begin());
     const double change = sweep(problem, 1, image);
@@ -358,19 +395,26 @@ double FrictionSolver::mix(const FrictionProblem& problem, double enough, std::s
       idle = 0;
     }
     if (change <= epsilon * largest_free_rate_) break;
-    if (i % mixed_stretch == 0 && measure(problem, image) <= enough) {
+    if (result.sweeps % stretch == 0 && measure(problem, image) <= enough) {
       std::ranges::copy(image, impulse.begin());
       return measure(problem, impulse);
     }
-    if (change > too_far * least) {
+    if (round) {
+      add_momentum(*round, image, impulse);
+    } else if (change > too_far * least) {
       std::copy_n(least_.begin(), n, impulse.begin());
       least = infinity;
       mixing_.forget();
-      continue;
+    } else {
+      mixing_.mix({weight_.data(), n}, image, impulse);
     }
-    mixing_.mix({weight_.data(), n}, image, impulse);
   }
-  std::copy_n(least_.begin(), n, impulse.begin());
+  // Momentum goes on from where it is: near its best place the next one would come back there.
+  if (round) {
+    std::ranges::copy(image, impulse.begin());
+  } else {
+    std::copy_n(least_.begin(), n, impulse.begin());
+  }
   return measure(problem, impulse);
 }
 
@@ -380,10 +424,15 @@ void FrictionSolver::solve_coupled(const FrictionProblem& problem, std::span<dou
   int sweeps = first_sweeps;
   double last = infinity;
   double best = infinity;
+  const auto keep = [&](double residual) {
+    if (!(residual < best)) return;
+    best = residual;
+    std::ranges::copy(impulse, best_.begin());
+  };
   const int cheap = sweeps_for_one_newton(problem);
-  for (int round = 0; round < most_newton_rounds && result.sweeps < most_sweeps_of_all;) {
+  for (std::size_t round = 0; round < most_newton_rounds && result.sweeps < most_sweeps_of_all;) {
     // Sweeps that go round in circles are led out of them by shorter steps.
-    const double relaxation = relaxations[static_cast<std::size_t>(round) % relaxations.size()];
+    const double relaxation = relaxations[round % relaxations.size()];
     for (int i = 0; i < sweeps; ++i) {
       ++result.sweeps;
       if (sweep(problem, relaxation, impulse) <= epsilon * largest_free_rate_) break;
@@ -395,15 +444,17 @@ void FrictionSolver::solve_coupled(const FrictionProblem& problem, std::span<dou
     last = residual;
     const bool many = n >= 3 * least_mixed_points;
     if (falls && !many && result.sweeps < cheap) continue;
-    if (many) residual = mix(problem, enough, impulse, result);
+    if (many) {
+      keep(residual);
+      residual = hasten(problem, round, enough, impulse, result);
+      keep(residual);
+      if (residual > enough) residual = hasten(problem, std::nullopt, enough, impulse, result);
+    }
     if (residual > enough && n <= 3 * max_newton_) {
       residual = iterate(problem, impulse, residual, result);
     }
     if (residual <= enough) return;
-    if (residual < best) {
-      best = residual;
-      std::ranges::copy(impulse, best_.begin());
-    }
+    keep(residual);
     ++round;
     sweeps = std::min(2 * sweeps, most_sweeps);
   }

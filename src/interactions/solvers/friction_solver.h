@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -51,8 +53,10 @@ void solve_on_disk(const double (&matrix)[3], const double (&rate)[2], double ra
 /// tangential one by solve_on_disk; then Newton's iteration on the natural map (Alart and Curnier,
 /// Comput. Methods Appl. Mech. Eng. 92 (1991) 353) from there, taken only where the residual falls;
 /// sweeps and Newton take turns until round-off or a limit of rounds, and the best of these is the
-/// answer. Sweeps of many points, as of a pile of blocks, are mixed (AndersonMixing), beyond so
-/// many that Newton's matrix would cost too much they and mixed ones take turns. H may be singular:
+/// answer. Sweeps of many points, as of a pile of blocks, have momentum that ends where it leads
+/// away (Nesterov, Sov. Math. Dokl. 27 (1983) 372; O'Donoghue and Candes, Found. Comput. Math. 15
+/// (2015) 715), then are mixed (AndersonMixing), in turns; beyond so many that Newton's matrix
+/// would cost too much these are all. H may be singular:
 /// then the impulse is not unique. The same input gives the same bits. Not collective, no
 /// allocation after construction.
 class FrictionSolver {
@@ -72,9 +76,12 @@ class FrictionSolver {
   bool try_newton(const FrictionProblem& problem, std::span<const double> impulse);
   void linearise(const FrictionProblem& problem, std::span<const double> impulse,
                  std::size_t number);
-  /// Mixed sweeps until the residual is `enough` or they come no closer; returns the residual.
-  double mix(const FrictionProblem& problem, double enough, std::span<double> impulse,
-             FrictionResult& result);
+  /// Sweeps with the momentum of a round, or mixed ones, until the residual is `enough` or they
+  /// come no closer; returns the residual.
+  double hasten(const FrictionProblem& problem, std::optional<std::size_t> round, double enough,
+                std::span<double> impulse, FrictionResult& result);
+  /// The impulses of the next sweep with momentum: beyond `image`, that of the last one.
+  void add_momentum(std::size_t round, std::span<const double> image, std::span<double> impulse);
   void solve_coupled(const FrictionProblem& problem, std::span<double> impulse,
                      FrictionResult& result);
   double iterate(const FrictionProblem& problem, std::span<double> impulse, double residual,
@@ -91,6 +98,13 @@ class FrictionSolver {
   std::vector<double> least_;   ///< impulses that a mixed sweep changed least
   std::vector<double> best_;    ///< impulses of the least residual of all rounds
   AndersonMixing mixing_;
+  /// Steps since momentum began anew, changes of the last sweep and the least ones [m/s].
+  struct Momentum {
+    int steps = 0;
+    double last = std::numeric_limits<double>::infinity();
+    double least = std::numeric_limits<double>::infinity();
+  };
+  Momentum momentum_;
   double largest_free_rate_ = 0;
   double noise_ = 0;
 };
