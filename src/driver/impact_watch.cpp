@@ -3,7 +3,9 @@
 #include "driver/run_statistics.h"
 
 namespace pounding {
+namespace {
 
+/// The catalogue of a scene's contacts, still empty.
 ImpactCatalogue make_catalogue(const Scene& scene, const Model& model) {
   std::vector<int> contacts;
   std::vector<std::array<double, 2>> places;
@@ -17,15 +19,17 @@ ImpactCatalogue make_catalogue(const Scene& scene, const Model& model) {
           {scene.impact_merge_time, scene.force_window, model.time_step}};
 }
 
-void add_contact(const interactions::ContactProblem& contact, double time, double duration,
-                 ImpactCatalogue& catalogue) {
+}  // namespace
+
+void ImpactWatch::add_contact(const CdLagrange& stepper) {
+  const interactions::ContactProblem& contact = *run_.solver.contact();
   ContactStep step{contact.gaps(), contact.impulses(), contact.works(), {}, {}, {}};
   if (contact.friction().has_any()) {
     step.tangential_impulses = contact.friction().tangential_impulses();
     step.slip_rates = contact.friction().slip_rates();
     step.friction_losses = contact.friction().losses();
   }
-  catalogue.add_step(time, duration, step);
+  catalogue_.add_step(stepper.time(), stepper.force_duration(), step);
 }
 
 ImpactWatch::ImpactWatch(const ObservedRun& run)

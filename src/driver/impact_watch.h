@@ -5,13 +5,6 @@
 
 namespace pounding {
 
-/// The catalogue of a scene's contacts, still empty.
-ImpactCatalogue make_catalogue(const Scene& scene, const Model& model);
-
-/// Adds a step of length `duration` at `time` [s] with contact, on a rank that knows it.
-void add_contact(const interactions::ContactProblem& contact, double time, double duration,
-                 ImpactCatalogue& catalogue);
-
 /// Impacts of a run, from the impulses of its steps: `impacts.csv`.
 class ImpactWatch final : public Observer {
  public:
@@ -21,8 +14,7 @@ class ImpactWatch final : public Observer {
 
   bool follows() const override { return run_.is_contact_root(); }
   void follow(const CdLagrange& stepper) override {
-    if (!run_.solver.touching()) return;
-    add_contact(*run_.solver.contact(), stepper.time(), stepper.force_duration(), catalogue_);
+    if (run_.solver.touching()) add_contact(stepper);
   }
   void finish(bool /*complete*/) override { catalogue_.finish(run_.comm, root_); }
   void save(SavedState& saved) override {
@@ -32,6 +24,8 @@ class ImpactWatch final : public Observer {
   void report(RunStatistics& statistics) override;
 
  private:
+  void add_contact(const CdLagrange& stepper);
+
   ObservedRun run_;
   int root_;  ///< of the contacts, or rank 0 without them
   ImpactCatalogue catalogue_;

@@ -37,6 +37,7 @@ class Solver {
     double progress_interval = std::numeric_limits<double>::infinity();  ///< [s], see Progress
     std::span<const Contact> contacts;        ///< of the scene, needed where joints have fillers
     const SupportMotion* supports = nullptr;  ///< null where the ground moves as one
+    RunLane lane{};                           ///< of a member of an ensemble
   };
 
   /// Puts contact and scheme together, at t_0. Collective.

@@ -6,13 +6,12 @@
 #include "driver/stop_signal.h"
 
 namespace pounding {
-namespace {
 
 Solver::Parts solver_parts(MPI_Comm comm, const Scene& scene, const Model& model,
-                           Profile& profile) {
+                           std::span<const Mesh> meshes, Profile& profile) {
   Solver::Parts parts{comm,
                       model.systems,
-                      model.meshes,
+                      meshes,
                       &model.interface,
                       model.motion.get(),
                       scene.gap_tolerance * model.interface.model_size,
@@ -28,14 +27,12 @@ Solver::Parts solver_parts(MPI_Comm comm, const Scene& scene, const Model& model
   return parts;
 }
 
-}  // namespace
-
 TimeLoop::TimeLoop(MPI_Comm comm, const Scene& scene, const Model& model, Profile& profile)
     : comm_(comm),
       scene_(scene),
       model_(model),
       profile_(profile),
-      solver_(solver_parts(comm, scene, model, profile)) {}
+      solver_(solver_parts(comm, scene, model, model.meshes, profile)) {}
 
 double TimeLoop::measure(int steps) {
   MPI_Barrier(comm_);

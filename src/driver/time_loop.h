@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "driver/model.h"
 #include "driver/observers.h"
@@ -9,6 +10,10 @@
 #include "output/checkpoint.h"
 
 namespace pounding {
+
+/// Parts of the solver of a model; `meshes`: those of its structures.
+Solver::Parts solver_parts(MPI_Comm comm, const Scene& scene, const Model& model,
+                           std::span<const Mesh> meshes, Profile& profile);
 
 /// Steps the model under the eyes of its observers.
 class TimeLoop {

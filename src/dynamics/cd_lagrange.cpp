@@ -12,7 +12,7 @@ namespace pounding {
 
 CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
                        const GroundMotion& motion, double time_step, Profile& profile,
-                       const SupportMotion* supports)
+                       const SupportMotion* supports, RunLane lane)
     : systems_(systems),
       motion_(motion),
       support_motion_(supports),
@@ -21,55 +21,71 @@ CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
       state_(systems, supports != nullptr ? supports->columns().size() : 0),
       supports_(state_.supports.displacement.size()),
       energy_(comm, systems, time_step),
-      sums_(systems.size()) {
+      sums_(systems.size()),
+      rest_before_(systems.size(), 0.0) {
   structure_steps_.reserve(systems_.size());
+  lanes_.reserve(systems_.size());
   for (std::size_t s = 0; s < systems_.size(); ++s) {
     StructureState& state = state_.structures[s];
-    structures_.push_back(&structure_steps_.emplace_back(systems_[s], state, time_step));
+    start_filters(systems_[s], time_step, state);
+    if (lane.structures.empty()) {
+      structures_.push_back(&structure_steps_.emplace_back(systems_[s], state, time_step));
+    } else {
+      structures_.push_back(&lanes_.emplace_back(lane.structures[s], lane.number, state));
+    }
     ledger_.push_back(&sums_[s]);
     vectors_.emplace_back(systems_[s], state);
     extra_forces_.push_back(systems_[s].has_extra_damping()
                                 ? wrap_vector(systems_[s], state.extra_force)
                                 : VecHandle());
     stiffness_velocity_.push_back(zeros_on_large_pages(state.velocity.size()));
-    start_filters(systems_[s], time_step, state);
     rest_forces_.push_back(rest_forces(systems_[s]));
   }
 }
 
 void CdLagrange::step(bool look_at_gap, bool with_energies, bool with_forces) {
+  open(look_at_gap, with_energies);  // A = { i : g_i(u_n) <= g_tol }
+  free_velocity(with_forces);        // v_free = v- + dt (g - iota a_g - alpha v-)
+                                     //        - dt M^-1 (K (u_n + beta v-) + D v-)
+  close();                           // v+ = v_free + M^-1 b^T lambda, u_{n+1} = u_n + dt v+
+                                     // E+ - E- = -dt vbar^T C vbar + dt vbar^T f
+                                     //           + what interactions held and lost
+}
+
+bool CdLagrange::open(bool look_at_gap, bool with_energies) {
+  with_energies_ = with_energies || energy_.needs_energies();
   move_ground();
-  const interactions::Step step{state_.step, look_at_gap, incident_, profile_,
-                                supports_,   structures_, ledger_};
-  begin(step, Phase::contact);                      // A = { i : g_i(u_n) <= g_tol }
-  free_velocity(step, with_energies, with_forces);  // v_free = v- + dt (g - iota a_g - alpha v-)
-                                                    //        - dt M^-1 (K (u_n + beta v-) + D v-)
-  push(step, Phase::contact);  // v+ = v_free + M^-1 b^T lambda, u_{n+1} = u_n + dt v+
-  close_energy(step);          // E+ - E- = -dt vbar^T C vbar + dt vbar^T f
-                               //           + what interactions held and lost
-  supports_.finish(time_step_, state_.supports);
-  ++state_.step;
+  const interactions::Step step = at_hand(look_at_gap);
+  for (const auto& interaction : interactions_) interaction->begin(step);
+  for (std::size_t s = 0; with_energies_ && s < systems_.size(); ++s) {
+    if (rest_forces_[s].empty()) continue;
+    structures_[s]->bring_state();
+    rest_before_[s] = about_rest(s);
+  }
+  return with_energies_;
+}
+
+void CdLagrange::close() {
+  const interactions::Step step = at_hand(false);
+  for (const auto& interaction : interactions_) interaction->push(step);
+  close_energy(step);
+  for (auto* structure : structures_) {
+    if (with_energies_) structure->bring_state();
+  }
+}
+
+interactions::Step CdLagrange::at_hand(bool look_at_gap) const {
+  return {state_.step, look_at_gap, incident_, profile_, supports_, structures_, ledger_};
 }
 
 void CdLagrange::move_ground() {
   force_duration_ = state_.step == 0 ? time_step_ / 2 : time_step_;
   const double time = static_cast<double>(state_.step) * time_step_;
   motion_.evaluate(time, acceleration_);
-  motion_.evaluate_incident(time, incident_);
-  if (support_motion_ != nullptr) support_motion_->evaluate(time, supports_.acceleration);
+  if (motion_.from_below()) motion_.evaluate_incident(time, incident_);
+  if (support_motion_ == nullptr) return;
+  support_motion_->evaluate(time, supports_.acceleration);
   supports_.begin(state_.supports, force_duration_);
-}
-
-void CdLagrange::begin(const interactions::Step& step, Phase phase) {
-  for (const auto& interaction : interactions_) {
-    if (interaction->phase() == phase) interaction->begin(step);
-  }
-}
-
-void CdLagrange::push(const interactions::Step& step, Phase phase) {
-  for (const auto& interaction : interactions_) {
-    if (interaction->phase() == phase) interaction->push(step);
-  }
 }
 
 double CdLagrange::about_rest(std::size_t structure) const {
@@ -84,41 +100,41 @@ double CdLagrange::about_rest(std::size_t structure) const {
   return sum;
 }
 
-void CdLagrange::free_velocity(const interactions::Step& step, bool with_energies,
-                               bool with_forces) {
+void CdLagrange::free_velocity(bool with_forces) {
   const ScopedEvent event(events_.free_velocity);
   const ScopedTimer timer(profile_, Phase::step);
-  begin(step, Phase::step);
   for (const auto& interaction : interactions_) with_forces |= interaction->corrects();
-  with_energies = with_energies || energy_.needs_energies();
-  for (std::size_t s = 0; with_energies && s < systems_.size(); ++s) {
+  for (std::size_t s = 0; with_energies_ && s < systems_.size(); ++s) {
     const double* const velocity = state_.structures[s].velocity.data();
     stiffness::StoredForces store(stiffness_velocity_[s].data());
     systems_[s].stiffness->apply({velocity, velocity, 0}, store);
-    sums_[s].rest_before = about_rest(s);
   }
   for (std::size_t s = 0; s < systems_.size(); ++s) systems_[s].stiffness->start(argument(s));
   for (std::size_t s = 0; s < systems_.size(); ++s) {
     sums_[s].extra_damping_before = apply_extra_damping(s);
-    const double* const rate = with_energies ? stiffness_velocity_[s].data() : nullptr;
+    const double* const rate = with_energies_ ? stiffness_velocity_[s].data() : nullptr;
     structure_steps_[s].begin(force_duration_, acceleration_, {rate, with_forces},
                               supports_.acceleration);
     systems_[s].stiffness->finish(argument(s), structure_steps_[s]);
     structure_steps_[s].complete();
   }
-  push(step, Phase::step);
 }
 
 void CdLagrange::close_energy(const interactions::Step& step) {
   const ScopedEvent event(events_.close_energy);
-  for (std::size_t s = 0; s < systems_.size(); ++s) {
-    const StepSums before = sums_[s];
+  for (std::size_t s = 0; s < lanes_.size(); ++s) lanes_[s].sum_up(sums_[s]);
+  for (std::size_t s = 0; s < structure_steps_.size(); ++s) {
+    const double extra_damping_before = sums_[s].extra_damping_before;
     sums_[s] = structure_steps_[s].sums();
-    sums_[s].extra_damping_before = before.extra_damping_before;
-    sums_[s].rest_before = before.rest_before;
+    sums_[s].extra_damping_before = extra_damping_before;
+  }
+  for (std::size_t s = 0; with_energies_ && s < sums_.size(); ++s) {
+    sums_[s].rest_before = rest_before_[s];
   }
   for (const auto& interaction : interactions_) interaction->finish(step);
-  energy_.add_step(sums_, acceleration_);
+  energy_.add_step(sums_, acceleration_, with_energies_);
+  if (support_motion_ != nullptr) supports_.finish(time_step_, state_.supports);
+  ++state_.step;
 }
 
 void CdLagrange::save(SavedState& saved) const {

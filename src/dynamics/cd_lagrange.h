@@ -8,6 +8,7 @@
 #include "common/log_event.h"
 #include "common/profile.h"
 #include "dynamics/energy_balance.h"
+#include "dynamics/octet_step.h"
 #include "dynamics/state.h"
 #include "dynamics/structure_step.h"
 #include "interactions/interaction.h"
@@ -16,6 +17,12 @@
 #include "system/linear_system.h"
 
 namespace pounding {
+
+/// Lane of a run among eight that are stepped together.
+struct RunLane {
+  std::span<OctetStep> structures;  ///< empty: the run is stepped by itself
+  std::size_t number = 0;
+};
 
 /// CD-Lagrange: central differences with lumped mass and lagged Rayleigh damping, contact as a
 /// velocity-impulse complementarity (Ambiel, Brun, Thibon, Gravouil, Eng. Struct. 251 (2022)
@@ -38,12 +45,16 @@ namespace pounding {
 /// The first step is half a step of velocity from v_0 at t_0, which makes the scheme second order
 /// without damping. Times are n dt, never accumulated. Stable for dt below `stable_time_step`;
 /// contact does not lower it. A step allocates nothing, opens nothing, prints nothing.
+///
+/// Eight runs of reduced structures can share the line `free_velocity`, each in a lane: `open` of
+/// all, OctetStep::step of every structure, `close` of all.
 class CdLagrange {
  public:
-  /// All references must outlive this object. `supports`: null where the ground moves as one.
-  /// Collective.
+  /// All references must outlive this object. `supports`: null where the ground moves as one;
+  /// `lane`: where the structures of this run are stepped. Collective.
   CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems, const GroundMotion& motion,
-             double time_step, Profile& profile, const SupportMotion* supports = nullptr);
+             double time_step, Profile& profile, const SupportMotion* supports = nullptr,
+             RunLane lane = {});
 
   /// Takes an interaction in, after those that it has; before the first step. Returns it.
   template <typename Kind>
@@ -59,6 +70,10 @@ class CdLagrange {
   /// will be asked for, which takes one more product, K v-; `with_forces`: those at watched dofs
   /// will. Collective; every rank asks alike for energies.
   void step(bool look_at_gap, bool with_energies, bool with_forces = false);
+  /// The parts of a step before the structures' own one, elongations and gaps of u_n, and after it,
+  /// impulses and ledger; for runs in lanes. Returns whether that one is to be made with energies.
+  bool open(bool look_at_gap, bool with_energies);
+  void close();
 
   /// Owned dofs of a structure whose forces a step can be asked for. Before the first step.
   void watch_forces(std::size_t structure, std::span<const LocalIndex> dofs) {
@@ -73,7 +88,7 @@ class CdLagrange {
   void save(SavedState& saved) const;
   void load(const SavedState& saved);
 
-  /// State that the next step starts from.
+  /// State that the next step starts from; in a lane, where a line of the ledger was asked for.
   const State& state() const { return state_; }
   /// State of a structure as PETSc vectors.
   const StateVectors& vectors(std::size_t structure) const { return vectors_[structure]; }
@@ -87,15 +102,12 @@ class CdLagrange {
   double force_duration() const { return force_duration_; }
 
  private:
+  /// The step at hand, for interactions.
+  interactions::Step at_hand(bool look_at_gap) const;
   /// Motion of ground and supports at t_n.
   void move_ground();
-  /// Elongations and gaps of u_n, of the interactions of a phase.
-  void begin(const interactions::Step& step, Phase phase);
-  /// v_free and the u_{n+1} that it leads to, with the interactions that belong to the structures'
-  /// step; sums for the ledger.
-  void free_velocity(const interactions::Step& step, bool with_energies, bool with_forces);
-  /// v_{n+1/2}, u_{n+1} at the dofs that interactions of a phase move.
-  void push(const interactions::Step& step, Phase phase);
+  /// v_free and the u_{n+1} that it leads to; sums for the ledger.
+  void free_velocity(bool with_forces);
   /// The ledger of the step.
   void close_energy(const interactions::Step& step);
 
@@ -118,11 +130,13 @@ class CdLagrange {
   Profile& profile_;
   State state_;
   interactions::SupportStep supports_;
-  std::vector<StructureStep> structure_steps_;
+  std::vector<StructureStep> structure_steps_;  ///< none in a lane
+  std::vector<OctetLane> lanes_;                ///< per structure in their place
   std::vector<std::unique_ptr<interactions::Interaction>> interactions_;
   EnergyBalance energy_;
   std::vector<StepSums> sums_;
-  std::vector<interactions::SteppedStructure*> structures_;  ///< those of structure_steps_
+  std::vector<double> rest_before_;                          ///< see StepSums
+  std::vector<interactions::SteppedStructure*> structures_;  ///< those of the two
   std::vector<interactions::LedgerPart*> ledger_;            ///< those of sums_
   std::vector<std::vector<double>> stiffness_velocity_;      ///< K v-, where energies are asked for
   std::vector<StateVectors> vectors_;
@@ -132,6 +146,7 @@ class CdLagrange {
   std::array<double, 3> acceleration_{};
   Vector3 incident_{};  ///< velocity of the wave from below [m/s]
   double force_duration_ = 0;
+  bool with_energies_ = false;
 };
 
 }  // namespace pounding

@@ -6,14 +6,10 @@
 namespace pounding {
 
 void EnergyBalance::Sum::add(double term) {
+  if (term == 0) return;
   const double sum = value + term;
   correction += std::abs(value) >= std::abs(term) ? (value - sum) + term : (term - sum) + value;
   value = sum;
-}
-
-double EnergyBalance::mass_damping(const LinearSystem& system) const {
-  const double decay = 1 - time_step_ * system.damping.alpha;
-  return (1 - decay) / time_step_;
 }
 
 EnergyBalance::EnergyBalance(MPI_Comm comm, std::span<const LinearSystem> systems, double time_step)
@@ -24,21 +20,27 @@ EnergyBalance::EnergyBalance(MPI_Comm comm, std::span<const LinearSystem> system
       filtered_(systems.size()),
       open_filtered_(systems.size(), 0.0) {
   for (const LinearSystem& system : systems) {
+    const double decay = 1 - time_step_ * system.damping.alpha;
+    mass_damping_.push_back((1 - decay) / time_step_);
     stiffening_.push_back(system.stiffening());
     relief_.push_back(system.uniform_damping ? 1 - system.uniform_damping->at_rest() : 0);
   }
 }
 
-void EnergyBalance::add_step(std::span<const StepSums> sums,
-                             const std::array<double, 3>& ground_acceleration) {
+void EnergyBalance::take_energies(std::span<const StepSums> sums) {
   lagged_damping_ = 0;
   for (std::size_t b = 0; b < systems_.size(); ++b) {
     lagged_damping_ += time_step_ / 4 * sums[b].extra_damping_before;
     energies_[b] = energy(b, sums[b]);
     if (steps_ == 1) initial_ += energies_[b].energy();
-    open_.links += sums[b].link_loss_before;
   }
   stored_work_ = stored_work(sums);
+}
+
+void EnergyBalance::add_step(std::span<const StepSums> sums,
+                             const std::array<double, 3>& ground_acceleration, bool with_energies) {
+  if (with_energies) take_energies(sums);
+  for (const StepSums& structure : sums) open_.links += structure.link_loss_before;
   if (steps_ == 1) {
     initial_lagged_damping_ = lagged_damping_;
     initial_stored_work_ = stored_work_;
@@ -83,7 +85,7 @@ EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
   Works result;
   for (std::size_t b = 0; b < systems_.size(); ++b) {
     const Rayleigh& damping = systems_[b].damping;
-    result.damping += time_step_ / 4 * mass_damping(systems_[b]) * sums[b].mass_sum;
+    result.damping += time_step_ / 4 * mass_damping_[b] * sums[b].mass_sum;
     if (damping.beta != 0) result.damping += time_step_ / 2 * sums[b].stiffness_work;
     for (std::size_t d = 0; d < 3; ++d) {
       result.input +=
@@ -104,7 +106,7 @@ StructureEnergy EnergyBalance::energy(std::size_t structure, const StepSums& sum
   const LinearSystem& system = systems_[structure];
   const double dt = time_step_;
   const double inertia =
-      (1 - dt / 2 * mass_damping(system)) * sums.kinetic_before + sums.added_kinetic_before;
+      (1 - dt / 2 * mass_damping_[structure]) * sums.kinetic_before + sums.added_kinetic_before;
   const double damped =
       inertia - dt / 2 * (system.damping.beta * sums.stiffness_before + sums.extra_damping_before);
   return {damped / 2,

@@ -86,8 +86,9 @@ class EnergyBalance {
   EnergyBalance(MPI_Comm comm, std::span<const LinearSystem> systems, double time_step);
 
   /// Called at the end of every step: closes the one before, and opens this one with its sums per
-  /// structure and its ground acceleration.
-  void add_step(std::span<const StepSums> sums, const std::array<double, 3>& ground_acceleration);
+  /// structure and its ground acceleration; `with_energies`: these are among the sums.
+  void add_step(std::span<const StepSums> sums, const std::array<double, 3>& ground_acceleration,
+                bool with_energies = true);
   /// The energies are read from the sums of the next step.
   bool needs_energies() const { return steps_ == 1; }
 
@@ -130,9 +131,8 @@ class EnergyBalance {
   template <typename Balance, typename Function>
   static void for_each_sum(Balance& balance, Function&& function);
 
-  /// alpha as the step has it [1/s]: it multiplies by 1 - dt alpha, a number so close to 1 that
-  /// rounding it changes alpha by up to 1e-16 / (dt alpha) of itself.
-  double mass_damping(const LinearSystem& system) const;
+  /// Energies before the step at hand.
+  void take_energies(std::span<const StepSums> sums);
   Works works(std::span<const StepSums> sums,
               const std::array<double, 3>& ground_acceleration) const;
   /// Stored part of the work of q at a line, of structures with beta: above, in brackets [J].
@@ -143,6 +143,9 @@ class EnergyBalance {
   std::span<const LinearSystem> systems_;
   double time_step_;
   std::vector<StructureEnergy> energies_;
+  /// alpha of each structure as the step has it [1/s]: it multiplies by 1 - dt alpha, a number so
+  /// close to 1 that rounding it changes alpha by up to 1e-16 / (dt alpha) of itself.
+  std::vector<double> mass_damping_;
   std::vector<double> stiffening_;  ///< of each structure, see LinearSystem
   std::vector<double> relief_;      ///< 1 - s of its uniform damping, 0 without
   double initial_ = 0;

@@ -1,7 +1,9 @@
 #include "dynamics/octet_step.h"
 
 #include <algorithm>
+#include <stdexcept>
 
+#include "common/row_products.h"
 #include "dynamics/structure_step.h"
 
 namespace pounding {
@@ -42,32 +44,15 @@ std::vector<double> diagonal_of(const LinearSystem& system, const stiffness::Sti
 
 }  // namespace
 
-OctetState::OctetState(std::size_t coordinates, std::size_t filters)
-    : displacement(coordinates, Octet{}),
-      velocity(coordinates, Octet{}),
-      filtered(filters, std::vector<Octet>(coordinates, Octet{})) {}
-
-void OctetState::put(std::size_t lane, const StructureState& state) {
-  for (std::size_t i = 0; i < displacement.size(); ++i) {
-    displacement[i].set(lane, state.displacement[i]);
-    velocity[i].set(lane, state.velocity[i]);
-    for (std::size_t k = 0; k < state.filtered.size(); ++k) {
-      filtered[k][i].set(lane, state.filtered[k][i]);
-    }
-  }
-}
-
-void OctetState::take(const std::vector<Octet>& values, std::size_t lane, std::span<double> to) {
-  for (std::size_t i = 0; i < values.size(); ++i) to[i] = values[i][lane];
-}
-
 OctetStep::OctetStep(std::span<const LinearSystem* const> systems, double time_step)
     : time_step_(time_step) {
   filters_.passing = all_octet(1);
   for (auto& [weight, keep, take] : filters_.filters) weight = keep = take = Octet{};
   for (std::size_t lane = 0; lane < systems.size(); ++lane) {
-    if (systems[lane] != nullptr) take_system(*systems[lane], time_step, lane);
+    take_system(*systems[lane], time_step, lane);
   }
+  const std::vector<Octet> zero(coordinates(), Octet{});
+  state_ = {zero, zero, std::vector<std::vector<Octet>>(filters_.count, zero)};
 }
 
 void OctetStep::take_system(const LinearSystem& system, double time_step, std::size_t lane) {
@@ -90,7 +75,8 @@ void OctetStep::take_system(const LinearSystem& system, double time_step, std::s
 }
 
 void OctetStep::step(double duration, const std::array<Octet, 3>& ground_acceleration,
-                     bool with_energies, OctetState& state) {
+                     bool with_energies) {
+  ++steps_;
   const Octet h = all_octet(duration);
   terms_ = {all_octet(time_step_), h, all_octet(1) - h * alpha_, beta_};
   for (std::size_t d = 0; d < 3; ++d) {
@@ -104,16 +90,16 @@ void OctetStep::step(double duration, const std::array<Octet, 3>& ground_acceler
   sums_ = DofSums<Octet>{};
   energies_ = DofEnergies<Octet>{};
   extra_before_ = device_ = Octet{};
-  corrections_.fill({});
+  corrected_.fill(false);
   if (filters_.count > 0) {
-    with_energies ? advance<true, true>(state) : advance<false, true>(state);
+    with_energies ? advance<true, true>() : advance<false, true>();
   } else {
-    with_energies ? advance<true, false>(state) : advance<false, false>(state);
+    with_energies ? advance<true, false>() : advance<false, false>();
   }
 }
 
 template <bool with_energies, bool filtered>
-void OctetStep::advance(OctetState& state) {
+void OctetStep::advance() {
   DofSums<Octet> sums;
   std::array<Octet, 3> momentum{};
   // Copies stay in registers: the compiler cannot tell that no store of a state changes them.
@@ -121,8 +107,8 @@ void OctetStep::advance(OctetState& state) {
   const std::array<Octet, 3> ground_step = ground_step_;
   const std::array<bool, 3> shaken = shaken_;
   const bool has_extra = !extra_damping_.empty();
-  Octet* const displacement = state.displacement.data();
-  Octet* const velocity = state.velocity.data();
+  Octet* const displacement = state_.displacement.data();
+  Octet* const velocity = state_.velocity.data();
   for (std::size_t i = 0; i < stiffness_.size(); ++i) {
     DofState<Octet> dof{displacement[i], velocity[i]};
     const Octet before = dof.velocity;
@@ -134,7 +120,7 @@ void OctetStep::advance(OctetState& state) {
     if constexpr (filtered) {
       f = filters_.passing * q;
       for (std::size_t k = 0; k < filters_.count; ++k) {
-        pass_filter(filters_.filters[k], q, state.filtered[k][i], f);
+        pass_filter(filters_.filters[k], q, state_.filtered[k][i], f);
       }
     }
     Octet ground{};
@@ -160,54 +146,126 @@ void OctetStep::advance(OctetState& state) {
   momentum_ = momentum;
 }
 
-void OctetStep::remember(const OctetState& state, std::size_t lane, Before& before) const {
-  OctetState::take(state.displacement, lane, before.displacement);
-  OctetState::take(state.velocity, lane, before.velocity);
-  const Filters<double> filters = take_filters(filters_, lane);
-  for (std::size_t i = 0; i < stiffness_.size(); ++i) {
-    const double q =
-        stiffness_[i][lane] * (before.displacement[i] + beta_[lane] * before.velocity[i]);
-    const double f =
-        filtered_force(filters, q, [&](std::size_t k) { return state.filtered[k][i][lane]; });
-    before.forces[i] = {q, f};
+OctetLane::OctetLane(OctetStep& octet, std::size_t lane, StructureState& state)
+    : octet_(octet), lane_(lane), state_(state), forces_(octet.coordinates()) {
+  const auto put = [lane](std::span<const double> values, std::vector<Octet>& to) {
+    for (std::size_t i = 0; i < to.size(); ++i) to[i].set(lane, values[i]);
+  };
+  put(state.displacement, octet.state_.displacement);
+  put(state.velocity, octet.state_.velocity);
+  for (std::size_t k = 0; k < state.filtered.size(); ++k) {
+    put(state.filtered[k], octet.state_.filtered[k]);
   }
 }
 
-void OctetStep::correct(std::size_t lane, const Before& before, std::span<const double> velocity,
-                        OctetState& state) {
-  const StepTerms<double> terms = take_terms(terms_, lane);
+void OctetLane::take(const std::vector<Octet>& values, std::vector<double>& to) const {
+  for (std::size_t i = 0; i < values.size(); ++i) to[i] = values[i][lane_];
+}
+
+const std::vector<double>& OctetLane::displacement() const {
+  if (displacement_known_ != octet_.steps_) {
+    take(octet_.state_.displacement, state_.displacement);
+    displacement_known_ = octet_.steps_;
+  }
+  return state_.displacement;
+}
+
+const std::vector<double>& OctetLane::velocity() const {
+  if (velocity_known_ != octet_.steps_) {
+    take(octet_.state_.velocity, state_.velocity);
+    velocity_known_ = octet_.steps_;
+  }
+  return state_.velocity;
+}
+
+void OctetLane::bring_state() const {
+  displacement();
+  velocity();
+  for (std::size_t k = 0; k < state_.filtered.size(); ++k) {
+    take(octet_.state_.filtered[k], state_.filtered[k]);
+  }
+}
+
+std::span<const double> OctetLane::places(const Trace& trace) {
+  const std::size_t count = trace.known().size();
+  if (count == 0) return {};
+  places_.resize(count);
+  octet_.places_.resize(count);
+  if (octet_.places_known_ != octet_.steps_) {
+    multiply_rows(trace.row(0).data(), count, octet_.coordinates(),
+                  octet_.state_.displacement.data(), octet_.places_.data());
+    octet_.places_known_ = octet_.steps_;
+  }
+  take(octet_.places_, places_);
+  return places_;
+}
+
+void OctetLane::remember(std::span<const LocalIndex> dofs, interactions::Before& before) const {
+  const std::vector<double>& u = displacement();
+  const std::vector<double>& v = velocity();
+  for (std::size_t k = 0; k < dofs.size(); ++k) {
+    before.displacement[k] = u[dofs[k]];
+    before.velocity[k] = v[dofs[k]];
+  }
+  if (forces_known_ == octet_.steps_) return;
+  forces_known_ = octet_.steps_;
+  const Filters<double> filters = take_filters(octet_.filters_, lane_);
+  const double beta = octet_.beta_[lane_];
+  for (std::size_t i = 0; i < forces_.size(); ++i) {
+    const double q = octet_.stiffness_[i][lane_] * (u[i] + beta * v[i]);
+    const auto memory = [&](std::size_t k) { return octet_.state_.filtered[k][i][lane_]; };
+    forces_[i] = {q, filtered_force(filters, q, memory)};
+  }
+}
+
+void OctetLane::act(std::span<const LocalIndex> /*dofs*/, std::span<const double> /*force*/,
+                    bool /*from_rest*/) {
+  throw std::logic_error("inelastic elements of a structure in generalised coordinates");
+}
+
+void OctetLane::correct(std::span<const LocalIndex> dofs, const interactions::Before& before,
+                        std::span<const double> velocity) {
+  const StepTerms<double> terms = take_terms(octet_.terms_, lane_);
   DofSums<double> sums;
-  StepSums& correction = corrections_[lane];
-  for (std::size_t i = 0; i < stiffness_.size(); ++i) {
-    const DofState<double> old{before.displacement[i], before.velocity[i]};
-    DofState<double> dof{state.displacement[i][lane], state.velocity[i][lane]};
-    if (!extra_damping_.empty()) {
+  StepSums& correction = octet_.corrections_[lane_];
+  if (!octet_.corrected_[lane_]) correction = {};
+  octet_.corrected_[lane_] = true;
+  for (std::size_t k = 0; k < dofs.size(); ++k) {
+    const std::size_t i = dofs[k];
+    Octet& u = octet_.state_.displacement[i];
+    Octet& v = octet_.state_.velocity[i];
+    const DofState<double> old{before.displacement[k], before.velocity[k]};
+    DofState<double> dof{u[lane_], v[lane_]};
+    if (!octet_.extra_damping_.empty()) {
       correction.device +=
-          extra_damping_[i][lane] * before.velocity[i] * (velocity[i] - dof.velocity);
+          octet_.extra_damping_[i][lane_] * old.velocity * (velocity[k] - dof.velocity);
     }
     const double gained =
-        correct_dof(terms, mass_[i][lane], old, velocity[i], before.forces[i], dof, sums);
-    for (std::size_t d = 0; d < 3; ++d) correction.momentum[d] += influence_[d][i][lane] * gained;
-    state.velocity[i].set(lane, dof.velocity);
-    state.displacement[i].set(lane, dof.displacement);
+        correct_dof(terms, octet_.mass_[i][lane_], old, velocity[k], forces_[i], dof, sums);
+    for (std::size_t d = 0; d < 3; ++d) {
+      correction.momentum[d] += octet_.influence_[d][i][lane_] * gained;
+    }
+    u.set(lane_, state_.displacement[i] = dof.displacement);
+    v.set(lane_, state_.velocity[i] = dof.velocity);
   }
   add_to(sums, correction);
 }
 
-StepSums OctetStep::sums(std::size_t lane) const {
-  StepSums total = corrections_[lane];
-  total.stiffness_work += sums_.stiffness_work[lane];
-  total.mass_sum += sums_.mass_sum[lane];
-  total.filtered += sums_.filtered[lane];
-  total.kinetic_before = energies_.kinetic_before[lane];
-  total.stiffness_before = energies_.stiffness_before[lane];
-  total.strain_before = energies_.strain_before[lane];
-  total.strain_back = energies_.strain_back[lane];
-  total.displacement_mass = energies_.displacement_mass[lane];
-  for (std::size_t d = 0; d < 3; ++d) total.momentum[d] += momentum_[d][lane];
-  total.extra_damping_before = extra_before_[lane];
-  total.device += device_[lane];
-  return total;
+void OctetLane::sum_up(StepSums& total) const {
+  total = {};
+  if (octet_.corrected_[lane_]) total = octet_.corrections_[lane_];
+  const DofEnergies<Octet>& energies = octet_.energies_;
+  total.stiffness_work += octet_.sums_.stiffness_work[lane_];
+  total.mass_sum += octet_.sums_.mass_sum[lane_];
+  total.filtered += octet_.sums_.filtered[lane_];
+  total.kinetic_before = energies.kinetic_before[lane_];
+  total.stiffness_before = energies.stiffness_before[lane_];
+  total.strain_before = energies.strain_before[lane_];
+  total.strain_back = energies.strain_back[lane_];
+  total.displacement_mass = energies.displacement_mass[lane_];
+  for (std::size_t d = 0; d < 3; ++d) total.momentum[d] += octet_.momentum_[d][lane_];
+  total.extra_damping_before = octet_.extra_before_[lane_];
+  total.device += octet_.device_[lane_];
 }
 
 }  // namespace pounding

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "dynamics/state.h"
 #include "dynamics/step_sums.h"
 #include "dynamics/update.h"
+#include "interactions/interaction.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -18,52 +20,33 @@ struct OctetState {
   std::vector<Octet> displacement;
   std::vector<Octet> velocity;
   std::vector<std::vector<Octet>> filtered;  ///< by filter
-
-  /// Room for a structure with so many coordinates and filters, all zero.
-  OctetState(std::size_t coordinates, std::size_t filters);
-  void put(std::size_t lane, const StructureState& state);
-  /// Displacements or velocities of a run alone.
-  static void take(const std::vector<Octet>& values, std::size_t lane, std::span<double> to);
 };
 
 /// Brings eight runs of a structure in generalised coordinates one step on together, as
 /// StructureStep does one of them (update.h, lane by lane); the runs may differ in mass, stiffness
-/// and damping. A run that contact changes is then corrected alone. Local; a step allocates
-/// nothing.
+/// and damping. Each run is an OctetLane of it, which interactions correct alone. Local; a step
+/// allocates nothing.
 class OctetStep {
  public:
-  /// `systems`: of each run, alike in their numbers of coordinates; null where there is none. They
-  /// must outlive this object.
+  /// `systems`: of each run, alike in their numbers of coordinates; their states are zero.
   OctetStep(std::span<const LinearSystem* const> systems, double time_step);
 
   std::size_t coordinates() const { return stiffness_.size(); }
-  std::size_t filters() const { return filters_.count; }
+  const OctetState& state() const { return state_; }
 
   /// The step with the ground's acceleration [m/s2], gravity apart; `duration`: see
   /// StructureStep::begin; `with_energies`: those before the step are asked for.
-  void step(double duration, const std::array<Octet, 3>& ground_acceleration, bool with_energies,
-            OctetState& state);
-
-  /// One run's state before a step, and the forces of the step.
-  struct Before {
-    explicit Before(std::size_t coordinates)
-        : displacement(coordinates), velocity(coordinates), forces(coordinates) {}
-    std::vector<double> displacement;
-    std::vector<double> velocity;
-    std::vector<DofForces> forces;
-  };
-  void remember(const OctetState& state, std::size_t lane, Before& before) const;
-  /// v+ = `velocity` of one run, after contact; sums and displacement follow.
-  void correct(std::size_t lane, const Before& before, std::span<const double> velocity,
-               OctetState& state);
-  /// Sums of the last step of one run.
-  StepSums sums(std::size_t lane) const;
+  void step(double duration, const std::array<Octet, 3>& ground_acceleration, bool with_energies);
 
  private:
+  friend class OctetLane;
+
   void take_system(const LinearSystem& system, double time_step, std::size_t lane);
   template <bool with_energies, bool filtered>
-  void advance(OctetState& state);
+  void advance();
 
+  OctetState state_;
+  std::int64_t steps_ = 0;  ///< made
   std::vector<Octet> mass_;
   std::vector<Octet> inverse_mass_;
   std::vector<Octet> stiffness_;
@@ -82,7 +65,45 @@ class OctetStep {
   std::array<Octet, 3> momentum_{};
   Octet extra_before_{};  ///< v-^T D v- [W]
   Octet device_{};
+  std::array<bool, octet_size> corrected_{};  ///< lanes in this step
   std::array<StepSums, octet_size> corrections_;
+  std::vector<Octet> places_;       ///< u_n at the places of a trace
+  std::int64_t places_known_ = -1;  ///< steps made when they were found
+};
+
+/// One run of an OctetStep, as the scheme and its interactions see it. Its state is brought to the
+/// arrays of a StructureState where they ask for it. Local.
+class OctetLane final : public interactions::SteppedStructure {
+ public:
+  /// Puts `state` into the lane. Both references must outlive this object.
+  OctetLane(OctetStep& octet, std::size_t lane, StructureState& state);
+
+  const std::vector<double>& displacement() const override;
+  const std::vector<double>& velocity() const override;
+  void bring_state() const override;
+  /// Found for all lanes at once by the first that asks: their traces are alike.
+  std::span<const double> places(const Trace& trace) override;
+  void watch(std::span<const LocalIndex> /*dofs*/, bool /*always*/) override {}
+  /// Before the step.
+  void remember(std::span<const LocalIndex> dofs, interactions::Before& before) const override;
+  /// Throws std::logic_error: no element of a reduced structure is inelastic.
+  void act(std::span<const LocalIndex> dofs, std::span<const double> force,
+           bool from_rest) override;
+  void correct(std::span<const LocalIndex> dofs, const interactions::Before& before,
+               std::span<const double> velocity) override;
+  /// Sums of the last step.
+  void sum_up(StepSums& total) const;
+
+ private:
+  void take(const std::vector<Octet>& values, std::vector<double>& to) const;
+
+  OctetStep& octet_;
+  std::size_t lane_;
+  StructureState& state_;
+  /// Steps made when displacement, velocity and forces were brought here.
+  mutable std::int64_t displacement_known_ = -1, velocity_known_ = -1, forces_known_ = -1;
+  mutable std::vector<DofForces> forces_;  ///< of the step, per coordinate
+  std::vector<double> places_;
 };
 
 }  // namespace pounding

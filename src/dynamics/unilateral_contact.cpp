@@ -42,8 +42,14 @@ void UnilateralContact::detect_contact(const interactions::Step& step) {
   const ScopedTimer timer(step.profile, Phase::contact);
   ++looks_;
   for (std::size_t s = 0; s < before_.size(); ++s) {
-    problem_.set_displacement(s, step.structures[s]->displacement().data(),
-                              step.supports.displacement);
+    std::span<const double> places;
+    if (step.look_at_gap) places = step.structures[s]->places(problem_.trace(s));
+    if (places.empty()) {
+      problem_.set_displacement(s, step.structures[s]->displacement().data(),
+                                step.supports.displacement);
+    } else {
+      problem_.set_place_displacement(s, places);
+    }
   }
   problem_.gather_displacements();
   touching_ = problem_.detect_contact();
@@ -55,9 +61,14 @@ void UnilateralContact::detect_contact(const interactions::Step& step) {
   if (!touching_) {
     problem_.clear_impulse();
     if (!watch_.needs_look(step.number)) return;
-    if (watch_.measures()) problem_.add_over_members(watch_.measure(state_.structures));
+    if (watch_.measures()) measure(step);
   }
   watch_.looked(step.number, problem_.smallest_gap() - problem_.gap_tolerance(), touching_);
+}
+
+void UnilateralContact::measure(const interactions::Step& step) {
+  for (const interactions::SteppedStructure* structure : step.structures) structure->bring_state();
+  problem_.add_over_members(watch_.measure(state_.structures));
 }
 
 void UnilateralContact::solve_impulse(const interactions::Step& step) {

@@ -46,6 +46,8 @@ class UnilateralContact final : public interactions::Interaction {
 
  private:
   void detect_contact(const interactions::Step& step);
+  /// Brings the state to the bound of the gap rates.
+  void measure(const interactions::Step& step);
   void solve_impulse(const interactions::Step& step);
   void correct_velocity(const interactions::Step& step);
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "common/error.h"
-#include "common/row_products.h"
-#include "driver/field_plan.h"
 #include "driver/stated_peak.h"
 #include "motion/response_spectrum.h"
 
@@ -18,24 +16,18 @@ constexpr std::int64_t stop_interval = 2000;
 
 OctetGroup::OctetGroup(std::span<const MemberScene* const> members, const Scene& scene,
                        const EnsembleModel& shared, OctetRecorder& recorder)
-    : scene_(scene),
-      shared_(*shared.model),
-      recorder_(recorder),
-      gap_stride_(gap_stride(scene, shared_)) {
-  for (std::size_t lane = 0; lane < members.size(); ++lane) {
-    runs_.push_back(std::make_unique<MemberRun>(*members[lane], shared, lane));
-  }
+    : scene_(scene), shared_(*shared.model), recorder_(recorder) {
+  for (const MemberScene* member : members) models_.push_back(member_model(*member, shared));
   for (std::size_t s = 0; s < shared_.systems.size(); ++s) {
     std::vector<const LinearSystem*> systems;
-    for (const auto& run : runs_) systems.push_back(&run->system(s));
-    steps_.emplace_back(systems, shared_.time_step);
-    states_.emplace_back(steps_[s].coordinates(), steps_[s].filters());
-    for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
-      states_[s].put(lane, runs_[lane]->initial().structures[s]);
-    }
-    places_.emplace_back(runs_[0]->interface_rows(s).size() / steps_[s].coordinates());
+    for (const Model& model : models_) systems.push_back(&model.systems[s]);
+    octets_.emplace_back(systems, shared_.time_step);
   }
-  recorder_.restart(states_);
+  for (std::size_t lane = 0; lane < members.size(); ++lane) {
+    runs_.push_back(
+        std::make_unique<MemberRun>(*members[lane], shared, models_[lane], RunLane{octets_, lane}));
+  }
+  recorder_.restart(octets_);
 }
 
 bool OctetGroup::run(const std::function<bool()>& stopped) {
@@ -47,46 +39,22 @@ bool OctetGroup::run(const std::function<bool()>& stopped) {
 }
 
 void OctetGroup::step(std::int64_t n) {
-  const bool ledger = n > 0 && (n % scene_.energy_interval == 0 || n == shared_.steps);
   const bool records = recorder_.due(n);
-  const double duration = n == 0 ? shared_.time_step / 2 : shared_.time_step;
-  const double time = static_cast<double>(n) * shared_.time_step;
-  if (records) recorder_.take_displacements(states_);
+  if (records) recorder_.take_displacements(octets_);
+  bool with_energies = false;
   for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
-    const std::array<double, 3>& ground = runs_[lane]->begin(time);
-    for (std::size_t d = 0; d < 3; ++d) acceleration_[d].set(lane, ground[d]);
+    with_energies = runs_[lane]->open() || with_energies;
+    for (std::size_t d = 0; d < 3; ++d) {
+      acceleration_[d].set(lane, runs_[lane]->stepper().ground_acceleration()[d]);
+    }
   }
-  std::span<const std::vector<Octet>> places;
-  if (records && n % gap_stride_ == 0) {
-    find_places();
-    places = places_;
-  }
-  for (auto& run : runs_) run->look(n, places, steps_, states_);
-  const bool with_energies = ledger || runs_[0]->needs_energies();
-  for (std::size_t s = 0; s < steps_.size(); ++s) {
-    steps_[s].step(duration, acceleration_, with_energies, states_[s]);
-  }
-  for (auto& run : runs_) run->resolve(steps_, states_);
-  for (auto& run : runs_) run->close(time, duration, records, steps_);
+  const double duration = runs_.front()->stepper().force_duration();
+  for (OctetStep& octet : octets_) octet.step(duration, acceleration_, with_energies);
+  for (failed_lane_ = 0; failed_lane_ < runs_.size(); ++failed_lane_) runs_[failed_lane_]->close();
   std::array<Octet, 3> gained = acceleration_;
   for (Octet& value : gained) value = value * all_octet(duration);
   recorder_.add_step(gained);
-  if (records) recorder_.record(states_);
-  if (ledger) close_lines(n);
-}
-
-void OctetGroup::find_places() {
-  for (std::size_t s = 0; s < places_.size(); ++s) {
-    const std::span<const double> rows = runs_[0]->interface_rows(s);
-    multiply_rows(rows.data(), places_[s].size(), steps_[s].coordinates(),
-                  states_[s].displacement.data(), places_[s].data());
-  }
-}
-
-void OctetGroup::close_lines(std::int64_t n) {
-  for (failed_lane_ = 0; failed_lane_ < runs_.size(); ++failed_lane_) {
-    runs_[failed_lane_]->close_ledger(n, states_);
-  }
+  if (records) recorder_.record(octets_);
 }
 
 MemberResult OctetGroup::result(std::size_t lane) {

@@ -10,9 +10,9 @@
 
 namespace pounding {
 
-/// Up to eight members of an ensemble from t_0 to the end time, stepped together: the free step in
-/// lanes (OctetStep), gaps and contact member by member (MemberRun). The results of a member depend
-/// neither on its lane nor on its companions. Local: nothing is communicated.
+/// Up to eight members of an ensemble from t_0 to the end time, stepped together: the structures in
+/// lanes (OctetStep), interactions and outputs member by member (MemberRun). A member's results
+/// depend neither on its lane nor on its companions. Local: nothing is communicated.
 class OctetGroup {
  public:
   /// All arguments must outlive this object. `members`: at most eight.
@@ -25,23 +25,16 @@ class OctetGroup {
   std::size_t failed_lane() const { return failed_lane_; }
   /// Results of the run in a lane.
   MemberResult result(std::size_t lane);
-  /// Steps in which the gaps of a lane were looked at.
-  std::int64_t looks(std::size_t lane) const { return runs_[lane]->looks(); }
 
  private:
   void step(std::int64_t n);
-  /// Displacements of all lanes at the places of the interface.
-  void find_places();
-  void close_lines(std::int64_t n);
 
   const Scene& scene_;
   const Model& shared_;
   OctetRecorder& recorder_;
+  std::vector<Model> models_;      ///< per member, as the next ones
+  std::vector<OctetStep> octets_;  ///< per structure
   std::vector<std::unique_ptr<MemberRun>> runs_;
-  std::vector<OctetStep> steps_;            ///< per structure
-  std::vector<OctetState> states_;          ///< per structure
-  std::vector<std::vector<Octet>> places_;  ///< per structure, of the interface
-  std::int64_t gap_stride_ = 1;             ///< steps between two samples of the gaps
   std::array<Octet, 3> acceleration_{};
   std::size_t failed_lane_ = 0;
 };

@@ -46,8 +46,8 @@ OctetRecorder::OctetRecorder(std::span<const ResolvedProbe> probes,
   history_.resize(channels_ * octet_size * capacity_);
 }
 
-void OctetRecorder::restart(std::span<const OctetState> states) {
-  multiply(states, &OctetState::velocity);
+void OctetRecorder::restart(std::span<const OctetStep> octets) {
+  multiply(octets, &OctetState::velocity);
   last_velocity_ = values_;
   displacement_.assign(channels_, Octet{});
   ground_.fill(Octet{});
@@ -58,25 +58,25 @@ void OctetRecorder::add_step(const std::array<Octet, 3>& ground_velocity_step) {
   for (std::size_t d = 0; d < 3; ++d) ground_[d] += ground_velocity_step[d];
 }
 
-void OctetRecorder::multiply(std::span<const OctetState> states,
+void OctetRecorder::multiply(std::span<const OctetStep> octets,
                              std::vector<Octet> OctetState::*quantity) {
   for (const Rows& rows : rows_) {
-    const Octet* const x = (states[rows.structure].*quantity).data();
+    const Octet* const x = (octets[rows.structure].state().*quantity).data();
     multiply_rows(rows.values.data(), rows.channels.size(), rows.width, x, products_.data());
     for (std::size_t r = 0; r < rows.channels.size(); ++r) values_[rows.channels[r]] = products_[r];
   }
 }
 
-void OctetRecorder::take_displacements(std::span<const OctetState> states) {
+void OctetRecorder::take_displacements(std::span<const OctetStep> octets) {
   if (records_ < first_) return;
-  multiply(states, &OctetState::displacement);
+  multiply(octets, &OctetState::displacement);
   for (std::size_t c = 0; c < channels_; ++c) {
     displacement_[c] = larger(displacement_[c], magnitude(values_[c]));
   }
 }
 
-void OctetRecorder::record(std::span<const OctetState> states) {
-  multiply(states, &OctetState::velocity);
+void OctetRecorder::record(std::span<const OctetStep> octets) {
+  multiply(octets, &OctetState::velocity);
   Octet* const out = &block_[blocked_ * channels_];
   for (std::size_t c = 0; c < channels_; ++c) {
     out[c].lanes = (values_[c].lanes - last_velocity_[c].lanes + ground_[c % 3].lanes) / interval_;

@@ -36,14 +36,14 @@ class OctetRecorder {
   static double memory(std::size_t channels, const Times& times);
 
   /// Begins runs from their states at t = 0.
-  void restart(std::span<const OctetState> states);
+  void restart(std::span<const OctetStep> octets);
   bool due(std::int64_t step) const { return step % stride_ == 0; }
   /// The velocity that the ground gained in a step [m/s].
   void add_step(const std::array<Octet, 3>& ground_velocity_step);
   /// Before the step to be recorded.
-  void take_displacements(std::span<const OctetState> states);
+  void take_displacements(std::span<const OctetStep> octets);
   /// After it.
-  void record(std::span<const OctetState> states);
+  void record(std::span<const OctetStep> octets);
   /// After the last record: samples of a channel of a run [m/s2].
   std::span<const double> acceleration(std::size_t channel, std::size_t lane);
   double largest_displacement(std::size_t channel, std::size_t lane) const {
@@ -59,7 +59,7 @@ class OctetRecorder {
     std::vector<std::size_t> channels;  ///< numbers among all
   };
   /// values_ := rows times the coordinates.
-  void multiply(std::span<const OctetState> states, std::vector<Octet> OctetState::*quantity);
+  void multiply(std::span<const OctetStep> octets, std::vector<Octet> OctetState::*quantity);
   /// Brings the records of the block to the histories.
   void flush();
 

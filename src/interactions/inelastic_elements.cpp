@@ -102,6 +102,7 @@ double InelasticElements::respond() {
 }
 
 void InelasticElements::begin(const Step& step) {
+  const ScopedTimer timer(step.profile, Phase::step);
   SteppedStructure& structure = *step.structures[structure_];
   structure.remember(dofs_, state_);
   const bool first = step.number == 0;

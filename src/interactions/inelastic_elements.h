@@ -47,7 +47,6 @@ class InelasticElements final : public Interaction {
   void finish(const Step& step) override;
   void save(SavedState& saved) const override;
   void load(const SavedState& saved) override;
-  Phase phase() const override { return Phase::step; }
 
  private:
   /// Elements of one block, which share a law.

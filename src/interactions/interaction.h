@@ -9,6 +9,7 @@
 #include "common/types.h"
 #include "interactions/ledger_part.h"
 #include "interactions/support_step.h"
+#include "system/trace.h"
 
 namespace pounding::interactions {
 
@@ -28,6 +29,10 @@ class SteppedStructure {
   /// Over the owned dofs: u_n and v- before the free step, u_{n+1} and v+ after it [m, rad].
   virtual const std::vector<double>& displacement() const = 0;
   virtual const std::vector<double>& velocity() const = 0;
+  /// Brings the state of its run up to date where the step keeps it in lanes.
+  virtual void bring_state() const {}
+  /// u_n at the known places of a trace [m, rad], where runs in lanes all ask for it; else empty.
+  virtual std::span<const double> places(const Trace& /*trace*/) { return {}; }
   /// Dofs that `correct` may change. Allocates; before the first step. `always`: in any step; else
   /// in steps whose interaction says `corrects` alone.
   virtual void watch(std::span<const LocalIndex> dofs, bool always) = 0;
@@ -60,8 +65,8 @@ struct Step {
 /// Forces between places of structures in a step of the scheme: known from u_n and, implicitly,
 /// from the motion that they change. The step calls `begin` of every interaction, brings the
 /// structures to v_free, calls `push` of every one in the same order, then `finish`. All methods
-/// are collective over the ranks that hold the interaction's rows, which call them alike; a step
-/// allocates nothing.
+/// are collective over the ranks that hold the interaction's rows, which call them alike; they
+/// charge their time to a phase of the profile where they act. A step allocates nothing.
 class Interaction {
  public:
   virtual ~Interaction() = default;
@@ -79,9 +84,6 @@ class Interaction {
 
   virtual void save(SavedState& saved) const = 0;
   virtual void load(const SavedState& saved) = 0;
-  /// Phase of the profile that `begin` and `push` belong to: that of the structures' step, within
-  /// whose time they are called, or that of contact, which they charge themselves where they act.
-  virtual Phase phase() const { return Phase::contact; }
 };
 
 }  // namespace pounding::interactions

@@ -158,6 +158,7 @@ void LinkRows::measure_carried(const std::vector<double>& owned, std::span<const
 }
 
 void LinkRows::begin(const Step& step) {
+  const ScopedTimer timer(step.profile, Phase::step);
   const SteppedStructure& structure = *step.structures[structure_];
   auto& [before, now, free_after] = elongations_;
   for (std::size_t b = 0; b < links_.size(); ++b) {
@@ -177,6 +178,7 @@ void LinkRows::begin(const Step& step) {
 }
 
 void LinkRows::push(const Step& step) {
+  const ScopedTimer timer(step.profile, Phase::step);
   SteppedStructure& structure = *step.structures[structure_];
   auto& [before, now, free_after] = elongations_;
   std::fill(force_.begin(), force_.end(), 0.0);

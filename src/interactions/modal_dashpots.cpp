@@ -52,12 +52,14 @@ double ModalDashpots::force(std::size_t link) const {
 }
 
 void ModalDashpots::begin(const Step& step) {
+  const ScopedTimer timer(step.profile, Phase::step);
   const SteppedStructure& structure = *step.structures[structure_];
   structure.remember(trace_.dofs(), held_);
   if (!records_.empty()) measure(structure.displacement(), recorded_);
 }
 
 void ModalDashpots::push(const Step& step) {
+  const ScopedTimer timer(step.profile, Phase::step);
   SteppedStructure& structure = *step.structures[structure_];
   trace_.restrict_to_dofs(structure.velocity().data(), velocity_.data());
   modes_.brake(step.share(), held_.velocity, velocity_);

@@ -21,7 +21,6 @@ class StructureLinks : public Interaction {
   void attach(std::span<SteppedStructure* const> structures) override;
   void save(SavedState& saved) const override;
   void load(const SavedState& saved) override;
-  Phase phase() const override { return Phase::step; }
 
   /// Stiffness of this rank's compression-only springs [N/m]: of those that are pressed at the end
   /// of the step, and of all.

@@ -14,9 +14,8 @@ void Observers::start(const CdLagrange& stepper, const SavedState* continued) {
   earliest_ = std::ranges::min(next_);
 }
 
-StepNeeds Observers::before(const CdLagrange& stepper) {
+StepNeeds Observers::begin_due(const CdLagrange& stepper) {
   StepNeeds all;
-  if (stepper.state().step < earliest_) return all;
   for (std::size_t i = 0; i < list_.size(); ++i) {
     if (next_[i] != stepper.state().step) continue;
     due_.push_back(i);

@@ -88,11 +88,15 @@ class Observers {
   /// `continued`: see Observer::start. Collective.
   void start(const CdLagrange& stepper, const SavedState* continued);
   /// Before a step: the needs of those that are due. Collective.
-  StepNeeds before(const CdLagrange& stepper);
+  StepNeeds before(const CdLagrange& stepper) {
+    return stepper.state().step < earliest_ ? StepNeeds{} : begin_due(stepper);
+  }
   /// After it. Collective.
   void after(const CdLagrange& stepper);
 
  private:
+  StepNeeds begin_due(const CdLagrange& stepper);
+
   Profile& profile_;
   std::vector<std::unique_ptr<Observer>> list_;
   std::vector<Observer*> followers_;
