@@ -279,11 +279,11 @@ void build_structures(MPI_Comm comm, Scene& scene, Profile& profile, Model& mode
     build_structure(comm, scene, s, profile, model, leans(scene.structures[s]));
   }
   turn_weight_with_columns(comm, scene, profile, model);
-  put_at_rest(comm, scene, profile, model);
+  put_at_rest(comm, scene, model.meshes, profile, model);
   find_start_gaps(scene, model);
   on_rank0(comm, [&] { model.separations = find_separations(scene, model); });
   add_warnings(comm, scene, model);
-  model.filler_time_step = filler_limit(comm, scene, model);
+  model.filler_time_step = filler_limit(comm, scene, model, model.meshes);
   choose_time_step(scene, step_limits(scene, model), model);
   append(run_warnings(scene, model), model.warnings);
   append(check_fields(comm, scene, model), model.warnings);

@@ -37,10 +37,11 @@ bool is_stable(const Model& model, const std::vector<double>& eta, double time_s
 
 }  // namespace
 
-double filler_limit(MPI_Comm comm, const Scene& scene, const Model& model) {
+double filler_limit(MPI_Comm comm, const Scene& scene, const Model& model,
+                    std::span<const Mesh> meshes) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (!interactions::has_fillers(model.interface)) return infinity;
-  const interactions::FillerPairs pairs(comm, model.interface, model.systems, model.meshes);
+  const interactions::FillerPairs pairs(comm, model.interface, model.systems, meshes);
   std::vector<double> stiffness;
   for (const interactions::FillerPairs::Pair& row : pairs.all()) {
     stiffness.push_back(

@@ -16,7 +16,9 @@ namespace pounding {
 /// with mu_s(dt) the smallest eigenvalue of M^-1 (M - dt/2 C - dt^2/4 K) of the structure: then
 /// dt^2/4 L^T k L takes no more than that from any motion. Exact for masses on springs; on the safe
 /// side else, by little where the filler is soft beside the structures' fastest motions. Structures
-/// of more than one damping have mu_s >= 1 - dt / their stable step. Collective over `comm`.
-double filler_limit(MPI_Comm comm, const Scene& scene, const Model& model);
+/// of more than one damping have mu_s >= 1 - dt / their stable step. `meshes`: those of the model's
+/// structures. Collective over `comm`.
+double filler_limit(MPI_Comm comm, const Scene& scene, const Model& model,
+                    std::span<const Mesh> meshes);
 
 }  // namespace pounding

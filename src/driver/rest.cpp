@@ -27,12 +27,13 @@ bool is_weightless(const StructureRest& rest) {
 
 }  // namespace
 
-void put_at_rest(MPI_Comm comm, const Scene& scene, Profile& profile, Model& model) {
+void put_at_rest(MPI_Comm comm, const Scene& scene, std::span<const Mesh> meshes, Profile& profile,
+                 Model& model) {
   if (!scene.preload) return;
   const ScopedTimer timer(profile, Phase::assembly);
   const Progress progress(comm, "static equilibrium", scene.progress_interval);
   model.equilibrium =
-      find_equilibrium(comm, model.systems, model.meshes, model.interface,
+      find_equilibrium(comm, model.systems, meshes, model.interface,
                        rows_open_at_rest(scene, model.interface), scene.preload_solver);
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
     model.systems[s].rest_displacement = std::move(model.equilibrium->displacement[s]);

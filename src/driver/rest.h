@@ -12,8 +12,9 @@
 namespace pounding {
 
 /// Lets the systems of a model start from their static equilibrium, where the scene asks for it,
-/// and keeps what was found. Collective.
-void put_at_rest(MPI_Comm comm, const Scene& scene, Profile& profile, Model& model);
+/// and keeps what was found. `meshes`: those of its structures. Collective.
+void put_at_rest(MPI_Comm comm, const Scene& scene, std::span<const Mesh> meshes, Profile& profile,
+                 Model& model);
 
 /// Doubts about an equilibrium: settlements that small displacements do not describe, and forces
 /// that do not sum up to the weight.

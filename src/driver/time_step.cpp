@@ -82,10 +82,15 @@ StepLimits step_limits(const Scene& scene, const Model& model) {
   for (const Building& building : model.buildings) {
     limits.resolved = faster(limits.resolved, resolved_motion_of(building, last));
   }
-  ResolvedMotion fillers = resolved_motion({}, false, 2 / model.filler_time_step, last);
-  fillers.structure = "the fillers";
-  limits.resolved = faster(limits.resolved, fillers);
+  limit_by_fillers(model.filler_time_step, last, limits);
   return limits;
+}
+
+void limit_by_fillers(double stable, double last, StepLimits& limits) {
+  ResolvedMotion fillers = resolved_motion({}, false, 2 / stable, last);
+  fillers.structure = "the fillers";
+  limits.stable = std::min(limits.stable, stable);
+  limits.resolved = faster(limits.resolved, fillers);
 }
 
 void choose_time_step(const Scene& scene, const StepLimits& limits, Model& model) {

@@ -21,6 +21,9 @@ ResolvedMotion resolved_motion_of(const Structure& structure, const ModalBasis& 
 /// Limits of all structures and fillers of a model together.
 StepLimits step_limits(const Scene& scene, const Model& model);
 
+/// Narrows limits to those of fillers whose stable time step is `stable` [s]; `last`: see above.
+void limit_by_fillers(double stable, double last, StepLimits& limits);
+
 /// The time step and the number of steps under these limits. Throws UserError.
 void choose_time_step(const Scene& scene, const StepLimits& limits, Model& model);
 

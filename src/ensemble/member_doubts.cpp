@@ -6,6 +6,7 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
+#include "driver/rest_gaps.h"
 #include "driver/warnings.h"
 #include "interactions/pairing/contact_checks.h"
 #include "motion/synthetic.h"
@@ -107,14 +108,20 @@ void check_member_gaps(std::span<const MemberScene> members,
       report.largest_gap = -report.smallest_gap;
       report.overlapping = 0;
     }
-    for (std::size_t row = 0; row < interface.constraints.size(); ++row) {
-      const double gap = member_gap(scene, interface.constraints[row], shares[row]);
-      interactions::InterfaceReport& report = reports[interface.constraints[row].contact];
-      report.smallest_gap = std::min(report.smallest_gap, gap);
-      report.largest_gap = std::max(report.largest_gap, gap);
-      report.overlapping += gap < 0 ? 1 : 0;
-    }
     try {
+      interactions::Interface own;
+      own.model_size = interface.model_size;
+      for (std::size_t row = 0; row < interface.constraints.size(); ++row) {
+        interactions::Constraint& constraint =
+            own.constraints.emplace_back(interface.constraints[row]);
+        const double gap = member_gap(scene, constraint, shares[row]);
+        set_gap(scene, shares[row], constraint);
+        interactions::InterfaceReport& report = reports[constraint.contact];
+        report.smallest_gap = std::min(report.smallest_gap, gap);
+        report.largest_gap = std::max(report.largest_gap, gap);
+        report.overlapping += gap < 0 ? 1 : 0;
+      }
+      if (scene.preload) rows_open_at_rest(scene, own);
       for (std::size_t c = 0; c < reports.size(); ++c) {
         doubts.add(m,
                    interactions::check_gaps(scene.contacts[c], reports[c], interface.model_size));

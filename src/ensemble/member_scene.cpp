@@ -4,8 +4,13 @@
 #include <limits>
 
 #include "common/error.h"
+#include "driver/filler_limit.h"
+#include "driver/rest.h"
+#include "driver/rest_gaps.h"
 #include "driver/time_step.h"
+#include "interactions/pairing/filler_parts.h"
 #include "modal/reduced_system.h"
+#include "scene/factor_reader.h"
 #include "stability/structure_limits.h"
 
 namespace pounding {
@@ -16,99 +21,27 @@ namespace {
 }
 
 void require_reduced(const Structure& structure) {
+  if (structure.modal) return;
   const std::string option = "-" + structure.name;
-  if (!structure.modal) {
-    refuse("structure " + structure.name + " is not reduced",
-           "give " + option + "_model modal and " + option +
-               "_modal_vectors, or make single runs (run/sweep)");
-  }
-  const auto law = std::ranges::find_if(structure.regions, [](const Region& region) {
-    return follows_law(region) ||
-           std::ranges::any_of(region.dashpot, [](double rate) { return rate > 0; });
-  });
-  if (law != structure.regions.end() || structure.soil || !structure.absorbing.empty()) {
-    refuse("structure " + structure.name + " has " +
-               (law != structure.regions.end() ? "links (group " + law->group + ")"
-                                               : std::string("soil or absorbing faces")) +
-               ", which are stepped one run at a time",
-           "make single runs (run/sweep)");
-  }
+  refuse("structure " + structure.name + " is not reduced",
+         "give " + option + "_model modal and " + option +
+             "_modal_vectors, or make single runs (run/sweep)");
 }
 
-void require_plain_contact(const Contact& contact) {
-  if (contact.sliding > 0) {
-    refuse("the pairs of contact " + contact.name + " are found anew",
-           "leave -" + contact.name + "_sliding out");
-  }
-  if (contact.filler) {
-    refuse("the joint of contact " + contact.name + " is filled",
-           "leave -" + contact.name + "_filler out, or make single runs");
-  }
+void require_lasting_pairs(const Contact& contact) {
+  if (contact.sliding == 0) return;
+  refuse("the pairs of contact " + contact.name + " are found anew",
+         "leave -" + contact.name + "_sliding out");
 }
 
-}  // namespace
-
-void require_ensemble_scene(const Scene& scene) {
-  for (const Structure& structure : scene.structures) require_reduced(structure);
-  for (const Contact& contact : scene.contacts) require_plain_contact(contact);
-  if (!scene.supports.empty()) refuse("supports move on their own", "leave -supports out");
-  if (scene.motion_from_below) {
-    refuse("the motion enters from below", "give -motion_input base");
-  }
-  if (scene.preload) refuse("the run starts at rest under its weight", "give -preload none");
-  if (!scene.forces.empty()) refuse("forces are recorded", "give -forces none");
-  if (!scene.loops.empty()) refuse("loops are recorded", "give -loops none");
-  if (scene.fields_interval > 0) refuse("fields are written", "give -fields_interval 0");
-  if (!scene.restart.empty()) {
-    refuse("-restart continues single runs",
-           "leave it out: an ensemble goes on by itself in its folder");
-  }
-  if (scene.probes.empty()) refuse("there is nothing to record", "give -probes");
-  if (scene.allow_unstable) refuse("-allow_unstable is for single runs", "leave it out");
-}
-
-MemberScene read_member(const OptionsDatabase& scene, const MemberTable& table,
-                        std::size_t member) {
-  try {
-    ReadScene read = read_scene(member_options(scene, table, member));
-    return {table.place(member), std::move(read.scene), std::move(read.stiffness_factors)};
-  } catch (const UserError& error) {
-    throw UserError(table.place(member) + error.what());
-  }
-}
-
-StepLimits member_limits(const MemberScene& member, const std::vector<ModalBasis>& bases) {
-  const Scene& scene = member.scene;
-  StepLimits limits;
-  for (std::size_t s = 0; s < bases.size(); ++s) {
-    ModalBasis basis = bases[s];
-    scale_stiffness(member.stiffness_factors[s], basis);
-    limits.stable = std::min(limits.stable, stable_time_step(scene.structures[s], basis));
-    limits.resolved = faster(limits.resolved, resolved_motion_of(scene.structures[s], basis,
-                                                                 scene.spectra.frequencies.back()));
-  }
-  return limits;
-}
-
-double member_gap(const Scene& scene, const interactions::Constraint& row,
-                  const interactions::GapShare& share) {
-  const std::vector<double>& gap = scene.contacts[row.contact].gap.values;
-  return gap.empty() ? row.geometric_gap : interactions::given_gap(gap, share);
-}
-
-Model member_model(const MemberScene& member, const EnsembleModel& shared) {
+/// Part of a member's model without motion: systems and limits of its structures, gaps.
+Model member_structures(const MemberScene& member, const EnsembleModel& shared) {
   const Scene& scene = member.scene;
   Model model;
-  try {
-    model.motion = std::make_unique<GroundMotion>(scene.motion, scene.resampling);
-  } catch (const UserError& error) {
-    throw UserError(member.place + error.what());
-  }
   model.interface.constraints = shared.model->interface.constraints;
   model.interface.model_size = shared.model->interface.model_size;
   for (std::size_t row = 0; row < model.interface.constraints.size(); ++row) {
-    interactions::Constraint& constraint = model.interface.constraints[row];
-    constraint.initial_gap = member_gap(scene, constraint, shared.gap_shares[row]);
+    set_gap(scene, shared.gap_shares[row], model.interface.constraints[row]);
   }
   model.time_step = shared.model->time_step;
   model.steps = shared.model->steps;
@@ -131,6 +64,91 @@ Model member_model(const MemberScene& member, const EnsembleModel& shared) {
                          building.limits, model.time_step, {});
   }
   return model;
+}
+
+}  // namespace
+
+void require_ensemble_scene(const Scene& scene) {
+  for (const Structure& structure : scene.structures) require_reduced(structure);
+  for (const Contact& contact : scene.contacts) require_lasting_pairs(contact);
+  if (!scene.supports.empty()) refuse("supports move on their own", "leave -supports out");
+  if (!scene.forces.empty()) refuse("forces are recorded", "give -forces none");
+  if (!scene.loops.empty()) refuse("loops are recorded", "give -loops none");
+  if (scene.fields_interval > 0) refuse("fields are written", "give -fields_interval 0");
+  if (!scene.restart.empty()) {
+    refuse("-restart continues single runs",
+           "leave it out: an ensemble goes on by itself in its folder");
+  }
+  if (scene.probes.empty()) refuse("there is nothing to record", "give -probes");
+  if (scene.allow_unstable) refuse("-allow_unstable is for single runs", "leave it out");
+}
+
+MemberScene read_member(const OptionsDatabase& scene, const MemberTable& table,
+                        std::size_t member) {
+  try {
+    ReadScene read = read_scene(member_options(scene, table, member));
+    for (std::size_t s = 0; s < read.stiffness_factors.size(); ++s) {
+      scale_stiffness(read.stiffness_factors[s], read.scene.structures[s]);
+    }
+    read.scene.progress_interval = std::numeric_limits<double>::infinity();
+    return {table.place(member), std::move(read.scene), std::move(read.stiffness_factors)};
+  } catch (const UserError& error) {
+    throw UserError(table.place(member) + error.what());
+  }
+}
+
+void lay_foundations(const Scene& scene, MemberScene& member) {
+  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+    const std::vector<Region>& regions = scene.structures[s].regions;
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+      if (regions[r].foundation) member.scene.structures[s].regions[r] = regions[r];
+    }
+  }
+}
+
+StepLimits member_limits(const MemberScene& member, const EnsembleModel& shared) {
+  const Scene& scene = member.scene;
+  const double last = scene.spectra.frequencies.back();
+  StepLimits limits;
+  for (std::size_t s = 0; s < shared.bases.size(); ++s) {
+    ModalBasis basis = shared.bases[s];
+    scale_stiffness(member.stiffness_factors[s], basis);
+    limits.stable = std::min(limits.stable, stable_time_step(scene.structures[s], basis));
+    limits.resolved = faster(limits.resolved, resolved_motion_of(scene.structures[s], basis, last));
+  }
+  if (interactions::has_fillers(shared.model->interface)) {
+    limit_by_fillers(
+        filler_limit(MPI_COMM_SELF, scene, member_structures(member, shared), shared.model->meshes),
+        last, limits);
+  }
+  return limits;
+}
+
+double member_gap(const Scene& scene, const interactions::Constraint& row,
+                  const interactions::GapShare& share) {
+  const std::vector<double>& gap = scene.contacts[row.contact].gap.values;
+  return gap.empty() ? row.geometric_gap : interactions::given_gap(gap, share);
+}
+
+void set_gap(const Scene& scene, const interactions::GapShare& share,
+             interactions::Constraint& row) {
+  const Contact& contact = scene.contacts[row.contact];
+  row.initial_gap = member_gap(scene, row, share);
+  if (contact.filler) interactions::fill_joint(contact, row);
+}
+
+Model member_model(const MemberScene& member, const EnsembleModel& shared) {
+  const Scene& scene = member.scene;
+  try {
+    Model model = member_structures(member, shared);
+    model.motion = std::make_unique<GroundMotion>(scene.motion, scene.resampling);
+    Profile profile;
+    put_at_rest(MPI_COMM_SELF, scene, shared.model->meshes, profile, model);
+    find_start_gaps(scene, model);
+    return model;
+  } catch (const UserError& error) {
+    throw UserError(member.place + error.what());
+  }
 }
 
 }  // namespace pounding

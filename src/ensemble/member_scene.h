@@ -19,16 +19,24 @@ struct MemberScene {
   std::vector<double> stiffness_factors;  ///< per structure
 };
 
-/// Refuses scenes that cannot be stepped together: structures at full order, links, supports of
-/// their own, records beside those of probes. Throws UserError.
+/// Refuses scenes that cannot be stepped together: structures at full order, pairs that are found
+/// anew, supports of their own, records beside those of probes. Throws UserError.
 void require_ensemble_scene(const Scene& scene);
 
 /// The scene of a member. Throws UserError with the line of the table.
 MemberScene read_member(const OptionsDatabase& scene, const MemberTable& table, std::size_t member);
 
-/// Initial gap of a row [m]: as the scene of a member gives it, or by the meshes.
+/// Lays the foundations on soil that a scene got from its meshes into that of a member.
+void lay_foundations(const Scene& scene, MemberScene& member);
+
+/// Width of the joint at a row [m]: as the scene of a member gives it, or by the meshes.
 double member_gap(const Scene& scene, const interactions::Constraint& row,
                   const interactions::GapShare& share);
+
+/// Gives a row the initial gap of the scene of a member, or that of the meshes, and its filler.
+/// Throws UserError as fill_joint does.
+void set_gap(const Scene& scene, const interactions::GapShare& share,
+             interactions::Constraint& row);
 
 /// Model that the members share on a rank.
 struct EnsembleModel {
@@ -38,10 +46,11 @@ struct EnsembleModel {
 };
 
 /// The part of the model that is a member's own, for this process alone: systems and limits of its
-/// structures, gaps, motion. It borrows from both.
+/// structures, gaps, motion, its rest. It borrows from both. Throws UserError with the line of the
+/// table.
 Model member_model(const MemberScene& member, const EnsembleModel& shared);
 
-/// Limits of the time step of a member.
-StepLimits member_limits(const MemberScene& member, const std::vector<ModalBasis>& bases);
+/// Limits of the time step of a member, its fillers included.
+StepLimits member_limits(const MemberScene& member, const EnsembleModel& shared);
 
 }  // namespace pounding

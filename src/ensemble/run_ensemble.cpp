@@ -103,6 +103,7 @@ class Ensemble {
       on_rank0(comm_, [&] { check_member_gaps(members_, interface, shares, doubts_); });
     };
     shared_ = build_model(comm_, scene_, ones, profile, check_gaps);
+    for (MemberScene& member : members_) lay_foundations(scene_, member);
     if (root()) print_model(scene_, shared_);
     if (size_of(comm_) > 1 && !scene_.dry_run) {
       MPI_Barrier(comm_);  // the bases are in their files
@@ -125,7 +126,7 @@ class Ensemble {
     const double before = shared_.step_limits.resolved.omega;
     StepLimits limits;
     for (std::size_t m = 0; m < members_.size(); ++m) {
-      const StepLimits own = member_limits(members_[m], parts_.bases);
+      const StepLimits own = member_limits(members_[m], parts_);
       limits.stable = std::min(limits.stable, own.stable);
       limits.resolved = faster(limits.resolved, own.resolved);
       if (scene_.time_step > own.stable) {

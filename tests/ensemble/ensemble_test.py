@@ -34,7 +34,7 @@ def table(rows, columns=COLUMNS):
     return path
 
 
-def overrides(row):
+def overrides(row, columns=COLUMNS):
     """The words of a single run of a row."""
     fields, quoted = [""], False
     for c in row:
@@ -44,7 +44,35 @@ def overrides(row):
             fields.append("")
         else:
             fields[-1] += c
-    return [word for name, value in zip(COLUMNS.split(","), fields) if value for word in (f"-{name}", value)]
+    return [word for name, value in zip(columns.split(","), fields) if value for word in (f"-{name}", value)]
+
+
+def time_step(folder):
+    with h5py.File(os.path.join(folder, "ensemble.h5")) as file:
+        return next(line.split()[2] for line in np.char.decode(file["identity"][:]) if line.startswith("time step"))
+
+
+def compare(test, result, member, words):
+    """Holds a member against the single run of these words; returns the number of its impacts."""
+    folder, _ = program.must_run(test, words, 1)
+    single = pounding.load(folder)
+    spectra = np.array([single.spectrum(*channel.split(), damping)[1]
+                        for channel in result.channels for damping in result.damping])
+    own = result.pseudo_acceleration[member].reshape(spectra.shape)
+    test.assertLess(np.abs(own / spectra - 1).max(), 1e-9)
+    impulses = {}
+    for name, impulse in zip(single.impacts["contact"], single.impacts["impulse"]):
+        impulses.setdefault(str(name), []).append(impulse)
+    for c, contact in enumerate(result.contacts):
+        found = impulses.get(contact, [])
+        test.assertEqual(result.impacts["episodes"][member, c], len(found))
+        test.assertAlmostEqual(result.impacts["impulse_sum"][member, c], sum(found), delta=1e-9 * max(sum(found), 1e-9))
+        test.assertEqual(np.isnan(result.impacts["first_time"][member, c]), not found)
+        test.assertAlmostEqual(result.smallest_gap[member, c], np.nanmin(single.history["gap"][:, c]), delta=1e-11)
+    for c, channel in enumerate(result.channels):
+        peak = np.abs(single.series("displacement", *channel.split())[1]).max()
+        test.assertAlmostEqual(result.displacement[member, c], peak, delta=1e-9 * peak)
+    return sum(len(found) for found in impulses.values())
 
 
 class Members(unittest.TestCase):
@@ -67,36 +95,9 @@ class Members(unittest.TestCase):
         self.assertEqual(self.job.returncode, 0, self.job.stdout[-2000:] + self.job.stderr[-2000:])
 
     def test_each_is_its_single_run(self):
-        with h5py.File(os.path.join(self.folder, "ensemble.h5")) as file:
-            step = [line for line in np.char.decode(file["identity"][:]) if line.startswith("time step")]
-        struck = 0
-        for member in (0, 2, 4, 7, 9):
-            folder, summary = program.must_run(
-                self, [*SCENE, *MODAL, "-time_step", step[0].split()[2], *overrides(ROWS[member])], 1)
-            single = pounding.load(folder)
-            spectra = np.array([single.spectrum(*channel.split(), damping)[1]
-                                for channel in self.result.channels for damping in self.result.damping])
-            own = self.result.pseudo_acceleration[member].reshape(spectra.shape)
-            self.assertLess(np.abs(own / spectra - 1).max(), 1e-9)
-            for c, contact in enumerate(summary["impacts"]["by_contact"]
-                                        if "by_contact" in summary["impacts"] else []):
-                self.assertEqual(self.result.impacts["episodes"][member, c], contact["episodes"])
-            impulses = {}
-            for name, impulse in zip(single.impacts["contact"], single.impacts["impulse"]):
-                impulses.setdefault(str(name), []).append(impulse)
-            for c, contact in enumerate(self.result.contacts):
-                found = impulses.get(contact, [])
-                self.assertEqual(self.result.impacts["episodes"][member, c], len(found))
-                self.assertAlmostEqual(self.result.impacts["impulse_sum"][member, c], sum(found),
-                                       delta=1e-9 * max(sum(found), 1e-9))
-                self.assertEqual(np.isnan(self.result.impacts["first_time"][member, c]), not found)
-                gaps = single.history["gap"][:, c]
-                self.assertAlmostEqual(self.result.smallest_gap[member, c], np.nanmin(gaps), delta=1e-11)
-                struck += len(found)
-            for c, channel in enumerate(self.result.channels):
-                peak = np.abs(single.series("displacement", *channel.split())[1]).max()
-                self.assertAlmostEqual(self.result.displacement[member, c], peak, delta=1e-9 * peak)
-        self.assertGreater(struck, 5)
+        words = [*SCENE, *MODAL, "-time_step", time_step(self.folder)]
+        struck = [compare(self, self.result, member, [*words, *overrides(ROWS[member])]) for member in (0, 2, 4, 7, 9)]
+        self.assertGreater(sum(struck), 5)
 
     def test_ledgers_close(self):
         self.assertTrue(self.result.done.all())
@@ -214,6 +215,73 @@ class Members(unittest.TestCase):
             pounding.load_ensemble(place)
 
 
+class Kinds(unittest.TestCase):
+    """What a step has beside free structures and smooth contact, member by member as in single runs."""
+    COLUMNS = "motion_x_seed,motion_x_pga,floor1_gap,floor2_gap,left_damping_factor"
+    ROWS = ["1,3.5,0.01,0.01,1", "2,5,,\"0.008,0.012\",0.5", "3,4,0.012,0.009,2"]
+    WEIGHT = ["-gravity", "9.81", "-preload", "static"]
+    FEET = ["-left_clamp", "none", "-left_base_element", "grounded_spring", "-left_base_stiffness",
+            "2e7,2e7,6e7,2e7,2e7,2e7"]
+    RAYLEIGH = ["-left_damping_uniform", "0", "-left_damping_reference", "", "-left_damping_alpha", "0.5",
+                "-left_damping_beta", "1e-5"]
+
+    def check(self, *words, struck=True, rows=ROWS, columns=COLUMNS):
+        folder = tempfile.mkdtemp(prefix="pounding-ensemble-")
+        words = [*SCENE, *MODAL, "-end_time", "0.9", "-spectra_damping", "0.05", "-csv_digits", "17", *words]
+        job = program.run([*words, "-ensemble", table(rows, columns), "-output", folder], program.RANKS)
+        self.assertEqual(job.returncode, 0, job.stdout[-2000:] + job.stderr[-2000:])
+        result = pounding.load_ensemble(folder)
+        self.assertTrue(result.done.all())
+        self.assertLess(np.abs(result.residual).max(), 1e-9)
+        words += ["-time_step", time_step(folder)]
+        impacts = [compare(self, result, m, [*words, *overrides(rows[m], columns)]) for m in (1, 2)]
+        self.assertEqual(sum(impacts) > 0, struck)
+
+    def test_at_rest_under_the_weight(self):
+        self.check(*self.WEIGHT)
+
+    def test_gravity_that_sets_in(self):
+        self.check("-gravity", "9.81")
+
+    def test_weight_on_columns_that_lean(self):
+        self.check(*self.WEIGHT, "-left_mass_scaling", "0", "-left_p_delta", "true")
+
+    def test_friction(self):
+        self.check("-floor1_friction", "0.4", "-floor2_friction", "0.4")
+
+    def test_dashpots(self):
+        self.check(*self.FEET, "-left_base_dashpot", "2e5,2e5,4e5,0,0,0")
+
+    def test_feet_that_lift_off(self):
+        self.check(*self.FEET, *self.RAYLEIGH, "-gravity", "2", "-preload", "static", "-left_base_compression_only",
+                   "true")
+
+    def test_feet_that_yield(self):
+        self.check(*self.FEET, *self.RAYLEIGH, "-left_base_yield_force", "4e3,4e3,0", "-left_base_hardening", "0.1")
+
+    def test_soil_under_a_mat(self):
+        self.check("-left_clamp", "none", "-left_rigid", "base", "-left_soil_mat", "base", "-left_soil_size", "6,4",
+                   "-left_soil_vs", "200", "-left_soil_density", "1900", "-left_soil_poisson", "0.35")
+
+    def test_filled_joints(self):
+        words = [word for floor in ("floor1", "floor2") for word in (
+            f"-{floor}_filler", "0.3:2e4,0.6:2e5", f"-{floor}_filler_unloading", "1e6", f"-{floor}_filler_area", "1.5")]
+        self.check(*words, struck=False)
+        self.refuse_thick(words)
+
+    def refuse_thick(self, words):
+        """Before any basis is computed, as a single run does."""
+        output = tempfile.mkdtemp(prefix="pounding-ensemble-")
+        words = [*SCENE, *MODAL, *words, "-floor1_filler_thickness", "0.009", "-output", output, "-ensemble",
+                 table(["0.01", "0.005"], "floor1_gap")]
+        program.must_refuse(self, words, "line 3 (member 2)", "less than its filler of 0.009 m")
+        self.assertEqual(os.listdir(output), [])
+
+    def test_a_stiffness_of_their_own_at_rest(self):
+        self.check(*self.WEIGHT, columns="motion_x_pga,right_stiffness_factor,floor1_gap,floor2_gap",
+                   rows=["4,1,0.01,0.01", "8,0.8,0.004,0.005", "6,1.3,0.004,0.005"])
+
+
 class Refusals(unittest.TestCase):
     def refuse(self, words, *parts, rows=("1",), columns="motion_x_seed"):
         output = tempfile.mkdtemp(prefix="pounding-ensemble-")
@@ -223,7 +291,7 @@ class Refusals(unittest.TestCase):
     def test_what_it_cannot_do(self):
         self.refuse([], "structure left is not reduced", "-left_model modal")
         self.refuse([*MODAL, "-floor1_sliding", "0.05"], "floor1_sliding out")
-        self.refuse([*MODAL, "-gravity", "9.81", "-preload", "static"], "-preload none")
+        self.refuse([*MODAL, "-fields_interval", "0.1"], "fields are written")
 
     def test_mistakes_in_the_table(self):
         self.refuse(MODAL, "column 'end_time'", "no option that may differ", columns="end_time", rows=["2"])

@@ -41,6 +41,15 @@ std::vector<double> node_areas(const ContactFace& face) {
   return areas;
 }
 
+void fill_joint(const Contact& contact, Constraint& constraint) {
+  require_room(contact, constraint);
+  const Filler& filler = *contact.filler;
+  FillerPart& part = constraint.filler;
+  part.thickness = filler.thickness > 0 ? filler.thickness : constraint.initial_gap;
+  part.clearance = constraint.initial_gap - part.thickness;
+  constraint.initial_gap -= part.thickness * (1 - filler.dense());
+}
+
 void lay_filler(const Contact& contact, bool lines, double common,
                 std::span<Constraint> constraints, InterfaceReport& report) {
   const Filler& filler = *contact.filler;
@@ -59,12 +68,9 @@ void lay_filler(const Contact& contact, bool lines, double common,
   }
   report.filler_area = wanted;
   for (Constraint& constraint : constraints) {
-    require_room(contact, constraint);
+    fill_joint(contact, constraint);
     FillerPart& part = constraint.filler;
     part.area *= wanted / whole;
-    part.thickness = filler.thickness > 0 ? filler.thickness : constraint.initial_gap;
-    part.clearance = constraint.initial_gap - part.thickness;
-    constraint.initial_gap -= part.thickness * (1 - filler.dense());
     const bool first = &constraint == constraints.data();
     auto& [least, most] = report.filler_thickness;
     least = first ? part.thickness : std::min(least, part.thickness);

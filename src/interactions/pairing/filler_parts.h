@@ -21,4 +21,8 @@ std::vector<double> node_areas(const ContactFace& face);
 void lay_filler(const Contact& contact, bool lines, double common,
                 std::span<Constraint> constraints, InterfaceReport& report);
 
+/// Lays the filler into the joint at one pair, whose part of its area is known. Throws UserError
+/// where the joint is closed, or thinner than its filler.
+void fill_joint(const Contact& contact, Constraint& constraint);
+
 }  // namespace pounding::interactions
