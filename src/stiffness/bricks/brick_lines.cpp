@@ -224,12 +224,12 @@ void BrickLines::store_chain(const Store& store, double* q, ForceReceiver& recei
   }
   double* const range = range_.data();
   const LocalIndex size = chain.range.end - chain.range.begin;
-  if (outcome == Outcome::complete) std::fill(range, range + size, 0.0);
+  if (outcome == Outcome::complete) std::fill_n(range, size, 0.0);
   collect_forces(store, range);
   if (outcome == Outcome::complete) {
     double* const already = q + chain.range.begin;
     for (LocalIndex i = 0; i < size; ++i) range[i] += already[i];
-    std::fill(already, already + size, 0.0);
+    std::fill_n(already, size, 0.0);
   }
   if (size > 0) receiver.receive(chain.range.begin, chain.range.end, range);
 }
