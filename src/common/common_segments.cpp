@@ -1,9 +1,8 @@
 #include "common/common_segments.h"
 
-#include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <fcntl.h>
+#include <fstream>
 #include <unistd.h>
 #include <vector>
 
@@ -27,24 +26,33 @@ void greet_everybody(int ranks, int rank) {
   MPI_Barrier(MPI_COMM_WORLD);
 }
 
+/// The file that Open MPI made for this rank, among those that are mapped: vader_segment.*.R in
+/// release 4, sm_segment.*.R in 5, R the rank among those of this machine. Empty: there is none.
+std::string own_segment() {
+  const char* const rank = std::getenv("OMPI_COMM_WORLD_LOCAL_RANK");
+  if (rank == nullptr) return "";
+  const std::string end = std::string(".") + rank;
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    const std::size_t name = line.rfind('/') + 1;
+    const bool segment =
+        line.compare(name, 14, "vader_segment.") == 0 || line.compare(name, 11, "sm_segment.") == 0;
+    if (segment && line.ends_with(end)) return line.substr(line.find('/'));
+  }
+  return "";
+}
+
 }  // namespace
 
 NamelessSegments::NamelessSegments() {
-  const char* const job = std::getenv("OMPI_MCA_ess_base_jobid");
-  if (job == nullptr) return;
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) return;
   int ranks = 1;
   int rank = 0;
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   greet_everybody(ranks, rank);
-  const char* const folder = std::getenv("OMPI_MCA_btl_vader_backing_directory");
-  std::array<char, 256> host{};
-  gethostname(host.data(), host.size() - 1);
-  std::array<char, 600> name{};
-  std::snprintf(name.data(), name.size(), "%s/vader_segment.%s.%u.%lx.%d",
-                folder != nullptr ? folder : "/dev/shm", host.data(), geteuid(),
-                std::strtoul(job, nullptr, 10), rank);
-  if (unlink(name.data()) == 0) path_ = name.data();
+  const std::string segment = own_segment();
+  if (!segment.empty() && unlink(segment.c_str()) == 0) path_ = segment;
 }
 
 NamelessSegments::~NamelessSegments() {

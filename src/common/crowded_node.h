@@ -3,9 +3,9 @@
 namespace pounding {
 
 /// Whether the launcher started more ranks on this node than there are processors for them to run
-/// on: those of this process or, where each rank is bound to some of its own, those of the node.
-/// By variables that Open MPI's launcher sets, so that it can be asked before MPI_Init; false under
-/// another launcher. Not collective.
+/// on: those of the launcher, of which it may have bound each rank to some. By a variable that Open
+/// MPI's launcher sets, so that it can be asked before MPI_Init; false under another launcher. Not
+/// collective.
 bool crowded_node();
 
 /// Has ranks that wait for messages give their processor to others, where the node is crowded: one

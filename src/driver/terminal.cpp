@@ -2,10 +2,11 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <sys/ioctl.h>
 #include <unistd.h>
+
+#include "common/parent_process.h"
 
 namespace pounding {
 namespace {
@@ -14,18 +15,6 @@ namespace {
 std::string standard_output(const std::string& process) {
   std::error_code failure;
   return std::filesystem::read_symlink("/proc/" + process + "/fd/1", failure);
-}
-
-/// The number of the process that started another one; "" where that is not to be seen.
-std::string parent_of(const std::string& process) {
-  std::ifstream status("/proc/" + process + "/status");
-  for (std::string word; status >> word;) {
-    if (word == "PPid:") {
-      status >> word;
-      return word;
-    }
-  }
-  return "";
 }
 
 }  // namespace
@@ -37,11 +26,11 @@ bool is_watched() {
   }
   // Scripts between mpirun and the program have the same terminal as the program.
   const std::string own = standard_output("self");
-  std::string process = std::to_string(getppid());
-  while (!process.empty() && process != "0" && standard_output(process) == own) {
+  pid_t process = getppid();
+  while (process > 0 && standard_output(std::to_string(process)) == own) {
     process = parent_of(process);
   }
-  const std::string outer = standard_output(process);
+  const std::string outer = standard_output(std::to_string(process));
   return outer.empty() || outer.starts_with("/dev/pts/") || outer.starts_with("/dev/tty") ||
          outer == "/dev/console";
 }

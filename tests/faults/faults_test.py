@@ -33,7 +33,8 @@ LARGE = BAR + ["-bar_mesh_set", "lx=4,ly=4,lz=10,nx=16,ny=16,nz=40", "-output_in
 # Where Open MPI keeps its own segments, so that those of other programs do not count.
 SEGMENTS = tempfile.mkdtemp(prefix="pounding-segments-", dir="/dev/shm")
 atexit.register(shutil.rmtree, SEGMENTS, ignore_errors=True)
-ENVIRONMENT = {**program.ENVIRONMENT, "OMPI_MCA_btl_vader_backing_directory": SEGMENTS}
+ENVIRONMENT = {**program.ENVIRONMENT, "OMPI_MCA_btl_vader_backing_directory": SEGMENTS,
+               "OMPI_MCA_btl_sm_backing_directory": SEGMENTS}  # by releases 4 and 5
 
 TABLE = {}
 

@@ -1,87 +1,100 @@
 #include "common/crowded_node.h"
 
-#include <array>
 #include <cstdlib>
-#include <optional>
 #include <sched.h>
 #include <string>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
 namespace pounding {
 namespace {
 
-constexpr std::array variables{"OMPI_COMM_WORLD_LOCAL_SIZE", "OMPI_MCA_orte_bound_at_launch",
-                               "OMPI_MCA_mpi_yield_when_idle"};
+constexpr const char* yields = "OMPI_MCA_mpi_yield_when_idle";
 
-/// On the first processor of this process, with none of the variables; all back at the end.
+cpu_set_t first_of(const cpu_set_t& processors) {
+  int first = 0;
+  while (CPU_ISSET(first, &processors) == 0) ++first;
+  cpu_set_t one;
+  CPU_ZERO(&one);
+  CPU_SET(first, &one);
+  return one;
+}
+
+/// This process is the launcher, on its first processor; ranks are processes that it starts.
 class CrowdedNode : public testing::Test {
  protected:
   CrowdedNode() {
-    for (std::size_t i = 0; i < variables.size(); ++i) {
-      if (const char* const value = std::getenv(variables[i])) before_[i] = value;
-      unsetenv(variables[i]);
-    }
     sched_getaffinity(0, sizeof processors_, &processors_);
-    int first = 0;
-    while (CPU_ISSET(first, &processors_) == 0) ++first;
-    cpu_set_t one;
-    CPU_ZERO(&one);
-    CPU_SET(first, &one);
-    sched_setaffinity(0, sizeof one, &one);
+    run_on(first_of(processors_));
   }
-  ~CrowdedNode() override {
-    sched_setaffinity(0, sizeof processors_, &processors_);
-    for (std::size_t i = 0; i < variables.size(); ++i) {
-      unsetenv(variables[i]);
-      if (before_[i]) setenv(variables[i], before_[i]->c_str(), 1);
-    }
-  }
+  ~CrowdedNode() override { run_on(processors_); }
 
-  static void set(const char* variable, const std::string& value) {
-    setenv(variable, value.c_str(), 1);
+  static void run_on(const cpu_set_t& processors) {
+    sched_setaffinity(0, sizeof processors, &processors);
   }
-  static std::string chosen() {
-    yield_where_crowded();
-    const char* const value = std::getenv("OMPI_MCA_mpi_yield_when_idle");
-    return value != nullptr ? value : "";
+  const cpu_set_t& all_processors() const { return processors_; }
+
+  struct Seen {
+    bool crowded;
+    std::string choice;  ///< of the variable with which Open MPI yields, "" for none
+  };
+
+  /// What a rank on the processors `bound` sees where it is one of `ranks`, "" for another launcher's.
+  static Seen seen_by_a_rank(const std::string& ranks, const cpu_set_t& bound,
+                             const std::string& choice = "") {
+    const pid_t rank = fork();
+    if (rank == 0) {
+      run_on(bound);
+      unsetenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+      unsetenv(yields);
+      if (!ranks.empty()) setenv("OMPI_COMM_WORLD_LOCAL_SIZE", ranks.c_str(), 1);
+      if (!choice.empty()) setenv(yields, choice.c_str(), 1);
+      const bool crowded = crowded_node();
+      yield_where_crowded();
+      const char* const value = std::getenv(yields);
+      _exit((crowded ? 1 : 0) + (value != nullptr ? 2 * (1 + std::atoi(value)) : 0));
+    }
+    int status = 0;
+    waitpid(rank, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status));
+    const int told = WEXITSTATUS(status);
+    return {(told & 1) != 0, told / 2 > 0 ? std::to_string(told / 2 - 1) : ""};
   }
 
  private:
   cpu_set_t processors_{};
-  std::array<std::optional<std::string>, variables.size()> before_;
 };
 
 TEST_F(CrowdedNode, IsNoneUnderAnUnknownLauncher) {
-  EXPECT_FALSE(crowded_node());
-  EXPECT_EQ(chosen(), "");
+  const Seen seen = seen_by_a_rank("", first_of(all_processors()));
+  EXPECT_FALSE(seen.crowded);
+  EXPECT_EQ(seen.choice, "");
 }
 
 TEST_F(CrowdedNode, IsNoneWhereEveryRankHasAProcessor) {
-  set("OMPI_COMM_WORLD_LOCAL_SIZE", "1");
-  EXPECT_FALSE(crowded_node());
-  EXPECT_EQ(chosen(), "");
+  const Seen seen = seen_by_a_rank("1", first_of(all_processors()));
+  EXPECT_FALSE(seen.crowded);
+  EXPECT_EQ(seen.choice, "");
 }
 
 TEST_F(CrowdedNode, IsOneWithMoreRanksThanProcessors) {
-  set("OMPI_COMM_WORLD_LOCAL_SIZE", "2");
-  EXPECT_TRUE(crowded_node());
-  EXPECT_EQ(chosen(), "1");
+  const Seen seen = seen_by_a_rank("2", first_of(all_processors()));
+  EXPECT_TRUE(seen.crowded);
+  EXPECT_EQ(seen.choice, "1");
 }
 
-/// A rank that is bound sees its own processors only: it tells by those of the node.
-TEST_F(CrowdedNode, CountsAllProcessorsWhereRanksAreBound) {
-  set("OMPI_MCA_orte_bound_at_launch", "1");
-  set("OMPI_COMM_WORLD_LOCAL_SIZE", "1000000");
-  EXPECT_TRUE(crowded_node());
-  set("OMPI_COMM_WORLD_LOCAL_SIZE", "1");
-  EXPECT_FALSE(crowded_node());
+/// A rank that is bound sees its own processors only: it tells by those of the launcher.
+TEST_F(CrowdedNode, CountsTheLaunchersProcessorsWhereRanksAreBound) {
+  run_on(all_processors());
+  const int count = CPU_COUNT(&all_processors());
+  EXPECT_FALSE(seen_by_a_rank(std::to_string(count), first_of(all_processors())).crowded);
+  EXPECT_TRUE(seen_by_a_rank(std::to_string(count + 1), all_processors()).crowded);
 }
 
 TEST_F(CrowdedNode, LeavesTheUserTheChoice) {
-  set("OMPI_COMM_WORLD_LOCAL_SIZE", "2");
-  set("OMPI_MCA_mpi_yield_when_idle", "0");
-  EXPECT_EQ(chosen(), "0");
+  EXPECT_EQ(seen_by_a_rank("2", first_of(all_processors()), "0").choice, "0");
 }
 
 }  // namespace
