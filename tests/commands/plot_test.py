@@ -130,7 +130,7 @@ def make_folder(folder: Path, samples: int = 20001) -> None:
 
 
 def plot(*words):
-    return subprocess.run([PLOT, *words], capture_output=True, text=True, timeout=60)
+    return subprocess.run([PLOT, *words], capture_output=True, text=True, timeout=300)
 
 
 class PlotTest(unittest.TestCase):
