@@ -1,5 +1,6 @@
 #include "modal/eigen_solver.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -83,6 +84,7 @@ MatHandle mass_matrix(const LinearSystem& system) {
       entries[column.begin + j] += row.count;
     }
   });
+  for (PetscInt& count : entries) count = std::min(count, n);  // PETSc refuses more than a row has
   MatHandle matrix;
   POUNDING_PETSC(MatCreateAIJ(system.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 0,
                               entries.data(), 0, nullptr, matrix.out()));

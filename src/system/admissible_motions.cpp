@@ -52,6 +52,7 @@ AdmissibleMotions::AdmissibleMotions(const LinearSystem& system, Alone alone)
   const std::vector<Entry> entries = tie_entries(in_body);
   std::vector<PetscInt> counts(is_idle_.size(), RigidBody::width);
   for (const Entry& entry : entries) ++counts[entry.row];
+  for (PetscInt& count : counts) count = std::min(count, n);  // PETSc refuses more than a row has
   POUNDING_PETSC(MatCreateAIJ(system.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, 0, counts.data(),
                               0, nullptr, matrix_.out()));
   PetscInt first = 0;

@@ -239,7 +239,7 @@ class MatrixSystem {
       const auto mine = std::ranges::count_if(row, [&](const SquareMatrix::Entry& entry) {
         return number(entry) >= first && number(entry) < first + mesh_.owned_dofs;
       });
-      own.push_back(static_cast<PetscInt>(mine) + 1);
+      own.push_back(std::min(static_cast<PetscInt>(mine) + 1, mesh_.owned_dofs));
       other.push_back(static_cast<PetscInt>(row.size()) - static_cast<PetscInt>(mine));
     }
     MatHandle matrix;
