@@ -12,6 +12,7 @@ import unittest
 
 import h5py
 import numpy
+import scipy.io
 
 import program
 from recorded import Recorded
@@ -51,6 +52,41 @@ def steps(count, dashpots, mass=MASS, stiffness=None):
         v = numpy.linalg.solve(mass + h / 2 * c, (mass - h / 2 * c) @ v - h * k @ u)
         u = u + TIME_STEP * v
     return result
+
+
+class RowBetweenWalls(unittest.TestCase):
+    """SDLD27 of Code_Aster's manual of verification: 8 masses, springs, and dashpots that do not follow K or M."""
+    FREQUENCIES = [5.53, 10.9, 15.93, 20.45, 24.34, 27.49, 29.84, 31.29]
+    RATIOS = [.01521, .02877, .0396, .04709, .05098, .05183, .05115, .05036]  # -Re / Im
+
+    def test_damped_modes_of_the_exported_matrices(self):
+        with tempfile.TemporaryDirectory(prefix="pounding-") as folder:
+            path = os.path.join(folder, "row.geo")
+            with open(path, "w") as file:
+                file.write("For i In {0:9}\n  Point(i + 1) = {i, 0, 0};\nEndFor\n"
+                           "For i In {1:9}\n  Line(i) = {i, i + 1};\n  Transfinite Curve {i} = 2;\nEndFor\n"
+                           "Physical Point(\"walls\") = {1, 10};\n"
+                           "Physical Point(\"masses\") = {2:9};\nPhysical Curve(\"first\") = {1};\n"
+                           "Physical Curve(\"middle\") = {2:8};\nPhysical Curve(\"last\") = {9};\n")
+            row = ["-structures", "chain", "-chain_mesh", path, "-chain_clamp", "walls", "-end_time", 1e-12,
+                   "-modes", 0, "-chain_masses_element", "point_mass", "-chain_masses_mass", 10, "-export_matrices",
+                   folder]
+            for group, dashpot in (("first", 250), ("middle", 50), ("last", 25)):
+                row += spring(group, "spring", "1e5,1e5,1e5", f"{dashpot},0,0")
+            program.must_run(self, row, 2)
+            # components of x alone, which come first of three at each node
+            stiffness, mass, damping = (
+                scipy.io.mmread(os.path.join(folder, "chain", f"{name}.mtx")).toarray()[::3, ::3]
+                for name in ("stiffness", "mass", "damping"))
+        order = len(mass)
+        mass = numpy.diag(mass.ravel()) if mass.shape[1] == 1 else mass
+        self.assertEqual(order, 8)
+        whole = numpy.block([[numpy.zeros((order, order)), numpy.eye(order)],
+                             [-numpy.linalg.solve(mass, stiffness), -numpy.linalg.solve(mass, damping)]])
+        values = sorted((value for value in numpy.linalg.eigvals(whole) if value.imag > 0), key=lambda v: v.imag)
+        for value, frequency, ratio in zip(values, self.FREQUENCIES, self.RATIOS):
+            self.assertAlmostEqual(value.imag / (2 * numpy.pi) / frequency, 1, delta=1e-3)
+            self.assertAlmostEqual(-value.real / value.imag / ratio, 1, delta=1e-3)
 
 
 class TwoMasses(unittest.TestCase):
