@@ -193,6 +193,7 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
   building.structure = &wanted;
   building.mesh = &mesh;
   building.system = &system;
+  building.beams = beam_waves(comm, wanted, mesh);
   if (building.basis) {
     building.modal = modes_of_basis(*building.basis, scene.modes);
     building.mode_gaps = modes_at_contacts(comm, model, s);  // before its rows go into the system
@@ -265,6 +266,7 @@ void add_warnings(MPI_Comm comm, const Scene& scene, Model& model) {
   append(model.interface.warnings, model.warnings);
   for (const Building& building : model.buildings) {
     append(damping_warnings(*building.structure, building.modal), model.warnings);
+    append(wave_doubts(*building.structure, building.beams, building.modal.modes), model.warnings);
     append(mass_doubts(comm, building), model.warnings);
     append(shift_warnings(*building.system, building.modal), model.warnings);
   }

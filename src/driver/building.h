@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "driver/beam_waves.h"
 #include "driver/spread_springs.h"
 #include "interactions/pairing/absorbing_faces.h"
 #include "mesh/connectivity.h"
+#include "mesh/divide_beams.h"
 #include "mesh/mesh.h"
 #include "mesh/mesh_files.h"
 #include "modal/modal_analysis.h"
@@ -25,6 +27,7 @@ struct MeshFindings {
   Connectivity connectivity;
   std::vector<UnusedElements> unused;  ///< places that no option of the scene names
   MeshFiles files;
+  std::vector<DividedLines> divided;  ///< regions whose lines were cut into beams
 };
 
 /// One structure of the scene as it was built: its mesh and its system, and all that was found out
@@ -40,6 +43,7 @@ struct Building {
   ModalResult modal;
   std::vector<double> mode_gaps;     ///< of each mode, what it adds to the gap of each contact row,
                                      ///< shape (modes, rows), see modes_at_contacts
+  std::vector<BeamWaves> beams;      ///< of its regions of beams
   std::optional<StepDesign> design;  ///< if its time step has a target
   std::optional<LargestCompression> compression;  ///< under its weight, with P-Delta at full order
   StructureLimits limits;

@@ -1,5 +1,8 @@
 #include "driver/run_identity.h"
 
+#include <algorithm>
+#include <numbers>
+
 #include "common/hash.h"
 #include "common/parallel.h"
 #include "io/file_digest.h"
@@ -58,8 +61,16 @@ std::map<std::string, std::string> lasting_options(MPI_Comm comm, const std::str
 }
 
 RunIdentity identity_of(MPI_Comm comm, const std::string& resolved, const Model& model) {
-  return {lasting_options(comm, resolved), model.time_step,
-          hash_of(*model.motion, model.supports.get())};
+  RunIdentity identity{lasting_options(comm, resolved), model.time_step,
+                       hash_of(*model.motion, model.supports.get())};
+  for (const Building& building : model.buildings) {
+    if (!follows_spectra(*building.structure, building.beams)) continue;
+    for (const Region& region : building.structure->regions) {
+      identity.beam_frequency =
+          std::max(identity.beam_frequency, region.resolved_frequency / (2 * std::numbers::pi));
+    }
+  }
+  return identity;
 }
 
 }  // namespace pounding

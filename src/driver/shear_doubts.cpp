@@ -14,11 +14,12 @@ namespace {
 
 constexpr double doubted = 0.05;  ///< flexibility by shear over that by bending
 
-/// Part of a section that bears shear: that of a rectangle, more than flanged and hollow sections
-/// have: what is told of these is less than the effect.
+/// Part of a section without shear areas that bears shear: that of a rectangle, more than flanged
+/// and hollow sections have: what is told of these is less than the effect.
 constexpr double shear_part = 5.0 / 6;
 
-/// Shear flexibility of a member over its flexibility by bending, in one plane.
+/// Shear flexibility of a member that its beams leave out over its flexibility by bending, in one
+/// plane.
 struct ShearShare {
   double share = 0;
   const Region* region = nullptr;  ///< where most of the shear is
@@ -84,12 +85,17 @@ class Member {
                      (region.material.young * region.section->area));
   }
 
-  /// Displacement by shear under a unit force, in `share` [m/N].
+  /// 1 / (kappa G A), or 0 where a beam is flexible in shear by itself [1/N].
+  static double left_out(const BeamPiece& piece) {
+    return is_flexible_in_shear(*piece.region) ? 0 : 1 / (shear_part * piece.shear());
+  }
+
+  /// Displacement by shear that is left out under a unit force, in `share` [m/N].
   ShearShare shear() const {
     ShearShare sum;
     std::map<const Region*, double> parts;
     for (std::size_t i = first_; i < last_; ++i) {
-      const double part = beam(i).length / (shear_part * beam(i).shear());
+      const double part = beam(i).length * left_out(beam(i));
       sum.share += part;
       double& of_region = parts[beam(i).region];
       of_region += part;
@@ -151,7 +157,7 @@ class Member {
       const BeamPiece& piece = beam(first_is_free ? first_ + i : last_ - 1 - i);
       across += force[i] * above;
       const double next = moment + across * piece.length;
-      sheared += across * across * piece.length / (shear_part * piece.shear());
+      sheared += across * across * piece.length * left_out(piece);
       bent += (moment * moment + moment * next + next * next) * piece.length /
               (3 * piece.bending(axis_));
       moment = next;
@@ -205,8 +211,11 @@ std::vector<std::string> shear_doubts(const Structure& structure, const GlobalMe
          << (member.cantilever ? "a cantilever" : "a member") << " of beams " << member.length
          << " m long, from " << place_text(member.from) << " to " << place_text(member.to)
          << ", would be " << 100 * member.share
-         << " % more flexible by shear, and beams have no shear flexibility: model it by solids or "
-            "shells, or count the frequencies in which it bends as too high by about "
+         << " % more flexible by shear, which it leaves out: "
+         << (region.element == ElementType::beam
+                 ? "give section " + region.section->name + " a shear_area"
+                 : std::string("let its element be beam, with shear areas"))
+         << ", or count the frequencies in which it bends as too high by about "
          << 100 * (std::sqrt(1 + member.share) - 1) << " %";
     doubts.push_back(text.str());
   }

@@ -8,7 +8,7 @@
 
 namespace pounding {
 
-/// Doubts about beams that bend as if shear did not matter, where it makes a member more flexible
+/// Doubts about beams without flexibility in shear where shear makes a member more flexible
 /// by 5 % or more: one line for each region, with its worst member. Serial, rank 0.
 std::vector<std::string> shear_doubts(const Structure& structure, const GlobalMesh& mesh);
 

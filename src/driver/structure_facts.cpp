@@ -22,6 +22,9 @@ Json regions_of(const Structure& structure) {
       section = {{"name", of->name},           {"area", of->area},
                  {"inertia_y", of->inertia_y}, {"inertia_z", of->inertia_z},
                  {"torsion", of->torsion},     {"z_axis", of->z_axis}};
+      if (is_flexible_in_shear(region)) {
+        section["shear_area"] = {of->shear_area_y, of->shear_area_z};
+      }
     }
     const std::string per = per_extent(region.spread);
     regions[region.group] = without_nothing({{"element", element_name(region.element)},
@@ -49,6 +52,31 @@ Facts group_facts(const Mesh& mesh) {
     facts.values[block.group] =
         facts.values.value(block.group, GlobalIndex{0}) + block.global_count;
     facts.say("  {:-14s} {:7d} {}\n", {block.group, block.global_count, element_name(block.type)});
+  }
+  return facts;
+}
+
+/// Facts of the beams: those that lines were cut into, and rotary inertia that they were given.
+Facts beam_facts(const Building& building) {
+  Facts facts;
+  for (const DividedLines& divided : building.findings.divided) {
+    Json& of = facts.values[divided.group]["divided"] =
+        Json{{"lines", divided.lines}, {"beams", divided.beams}, {"left_whole", divided.whole}};
+    facts.text += told("  {}: {lines} lines cut into {beams} beams", of, {divided.group});
+    if (divided.whole > 0) {
+      facts.text +=
+          told(", {left_whole} left whole, which are edges of surfaces or of other groups too", of);
+    }
+    facts.say("\n");
+  }
+  for (const BeamWaves& beams : building.beams) {
+    if (beams.heavier == 0) continue;
+    Json& of = facts.values[beams.group]["added_rotary_inertia"] =
+        Json{{"beams", beams.heavier}, {"largest_part", beams.largest_part}};
+    facts.text += told(
+        "  {}: {beams} long beams got rotary inertia, at most {largest_part:.2g} of their own; no "
+        "frequency of the spectra falls by more than 0.1 %\n",
+        of, {beams.group});
   }
   return facts;
 }
@@ -147,7 +175,9 @@ Facts structure_facts(const Building& building) {
       "\nstructure {}: {nodes} nodes, {dofs} dofs ({dofs_before_clamping} before clamping), mass "
       "{mass:.0f} kg\n",
       {building.name()});
-  facts.text += groups.text + rigid.text + connectivity.text;
+  const Facts beams = beam_facts(building);
+  if (!beams.values.empty()) facts.add("beams", beams.values);
+  facts.text += groups.text + beams.text + rigid.text + connectivity.text;
   facts.say("  stiffness: {stiffness}\n");
   facts.text += reduction.text;
   facts.add(damping_facts(building));

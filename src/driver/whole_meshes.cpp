@@ -41,6 +41,7 @@ void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, WholeMeshes& wh
   MeshRead read = read_mesh(structure, scene.mesh_time_limit);
   mesh = std::move(read.mesh);
   model.buildings[s].findings.files = std::move(read.files);
+  model.buildings[s].findings.divided = std::move(read.divided);
   if (structure.soil) {
     whole.mats[s] = mat_place(structure, mesh);
     lay_foundation(whole.mats[s], structure);

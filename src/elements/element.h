@@ -11,7 +11,7 @@ namespace pounding {
 
 /// Number of the formulations: a change of the values of an element's stiffness or mass adds one,
 /// so that no modal basis stored before is taken for a basis of today's matrices.
-inline constexpr int element_formulations = 1;
+inline constexpr int element_formulations = 2;
 
 ElementLayout element_layout(ElementType type);
 

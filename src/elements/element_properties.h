@@ -26,6 +26,9 @@ struct ElementProperties {
   double inertia_y = 0;
   double inertia_z = 0;
   double torsion = 0;
+  double shear_area_y = 0;  ///< of a beam, for forces along local y; 0: no flexibility in shear
+  double shear_area_z = 0;
+  double resolved_frequency = 0;  ///< of a beam [rad/s], see beam2.h; 0: its own rotary inertia
   Vector3 z_axis{0, 0, 1};
   double thickness = 0;
   double rotary_inertia_factor = 0;   ///< of shells, see flat_shell.h

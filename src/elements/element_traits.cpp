@@ -59,6 +59,7 @@ void nothing(Coordinates, const Properties&, Matrix result) {
 }
 
 constexpr std::string_view of_solid = "material";
+constexpr std::string_view of_beam = "material section mass_per_length divide";
 constexpr std::string_view of_bar =
     "material area tension_only slack yield_force hardening mass_per_length";
 constexpr std::string_view of_plate =
@@ -81,7 +82,9 @@ constexpr std::array table{
     ElementTraits{Type::hex8_full, "hex8_full", "hex8_full", Family::solid, {8, 3}, 5, Type::wedge6, hex8_faces,
         of_solid, brick_stiffness<Hex8Formulation::full>, hex8_lumped_mass, Kernel::brick, measured_costs::brick, true, false},
     ElementTraits{Type::beam, "beam", "beam", Family::line, {2, 6}, 1, {}, {},
-        "material section mass_per_length", beam2_stiffness, beam2_lumped_mass, Kernel::beam, measured_costs::beam, true, true},
+        of_beam, beam2_stiffness, beam2_lumped_mass, Kernel::beam, measured_costs::beam, true, true},
+    ElementTraits{Type::euler_beam, "euler_beam", "euler_beam", Family::line, {2, 6}, 1, {}, {},
+        of_beam, beam2_stiffness, euler_beam_lumped_mass, Kernel::beam, measured_costs::beam, true, true},
     ElementTraits{Type::bar, "bar", "bar", Family::line, {2, 3}, 1, {}, {},
         of_bar, bar2_stiffness, bar2_lumped_mass, Kernel::sparse, measured_costs::small, true, true},
     ElementTraits{Type::tension_bar, "bar (tension only)", "bar", Family::line, {2, 3}, 1, {}, {},

@@ -11,13 +11,15 @@
 namespace pounding {
 
 /// The elements a mesh can hold; `hex8` is the one with incompatible modes, `shell3` the triangle
-/// of shell meshes. A `tension_bar` resists stretching only, a `yielding_bar` yields both ways.
-/// Springs act along and about the global axes; those named 6 also on rotations. `soil` is no word
-/// of the option: it is under a mat. In the order of the table.
+/// of shell meshes; `beam` is flexible in shear, `euler_beam` is not. A `tension_bar` resists
+/// stretching only, a `yielding_bar` yields both ways. Springs act along and about the global axes;
+/// those named 6 also on rotations. `soil` is no word of the option: it is under a mat. In the
+/// order of the table.
 enum class ElementType {
   hex8,
   hex8_full,
   beam,
+  euler_beam,
   bar,
   tension_bar,
   shell4,
@@ -38,7 +40,7 @@ inline constexpr int element_type_count = static_cast<int>(ElementType::yielding
 
 /// Words of the option, separated by '|'.
 inline constexpr std::string_view element_words =
-    "hex8|hex8_full|wedge6|tet4|shell|beam|bar|point_mass|grounded_spring|spring";
+    "hex8|hex8_full|wedge6|tet4|shell|beam|euler_beam|bar|point_mass|grounded_spring|spring";
 
 /// Kind of body that an element is: the first three have a shape and a material.
 enum class ElementFamily { solid, shell, line, point_mass, grounded_spring, spring };

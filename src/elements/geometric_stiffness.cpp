@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include "elements/beam2.h"
 #include "elements/local_frame.h"
 #include "elements/symmetric_matrix.h"
 
@@ -14,15 +15,18 @@ constexpr std::size_t beam_size = 12;
 constexpr std::size_t bar_size = 6;
 
 /// One plane of a beam: deflection w, rotation component whose angle is `sign` times dw/dx.
-void add_plane(std::size_t deflection, std::size_t rotation, double sign, double force,
+void add_plane(std::size_t deflection, std::size_t rotation, double sign, double force, double phi,
                double length, std::span<double> matrix) {
   const double arm = sign * length;
   const double square = length * length;
-  const double k = force / (30 * length);
-  const std::array<std::array<double, 4>, 4> local{{{36, 3 * arm, -36, 3 * arm},
-                                                    {3 * arm, 4 * square, -3 * arm, -square},
-                                                    {-36, -3 * arm, 36, -3 * arm},
-                                                    {3 * arm, -square, -3 * arm, 4 * square}}};
+  const double k = force / (30 * length) / ((1 + phi) * (1 + phi));
+  const double across = 36 + (60 + 30 * phi) * phi;
+  const double near = (4 + (5 + 2.5 * phi) * phi) * square;
+  const double far = -(1 + (5 + 2.5 * phi) * phi) * square;
+  const std::array<std::array<double, 4>, 4> local{{{across, 3 * arm, -across, 3 * arm},
+                                                    {3 * arm, near, -3 * arm, far},
+                                                    {-across, -3 * arm, across, -3 * arm},
+                                                    {3 * arm, far, -3 * arm, near}}};
   const std::array<std::size_t, 4> dofs{deflection, rotation, deflection + 6, rotation + 6};
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < 4; ++j) matrix[dofs[i] * beam_size + dofs[j]] += k * local[i][j];
@@ -33,8 +37,9 @@ void add_to_beam(std::span<const double> coordinates, const ElementProperties& p
                  double force, std::span<double> stiffness) {
   const auto [direction, length] = segment_between(coordinates);
   std::array<double, beam_size * beam_size> matrix{};
-  add_plane(1, 5, +1, force, length, matrix);
-  add_plane(2, 4, -1, force, length, matrix);
+  const ShearFlexibility phi = shear_flexibility(properties, length);
+  add_plane(1, 5, +1, force, phi.y, length, matrix);
+  add_plane(2, 4, -1, force, phi.z, length, matrix);
   rotate_to_global(local_frame(direction, properties.z_axis), matrix, beam_size);
   mirror_lower_triangle(matrix, beam_size);
   for (std::size_t i = 0; i < matrix.size(); ++i) stiffness[i] += matrix[i];

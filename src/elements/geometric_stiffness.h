@@ -18,9 +18,11 @@ double axial_force(std::span<const double> coordinates, const ElementProperties&
                    std::span<const double> displacements);
 
 /// Adds the geometric stiffness of a beam or bar under an axial force N, tension above 0: of a bar
-/// N / L (I - t t^T), of a beam the consistent matrix of its cubic deflections, in each plane
+/// N / L (I - t t^T), of a beam the consistent matrix of its deflections under forces at its ends,
+/// in each plane, with a = 36 + 60 Phi + 30 Phi^2, b = (4 + 5 Phi + 5/2 Phi^2) L^2,
+/// c = (1 + 5 Phi + 5/2 Phi^2) L^2, and Phi of beam2.h
 ///
-///     N / (30 L) [36  3L  -36  3L;  3L  4L^2  -3L  -L^2;  -36  -3L  36  -3L;  3L  -L^2  -3L  4L^2]
+///     N / (30 L (1 + Phi)^2) [a  3L  -a  3L;  3L  b  -3L  -c;  -a  -3L  a  -3L;  3L  -c  -3L  b]
 ///
 /// (J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968). Twist is left as it is.
 void add_geometric_stiffness(ElementType type, std::span<const double> coordinates,

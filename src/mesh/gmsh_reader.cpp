@@ -414,8 +414,9 @@ MeshRead read_mesh(const Structure& structure, double time_limit) {
   RawAnswer answer = read_raw_mesh(structure, time_limit);
   merge_shared_elements(answer.mesh);
   const std::vector<std::string> doubts = doubts_of(structure, answer);
+  const std::vector<DividedLines> divided = divide_beams(structure, answer.mesh);
   MeshFiles files{files_beside(structure.mesh, answer.mesh.files), answer.landlock};
-  MeshRead read{MeshBuilder(structure, std::move(answer.mesh)).build(), std::move(files)};
+  MeshRead read{MeshBuilder(structure, std::move(answer.mesh)).build(), std::move(files), divided};
   read.mesh.doubts.insert(read.mesh.doubts.begin(), doubts.begin(), doubts.end());
   return read;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mesh/divide_beams.h"
 #include "mesh/global_mesh.h"
 #include "mesh/mesh_files.h"
 #include "scene/scene.h"
@@ -10,6 +11,7 @@ namespace pounding {
 struct MeshRead {
   GlobalMesh mesh;
   MeshFiles files;
+  std::vector<DividedLines> divided;
 };
 
 /// Reads a structure's mesh by means of Gmsh, in a process of its own: a .geo file is meshed with

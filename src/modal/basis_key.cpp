@@ -7,7 +7,7 @@
 #include "common/finite_file.h"
 #include "common/hash.h"
 #include "elements/element.h"
-#include "stiffness/element_properties.h"
+#include "mesh/element_properties.h"
 #include "system/matrix_system.h"
 
 namespace pounding {
@@ -56,7 +56,7 @@ std::string hash_of(const std::vector<Region>& regions) {
   Hash hash;
   hash.add(static_cast<double>(element_formulations));
   for (const Region& region : regions) {
-    const ElementProperties p = stiffness::element_properties(region);
+    const ElementProperties p = element_properties(region);
     hash.add(region.group);
     hash.add(static_cast<double>(region.element));
     hash.add_all(std::array{p.young, p.poisson, p.density, p.area, p.inertia_y, p.inertia_z,
@@ -64,6 +64,9 @@ std::string hash_of(const std::vector<Region>& regions) {
     hash.add_all(p.z_axis);
     hash.add_all(p.rotary_inertia);
     hash.add_all(region.stiffness);
+    if (region.element == ElementType::beam) {
+      hash.add_all(std::array{p.shear_area_y, p.shear_area_z, p.resolved_frequency});
+    }
     if (p.added_mass != 0) hash.add(p.added_mass);
     if (p.drilling_factor != 1) hash.add(p.drilling_factor);
     if (region.foundation) hash.add_all(region.foundation->arm);

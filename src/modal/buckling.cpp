@@ -8,9 +8,9 @@
 
 #include "common/error.h"
 #include "elements/geometric_stiffness.h"
+#include "mesh/element_properties.h"
 #include "modal/shifted_solver.h"
 #include "stiffness/element_loop.h"
-#include "stiffness/element_properties.h"
 #include "system/admissible_motions.h"
 
 namespace pounding {
@@ -29,8 +29,7 @@ std::map<std::string, double> works_of(const Structure& structure, const Mesh& m
   stiffness::ElementWork work;
   for (const ElementBlock& block : mesh.blocks) {
     if (!has_axial_force(block.type)) continue;
-    const ElementProperties properties =
-        stiffness::element_properties(structure.regions[block.region]);
+    const ElementProperties properties = element_properties(structure.regions[block.region]);
     const ElementLayout layout = element_layout(block.type);
     const auto size = static_cast<std::size_t>(layout.size());
     double sum = 0;

@@ -76,6 +76,7 @@ class CheckpointWriter {
       schema::write(*file_, schema::checkpoint);
       file_->write_attribute("/", "time_step", identity.time_step);
       file_->write_attribute("/", "ground_motion", identity.ground_motion);
+      file_->write_attribute("/", "beam_frequency", identity.beam_frequency);
       std::vector<std::string> lines;
       for (const auto& [name, value] : identity.options) lines.push_back(name + ": " + value);
       file_->write_strings("options", lines);

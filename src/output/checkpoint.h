@@ -48,6 +48,7 @@ struct RunIdentity {
   std::map<std::string, std::string> options;  ///< that may not change, by name
   double time_step = 0;                        ///< [s]
   std::string ground_motion;                   ///< hash of the samples
+  double beam_frequency = 0;  ///< highest of the spectra, if beams follow it; else 0 [Hz]
 };
 
 /// Writes beside `path`, then renames, so that there is a whole file at any moment. Throws

@@ -70,6 +70,14 @@ class CheckpointReader {
       if (file_->text("/", "ground_motion") != identity.ground_motion) {
         refuse("written under another ground motion; give the same records or start anew");
       }
+      const double frequency = file_->number("/", "beam_frequency");
+      if (frequency != identity.beam_frequency) {
+        std::ostringstream text;
+        text << "its beams were made for spectra up to " << frequency
+             << " Hz, now they would be for " << identity.beam_frequency
+             << " Hz; give -spectra_frequencies that end there";
+        refuse(text.str());
+      }
     });
   }
 

@@ -72,6 +72,16 @@ std::vector<std::pair<std::string, std::string>> mesh_options(
                         !is_of_motion(name) && !is_file(name, scene);
     if (counts) options.emplace_back(name, value);
   }
+  for (const Structure& structure : scene.structures) {
+    const bool follows = std::ranges::any_of(structure.regions, [](const Region& region) {
+      return is_beam(region.element) && region.parts == 0;
+    });
+    if (follows) {
+      options.emplace_back(
+          "spectra_frequencies (the highest, for the beams of " + structure.name + ")",
+          std::to_string(scene.spectra.frequencies.back()));
+    }
+  }
   for (std::size_t d = 0; d < scene.motion.size(); ++d) {
     if (scene.motion[d]) options.emplace_back("motion_" + std::string(motion_names[d]), "given");
   }

@@ -141,6 +141,7 @@ constexpr std::array option_rows{
     OptionRow{Block::region, "<structure>_<group>_element", Kind::choice, "word", required, any, element_words, "element of the group (hex8: with incompatible modes)"},
     OptionRow{Block::region, "<structure>_<group>_material", Kind::text, "name", absent("required but for points and springs"), any, "the name of a material", "its material"},
     OptionRow{Block::region, "<structure>_<group>_section", Kind::text, "name", absent("required for beam"), any, "the name of a section", "its cross-section (beam only)"},
+    OptionRow{Block::region, "<structure>_<group>_divide", Kind::text, "-", value("none"), any, "none, auto, or a count from 2 to 1000", "lines of the mesh are cut into so many beams of one length; auto: into as many as bending up to the highest of spectra_frequencies needs, 4 in a half wave"},
     OptionRow{Block::region, "<structure>_<group>_area", Kind::real, "m2", absent("required for bar"), positive, "", "its cross-section area (bar only)"},
     OptionRow{Block::region, "<structure>_<group>_tension_only", Kind::boolean, "flag", value("false"), any, "", "bar that buckles: it resists stretching only"},
     OptionRow{Block::region, "<structure>_<group>_thickness", Kind::real, "m", absent("required for shell"), positive, "", "its thickness (shell only)"},
@@ -173,11 +174,12 @@ constexpr std::array option_rows{
     OptionRow{Block::material, "material_<material>_poisson", Kind::real, "-", required, poisson_ratio, "", "Poisson's ratio"},
     OptionRow{Block::material, "material_<material>_density", Kind::real, "kg/m3", required, positive, "", "density"},
 
-    OptionRow{Block::section, "section_<section>_profile", Kind::text, "name", absent("left out: its own name, if that is one"), any, "a standard section: HEB160, IPE300, UPN200, W14x132, SHS100x5, HSS8x8x1/2", "standard section whose numbers it takes where the next four are left out"},
+    OptionRow{Block::section, "section_<section>_profile", Kind::text, "name", absent("left out: its own name, if that is one"), any, "a standard section: HEB160, IPE300, UPN200, W14x132, SHS100x5, HSS8x8x1/2, RECT600x400, ROUND50", "standard section whose numbers it takes where the next five are left out"},
     OptionRow{Block::section, "section_<section>_area", Kind::real, "m2", required, positive, "", "area"},
     OptionRow{Block::section, "section_<section>_inertia_y", Kind::real, "m4", required, positive, "", "second moment about local y (bending in local x-z)"},
     OptionRow{Block::section, "section_<section>_inertia_z", Kind::real, "m4", required, positive, "", "second moment about local z (bending in local x-y)"},
     OptionRow{Block::section, "section_<section>_torsion", Kind::real, "m4", required, positive, "", "St-Venant torsion constant"},
+    OptionRow{Block::section, "section_<section>_shear_area", Kind::reals, "m2", absent("left out: of its profile, or no flexibility in shear"), positive, "two numbers y,z", "areas that bear shear along local y and along local z"},
     OptionRow{Block::section, "section_<section>_z_axis", Kind::reals, "-", required, any, "three numbers x,y,z, not all zero", "direction of local z in global axes"},
 
     OptionRow{Block::contact, "<contact>_secondary", Kind::text, "group", required, any, "structure:group", "secondary side, a surface of a structure"},

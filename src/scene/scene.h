@@ -35,6 +35,9 @@ struct Section {
   double inertia_z = 0;  ///< second moment about local z: bending in the local x-y plane [m4]
   double torsion = 0;    ///< St-Venant torsion constant [m4]
   Vector3 z_axis{0, 0, 1};
+  /// Shear areas for forces along local y and z [m2]; 0: no flexibility in shear.
+  double shear_area_y = 0;
+  double shear_area_z = 0;
 };
 
 /// Rayleigh damping C = alpha M + beta K.
@@ -52,7 +55,11 @@ struct Region {
   std::string group;
   ElementType element = ElementType::hex8;
   Material material;
-  std::optional<Section> section;    ///< beams
+  std::optional<Section> section;  ///< beams
+  double resolved_frequency = 0;   ///< beams: the highest of the spectra, see elements/beam2.h
+                                   ///< [rad/s]
+  /// Beams into which each line of the mesh is cut; 0: as many as its waves need.
+  int parts = 1;
   double area = 0;                   ///< bars [m2]
   double thickness = 0;              ///< shells [m]
   double rotary_inertia_factor = 0;  ///< shells [-], see elements/flat_shell.h
@@ -75,6 +82,11 @@ struct Region {
 /// Elements whose force in one direction is none: tension-only bars, compression-only springs.
 inline bool is_one_way(const Region& region) {
   return region.element == ElementType::tension_bar || region.compression_only;
+}
+
+/// Beams that bend by shear as well.
+inline bool is_flexible_in_shear(const Region& region) {
+  return region.element == ElementType::beam && region.section->shear_area_y > 0;
 }
 
 /// Elements whose stiffness, or some of it, is no part of K: one-way ones and those that yield.

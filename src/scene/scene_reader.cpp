@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <numbers>
 #include <set>
 
 #include "common/error.h"
@@ -389,6 +390,15 @@ class SceneReader {
     }
   }
 
+  /// The frequency up to which beams are to be right.
+  void resolve_frequency(double highest) {
+    for (Structure& structure : scene_.structures) {
+      for (Region& region : structure.regions) {
+        if (is_beam(region.element)) region.resolved_frequency = 2 * std::numbers::pi * highest;
+      }
+    }
+  }
+
   void read_spectra() {
     scene_.spectra.damping_ratios = options_.reals("spectra_damping");
     const auto frequencies = parse_increasing(options_.text("spectra_frequencies"));
@@ -396,6 +406,7 @@ class SceneReader {
       options_.refuse("spectra_frequencies", {});
     }
     scene_.spectra.frequencies = *frequencies;
+    resolve_frequency(frequencies->back());
     scene_.spectra.peak_frequency = options_.real("peak_frequency");
     if (scene_.spectra.peak_frequency == 0) scene_.spectra.peak_frequency = frequencies->back();
     scene_.spectra.start = options_.real("spectra_start");

@@ -1,5 +1,6 @@
 #include "scene/section_shapes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -35,6 +36,39 @@ double integral(double from, double to, Cubic value) {
   return (to - from) / 6 * (value(from) + 4 * value((from + to) / 2) + value(to));
 }
 
+/// Walls of a section that bear shear along its height, by their middle lines: webs between two
+/// flanges, and arms of these, two for each flange of an I, one for that of a channel.
+struct ShearWalls {
+  double height, web, flange, arm;
+  int webs, arms;
+};
+
+double shear_area(const ShearWalls& s) {
+  const double half = s.height / 2;
+  const double inertia =
+      s.arms * s.arm * s.flange * square(half) + s.webs * s.web * 2 / 3 * cube(half);
+  const double flanges = s.arms * s.flange * square(half) * cube(s.arm) / 3;
+  // S / t of a web: (c - z^2 / 2), with what the flanges bring
+  const double c = s.arms / 2.0 * s.arm * s.flange * half / (s.webs * s.web) + square(half) / 2;
+  const double webs =
+      2 * s.webs * s.web * (square(c) * half - c * cube(half) / 3 + half * fourth(half) / 20);
+  return square(inertia) / (flanges + webs);
+}
+
+/// Shear area across a channel, whose flanges bear the force.
+double shear_area_across(double height, double web, double flange, double arm) {
+  const double back = square(arm) * flange / (2 * arm * flange + height * web);  // to the centroid
+  const double tip = arm - back;
+  const double inertia = 2 * flange / 3 * (cube(tip) + cube(back)) + height * web * square(back);
+  const double at_web = flange * (square(tip) - square(back)) / 2;
+  // 2 flanges, integral of ((tip^2 - x^2) / 2)^2 from -back to tip
+  const auto upto = [tip](double x) {
+    return fourth(tip) * x - 2 * square(tip) * cube(x) / 3 + fourth(x) * x / 5;
+  };
+  const double flanges = flange / 2 * (upto(tip) + upto(back));
+  return square(inertia) / (flanges + square(at_web) * height / (3 * web));
+}
+
 /// Place and weight of a corner's spandrel in the upper half of a channel.
 struct Corner {
   double area, across, along;
@@ -57,6 +91,8 @@ SectionNumbers i_section(const RolledShape& s) {
       (square(r + s.web / 2) + square(r + s.flange) - square(r)) / (2 * r + s.flange);
   n.torsion = 2.0 / 3 * (s.width - 0.63 * s.flange) * cube(s.flange) + clear * cube(s.web) / 3 +
               2 * s.web / s.flange * (0.145 + 0.1 * r / s.flange) * fourth(circle);
+  n.shear_area_y = 5.0 / 6 * 2 * s.width * s.flange;
+  n.shear_area_z = shear_area({s.height - s.flange, s.web, s.flange, s.width / 2, 1, 4});
   return n;
 }
 
@@ -96,7 +132,14 @@ SectionNumbers channel_section(const RolledShape& s) {
                              std::sqrt(2 * (2 * s.root_radius + s.web) * (2 * s.root_radius + t)));
   const double torsion = 2.0 / 3 * s.width * cube(t) + (s.height - 2 * t) * cube(s.web) / 3 +
                          2 * factor * fourth(circle) - 0.42 * fourth(t);
-  return {area, inertia_y, about_back - square(moment) / area, torsion};
+  const double clear = s.height - t;
+  const double arm = s.width - s.web / 2;
+  return {area,
+          inertia_y,
+          about_back - square(moment) / area,
+          torsion,
+          shear_area_across(clear, s.web, t, arm),
+          shear_area({clear, s.web, t, arm, 1, 2})};
 }
 
 SectionNumbers hollow_section(double height, double width, double wall, double outer_radius,
@@ -118,13 +161,37 @@ SectionNumbers hollow_section(double height, double width, double wall, double o
   n.inertia_y = inertia(height, width);
   n.inertia_z = inertia(width, height);
   n.torsion = cube(wall) * middle_line / 3 + 4 * square(middle_area) * wall / middle_line;
+  n.shear_area_y = shear_area({width - wall, wall, wall, (height - wall) / 2, 2, 4});
+  n.shear_area_z = shear_area({height - wall, wall, wall, (width - wall) / 2, 2, 4});
   return n;
 }
 
 SectionNumbers round_section(double diameter, double wall) {
   const double inside = diameter - 2 * wall;
   const double inertia = pi / 64 * (fourth(diameter) - fourth(inside));
-  return {pi / 4 * (square(diameter) - square(inside)), inertia, inertia, 2 * inertia};
+  const double area = pi / 4 * (square(diameter) - square(inside));
+  const double hole = square(inside / diameter);
+  const double shear = 6 * square(1 + hole) / (7 * square(1 + hole) + 20 * hole) * area;
+  return {area, inertia, inertia, 2 * inertia, shear, shear};
+}
+
+SectionNumbers rectangular_section(double height, double width) {
+  const double area = height * width;
+  const double thin = std::min(height, width);
+  const double ratio = std::max(height, width) / thin;
+  double series = 0;
+  for (int n = 1; n < 20; n += 2) series += std::tanh(n * pi * ratio / 2) / (fourth(n) * n);
+  const double torsion =
+      area * square(thin) / 3 * (1 - 192 / (square(pi) * cube(pi) * ratio) * series);
+  return {
+      area,          area * square(height) / 12, area * square(width) / 12, torsion, 5.0 / 6 * area,
+      5.0 / 6 * area};
+}
+
+SectionNumbers circular_section(double diameter) {
+  const double area = pi / 4 * square(diameter);
+  const double inertia = area * square(diameter) / 16;
+  return {area, inertia, inertia, 2 * inertia, 0.9 * area, 0.9 * area};
 }
 
 }  // namespace pounding

@@ -8,6 +8,11 @@ struct SectionNumbers {
   double inertia_y = 0;  ///< about y: bending in the plane of the web [m4]
   double inertia_z = 0;  ///< about z: bending across the web [m4]
   double torsion = 0;    ///< St-Venant torsion constant [m4]
+  /// Areas that bear shear along y and z [m2]: I^2 / (integral of (S / t)^2 dA), with S the first
+  /// moment beyond a cut of the wall and t its thickness, which gives the energy of the stresses
+  /// that balance bending (D. J. Jourawski, 1856); of walls by their middle lines.
+  double shear_area_y = 0;
+  double shear_area_z = 0;
 };
 
 /// Dimensions of a rolled section [m].
@@ -40,7 +45,14 @@ SectionNumbers channel_section(const RolledShape& shape);
 SectionNumbers hollow_section(double height, double width, double wall, double outer_radius,
                               double inner_radius);
 
-/// A round tube [m].
+/// A round tube [m]; shear areas after G. R. Cowper, J. Appl. Mech. 33 (1966), with nu = 0: half of
+/// the area of a thin one.
 SectionNumbers round_section(double diameter, double wall);
+
+/// A rectangle, the height along z [m]: shear areas 5/6 of it.
+SectionNumbers rectangular_section(double height, double width);
+
+/// A solid circle [m]: shear areas 9/10 of it.
+SectionNumbers circular_section(double diameter);
 
 }  // namespace pounding

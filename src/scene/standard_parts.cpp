@@ -36,6 +36,8 @@ void add_section(OptionsDatabase& options, const std::string& name, const Sectio
   add("section_<section>_inertia_y", numbers.inertia_y);
   add("section_<section>_inertia_z", numbers.inertia_z);
   add("section_<section>_torsion", numbers.torsion);
+  options.try_emplace(option_name("section_<section>_shear_area", {name}),
+                      option_text(numbers.shear_area_y) + "," + option_text(numbers.shear_area_z));
 }
 
 void add_profiles(const OptionsDatabase& given, OptionsDatabase& options) {

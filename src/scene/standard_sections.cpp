@@ -200,9 +200,9 @@ std::optional<double> parse_size(const std::string& text) {
   return *whole + *above / *below;
 }
 
-/// The sizes behind the letters of a tube, if there are `count` and it has a hole.
-std::optional<std::vector<double>> tube_sizes(const std::string& name, std::string_view letters,
-                                              std::size_t count) {
+/// The sizes behind the letters of a section, if there are `count`.
+std::optional<std::vector<double>> sizes_of(const std::string& name, std::string_view letters,
+                                            std::size_t count) {
   if (!name.starts_with(letters)) return std::nullopt;
   std::vector<double> sizes;
   for (const std::string& word : split(name.substr(letters.size()), 'X')) {
@@ -211,11 +211,27 @@ std::optional<std::vector<double>> tube_sizes(const std::string& name, std::stri
     sizes.push_back(*size);
   }
   if (sizes.size() != count) return std::nullopt;
+  return sizes;
+}
+
+/// The sizes behind the letters of a tube, if there are `count` and it has a hole.
+std::optional<std::vector<double>> tube_sizes(const std::string& name, std::string_view letters,
+                                              std::size_t count) {
+  const auto sizes = sizes_of(name, letters, count);
   // A corner of two walls outside leaves room for the wall opposite.
-  for (std::size_t i = 0; i + 1 < count; ++i) {
-    if (sizes[i] < 4 * sizes.back()) return std::nullopt;
+  for (std::size_t i = 0; sizes && i + 1 < count; ++i) {
+    if ((*sizes)[i] < 4 * sizes->back()) return std::nullopt;
   }
   return sizes;
+}
+
+/// Solid sections.
+std::optional<SectionNumbers> solid(const std::string& name) {
+  if (const auto s = sizes_of(name, "RECT", 2)) {
+    return rectangular_section((*s)[0] * millimetre, (*s)[1] * millimetre);
+  }
+  if (const auto s = sizes_of(name, "ROUND", 1)) return circular_section((*s)[0] * millimetre);
+  return std::nullopt;
 }
 
 /// Tubes: EN 10210 with corners of 1.5 t outside and 1.0 t inside; HSS with 0.93 of the nominal
@@ -257,7 +273,8 @@ std::optional<SectionNumbers> standard_section(std::string_view name) {
       if (row.name == wanted) return numbers_of(table.family, row);
     }
   }
-  return tube(wanted);
+  const auto numbers = tube(wanted);
+  return numbers ? numbers : solid(wanted);
 }
 
 std::vector<std::string> standard_section_names() {

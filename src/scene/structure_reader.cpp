@@ -30,7 +30,8 @@ using Names = OptionReader::Names;
 /// Options that belong to some elements only: refused beside the others.
 void forbid_others(const OptionReader& options, const std::string& element, const Names& names) {
   constexpr std::string_view properties =
-      "area dashpot dashpot_exponent drilling_factor hardening mass mass_per_area mass_per_length "
+      "area dashpot dashpot_exponent divide drilling_factor hardening mass mass_per_area "
+      "mass_per_length "
       "material "
       "rotary_inertia rotary_inertia_factor section compression_only slack sliding_friction "
       "pendulum_radius stiffness stiffness_per_area stiffness_per_length dashpot_per_area "
@@ -136,11 +137,30 @@ Section read_section(OptionReader& options, const Names& region) {
   section.inertia_y = options.real("section_<section>_inertia_y", names);
   section.inertia_z = options.real("section_<section>_inertia_z", names);
   section.torsion = options.real("section_<section>_torsion", names);
+  if (options.given("section_<section>_shear_area", names)) {
+    const std::vector<double> areas = options.reals("section_<section>_shear_area", names, 2);
+    section.shear_area_y = areas[0];
+    section.shear_area_z = areas[1];
+  }
   section.z_axis = read_vector(options, "section_<section>_z_axis", names);
   if (section.z_axis == Vector3{0, 0, 0}) {
     options.refuse("section_<section>_z_axis", names, "no direction");
   }
   return section;
+}
+
+/// Into how many beams each line is cut; 0: as its waves need.
+int read_parts(OptionReader& options, const Names& names) {
+  constexpr std::string_view pattern = "<structure>_<group>_divide";
+  constexpr double most = 1000;
+  const std::string word = options.text(pattern, names);
+  if (word == "none") return 1;
+  if (word == "auto") return 0;
+  const auto count = parse_real(word);
+  if (!count || *count != std::floor(*count) || *count < 2 || *count > most) {
+    options.refuse(pattern, names);
+  }
+  return static_cast<int>(*count);
 }
 
 void read_point_mass(OptionReader& options, const Names& names, Region& region) {
@@ -153,7 +173,10 @@ void read_point_mass(OptionReader& options, const Names& names, Region& region) 
 void read_solid(OptionReader& options, const Names& names, Region& region) {
   const ElementTraits& element = traits_of(region.element);
   region.material = read_material(options, names);
-  if (takes(element, "section")) region.section = read_section(options, names);
+  if (takes(element, "section")) {
+    region.section = read_section(options, names);
+    region.parts = read_parts(options, names);
+  }
   if (takes(element, "area")) {
     region.area = options.real("<structure>_<group>_area", names);
     if (options.boolean("<structure>_<group>_tension_only", names)) {

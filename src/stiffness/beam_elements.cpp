@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "elements/beam2.h"
 #include "elements/local_frame.h"
 
 namespace pounding::stiffness {
@@ -66,18 +67,20 @@ BeamElements::Beam BeamElements::make(const std::array<LocalIndex, 2>& start,
   const auto [direction, length] = segment_between(coordinates);
   const double young = properties.young;
   const double shear = young / (2 * (1 + properties.poisson));
-  const auto bending = [young, length = length](double inertia) {
+  const auto bending = [young, length = length](double inertia, double phi) {
     const double rigidity = young * inertia / length;
-    return std::array<double, 3>{12 * rigidity / (length * length), 6 * rigidity / length,
-                                 2 * rigidity};
+    return std::array<double, 4>{12 * rigidity / (length * length) / (1 + phi),
+                                 6 * rigidity / length / (1 + phi), 2 * rigidity,
+                                 (2 - phi) / (2 * (1 + phi))};
   };
+  const ShearFlexibility phi = shear_flexibility(properties, length);
   Beam beam;
   beam.start = start;
   beam.axes = local_frame(direction, properties.z_axis);
   beam.stretch = young * properties.area / length;
   beam.twist = shear * properties.torsion / length;
-  beam.bending_y = bending(properties.inertia_z);
-  beam.bending_z = bending(properties.inertia_y);
+  beam.bending_y = bending(properties.inertia_z, phi.y);
+  beam.bending_z = bending(properties.inertia_y, phi.z);
   return beam;
 }
 
@@ -93,7 +96,7 @@ BeamElements::BeamElements(const std::vector<Beam>& beams, LocalIndex idle) {
     for (std::size_t k = 0; k < 9; ++k) batch.axes[k][lane] = beam.axes[k / 3][k % 3];
     batch.stretch[lane] = beam.stretch;
     batch.twist[lane] = beam.twist;
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 4; ++k) {
       batch.bending_y[k][lane] = beam.bending_y[k];
       batch.bending_z[k][lane] = beam.bending_z[k];
     }
@@ -112,13 +115,15 @@ void BeamElements::apply(const double* w, double* q) const {
     const Lanes twist = b.twist * (r1.x - r2.x);
     const Vectors force{b.stretch * d.x, b.bending_y[0] * d.y + b.bending_y[1] * sum_z,
                         b.bending_z[0] * d.z - b.bending_z[1] * sum_y};
-    // 4 r_1 + 2 r_2 = 2 (r_1 + (r_1 + r_2))
+    // (4 + Phi) r_1 + (2 - Phi) r_2 = 2 (1 + Phi) (r_1 + (2 - Phi) / (2 (1 + Phi)) (r_1 + r_2))
+    const Lanes turn_y = b.bending_z[3] * sum_y;
+    const Lanes turn_z = b.bending_y[3] * sum_z;
     const Lanes shear_y = b.bending_y[1] * d.y;
     const Lanes shear_z = b.bending_z[1] * d.z;
-    const Vectors moment1{twist, b.bending_z[2] * (r1.y + sum_y) - shear_z,
-                          b.bending_y[2] * (r1.z + sum_z) + shear_y};
-    const Vectors moment2{-twist, b.bending_z[2] * (r2.y + sum_y) - shear_z,
-                          b.bending_y[2] * (r2.z + sum_z) + shear_y};
+    const Vectors moment1{twist, b.bending_z[2] * (r1.y + turn_y) - shear_z,
+                          b.bending_y[2] * (r1.z + turn_z) + shear_y};
+    const Vectors moment2{-twist, b.bending_z[2] * (r2.y + turn_y) - shear_z,
+                          b.bending_y[2] * (r2.z + turn_z) + shear_y};
     const Vectors global = to_global(b.axes, force);
     scatter(global, to_global(b.axes, moment1), b.start[0], q);
     scatter(minus(global), to_global(b.axes, moment2), b.start[1], q);

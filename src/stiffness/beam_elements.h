@@ -11,12 +11,13 @@
 
 namespace pounding::stiffness {
 
-/// Euler-Bernoulli beams, four at a time, from their eight local stiffnesses and their axes instead
-/// of 12 x 12 matrices. With d = u_1 - u_2 and the rotations r_1, r_2 in local axes:
+/// Beams, four at a time, from their ten local stiffnesses and their axes instead of 12 x 12
+/// matrices. With d = u_1 - u_2, the rotations r_1, r_2 in local axes, and Phi of beam2.h, which is
+/// 0 without flexibility in shear:
 ///
 ///     f_x = E A / L d_x                          t_1 = -t_2 = G J / L (r_1x - r_2x)
-///     f_y = 12 E I_z / L^3 d_y + 6 E I_z / L^2 (r_1z + r_2z)
-///     m_1z = 6 E I_z / L^2 d_y + E I_z / L (4 r_1z + 2 r_2z)
+///     f_y = (12 E I_z / L^3 d_y + 6 E I_z / L^2 (r_1z + r_2z)) / (1 + Phi)
+///     m_1z = (6 E I_z / L^2 d_y + E I_z / L ((4 + Phi) r_1z + (2 - Phi) r_2z)) / (1 + Phi)
 ///
 /// and likewise f_z, m_y with E I_y and the other sign of the terms in L^2; node 2 takes -f.
 class BeamElements {
@@ -27,8 +28,10 @@ class BeamElements {
     Matrix3 axes{};  ///< rows x, y, z
     double stretch = 0;
     double twist = 0;
-    std::array<double, 3> bending_y{};  ///< 12 E I_z / L^3, 6 E I_z / L^2, 2 E I_z / L: u_y, r_z
-    std::array<double, 3> bending_z{};  ///< the same of I_y: u_z, r_y
+    /// Stiffness of u_y and r_z: 12 E I_z / (L^3 (1 + Phi)), 6 E I_z / (L^2 (1 + Phi)),
+    /// 2 E I_z / L, and the pure number (2 - Phi) / (2 + 2 Phi).
+    std::array<double, 4> bending_y{};
+    std::array<double, 4> bending_z{};  ///< the same of I_y: u_z, r_y
   };
   /// A beam with node coordinates of shape (2, 3) [m].
   static Beam make(const std::array<LocalIndex, 2>& start, std::span<const double> coordinates,
@@ -46,8 +49,8 @@ class BeamElements {
     Lanes axes[9] = {};
     Lanes stretch = {};
     Lanes twist = {};
-    Lanes bending_y[3] = {};
-    Lanes bending_z[3] = {};
+    Lanes bending_y[4] = {};
+    Lanes bending_z[4] = {};
   };
   std::vector<Batch> batches_;
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "elements/geometric_stiffness.h"
-#include "stiffness/element_properties.h"
+#include "mesh/element_properties.h"
 
 namespace pounding::stiffness {
 namespace {

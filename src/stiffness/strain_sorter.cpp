@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "stiffness/element_properties.h"
+#include "mesh/element_properties.h"
 #include "stiffness/strains/extrusion.h"
 
 namespace pounding::stiffness {

@@ -5,11 +5,11 @@
 
 #include "common/parallel.h"
 #include "elements/geometric_stiffness.h"
+#include "mesh/element_properties.h"
 #include "mesh/ghost_dofs.h"
 #include "mesh/halo.h"
 #include "mesh/location.h"
 #include "stiffness/element_loop.h"
-#include "stiffness/element_properties.h"
 
 namespace pounding {
 namespace {
@@ -57,8 +57,7 @@ LargestCompression set_axial_forces(const Structure& structure,
   for (ElementBlock& block : mesh.blocks) {
     block.axial_force.clear();
     if (!has_axial_force(block.type)) continue;
-    const ElementProperties properties =
-        stiffness::element_properties(structure.regions[block.region]);
+    const ElementProperties properties = element_properties(structure.regions[block.region]);
     const ElementLayout layout = element_layout(block.type);
     for (std::size_t e = 0; e < block.count(); ++e) {
       const auto dofs = stiffness::element_dofs(mesh, block, e, layout);

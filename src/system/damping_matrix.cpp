@@ -5,8 +5,8 @@
 
 #include "elements/element.h"
 #include "interactions/laws/law_of.h"
+#include "mesh/element_properties.h"
 #include "stiffness/element_loop.h"
-#include "stiffness/element_properties.h"
 #include "stiffness/sparse_matrix.h"
 
 namespace pounding {
@@ -26,10 +26,9 @@ MatHandle dashpot_matrix(const Structure& structure, const Mesh& mesh) {
     const ElementLayout layout = element_layout(block.type);
     const std::size_t size = layout.size();
     for (std::size_t e = 0; e < block.count(); ++e) {
-      element_dashpots(
-          block.type,
-          stiffness::element_properties(structure.regions[block.region], block.share_of(e)),
-          {values.data(), size * size});
+      element_dashpots(block.type,
+                       element_properties(structure.regions[block.region], block.share_of(e)),
+                       {values.data(), size * size});
       const auto dofs = stiffness::element_dofs(mesh, block, e, layout);
       std::array<PetscInt, max_element_size> rows{};
       std::array<PetscInt, max_element_size> columns{};

@@ -2,9 +2,9 @@
 
 #include "common/error.h"
 #include "elements/geometric_stiffness.h"
+#include "mesh/element_properties.h"
 #include "mesh/location.h"
 #include "stiffness/element_loop.h"
-#include "stiffness/element_properties.h"
 
 namespace pounding {
 
@@ -17,12 +17,12 @@ void for_each_element(const Structure& structure, const Mesh& mesh, Wanted&& wan
   stiffness::ElementWork work;
   for (const ElementBlock& block : mesh.blocks) {
     const Region& region = structure.regions[block.region];
-    ElementProperties properties = stiffness::element_properties(region);
+    ElementProperties properties = element_properties(region);
     const ElementLayout layout = element_layout(block.type);
     const std::size_t size = layout.size();
     for (std::size_t e = 0; e < block.count(); ++e) {
       if (!wanted(block, e)) continue;
-      if (!block.share.empty()) properties = stiffness::element_properties(region, block.share[e]);
+      if (!block.share.empty()) properties = element_properties(region, block.share[e]);
       try {
         element_matrices(block.type, gather_coordinates(mesh, block, e, work), properties,
                          {work.stiffness.data(), size * size}, {work.mass.data(), size});

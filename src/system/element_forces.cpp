@@ -5,7 +5,7 @@
 
 #include "elements/end_forces.h"
 #include "elements/shell_forces.h"
-#include "stiffness/element_properties.h"
+#include "mesh/element_properties.h"
 #include "system/each_element.h"
 #include "system/support_shapes.h"
 #include "system/wrench.h"
@@ -117,7 +117,7 @@ std::vector<ElementForces::Row> member_rows(const Structure& structure, const Me
   for_each_chosen(structure, mesh, chosen, [&](const Chosen& element) {
     const ElementType type = element.block.type;
     const ElementProperties properties =
-        stiffness::element_properties(structure.regions[element.block.region]);
+        element_properties(structure.regions[element.block.region]);
     const std::size_t count = element_force_names(type).size();
     const std::vector<double> forces =
         is_shell(type) ? shell_force_rows(type, element.coordinates, properties)

@@ -7,9 +7,9 @@
 #include "common/parallel.h"
 #include "elements/geometric_stiffness.h"
 #include "elements/measured_costs.h"
+#include "mesh/element_properties.h"
 #include "mesh/location.h"
 #include "stiffness/element_loop.h"
-#include "stiffness/element_properties.h"
 #include "stiffness/element_stiffness.h"
 #include "stiffness/sparse_matrix.h"
 #include "system/each_element.h"
@@ -112,7 +112,7 @@ class Assembly {
       if (!block.axial_force.empty()) {
         // The part that the weight adds may be negative in a rotation: it damps nothing.
         add_geometric_stiffness(block.type, gather_coordinates(mesh_, block, element, work),
-                                stiffness::element_properties(region), -block.axial_force[element],
+                                element_properties(region), -block.axial_force[element],
                                 {work.stiffness.data(), size * size});
       }
       for (std::size_t i = 0; i < stiffness.size(); ++i) damping_[i] = extra.beta * stiffness[i];

@@ -14,7 +14,7 @@
 #include "common/error.h"
 #include "elements/element.h"
 #include "interactions/laws/law_of.h"
-#include "stiffness/element_properties.h"
+#include "mesh/element_properties.h"
 #include "system/elimination_order.h"
 
 namespace pounding {
@@ -111,8 +111,7 @@ class Decision {
 
   bool scales(const ElementSet& set, std::size_t element, std::span<const GlobalIndex> nodes) {
     const Region& region = structure_.regions[set.region];
-    const ElementProperties properties =
-        stiffness::element_properties(region, set.share_of(element));
+    const ElementProperties properties = element_properties(region, set.share_of(element));
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       const Vector3 x = mesh_.position(nodes[a]);
       std::copy(x.begin(), x.end(), &coordinates_[3 * a]);

@@ -8,7 +8,7 @@
 #include "common/dense_eigenvalues.h"
 #include "common/dense_solver.h"
 #include "common/matrix3.h"
-#include "stiffness/element_properties.h"
+#include "mesh/element_properties.h"
 #include "system/critical_time_step.h"
 #include "system/mass_scaling.h"
 
@@ -230,7 +230,7 @@ StepPlan plan_step(const Structure& structure, const Mesh& mesh) {
       const std::span<double> stiffness(work.stiffness.data(), size * size);
       const std::span<double> mass(work.mass.data(), size);
       element_matrices(block.type, gather_coordinates(mesh, block, e, work),
-                       stiffness::element_properties(region, block.share_of(e)), stiffness, mass);
+                       element_properties(region, block.share_of(e)), stiffness, mass);
       if (is_shell(block.type)) {
         feasible = inertia.add(block, e, work);
       } else if (traits_of(block.type).scalable) {

@@ -6,8 +6,8 @@
 
 #include "benchmark/timed_step.h"
 #include "common/parallel.h"
+#include "mesh/element_properties.h"
 #include "stiffness/bricks/brick_stencil.h"
-#include "stiffness/element_properties.h"
 
 namespace pounding::measuring {
 namespace {
@@ -216,8 +216,7 @@ class BareStep final : public TimedStep {
     if (request.cells[2] != 1 || request.skew || count_ < 1) {
       throw std::invalid_argument("a bare step needs a slab of one layer of boxes");
     }
-    const ElementProperties properties =
-        stiffness::element_properties(model.structures.at(0).regions.at(0));
+    const ElementProperties properties = element_properties(model.structures.at(0).regions.at(0));
     const stiffness::BrickStencil stencil = stiffness::brick_stencil(
         stiffness::split_brick(ElementType::hex8, properties, cell_size).value());
     halves_[0] = plain(stencil.membrane, -1);

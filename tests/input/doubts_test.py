@@ -238,7 +238,7 @@ class Culprit(Doubts):
 
     def test_feet_that_slide(self):
         line = self.refuse([*TABLE, "-s_clamp", "base:x+y", "-s_damping_uniform", 0.05], "structure s: none of its first 3 modes",
-                           "along z", "-s_clamp", "-s_damping_reference")
+                           "the first, along ", "-s_clamp", "-s_damping_reference")
         self.assertLess(line.index("-s_clamp"), line.index("_damping_uniform"))
 
     def test_size_is_told_before_what_fails_by_it(self):
@@ -278,8 +278,20 @@ class Shear(Doubts):
         for ranks in (1, 2):
             lines = self.sheared(stick, ranks)
             self.assertEqual(len(lines), 1, lines)
-            for part in ("group b", "a cantilever of beams 93 m long", "(0, 0, 0)", "(0, 0, 93)", "solids or shells"):
+            for part in ("group b", "a cantilever of beams 93 m long", "(0, 0, 0)", "(0, 0, 93)", "a shear_area"):
                 self.assertIn(part, lines[0])
+
+    def test_not_where_shear_counts(self):
+        """Nor of the beams with shear areas in a member of which some have none."""
+        stick = self.stick([0, 1, 2, 3], [1] * 3, [1 / 12] * 3, [1e3] * 3, 3e10, 0.2)
+        self.assertEqual(len(self.sheared(stick)), 1)
+        given = [word for i in (1, 2, 3) for word in (f"-section_q{i}_shear_area", "0.8,0.8")]
+        self.assertEqual(self.sheared(stick + given), [])
+        self.assertIn("group b1", self.sheared(stick + given[2:])[0])
+        euler = [word for i in (1, 2, 3) for word in (f"-s_b{i}_element", "euler_beam")]
+        lines = self.sheared(stick + given + euler)
+        self.assertEqual(len(lines), 1)
+        self.assertIn("let its element be beam", lines[0])
 
     def test_thick_cantilevers_and_slender_ones(self):
         def square(length, extra="", more=()):

@@ -165,7 +165,7 @@ GlobalMesh slab_with_beams(Structure& structure) {
   Region region = structure.regions[0];
   region.group = "beams";
   region.element = ElementType::beam;
-  region.section = Section{"s", 0.09, 6.75e-4, 6.75e-4, 1.1e-3, {0.1, 0.2, 1}};
+  region.section = Section{"s", 0.09, 6.75e-4, 6.75e-4, 1.1e-3, {0.1, 0.2, 1}, 0.07, 0.04};
   structure.regions.push_back(region);
   return mesh;
 }

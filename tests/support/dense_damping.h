@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "elements/element.h"
+#include "mesh/element_properties.h"
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"
-#include "stiffness/element_properties.h"
 #include "support/box_mesh.h"
 #include "system/finite_element_system.h"
 #include "unit/elements/dense_eigen.h"
@@ -135,7 +135,7 @@ inline DenseSystem dense_system(const DampedStructure& damped) {
     for (std::size_t e = 0; e < set.tags.size(); ++e) {
       std::vector<double> k(size * size), m(size);
       const auto [x, dofs] = dense_element(mesh, set, e, dense);
-      element_matrices(set.type, x, stiffness::element_properties(region), k, m);
+      element_matrices(set.type, x, element_properties(region), k, m);
       for (std::size_t i = 0; i < size; ++i) {
         if (dofs[i] == n) continue;
         dense.mass[dofs[i]] += m[i];

@@ -37,7 +37,7 @@ class FrameMesh {
   /// `count` equal beams from one point to another.
   void add_beams(const Vector3& from, const Vector3& to, int count, const Vector3& z_axis) {
     Region region = new_region(ElementType::beam);
-    region.section = Section{"steel", 34e-4, 864e-8, 318e-8, 14e-8, z_axis};
+    region.section = Section{"steel", 34e-4, 864e-8, 318e-8, 14e-8, z_axis, 21e-4, 8e-4};
     ElementSet& set = new_set(region);
     const auto at = [&](int i) {
       Vector3 x{};

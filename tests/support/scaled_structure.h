@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "mesh/element_properties.h"
 #include "stability/stability_limit.h"
-#include "stiffness/element_properties.h"
 #include "support/built_system.h"
 #include "support/dense_damping.h"
 #include "system/mass_scaling.h"
@@ -36,7 +36,7 @@ inline std::vector<double> dense_mass(const DampedStructure& damped, const Dense
     for (std::size_t e = 0; traits_of(set.type).scalable && e < set.tags.size(); ++e) {
       std::vector<double> k(size * size), m(size), added(size * size);
       const auto [x, dofs] = dense_element(damped.mesh, set, e, dense);
-      element_matrices(set.type, x, stiffness::element_properties(region), k, m);
+      element_matrices(set.type, x, element_properties(region), k, m);
       add_element_mass(damped.structure.mass_scaling, damped.structure.damping_of(region), k, m,
                        added);
       for (std::size_t i = 0; i < size; ++i) {

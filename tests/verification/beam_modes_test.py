@@ -68,21 +68,22 @@ def cantilever(elements):
     factor, side = 1e4, 0.1
     area, inertia = side**2, side**4 / 12
     words = modal_run.material(200e9 * factor, 0.3, 7800) + ["-@_clamp", "x_min"]
-    words += modal_run.group("line", "beam", section="@")
+    words += modal_run.group("line", "euler_beam", section="@")
     words += modal_run.section("@", area, inertia, inertia / factor, inertia)
     return modal_run.case("line", words, length=3, n=elements)
 
 
 def portal(elements):
     words = modal_run.material(200e9, 0.3, 7800) + ["-@_clamp", "base"]
-    words += modal_run.group("columns", "beam", section="@c") + modal_run.group("girder", "beam", section="@g")
+    words += modal_run.group("columns", "euler_beam", section="@c")
+    words += modal_run.group("girder", "euler_beam", section="@g")
     words += modal_run.section("@c", 5.38e-3, 1e-2, 1.673e-5, 1e-2)
     words += modal_run.section("@g", 2.85e-3, 1e-2, 1.943e-5, 1e-2)
     return modal_run.case("portal", words, n=elements)
 
 
 def cross(elements):
-    words = modal_run.material(200e9, 0.3, 8000) + modal_run.group("arms", "beam", section="@")
+    words = modal_run.material(200e9, 0.3, 8000) + modal_run.group("arms", "euler_beam", section="@")
     words += modal_run.section("@", 0.125**2, 2, 0.125**4 / 12, 2)
     words += modal_run.group("ends", "grounded_spring", stiffness="1e14,1e14,1e14")
     return modal_run.case("double_cross", words, n=elements)

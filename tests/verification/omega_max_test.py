@@ -93,6 +93,23 @@ class OmegaMax(unittest.TestCase):
         self.check([shell], [2 / 0.12 * math.sqrt(30e9 / (0.8 * 2400))])
 
     def test_one_beam(self):
+        """Stretching, 2 c / L, where the beam is short, else bending, which its shear holds back."""
+        wave, radius, area, shear = math.sqrt(STEEL[0] / STEEL[2]), 0.05, 0.01, 0.006
+        cases, expected = [], []
+        for length, bends in ((0.05, False), (0.1, False), (1.0, True)):
+            phi = 12 * radius**2 / length**2 * area / shear * 2 * (1 + STEEL[1])
+            rigidity = 12 * (radius * wave)**2 / (length**3 * (1 + phi))  # over the mass per length
+            bending = math.sqrt(rigidity * (4 / length + length / radius**2))
+            self.assertEqual(bending > 2 * wave / length, bends)
+            expected.append(max(bending, 2 * wave / length))
+            words = modal_run.material(*STEEL) + modal_run.group("line", "beam", section="@")
+            words += modal_run.section("@", area, area * radius**2, area * radius**2, area * radius**2)
+            words += ["-section_@_shear_area", f"{shear},{shear}", "-spectra_frequencies", "1,1e5"]
+            cases.append(modal_run.case("line", words, length=length, n=1))
+        for case, omega in zip(cases, expected):
+            self.check([case], [omega], 6e-4)  # a thousandth of inertia
+
+    def test_one_euler_beam(self):
         """Bending governs where the beam is short, else stretching, 2 c / L."""
         wave, radius, area = math.sqrt(STEEL[0] / STEEL[2]), 0.05, 0.01
         cases, expected = [], []
@@ -101,7 +118,7 @@ class OmegaMax(unittest.TestCase):
             bending, stretching = math.sqrt(48 + 6 / gamma) * radius * wave / length**2, 2 * wave / length
             self.assertEqual(bending > stretching, bends)
             expected.append(max(bending, stretching))
-            words = modal_run.material(*STEEL) + modal_run.group("line", "beam", section="@")
+            words = modal_run.material(*STEEL) + modal_run.group("line", "euler_beam", section="@")
             words += modal_run.section("@", area, area * radius**2 / 4, area * radius**2, area * radius**2)
             cases.append(modal_run.case("line", words, length=length, n=1))
         self.check(cases, expected)

@@ -24,7 +24,7 @@ EULER = math.pi**2 * YOUNG * INERTIA / (4 * HEIGHT**2)
 def column(cells, mass, *more, density=1e-1, gravity=-GRAVITY, height=HEIGHT):
     """A cantilever with a mass on top; its sections weigh next to nothing."""
     return ["-structures", "it", "-it_mesh", "tests/meshes/cantilever.geo", "-it_mesh_set",
-            f"height={height!r},n={cells}", "-it_clamp", "base", "-it_stem_element", "beam", "-it_stem_material",
+            f"height={height!r},n={cells}", "-it_clamp", "base", "-it_stem_element", "euler_beam", "-it_stem_material",
             "stuff", "-it_stem_section", "pipe", "-material_stuff_young", YOUNG, "-material_stuff_poisson", 0.2,
             "-material_stuff_density", repr(density), "-section_pipe_area", AREA, "-section_pipe_inertia_y", INERTIA,
             "-section_pipe_inertia_z", INERTIA, "-section_pipe_torsion", INERTIA, "-section_pipe_z_axis", "1,0,0",
@@ -90,7 +90,7 @@ class Frame(unittest.TestCase):
                  "-preload", "static", "-it_p_delta", "true", "-modes", 6, "-end_time", 1e-4]
         for group, material, young, density in (("columns", "stuff", YOUNG, 1e-2),
                                                 ("girder", "heavy", 1e4 * YOUNG, mass / (4 * AREA))):
-            words += [f"-it_{group}_element", "beam", f"-it_{group}_material", material, f"-it_{group}_section", "pipe",
+            words += [f"-it_{group}_element", "euler_beam", f"-it_{group}_material", material, f"-it_{group}_section", "pipe",
                       f"-material_{material}_young", young, f"-material_{material}_poisson", 0.2,
                       f"-material_{material}_density", repr(density)]
         kappa = math.sqrt(mass * GRAVITY / 2 / (YOUNG * INERTIA))

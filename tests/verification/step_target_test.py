@@ -138,7 +138,8 @@ class Frequencies(unittest.TestCase):
         words += ["-material_@r_young", 30e9, "-material_@r_poisson", 0.3, "-material_@r_density", 1000]
         for name, material, numbers in (("column", "@", (0.04, 1.3e-4, 1.3e-4, 2e-4, "1,0,0")),
                                         ("beam", "@r", (0.01, 1e-4, 1e-4, 1e-4, "0,0,1"))):
-            words += [f"-@_{name}_element", "beam", f"-@_{name}_material", material, f"-@_{name}_section", f"@{name[0]}"]
+            words += [f"-@_{name}_element", "euler_beam", f"-@_{name}_material", material, f"-@_{name}_section",
+                      f"@{name[0]}"]
             for key, number in zip(("area", "inertia_y", "inertia_z", "torsion", "z_axis"), numbers):
                 words += [f"-section_@{name[0]}_{key}", number]
         plain, = modal_run.structures(self, [words], MODES)

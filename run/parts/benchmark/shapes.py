@@ -24,7 +24,7 @@ plate:
   body: {element}
 material: {{concrete: {{young: 30e9, poisson: 0.2, density: 2400}}}}
 section:
-  tube: {{area: 0.01, inertia_y: 1e-4, inertia_z: 2e-4, torsion: 2e-4, z_axis: "1,2,3"}}
+  tube: {{area: 0.01, inertia_y: 1e-4, inertia_z: 2e-4, torsion: 2e-4, shear_area: "5e-3,4e-3", z_axis: "1,2,3"}}
 motion:
   x: {{record: {motion}, unit: m/s2, time_step: 2e-3}}
 end_time: 0.001

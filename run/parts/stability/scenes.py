@@ -86,7 +86,7 @@ ELEMENTS = {  # structure: its element, mesh and parameters, group, a further wo
     "brick": ("hex8", "box", "", "body", ()),
     "full": ("hex8_full", "box", "", "body", ()),
     "rod": ("bar", "line", "", "line", ("area", 1e-3)),
-    "tube": ("beam", "line", "", "line", ("section", "tube")),
+    "tube": ("euler_beam", "line", "", "line", ("section", "tube")),
     "plate": ("shell", "quadrilateral", "nx=1,ny=1,length=1,width_0=1,width_1=1", "plate",
               ("thickness", 2.0)),
 }

@@ -133,7 +133,7 @@ std::vector<FacetBacking> elements_behind(const GlobalMesh& mesh, std::span<cons
   }
   std::vector<FacetBacking> behind(facets.size());
   for (const ElementSet& set : mesh.regions) {
-    const bool beam = set.type == ElementType::beam;
+    const bool beam = is_beam(set.type);
     if (!carries_faces(set.type) && !beam) continue;
     const double thickness = regions[set.region].thickness;
     const std::size_t width = element_layout(set.type).nodes;

@@ -34,7 +34,8 @@ DenseModel plane_beam(std::size_t count, double length, const ElementProperties&
   for (std::size_t i = 0; i <= count; ++i)
     nodes.push_back({length * static_cast<double>(i) / static_cast<double>(count), 0, 0});
   DenseModel model(nodes, 6);
-  for (std::size_t i = 0; i < count; ++i) model.add(ElementType::beam, {i, i + 1}, properties);
+  for (std::size_t i = 0; i < count; ++i)
+    model.add(ElementType::euler_beam, {i, i + 1}, properties);
   for (std::size_t i = 0; i <= count; ++i)
     for (const std::size_t c : {2U, 3U, 4U}) model.fix(i, c);
   return model;
@@ -133,7 +134,7 @@ DenseModel portal(std::size_t count, bool clamped) {
   DenseModel model(nodes, 6);
   for (std::size_t i = 0; i < 3 * count; ++i) {
     const bool is_beam = i >= count && i < 2 * count;
-    model.add(ElementType::beam, {i, i + 1}, is_beam ? beam : column);
+    model.add(ElementType::euler_beam, {i, i + 1}, is_beam ? beam : column);
   }
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (const std::size_t c : {2U, 3U, 4U}) model.fix(i, c);

@@ -66,7 +66,7 @@ DenseModel cantilever(const Direction& direction, std::size_t count) {
     nodes.push_back(scaled(direction.along, static_cast<double>(i) / static_cast<double>(count)));
   DenseModel model(nodes, 6);
   for (std::size_t i = 0; i < count; ++i)
-    model.add(ElementType::beam, {i, i + 1}, hea160(direction.z_axis));
+    model.add(ElementType::euler_beam, {i, i + 1}, hea160(direction.z_axis));
   model.clamp(0);
   return model;
 }
@@ -131,7 +131,7 @@ TEST(Beam2, CantileverTipFollowsBeamTheoryInAnyDirection) {
 TEST(Beam2, LumpedMassAlongTheAxes) {
   const double length = 0.8;
   const ElementProperties p = hea160({0, 0, 1});
-  const auto mass = dense_element(ElementType::beam, {0, 0, 0, length, 0, 0}, p).lumped_mass;
+  const auto mass = dense_element(ElementType::euler_beam, {0, 0, 0, length, 0, 0}, p).lumped_mass;
   const double chord = p.density * p.area * std::pow(length, 3) / 24;
   const double half = p.density * length / 2;
   const double expected[6] = {half * p.area,
@@ -146,9 +146,10 @@ TEST(Beam2, LumpedMassAlongTheAxes) {
 TEST(Beam2, WhatItCarriesTurnsWithItsLength) {
   const double length = 0.8;
   ElementProperties p = hea160({0, 0, 1});
-  const auto bare = dense_element(ElementType::beam, {0, 0, 0, length, 0, 0}, p).lumped_mass;
+  const auto bare = dense_element(ElementType::euler_beam, {0, 0, 0, length, 0, 0}, p).lumped_mass;
   p.added_mass = 70;
-  const auto loaded = dense_element(ElementType::beam, {0, 0, 0, length, 0, 0}, p).lumped_mass;
+  const auto loaded =
+      dense_element(ElementType::euler_beam, {0, 0, 0, length, 0, 0}, p).lumped_mass;
   const double chord = 70 * std::pow(length, 3) / 24;
   const double more[6] = {35 * length, 35 * length, 35 * length, 0, chord, chord};
   for (std::size_t i = 0; i < 12; ++i) EXPECT_NEAR(loaded[i] - bare[i], more[i % 6], 1e-12) << i;
@@ -160,19 +161,21 @@ TEST(Beam2, LumpedMassOfAColumnAndOfADiagonal) {
   ElementProperties p = hea160({1, 0, 0});
   const double chord = p.density * p.area * std::pow(length, 3) / 24;
   const double half = p.density * length / 2;
-  const auto column = dense_element(ElementType::beam, {0, 0, 0, 0, 0, length}, p).lumped_mass;
+  const auto column =
+      dense_element(ElementType::euler_beam, {0, 0, 0, 0, 0, length}, p).lumped_mass;
   EXPECT_NEAR(column[3] / (chord + half * p.inertia_z), 1, 1e-14);
   EXPECT_NEAR(column[4] / (chord + half * p.inertia_y), 1, 1e-14);
   EXPECT_NEAR(column[5] / (half * (p.inertia_y + p.inertia_z)), 1, 1e-14);
   // Along y with local z on global x: the axes go round, local (x, y, z) = global (y, z, x).
-  const auto level = dense_element(ElementType::beam, {0, 0, 0, 0, length, 0}, p).lumped_mass;
+  const auto level = dense_element(ElementType::euler_beam, {0, 0, 0, 0, length, 0}, p).lumped_mass;
   EXPECT_NEAR(level[3] / (chord + half * p.inertia_z), 1, 1e-14);
   EXPECT_NEAR(level[4] / (half * (p.inertia_y + p.inertia_z)), 1, 1e-14);
   EXPECT_NEAR(level[5] / (chord + half * p.inertia_y), 1, 1e-14);
   // At 45 degrees in x-y: the diagonal of R diag R' is the mean of the two local inertias.
   p.z_axis = {0, 0, 1};
   const double leg = length / std::sqrt(2.0);
-  const auto slanted = dense_element(ElementType::beam, {0, 0, 0, leg, leg, 0}, p).lumped_mass;
+  const auto slanted =
+      dense_element(ElementType::euler_beam, {0, 0, 0, leg, leg, 0}, p).lumped_mass;
   const double mean = (half * (p.inertia_y + p.inertia_z) + chord + half * p.inertia_y) / 2;
   EXPECT_NEAR(slanted[3] / mean, 1, 1e-14);
   EXPECT_NEAR(slanted[4] / mean, 1, 1e-14);
@@ -180,7 +183,7 @@ TEST(Beam2, LumpedMassOfAColumnAndOfADiagonal) {
   // The trace is kept in any direction.
   p.z_axis = {0.3, 0.1, 1};
   const auto oblique =
-      dense_element(ElementType::beam,
+      dense_element(ElementType::euler_beam,
                     {1, 1, 1, 1 + length * 2 / 7, 1 + length * 3 / 7, 1 - length * 6 / 7}, p)
           .lumped_mass;
   EXPECT_NEAR((oblique[3] + oblique[4] + oblique[5]) / (column[3] + column[4] + column[5]), 1,
@@ -192,7 +195,7 @@ TEST(Beam2, LargestCircularFrequencyHasItsClosedForm) {
   // the rotary inertia of a node: here 1/24 + I / (2 A L^2). Stretch: 2 sqrt(E / rho) / L.
   for (const double length : {0.12, 0.25, 1.0, 5.0}) {
     const ElementProperties p = hea160({0, 0, 1});
-    const auto e = dense_element(ElementType::beam, {0, 0, 0, length, 0, 0}, p);
+    const auto e = dense_element(ElementType::euler_beam, {0, 0, 0, length, 0, 0}, p);
     const auto bending = [&](double inertia) {
       const double gamma = 1.0 / 24 + inertia / (2 * p.area * length * length);
       return std::sqrt((48 + 6 / gamma) * p.young * inertia / (p.density * p.area)) /
@@ -217,7 +220,7 @@ TEST(Beam2, SlenderElementReachesTheTabulatedFrequency) {
   ElementProperties p = hea160({0, 0, 1});
   p.area = 1e-2;
   p.inertia_y = p.inertia_z = p.torsion = 1e-10;
-  const auto e = dense_element(ElementType::beam, {0, 0, 0, 1, 0, 0}, p);
+  const auto e = dense_element(ElementType::euler_beam, {0, 0, 0, 1, 0, 0}, p);
   const double unit = std::sqrt(p.young * p.inertia_y / (p.density * p.area));
   const auto values = squared_circular_frequencies(e.stiffness, e.lumped_mass);
   double nearest = 1e300;
@@ -231,9 +234,9 @@ void expect_refused(const std::vector<double>& x, const Vector3& z_axis, const c
   for (const bool mass_alone : {false, true}) {
     try {
       if (mass_alone)
-        element_lumped_mass(ElementType::beam, x, hea160(z_axis), mass);
+        element_lumped_mass(ElementType::euler_beam, x, hea160(z_axis), mass);
       else
-        dense_element(ElementType::beam, x, hea160(z_axis));
+        dense_element(ElementType::euler_beam, x, hea160(z_axis));
       ADD_FAILURE() << "accepted, expected: " << word;
     } catch (const ElementError& error) {
       EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
@@ -252,7 +255,7 @@ TEST(Beam2, ImpossibleBeamsAreRefused) {
   expect_refused({0, 0, 0, 1, 2, 3}, {1, 2, 3.000001}, "parallel");
   expect_refused({0, 0, 0, 1, 0, 0}, {0, 0, 0}, "not a direction");
   expect_refused({0, 0, 0, 1, 0, 0}, {0, 0, nan}, "not a direction");
-  EXPECT_NO_THROW(dense_element(ElementType::beam, {0, 0, 0, 0, 0, 2}, hea160({1e-5, 0, 1})));
+  EXPECT_NO_THROW(dense_element(ElementType::euler_beam, {0, 0, 0, 0, 0, 2}, hea160({1e-5, 0, 1})));
 }
 
 }  // namespace

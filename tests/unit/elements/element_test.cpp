@@ -15,8 +15,9 @@ namespace {
 using testing_support::dense_element;
 using testing_support::DenseElement;
 
-constexpr ElementType all_types[] = {ElementType::hex8, ElementType::hex8_full, ElementType::wedge6,
-                                     ElementType::tet4, ElementType::beam,      ElementType::bar};
+constexpr ElementType all_types[] = {
+    ElementType::hex8, ElementType::hex8_full,  ElementType::wedge6, ElementType::tet4,
+    ElementType::beam, ElementType::euler_beam, ElementType::bar};
 
 bool is_brick(ElementType type) {
   return type == ElementType::hex8 || type == ElementType::hex8_full;
@@ -31,6 +32,8 @@ ElementProperties steel() {
   p.inertia_y = 864.4e-8;
   p.inertia_z = 317.5e-8;
   p.torsion = 13.84e-8;
+  p.shear_area_y = 20.2e-4;
+  p.shear_area_z = 6.6e-4;
   p.z_axis = {0.2, -0.3, 1.0};
   return p;
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -90,6 +91,54 @@ TEST(GeometricStiffness, StretchTranslationAndTwistTakeNothing) {
   }
   EXPECT_NEAR(work(ElementType::bar, bar), 0, 1e-14);
   EXPECT_NEAR(work(ElementType::beam, beam), 0, 1e-14);
+}
+
+/// The tip of a column buckles at P_e / (1 + P_e / (G A_s)), F. Engesser, 1889: det(K + N G) = 0.
+TEST(GeometricStiffness, AColumnFlexibleInShearBucklesAtEngessersLoad) {
+  ElementProperties p = pipe();
+  p.z_axis = {0, 0, 1};
+  p.poisson = 0.2;
+  p.inertia_y = p.inertia_z = 2e-3;
+  p.torsion = 4e-3;
+  p.shear_area_y = p.shear_area_z = 0.002;
+  constexpr std::size_t count = 12;
+  constexpr double length = 3;
+  constexpr double pi = 3.14159265358979323846;
+  const double euler = pi * pi * p.young * p.inertia_y / (4 * length * length);
+  const double shear = p.young / (2 * (1 + p.poisson)) * p.shear_area_z;
+  const double expected = euler / (1 + euler / shear);
+  EXPECT_LT(expected, 0.8 * euler);
+  // Signs of the pivots in the plane x-z: all of them positive below the load.
+  const auto stands = [&](double load) {
+    const std::size_t size = 2 * count;
+    std::vector<double> matrix(size * size, 0.0);
+    for (std::size_t e = 0; e < count; ++e) {
+      const double h = length / count;
+      const std::array<double, 6> x{h * static_cast<double>(e),     0, 0,
+                                    h * static_cast<double>(e + 1), 0, 0};
+      std::vector<double> k(144);
+      std::vector<double> mass(12);
+      element_matrices(ElementType::beam, x, p, k, mass);
+      add_geometric_stiffness(ElementType::beam, x, p, -load, k);
+      const std::array<std::size_t, 4> local{2, 4, 8, 10};
+      for (std::size_t i = e == 0 ? 2 : 0; i < 4; ++i) {
+        for (std::size_t j = e == 0 ? 2 : 0; j < 4; ++j) {
+          matrix[(2 * e + i - 2) * size + 2 * e + j - 2] += k[12 * local[i] + local[j]];
+        }
+      }
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+      if (!(matrix[i * size + i] > 0)) return false;
+      for (std::size_t r = i + 1; r < size; ++r) {
+        const double factor = matrix[r * size + i] / matrix[i * size + i];
+        for (std::size_t c = i; c < size; ++c)
+          matrix[r * size + c] -= factor * matrix[i * size + c];
+      }
+    }
+    return true;
+  };
+  EXPECT_TRUE(stands(0.9999 * expected));
+  EXPECT_FALSE(stands(1.0005 * expected));
 }
 
 }  // namespace

@@ -98,6 +98,44 @@ TEST(ElementOptions, BeamNeedsItsSectionAndOthersRefuseIt) {
                  {"-tower_slab_section heb120", "hex8"});
 }
 
+TEST(ElementOptions, ShearAreasOfASection) {
+  const auto column = [](const OptionsDatabase& more) {
+    const Structure tower = read_scene(with(pair(), more)).scene.structures[0];
+    return *std::ranges::find(tower.regions, "column", &Region::group);
+  };
+  const OptionsDatabase given{{"section_heb120_shear_area", "26e-4, 9e-4"}};
+  EXPECT_EQ(column(given).section->shear_area_y, 26e-4);
+  EXPECT_EQ(column(given).section->shear_area_z, 9e-4);
+  EXPECT_TRUE(is_flexible_in_shear(column(given)));
+  // A standard section has them, whatever else of it is given.
+  EXPECT_NEAR(column({}).section->shear_area_z, 0.0007, 0.0002);
+  EXPECT_EQ(column({}).section->area, 34.01e-4);
+  OptionsDatabase euler = given;
+  euler["tower_column_element"] = "euler_beam";
+  EXPECT_EQ(column(euler).element, ElementType::euler_beam);
+  EXPECT_FALSE(is_flexible_in_shear(column(euler)));
+  for (const char* wrong : {"1e-3", "1e-3,0", "1e-3,-1", "1,2,3", "none", "nan,1", "1e-3,big"}) {
+    expect_refused(with(pair(), {{"section_heb120_shear_area", wrong}}),
+                   {"-section_heb120_shear_area", "two numbers y,z", "[m2]"});
+  }
+}
+
+TEST(ElementOptions, BeamsMayBeDivided) {
+  const auto parts = [](const std::string& word) {
+    const Structure tower =
+        read_scene(with(pair(), {{"tower_column_divide", word}})).scene.structures[0];
+    return std::ranges::find(tower.regions, "column", &Region::group)->parts;
+  };
+  EXPECT_EQ(parts("none"), 1);
+  EXPECT_EQ(parts("auto"), 0);
+  EXPECT_EQ(parts("7"), 7);
+  for (const char* wrong : {"0", "1", "-2", "2.5", "1001", "always", "nan"}) {
+    expect_refused(with(pair(), {{"tower_column_divide", wrong}}),
+                   {"-tower_column_divide", "auto", "from 2 to 1000"});
+  }
+  expect_refused(with(pair(), {{"tower_brace_divide", "auto"}}), {"-tower_brace_divide", "bar"});
+}
+
 TEST(ElementOptions, BarNeedsItsAreaAndOthersRefuseIt) {
   expect_refused(without(pair(), {"tower_brace_area"}),
                  {"missing option -tower_brace_area", "> 0", "[m2]"});

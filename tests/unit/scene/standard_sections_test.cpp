@@ -1,5 +1,6 @@
 #include "scene/standard_sections.h"
 
+#include <array>
 #include <cmath>
 #include <set>
 #include <string>
@@ -98,13 +99,69 @@ TEST(StandardSections, GrowWithinAFamily) {
   }
 }
 
+/// kappa of an I with thin walls after G. R. Cowper, J. Appl. Mech. 33 (1966), times the area.
+double cowper(double height, double width, double web, double flange) {
+  const double nu = 0.3;
+  const double m = 2 * width * flange / (height * web);
+  const double n = width / height;
+  const double above = 10 * (1 + nu) * std::pow(1 + 3 * m, 2);
+  const double below = 12 + 72 * m + 150 * m * m + 90 * m * m * m +
+                       nu * (11 + 66 * m + 135 * m * m + 90 * m * m * m) +
+                       30 * n * n * (m + m * m) + 5 * nu * n * n * (8 * m + 9 * m * m);
+  return above / below * (2 * width * flange + height * web);
+}
+
+TEST(StandardSections, ShearAreas) {
+  const auto mm2 = [](const char* name) {
+    const auto found = standard_section(name);
+    return std::array{found->shear_area_y * 1e6, found->shear_area_z * 1e6};
+  };
+  // Cowper, by the middle lines of the walls; flanges 5/6 of theirs; about d t_w.
+  EXPECT_NEAR(mm2("HEB160")[1] / cowper(147, 160, 8, 13), 1, 0.01);
+  EXPECT_NEAR(mm2("IPE300")[1] / cowper(289.3, 150, 7.1, 10.7), 1, 0.02);
+  EXPECT_NEAR(mm2("W24x76")[1] / cowper(589.8, 228.3, 11.18, 17.27), 1, 0.02);
+  EXPECT_NEAR(mm2("W24x76")[1] / (607.1 * 11.18), 1, 0.07);
+  EXPECT_NEAR(mm2("HEB160")[0], 5.0 / 6 * 2 * 160 * 13, 1e-6);
+  // A thin square tube: 5/12 of its area; a tube twice as high as wide has more along its height.
+  EXPECT_NEAR(mm2("SHS1000x1")[0] / (4 * 999), 5.0 / 12, 1e-3);
+  EXPECT_EQ(mm2("SHS1000x1")[0], mm2("SHS1000x1")[1]);
+  EXPECT_GT(mm2("RHS200x100x8")[1], 1.8 * mm2("RHS200x100x8")[0]);
+  // A thin round tube 1/2 of its area, a rectangle 5/6, a circle 9/10.
+  EXPECT_NEAR(mm2("CHS1000x1")[0] / (3.14159265 * 999), 0.5, 1e-3);
+  EXPECT_NEAR(mm2("RECT400x200")[0], 400 * 200 * 5.0 / 6, 1e-6);
+  EXPECT_NEAR(mm2("ROUND100")[1], 0.9 * 3.14159265 * 2500, 1e-3);
+  // A channel bears along its web about its web; across, its web spoils what its flanges bear.
+  EXPECT_NEAR(mm2("UPN200")[1] / (8.5 * 200), 0.9, 0.1);
+  EXPECT_NEAR(mm2("UPN200")[0] / (5.0 / 6 * 2 * 75 * 11.5), 0.56, 0.03);
+  for (const std::string& name : standard_section_names()) {
+    const auto found = *standard_section(name);
+    EXPECT_GT(found.shear_area_y, 0.14 * found.area) << name;
+    EXPECT_GT(found.shear_area_z, 0.15 * found.area) << name;
+    EXPECT_LT(found.shear_area_y + found.shear_area_z, found.area) << name;
+  }
+}
+
+TEST(StandardSections, SolidOnesOfAnySize) {
+  const auto rectangle = *standard_section("RECT400x200");
+  EXPECT_NEAR(rectangle.area, 0.08, 1e-12);
+  EXPECT_NEAR(rectangle.inertia_y, 0.2 * 0.064 / 12, 1e-12);
+  EXPECT_NEAR(rectangle.inertia_z, 0.4 * 0.008 / 12, 1e-12);
+  EXPECT_NEAR(rectangle.torsion / (0.22868 * 0.4 * 0.008), 1, 1e-4);  // Timoshenko, a / b = 2
+  EXPECT_EQ(standard_section("rect200x400")->torsion, rectangle.torsion);
+  EXPECT_NEAR(standard_section("RECT1x1")->torsion / 1e-12, 0.140577, 1e-6);
+  const auto circle = *standard_section("ROUND100");
+  EXPECT_NEAR(circle.area, 7.853982e-3, 1e-9);
+  EXPECT_NEAR(circle.inertia_y, 4.908739e-6, 1e-11);
+  EXPECT_NEAR(circle.torsion, 9.817477e-6, 1e-11);
+}
+
 TEST(StandardSections, NamesInAnyCaseAndOrder) {
   EXPECT_EQ(standard_section("heb160")->area, standard_section("HEB160")->area);
   EXPECT_EQ(standard_section("HE160B")->area, standard_section("HEB160")->area);
   EXPECT_EQ(standard_section("w14x132")->area, standard_section("W14X132")->area);
-  for (const char* name :
-       {"", "HEB", "HEB165", "HE160C", "W14", "SHS", "SHS100", "SHS100x60", "SHS100x-5",
-        "SHS100x5x5", "HSS8x8x1/0", "HSS8x8x/2", "CHSx", "concrete"}) {
+  for (const char* name : {"", "HEB", "HEB165", "HE160C", "W14", "SHS", "SHS100", "SHS100x60",
+                           "SHS100x-5", "SHS100x5x5", "HSS8x8x1/0", "HSS8x8x/2", "CHSx", "RECT100",
+                           "RECT0x5", "ROUND", "ROUND5x5", "concrete"}) {
     EXPECT_FALSE(standard_section(name)) << name;
   }
 }

@@ -1,6 +1,6 @@
-#include "stiffness/element_properties.h"
+#include "mesh/element_properties.h"
 
-namespace pounding::stiffness {
+namespace pounding {
 
 ElementProperties element_properties(const Region& region, double share) {
   ElementProperties properties;
@@ -29,8 +29,15 @@ ElementProperties element_properties(const Region& region, double share) {
     properties.inertia_z = region.section->inertia_z;
     properties.torsion = region.section->torsion;
     properties.z_axis = region.section->z_axis;
+    if (region.element == ElementType::beam) {
+      properties.resolved_frequency = region.resolved_frequency;
+    }
+    if (is_flexible_in_shear(region)) {
+      properties.shear_area_y = region.section->shear_area_y;
+      properties.shear_area_z = region.section->shear_area_z;
+    }
   }
   return properties;
 }
 
-}  // namespace pounding::stiffness
+}  // namespace pounding

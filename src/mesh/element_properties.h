@@ -3,11 +3,11 @@
 #include "elements/element.h"
 #include "scene/scene.h"
 
-namespace pounding::stiffness {
+namespace pounding {
 
 /// Properties of a region's elements as the element functions want them. What compression-only
 /// springs do along z is no part of them: a link does it. `share`: of the element in the length or
 /// area over which the region is spread (ElementSet).
 ElementProperties element_properties(const Region& region, double share = 1);
 
-}  // namespace pounding::stiffness
+}  // namespace pounding
