@@ -18,7 +18,7 @@ def viaduct(name, spans, x0, *more):
     """A deck on piers; the feet are clamped."""
     words = [f"-{name}_mesh", "tests/meshes/viaduct.geo", f"-{name}_mesh_set", f"spans={spans},x0={x0!r}",
              f"-{name}_clamp", "feet", f"-{name}_deck_element", "shell", f"-{name}_deck_material", "steel",
-             f"-{name}_deck_thickness", 0.3, f"-{name}_piers_element", "beam", f"-{name}_piers_material", "steel",
+             f"-{name}_deck_thickness", 0.3, f"-{name}_piers_element", "euler_beam", f"-{name}_piers_material", "steel",
              f"-{name}_piers_section", "leg", f"-{name}_bearings_element", "spring",
              f"-{name}_bearings_stiffness", BEARING]
     words += [f"-{name}_ignore", "braces"] if not any("braces" in str(word) for word in more) else []

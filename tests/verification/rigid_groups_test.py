@@ -21,7 +21,7 @@ GRAVITY = 9.81
 MATERIALS = ["-material_steel_young", 200e9, "-material_steel_poisson", 0.3, "-material_steel_density", 7800,
              "-section_tube_area", 1e-2, "-section_tube_inertia_y", 1e-5, "-section_tube_inertia_z", 1e-5,
              "-section_tube_torsion", 1e-5, "-section_tube_z_axis", "1,0,0"]
-TABLE = ["-structures", "t", "-t_mesh", "tests/meshes/table.geo", "-t_column_element", "beam", "-t_column_material",
+TABLE = ["-structures", "t", "-t_mesh", "tests/meshes/table.geo", "-t_column_element", "euler_beam", "-t_column_material",
          "steel", "-t_column_section", "tube", "-t_slab_element", "shell", "-t_slab_material", "steel",
          "-t_slab_thickness", 0.05, *MATERIALS]
 SOLID = [{"shell": "hex8"}.get(word, word) for word in TABLE if word not in ("-t_slab_thickness", 0.05)]
