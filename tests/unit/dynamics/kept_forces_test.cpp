@@ -16,13 +16,14 @@ std::vector<double> numbered(std::size_t count) {
 
 void hand_over(KeptForces& kept, const std::vector<double>& force, std::size_t length,
                const Filters<double>& filters = {0, 1, {}},
-               std::span<const std::vector<double>> memories = {}) {
+               std::span<const std::vector<double>> memories = {},
+               std::span<const double> inelastic = {}) {
   // The last range first: ranges come in any order.
   const std::size_t ranges = (force.size() + length - 1) / length;
   for (std::size_t r = ranges; r-- > 0;) {
     const std::size_t begin = r * length, end = std::min(begin + length, force.size());
-    kept.take(static_cast<LocalIndex>(begin), static_cast<LocalIndex>(end), &force[begin], filters,
-              memories);
+    kept.take(static_cast<LocalIndex>(begin), static_cast<LocalIndex>(end), &force[begin],
+              inelastic, filters, memories);
   }
 }
 
@@ -61,6 +62,19 @@ TEST(KeptForces, FiltersByTheMemoriesBeforeTheStep) {
   EXPECT_EQ(kept.at(3).stiffness, 103);
   EXPECT_EQ(kept.at(3).acting, 1.5 * 103 - 0.25 * 8 - 0.5 * 103);
   EXPECT_EQ(kept.at(19).acting, 1.5 * 119 - 0.25 * 8 - 0.5 * 119);
+}
+
+TEST(KeptForces, FiltersForcesOfInelasticElementsAsWell) {
+  const std::vector<double> force = numbered(4);
+  const std::vector<double> inelastic{1, 2, 3, 4};
+  const Filters<double> filters{1, 1.5, {{{0.25, 0, 0}}}};
+  const std::vector<std::vector<double>> memories{std::vector<double>(4, 8.0)};
+  KeptForces kept(4);
+  const std::vector<LocalIndex> dofs{2};
+  kept.watch(dofs);
+  hand_over(kept, force, 4, filters, memories, inelastic);
+  EXPECT_EQ(kept.at(2).stiffness, 102);
+  EXPECT_DOUBLE_EQ(kept.at(2).acting, 1.5 * (102 + 3) - 0.25 * 8 - 3);
 }
 
 }  // namespace
