@@ -17,7 +17,9 @@ from pounding import fragility
 
 STUDY = {
     "scene": str(two_buildings.SCENE),
-    "options": {**two_buildings.SHORT, "probes": "left_roof", "output_interval": 2e-4},
+    # With columns that shear, the run at full order has no impact that lifts the left roof's slab.
+    "options": {**two_buildings.SHORT, "probes": "left_roof", "output_interval": 2e-4,
+                "left_columns_element": "euler_beam", "right_columns_element": "euler_beam"},
     "reduction": {name: {"model": "modal", "modal_vectors": 12} for name in ("left", "right")},
     "motions": {"choose": 3, "correlation": 0.4,
                 "x": {"target": str(two_buildings.FOLDER / "ground.csv"),

@@ -28,7 +28,7 @@ inline Mast build_mast(const Vector3& displacement, const Vector3& velocity) {
   }
   mast.mesh.free_components = mast.mesh.components;
   mast.mesh.free_components[0] = 0;
-  Region& stem = add_region(mast, "stem", ElementType::beam, line);
+  Region& stem = add_region(mast, "stem", ElementType::euler_beam, line);
   stem.material = {"steel", 2e11, 0.3, 7800};
   stem.section = Section{"tube", 1e-2, 1e-6, 1e-6, 1e-6, {1, 0, 0}};
   return {mast.structure, build_system(mast.mesh, mast.structure)};
