@@ -39,7 +39,8 @@ class SceneStudy(unittest.TestCase):
         for way in "xyz":
             frequency, full = runs["full"].spectrum("left_roof", way)
             reduced = runs["modal-50"].spectrum("left_roof", way)[1]
-            if full.min() > 1e-6 * max(runs["full"].spectrum("left_roof", axis)[1].max() for axis in "xyz"):
+            largest = max(runs["full"].spectrum("left_roof", axis)[1].max() for axis in "xyz")
+            if full.max() > 1e-3 * largest and full.min() > 1e-9 * largest:  # a direction in which the roof moves
                 logs = [math.log(a / b) for f, a, b in zip(frequency, reduced, full) if 1 <= f <= 400]
                 squares.append(sum(value**2 for value in logs) / len(logs))
         self.assertAlmostEqual(float(rows["modal-50"]["rms"]) / math.sqrt(sum(squares) / len(squares)), 1, delta=1e-3)
