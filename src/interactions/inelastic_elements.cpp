@@ -38,7 +38,7 @@ InelasticElements::InelasticElements(std::size_t structure, const Mesh& mesh,
       halo_(std::make_unique<Halo>(mesh.comm, mesh.first_owned_dof, mesh.owned_dofs,
                                    ghost_dofs(mesh))),
       displacement_(mesh.dof_count, 0.0),
-      force_(mesh.dof_count, 0.0),
+      force_(mesh.owned_dofs, 0.0),
       state_(0) {
   if (!system.rest_displacement.empty()) {
     throw std::logic_error("inelastic elements start without a rest");
@@ -68,10 +68,10 @@ InelasticElements::InelasticElements(std::size_t structure, const Mesh& mesh,
 }
 
 void InelasticElements::exchange(const SteppedStructure& structure, double back) {
-  const std::vector<double>& u = structure.displacement();
-  const std::vector<double>& v = structure.velocity();
-  for (std::size_t i = 0; i < u.size(); ++i) displacement_[i] = u[i] - back * v[i];
-  halo_->begin(displacement_);
+  const stiffness::StiffnessArgument moved{structure.displacement().data(),
+                                           structure.velocity().data(), -back};
+  halo_->begin(moved);
+  for (const LocalIndex dof : dofs_) displacement_[dof] = moved[dof];
   halo_->end();
   for (std::size_t g = 0; g < halo_->ghost_count(); ++g) {
     displacement_[mesh_.owned_dofs + g] = halo_->ghosts()[halo_->place(g)];
@@ -80,7 +80,7 @@ void InelasticElements::exchange(const SteppedStructure& structure, double back)
 
 double InelasticElements::respond() {
   double offset = 0;
-  std::fill(force_.begin(), force_.end(), 0.0);
+  for (const LocalIndex dof : dofs_) force_[dof] = 0;
   std::array<double, max_element_size> u{};
   std::array<double, max_element_size> f{};
   for (Group& group : groups_) {
@@ -94,7 +94,7 @@ double InelasticElements::respond() {
           e, {u.data(), size}, {group.memory.data() + e * numbers, numbers}, {f.data(), size});
       if (block.counted[e] != 0) offset += held;
       for (std::size_t i = 0; i < size; ++i) {
-        if (place[i] >= 0) force_[place[i]] += f[i];
+        if (place[i] >= 0 && place[i] < mesh_.owned_dofs) force_[place[i]] += f[i];
       }
     }
   }

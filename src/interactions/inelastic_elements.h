@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -71,16 +69,15 @@ class InelasticElements final : public Interaction {
   std::vector<RegionLaw> laws_;
   std::vector<Group> groups_;
   std::unique_ptr<Halo> halo_;
-  std::vector<LocalIndex> dofs_;  ///< owned dofs that these elements act on, increasing
-  std::vector<double>
-      displacement_;            ///< of all local dofs, ghosts where the halo has them [m, rad]
-  std::vector<double> force_;   ///< f over all local dofs [N, N m]
-  std::vector<double> now_;     ///< f_n over dofs_
-  std::vector<double> before_;  ///< f_{n-1} likewise, and its W
-  std::vector<double> acting_;  ///< the force of the step
-  double offset_ = 0;           ///< W_n [J]
-  double offset_before_ = 0;
-  Before state_;  ///< u_n and v- over dofs_
+  std::vector<LocalIndex> dofs_;      ///< owned dofs that these elements act on, increasing
+  std::vector<double> displacement_;  ///< over the local dofs, set at dofs_ and ghosts [m, rad]
+  std::vector<double> force_;         ///< f over the owned dofs, set at dofs_ [N, N m]
+  std::vector<double> now_;           ///< f_n over dofs_
+  std::vector<double> before_;        ///< f_{n-1} likewise
+  std::vector<double> acting_;        ///< the force of the step
+  double offset_ = 0;                 ///< W_n [J]
+  double offset_before_ = 0;          ///< W_{n-1} [J]
+  Before state_;                      ///< u_n and v- over dofs_
 };
 
 }  // namespace pounding::interactions
