@@ -52,14 +52,16 @@ def _lines(scene: dict, indent: str) -> list:
     return lines
 
 
-def write_scene(path: Path | str, scene: dict) -> Path:
-    """Writes the scene as an options file in YAML, nested as it is given, and returns its path. Throws SceneError,
-    or OSError if it cannot be written; a file that is there then stays as it was."""
+def write_scene(path: Path | str, scene: dict, comment: str = "") -> Path:
+    """Writes the scene as an options file in YAML, nested as it is given, under a comment of one line or more, and
+    returns its path. Throws SceneError, or OSError if it cannot be written; a file that is there then stays as it
+    was."""
     path, options = Path(path), flatten(scene)
     for name, text in options.items():
         if any(letter in text for letter in "\0\r\x85\u2028\u2029") or not text.isascii() and _not_utf_8(text):
             raise SceneError(f"{name}: {text!a} has letters that no file of options can hold")
-    write_text(path, "\n".join(_lines(scene, "")) + "\n")
+    head = [f"# {line}".rstrip() for line in comment.splitlines()]
+    write_text(path, "\n".join(head + _lines(scene, "")) + "\n")
     return path
 
 

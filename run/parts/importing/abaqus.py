@@ -1,0 +1,436 @@
+"""Reads Abaqus and CalculiX decks (.inp) into the neutral model."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from .abaqus_cards import Block, Motion, Scope, blocks_of, motion_of, numbers, whole
+from .abaqus_joints import JointReader
+from .abaqus_sections import SectionReader
+from .frames import normal_of
+from .model import BAR, Element, InputFault, Material, Model, PointMass, Spring, AxialSpring
+from .vectors import cross, difference, permutation, unit
+
+ELEMENTS = {"C3D8": ("hex8_full", 8), "C3D8I": ("hex8", 8), "C3D8R": ("hex8", 8), "C3D6": ("wedge6", 6),
+            "C3D4": ("tet4", 4), "S4": ("shell", 4), "S4R": ("shell", 4), "S4RS": ("shell", 4), "S4RSW": ("shell", 4),
+            "S3": ("shell", 3), "S3R": ("shell", 3), "S3RS": ("shell", 3), "STRI3": ("shell", 3), "B31": ("beam", 2),
+            "B33": ("euler_beam", 2), "T3D2": (BAR, 2)}
+POINTS = {"MASS": 1, "ROTARYI": 1, "SPRING1": 1, "DASHPOT1": 1, "SPRING2": 2, "DASHPOT2": 2, "SPRINGA": 2, "DASHPOTA": 2}
+# Nodes of elements that are counted and lost, so that their data are not taken for more elements.
+LOST = {"C3D20": 20, "C3D20R": 20, "C3D20H": 20, "C3D10": 10, "C3D10M": 10, "C3D15": 15, "C3D8H": 8, "C3D8RH": 8, "S8": 8,
+        "S8R": 8, "S6": 6, "STRI65": 6, "B32": 3, "B32R": 3, "B32H": 3, "B31OS": 2, "B31H": 2, "T3D3": 3, "M3D4": 4,
+        "M3D4R": 4, "M3D3": 3, "SC8R": 8, "SC6R": 6, "CONN3D2": 2, "GAPUNI": 2, "CPS4": 4, "CPE4": 4, "CPS3": 3, "CAX4": 4,
+        "R3D4": 4, "R3D3": 3, "SFM3D4": 4, "C3D5": 5}
+FACES = {8: ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)),
+         6: ((0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)),
+         4: ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0))}
+PLOTS = {"HEADING", "PREPRINT", "RESTART", "OUTPUT", "NODE OUTPUT", "ELEMENT OUTPUT", "CONTACT OUTPUT", "ENERGY OUTPUT",
+         "NODE PRINT", "EL PRINT", "NODE FILE", "EL FILE", "ENERGY PRINT", "ENERGY FILE", "CONTACT PRINT", "CONTACT FILE",
+         "SECTION PRINT", "MODAL OUTPUT", "MODAL FILE", "MONITOR", "FILE FORMAT", "TIME POINTS", "DIAGNOSTICS", "PRINT",
+         "SURFACE OUTPUT", "INTEGRATED OUTPUT", "FILTER"}
+STEPS = {"STEP", "END STEP", "STATIC", "DYNAMIC", "FREQUENCY", "COMPLEX FREQUENCY", "BUCKLE", "MODAL DYNAMIC", "VISCO",
+         "STEADY STATE DYNAMICS", "RESPONSE SPECTRUM", "RANDOM RESPONSE", "CONTROLS", "AMPLITUDE", "CLOAD", "DLOAD", "DSLOAD",
+         "DSFLUX", "BASE MOTION", "TEMPERATURE", "FIELD", "INITIAL CONDITIONS", "SELECT EIGENMODES", "MODAL DAMPING",
+         "GLOBAL DAMPING", "PHYSICAL CONSTANTS", "BULK VISCOSITY", "FIXED MASS SCALING", "VARIABLE MASS SCALING",
+         "SOLVER CONTROLS", "SPECTRUM", "PSD-DEFINITION", "CORRELATION", "LOAD CASE", "END LOAD CASE", "NO ANALYSIS"}
+THERMAL = {"EXPANSION", "CONDUCTIVITY", "SPECIFIC HEAT", "LATENT HEAT", "FRICTION", "SURFACE INTERACTION", "SURFACE BEHAVIOR",
+           "CONTACT DAMPING", "CONTACT CONTROLS", "CONTACT INITIALIZATION DATA", "CONTACT FORMULATION", "ORIENTATION",
+           "TRANSFORM", "SECTION CONTROLS", "HOURGLASS STIFFNESS", "FAIL STRESS", "FAIL STRAIN"}
+
+
+@dataclass(slots=True)
+class Raw:
+    """An element as the deck has it; `element` is what was made of it, if anything."""
+
+    type: str
+    number: int
+    nodes: tuple
+    place: str
+    element: Element | None = None
+    at: int = -1
+
+
+class Reader:
+    """The whole deck. `model` is the result."""
+
+    def __init__(self, path: Path):
+        self.model = Model(path.stem)
+        self.parts: dict = {}
+        self.deck = Scope()
+        self.blocks = self._flatten(blocks_of(path))
+        self.material: str | None = None
+        self.axes: dict = {}  # node -> local axes of *TRANSFORM
+        self.orientations: dict = {}
+        self.valued: set = set()  # masses and springs that have a value
+        self.sections = SectionReader(self)
+        self.joints = JointReader(self)
+        self.handlers = {
+            "MATERIAL": self._name_material, "ELASTIC": self._elastic, "DENSITY": self._density, "DAMPING": self._damping,
+            "SOLID SECTION": self.sections.solid, "SHELL SECTION": self.sections.shell, "BEAM SECTION": self.sections.beam,
+            "BEAM GENERAL SECTION": self.sections.general, "NONSTRUCTURAL MASS": self.sections.added_mass,
+            "SPRING": self._spring, "DASHPOT": self._spring, "MASS": self._mass, "ROTARY INERTIA": self._mass,
+            **self.joints.handlers}
+        for wanted in (("NODE",), ("ELEMENT",), ("NSET", "ELSET"), ("SURFACE",), ("TRANSFORM", "ORIENTATION")):
+            for block, scope, motion in self.blocks:
+                if block.keyword in wanted:
+                    getattr(self, f"_read_{block.keyword.lower()}")(block, scope, motion)
+        self.taken: set = set()  # followers that another block has read
+        for block, scope, motion in self.blocks:
+            if id(block) not in self.taken:
+                self._handle(block, scope, motion)
+        self.joints.finish()
+        self._check_points()
+
+    # What became of a block.
+
+    def use(self, block: Block) -> None:
+        self.model.cards.use(block.keyword)
+
+    def lose(self, block: Block, why: str) -> None:
+        self.model.cards.lose(block.keyword, why, block.place)
+
+    def followers(self, block: Block) -> list:
+        """The blocks right behind this one that belong to it."""
+        places = [at for at, (one, _, _) in enumerate(self.blocks) if one is block]
+        found = []
+        for one, _, _ in self.blocks[places[-1] + 1:]:
+            if one.keyword not in ("TRANSVERSE SHEAR STIFFNESS", "CENTROID", "SHEAR CENTER", "KINEMATIC", "DISTRIBUTING"):
+                break
+            found.append(one)
+            self.taken.add(id(one))
+        return found
+
+    def _handle(self, block: Block, scope: Scope, motion: Motion) -> None:
+        keyword = block.keyword
+        if keyword in self.handlers:
+            self.handlers[keyword](block, scope, motion)
+        elif keyword in ("NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "PART", "END PART", "ASSEMBLY", "END ASSEMBLY",
+                         "INSTANCE", "END INSTANCE", "INCLUDE"):
+            if keyword != "ELEMENT":
+                self.use(block)
+        elif keyword in PLOTS:
+            self.model.cards.note(keyword, "titles and output")
+        elif keyword in STEPS:
+            self.model.cards.note(keyword, "loads and steps are not part of the model")
+        elif keyword in THERMAL:
+            self.model.cards.note(keyword, "says nothing of stiffness, mass or supports here")
+        else:
+            self.lose(block, "not known")
+
+    def _check_points(self) -> None:
+        """Masses and springs that no block gives a value."""
+        for block, scope, _ in self.blocks:
+            if block.keyword == "ELEMENT" and block.name("TYPE") in POINTS:
+                for raw in scope.elements.values():
+                    if raw.type in POINTS and id(raw) not in self.valued:
+                        self.valued.add(id(raw))
+                        self.model.cards.lose(f"ELEMENT TYPE={raw.type}", "it has no value", raw.place)
+
+    # Parts and instances.
+
+    def _flatten(self, blocks: list) -> list:
+        """Blocks with their scope and motion; those of a part once for each of its instances."""
+        flat, part, scope, motion = [], None, self.deck, Motion()
+        for block in blocks:
+            if block.keyword == "PART":
+                part = self.parts[block.name("NAME")] = []
+            elif block.keyword == "END PART":
+                part = None
+            elif part is not None:
+                part.append(block)
+                continue
+            elif block.keyword == "INSTANCE":
+                scope, motion = Scope(block.name("NAME"), self.deck), motion_of(block)
+                self.deck.inner[scope.name] = scope
+                name = block.name("PART")
+                if name not in self.parts:
+                    raise InputFault(f"{block.place}: part {name} is not in the deck")
+                flat += [(one, scope, motion) for one in self.parts[name]]
+            flat.append((block, scope, motion))
+            if block.keyword == "END INSTANCE":
+                scope, motion = self.deck, Motion()
+        return flat
+
+    # Nodes, elements, sets.
+
+    def _read_node(self, block: Block, scope: Scope, motion: Motion) -> None:
+        if block.name("SYSTEM", "R") != "R":
+            raise InputFault(f"{block.place}: *NODE, SYSTEM={block.name('SYSTEM')} is not known; give rectangular coordinates")
+        members = []
+        for place, fields in block.data:
+            own = whole(fields[0], place)
+            if own in scope.nodes:
+                raise InputFault(f"{place}: node {own} is there already")
+            number = own if own > 0 and own not in self.model.nodes else max(self.model.nodes, default=0) + 1
+            self.model.nodes[number] = motion.place((numbers(fields[1:4], place) + [0.0] * 3)[:3])
+            scope.nodes[own] = number
+            members.append(number)
+        if "NSET" in block.parameters:
+            self._store(scope, "node_sets", block.name("NSET"), members)
+
+    def _read_element(self, block: Block, scope: Scope, _motion: Motion) -> None:
+        kind = block.name("TYPE")
+        width = (ELEMENTS.get(kind) or (None, POINTS.get(kind) or LOST.get(kind)))[1]
+        rows, open_row = [], None
+        for place, fields in block.data:
+            values = [text for text in fields if text]
+            if open_row is not None:
+                rows[-1][1].extend(values)
+            else:
+                rows.append((place, list(values)))
+            more = len(fields) > 1 and not fields[-1]
+            open_row = rows[-1] if (width is None and more) or (width and len(rows[-1][1]) < width + 1 and more) else None
+        members = []
+        for place, values in rows:
+            ids = [whole(text, place) if text.lstrip("-").isdigit() else text.upper() for text in values]
+            if kind == "B31" and len(ids) == 4:
+                towards = self.node(ids.pop(), scope, place)
+            else:
+                towards = None
+            if width and len(ids) != width + 1:
+                raise InputFault(f"{place}: element {values[0]} of type {kind} has {len(ids) - 1} nodes in place of {width}")
+            raw = Raw(kind, ids[0], tuple(self.node(one, scope, place) for one in ids[1:]) if width else (), place)
+            members.append(raw)
+            if raw.number in scope.elements:
+                raise InputFault(f"{place}: element {raw.number} is there already")
+            scope.elements[raw.number] = raw
+            if kind in ELEMENTS:
+                raw.element = Element(ELEMENTS[kind][0], raw.number, raw.nodes, None, place=place)
+                if towards is not None:
+                    raw.element.z_axis = difference(self.model.nodes[towards], self.model.nodes[raw.nodes[0]])
+                raw.at = len(self.model.elements)
+                self.model.elements.append(raw.element)
+            elif kind not in POINTS:
+                why = "elements of second order are not known" if width and width > 8 else "this type is not known"
+                self.model.cards.lose(f"ELEMENT TYPE={kind}", why, place)
+        if kind in ELEMENTS or kind in POINTS:
+            self.model.cards.use(f"ELEMENT TYPE={kind}", len(rows))
+        if "ELSET" in block.parameters:
+            self._store(scope, "element_sets", block.name("ELSET"), members)
+
+    def _store(self, scope: Scope, table: str, name: str, members: list) -> None:
+        held = getattr(scope, table).setdefault(name, [])
+        held += members
+        full = f"{scope.name}.{name}" if scope.name and len(self.deck.inner) > 1 else name
+        if table == "node_sets":
+            self.model.node_sets[full] = held
+        else:
+            self.model.element_sets[full] = sorted({raw.at for raw in held if raw.at >= 0})
+
+    def _read_set(self, block: Block, scope: Scope, table: str, key: str, one) -> None:
+        inner = self.deck.inner.get(block.name("INSTANCE", "")) or scope
+        members: list = []
+        for place, fields in block.data:
+            if "GENERATE" in block.parameters:
+                first, last, step = ([whole(text, place) for text in fields if text] + [1])[:3]
+                if step <= 0 or last < first:
+                    raise InputFault(f"{place}: GENERATE from {first} to {last} by {step}")
+                wanted = getattr(inner, "nodes" if table == "node_sets" else "elements")
+                members += [wanted[n] for n in range(first, last + 1, step) if n in wanted]
+                continue
+            for text in fields:
+                if not text:
+                    continue
+                found = None if text.isdigit() else inner.find(table, text.upper()) or self.deck.find(table, text.upper())
+                members += found if found is not None else [one(text, inner, place)]
+        self._store(scope, table, block.name(key), members)
+
+    def _read_nset(self, block: Block, scope: Scope, _motion: Motion) -> None:
+        if "ELSET" in block.parameters:
+            members = sorted({node for raw in self.elements_of(block.name("ELSET"), scope, block.place) for node in raw.nodes})
+            self._store(scope, "node_sets", block.name("NSET"), members)
+        else:
+            self._read_set(block, scope, "node_sets", "NSET", self.node)
+
+    def _read_elset(self, block: Block, scope: Scope, _motion: Motion) -> None:
+        self._read_set(block, scope, "element_sets", "ELSET", self._element)
+
+    def node(self, text, scope: Scope, place: str) -> int:
+        """Number in the model of a node by its number, or INSTANCE.number. Throws InputFault."""
+        key = int(text) if str(text).isdigit() else str(text).upper()
+        found = scope.find("nodes", key)
+        found = found if found is not None else self.deck.find("nodes", key)
+        if found is None:
+            raise InputFault(f"{place}: node {text} is not in the deck")
+        return found
+
+    def _element(self, text, scope: Scope, place: str) -> Raw:
+        found = scope.find("elements", int(text) if str(text).isdigit() else str(text).upper())
+        if found is None:
+            raise InputFault(f"{place}: element or set {text} is not in the deck")
+        return found
+
+    def nodes_of(self, text: str, scope: Scope, place: str) -> list:
+        """Nodes of a set, or the one of that number."""
+        name = str(text).strip('"').upper()
+        for one in (scope, self.deck):
+            found = None if name.isdigit() else one.find("node_sets", name)
+            if found is not None:
+                return found
+        if name.isdigit() or name.rpartition(".")[2].isdigit():
+            return [self.node(name, scope, place)]
+        raise InputFault(f"{place}: node set {text} is not in the deck")
+
+    def elements_of(self, text: str, scope: Scope, place: str) -> list:
+        name = str(text).strip('"').upper()
+        for one in (scope, self.deck):
+            found = None if name.isdigit() else one.find("element_sets", name)
+            if found is not None:
+                return found
+        if name.isdigit():
+            return [self._element(name, scope, place)]
+        raise InputFault(f"{place}: element set {text} is not in the deck")
+
+    def _read_surface(self, block: Block, scope: Scope, _motion: Motion) -> None:
+        name, facets, nodes = block.name("NAME"), [], []
+        for place, fields in block.data:
+            if not fields or not fields[0]:
+                continue
+            if block.name("TYPE", "ELEMENT") == "NODE":
+                nodes += self.nodes_of(fields[0], scope, place)
+                continue
+            face = fields[1].upper() if len(fields) > 1 else ""
+            for raw in self.elements_of(fields[0], scope, place):
+                if raw.element is None:
+                    continue
+                if raw.element.kind == "shell":
+                    facets.append(raw.nodes)
+                elif len(raw.nodes) in FACES and face[:1] == "S" and face[1:].isdigit() and 1 <= int(face[1:]) <= len(
+                        FACES[len(raw.nodes)]):
+                    facets.append(tuple(raw.nodes[k] for k in FACES[len(raw.nodes)][int(face[1:]) - 1]))
+                else:
+                    raise InputFault(f"{place}: a surface of '{fields[0]}' needs the faces of its elements, as in S1")
+        scope.surfaces[name] = nodes or sorted({node for facet in facets for node in facet})
+        if facets:
+            self.model.facet_sets[name] = facets
+        elif nodes:
+            self.model.node_sets.setdefault(name, nodes)
+
+    def surface_nodes(self, name: str, scope: Scope, place: str) -> list:
+        for one in (scope, self.deck):
+            found = one.find("surfaces", name)
+            if found is not None:
+                return found
+        return self.nodes_of(name, scope, place)
+
+    # Local axes.
+
+    def _read_transform(self, block: Block, scope: Scope, motion: Motion) -> None:
+        place, fields = block.data[0] if block.data else (block.place, [])
+        values = numbers(fields, place)
+        if len(values) < 6:
+            raise InputFault(f"{place}: *TRANSFORM has two points")
+        a, b, kind = motion.turn(values[:3]), motion.turn(values[3:6]), block.name("TYPE", "R")
+        for node in self.nodes_of(block.name("NSET"), scope, block.place):
+            if kind == "R":
+                x, z = unit(a), unit(cross(a, b))
+            else:
+                a, b = motion.place(values[:3]), motion.place(values[3:6])
+                z, way = unit(difference(b, a)), difference(self.model.nodes[node], a)
+                x = unit(cross(cross(z, way), z)) if z and kind == "C" else None
+            if x is None or z is None:
+                raise InputFault(f"{place}: no axes for node {node} in *TRANSFORM, TYPE={kind}")
+            self.axes[node] = (x, cross(z, x), z)
+
+    def _read_orientation(self, block: Block, _scope: Scope, motion: Motion) -> None:
+        place, fields = block.data[0] if block.data else (block.place, [])
+        values = (numbers(fields, place) + [0.0] * 6)[:6]
+        x, z = unit(motion.turn(values[:3])), unit(cross(motion.turn(values[:3]), motion.turn(values[3:6])))
+        plain = x and z and block.name("SYSTEM", "RECTANGULAR") == "RECTANGULAR" and len(block.data) < 2
+        self.orientations[block.name("NAME")] = (x, cross(z, x), z) if plain else None
+
+    # Materials.
+
+    def _name_material(self, block: Block, _scope, _motion) -> None:
+        self.material = block.name("NAME")
+        self.model.materials[self.material] = Material(0.0, 0.0, 0.0, place=block.place)
+        self.use(block)
+
+    def _property(self, block: Block) -> tuple:
+        if self.material is None or not block.data:
+            raise InputFault(f"{block.place}: *{block.keyword} outside a material, or without numbers")
+        if len(block.data) > 1:
+            self.model.said.append(f"{block.place}: *{block.keyword} has {len(block.data)} lines; the first one is taken")
+        return self.model.materials[self.material], numbers(block.data[0][1], block.data[0][0])
+
+    def _elastic(self, block: Block, _scope, _motion) -> None:
+        if block.name("TYPE", "ISOTROPIC") not in ("ISO", "ISOTROPIC"):
+            return self.lose(block, "materials are isotropic")
+        material, values = self._property(block)
+        material.young, material.poisson = (values + [0.0])[:2]
+        return self.use(block)
+
+    def _density(self, block: Block, _scope, _motion) -> None:
+        material, values = self._property(block)
+        material.density = values[0]
+        self.use(block)
+
+    def _damping(self, block: Block, _scope, _motion) -> None:
+        if self.material is None or set(block.parameters) - {"ALPHA", "BETA"}:
+            return self.lose(block, "damping is alpha M + beta K of a material")
+        material = self.model.materials[self.material]
+        material.alpha, material.beta = block.number("ALPHA", 0.0), block.number("BETA", 0.0)
+        return self.use(block)
+
+    # Points and springs.
+
+    def _mass(self, block: Block, scope: Scope, _motion) -> None:
+        wanted = "MASS" if block.keyword == "MASS" else "ROTARYI"
+        if not block.data:
+            raise InputFault(f"{block.place}: *{block.keyword} has no value")
+        values = (numbers(block.data[0][1], block.data[0][0]) + [0.0] * 6)[:6]
+        if "ORIENTATION" in block.parameters or (wanted == "ROTARYI" and any(values[3:])) or (
+                wanted == "MASS" and block.parameters.get("TYPE", "ISOTROPIC").upper() != "ISOTROPIC"):
+            self.valued |= {id(raw) for raw in self.elements_of(block.name("ELSET"), scope, block.place)}
+            return self.lose(block, "masses are the same along all axes, inertias about the global ones")
+        name = block.name("ELSET")
+        for raw in self.elements_of(name, scope, block.place):
+            if raw.type != wanted:
+                raise InputFault(f"{block.place}: *{block.keyword} of element {raw.number}, which is a {raw.type}")
+            self.valued.add(id(raw))
+            mass = PointMass(raw.nodes[0], values[0], name=name, place=raw.place) if wanted == "MASS" else PointMass(
+                raw.nodes[0], 0.0, tuple(values[:3]), name=name, place=raw.place)
+            self.model.masses.append(mass)
+        return self.use(block)
+
+    def _spring(self, block: Block, scope: Scope, _motion) -> None:
+        """*SPRING and *DASHPOT: a line of components, which SPRINGA leaves empty, and one of the value."""
+        name, family = block.name("ELSET"), block.keyword
+        raws = self.elements_of(name, scope, block.place)
+        self.valued |= {id(raw) for raw in raws}
+        axes = None
+        if "ORIENTATION" in block.parameters:
+            axes = self.orientations.get(block.name("ORIENTATION"))
+            if axes is None or permutation(axes) is None:
+                return self.lose(block, "springs act along and about the global axes")
+        if "NONLINEAR" in block.parameters or len(block.data) > 2 or any(any(fields[1:]) for _, fields in block.data[1:]):
+            return self.lose(block, "springs and dashpots are linear")
+        along_line = all(raw.type.endswith("A") for raw in raws)  # their first line is empty
+        if not block.data or (len(block.data) < 2 and not along_line):
+            raise InputFault(f"{block.place}: *{family} has a line of components and one of the value")
+        (where, dofs), (place, fields) = block.data[0], block.data[-1]
+        value = numbers(fields[:1], place)[0]
+        for raw in raws:
+            if not raw.type.startswith(family):
+                raise InputFault(f"{block.place}: *{family} of element {raw.number}, which is a {raw.type}")
+            if raw.type.endswith("A"):
+                stiffness, dashpot = (value, 0.0) if family == "SPRING" else (0.0, value)
+                self.model.axial_springs.append(AxialSpring(raw.nodes, stiffness, dashpot, name, family, raw.place))
+                continue
+            along = [whole(text, where) for text in dofs if text]
+            if not along or not all(1 <= dof <= 6 for dof in along):
+                raise InputFault(f"{where}: components of a spring are from 1 to 6")
+            if any(self.axes.get(node) and permutation(self.axes[node]) != (0, 1, 2) for node in raw.nodes):
+                return self.lose(block, "springs act along and about the global axes")
+            if len(raw.nodes) == 2 and len(set(along)) != 1:
+                return self.lose(block, "springs join the same component of two nodes")
+            dof = along[0] - 1
+            dof = permutation(axes)[dof % 3] + dof // 3 * 3 if axes else dof
+            six = tuple(value if k == dof else 0.0 for k in range(6))
+            both = (six, (0.0,) * 6) if family == "SPRING" else ((0.0,) * 6, six)
+            self.model.springs.append(Spring(raw.nodes, *both, name, raw.place))
+        return self.use(block)
+
+
+def read(path: Path) -> Model:
+    """The model of a deck. Throws InputFault."""
+    return Reader(path).model

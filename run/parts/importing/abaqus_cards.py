@@ -1,0 +1,159 @@
+"""Blocks of an Abaqus or CalculiX deck: keyword, parameters, data lines; parts put in place by their instances."""
+
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from .model import InputFault
+from .vectors import difference, sum_of, unit, dot, cross
+
+
+@dataclass(slots=True)
+class Block:
+    """A keyword without its star, in capitals, its parameters, and its data as (place, fields)."""
+
+    keyword: str
+    parameters: dict
+    place: str
+    data: list = field(default_factory=list)
+
+    def name(self, key: str, fallback: str | None = None) -> str:
+        """A parameter in capitals; throws InputFault where it is missing."""
+        value = self.parameters.get(key, fallback)
+        if value is None:
+            raise InputFault(f"{self.place}: *{self.keyword} has no {key}")
+        return value.strip().strip('"').upper()
+
+    def number(self, key: str, fallback: float) -> float:
+        return number(self.parameters[key], self.place) if key in self.parameters else fallback
+
+
+def number(text: str, place: str) -> float:
+    """A number; throws InputFault."""
+    try:
+        value = float(text.lower().replace("d", "e"))
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise InputFault(f"{place}: '{text}' is not a number")
+    return value
+
+
+def numbers(fields, place: str) -> list:
+    """Numbers of a line; empty fields are 0."""
+    return [number(text, place) if text else 0.0 for text in fields]
+
+
+def whole(text: str, place: str) -> int:
+    try:
+        return int(text)
+    except ValueError as error:
+        raise InputFault(f"{place}: '{text}' is not a whole number") from error
+
+
+def lines_of(path: Path, seen=()):
+    """Lines of a text as (place, line). Throws InputFault where it is none."""
+    if path.resolve() in seen:
+        raise InputFault(f"{path}: includes itself")
+    try:
+        text = path.read_bytes().decode("latin-1")
+    except OSError as error:
+        raise InputFault(f"{path}: {(error.strerror or 'cannot be read').lower()}") from error
+    if "\0" in text[:4096]:
+        raise InputFault(f"{path} line 1: not a text")
+    return [(f"{path.name} line {count}", line.rstrip()) for count, line in enumerate(text.splitlines(), 1)]
+
+
+def blocks_of(path: Path, seen=()) -> list:
+    """All blocks of a deck, those of included files in their place."""
+    blocks: list = []
+    lines = iter(lines_of(path, seen))
+    for place, line in lines:
+        if line.startswith("**") or not line.strip():
+            continue
+        if not line.lstrip().startswith("*"):
+            if not blocks:
+                raise InputFault(f"{place}: data before the first keyword; a deck of Abaqus begins with one, as *HEADING")
+            blocks[-1].data.append((place, [text.strip() for text in line.split(",")]))
+            continue
+        while line.endswith(","):
+            line += next(lines, ("", ""))[1].strip()
+        words = [word.strip() for word in line.strip()[1:].split(",")]
+        parameters = {}
+        for word in words[1:]:
+            key, _, value = word.partition("=")
+            if key.strip():
+                parameters[" ".join(key.split()).upper()] = value.strip()
+        block = Block(" ".join(words[0].split()).upper(), parameters, place)
+        if block.keyword == "INCLUDE":
+            blocks += blocks_of(path.parent / parameters.get("INPUT", "").strip('"'), (*seen, path.resolve()))
+            blocks.append(Block("INCLUDE", parameters, place))
+        else:
+            blocks.append(block)
+    return blocks
+
+
+class Scope:
+    """Names and numbers of a part, an instance or the whole deck, as the model knows them."""
+
+    def __init__(self, name: str = "", outer=None):
+        self.name, self.outer = name, outer
+        self.nodes: dict = {}  # its number -> that of the model
+        self.elements: dict = {}  # its number -> what was made of it
+        self.node_sets: dict = {}
+        self.element_sets: dict = {}
+        self.surfaces: dict = {}
+        self.inner: dict = {}  # name of an instance -> its scope
+
+    def find(self, what: str, key):
+        """A set, surface, node or element by its name, `INSTANCE.NAME` too; None where there is none."""
+        table = getattr(self, what)
+        if key in table:
+            return table[key]
+        if isinstance(key, str):
+            first, dot_, rest = key.partition(".")
+            if dot_ and first in self.inner:
+                return self.inner[first].find(what, int(rest) if rest.isdigit() else rest)
+            if key.isdigit() and int(key) in table:
+                return table[int(key)]
+        if self.outer is None and len(self.inner) == 1 and "." not in str(key):
+            return next(iter(self.inner.values())).find(what, key)
+        return None
+
+
+@dataclass(slots=True)
+class Motion:
+    """That of an instance: moved first, then turned."""
+
+    shift: tuple = (0.0, 0.0, 0.0)
+    origin: tuple = (0.0, 0.0, 0.0)
+    axis: tuple | None = None
+    angle: float = 0.0
+
+    def place(self, x) -> tuple:
+        x = sum_of(x, self.shift)
+        return sum_of(self.origin, self.turn(difference(x, self.origin))) if self.axis else x
+
+    def turn(self, v) -> tuple:
+        """A direction; by Rodrigues' formula."""
+        if not self.axis:
+            return tuple(v)
+        c, s = math.cos(self.angle), math.sin(self.angle)
+        k = self.axis
+        return tuple(c * a + s * b + (1 - c) * dot(k, v) * d for a, b, d in zip(v, cross(k, v), k))
+
+
+def motion_of(block: Block) -> Motion:
+    """By the data of *INSTANCE. Throws InputFault."""
+    motion = Motion()
+    rows = [(place, numbers(fields, place)) for place, fields in block.data if any(fields)]
+    if rows:
+        motion.shift = tuple((rows[0][1] + [0.0] * 3)[:3])
+    if len(rows) > 1:
+        place, values = rows[1]
+        if len(values) < 7 or unit(difference(values[3:6], values[:3])) is None:
+            raise InputFault(f"{place}: a rotation of an instance is two points and an angle")
+        motion.origin = tuple(values[:3])
+        motion.axis = unit(difference(values[3:6], values[:3]))
+        motion.angle = math.radians(values[6])
+    return motion

@@ -1,0 +1,183 @@
+"""Supports and constraints of Abaqus and CalculiX decks."""
+
+from .abaqus_cards import Block, number, whole
+from .model import ALL, BEAMS, RX, RY, RZ, TRANSLATIONS, X, Y, Z, InputFault
+from .vectors import global_components
+
+NAMED = {"ENCASTRE": ALL, "PINNED": TRANSLATIONS, "XSYMM": X | RY | RZ, "YSYMM": Y | RX | RZ, "ZSYMM": Z | RX | RY,
+         "XASYMM": Y | Z | RX, "YASYMM": X | Z | RY, "ZASYMM": X | Y | RZ}
+WHOLE_RELEASES = ("ALLM", "M1-M2-T")
+
+
+class JointReader:
+    """`reader` is the whole deck's."""
+
+    def __init__(self, reader):
+        self.reader, self.model = reader, reader.model
+        self.equal: dict = {}  # pair of nodes -> components that they share, place, number of equations
+        self.waiting: list = []  # (name, reference, nodes, components or None, block)
+        self.handlers = {"BOUNDARY": self._boundary, "RIGID BODY": self._rigid, "COUPLING": self._coupling,
+                         "KINEMATIC COUPLING": self._kinematic, "MPC": self._mpc, "EQUATION": self._equation,
+                         "TIE": self._tie, "RELEASE": self._release}
+
+    def _boundary(self, block: Block, scope, motion) -> None:
+        if block.name("TYPE", "DISPLACEMENT") != "DISPLACEMENT":
+            return self.model.cards.note(block.keyword, "motions of the ground are told in the scene")
+        for place, fields in block.data:
+            if len(fields) < 2:
+                raise InputFault(f"{place}: *BOUNDARY has a node or set and its components")
+            word = fields[1].upper()
+            if word in NAMED:
+                components = NAMED[word]
+            else:
+                first = whole(fields[1], place)
+                last = whole(fields[2], place) if len(fields) > 2 and fields[2] else first
+                if first > 6:  # temperature and the like
+                    self.model.cards.note("BOUNDARY", "")
+                    continue
+                if not 1 <= first <= last:
+                    raise InputFault(f"{place}: components from {first} to {last}")
+                components = sum(1 << (dof - 1) for dof in range(first, min(last, 6) + 1))
+                if len(fields) > 3 and fields[3] and number(fields[3], place) != 0:
+                    self.model.said.append(f"{place}: a displacement of {fields[3]} is held at zero")
+            for node in self.reader.nodes_of(fields[0], scope, place):
+                axes = self.reader.axes.get(node)
+                if axes is None and motion.axis:
+                    axes = tuple(motion.turn(axis) for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1)))
+                held = components if axes is None else global_components(components, axes)
+                if held is None:
+                    return self.model.cards.lose("BOUNDARY", "supports hold along the global axes", place)
+                self.model.hold(node, held)
+        return self.reader.use(block)
+
+    def _rigid(self, block: Block, scope, _motion) -> None:
+        nodes = list(self.reader.nodes_of(block.name("REF NODE"), scope, block.place))
+        for key in ("NSET", "TIE NSET", "PIN NSET"):
+            if key in block.parameters:
+                members = self.reader.nodes_of(block.name(key), scope, block.place)
+                nodes += members
+                if key == "PIN NSET":
+                    return self.waiting.append(("rigid", nodes, TRANSLATIONS, block))
+        if "ELSET" in block.parameters:
+            for raw in self.reader.elements_of(block.name("ELSET"), scope, block.place):
+                nodes += raw.nodes
+        if "ANALYTICAL SURFACE" in block.parameters:
+            return self.reader.lose(block, "analytical surfaces are not known")
+        self.model.rigid.append(("rigid", sorted(set(nodes)), block.place))
+        return self.reader.use(block)
+
+    def _coupling(self, block: Block, scope, _motion) -> None:
+        reference = self.reader.nodes_of(block.name("REF NODE"), scope, block.place)
+        nodes = self.reader.surface_nodes(block.name("SURFACE"), scope, block.place)
+        followers = self.reader.followers(block)
+        if not followers or followers[0].keyword != "KINEMATIC":
+            what = followers[0] if followers else block
+            return self.model.cards.lose(f"COUPLING, {what.keyword}", "couplings that distribute forces are not known",
+                                         block.place)
+        components = self._ranges(followers[0])
+        self.waiting.append((block.parameters.get("CONSTRAINT NAME", "coupling"), [*reference, *nodes], components, block))
+        return None
+
+    def _ranges(self, block: Block) -> int:
+        components = 0
+        for place, fields in block.data:
+            values = [whole(text, place) for text in fields if text]
+            if values:
+                components |= sum(1 << (dof - 1) for dof in range(values[0], (values[1:] or values)[0] + 1) if dof <= 6)
+        return components or ALL
+
+    def _kinematic(self, block: Block, scope, _motion) -> None:
+        nodes = list(self.reader.nodes_of(block.name("REF NODE"), scope, block.place))
+        components = ALL
+        for place, fields in block.data:
+            nodes += self.reader.nodes_of(fields[0], scope, place)
+            values = [whole(text, place) for text in fields[1:] if text]
+            if values:
+                components &= sum(1 << (dof - 1) for dof in range(values[0], (values[1:] or values)[0] + 1))
+        self.waiting.append(("coupling", nodes, components, block))
+
+    def _mpc(self, block: Block, scope, _motion) -> None:
+        for place, fields in block.data:
+            kind = fields[0].upper()
+            nodes = [node for text in fields[1:] if text for node in self.reader.nodes_of(text, scope, place)]
+            if kind == "BEAM":
+                self.model.rigid.append(("rigid", nodes, place))
+            elif kind == "TIE":
+                self.waiting.append(("tied", nodes, None, block))
+            elif kind == "PIN":
+                self.model.pins.append((set(nodes), place))
+            else:
+                self.model.cards.lose(f"MPC {kind}", "this constraint is not known", place)
+                continue
+            self.model.cards.use("MPC")
+
+    def _equation(self, block: Block, scope, _motion) -> None:
+        rows = iter(block.data)
+        for place, fields in rows:
+            terms, values = whole(fields[0], place), []
+            for _ in range(-(-terms // 4)):
+                values += [text for text in next(rows, (place, []))[1]]
+                while len(values) % 3 and not values[-1]:
+                    values.pop()
+            if len(values) < 3 * terms:
+                raise InputFault(f"{place}: an equation of {terms} terms has a node, a component and a factor for each")
+            parts = [(values[3 * k], whole(values[3 * k + 1], place), number(values[3 * k + 2], place)) for k in range(terms)]
+            if terms == 2 and parts[0][1] == parts[1][1] <= 6 and parts[0][2] == -parts[1][2] != 0:
+                pairs = [self.reader.nodes_of(part[0], scope, place) for part in parts]
+                if len(pairs[0]) == len(pairs[1]):
+                    for pair in zip(*pairs):
+                        held = self.equal.setdefault(frozenset(pair), [0, place, 0])
+                        held[0] |= 1 << (parts[0][1] - 1)
+                        held[2] += 1
+                    continue
+            self.model.cards.lose("EQUATION", "equations join all displacements of two nodes that coincide", place)
+
+    def _tie(self, block: Block, scope, _motion) -> None:
+        for place, fields in block.data:
+            if len(fields) < 2:
+                raise InputFault(f"{place}: *TIE has two surfaces")
+            first, second = (text.upper() for text in fields[:2])
+            if second not in self.model.facet_sets:
+                self.model.cards.lose("TIE", "the second surface of a tie is one of elements", place)
+                continue
+            if first not in self.model.facet_sets:
+                self.model.node_sets.setdefault(first, self.reader.surface_nodes(first, scope, place))
+            self.model.ties.append((first, second))
+            self.reader.use(block)
+
+    def _release(self, block: Block, scope, _motion) -> None:
+        for place, fields in block.data:
+            end, what = fields[1].upper() if len(fields) > 1 else "", fields[2].upper() if len(fields) > 2 else "ALLM"
+            if end not in ("S1", "S2"):
+                raise InputFault(f"{place}: *RELEASE has an element, S1 or S2, and what is released")
+            for raw in self.reader.elements_of(fields[0], scope, place):
+                if raw.element is None or raw.element.kind not in BEAMS:
+                    raise InputFault(f"{place}: element {raw.number} is no beam")
+                if what not in WHOLE_RELEASES:
+                    self.model.cards.lose(f"RELEASE {what}", "a hinge lets all three rotations go; allowed, it does here", place)
+                ends = list(raw.element.hinged)
+                ends[int(end[1]) - 1] = True
+                raw.element.hinged = tuple(ends)
+            self.reader.use(block)
+
+    def finish(self) -> None:
+        """Couplings and equations, once it is known which nodes turn."""
+        turning = {node for element in self.model.elements if element.kind == "shell" or element.kind in BEAMS
+                   for node in element.nodes}
+        for name, nodes, components, block in self.waiting:
+            if components is None or components == ALL or (components & TRANSLATIONS == TRANSLATIONS
+                                                           and not turning & set(nodes[1:])):
+                self.model.rigid.append((name, nodes, block.place))
+                self.model.cards.use(block.keyword)
+            else:
+                self.model.cards.lose(block.keyword, "couplings hold all components of nodes", block.place)
+        for pair, (components, place, count) in self.equal.items():
+            nodes = set(pair)
+            if components == ALL and len(nodes) == 2:
+                self.model.rigid.append(("tied", sorted(nodes), place))
+            elif components & TRANSLATIONS == TRANSLATIONS and (components == TRANSLATIONS or not turning & nodes):
+                self.model.pins.append((nodes, place))
+            else:
+                self.model.cards.lose("EQUATION", "equations join all displacements of two nodes that coincide", place, count)
+                continue
+            self.model.cards.use("EQUATION", count)

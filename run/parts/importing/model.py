@@ -1,0 +1,181 @@
+"""The neutral model: what readers of all formats fill and one writer makes a scene of. In the units of the file until
+`in_si` (scaling.py) has gone over it; local axes are those of the program, so that z_axis is `z_axis` of a section."""
+
+from collections import Counter
+from dataclasses import dataclass, field
+
+X, Y, Z, RX, RY, RZ = (1 << place for place in range(6))
+TRANSLATIONS, ROTATIONS, ALL = X | Y | Z, RX | RY | RZ, 63
+COMPONENTS = ("x", "y", "z", "rx", "ry", "rz")
+
+# Nodes of an element, and whether they turn.
+SOLIDS = {"hex8": 8, "hex8_full": 8, "wedge6": 6, "tet4": 4}
+BEAMS = ("beam", "euler_beam")
+SHELL, BAR = "shell", "bar"
+
+
+class InputFault(Exception):
+    """A file that cannot be read: one line with its name and the number of the line."""
+
+
+@dataclass(slots=True)
+class Material:
+    """Isotropic. `shear`: the modulus where the file states one of its own."""
+
+    young: float
+    poisson: float | None
+    density: float
+    shear: float | None = None
+    alpha: float = 0.0
+    beta: float = 0.0
+    place: str = ""
+
+
+@dataclass(slots=True)
+class Section:
+    """Numbers of a cross-section in axes y and z of the program: inertia_y bends in the x-z plane. Shear areas of 0
+    mean no flexibility in shear. `product`: integral of y z over the section."""
+
+    area: float
+    inertia_y: float
+    inertia_z: float
+    torsion: float
+    shear_y: float = 0.0
+    shear_z: float = 0.0
+    product: float = 0.0
+
+
+@dataclass(slots=True)
+class Property:
+    """Material by name, and what the kind of element needs: section of beams, area of bars, thickness of shells;
+    `added`: mass per length or area beside the material's."""
+
+    name: str
+    material: object
+    section: Section | None = None
+    area: float = 0.0
+    thickness: float = 0.0
+    added: float = 0.0
+    place: str = ""
+
+
+@dataclass(slots=True)
+class Element:
+    """`arms`: per node the vector from it to the place of the element's own node, or None. `hinged`: ends of a beam
+    that turn on their own."""
+
+    kind: str
+    number: int
+    nodes: tuple
+    property: object
+    z_axis: tuple | None = None
+    arms: tuple | None = None
+    hinged: tuple = (False, False)
+    added: float = 0.0
+    place: str = ""
+
+
+@dataclass(slots=True)
+class PointMass:
+    """Mass and rotary inertia about x, y, z at the end of an arm from the node."""
+
+    node: int
+    mass: float
+    inertia: tuple = (0.0, 0.0, 0.0)
+    arm: tuple | None = None
+    name: str = "mass"
+    place: str = ""
+
+
+@dataclass(slots=True)
+class Spring:
+    """Along and about the global axes; one node: to the ground."""
+
+    nodes: tuple
+    stiffness: tuple
+    dashpot: tuple = (0.0,) * 6
+    name: str = "spring"
+    place: str = ""
+
+
+@dataclass(slots=True)
+class AxialSpring:
+    """Along the line between its two nodes."""
+
+    nodes: tuple
+    stiffness: float
+    dashpot: float = 0.0
+    name: str = "spring"
+    card: str = "SPRING"
+    place: str = ""
+
+
+class Cards:
+    """What became of every card of a file, by its name: read, noted because nothing of stiffness, mass or support is in
+    it, or lost."""
+
+    def __init__(self):
+        self.read: Counter = Counter()
+        self.noted: Counter = Counter()
+        self.lost: Counter = Counter()
+        self.why: dict = {}
+        self.first: dict = {}
+
+    def use(self, card: str, count: int = 1) -> None:
+        self.read[card] += count
+
+    def note(self, card: str, why: str = "", count: int = 1) -> None:
+        self.noted[card] += count
+        if why:
+            self.why.setdefault(card, why)
+
+    def lose(self, card: str, why: str, place: str, count: int = 1) -> None:
+        self.lost[card] += count
+        self.why.setdefault(card, why)
+        self.first.setdefault(card, place)
+
+
+@dataclass
+class Model:
+    """A structure: nodes by number, elements, and what holds and joins them."""
+
+    name: str = ""
+    nodes: dict = field(default_factory=dict)  # number -> (x, y, z)
+    elements: list = field(default_factory=list)
+    materials: dict = field(default_factory=dict)
+    properties: dict = field(default_factory=dict)
+    masses: list = field(default_factory=list)
+    springs: list = field(default_factory=list)
+    axial_springs: list = field(default_factory=list)
+    supports: dict = field(default_factory=dict)  # node -> components
+    rigid: list = field(default_factory=list)  # (name, nodes, place)
+    pins: list = field(default_factory=list)  # sets of nodes that share their displacements, and their place
+    node_sets: dict = field(default_factory=dict)  # name -> nodes
+    element_sets: dict = field(default_factory=dict)  # name -> places in `elements`
+    facet_sets: dict = field(default_factory=dict)  # name -> tuples of nodes
+    ties: list = field(default_factory=list)  # (name of a set that follows, name of a set of facets)
+    alpha: float = 0.0
+    beta: float = 0.0
+    has_properties: bool = True  # MED holds meshes and groups alone
+    cards: Cards = field(default_factory=Cards)
+    said: list = field(default_factory=list)  # remarks for the user
+
+    def hold(self, node: int, components: int) -> None:
+        self.supports[node] = self.supports.get(node, 0) | components
+
+    def at(self, node: int, place: str) -> tuple:
+        """Coordinates of a node; throws InputFault where there is none."""
+        if node not in self.nodes:
+            raise InputFault(f"{place}: node {node} is not in the file")
+        return self.nodes[node]
+
+
+def components_of(digits: str, place: str) -> int:
+    """Components of a text as 123 or 1246. Throws InputFault."""
+    found = 0
+    for digit in digits.strip():
+        if digit not in "0123456":
+            raise InputFault(f"{place}: '{digits.strip()}' are not components from 1 to 6")
+        if digit != "0":
+            found |= 1 << (int(digit) - 1)
+    return found

@@ -1,0 +1,130 @@
+"""Cards that have no place in a scene are named with their counts: refused where stiffness, mass or support would be
+lost, noted where none would; and files that are none end with one line."""
+import unittest
+
+import imported
+from imported import imported as import_deck
+from imported import refused
+
+ABAQUS = """*NODE
+1, 0., 0., 0.
+2, 0., 0., 3.
+3, 0., 0., 6.
+*ELEMENT, TYPE=B31, ELSET=ALL
+1, 1, 2
+2, 2, 3
+*MATERIAL, NAME=STEEL
+*ELASTIC
+2.1e11, .3
+*DENSITY
+7850.
+*BEAM SECTION, SECTION=CIRC, ELSET=ALL, MATERIAL=STEEL
+.1
+1., 0., 0.
+*BOUNDARY
+1, 1, 6
+"""
+# Lines added -> the card and how often it is lost.
+ABAQUS_LOST = {
+    "*ELEMENT, TYPE=C3D20R, ELSET=Q\n9, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3,\n1, 2, 3, 1, 2\n": "ELEMENT TYPE=C3D20R 1",
+    "*ELEMENT, TYPE=B32\n9, 1, 2, 3\n10, 3, 2, 1\n": "ELEMENT TYPE=B32 2",
+    "*ELEMENT, TYPE=SPRING1, ELSET=S\n9, 3\n*SPRING, ELSET=S, NONLINEAR\n1\n0., 0.\n1e3, .1\n": "SPRING 1",
+    "*ELEMENT, TYPE=SPRING1, ELSET=S\n9, 3\n10, 2\n": "ELEMENT TYPE=SPRING1 2",
+    "*ELEMENT, TYPE=SPRING2, ELSET=S\n9, 2, 3\n*SPRING, ELSET=S\n1, 2\n1e5\n": "SPRING 1",
+    "*MATERIAL, NAME=SOFT\n*HYPERELASTIC\n1., 2.\n*PLASTIC\n2e8\n": "HYPERELASTIC 1, PLASTIC 1",
+    "*CONTACT PAIR, INTERACTION=I\nA, B\n*CONTACT PAIR, INTERACTION=I\nC, D\n": "CONTACT PAIR 2",
+    "*MPC\nLINK, 2, 3\n": "MPC LINK 1",
+    "*EQUATION\n3\n1, 1, 1., 2, 1, -2., 3, 1, 1.\n": "EQUATION 1",
+    "*SURFACE, NAME=S, TYPE=NODE\n2\n*COUPLING, REF NODE=3, SURFACE=S\n*DISTRIBUTING\n1, 3\n": "COUPLING, DISTRIBUTING 1",
+    "*RELEASE\n2, S1, M1\n": "RELEASE M1 1",
+    "*TRANSFORM, NSET=ROOF\n1., 1., 0., -1., 1., 0.\n*NSET, NSET=ROOF\n3\n*BOUNDARY\nROOF, 1\n": "BOUNDARY 1",
+    "*ELEMENT, TYPE=MASS, ELSET=M\n9, 3\n*MASS, ELSET=M, TYPE=ANISOTROPIC\n1., 2., 3.\n": "MASS 1",
+    "*USER ELEMENT, NODES=2, TYPE=U1\n1, 2\n": "USER ELEMENT 1",
+}
+ABAQUS_NOTED = {
+    "*STEP\n*STATIC\n1., 1.\n*CLOAD\n3, 1, 5.\n*DLOAD\nALL, GRAV, 9.81, 0., 0., -1.\n*NODE PRINT\nU\n*END STEP\n":
+        ("CLOAD 1", "DLOAD 1", "NODE PRINT 1", "loads and steps"),
+    "*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n*BOUNDARY, TYPE=ACCELERATION, AMPLITUDE=A\n1, 1, 1, 1.\n": ("BOUNDARY 1",),
+}
+
+
+class Losses(unittest.TestCase):
+    def hold(self, name, deck, lost, noted):
+        """Each is refused with its count, and goes by the names that the refusal gives; or it is noted."""
+        for more, cards in lost.items():
+            with self.subTest(cards):
+                said = refused(self, name, deck(more), f"{cards} would be lost")
+                for card in cards.split(", ") if "COUPLING" not in cards else [cards]:
+                    self.assertIn(f"LOST: {card}, first at {name} line ", said)
+        for more, parts in noted.items():
+            with self.subTest(parts):
+                _, said = import_deck(self, name, deck(more))
+                for part in parts:
+                    self.assertRegex(said, rf"(?m)^passed over.*{part}")
+
+    def test_abaqus(self):
+        self.hold("model.inp", lambda more: ABAQUS + more, ABAQUS_LOST, ABAQUS_NOTED)
+
+    def test_losses_go_by_their_names_alone(self):
+        more = "*MPC\nLINK, 2, 3\n*PLASTIC\n2e8\n"
+        refused(self, "model.inp", ABAQUS + more, "PLASTIC 1 would be lost", words=("--allow-losses", "mpc link"))
+        _, said = import_deck(self, "model.inp", ABAQUS + more, "m,kg,s", "--allow-losses", "MPC LINK,*PLASTIC")
+        self.assertIn("lost, as allowed: MPC LINK 1", said)
+
+    def test_nothing_is_written_over(self):
+        path = imported.of_file("model.inp", ABAQUS)
+        self.assertEqual(imported.command(path, "m,kg,s").returncode, 0)
+        again = imported.command(path, "m,kg,s")
+        self.assertEqual(again.returncode, 1)
+        self.assertIn("model.yaml is there already", again.stderr)
+
+    def test_units_are_stated_and_known(self):
+        path = imported.of_file("model.inp", ABAQUS)
+        for units, part in (("mm,lb,s", "say lbm or lbf"), ("furlong,kg,s", "no unit of length"), ("m,kg", "three units"),
+                            ("m,kg,d", "no unit of time")):
+            done = imported.command(path, units)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(part, done.stderr)
+
+    def test_masses_of_all_units(self):
+        """The same steel mast in other units weighs the same."""
+        rows = {"m,kg,s": (1, 2.1e11, 7850), "mm,t,s": (1e-3, 2.1e5, 7.85e-9), "mm,kg,ms": (1e-3, 210, 7.85e-6),
+                "ft,kip,s": (0.3048, 2.1e11 / (4448.2216152605 / 0.3048**2), 7850 * 0.3048**4 / 4448.2216152605),
+                "in,lbf,s": (0.0254, 2.1e11 / (4.4482216152605 / 0.0254**2), 7850 * 0.0254**4 / 4.4482216152605),
+                "m,kN,s": (1, 2.1e8, 7.85)}
+        for units, (length, young, density) in rows.items():
+            deck = ABAQUS.replace("3.\n", f"{3 / length!r}\n").replace("6.\n", f"{6 / length!r}\n").replace(
+                "2.1e11", repr(young)).replace("7850.", repr(density)).replace("\n.1\n", f"\n{0.1 / length!r}\n")
+            scene, said = import_deck(self, "model.inp", deck, units)
+            imported.close(self, imported.said_mass(said)[:1], (7850 * 6 * 3.14159265358979 * 0.01,), 1e-8)
+            first = imported.frequencies(imported.structure(self, scene, modes=1))[0]
+            reference = first if units == "m,kg,s" else reference
+            self.assertLess(abs(first / reference - 1), 1e-9, units)
+
+    def test_files_that_are_none(self):
+        cases = {"*NODE\n1, 0., zero, 0.\n": "line 2: 'zero' is not a number",
+                 "1, 2, 3\n": "line 1: data before the first keyword",
+                 ABAQUS + "*NODE\n1, 0., 0., 0.\n": "line 19: node 1 is there already",
+                 ABAQUS + "*ELEMENT, TYPE=B31, ELSET=ALL\n7, 1, 99\n": "line 19: node 99 is not in the deck",
+                 ABAQUS + "*ELEMENT, TYPE=B31, ELSET=ALL\n7, 1\n": "line 19: element 7 of type B31 has 1 nodes in place of 2",
+                 ABAQUS + "*ELEMENT, TYPE=B31, ELSET=OTHER\n7, 1, 3\n": "line 19: element 7 has no section",
+                 ABAQUS.replace("7850.", "0."): "--density STEEL=2500",
+                 ABAQUS.replace("1., 0., 0.", "0., 0., 1."): "lies along its axis",
+                 ABAQUS.replace("STEEL\n.1", "GLASS\n.1"): "material GLASS is not in the file",
+                 ABAQUS + "*INCLUDE, INPUT=none.inp\n": "none.inp: no such file",
+                 ABAQUS + "*BOUNDARY\nROOF, 1\n": "line 19: node set ROOF is not in the deck",
+                 "": "no element in it", "\0\1\2": "not a text"}
+        for text, part in cases.items():
+            with self.subTest(part):
+                refused(self, "model.inp", text, part, "model.inp" if "include" not in text.lower() else "none.inp")
+        refused(self, "model.xyz", ABAQUS, "'.xyz' are not known")
+        path = imported.of_file("model.inp", ABAQUS)
+        done = imported.command(path.with_name("other.inp"), "m,kg,s")
+        self.assertEqual((done.returncode, len(done.stderr.splitlines())), (1, 1))
+        _, said = import_deck(self, "model.inp", ABAQUS.replace("7850.", "0."), "m,kg,s", "--density", "steel=7850",
+                              "--expect-mass", "1479.7")
+        self.assertIn("expected 1479.7 kg: -0.000", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
