@@ -47,6 +47,54 @@ ABAQUS_NOTED = {
     "*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n*BOUNDARY, TYPE=ACCELERATION, AMPLITUDE=A\n1, 1, 1, 1.\n": ("BOUNDARY 1",),
 }
 
+NASTRAN = """SOL 103
+CEND
+BEGIN BULK
+GRID,1,,0.,0.,0.
+GRID,2,,0.,0.,3.
+GRID,3,,0.,0.,6.
+CBAR,1,1,1,2,1.,0.,0.
+CBAR,2,1,2,3,1.,0.,0.
+PBARL,1,1,,ROD
+,.1
+MAT1,1,2.1+11,,.3,7850.
+SPC1,1,123456,1
+"""
+NASTRAN_LOST = {
+    "CHEXA,9,1,1,2,3,1,2,3,\n,1,2,3,1,2,3,1,2,\n,3,1,2,3,1,2\n": "CHEXA of second order 1",
+    "RBE3,9,,3,123456,1.,123,1,2\nRBE3,10,,3,123456,1.,123,1,2\n": "RBE3 2",
+    "CBUSH,9,9,2,3,1.,0.,0.\nPBUSH,9,K,1.+6,1.+6,1.+6\n": "CBUSH 1",
+    "PCOMP,9,,,,,,,,\n,1,.01,0.\n": "PCOMP 1",
+    "MAT8,9,1.+11,1.+10,.3,1.+9\nMATS1,1,,PLASTIC,1.+9\n": "MAT8 1, MATS1 1",
+    "MPC,1,1,1,1.,2,1,-2.\n": "MPC 1",
+    "CBAR,9,1,1,3,0.,1.,0.,,\n,,56\n": "PINS 56 OF CBAR 1",
+    "CBAR,9,8,1,3,0.,1.,0.\nPBARL,8,1,,T\n,.1,.1,.01,.01\n": "PBARL T 1",
+    "CONM2,9,3,,5.,,,,,\n,1.,.5,1.\n": "I OF CONM2 1",
+    "SPOINT,9\nCELAS1,10,10,9,0\nPELAS,10,1.+5\n": "CELAS1 1, SPOINT 1",
+    "CORD2R,5,,0.,0.,0.,1.,1.,0.,\n,0.,0.,1.\nGRID,9,,1.,0.,0.,5\nSPC1,1,1,9\n": "SPC1 1",
+    "CSHEAR,9,1,1,2,3,1\nACMODL\n": "ACMODL 1, CSHEAR 1",
+    "CROD,9,9,1,3\nPROD,9,1,.01,1.-5\n": "J OF PROD 1",
+}
+NASTRAN_NOTED = {
+    "FORCE,1,3,,5.,1.,0.,0.\nGRAV,2,,9.81,0.,0.,-1.\nEIGRL,1,,,10\nPARAM,POST,-1\n": (
+        "FORCE 1, GRAV 1", "EIGRL 1, PARAM 1"),
+}
+NASTRAN_NONE = {
+    NASTRAN + "GRID,1,,0.,0.,0.\n": "line 13: grid point 1 is there already",
+    NASTRAN + "CBAR,9,1,1,7,1.,0.,0.\n": "line 13: node 7 is not in the file",
+    NASTRAN + "GRID,9,,0.,o.,0.\n": "line 13: GRID: 'o.' is not a number",
+    NASTRAN + "CBAR,9,3,1,3,0.,1.,0.\n": "line 13: element 9 has no section or property",
+    NASTRAN + "GRID,9,8,0.,0.,0.\n": "coordinate system 8 is not in the deck",
+    NASTRAN + "SPC1,2,123,3\n": "say SPC = one of them",
+    NASTRAN.replace("CEND", "CEND\nSPC = 4"): "set 4 of SPC is not in the deck",
+    NASTRAN.replace("1.,0.,0.", "0.,0.,1."): "lies along its axis",
+    NASTRAN.replace("7850.", ""): "--density 1=2500",
+    "+,1,2\n": "line 1: a continuation of no card",
+    "*NODE\n1, 0., 0., 0.\n": "line 1: a continuation of no card",
+    "12,1,2\n": "line 1: '12' is no card",
+    "$ nothing\n": "no element in it",
+}
+
 
 class Losses(unittest.TestCase):
     def hold(self, name, deck, lost, noted):
@@ -64,6 +112,12 @@ class Losses(unittest.TestCase):
 
     def test_abaqus(self):
         self.hold("model.inp", lambda more: ABAQUS + more, ABAQUS_LOST, ABAQUS_NOTED)
+
+    def test_nastran(self):
+        self.hold("model.bdf", lambda more: NASTRAN + more, NASTRAN_LOST, NASTRAN_NOTED)
+        for text, part in NASTRAN_NONE.items():
+            with self.subTest(part):
+                refused(self, "model.bdf", text, part, "model.bdf")
 
     def test_losses_go_by_their_names_alone(self):
         more = "*MPC\nLINK, 2, 3\n*PLASTIC\n2e8\n"

@@ -3,11 +3,12 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from .abaqus_cards import Block, Motion, Scope, blocks_of, motion_of, numbers, whole
+from .abaqus_cards import Block, Motion, Scope, blocks_of, motion_of
 from .abaqus_joints import JointReader
 from .abaqus_sections import SectionReader
 from .frames import normal_of
-from .model import BAR, Element, InputFault, Material, Model, PointMass, Spring, AxialSpring
+from .model import BAR, AxialSpring, Element, InputFault, Material, Model, PointMass, Spring
+from .texts import numbers, whole
 from .vectors import cross, difference, permutation, unit
 
 ELEMENTS = {"C3D8": ("hex8_full", 8), "C3D8I": ("hex8", 8), "C3D8R": ("hex8", 8), "C3D6": ("wedge6", 6),

@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from .model import InputFault
-from .vectors import difference, sum_of, unit, dot, cross
+from .texts import lines_of, number, numbers
+from .vectors import cross, difference, dot, sum_of, unit
 
 
 @dataclass(slots=True)
@@ -26,42 +27,6 @@ class Block:
 
     def number(self, key: str, fallback: float) -> float:
         return number(self.parameters[key], self.place) if key in self.parameters else fallback
-
-
-def number(text: str, place: str) -> float:
-    """A number; throws InputFault."""
-    try:
-        value = float(text.lower().replace("d", "e"))
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise InputFault(f"{place}: '{text}' is not a number")
-    return value
-
-
-def numbers(fields, place: str) -> list:
-    """Numbers of a line; empty fields are 0."""
-    return [number(text, place) if text else 0.0 for text in fields]
-
-
-def whole(text: str, place: str) -> int:
-    try:
-        return int(text)
-    except ValueError as error:
-        raise InputFault(f"{place}: '{text}' is not a whole number") from error
-
-
-def lines_of(path: Path, seen=()):
-    """Lines of a text as (place, line). Throws InputFault where it is none."""
-    if path.resolve() in seen:
-        raise InputFault(f"{path}: includes itself")
-    try:
-        text = path.read_bytes().decode("latin-1")
-    except OSError as error:
-        raise InputFault(f"{path}: {(error.strerror or 'cannot be read').lower()}") from error
-    if "\0" in text[:4096]:
-        raise InputFault(f"{path} line 1: not a text")
-    return [(f"{path.name} line {count}", line.rstrip()) for count, line in enumerate(text.splitlines(), 1)]
 
 
 def blocks_of(path: Path, seen=()) -> list:

@@ -1,7 +1,8 @@
 """Supports and constraints of Abaqus and CalculiX decks."""
 
-from .abaqus_cards import Block, number, whole
+from .abaqus_cards import Block
 from .model import ALL, BEAMS, RX, RY, RZ, TRANSLATIONS, X, Y, Z, InputFault
+from .texts import number, whole
 from .vectors import global_components
 
 NAMED = {"ENCASTRE": ALL, "PINNED": TRANSLATIONS, "XSYMM": X | RY | RZ, "YSYMM": Y | RX | RZ, "ZSYMM": Z | RX | RY,

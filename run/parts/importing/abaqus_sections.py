@@ -1,9 +1,10 @@
 """Sections of Abaqus and CalculiX: cross-sections of beams, shells, bars, and the mass that they carry."""
 
 from . import sections
-from .abaqus_cards import Block, number, numbers
+from .abaqus_cards import Block
 from .frames import axis_between, frame_about, normal_of, size_of
 from .model import BAR, BEAMS, SHELL, SOLIDS, InputFault, Material, Property, Section
+from .texts import number, numbers
 from .vectors import applied, scaled
 
 # Shear areas over the area that the manual of Abaqus gives its Timoshenko beams.

@@ -128,13 +128,16 @@ class Joints:
         for satellite, root in self.joined.items():
             sets.join((satellite, root))
         plain = {}
+        self.following: set = set()  # nodes of bodies, also such as no element uses
         for nodes in sets.all():
             own = [node for node in nodes if node in self.used]
             held = self._rank(nodes)
             if held == 6:
-                for node in own:
+                for node in nodes:
                     self.model.hold(node, ALL)
-            elif held:
+                continue
+            self.following |= set(nodes)
+            if held:
                 first = next(node for node in nodes if self.model.supports.get(node, 0))
                 self.model.cards.lose("SUPPORT OF A RIGID BODY", "a rigid body, or a node with rigid arms, is clamped as a "
                                       "whole or not at all", f"node {first}")
@@ -173,7 +176,6 @@ class Joints:
         for nodes, place in (*self.hinges, *self.model.pins):
             sets.join(nodes)
             places.update(dict.fromkeys(nodes, place))
-        following = {node for _, nodes in self.rigid for node in nodes} | set(self.joined) | set(self.joined.values())
         for nodes in sets.all():
             place = places[nodes[0]]
             own = [node for node in nodes if node in self.used]
@@ -190,7 +192,7 @@ class Joints:
             elif held:
                 self.model.cards.lose("HINGE AT A SUPPORT", "of nodes that share their displacements all three are held, or "
                                       "none", place)
-            elif set(own) & following:
+            elif set(nodes) & self.following:
                 self.model.cards.lose("HINGE AT A RIGID BODY", "a hinge cannot be at a node of a rigid body or at an arm",
                                       place)
             elif len(own) > 1:

@@ -55,7 +55,7 @@ def model_told(scene, mass: float, centre, expected: float | None) -> list:
         if expected is not None:
             text += f", expected {expected:.9g} kg: {100 * (mass / expected - 1):+.4f} %" if expected else ", expected none"
         if centre:
-            text += ", centre of gravity " + ", ".join(f"{value:.6g}" for value in centre) + " m"
+            text += ", centre of gravity " + ", ".join(f"{value:.7g}" for value in centre) + " m"
         lines.append(text)
     return lines + model.said
 

@@ -1,0 +1,154 @@
+"""Supports and constraints of Nastran decks."""
+
+import re
+
+from .model import ALL, BEAMS, TRANSLATIONS, InputFault, components_of
+from .nastran_cards import Card
+from .vectors import global_components
+
+
+class JointReader:
+    """`reader` is the whole deck's; `control`: lines before the bulk data, whose case control names the sets."""
+
+    def __init__(self, reader, control):
+        self.reader, self.model = reader, reader.model
+        self.permanent: list = []  # components that GRID holds
+        self.sets: dict = {}  # set of SPC -> (node, components, place)
+        self.sums: dict = {}  # SPCADD and MPCADD: set -> its sets
+        self.equal: dict = {}  # set of MPC -> pair of nodes -> [components, place, cards]
+        self.lost: list = []  # cards of MPC that join otherwise: (set, place)
+        self.waiting: list = []  # (name, independent, dependent, components, card)
+        self.wanted = {word: self._named(control, word) for word in ("SPC", "MPC")}
+        self.handlers = {"SPC": self._spc, "SPC1": self._spc1, "SPCADD": self._add, "MPCADD": self._add, "MPC": self._mpc,
+                         "RBE2": self._rbe2, "RBAR": self._rbar}
+
+    @staticmethod
+    def _named(control, word: str) -> tuple:
+        """Sets that case control names, and the place of the last."""
+        found, where = set(), ""
+        for place, line in control:
+            match = re.match(rf"\s*{word}\s*=\s*(\d+)\s*$", line, re.IGNORECASE)
+            if match:
+                found.add(int(match[1]))
+                where = place
+        return found, where
+
+    def _hold(self, key: int, node: int, components: int, card: Card) -> None:
+        self.sets.setdefault(key, []).append((node, components, card))
+
+    def _spc(self, card: Card) -> None:
+        for at in (1, 4):
+            if card.text(at):
+                if card.real(at + 2):
+                    self.model.said.append(f"{card.place}: a displacement of {card.text(at + 2)} is held at zero")
+                self._hold(card.int(0), card.int(at), components_of(card.text(at + 1), card.place), card)
+
+    def _spc1(self, card: Card) -> None:
+        components = components_of(card.text(1), card.place)
+        for node in card.list_from(2):
+            if node in self.reader.grids or "THRU" not in " ".join(card.fields).upper():
+                self._hold(card.int(0), node, components, card)
+
+    def _add(self, card: Card) -> None:
+        self.sums[card.name[:3], card.int(0)] = card.list_from(1)
+
+    def _mpc(self, card: Card) -> None:
+        values = card.fields[1:]
+        terms = []
+        for at in range(0, len(values), 8):  # two terms of three fields, with an empty field before and after
+            terms += [values[at:at + 3], values[at + 3:at + 6]]
+        terms = [term for term in terms if term and term[0]]
+        nodes = {int(term[0]) for term in terms if term[0].isdigit()}
+        digits = {term[1] for term in terms}
+        factors = [Card("MPC", term, card.place).real(2) for term in terms]
+        if len(terms) == 2 and len(nodes) == 2 and len(digits) == 1 and factors[0] == -factors[1] != 0:
+            held = self.equal.setdefault(card.int(0), {}).setdefault(frozenset(nodes), [0, card.place, 0])
+            held[0] |= components_of(digits.pop(), card.place)
+            held[2] += 1
+        else:
+            self.lost.append((card.int(0), card.place))
+
+    def _rbe2(self, card: Card) -> bool:
+        fields = card.fields[:]
+        while fields and not fields[-1]:
+            fields.pop()
+        if fields and "." in fields[-1]:
+            fields.pop()  # ALPHA
+        self.waiting.append((f"rbe2_{card.int(0)}", card.int(1), Card("RBE2", fields, card.place).list_from(3),
+                             components_of(card.text(2), card.place), card))
+        return False
+
+    def _rbar(self, card: Card) -> bool:
+        whole = card.text(3).strip("0") == "123456" and not card.text(4).strip("0")
+        depends = card.text(6).strip("0")
+        components = components_of(depends, card.place) if depends else ALL
+        if not whole:
+            self.model.cards.lose("RBAR", "rigid bars couple all components, those of the first node independent", card.place)
+        else:
+            self.waiting.append((f"rbar_{card.int(0)}", card.int(1), [card.int(2)], components, card))
+        return False
+
+    def _chosen(self, word: str, there) -> set:
+        """Sets in force: those of case control with their sums, or the only one."""
+        named, place = self.wanted[word]
+        if len(named) > 1:
+            raise InputFault(f"{place}: case control names the sets {', '.join(map(str, sorted(named)))} of {word}; a scene has "
+                             "one: leave one")
+        if not named:
+            free = set(there) - {one for (kind, _), sets in self.sums.items() if kind == word for one in sets}
+            named = {key for kind, key in self.sums if kind == word} or free
+            if len(named) > 1:
+                raise InputFault(f"{self.reader.name}: sets {', '.join(map(str, sorted(named)))} of {word}, and no case control names one: say "
+                                 f"{word} = one of them before BEGIN BULK")
+        found: set = set()
+        for one in named:
+            found |= set(self.sums.get((word, one), [one]))
+        for one in sorted(found - set(there)):
+            if place:
+                raise InputFault(f"{place}: set {one} of {word} is not in the deck")
+        return found
+
+    def finish(self) -> None:
+        for node, digits, place in self.permanent:
+            self._apply(node, components_of(digits, place), "GRID", place)
+        chosen = self._chosen("SPC", self.sets)
+        for key, rows in self.sets.items():
+            for node, components, card in rows:
+                if key in chosen:
+                    self.model.at(node, card.place)
+                    self._apply(node, components, card.name, card.place)
+        unused = set(self.sets) - chosen
+        if unused:
+            self.model.said.append(f"sets {', '.join(map(str, sorted(unused)))} of SPC are not named by case control: not read")
+        chosen = self._chosen("MPC", {*self.equal, *(key for key, _ in self.lost)})
+        turning = {node for element in self.model.elements if element.kind == "shell" or element.kind in BEAMS
+                   for node in element.nodes}
+        for key, place in self.lost:
+            if key in chosen:
+                self.model.cards.lose("MPC", "equations join all displacements of two nodes that coincide", place)
+        for key in chosen & set(self.equal):
+            for pair, (components, place, count) in self.equal[key].items():
+                if components == ALL:
+                    self.model.rigid.append(("tied", sorted(pair), place))
+                elif components & TRANSLATIONS == TRANSLATIONS and (components == TRANSLATIONS or not turning & pair):
+                    self.model.pins.append((set(pair), place))
+                else:
+                    self.model.cards.lose("MPC", "equations join all displacements of two nodes that coincide", place, count)
+        for name, first, others, components, card in self.waiting:
+            for node in (first, *others):
+                self.model.at(node, card.place)
+            if components == ALL or (components & TRANSLATIONS == TRANSLATIONS and not turning & set(others)):
+                self.model.rigid.append((name, [first, *others], card.place))
+                self.model.cards.use(card.name)
+            elif components == TRANSLATIONS and all(self.model.nodes[node] == self.model.nodes[first] for node in others):
+                self.model.pins.append(({first, *others}, card.place))
+                self.model.cards.use(card.name)
+            else:
+                self.model.cards.lose(card.name, "rigid elements couple all components of their nodes", card.place)
+
+    def _apply(self, node: int, components: int, card: str, place: str) -> None:
+        held = global_components(components, self.reader.frame(node))
+        if held is None:
+            self.model.cards.lose(card if card != "GRID" else "PS OF GRID", "supports hold along the global axes", place)
+        else:
+            self.model.hold(node, held)
