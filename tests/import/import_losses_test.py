@@ -95,6 +95,64 @@ NASTRAN_NONE = {
     "$ nothing\n": "no element in it",
 }
 
+ANSYS = """/PREP7
+ET,1,188
+NBLOCK,6,SOLID,         3,         3
+(3i9,6e21.13e3)
+        1        0        0
+        2        0        0 0.0000000000000E+000 0.0000000000000E+000 3.0000000000000E+000
+        3        0        0 0.0000000000000E+000 0.0000000000000E+000 6.0000000000000E+000
+N,R5.3,LOC,       -1,
+EBLOCK,19,SOLID,         2,         2
+(19i9)
+        1        1        0        1        0        0        0        0        2        0        1        1        2
+        1        1        0        1        0        0        0        0        2        0        2        2        3
+       -1
+MP,EX,1,2.1e11
+MP,PRXY,1,.3
+MP,DENS,1,7850
+SECTYPE,1,BEAM,CSOLID
+SECDATA,.1
+D,1,ALL
+"""
+
+
+def ansys_elements(type_, *nodes):
+    row = [1, 2, 0, 0, 0, 0, 0, 0, len(nodes), 0, 9, *nodes]
+    return f"ET,2,{type_}\nEBLOCK,19,SOLID,1,1\n(19i9)\n" + "".join(f"{value:9d}" for value in row) + "\n       -1\n"
+
+
+ANSYS_LOST = {
+    ansys_elements(186, *[1, 2, 3, 1] * 5): "ELEMENT SOLID186 1",
+    ansys_elements(174, 1, 2, 3, 1): "ELEMENT 174 1",
+    "CE,R5.0,1,0.0\nCE,R5.0,1,2,UX,1.0\n": "CE 2",
+    "CP,1,UX,2,3\n": "CP 1",
+    "TB,BISO,1\n": "TB 1",
+    "MP,EY,1,1e10\n": "MP OF OTHER AXES 1",
+    "SECTYPE,2,BEAM,Z\nSECDATA,1,1,1,1,1,1\n" + ansys_elements(188, 1, 3).replace(
+        "        0        0        0        0        0        0        2", "        0        2        0        0        0        0        2"):
+        "SECTYPE BEAM Z 1",
+    ansys_elements(21, 3).replace("        2        0", "        2        5", 1) + "KEYOPT,2,3,0\nR,5,1,2,3\n": "ELEMENT 21 OF DIRECTIONS 1",
+    ansys_elements(185, 1, 1, 2, 2, 3, 3, 3, 1): "ELEMENT 185 PYRAMID 1",
+    "RBE3,1,ALL\nCERIG,1,2\n": "CERIG 1, RBE3 1",
+}
+ANSYS_NOTED = {
+    "F,3,FX,5.\nSFE,1,1,PRES,,1.\nACEL,0,0,9.81\nD,3,TEMP,5\nANTYPE,2\n/GO\nFINISH\n": (
+        "ACEL 1, F 1, SFE 1", "ANTYPE 1, FINISH 1", "D TEMP 1"),
+}
+ANSYS_NONE = {
+    ANSYS.replace("N,R5.3,LOC,       -1,\n", ""): "line 8: 'EBLOCK,19' is not a whole number",
+    ANSYS.replace("(19i9)", "19i9"): "line 10: '19i9' is no format",
+    ANSYS[:ANSYS.index("       -1\nMP")]: "the file ends within a block",
+    ANSYS + "D,7,ALL\n": "line 20: node 7 is not in the file",
+    ANSYS.replace("DENS,1,7850", "DENS,1,heavy"): "line 16: MP: 'heavy' is not a number",
+    ANSYS.replace("MP,DENS,1,7850\n", ""): "--density 1=2500",
+    ANSYS.replace("MP,EX,1,2.1e11\n", ""): "material 1 is not in the file",
+    ANSYS.replace("CSOLID\nSECDATA,.1", "RECT\nSECDATA,.1"): "line 17: a section RECT has 2 dimensions",
+    ANSYS.replace("ET,1,188", "ET,4,188"): "element type 1 is not in the file",
+    "/PREP7\n": "no element in it",
+}
+
 
 class Losses(unittest.TestCase):
     def hold(self, name, deck, lost, noted):
@@ -118,6 +176,12 @@ class Losses(unittest.TestCase):
         for text, part in NASTRAN_NONE.items():
             with self.subTest(part):
                 refused(self, "model.bdf", text, part, "model.bdf")
+
+    def test_ansys(self):
+        self.hold("model.cdb", lambda more: ANSYS + more, ANSYS_LOST, ANSYS_NOTED)
+        for text, part in ANSYS_NONE.items():
+            with self.subTest(part):
+                refused(self, "model.cdb", text, part, "model.cdb")
 
     def test_losses_go_by_their_names_alone(self):
         more = "*MPC\nLINK, 2, 3\n*PLASTIC\n2e8\n"

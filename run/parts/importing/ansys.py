@@ -1,0 +1,273 @@
+"""Reads ANSYS archives (.cdb) into the neutral model."""
+
+import math
+from pathlib import Path
+
+from . import sections
+from .ansys_cards import Command, Commands
+from .ansys_joints import JointReader
+from .ansys_properties import Properties, SHELLS, solid_kind
+from .collapse import shape_of
+from .frames import axis_between, frame_about, normal_of, turned_z
+from .model import BAR, AxialSpring, Element, InputFault, Model, PointMass, Property, Section, Spring
+from .texts import number, whole
+from .vectors import applied, cross, difference, dot, scaled
+
+CONTROL = {"NUMOFF", "DOF", "FINISH", "EXTOPT", "MPTEMP", "TREF", "TOFFST", "ANTYPE", "MODOPT", "MXPAND", "LUMPM", "KUSE", "TIME",
+           "TUNIF", "TOTAL", "ERESX", "SSTIF", "SHPP", "SOLVE", "NLGEOM", "OUTRES", "OUTPR", "AUTOTS", "NSUBST", "KBC", "ERNORM",
+           "EQSLV", "PRED", "CNVTOL", "NEQIT", "LNSRCH", "CSYS", "LOCAL", "CSCIR", "CLOCAL", "DSYS", "ALLSEL", "NSEL", "ESEL",
+           "TYPE", "MAT", "REAL", "SECNUM", "ESYS", "RATE", "CMSEL", "EXPASS", "NUMEXP", "BCSOPTION", "RESCONTROL", "DMPRAT",
+           "MDAMP", "DMPSTR", "PSTRES", "TINTP", "TRNOPT", "LSCLEAR", "CMEDIT", "WPSTYL", "LSWRITE", "UNITS"}
+LOADS = {"F", "SF", "SFE", "SFL", "SFA", "SFGRAD", "BF", "BFE", "BFUNIF", "ACEL", "OMEGA", "DOMEGA", "CGLOC", "CGOMGA", "DCGOMG",
+         "CMOMEGA", "CMDOMEGA", "CMACEL", "FK", "IC", "INISTATE", "SFCUM", "FCUM", "BFCUM", "BFECUM", "LDREAD"}
+SECOND_ORDER = {186: "SOLID186", 187: "SOLID187", 95: "SOLID95", 92: "SOLID92", 281: "SHELL281", 93: "SHELL93", 189: "BEAM189"}
+
+
+class Reader:
+    """The whole archive. `model` is the result."""
+
+    def __init__(self, path: Path):
+        self.model = Model(path.stem)
+        self.commands = Commands(path).found
+        self.properties = Properties(self.model)
+        self.turned: dict = {}  # node -> axes of its displacements where they are not the global ones
+        self.elements_: dict = {}  # number -> place in the model's elements
+        self.joints = JointReader(self)
+        for command in self.commands:
+            if command.name in self.properties.handlers:
+                if self.properties.handlers[command.name](command) is not False:
+                    self.model.cards.use(command.name)
+            elif command.name == "NBLOCK":
+                self._nodes(command)
+            elif command.name == "N" and command.text(1).upper() == "LOC":
+                self._node(command)
+        self.properties.finish()
+        for command in self.commands:
+            if command.name == "EBLOCK":
+                self._elements(command)
+        for command in self.commands:
+            self._handle(command)
+        self.joints.finish()
+
+    def _handle(self, command: Command) -> None:
+        name = command.name
+        if name in self.joints.handlers:
+            if self.joints.handlers[name](command) is not False:
+                self.model.cards.use(name)
+        elif name in ("NBLOCK", "EBLOCK"):
+            self.model.cards.use(name)
+        elif name in self.properties.handlers or (name == "N" and command.text(1).upper() == "LOC"):
+            return
+        elif name[0] in "/*_" or "=" in name or name in CONTROL:
+            self.model.cards.note(name.partition("=")[0], "titles, output and control")
+        elif name in LOADS:
+            self.model.cards.note(name, "loads and steps are not part of the model")
+        elif name in ("ALPHAD", "BETAD"):
+            setattr(self.model, "alpha" if name == "ALPHAD" else "beta", command.real(0))
+            self.model.cards.use(name)
+        else:
+            self.model.cards.lose(name, "not known", command.place)
+
+    # Nodes.
+
+    def _nodes(self, command: Command) -> None:
+        first = 3 if command.text(1).upper() == "SOLID" else 1
+        for place, words in command.rows:
+            own = whole(words[0], place)
+            values = [number(text, place) if text else 0.0 for text in words[first:]] + [0.0] * 6
+            self._put(own, values, place)
+
+    def _node(self, command: Command) -> None:
+        """N,R5.3,LOC, number, x, y, z with ANG in a line of its own."""
+        own = command.int(2)
+        if own > 0:
+            self._put(own, [command.real(3 + k) for k in range(3)] + [0.0] * 3, command.place)
+
+    def _put(self, own: int, values: list, place: str) -> None:
+        if own in self.model.nodes or own < 1:
+            raise InputFault(f"{place}: node {own} is there already, or no number")
+        self.model.nodes[own] = tuple(values[:3])
+        if any(values[3:6]):  # about z, then x, then y
+            a, b, c = (math.radians(value) for value in values[3:6])
+            x, y, z = (math.cos(a), math.sin(a), 0.0), (-math.sin(a), math.cos(a), 0.0), (0.0, 0.0, 1.0)
+            y, z = _turned(y, z, b)
+            z, x = _turned(z, x, c)
+            self.turned[own] = (x, y, z)
+
+    # Elements.
+
+    def _elements(self, command: Command) -> None:
+        if command.text(1).upper() != "SOLID":
+            raise InputFault(f"{command.place}: an EBLOCK is of the kind 19,SOLID")
+        rows = iter(command.rows)
+        for place, words in rows:
+            values = [whole(text, place) for text in words]
+            if len(values) < 12:
+                raise InputFault(f"{place}: an element has {len(values)} numbers in place of 12 and more")
+            count, nodes = values[8], values[11:]
+            while len(nodes) < count:
+                place_, more = next(rows, (place, []))
+                if not more:
+                    raise InputFault(f"{place_}: an element has {len(nodes)} nodes of {count}")
+                nodes += [whole(text, place_) for text in more]
+            self._element(values, nodes[:count], place)
+
+    def _element(self, values: list, nodes: list, place: str) -> None:
+        material, type_number, real, section, own = values[0], values[1], values[2], values[3], values[10]
+        if type_number not in self.properties.types:
+            raise InputFault(f"{place}: element type {type_number} is not in the file")
+        type_, keys = self.properties.types[type_number], self.properties.keys.get(type_number, {})
+        reals = self.properties.reals.get(real, [])
+        name = f"type_{type_number}_mat_{material}"
+        key = (type_number, material, real, section)
+        common = key, name, material, real, section, reals, own, place
+        for node in nodes:
+            if node:
+                self.model.at(node, place)
+        if type_ in (185, 45):
+            self._solid(solid_kind(type_, keys), type_, nodes, common)
+        elif type_ in SHELLS:
+            self._shell(type_, keys, nodes, common)
+        elif type_ in (188, 4):
+            self._beam(type_, nodes, common)
+        elif type_ in (180, 8):
+            self._link(type_, nodes, common)
+        elif type_ == 14:
+            self._spring(keys, nodes, common)
+        elif type_ == 21:
+            self._mass(keys, nodes, common)
+        elif type_ == 184 and keys.get(1, 0) == 1:
+            self.model.rigid.append((f"rigid_{own}", nodes[:2], place))
+        elif type_ == 200:
+            self.model.cards.note("ELEMENT MESH200", "it has no stiffness")
+            return
+        else:
+            card = f"ELEMENT {SECOND_ORDER.get(type_, type_)}"
+            self.model.cards.lose(card, "elements of second order are not known" if type_ in SECOND_ORDER else
+                                  "this type is not known", place)
+            return
+        self.model.cards.use(f"ELEMENT {type_}")
+
+    def _add(self, kind: str, nodes, common, **more) -> None:
+        key, own, place = common[0], common[6], common[7]
+        self.elements_[own] = len(self.model.elements)
+        self.model.elements.append(Element(kind, own, tuple(nodes), key, place=place, **more))
+
+    def _property(self, common, material: int, **more) -> Property:
+        key, name, place = common[0], common[1], common[7]
+        given = self.properties.sections.get(common[4], ["", "", ""])[2]
+        return self.model.properties.setdefault(key, Property(given or name, material, place=place, **more))
+
+    def _solid(self, kind: str | None, type_: int, nodes: list, common) -> None:
+        shape, nodes = shape_of((nodes + nodes[-1:] * 8)[:8] if len(nodes) != 4 else [*nodes[:3], nodes[2], *[nodes[3]] * 4])
+        if kind is None or shape is None:
+            self.model.cards.lose(f"ELEMENT {type_} {'LAYERED' if kind is None else 'PYRAMID'}", "this shape is not known", common[7])
+            return
+        self._property(common, common[2])
+        self._add(kind if shape == "brick" else shape, nodes, common)
+
+    def _shell(self, type_: int, keys: dict, nodes: list, common) -> None:
+        _, _, material, _, section, reals, own, place = common
+        if SHELLS[type_] is None or keys.get(1):
+            self.model.cards.lose(f"ELEMENT {type_}, KEYOPT 1", "membranes and plates alone are not known", place)
+            return
+        added, offset = 0.0, 0.0
+        if section in self.properties.sections and type_ == 181:
+            thickness, material, offset = self.properties.shell_section(section, material, place)
+        else:
+            thicknesses = {value for value in reals[:4] if value}
+            if len(thicknesses) != 1:
+                raise InputFault(f"{place}: element {own} has {'no thickness' if not thicknesses else 'a thickness that varies'}")
+            thickness = thicknesses.pop()
+            rest = reals + [0.0] * 20
+            added = rest[5] if type_ == 181 else rest[17] if type_ == 63 else rest[7]
+            if type_ == 63 and rest[4]:
+                self.model.cards.lose("EFS OF SHELL63", "foundations of shells are not known", place)
+        nodes = nodes[:3] if len(nodes) > 3 and nodes[2] == nodes[3] else nodes
+        self._property(common, material, thickness=thickness, added=added)
+        arms = None
+        if offset:
+            way = normal_of([self.model.nodes[node] for node in nodes], f"{place}: element {own}")
+            arms = (scaled(way, offset * thickness),) * len(nodes)
+        self._add("shell", nodes, common, arms=arms)
+
+    def _beam(self, type_: int, nodes: list, common) -> None:
+        _, _, material, _, section, reals, own, place = common
+        who = f"{place}: element {own}"
+        ends = [self.model.nodes[node] for node in nodes[:2]]
+        axis = axis_between(ends, who)
+        if len(nodes) > 2 and nodes[2]:
+            frame = frame_about(axis, difference(self.model.nodes[nodes[2]], ends[0]), who)
+        else:  # y parallel to the x-y plane, of vertical ones along y
+            steep = abs(dot(axis, (0.0, 0.0, 1.0))) > 1 - 1e-8
+            y = (0.0, 1.0, 0.0) if steep else cross((0.0, 0.0, 1.0), axis)
+            frame = frame_about(axis, cross(axis, y), who)
+        added, arms, angle = 0.0, None, 0.0
+        if type_ == 188:
+            found = self.properties.beam_section(section, place)
+            if found is None:
+                found = None, 0.0, (0.0, 0.0)
+            one, angle, centroid = found
+            if any(centroid):
+                arms = (applied(frame, (0.0, *centroid)),) * 2
+        else:
+            area, izz, iyy, _, _, theta, strain, ixx, shear_z, shear_y, _, added = (reals + [0.0] * 12)[:12]
+            if strain:
+                self.model.cards.lose("ISTRN OF BEAM4", "initial strains are not known", place)
+            angle = math.radians(theta)
+            one = Section(area, iyy, izz, ixx or iyy + izz, area / shear_z if shear_z else 0.0, area / shear_y if shear_y else 0.0)
+        self._property(common, material, section=one, added=added)
+        self._add("beam", nodes[:2], common, z_axis=turned_z(frame, angle) if angle else frame[2], arms=arms)
+
+    def _link(self, type_: int, nodes: list, common) -> None:
+        material, section, reals, place = common[2], common[4], common[5], common[7]
+        if section in self.properties.sections and type_ == 180 and self.properties.sections[section][0] == "LINK":
+            area, added = (self.properties.sections[section][3] + [0.0] * 2)[:2]
+        else:
+            area, added, one_way = (reals + [0.0] * 3)[:3]
+            if one_way and type_ == 180:
+                self.model.cards.lose("TENSKEY OF LINK180", "bars of one direction are told in the scene: tension_only", place)
+            if type_ == 8:
+                if added:
+                    self.model.cards.lose("ISTRN OF LINK8", "initial strains are not known", place)
+                added = 0.0
+        self._property(common, material, area=area, added=added)
+        self._add(BAR, nodes[:2], common)
+
+    def _spring(self, keys: dict, nodes: list, common) -> None:
+        name, reals, place = common[1], common[5], common[7]
+        stiffness, dashpot, quadratic = (reals + [0.0] * 3)[:3]
+        along = keys.get(2, 0)
+        ends = tuple(node for node in nodes[:2] if node)
+        if quadratic or along > 6 or (along == 0 and keys.get(3, 0) == 1) or (along and set(ends) & set(self.turned)):
+            self.model.cards.lose("ELEMENT 14, KEYOPT OR CV2", "springs act along and about the global axes, or between two "
+                                  "nodes, linearly", place)
+        elif along == 0:
+            self.model.axial_springs.append(AxialSpring(ends, stiffness, dashpot, name, "ELEMENT 14", place))
+        else:
+            six = [tuple(value if k == along - 1 else 0.0 for k in range(6)) for value in (stiffness, dashpot)]
+            self.model.springs.append(Spring(ends, *six, name, place))
+
+    def _mass(self, keys: dict, nodes: list, common) -> None:
+        name, reals, place = common[1], (common[5] + [0.0] * 6)[:6], common[7]
+        if keys.get(3, 0) == 2:
+            mass, inertia = reals[0], (0.0,) * 3
+        elif keys.get(3, 0) == 0:
+            mass, inertia = reals[0], tuple(reals[3:6])
+            if len(set(reals[:3])) > 1 or (any(inertia) and keys.get(2)):
+                self.model.cards.lose("ELEMENT 21 OF DIRECTIONS", "a mass is the same along all axes", place)
+        else:
+            self.model.cards.lose(f"ELEMENT 21, KEYOPT 3 = {keys.get(3)}", "masses are of three dimensions", place)
+            return
+        self.model.masses.append(PointMass(nodes[0], mass, inertia, None, name, place))
+
+
+def _turned(first, second, angle: float) -> tuple:
+    """Two axes turned in their plane, from the first towards the second."""
+    c, s = math.cos(angle), math.sin(angle)
+    return tuple(c * a + s * b for a, b in zip(first, second)), tuple(c * b - s * a for a, b in zip(first, second))
+
+
+def read(path: Path) -> Model:
+    """The model of an archive. Throws InputFault."""
+    return Reader(path).model

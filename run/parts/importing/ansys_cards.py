@@ -1,0 +1,136 @@
+"""Commands and blocks of an ANSYS archive (.cdb), as CDWRITE makes it."""
+
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from .model import InputFault
+from .texts import lines_of, number, whole
+
+BLOCKS = ("NBLOCK", "EBLOCK", "RLBLOCK", "CMBLOCK", "SECBLOCK", "ETBLOCK")
+
+
+@dataclass(slots=True)
+class Command:
+    """Words of a line in capitals, the first the command's name; of a block its rows as (place, words) as well."""
+
+    name: str
+    words: list
+    place: str
+    rows: list = field(default_factory=list)
+
+    def text(self, at: int) -> str:
+        return self.words[at] if at < len(self.words) else ""
+
+    def real(self, at: int, fallback: float = 0.0) -> float:
+        return number(self.text(at), f"{self.place}: {self.name}") if self.text(at) else fallback
+
+    def int(self, at: int, fallback: int | None = None) -> int:
+        if not self.text(at):
+            if fallback is None:
+                raise InputFault(f"{self.place}: {self.name} has no value {at + 1}")
+            return fallback
+        return whole(self.text(at), f"{self.place}: {self.name}")
+
+
+def widths_of(line: str, place: str) -> list:
+    """Widths of the fields of a format of Fortran: (3i9,6e21.13e3). Throws InputFault."""
+    found: list = []
+    for count, width in re.findall(r"(\d*)[ieagf](\d+)(?:\.\d+(?:e\d+)?)?", line.lower()):
+        found += [int(width)] * int(count or 1)
+    if not found or not line.strip().startswith("("):
+        raise InputFault(f"{place}: '{line.strip()}' is no format")
+    return found
+
+
+def cut(line: str, widths: list) -> list:
+    """Fields of these widths, as far as the line goes; more of the last width."""
+    fields, at = [], 0
+    while at < len(line.rstrip()):
+        width = widths[min(len(fields), len(widths) - 1)]
+        fields.append(line[at:at + width].strip())
+        at += width
+    return fields
+
+
+class Commands:
+    """All commands of an archive in their order."""
+
+    def __init__(self, path: Path):
+        self.lines = lines_of(path)
+        self.at = 0
+        self.found: list = []
+        while self.at < len(self.lines):
+            place, line = self._next()
+            line = line.split("!")[0]
+            for text in line.split("$") if "$" in line else [line]:
+                words = [word.strip() for word in text.strip().split(",")]
+                if not words[0]:
+                    continue
+                name = words[0].upper()
+                command = Command(name, words[1:], place)
+                if name in BLOCKS:
+                    getattr(self, f"_read_{name.lower()}")(command)
+                self.found.append(command)
+
+    def _next(self) -> tuple:
+        if self.at >= len(self.lines):
+            raise InputFault(f"{self.lines[-1][0]}: the file ends within a block")
+        self.at += 1
+        return self.lines[self.at - 1]
+
+    def _rows(self, command: Command, is_end) -> None:
+        place, line = self._next()
+        widths = widths_of(line, place)
+        while True:
+            place, line = self._next()
+            if is_end(line.strip()):
+                return
+            command.rows.append((place, cut(line, widths)))
+
+    def _read_nblock(self, command: Command) -> None:
+        self._rows(command, lambda line: line.startswith("N,") or line == "-1")
+
+    def _read_eblock(self, command: Command) -> None:
+        self._rows(command, lambda line: line == "-1")
+
+    def _read_etblock(self, command: Command) -> None:
+        self._rows(command, lambda line: line == "-1")
+
+    def _read_cmblock(self, command: Command) -> None:
+        """Numbers, as many as the header says."""
+        count = command.int(2)
+        place, line = self._next()
+        widths = widths_of(line, place)
+        found: list = []
+        while len(found) < count:
+            place, line = self._next()
+            fields = [whole(text, place) for text in cut(line, widths)]
+            if not fields:
+                raise InputFault(f"{place}: {len(found)} numbers of a component of {count}")
+            found += fields
+        command.rows = found
+
+    def _read_rlblock(self, command: Command) -> None:
+        """Sets of real constants: number -> values."""
+        formats = []
+        for _ in range(2):
+            place, line = self._next()
+            formats.append(widths_of(line, place))
+        for _ in range(command.int(0)):
+            place, line = self._next()
+            fields = cut(line, formats[0])
+            own, count = whole(fields[0], place), whole(fields[1], place)
+            values = [number(text, place) for text in fields[2:] if text]
+            while len(values) < count:
+                place, line = self._next()
+                more = [number(text, place) for text in cut(line, formats[1]) if text]
+                if not more:
+                    raise InputFault(f"{place}: {len(values)} real constants of {count}")
+                values += more
+            command.rows.append((own, values))
+
+    def _read_secblock(self, command: Command) -> None:
+        for _ in range(command.int(0)):
+            place, line = self._next()
+            command.rows.append((place, [word.strip() for word in line.split(",")]))

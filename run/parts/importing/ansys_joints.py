@@ -1,0 +1,89 @@
+"""Supports, couplings and components of ANSYS archives."""
+
+from .ansys_cards import Command
+from .model import ALL, BEAMS, TRANSLATIONS, InputFault
+from .texts import whole
+from .vectors import global_components
+
+LABELS = {label: 1 << k for k, label in enumerate(("UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"))} | {"ALL": ALL}
+
+
+class JointReader:
+    """`reader` is the whole archive's."""
+
+    def __init__(self, reader):
+        self.reader, self.model = reader, reader.model
+        self.components: dict = {}  # name -> nodes
+        self.sets: dict = {}  # nodes of CP -> [components, place, cards]
+        self.held: dict = {}  # node -> [components, place]
+        self.handlers = {"D": self._support, "CMBLOCK": self._component, "CP": self._couple}
+
+    def _nodes(self, text: str, place: str) -> list:
+        name = text.upper()
+        if name == "ALL":
+            return list(self.model.nodes)
+        if name in self.components:
+            return self.components[name]
+        node = whole(text, place)
+        self.model.at(node, place)
+        return [node]
+
+    def _support(self, command: Command) -> bool:
+        label = command.text(1).upper()
+        if label not in LABELS:
+            self.model.cards.note(f"D {label}", "says nothing of displacements")
+            return False
+        if command.text(2).upper() not in ("", "%_FIX%") and command.real(2):
+            self.model.said.append(f"{command.place}: a displacement of {command.text(2)} is held at zero")
+        for node in self._nodes(command.text(0), command.place):
+            self.held.setdefault(node, [0, command.place])[0] |= LABELS[label]
+        return True
+
+    def _component(self, command: Command) -> None:
+        """Numbers, and last ones of ranges with a minus sign."""
+        name, kind = command.text(0).upper(), command.text(1).upper()
+        members: list = []
+        for value in command.rows:
+            if value < 0:
+                if not members:
+                    raise InputFault(f"{command.place}: a component begins with the end of a range")
+                members += range(members[-1] + 1, 1 - value)
+            else:
+                members.append(value)
+        if kind.startswith("NODE"):
+            self.components[name] = [node for node in members if node in self.model.nodes]
+            self.model.node_sets[name] = self.components[name]
+        else:
+            self.model.element_sets[name] = [self.reader.elements_[n] for n in members if n in self.reader.elements_]
+
+    def _couple(self, command: Command) -> bool:
+        label = command.text(1).upper()
+        if label not in LABELS:
+            self.model.cards.note(f"CP {label}", "says nothing of displacements")
+            return False
+        nodes = frozenset(node for at in range(2, len(command.words)) if command.text(at) for node in self._nodes(
+            command.text(at), command.place))
+        held = self.sets.setdefault(nodes, [0, command.place, 0])
+        held[0] |= LABELS[label]
+        held[2] += 1
+        return False
+
+    def finish(self) -> None:
+        for node, (components, place) in self.held.items():
+            axes = self.reader.turned.get(node)
+            held = components if axes is None else global_components(components, axes)
+            if held is None:
+                self.model.cards.lose("D", "supports hold along the global axes", place)
+            else:
+                self.model.hold(node, held)
+        turning = {node for element in self.model.elements if element.kind == "shell" or element.kind in BEAMS
+                   for node in element.nodes}
+        for nodes, (components, place, count) in self.sets.items():
+            if components == ALL:
+                self.model.rigid.append(("coupled", sorted(nodes), place))
+            elif components & TRANSLATIONS == TRANSLATIONS and (components == TRANSLATIONS or not turning & nodes):
+                self.model.pins.append((set(nodes), place))
+            else:
+                self.model.cards.lose("CP", "couplings join all displacements of nodes that coincide", place, count)
+                continue
+            self.model.cards.use("CP", count)
