@@ -218,6 +218,19 @@ class Export {
   std::vector<PetscInt> place_;  ///< rank 0: of PETSc's numbers in dofs_
 };
 
+/// Dashpots whose force is no matrix times the rates of their ends.
+void refuse_dashpots(const Structure& structure) {
+  for (const Region& region : structure.regions) {
+    if (!is_spring(region.element)) continue;
+    const bool power = region.nonlinear.dashpot_exponent != 1;
+    if (!power && !region.nonlinear.has_series()) continue;
+    throw UserError("option -export_matrices: structure " + structure.name + ": the dashpots of " +
+                    region.group +
+                    (power ? " go by a power of the rate" : " are in series with springs") +
+                    ", which no matrix holds");
+  }
+}
+
 }  // namespace
 
 void export_matrices(MPI_Comm comm, const Scene& scene, const Model& model) {
@@ -228,6 +241,7 @@ void export_matrices(MPI_Comm comm, const Scene& scene, const Model& model) {
           " has tension-only bars, compression-only springs or elements that yield, which no "
           "matrix holds");
     }
+    refuse_dashpots(scene.structures[s]);
     Export(comm, scene, model, s).write();
   }
 }

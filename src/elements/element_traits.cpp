@@ -66,10 +66,12 @@ constexpr std::string_view of_plate =
     "material thickness rotary_inertia_factor drilling_factor mass_per_area";
 constexpr std::string_view of_point = "mass rotary_inertia";
 constexpr std::string_view of_spring =
-    "stiffness dashpot dashpot_exponent yield_force hardening yield_circle sliding_friction "
+    "stiffness dashpot dashpot_exponent dashpot_stiffness series_stiffness yield_force hardening "
+    "yield_circle sliding_friction "
     "pendulum_radius";
 constexpr std::string_view of_ground =
-    "stiffness dashpot dashpot_exponent yield_force hardening yield_circle sliding_friction "
+    "stiffness dashpot dashpot_exponent dashpot_stiffness series_stiffness yield_force hardening "
+    "yield_circle sliding_friction "
     "pendulum_radius compression_only stiffness_per_area dashpot_per_area stiffness_per_length "
     "dashpot_per_length";
 

@@ -7,10 +7,15 @@
 namespace pounding::interactions {
 namespace {
 
-/// Name of the memory of a link; all links of an element but that along x say which one they are.
+/// Name of the memory of a link; all links of an element but that along x say which one they are,
+/// and the dashpot of a spring that it is no stiffness.
 std::string memory_name(std::size_t structure, const Link& link) {
-  const std::string name = "link " + std::to_string(structure) + " " + std::to_string(link.number);
-  return link.origin.component == 0 ? name : name + " " + std::to_string(link.origin.component);
+  std::string name = "link " + std::to_string(structure) + " " + std::to_string(link.number);
+  const LinkOrigin& origin = link.origin;
+  if (origin.component != 0) name += " " + std::to_string(origin.component);
+  const bool dashpot = origin.region != nullptr && is_spring(origin.region->element) &&
+                       origin.part == SpringPart::dashpot;
+  return dashpot ? name + " dashpot" : name;
 }
 
 std::vector<std::string> record_names(std::size_t structure, const std::vector<Link>& links,

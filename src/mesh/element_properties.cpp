@@ -16,7 +16,9 @@ ElementProperties element_properties(const Region& region, double share) {
   properties.rotary_inertia = region.rotary_inertia;
   for (std::size_t c = 0; c < region.stiffness.size(); ++c) {
     properties.stiffness[c] = share * region.stiffness[c];
-    properties.dashpot[c] = share * region.dashpot[c];
+    // One in series with a spring is no damping matrix.
+    const bool series = region.nonlinear.dashpot_stiffness[c] > 0;
+    properties.dashpot[c] = series ? 0 : share * region.dashpot[c];
   }
   if (region.foundation) properties.arm = region.foundation->arm;
   for (std::size_t c = 0; is_spring(region.element) && c < properties.stiffness.size(); ++c) {

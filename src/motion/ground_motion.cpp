@@ -58,6 +58,26 @@ void require_possible_peak(const std::string& name, const std::string& what, dou
   }
 }
 
+/// Largest displacement of a ground that starts at rest, at the samples [m].
+double largest_displacement(const Accelerogram& motion) {
+  const double h = motion.time_step;
+  double velocity = 0, displacement = 0, largest = 0;
+  for (std::size_t i = 0; i + 1 < motion.acceleration.size(); ++i) {
+    const double before = motion.acceleration[i], after = motion.acceleration[i + 1];
+    displacement += h * (velocity + h * (2 * before + after) / 6);
+    velocity += h * (before + after) / 2;
+    largest = std::max(largest, std::abs(displacement));
+  }
+  return largest;
+}
+
+/// A ground that jumps by a displacement within a few samples has any acceleration.
+void require_possible_record(const std::string& name, const std::string& what, double peak,
+                             const Accelerogram& motion) {
+  if (!(peak <= impossible_peak) && largest_displacement(motion) <= possible_jump) return;
+  require_possible_peak(name, what, peak);
+}
+
 MotionDescription describe_synthetic(const SyntheticMotion& motion) {
   MotionDescription description;
   description.source = motion.target;
@@ -141,11 +161,11 @@ void GroundMotion::add(std::size_t direction, const MotionComponent& component) 
     accelerogram = read_accelerogram(record);
     description = describe_record(record.file, accelerogram);
     file_start_[direction] = accelerogram.start;
-    require_possible_peak(name, record.file + ": peak", description.file_peak);
+    require_possible_record(name, record.file + ": peak", description.file_peak, accelerogram);
     const double factor = scaling_factor(name, component, description);
     description.factor = factor;
     for (double& a : accelerogram.acceleration) a *= factor;
-    require_possible_peak(name, "scaled peak", accelerogram.peak());
+    require_possible_record(name, "scaled peak", accelerogram.peak(), accelerogram);
   }
   description.direction = direction_names[direction];
   description.points = accelerogram.acceleration.size();

@@ -15,6 +15,11 @@ std::string left_out(const Structure& structure) {
   if (!structure.matrices.empty() && !structure.modal) {
     return "not with -" + structure.name + "_matrices at full order; scale stiffness.mtx";
   }
+  const auto series = std::ranges::find_if(
+      structure.regions, [](const Region& region) { return region.nonlinear.has_series(); });
+  if (series != structure.regions.end()) {
+    return "the springs in series with dashpots of " + series->group + " are none of K";
+  }
   const auto law = std::ranges::find_if(structure.regions, follows_law);
   if (law == structure.regions.end()) return "";
   return "not with -" + option_name(law_option(*law), {structure.name, law->group});

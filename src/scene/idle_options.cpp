@@ -84,9 +84,11 @@ class IdleOptions {
   void look_at(const Structure& structure, const Region& region) {
     const Names names{structure.name, region.group};
     const bool rates = std::ranges::any_of(region.dashpot, [](double rate) { return rate > 0; });
-    look("<structure>_<group>_dashpot_exponent", names, rates,
-         "it goes with -" + option_name("<structure>_<group>_dashpot", names) +
-             ", which is not given or 0");
+    for (const char* option : {"dashpot_exponent", "dashpot_stiffness", "series_stiffness"}) {
+      look(std::string("<structure>_<group>_") + option, names, rates,
+           "it goes with -" + option_name("<structure>_<group>_dashpot", names) +
+               ", which is not given or 0");
+    }
     look("<structure>_<group>_hardening", names, region.nonlinear.yields(),
          "nothing yields; it goes with -" + option_name("<structure>_<group>_yield_force", names));
   }

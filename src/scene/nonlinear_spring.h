@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -18,8 +19,14 @@ struct NonlinearSpring {
   double friction = 0;
   double radius = 0;            ///< of a friction pendulum [m]; 0: none
   double dashpot_exponent = 1;  ///< power of the rate to which its dashpots go [-]
-  double slack = 0;             ///< of a tension-only bar, stretched so far before it pulls [m]
+  /// Stiffness in series with each dashpot, along and about x, y, z [N/m, N m]; 0: rigid.
+  std::array<double, 6> dashpot_stiffness{};
+  double slack = 0;  ///< of a tension-only bar, stretched so far before it pulls [m]
 
+  /// Some dashpot is in series with a spring.
+  bool has_series() const {
+    return std::ranges::any_of(dashpot_stiffness, [](double stiffness) { return stiffness > 0; });
+  }
   bool has_circle() const { return circle[0] != circle[1]; }
   bool is_in_circle(std::size_t component) const {
     return has_circle() &&

@@ -24,7 +24,7 @@ constexpr Range eigen_tolerance{1e-10, 0.1, false, false};
 constexpr Range csv_digits{6, 17, false, false};
 constexpr Range rank_count{0, 99999, false, false};
 constexpr Range filter_count{1, 8, false, false};
-constexpr Range dashpot_power{0.05, 2, false, false};
+constexpr Range dashpot_power{0.01, 2, false, false};
 constexpr Range below_1{0, 1, false, true};
 constexpr Range poisson_ratio{-1, 0.5, true, true};
 constexpr Range soil_poisson{0, 0.5, false, true};
@@ -159,6 +159,8 @@ constexpr std::array option_rows{
     OptionRow{Block::region, "<structure>_<group>_dashpot_per_length", Kind::reals, "N s/m2", value("0,0,0"), not_negative, "three numbers along x, y, z", "grounded_spring on lines: its dashpots per length"},
     OptionRow{Block::region, "<structure>_<group>_compression_only", Kind::boolean, "flag", value("false"), any, "", "grounded_spring from which a mat may lift off: along z, spring and dashpot resist pressing down only"},
     OptionRow{Block::region, "<structure>_<group>_dashpot_exponent", Kind::real, "-", value("1"), dashpot_power, "", "power of the rate to which its dashpots go; their unit is N (s/m)^it"},
+    OptionRow{Block::region, "<structure>_<group>_dashpot_stiffness", Kind::reals, "N/m, N m", value("0,0,0,0,0,0"), not_negative, "six numbers along and about x, y, z", "spring in series with each dashpot; 0: none, it is rigid"},
+    OptionRow{Block::region, "<structure>_<group>_series_stiffness", Kind::reals, "N/m, N m", value("0,0,0,0,0,0"), not_negative, "six numbers along and about x, y, z", "spring in series with its spring and dashpot together; 0: none, it is rigid"},
     OptionRow{Block::region, "<structure>_<group>_yield_force", Kind::reals, "N, N m", value("0"), not_negative, "one number (bar), or three or six along and about x, y, z", "force at which it yields; 0: never"},
     OptionRow{Block::region, "<structure>_<group>_hardening", Kind::real, "-", value("0"), below_1, "", "stiffness after yield over that before"},
     OptionRow{Block::region, "<structure>_<group>_yield_circle", Kind::choice, "word", value("none"), any, "none|x+y|y+z|x+z", "translations that yield together: a bearing's shear"},

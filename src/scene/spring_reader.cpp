@@ -1,6 +1,7 @@
 #include "scene/spring_reader.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/option_table.h"
 #include "scene/spread_words.h"
@@ -16,6 +17,8 @@ constexpr std::string_view yield_circle = "<structure>_<group>_yield_circle";
 constexpr std::string_view sliding_friction = "<structure>_<group>_sliding_friction";
 constexpr std::string_view radius = "<structure>_<group>_pendulum_radius";
 constexpr std::string_view exponent = "<structure>_<group>_dashpot_exponent";
+constexpr std::string_view dashpot_stiffness = "<structure>_<group>_dashpot_stiffness";
+constexpr std::string_view series_stiffness = "<structure>_<group>_series_stiffness";
 constexpr std::string_view slack = "<structure>_<group>_slack";
 
 std::array<int, 3> circle_of(const std::string& word) {
@@ -104,7 +107,7 @@ void read_spread(OptionReader& options, const Names& names, Region& region) {
   for (const std::string_view other :
        {std::string_view("<structure>_<group>_stiffness"),
         std::string_view("<structure>_<group>_dashpot"), yield_force, hardening, yield_circle,
-        sliding_friction, radius, exponent}) {
+        sliding_friction, radius, exponent, dashpot_stiffness, series_stiffness}) {
     options.forbid(other, names, "not beside -" + option_name(stiffness, names));
   }
   std::ranges::copy(options.reals(stiffness, names, 3), region.stiffness.begin());
@@ -114,6 +117,46 @@ void read_spread(OptionReader& options, const Names& names, Region& region) {
   if (std::ranges::all_of(region.stiffness, is_zero) &&
       std::ranges::all_of(region.dashpot, is_zero)) {
     options.refuse(stiffness, names, "all zero, and no dashpots; leave the group out");
+  }
+}
+
+std::string axis_of(std::size_t component) {
+  return std::string(component < 3 ? "along " : "about ") + "xyz"[component % 3];
+}
+
+/// K1 in series with a spring K2 beside a dashpot c that is itself in series with K3, as the spring
+/// and the one dashpot in series with a spring A that pull alike: they are at rest with K1 K2 / (K1
+/// + K2), and moved at once with the series of K1 and K2 + K3. The dashpot's rate is K1 / (K1 + K2)
+/// of the one of the whole, its force (K1 + K2) / K1 times that.
+void put_in_series(double outer, double inner, double power, double& stiffness, double& dashpot,
+                   double& branch) {
+  branch = inner;
+  if (!(outer > 0)) return;
+  const double part = outer / (outer + stiffness);
+  branch = inner > 0 ? part * outer * inner / (outer + stiffness + inner) : part * outer;
+  dashpot *= std::pow(part, 1 + power);
+  stiffness *= part;
+}
+
+/// Springs in series with dashpots, and with springs beside them.
+void read_series(OptionReader& options, const Names& names, Region& region) {
+  const std::array<double, 6> inner = read_six(options, dashpot_stiffness, names);
+  const std::array<double, 6> outer = read_six(options, series_stiffness, names);
+  NonlinearSpring& spring = region.nonlinear;
+  for (std::size_t c = 0; c < inner.size(); ++c) {
+    if (inner[c] == 0 && outer[c] == 0) continue;
+    const std::string_view option = inner[c] > 0 ? dashpot_stiffness : series_stiffness;
+    if (!(region.dashpot[c] > 0)) {
+      options.refuse(option, names,
+                     "there is no dashpot " + axis_of(c) + " for it to be in series with");
+    }
+    if (outer[c] > 0 && spring.yields(c)) {
+      options.refuse(series_stiffness, names,
+                     "not in series with a spring that yields " + axis_of(c) +
+                         "; give that one a group of its own");
+    }
+    put_in_series(outer[c], inner[c], spring.dashpot_exponent, region.stiffness[c],
+                  region.dashpot[c], spring.dashpot_stiffness[c]);
   }
 }
 
@@ -134,10 +177,10 @@ void read_nonlinear_spring(OptionReader& options, const Names& names, Region& re
   for (std::size_t c = 0; c < region.stiffness.size(); ++c) {
     if (spring.yields(c) && !(region.stiffness[c] > 0)) {
       options.refuse(spring.friction > 0 ? sliding_friction : yield_force, names,
-                     std::string("its stiffness ") + (c < 3 ? "along " : "about ") + "xyz"[c % 3] +
-                         " is 0; give the one before it yields");
+                     "its stiffness " + axis_of(c) + " is 0; give the one before it yields");
     }
   }
+  read_series(options, names, region);
 }
 
 }  // namespace
@@ -167,6 +210,12 @@ void read_spring(OptionReader& options, const Names& names, Region& region) {
                    "beside -" + option_name("<structure>_<group>_compression_only", names) +
                        " the dashpot along z goes by the rate itself; leave one of the two out, or "
                        "give the dashpot to a group of its own");
+  }
+  if (region.compression_only && region.nonlinear.dashpot_stiffness[2] > 0) {
+    options.refuse(dashpot_stiffness, names,
+                   "not along z beside -" +
+                       option_name("<structure>_<group>_compression_only", names) +
+                       "; give the dashpot to a group of its own");
   }
   bool rotations = false;
   for (std::size_t c = 3; c < 6; ++c) {

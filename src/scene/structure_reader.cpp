@@ -30,7 +30,8 @@ using Names = OptionReader::Names;
 /// Options that belong to some elements only: refused beside the others.
 void forbid_others(const OptionReader& options, const std::string& element, const Names& names) {
   constexpr std::string_view properties =
-      "area dashpot dashpot_exponent divide drilling_factor hardening mass mass_per_area "
+      "area dashpot dashpot_exponent dashpot_stiffness series_stiffness divide drilling_factor "
+      "hardening mass mass_per_area "
       "mass_per_length "
       "material "
       "rotary_inertia rotary_inertia_factor section compression_only slack sliding_friction "

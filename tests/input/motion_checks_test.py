@@ -79,6 +79,17 @@ class Motion(unittest.TestCase):
         self.refuse(quiet, "scaled peak", options=["-motion_x_unit", "m/s2", "-motion_x_scale", 1e9])
         self.refuse(quiet, "scaled peak", options=["-motion_x_unit", "m/s2", "-motion_x_pga", 1e12])
 
+    def test_a_ground_that_jumps(self):
+        """A step of .1 m within two samples of 1 ms; with the wrong sign it flies off at 200 m/s."""
+        for sign in (-1, 1):
+            values = [0, 1e5, sign * 1e5, *[0] * 20]
+            text = "".join(f"{i / 1000:g} {value:g}\n" for i, value in enumerate(values))
+            if sign > 0:
+                self.refuse(text, "10000 g", options=["-motion_x_unit", "m/s2"])
+                continue
+            _, summary = program.must_run(self, scene("-motion_x_record", self.record(text), "-motion_x_unit", "m/s2"))
+            self.assertAlmostEqual(summary["motion"]["x"]["file_peak"], 1e5, delta=1e-6)
+
     def test_says_what_it_understood_in_dry_runs_and_runs(self):
         path = self.record("A RECORD IN UNITS OF (G)\nNPTS= 5, DT= .01 SEC\n .1 -.2\n .1 .05\n 0.\n")
         words = scene("-motion_x_record", path, "-motion_x_pga", 2.0, "-motion_z_target",

@@ -9,6 +9,7 @@
 #include "interactions/laws/gauge_law.h"
 #include "interactions/laws/pendulum_law.h"
 #include "interactions/laws/relieving_law.h"
+#include "interactions/laws/series_law.h"
 #include "interactions/laws/soil_law.h"
 #include "interactions/laws/tension_law.h"
 #include "interactions/laws/yield_law.h"
@@ -33,6 +34,8 @@ std::unique_ptr<LinkLaw> dashpot_of(const LinkOrigin& origin, double time_step) 
   const Region& region = *origin.region;
   const double strength = origin.share * region.dashpot[origin.component];
   const double exponent = region.nonlinear.dashpot_exponent;
+  const double series = origin.share * region.nonlinear.dashpot_stiffness[origin.component];
+  if (series > 0) return std::make_unique<SeriesLaw>(series, strength, exponent, time_step);
   if (exponent != 1) return std::make_unique<DamperLaw>(strength, exponent, time_step);
   return std::make_unique<DashpotLaw>(strength / (2 * time_step));
 }

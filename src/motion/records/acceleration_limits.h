@@ -11,4 +11,7 @@ inline constexpr double largest_peak = 20 * standard_gravity;
 /// Beyond any study of a scheme's limits and any system of units [m/s2], ten thousand g.
 inline constexpr double impossible_peak = 1e4 * standard_gravity;
 
+/// Displacement [m] of a ground up to which it may jump whatever the acceleration.
+inline constexpr double possible_jump = 1;
+
 }  // namespace pounding
