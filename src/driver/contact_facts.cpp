@@ -5,6 +5,25 @@
 
 namespace pounding {
 
+namespace {
+
+/// A stop between nodes, in place of what is said of faces.
+Facts with_stop(const Stop& stop, const interactions::InterfaceReport& report, Facts facts) {
+  facts.values["stop"] = {{"stiffness", stop.stiffness > 0 ? Json(stop.stiffness) : Json()},
+                          {"dashpot", stop.dashpot}};
+  facts.say(
+      "\nstop {}: {pairs} rows between nodes along {normal:.3g}, gap {:.4g [mm]} to {:.4g mm}",
+      {report.contact, report.smallest_gap, report.largest_gap});
+  if (stop.stiffness > 0) {
+    facts.say(", {stop/stiffness:.4g} N/m and {stop/dashpot:.4g} N s/m beyond it\n");
+  } else {
+    facts.say(", hard\n");
+  }
+  return facts;
+}
+
+}  // namespace
+
 Facts contact_facts(const Scene& scene, const Model& model, std::size_t c) {
   const Contact& contact = scene.contacts[c];
   const interactions::InterfaceReport& report = model.interface.reports[c];
@@ -26,6 +45,7 @@ Facts contact_facts(const Scene& scene, const Model& model, std::size_t c) {
   if (contact.filler) {
     facts.values["filler"] = {{"area", report.filler_area}, {"thickness", report.filler_thickness}};
   }
+  if (contact.stop) return with_stop(*contact.stop, report, std::move(facts));
   facts.say(
       "\ncontact {}: {pairs} pairs ({matched} node to node), {unmatched_nodes} secondary nodes "
       "face nothing, initial gap {:.4g [mm]} to {:.4g mm}, normal {normal:.3g}\n",
@@ -82,8 +102,15 @@ Facts joint_facts(const Scene& scene, const Model& model, const RunStatistics& r
       slides += told(", on a facet of {slide_facet_size:.4g mm}", of);
     }
     slides += '\n';
-    if (!contact.filler) continue;
+    if (!contact.filler && !contact.is_elastic()) continue;
     const interactions::FillerTotals& filler = run.fillers[c];
+    if (contact.is_elastic()) {
+      of["stop"].update({{"peak_force", filler.peak_force}, {"energy_lost", filler.loss}});
+      facts.text +=
+          told("  {:-12s} stop pressed by at most {peak_force:.4g kN}, took {energy_lost:.4g} J\n",
+               of["stop"], {contact.name});
+      continue;
+    }
     of["filler"].update({{"peak_pressure", filler.peak_pressure},
                          {"peak_force", filler.peak_force},
                          {"crushed_strain", filler.crushed_strain},

@@ -47,8 +47,8 @@ class ContactHistory final : public Observer {
 }  // namespace
 
 void ContactHistory::follow(const CdLagrange& /*stepper*/) {
-  if (!run_.solver.touching()) return;
-  const std::span<const double> impulses = run_.solver.contact()->impulses();
+  if (!run_.solver.rows_act()) return;
+  const std::span<const double> impulses = run_.solver.row_actions().impulses;
   for (std::size_t row = 0; row < impulses.size(); ++row) {
     impulses_[contact_of(row)] += impulses[row];
   }

@@ -35,6 +35,18 @@ bool is_stable(const Model& model, const std::vector<double>& eta, double time_s
   return sum <= 1;
 }
 
+/// Whether a row is the one before it the other way round, of a stop that stops both ways: only one
+/// of the two presses at a time.
+bool acts_back(const std::vector<interactions::Constraint>& rows, std::size_t row) {
+  if (row == 0 || !rows[row].filler.is_spring() || rows[row - 1].contact != rows[row].contact) {
+    return false;
+  }
+  return std::ranges::equal(rows[row].terms, rows[row - 1].terms, [](const auto& a, const auto& b) {
+    return a.structure == b.structure && a.node == b.node && a.component == b.component &&
+           a.coefficient == -b.coefficient;
+  });
+}
+
 }  // namespace
 
 double filler_limit(MPI_Comm comm, const Scene& scene, const Model& model,
@@ -44,8 +56,14 @@ double filler_limit(MPI_Comm comm, const Scene& scene, const Model& model,
   const interactions::FillerPairs pairs(comm, model.interface, model.systems, meshes);
   std::vector<double> stiffness;
   for (const interactions::FillerPairs::Pair& row : pairs.all()) {
-    stiffness.push_back(
-        scene.contacts[row.contact].filler->stiffness(row.part.thickness, row.part.area));
+    const Contact& contact = scene.contacts[row.contact];
+    if (acts_back(model.interface.constraints, row.row)) {
+      stiffness.push_back(0);
+    } else if (contact.is_elastic()) {
+      stiffness.push_back(contact.stop->stiffness);
+    } else {
+      stiffness.push_back(contact.filler->stiffness(row.part.thickness, row.part.area));
+    }
   }
   std::vector<double> eta;
   double together = 0;

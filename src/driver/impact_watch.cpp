@@ -23,7 +23,8 @@ ImpactCatalogue make_catalogue(const Scene& scene, const Model& model) {
 
 void ImpactWatch::add_contact(const CdLagrange& stepper) {
   const interactions::ContactProblem& contact = *run_.solver.contact();
-  ContactStep step{contact.gaps(), contact.impulses(), contact.works(), {}, {}, {}};
+  const auto [impulses, works] = run_.solver.row_actions();
+  ContactStep step{contact.gaps(), impulses, works, {}, {}, {}};
   if (contact.friction().has_any()) {
     step.tangential_impulses = contact.friction().tangential_impulses();
     step.slip_rates = contact.friction().slip_rates();

@@ -14,7 +14,7 @@ class ImpactWatch final : public Observer {
 
   bool follows() const override { return run_.is_contact_root(); }
   void follow(const CdLagrange& stepper) override {
-    if (run_.solver.touching()) add_contact(stepper);
+    if (run_.solver.rows_act()) add_contact(stepper);
   }
   void finish(bool /*complete*/) override { catalogue_.finish(run_.comm, root_); }
   void save(SavedState& saved) override {

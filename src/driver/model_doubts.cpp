@@ -198,7 +198,7 @@ std::vector<std::string> place_doubts(const Scene& scene, std::span<const Global
   std::vector<std::string> doubts;
   for (std::size_t s = 0; s < meshes.size(); ++s) doubt_mat(scene.structures[s], meshes[s], doubts);
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
-    if (scene.contacts[c].primary.is_wall()) continue;
+    if (scene.contacts[c].primary.is_wall() || scene.contacts[c].stop) continue;
     JointDoubts(scene, meshes, scene.contacts[c], interface.reports[c], interface.model_size)
         .doubt(doubts);
   }

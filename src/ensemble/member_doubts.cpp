@@ -97,6 +97,28 @@ double check_motion(const MemberScene& member, std::vector<std::string>& doubts)
   return interval;
 }
 
+namespace {
+
+/// The rows of a stop are those of all members: none stops more ways than another.
+void require_same_ways(const Scene& scene, const interactions::Interface& interface,
+                       std::span<const interactions::GapShare> shares) {
+  for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
+    const Contact& contact = scene.contacts[c];
+    if (!contact.stop) continue;
+    bool both = false;
+    for (std::size_t row = 0; row < shares.size(); ++row) {
+      both =
+          both || (interface.constraints[row].contact == static_cast<int>(c) && shares[row][0] > 0);
+    }
+    if ((contact.gap.values.size() > 1) == both) continue;
+    throw UserError("option -" + contact.name + "_gap: the stop has " +
+                    (both ? "two numbers" : "one number") +
+                    " in the scene, and so it has in every member; give as many here");
+  }
+}
+
+}  // namespace
+
 void check_member_gaps(std::span<const MemberScene> members,
                        const interactions::Interface& interface,
                        std::span<const interactions::GapShare> shares, MemberDoubts& doubts) {
@@ -121,6 +143,7 @@ void check_member_gaps(std::span<const MemberScene> members,
         report.largest_gap = std::max(report.largest_gap, gap);
         report.overlapping += gap < 0 ? 1 : 0;
       }
+      require_same_ways(scene, interface, shares);
       if (scene.preload) rows_open_at_rest(scene, own);
       for (std::size_t c = 0; c < reports.size(); ++c) {
         doubts.add(m,

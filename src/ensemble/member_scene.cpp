@@ -134,7 +134,7 @@ void set_gap(const Scene& scene, const interactions::GapShare& share,
              interactions::Constraint& row) {
   const Contact& contact = scene.contacts[row.contact];
   row.initial_gap = member_gap(scene, row, share);
-  if (contact.filler) interactions::fill_joint(contact, row);
+  if (contact.filler || contact.is_elastic()) interactions::fill_joint(contact, row);
 }
 
 Model member_model(const MemberScene& member, const EnsembleModel& shared) {

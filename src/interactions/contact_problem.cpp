@@ -166,8 +166,9 @@ void ContactProblem::gather_displacements() {
 bool ContactProblem::detect_contact() {
   bool any = false;
   for (std::size_t r = 0; r < gap_.size(); ++r) {
-    // A row without mass on either side has nothing to move.
-    active_[r] = gap_[r] <= gap_tolerance_ && diagonal_[r] > 0 ? 1 : 0;
+    // A row without mass on either side has nothing to move, and a spring gives way.
+    const bool may_act = diagonal_[r] > 0 && !constraints_[r].filler.is_spring();
+    active_[r] = gap_[r] <= gap_tolerance_ && may_act ? 1 : 0;
     any = any || active_[r] != 0;
   }
   return any;

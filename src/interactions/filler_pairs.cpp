@@ -23,8 +23,25 @@ std::vector<Constraint> filled(const Interface& interface) {
 
 std::vector<FillerPairs::Pair> pairs_of(const Interface& interface) {
   std::vector<FillerPairs::Pair> pairs;
-  for (const Constraint& c : filled(interface)) pairs.push_back({c.contact, c.filler});
+  for (std::size_t r = 0; r < interface.constraints.size(); ++r) {
+    const Constraint& c = interface.constraints[r];
+    if (c.filler.area > 0) pairs.push_back({c.contact, r, c.filler});
+  }
   return pairs;
+}
+
+/// Terms of all rows where stops give way: whoever knows a contact knows their forces then, which
+/// its histories and its catalogue hold.
+std::vector<ConstraintTerm> terms_beside(const Interface& interface) {
+  std::vector<ConstraintTerm> terms;
+  if (std::ranges::none_of(interface.constraints,
+                           [](const Constraint& c) { return c.filler.is_spring(); })) {
+    return terms;
+  }
+  for (const Constraint& c : interface.constraints) {
+    terms.insert(terms.end(), c.terms.begin(), c.terms.end());
+  }
+  return terms;
 }
 
 }  // namespace
@@ -32,7 +49,7 @@ std::vector<FillerPairs::Pair> pairs_of(const Interface& interface) {
 FillerPairs::FillerPairs(MPI_Comm comm, const Interface& interface,
                          std::span<const LinearSystem> systems, std::span<const Mesh> meshes)
     : pairs_(pairs_of(interface)),
-      rows_(comm, filled(interface), systems, meshes),
+      rows_(comm, filled(interface), systems, meshes, terms_beside(interface)),
       values_(fields * rows_.dofs(), 0.0),
       dof_impulse_(rows_.dofs(), 0.0) {
   find_couplings(systems.size());

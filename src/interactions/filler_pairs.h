@@ -24,8 +24,9 @@ class FillerPairs {
               std::span<const Mesh> meshes);
 
   struct Pair {
-    int contact = 0;  ///< index into the scene's contacts
-    FillerPart part;  ///< its clearance that of the state at rest, where the run starts from it
+    int contact = 0;      ///< index into the scene's contacts
+    std::size_t row = 0;  ///< among the constraints of the interface
+    FillerPart part;      ///< its clearance that of the state at rest, where the run starts from it
   };
   const std::vector<Pair>& all() const { return pairs_; }
   const InterfaceRows& rows() const { return rows_; }

@@ -11,11 +11,18 @@ constexpr std::size_t saved_values = 4;
 constexpr std::size_t saved_totals = 4;
 
 std::vector<std::unique_ptr<LinkLaw>> filler_laws(const FillerPairs& pairs,
-                                                  std::span<const Contact> contacts) {
+                                                  std::span<const Contact> contacts,
+                                                  double time_step) {
   std::vector<std::unique_ptr<LinkLaw>> laws;
-  for (const auto& [contact, part] : pairs.all()) {
-    laws.push_back(
-        std::make_unique<FillerLaw>(*contacts[contact].filler, part.thickness, part.area));
+  for (const FillerPairs::Pair& pair : pairs.all()) {
+    const Contact& contact = contacts[pair.contact];
+    if (contact.is_elastic()) {
+      laws.push_back(std::make_unique<TensionLaw>(contact.stop->stiffness,
+                                                  contact.stop->dashpot / (2 * time_step)));
+    } else {
+      laws.push_back(
+          std::make_unique<FillerLaw>(*contact.filler, pair.part.thickness, pair.part.area));
+    }
   }
   return laws;
 }
@@ -28,14 +35,14 @@ FillerRows::FillerRows(MPI_Comm comm, const Interface& interface, std::span<cons
     : pairs_(comm, interface, systems, meshes),
       counts_(pairs_.rows().root() == rank_of(comm)),
       time_step_(time_step),
-      laws_(filler_laws(pairs_, contacts)),
+      laws_(filler_laws(pairs_, contacts, time_step)),
       memory_(laws_),
       solver_(laws_, pairs_.couplings(), {}, time_step),
       compression_(laws_.size()),
       totals_(contacts.size()),
       contact_force_(contacts.size(), 0.0) {
   for (auto* values :
-       {&rate_, &rate_before_, &force_, &force_before_, &held_, &driven_, &impulse_}) {
+       {&rate_, &rate_before_, &force_, &force_before_, &held_, &row_loss_, &driven_, &impulse_}) {
     values->assign(laws_.size(), 0.0);
   }
   for (std::size_t s = 0; s < systems.size(); ++s) {
@@ -79,6 +86,7 @@ void FillerRows::close_step_before() {
       const double taken = force_before_[r] * time_step_ * (rate_[r] + rate_before_[r]) / 2;
       const double loss = taken - (held - held_[r]);
       loss_ += loss;
+      row_loss_[r] = loss;
       totals_[pairs_.all()[r].contact].loss += loss;
     }
     held_[r] = held;
@@ -95,6 +103,7 @@ void FillerRows::push(const Step& step) {
   auto& [before, now, free_after] = compression_;
   std::fill(force_.begin(), force_.end(), 0.0);
   support_input_ = 0;
+  duration_ = step.share() * time_step_;
   if (solver_.is_idle(now, memory_)) return;
   for (std::size_t s = 0; s < step.structures.size(); ++s) {
     pairs_.set_velocity(s, step.structures[s]->velocity().data(), step.supports.velocity);
@@ -105,7 +114,7 @@ void FillerRows::push(const Step& step) {
   }
   solver_.solve(step.share(), compression_, driven_, memory_, force_);
   for (std::size_t r = 0; r < laws_.size(); ++r) {
-    impulse_[r] = step.share() * time_step_ * force_[r];
+    impulse_[r] = duration_ * force_[r];
   }
   pairs_.set_impulses(impulse_);
   for (std::size_t s = 0; s < step.structures.size(); ++s) {
@@ -121,9 +130,10 @@ void FillerRows::push(const Step& step) {
 void FillerRows::note_peaks() {
   std::fill(contact_force_.begin(), contact_force_.end(), 0.0);
   for (std::size_t r = 0; r < laws_.size(); ++r) {
-    const auto& [contact, part] = pairs_.all()[r];
+    const auto& [contact, row, part] = pairs_.all()[r];
     FillerTotals& totals = totals_[contact];
     contact_force_[contact] += force_[r];
+    if (part.is_spring()) continue;
     totals.peak_pressure = std::max(totals.peak_pressure, force_[r] / part.area);
     totals.crushed_strain = std::max(totals.crushed_strain, memory_[r][1] / part.thickness);
   }
@@ -141,10 +151,26 @@ void FillerRows::finish(const Step& step) {
   }
   for (std::size_t k = 0; k < records_.links().size(); ++k) {
     const std::size_t r = records_.links()[k];
-    records_.note(k, compression_.now[r], force_[r], memory_[r][0] > 0);
+    records_.note(k, compression_.now[r], force_[r], laws_[r]->has_yielded(memory_[r]));
   }
   if (counts_) ledger.link_loss_before += loss_;
   ledger.support_input += support_input_;
+}
+
+bool FillerRows::stops_act() const {
+  for (std::size_t r = 0; r < laws_.size(); ++r) {
+    if (pairs_.all()[r].part.is_spring() && (force_[r] > 0 || row_loss_[r] != 0)) return true;
+  }
+  return false;
+}
+
+void FillerRows::add_stops(std::span<double> impulses, std::span<double> works) const {
+  for (std::size_t r = 0; r < laws_.size(); ++r) {
+    const FillerPairs::Pair& pair = pairs_.all()[r];
+    if (!pair.part.is_spring()) continue;
+    impulses[pair.row] += duration_ * force_[r];
+    works[pair.row] -= row_loss_[r];
+  }
 }
 
 std::vector<std::string> FillerRows::record_names() const {
@@ -159,7 +185,8 @@ void FillerRows::save(SavedState& saved) const {
   if (!counts_) return;
   std::vector<double> values;
   for (std::size_t r = 0; r < laws_.size(); ++r) {
-    values.insert(values.end(), {memory_[r][0], force_[r], rate_[r], held_[r]});
+    const double crushed = memory_[r].empty() ? 0 : memory_[r][0];
+    values.insert(values.end(), {crushed, force_[r], rate_[r], held_[r]});
   }
   saved.put("fillers", values, saved_values);
   values.clear();
@@ -176,7 +203,7 @@ void FillerRows::load(const SavedState& saved) {
   saved.get("fillers", values);
   for (std::size_t r = 0; r < laws_.size(); ++r) {
     const double* const v = &values[saved_values * r];
-    memory_[r][0] = memory_[r][1] = v[0];
+    std::ranges::fill(memory_[r], v[0]);
     force_[r] = v[1];
     rate_[r] = v[2];
     held_[r] = v[3];

@@ -40,6 +40,11 @@ class FillerRows final : public Interaction {
   void save(SavedState& saved) const override;
   void load(const SavedState& saved) override;
 
+  /// Some stop presses in the step just made, or lost energy in the one before; members only.
+  bool stops_act() const;
+  /// Adds, per row of the interface, the impulses of stops in the step just made [N s], and takes
+  /// off what they lost in the one before from the works [J]. Members only.
+  void add_stops(std::span<double> impulses, std::span<double> works) const;
   /// Per contact of the scene; members only.
   const std::vector<FillerTotals>& totals() const { return totals_; }
   const FillerPairs& pairs() const { return pairs_; }
@@ -65,11 +70,13 @@ class FillerRows final : public Interaction {
   std::vector<double> force_;         ///< N_n
   std::vector<double> force_before_;  ///< N_{n-1}
   std::vector<double> held_;          ///< W_{n-1/2}
+  std::vector<double> row_loss_;      ///< of the step before [J]
   std::vector<double> driven_;        ///< no wave drives a filler: zeros
   std::vector<double> impulse_;
   double support_input_ = 0;                   ///< work of supports against the fillers [J]
   double loss_ = 0;                            ///< of the step before
   bool made_ = false;                          ///< a step was
+  double duration_ = 0;                        ///< of the forces in the step just made [s]
   std::vector<Before> before_step_;            ///< per structure
   std::vector<std::vector<double>> velocity_;  ///< per structure, of the trace's dofs
   std::vector<FillerTotals> totals_;

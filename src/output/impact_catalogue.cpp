@@ -128,6 +128,9 @@ void ImpactCatalogue::add_step(double time, double duration, const ContactStep& 
   }
   for (std::size_t row = 0; row < impulses.size(); ++row) {
     Impact& impact = open_[contact_of_row_[row]];
+    if (!(impulses[row] > 0) && is_open_[contact_of_row_[row]] != 0) {
+      impact.energy_lost -= step.works[row];  // of a spring that has just let go
+    }
     if (impulses[row] > 0) {
       impact.points += touched_[row] != 0 ? 0 : 1;
       touched_[row] = 1;

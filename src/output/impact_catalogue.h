@@ -39,9 +39,9 @@ struct Impact {
 
 /// Contact of one step, per row; the last three are empty without friction.
 struct ContactStep {
-  std::span<const double> gaps;                  ///< [m]
-  std::span<const double> impulses;              ///< [N s]
-  std::span<const double> works;                 ///< contact work [J]
+  std::span<const double> gaps;      ///< [m]
+  std::span<const double> impulses;  ///< [N s]
+  std::span<const double> works;     ///< contact work [J], of springs in the step before
   std::span<const Vector3> tangential_impulses;  ///< [N s]
   std::span<const double> slip_rates;            ///< [m/s]
   std::span<const double> friction_losses;       ///< [J]

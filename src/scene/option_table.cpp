@@ -195,6 +195,9 @@ constexpr std::array option_rows{
     OptionRow{Block::contact, "<contact>_filler_unloading", Kind::real, "Pa", absent("required with filler"), positive, "", "filler: slope of pressure over strain on which it unloads and loads again, at least the steepest of the table"},
     OptionRow{Block::contact, "<contact>_filler_thickness", Kind::real, "m", absent("left out: the gap"), positive, "", "filler: its thickness; less than the gap: it begins to press where the rest of the gap is closed"},
     OptionRow{Block::contact, "<contact>_filler_area", Kind::real, "m2", absent("left out: that of the faces"), positive, "", "filler: its area, shared out to the pairs in proportion to their parts of the face; needed where faces are lines"},
+    OptionRow{Block::contact, "<contact>_along", Kind::text, "-", absent("left out: the sides are faces"), any, "a direction x,y,z, or line", "stop between nodes: its sides are nodes, groups of them or points structure:x,y,z, and this is the direction in which the primary lies beyond the secondary; line: that from one to the other. Two gaps stop both ways: until they have come together by the first, and parted by the second"},
+    OptionRow{Block::contact, "<contact>_stiffness", Kind::real, "N/m", absent("left out: it is hard"), positive, "", "stop: spring beyond its gap, between each two nodes"},
+    OptionRow{Block::contact, "<contact>_dashpot", Kind::real, "N s/m", value("0"), not_negative, "", "stop with a stiffness: dashpot beside it, while both press"},
 
     OptionRow{Block::motion, "motion_<x|y|z>_record", Kind::text, "file", value("none"), any, "a file or none", "recorded accelerogram; none: no motion; wins over a target"},
     OptionRow{Block::motion, "motion_<x|y|z>_unit", Kind::choice, "word", value("auto"), any, "auto|g|m/s2|cm/s2|mm/s2", "unit of the record; auto: from the header of the file"},

@@ -201,7 +201,8 @@ struct Structure {
 };
 
 /// One side of a contact: a physical group (surface or shell edge) of a structure, or a rigid wall
-/// that follows the ground (structure "wall", primary side only).
+/// that follows the ground (structure "wall", primary side only). Of a stop the nodes of a group,
+/// or the one nearest to a point "x,y,z".
 struct ContactSide {
   std::string structure;
   std::string group;
@@ -216,6 +217,14 @@ struct InitialGap {
   std::vector<double> values;  ///< empty: from geometry; else 1, 2 or 4 values [m]
 };
 
+/// Makes a contact a stop between nodes of its sides.
+struct Stop {
+  /// Unit vector along which the primary lies beyond the secondary; nothing: the line between them.
+  std::optional<Vector3> along;
+  double stiffness = 0;  ///< beyond the gap, of each pair of nodes [N/m]; 0: it is hard
+  double dashpot = 0;    ///< beside that, while it presses [N s/m]
+};
+
 struct Contact {
   std::string name;
   ContactSide secondary;
@@ -228,6 +237,10 @@ struct Contact {
   double sliding = 0;            ///< how far the faces may slide along each other, pairs being
                                  ///< found anew; 0: pairs stay those of the start [m]
   std::optional<Filler> filler;  ///< between the faces until they meet
+  std::optional<Stop> stop;      ///< its sides are nodes, not faces: one gap, or one each way
+
+  /// A stop that gives way: its rows are springs, and none of hard contact.
+  bool is_elastic() const { return stop && stop->stiffness > 0; }
 };
 
 /// A recorded accelerogram in a file.

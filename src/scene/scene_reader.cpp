@@ -21,6 +21,7 @@
 #include "scene/option_values.h"
 #include "scene/resolved_options.h"
 #include "scene/standard_parts.h"
+#include "scene/stop_reader.h"
 #include "scene/structure_reader.h"
 #include "scene/structures_key.h"
 #include "scene/support_reader.h"
@@ -283,21 +284,23 @@ class SceneReader {
       options_.refuse("<contact>_gap_at", {contact.name},
                       "at rest the joint is open or just closed; give a gap of 0 or more");
     }
-    if (state == "unloaded" && contact.filler && scene_.preload) {
+    const bool laid_in = contact.filler || contact.is_elastic();
+    if (state == "unloaded" && laid_in && scene_.preload) {
       options_.refuse("<contact>_gap_at", {contact.name},
-                      "the filler is laid into the joint as it is at rest; leave it out");
+                      std::string(contact.filler ? "the filler" : "a stop that gives way") +
+                          " is laid into the joint as it is at rest; leave it out");
     }
     const bool open =
         !values.empty() && std::ranges::all_of(values, above_zero) && !contact.primary.is_wall();
     const bool open_in_part =
         !open && std::ranges::any_of(values, above_zero) && !contact.primary.is_wall();
-    if (state == "auto" && scene_.preload && open_in_part && !contact.filler) {
+    if (state == "auto" && scene_.preload && open_in_part && !laid_in) {
       options_.refuse("<contact>_gap", {contact.name},
                       "open in one part and not in another, under -preload static; say with -" +
                           option_name("<contact>_gap_at", {contact.name}) +
                           " rest or unloaded in which state the joint has these gaps");
     }
-    const bool assumed = state == "auto" && (open || contact.filler);
+    const bool assumed = state == "auto" && (open || laid_in);
     contact.gap_at_rest = scene_.preload && (state == "rest" || assumed);
     contact.gap_assumed_so = contact.gap_at_rest && assumed;
   }
@@ -325,7 +328,12 @@ class SceneReader {
         options_.refuse("<contact>_gap", {name}, "wrong count of numbers");
       }
     }
-    contact.filler = read_filler(options_, name);
+    contact.stop = read_stop(options_, name);
+    if (contact.stop) {
+      check_stop(options_, contact, !scene_.export_matrices.empty());
+    } else {
+      contact.filler = read_filler(options_, name);
+    }
     read_gap_state(contact);
     contact.sliding = options_.real("<contact>_sliding", {name});
     if (contact.sliding > 0 && contact.primary.is_wall()) {
@@ -385,7 +393,10 @@ class SceneReader {
       if (contact == scene_.contacts.end()) {
         options_.refuse("loops", {}, "'" + item + "' is neither structure:group nor a contact");
       }
-      if (!contact->filler) options_.refuse("loops", {}, "contact " + item + " has no filler");
+      if (!contact->filler && !contact->is_elastic()) {
+        options_.refuse("loops", {},
+                        "contact " + item + " has no filler, and is no stop with a stiffness");
+      }
       scene_.loops.push_back({item, "", "", item, points});
     }
   }

@@ -252,6 +252,15 @@ class Kinds(unittest.TestCase):
     def test_dashpots(self):
         self.check(*self.FEET, "-left_base_dashpot", "2e5,2e5,4e5,0,0,0")
 
+    def test_dashpots_in_series_with_springs_and_stops_between_nodes(self):
+        words = [*self.FEET, "-left_base_dashpot", "2e5,2e5,4e5,0,0,0", "-left_base_dashpot_stiffness", "4e7,4e7,0,0,0,0",
+                 "-floor1_along", "1,0,0", "-floor1_stiffness", "2e6", "-floor1_dashpot", "1e4", "-floor1_gap", ".01,.03",
+                 "-floor2_along", "line", "-floor2_gap", ".01"]
+        columns = "motion_x_seed,motion_x_pga,floor1_gap,floor2_gap"
+        self.check(*words, rows=["1,3.5,,0.01", "2,5,\"0.008,0.012\",0.009", "3,4,\"0.012,0.01\",0.02"], columns=columns)
+        program.must_refuse(self, [*SCENE, *MODAL, *words, "-ensemble", table(["1,3.5,0.01,0.01"], columns)],
+                            "line 2 (member 1)", "-floor1_gap", "two numbers")
+
     def test_feet_that_lift_off(self):
         self.check(*self.FEET, *self.RAYLEIGH, "-gravity", "2", "-preload", "static", "-left_base_compression_only",
                    "true")

@@ -20,12 +20,14 @@ class ContactCheck {
       : contact_(contact), report_(report), model_size_(model_size), warnings_(warnings) {}
 
   void check_gaps() {
+    if (contact_.stop) return;  // nodes have no surfaces, and may be parts of one structure
     check_overlap();
     if (!contact_.gap.values.empty()) check_given_gap();
   }
 
   void check() {
     check_gaps();
+    if (contact_.stop) return;
     if (contact_.primary.structure == contact_.secondary.structure) {
       warn() << "both sides belong to structure " << contact_.secondary.structure
              << "; that is right only for parts of one building that can hit each other";
@@ -110,6 +112,7 @@ bool same(const ContactSide& a, const ContactSide& b) {
 }
 
 bool join_the_same(const Contact& a, const Contact& b) {
+  if (a.stop || b.stop) return false;  // along other directions, perhaps
   return (same(a.secondary, b.secondary) && same(a.primary, b.primary)) ||
          (same(a.secondary, b.primary) && same(a.primary, b.secondary));
 }

@@ -42,6 +42,10 @@ std::vector<double> node_areas(const ContactFace& face) {
 }
 
 void fill_joint(const Contact& contact, Constraint& constraint) {
+  if (contact.is_elastic()) {
+    constraint.filler = {1, 0, constraint.initial_gap};
+    return;
+  }
   require_room(contact, constraint);
   const Filler& filler = *contact.filler;
   FillerPart& part = constraint.filler;

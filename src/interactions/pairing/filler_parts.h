@@ -21,8 +21,9 @@ std::vector<double> node_areas(const ContactFace& face);
 void lay_filler(const Contact& contact, bool lines, double common,
                 std::span<Constraint> constraints, InterfaceReport& report);
 
-/// Lays the filler into the joint at one pair, whose part of its area is known. Throws UserError
-/// where the joint is closed, or thinner than its filler.
+/// Lays the filler into the joint at one pair, whose part of its area is known, or the spring of a
+/// stop that gives way. Throws UserError where a filled joint is closed, or thinner than its
+/// filler.
 void fill_joint(const Contact& contact, Constraint& constraint);
 
 }  // namespace pounding::interactions

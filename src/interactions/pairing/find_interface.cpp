@@ -18,6 +18,7 @@
 #include "interactions/pairing/filler_parts.h"
 #include "interactions/pairing/pair_terms.h"
 #include "interactions/pairing/sliding_builder.h"
+#include "interactions/pairing/stop_rows.h"
 #include "mesh/bounding_box.h"
 
 namespace pounding::interactions {
@@ -343,7 +344,11 @@ Interface find_interface(const Scene& scene, std::span<const GlobalMesh> meshes,
   Interface interface;
   interface.model_size = bounding_box(meshes).longest_side();
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
-    PairFinder(scene, meshes, static_cast<int>(c), shares).find(interface);
+    if (scene.contacts[c].stop) {
+      add_stop_rows(scene, meshes, static_cast<int>(c), interface, shares);
+    } else {
+      PairFinder(scene, meshes, static_cast<int>(c), shares).find(interface);
+    }
   }
   check_contacts(scene, interface);
   return interface;

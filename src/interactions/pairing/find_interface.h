@@ -10,9 +10,6 @@
 
 namespace pounding::interactions {
 
-/// Place of a row on its secondary face, from 0 to 1 along the tangent axes.
-using GapShare = std::array<double, 2>;
-
 /// The gap [m] there of one number, two or four (see InitialGap).
 double given_gap(const std::vector<double>& values, const GapShare& share);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -26,11 +27,14 @@ struct ConstraintTerm {
   double coefficient = 0;
 };
 
-/// Filler of a joint at one pair of a contact.
+/// Filler of a joint at one pair of a contact, or the spring of a stop that gives way.
 struct FillerPart {
-  double area = 0;       ///< [m2]; 0: there is none
-  double thickness = 0;  ///< [m]
+  double area = 0;       ///< [m2], of a spring 1; 0: there is none
+  double thickness = 0;  ///< [m], of a spring 0
   double clearance = 0;  ///< by which the joint closes before it is pressed [m]
+
+  /// The row is no hard contact, however far it is pressed.
+  bool is_spring() const { return area > 0 && thickness == 0; }
 };
 
 /// One row of L with its initial gap.
@@ -46,6 +50,10 @@ struct Constraint {
   double friction = 0;            ///< Coulomb's coefficient [-]
   FillerPart filler;
 };
+
+/// Place of a row on its secondary face, from 0 to 1 along the tangent axes; of a row of a stop
+/// that acts the other way (1, 0), so that it has the second of two gaps.
+using GapShare = std::array<double, 2>;
 
 /// Initial gap of a row that faces nothing yet [m].
 constexpr double open_gap = 1e30;
