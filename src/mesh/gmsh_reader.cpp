@@ -390,6 +390,10 @@ class MeshBuilder {
     }
     mesh_.free_components = mesh_.components;
     for (const Clamp& clamp : structure_.clamps) {
+      // Matrices leave clamped nodes out, and elements may as well.
+      const auto found = mesh_.groups.find(clamp.group);
+      const bool unused = found != mesh_.groups.end() && found->second.nodes.empty();
+      if (unused && !structure_.matrices.empty()) continue;
       for (const GlobalIndex node : used_group(clamp.group, "_clamp").nodes) {
         mesh_.free_components[node] &= static_cast<std::uint8_t>(~clamp.components);
       }

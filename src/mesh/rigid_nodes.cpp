@@ -142,13 +142,15 @@ unsigned clamped_components(const GlobalMesh& mesh, GlobalIndex node) {
   return static_cast<unsigned>(mesh.components[node] & ~mesh.free_components[node]);
 }
 
-/// Components that are clamped at every node of a level: nothing follows in them, and no rotation
-/// couples them to the others.
+/// Components that are clamped at every node of a level, or of a floor that cannot turn about z, as
+/// that of a plane frame: nothing follows in them, and no rotation couples them to the others.
 unsigned left_out(const GlobalMesh& mesh, const RigidGroup& rigid, const Cluster& cluster) {
-  if (rigid.kind != RigidKind::level) return 0;
-  unsigned common = 0x07;
+  constexpr unsigned about_z = 0x20;
+  if (rigid.kind != RigidKind::level && rigid.kind != RigidKind::diaphragm) return 0;
+  unsigned common = rigid.components();
   for (const GlobalIndex node : cluster) common &= clamped_components(mesh, node);
-  return common;
+  const bool turns = rigid.kind == RigidKind::diaphragm && (common & about_z) == 0;
+  return turns ? 0 : common;
 }
 
 /// Whether one of the bodies found holds all of a cluster.
@@ -190,8 +192,10 @@ std::vector<RigidNodes> find_rigid_nodes(const Structure& structure, const Globa
     for (const Cluster& cluster : clusters) {
       if (is_held(mesh, cluster)) continue;  // clamped altogether: nothing follows anything
       if (rigid.implied && (cluster.size() == 1 || is_in_body(found, cluster))) continue;
-      found.push_back({rigid.name(), rigid.kind, rigid.components(), cluster, {}});
       const unsigned following = rigid.components() & ~left_out(mesh, rigid, cluster);
+      if (following == 0) continue;
+      found.push_back(
+          {rigid.name(), rigid.kind, static_cast<std::uint8_t>(following), cluster, {}});
       for (const GlobalIndex node : cluster) {
         const auto [other, is_new] = group_of.try_emplace(node, rigid.name());
         if (!is_new) {

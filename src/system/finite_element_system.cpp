@@ -178,16 +178,51 @@ class Assembly {
     const int part = mesh_.rigid_of.empty() ? -1 : mesh_.rigid_of[static_cast<std::size_t>(node)];
     std::ostringstream text;
     text << "structure " << structure_.name << ": the node at (" << x[0] << ", " << x[1] << ", "
-         << x[2] << ") has no mass in component " << component;
+         << x[2] << ") has no mass " << (component < 3 ? "along " : "against turning about ")
+         << "xyz"[component % 3];
     const RigidPart* const body = part < 0 ? nullptr : &mesh_.rigid[static_cast<std::size_t>(part)];
     if (body != nullptr && (body->components >> component & 1) != 0) {
       text << ", and nothing in " << body->group
            << ", with which it moves, resists that motion; give a point_mass with rotary_inertia";
     } else {
-      text << "; give its elements a density, or put a point_mass there"
-           << (component < 3 ? "" : " with rotary_inertia");
+      text << remedy(node, component);
     }
     throw UserError(text.str());
+  }
+
+  /// Groups of the structure with an element at a node of this rank.
+  std::vector<const Region*> regions_at(LocalIndex node) const {
+    std::vector<const Region*> found;
+    for (const ElementBlock& block : mesh_.blocks) {
+      const auto& nodes = block.connectivity;
+      if (std::ranges::find(nodes, node) == nodes.end()) continue;
+      found.push_back(&structure_.regions[block.region]);
+    }
+    return found;
+  }
+
+  /// Continues a sentence on a dof without mass: what holds it, and the option that helps.
+  std::string remedy(LocalIndex node, int component) const {
+    std::string holders;
+    std::string point;  // the group of a point mass there
+    for (const Region* region : regions_at(node)) {
+      const auto& traits = traits_of(region->element);
+      if (traits.family == ElementFamily::point_mass) {
+        point = region->group;
+      } else {
+        holders += (holders.empty() ? "" : ", ") + region->group;
+      }
+    }
+    const std::string option = "-" + structure_.name + "_";
+    const std::string only = ", and only " + holders + " hold" +
+                             (holders.find(',') == std::string::npos ? "s" : "") +
+                             " it there; a step condenses nothing: ";
+    if (!point.empty() && component >= 3) {
+      return only + "give " + option + point + "_rotary_inertia, or clamp the component";
+    }
+    return only + "put a point_mass there (" + option + "<group>_element, " + option +
+           "<group>_mass" + (component < 3 ? "" : ", " + option + "<group>_rotary_inertia") +
+           "), or clamp the component";
   }
 
   const Structure& structure_;

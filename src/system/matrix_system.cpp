@@ -13,6 +13,7 @@
 #include "common/error.h"
 #include "common/finite_file.h"
 #include "common/parallel.h"
+#include "common/place_text.h"
 #include "io/matrix_market.h"
 #include "system/critical_time_step.h"
 #include "system/square_matrix.h"
@@ -208,8 +209,11 @@ class MatrixSystem {
       system.total_mass += rows_[row].component == 0 ? mass : 0;
       if (owned_dof_[row] >= 0) system.lumped_mass[owned_dof_[row]] = mass;
       if (number_[row] >= 0 && !(mass > 0)) {
-        throw UserError(path + ": row " + std::to_string(row + 1) +
-                        " has no mass; the step needs one that is positive at every free dof");
+        throw UserError(path + ": row " + std::to_string(row + 1) + " (" +
+                        std::string(motion_names[rows_[row].component]) + " of the node at " +
+                        place_text(rows_[row].position) +
+                        ") has no mass, and a step condenses nothing: condense it out of the "
+                        "matrices (docs/matrices.md), or give it a mass");
       }
     }
   }

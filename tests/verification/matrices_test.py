@@ -109,6 +109,21 @@ class Matrices(unittest.TestCase):
         self.assertTrue(numpy.allclose((probes @ influence).toarray(),
                                        numpy.tile(numpy.eye(3), (2, 1))))
 
+    def test_a_clamped_group_that_no_element_uses(self):
+        """The matrices leave the clamped node out, and the mesh has no element there: nothing is to be clamped."""
+        masses = ["-structures", "chain", "-chain_mesh", "tests/meshes/chain.geo", "-chain_first_element", "point_mass",
+                  "-chain_first_mass", 5, "-chain_second_element", "point_mass", "-chain_second_mass", 5,
+                  "-chain_allow_loose", "true", "-end_time", 1e-3, "-modes", 6]
+        folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, folder)
+        _, whole = program.must_run(self, [*masses, "-chain_support_element", "grounded_spring", "-chain_support_stiffness",
+                                           "1e4,2e4,3e4", "-export_matrices", folder])
+        read = [*masses, "-chain_matrices", os.path.join(folder, "chain")]
+        _, same = program.must_run(self, [*read, "-chain_clamp", "ground"])
+        self.assertEqual(*([mode["frequency"] for mode in run["structures"]["chain"]["frequencies"]]
+                           for run in (whole, same)))
+        program.must_refuse(self, [*read, "-chain_clamp", "grund"], "-chain_clamp", "grund")
+
     def test_gaps_are_those_of_the_rows(self):
         """One for each row of L, as given: linear across the face between its two numbers."""
         place = self.export(1)

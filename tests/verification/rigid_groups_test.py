@@ -323,6 +323,27 @@ class Diaphragm(unittest.TestCase):
         self.assertLess(abs(found[0][:3] / found[1][:3] - 1).max(), 1e-3)
         self.assertGreater(found[0][3], 5 * found[1][3])
 
+    def test_floors_of_a_plane_frame(self):
+        """Clamped across its plane in all nodes: a floor has one motion there, along x."""
+        handle, path = tempfile.mkstemp(suffix=".geo")
+        with os.fdopen(handle, "w") as file:
+            file.write("Point(1) = {0, 0, 0}; Point(2) = {4, 0, 0}; Point(3) = {0, 0, 3}; Point(4) = {4, 0, 3};\n"
+                       "Line(1) = {1, 3}; Line(2) = {2, 4}; Line(3) = {3, 4}; Transfinite Curve {1, 2, 3} = 4;\n"
+                       'Physical Curve("column") = {1, 2}; Physical Curve("slab") = {3};\n'
+                       'Physical Curve("flat") = {1, 2, 3}; Physical Point("base") = {1, 2};\n')
+        self.addCleanup(os.remove, path)
+        frame = ["-structures", "t", "-t_mesh", path, "-t_clamp", "base,flat:y+rx+rz", *MATERIALS, "-section_tube_z_axis", "0,1,0"]
+        for group in ("column", "slab"):
+            frame += [f"-t_{group}_element", "euler_beam", f"-t_{group}_material", "steel", f"-t_{group}_section", "tube"]
+        squares = Dense(self, frame, [(IN_SLAB, ("x",))]).squared_frequencies()
+        for ranks in (1, 2):
+            run = Recorded(self, [*frame, "-t_diaphragm", "slab", "-end_time", 1e-4, "-modes", 6], ranks)
+            structure = run.summary["structures"]["t"]
+            found = numpy.array([mode["frequency"] for mode in structure["frequencies"]])
+            self.assertLess(abs(found * 2 * numpy.pi / numpy.sqrt(squares[:6]) - 1).max(), 1e-7)
+            self.assertEqual([body["motions"] for body in structure["rigid_groups"]], [1])
+        program.must_refuse(self, [*frame, "-t_clamp", "base,flat:y", "-t_diaphragm", "slab", "-end_time", 1e-4],
+                            "-t_diaphragm slab", "is clamped")
 
     def test_every_floor_is_one_of_its_own(self):
         """Feet and slab in one group: two levels 3 m apart, of four and of nine nodes."""
@@ -394,7 +415,8 @@ class MasslessEnd(unittest.TestCase):
         """Nothing resists that the arm turns about its mass."""
         program.must_refuse(self, self.scene("-t_rigid", "arm", "-end_time", 1e-3, rotary=""), "(1, 0.2, -0.3)",
                             "nothing in arm", "rotary_inertia")
-        program.must_refuse(self, self.scene("-end_time", 1e-3, "-t_allow_loose"), "(1, 0.2, -0.3)", "point_mass")
+        program.must_refuse(self, self.scene("-end_time", 1e-3, "-t_allow_loose"), "(1, 0.2, -0.3)", "no mass along x",
+                            "only spring holds it", "point_mass")
 
     def test_a_tied_end(self):
         """A spring on a node that a tie carries acts as one on the corner of the face where that node lies."""
