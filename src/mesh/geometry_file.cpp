@@ -16,6 +16,10 @@ namespace {
 /// Meshes that Gmsh reads by the ending of their names.
 constexpr auto meshes = std::to_array<std::string_view>({".msh", ".unv", ".mesh", ".bdf", ".nas"});
 
+/// Models of other programs that run/import makes scenes of, by the ending of their names.
+constexpr auto models = std::to_array<std::string_view>(
+    {".inp", ".med", ".rmed", ".mmed", ".cdb", ".dat", ".k", ".key", ".dyn"});
+
 /// Shapes that a geometry may merge, by the ending of their names.
 constexpr auto shapes =
     std::to_array<std::string_view>({".stl", ".brep", ".step", ".stp", ".iges", ".igs"});
@@ -82,10 +86,9 @@ void check_mesh_file(const std::string& option, const std::filesystem::path& fil
                     ": no such file; give the path of a Gmsh .geo or .msh file");
   }
   const std::string ending = file.extension().string();
-  if (ending == ".inp" || ending == ".med") {
+  if (contains(models, ending)) {
     throw UserError("option " + option + ": Gmsh does not read files with the ending '" + ending +
-                    "'; convert it to .msh with python3-meshio by the lines of docs/scene.md, "
-                    "\"Meshes of other programs\"");
+                    "'; run/import makes a scene and a .msh of it (docs/import.md)");
   }
   if (!is_geometry(file) && !contains(meshes, ending)) {
     throw UserError("option " + option + ": files with the ending '" + ending +

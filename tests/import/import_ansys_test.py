@@ -58,7 +58,7 @@ class Ansys(unittest.TestCase):
                 + "SECTYPE,       1,BEAM,RECT,COLUMN,0\nSECOFFSET,CENT\nSECDATA,   0.1000000    ,   0.2000000    ,0,0\n"
                 "SECTYPE,       2,BEAM,CTUBE,TUBE,0\nSECOFFSET,CENT\nSECDATA,.08,.1\n"
                 "D,FEET,ALL,0\nD,       4,UX  ,  0.000000000    ,  0.000000000\nD,       4,UZ  ,  0.000000000    ,  0.0\n"
-                "D,       8,UX  \nD,       8,UZ  \nCP,       1,UX  ,       5,       7\nCP,       2,UY  ,       5,       7\nCP,       3,UZ  ,       5,       7\n"
+                "D,       8,UX  \nD,       8,UZ  \nD,       8,ROTY\nCP,       1,UX  ,       5,       7\nCP,       2,UY  ,       5,       7\nCP,       3,UZ  ,       5,       7\n"
                 "F,       5,FX  ,  1000.0,  0.0\nACEL,0,0,9.81\n/GO\nFINISH\n")
         scene, said = imported.imported(self, "frame.cdb", deck)
         area, inertia = math.pi * (0.1**2 - 0.08**2), math.pi / 4 * (0.1**4 - 0.08**4)
@@ -78,7 +78,7 @@ class Ansys(unittest.TestCase):
             "ground_element": "grounded_spring", "ground_stiffness": "0,0,2e6", "ground_dashpot": "0,0,1e3",
             "machine_element": "point_mass", "machine_mass": 400, "machine_rotary_inertia": "10,20,30",
             "hung_element": "point_mass", "hung_mass": 90, "rod_element": "bar", "rod_material": "m", "rod_area": 2e-4,
-            "rod_mass_per_length": 1.5, "clamp": "foot,pad:y+z,end:x+z", "pin": "pin", "rigid": "arm",
+            "rod_mass_per_length": 1.5, "clamp": "foot,pad:y+z,end:x+z+ry", "pin": "pin", "rigid": "arm",
             "-material_m_young": 2.1e11, "-material_m_poisson": 0.3, "-material_m_density": 7850,
             "-material_rope_young": 1e11, "-material_rope_poisson": 0, "-material_rope_density": 1e-9,
             **section("c", 0.02, 0.1 * 0.2**3 / 12, 0.2 * 0.1**3 / 12, twist, "1,0,0", f"{0.02 * 5 / 6},{0.02 * 5 / 6}"),

@@ -189,9 +189,9 @@ class Groups(MeshCase):
                for e, (kind, group, entity, nodes) in enumerate(elements)), "$EndElements", ""]), ".msh")
 
     def test_formats_that_gmsh_does_not_read_say_how_to_convert(self):
-        for ending in (".inp", ".med"):
+        for ending in (".inp", ".med", ".cdb", ".k"):
             mesh = self.with_file("*NODE\n1, 0, 0, 0\n", ending)
-            self.refuse(self.cube(mesh, "body", "base"), "-t_mesh", f"'{ending}'", "python3-meshio", "docs/scene.md")
+            self.refuse(self.cube(mesh, "body", "base"), "-t_mesh", f"'{ending}'", "run/import", "docs/import.md")
 
     NAMES = ((3, 1, "tower"), (2, 2, "tower"), (2, 3, "base"))
     BRICK = (5, 1, 1, range(1, 9))

@@ -36,12 +36,11 @@ class MeshFile:
         self.cells: list = []  # (family, nodes, number or None, names)
         self.places: dict = {}  # (family, nodes) -> place of the first in `cells`
 
-    def add(self, family: str, nodes, name: str, number: int | None = None) -> int:
-        """A new cell of an element, in a group."""
+    def add(self, family: str, nodes, name: str | None, number: int | None = None) -> None:
+        """A new cell of an element, in a group or none."""
         nodes = tuple(nodes)
         self.places.setdefault((family, frozenset(nodes)), len(self.cells))
-        self.cells.append((family, nodes, number, {name}))
-        return len(self.cells) - 1
+        self.cells.append((family, nodes, number, {name} if name else set()))
 
     def mark(self, family: str, nodes, name: str) -> None:
         """Puts the cell on these nodes into a group, be it an element's or a place alone."""

@@ -39,7 +39,11 @@ class Scene:
         self._check()
         self.joints = Joints(model)
         self.turning = self._turning()
-        self._elements()
+        if model.has_properties:
+            self._elements()
+        else:  # cells and groups alone
+            for element in model.elements:
+                self.mesh.add(family_of(element.kind), element.nodes, None, element.number)
         self._masses()
         self._springs()
         self._sets()
@@ -300,7 +304,7 @@ class Scene:
 
 
 def family_of(kind: str) -> str:
-    return "solid" if kind in SOLIDS else "face" if kind == SHELL else "line"
+    return {SHELL: "face", "point": "point"}.get(kind, "solid" if kind in SOLIDS else "line")
 
 
 def positive(value: float, what: str, one, first) -> float:

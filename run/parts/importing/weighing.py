@@ -13,7 +13,7 @@ AS_BRICK = {8: range(8), 6: (0, 1, 2, 2, 3, 4, 5, 5)}
 GAUSS = [(x / math.sqrt(3), y / math.sqrt(3), z / math.sqrt(3)) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
 
 
-def _bricks(x: np.ndarray) -> tuple:
+def bricks(x: np.ndarray) -> tuple:
     """Volumes and first moments of bricks by the coordinates of their corners, shape (bricks, 8, 3)."""
     volume, moment = np.zeros(len(x)), np.zeros((len(x), 3))
     for place in GAUSS:
@@ -26,7 +26,7 @@ def _bricks(x: np.ndarray) -> tuple:
     return volume, moment
 
 
-def _tetrahedra(x: np.ndarray) -> tuple:
+def tetrahedra(x: np.ndarray) -> tuple:
     volume = np.linalg.det(x[:, 1:] - x[:, :1]) / 6
     return volume, volume[:, None] * x.mean(axis=1)
 
@@ -65,7 +65,7 @@ def weigh(model: Model) -> tuple:
         x, one = np.array(places, dtype=float), model.properties[key]
         density = model.materials[one.material].density
         if kind in SOLIDS:
-            sizes, firsts = _tetrahedra(x) if count == 4 else _bricks(x[:, list(AS_BRICK[count])])
+            sizes, firsts = tetrahedra(x) if count == 4 else bricks(x[:, list(AS_BRICK[count])])
         elif kind == SHELL:
             sizes, firsts = _plates(x)
             density = density * one.thickness + one.added + more
