@@ -73,7 +73,7 @@ class JointReader:
         followers = self.reader.followers(block)
         if not followers or followers[0].keyword != "KINEMATIC":
             what = followers[0] if followers else block
-            return self.model.cards.lose(f"COUPLING, {what.keyword}", "couplings that distribute forces are not known",
+            return self.model.cards.lose(f"COUPLING {what.keyword}", "couplings that distribute forces are not known",
                                          block.place)
         components = self._ranges(followers[0])
         self.waiting.append((block.parameters.get("CONSTRAINT NAME", "coupling"), [*reference, *nodes], components, block))

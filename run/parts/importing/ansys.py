@@ -169,7 +169,7 @@ class Reader:
     def _shell(self, type_: int, keys: dict, nodes: list, common) -> None:
         _, _, material, _, section, reals, own, place = common
         if SHELLS[type_] is None or keys.get(1):
-            self.model.cards.lose(f"ELEMENT {type_}, KEYOPT 1", "membranes and plates alone are not known", place)
+            self.model.cards.lose(f"ELEMENT {type_} KEYOPT 1", "membranes and plates alone are not known", place)
             return
         added, offset = 0.0, 0.0
         if section in self.properties.sections and type_ == 181:
@@ -240,7 +240,7 @@ class Reader:
         along = keys.get(2, 0)
         ends = tuple(node for node in nodes[:2] if node)
         if quadratic or along > 6 or (along == 0 and keys.get(3, 0) == 1) or (along and set(ends) & set(self.turned)):
-            self.model.cards.lose("ELEMENT 14, KEYOPT OR CV2", "springs act along and about the global axes, or between two "
+            self.model.cards.lose("ELEMENT 14 KEYOPT OR CV2", "springs act along and about the global axes, or between two "
                                   "nodes, linearly", place)
         elif along == 0:
             self.model.axial_springs.append(AxialSpring(ends, stiffness, dashpot, name, "ELEMENT 14", place))
@@ -257,7 +257,7 @@ class Reader:
             if len(set(reals[:3])) > 1 or (any(inertia) and keys.get(2)):
                 self.model.cards.lose("ELEMENT 21 OF DIRECTIONS", "a mass is the same along all axes", place)
         else:
-            self.model.cards.lose(f"ELEMENT 21, KEYOPT 3 = {keys.get(3)}", "masses are of three dimensions", place)
+            self.model.cards.lose(f"ELEMENT 21 KEYOPT 3 = {keys.get(3)}", "masses are of three dimensions", place)
             return
         self.model.masses.append(PointMass(nodes[0], mass, inertia, None, name, place))
 

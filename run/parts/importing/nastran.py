@@ -128,7 +128,8 @@ class Reader:
         key = card.int(1, card.int(0))
         if thicknesses:
             if len(thicknesses) < count or max(thicknesses) - min(thicknesses) > 1e-9 * max(thicknesses):
-                self.model.cards.lose(f"T1 TO T{count} OF {card.name}", "a thickness that varies within an element", card.place)
+                self.model.cards.lose(f"T1 TO T{count} OF {card.name}", "a thickness that varies within an element; allowed, the "
+                                      "first holds", card.place)
             own = self.model.properties.get(key)
             if own is not None and thicknesses[0] != own.thickness:
                 fresh = f"{key} {thicknesses[0]!r}"

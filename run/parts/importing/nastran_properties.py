@@ -64,7 +64,7 @@ class PropertyReader:
             ("bending of another material, or none", bending != membrane), ("12 I / T^3", card.real(4, 1.0) != 1.0),
             ("shear of another material", shear not in (0, membrane)), ("no membrane", membrane == 0)) if is_wrong]
         if wrong:
-            self.model.cards.lose("PSHELL", f"plates are of one material and full thickness ({wrong[0]})", card.place)
+            self.model.cards.lose("PSHELL", f"plates are of one material and full thickness ({wrong[0]}); allowed, it is one", card.place)
         self._put(card, membrane or bending, thickness=card.real(2), added=card.real(7) * self.reader.mass_factor)
 
     def _bar(self, card: Card) -> None:
@@ -97,7 +97,7 @@ class PropertyReader:
         rest = len([text for text in card.fields[8 + len(values):] if text])
         far = [card.real(10 + len(values) + k, value) for k, value in enumerate(dimensions[:SHAPES[kind]])]
         if rest and shape_of(kind, far, card) != section:
-            self.model.cards.lose("PBEAML", "beams that taper are not known", card.place)
+            self.model.cards.lose("PBEAML", "beams that taper are not known; allowed, end A holds", card.place)
         return self._put_section(card, section, dimensions[SHAPES[kind]] if len(dimensions) > SHAPES[kind] else 0.0)
 
     def _beam(self, card: Card) -> None:
@@ -116,7 +116,7 @@ class PropertyReader:
                 break
         last = Card(card.name, tail, card.place)
         if tapers:
-            self.model.cards.lose("PBEAM", "beams that taper are not known", card.place)
+            self.model.cards.lose("PBEAM", "beams that taper are not known; allowed, end A holds", card.place)
         if any(last.real(k) for k in (4, 5, *range(8, 16))):
             self.model.cards.lose("PBEAM", "inertia per length, and masses and axes off the beam, are not known", card.place)
         area = numbers[0]

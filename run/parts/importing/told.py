@@ -32,7 +32,7 @@ def cards_told(cards, allowed) -> list:
 
 
 def is_allowed(card: str, allowed) -> bool:
-    return card.upper() in allowed or card.upper().replace(", ", " ") in allowed
+    return card.upper() in allowed
 
 
 def model_told(scene, mass: float, centre, expected: float | None) -> list:
