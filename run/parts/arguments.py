@@ -35,6 +35,15 @@ def positive(kind):
     return read
 
 
+def numbers_above_0(text: str) -> list:
+    """Numbers above zero between commas."""
+    read = positive(float)
+    try:
+        return [read(word) for word in text.split(",")]
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"'{text}' is no list of numbers between commas") from error
+
+
 def ranks(text: str) -> int:
     """A number of ranks that the cores, or a batch system, can hold."""
     count = positive(int)(text)

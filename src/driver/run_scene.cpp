@@ -14,6 +14,7 @@
 #include "driver/field_plan.h"
 #include "driver/floor_spectra.h"
 #include "driver/folder_checks.h"
+#include "driver/law_loops.h"
 #include "driver/matrix_export.h"
 #include "driver/mesh_pieces.h"
 #include "driver/mode_shapes.h"
@@ -81,7 +82,7 @@ void run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
   const double start = MPI_Wtime();
   const bool root = rank_of(comm) == 0;
   Profile profile;
-  const bool runs = !scene.dry_run && scene.write_mesh_pieces == 0;
+  const bool runs = !scene.dry_run && scene.law_cycles.empty() && scene.write_mesh_pieces == 0;
   const bool writes = runs || scene.write_modes || scene.write_model;
   std::optional<ResultFolder> folder;  // of rank 0
   on_rank0(comm, [&] {
@@ -93,6 +94,7 @@ void run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
     }
   });
   if (root) print_title(scene, overrides_text(origin), size_of(comm));
+  if (!scene.law_cycles.empty()) return write_law_loops(comm, scene);
   if (scene.write_mesh_pieces > 0) return write_mesh_pieces(comm, scene, profile);
   Provenance provenance;  // a dry run leaves no summary to tell it
   if (!scene.dry_run) provenance = note_provenance(comm, origin, resolved);

@@ -61,19 +61,22 @@ void nothing(Coordinates, const Properties&, Matrix result) {
 constexpr std::string_view of_solid = "material";
 constexpr std::string_view of_beam = "material section mass_per_length divide";
 constexpr std::string_view of_bar =
-    "material area tension_only slack yield_force hardening mass_per_length";
+    "material area tension_only slack yield_force hardening mass_per_length rule skeleton "
+    "skeleton_back unloading_exponent unloading_least pinch deterioration";
 constexpr std::string_view of_plate =
     "material thickness rotary_inertia_factor drilling_factor mass_per_area";
 constexpr std::string_view of_point = "mass rotary_inertia";
 constexpr std::string_view of_spring =
     "stiffness dashpot dashpot_exponent dashpot_stiffness series_stiffness yield_force hardening "
     "yield_circle sliding_friction "
-    "pendulum_radius";
+    "pendulum_radius rule skeleton skeleton_back unloading_exponent unloading_least pinch "
+    "deterioration";
 constexpr std::string_view of_ground =
     "stiffness dashpot dashpot_exponent dashpot_stiffness series_stiffness yield_force hardening "
     "yield_circle sliding_friction "
     "pendulum_radius compression_only stiffness_per_area dashpot_per_area stiffness_per_length "
-    "dashpot_per_length";
+    "dashpot_per_length rule skeleton skeleton_back unloading_exponent unloading_least pinch "
+    "deterioration";
 
 // clang-format off
 constexpr std::array table{

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "scene/hysteresis.h"
+
 namespace pounding {
 
 /// Nonlinear behaviour of springs and bars, beyond their stiffness, as the user gives it.
@@ -22,6 +24,9 @@ struct NonlinearSpring {
   /// Stiffness in series with each dashpot, along and about x, y, z [N/m, N m]; 0: rigid.
   std::array<double, 6> dashpot_stiffness{};
   double slack = 0;  ///< of a tension-only bar, stretched so far before it pulls [m]
+  /// Rule by which it yields, and skeleton of the one component that has one; of a bar over its
+  /// strain. Without breaks the skeleton is that of yield force and hardening.
+  Hysteresis law;
 
   /// Some dashpot is in series with a spring.
   bool has_series() const {
@@ -35,6 +40,21 @@ struct NonlinearSpring {
   /// Whether a component may leave its straight line.
   bool yields(std::size_t component) const {
     return yield_force[component] > 0 || (friction > 0 && is_in_circle(component));
+  }
+  bool has_skeleton() const { return !law.positive.breaks.empty(); }
+  /// Whether a component follows more than kinematic hardening of two slopes.
+  bool is_hysteretic(std::size_t component) const {
+    return yield_force[component] > 0 && (has_skeleton() || law.rule != HystereticRule::kinematic);
+  }
+  /// The law of a component that yields at a force of its own; `stiffness` before [N/m], `length`
+  /// of a bar, 1 else [m].
+  Hysteresis law_of(std::size_t component, double stiffness, double length) const {
+    if (has_skeleton()) return scaled(law, length, 1);
+    Hysteresis result = law;
+    const double force = yield_force[component];
+    result.lasting_energy *= length;
+    result.positive = result.negative = {{{force / stiffness, force}}, hardening * stiffness};
+    return result;
   }
   bool yields() const {
     for (std::size_t c = 0; c < yield_force.size(); ++c) {

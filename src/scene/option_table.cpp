@@ -26,6 +26,7 @@ constexpr Range rank_count{0, 99999, false, false};
 constexpr Range filter_count{1, 8, false, false};
 constexpr Range dashpot_power{0.01, 2, false, false};
 constexpr Range below_1{0, 1, false, true};
+constexpr Range up_to_1{0, 1, false, false};
 constexpr Range poisson_ratio{-1, 0.5, true, true};
 constexpr Range soil_poisson{0, 0.5, false, true};
 
@@ -66,6 +67,7 @@ constexpr std::array option_rows{
     OptionRow{Block::run, "gap_interval", Kind::real, "s", value("0"), not_negative, "", "time between two samples of the gaps, not a number in between unless they were looked at anyway; 0: with every sample of the probes"},
     OptionRow{Block::run, "energy_interval", Kind::integer, "steps", value("100"), at_least_1, "", "steps between two lines of the energy balance; each takes one more product with the stiffness"},
     OptionRow{Block::run, "mesh_time_limit", Kind::real, "s", value("600"), positive, "", "time that Gmsh may take for one mesh"},
+    OptionRow{Block::run, "law_cycles", Kind::reals, "-", value("0"), not_negative, "amplitudes over the first corner", "in place of a run: takes every law of the scene through cycles of these amplitudes and writes laws.csv; 0: none"},
     OptionRow{Block::run, "dry_run", Kind::boolean, "flag", value("false"), any, "", "check the model, print the cost of a run, and stop"},
     OptionRow{Block::run, "progress_interval", Kind::real, "s", value("2"), positive, "", "phases of the start-up that take longer say how far they are, twice as late each time; in a log the steps as well"},
     OptionRow{Block::run, "output", Kind::text, "folder", value("results"), any, "a folder", "result folder"},
@@ -163,6 +165,13 @@ constexpr std::array option_rows{
     OptionRow{Block::region, "<structure>_<group>_series_stiffness", Kind::reals, "N/m, N m", value("0,0,0,0,0,0"), not_negative, "six numbers along and about x, y, z", "spring in series with its spring and dashpot together; 0: none, it is rigid"},
     OptionRow{Block::region, "<structure>_<group>_yield_force", Kind::reals, "N, N m", value("0"), not_negative, "one number (bar), or three or six along and about x, y, z", "force at which it yields; 0: never"},
     OptionRow{Block::region, "<structure>_<group>_hardening", Kind::real, "-", value("0"), below_1, "", "stiffness after yield over that before"},
+    OptionRow{Block::region, "<structure>_<group>_rule", Kind::choice, "word", value("kinematic"), any, "kinematic|isotropic|origin|peak|straight|bending|pinching", "way back from the skeleton and towards it again of a spring or bar that yields, see docs/nonlinear.md"},
+    OptionRow{Block::region, "<structure>_<group>_skeleton", Kind::reals, "m, N", absent("left out: yield_force and hardening"), not_negative, "pairs e1,f1,e2,f2,...", "corners of force over elongation (of a bar: over its strain), the first one on the line of the stiffness, the last one followed by hardening"},
+    OptionRow{Block::region, "<structure>_<group>_skeleton_back", Kind::reals, "m, N", absent("left out: as skeleton"), not_negative, "pairs e1,f1,e2,f2,..., or 0", "corners in the other direction; 0: it carries nothing there and leaves a gap"},
+    OptionRow{Block::region, "<structure>_<group>_unloading_exponent", Kind::real, "-", absent("left out: 0, of bending 0.5"), up_to_1, "", "peak, pinching, bending: stiffness of unloading over the first one is this power of the secant over it"},
+    OptionRow{Block::region, "<structure>_<group>_unloading_least", Kind::real, "-", value("0"), up_to_1, "", "peak, pinching, bending, origin: least stiffness of unloading over the first one"},
+    OptionRow{Block::region, "<structure>_<group>_pinch", Kind::reals, "-", absent("required with pinching"), up_to_1, "two numbers force,way", "pinching: corner on the way to the farthest point, as parts of its force and of the way there"},
+    OptionRow{Block::region, "<structure>_<group>_deterioration", Kind::reals, "J, -", absent("left out: none"), positive, "energy, or energy,exponent", "peak, pinching: energy that it can lose before its strength is gone (of a bar per length), and exponent of its going"},
     OptionRow{Block::region, "<structure>_<group>_yield_circle", Kind::choice, "word", value("none"), any, "none|x+y|y+z|x+z", "translations that yield together: a bearing's shear"},
     OptionRow{Block::region, "<structure>_<group>_sliding_friction", Kind::real, "-", value("0"), Range{0, 10, false, false}, "", "sliding bearing: the circle yields at this times the compression across it"},
     OptionRow{Block::region, "<structure>_<group>_pendulum_radius", Kind::real, "m", value("0"), not_negative, "", "friction pendulum: radius of its dish, whose slope follows the compression; hardening bounds it; 0: hardening is the slope"},

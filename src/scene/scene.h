@@ -73,6 +73,7 @@ struct Region {
   std::array<double, 6> dashpot{};    ///< springs [N s/m, N m s]
   bool compression_only = false;      ///< grounded springs: along z they push up only
   NonlinearSpring nonlinear;          ///< springs and bars
+  YieldingSection yielding;           ///< beams
   /// Forces of its elements are those of an element law, not K u; see InelasticElements.
   bool inelastic = false;
   std::optional<Rayleigh> damping;       ///< in place of the structure's
@@ -396,7 +397,9 @@ struct Scene {
   int checkpoint_steps = 0;        ///< steps between checkpoints; 0: none
   std::string export_matrices;     ///< folder for the matrices of the scene; empty: none
   std::string restart;             ///< checkpoint to continue from; empty: a new run
-  std::string output;              ///< result folder
+  /// Amplitudes over the first corner of each law, whose loops are written in place of a run [-].
+  std::vector<double> law_cycles;
+  std::string output;  ///< result folder
 };
 
 }  // namespace pounding

@@ -130,6 +130,8 @@ class SceneReader {
     scene_.gap_interval = options_.real("gap_interval");
     scene_.energy_interval = options_.integer("energy_interval");
     scene_.dry_run = options_.boolean("dry_run");
+    scene_.law_cycles = options_.reals("law_cycles");
+    std::erase(scene_.law_cycles, 0.0);
     scene_.output = options_.text("output");
     scene_.fields_interval = options_.real("fields_interval");
     scene_.fields_start = options_.real("fields_start");

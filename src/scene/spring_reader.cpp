@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/hysteresis_reader.h"
 #include "scene/option_table.h"
 #include "scene/spread_words.h"
 
@@ -19,6 +20,8 @@ constexpr std::string_view radius = "<structure>_<group>_pendulum_radius";
 constexpr std::string_view exponent = "<structure>_<group>_dashpot_exponent";
 constexpr std::string_view dashpot_stiffness = "<structure>_<group>_dashpot_stiffness";
 constexpr std::string_view series_stiffness = "<structure>_<group>_series_stiffness";
+constexpr std::string_view law_rule = "<structure>_<group>_rule";
+constexpr std::string_view law_skeleton = "<structure>_<group>_skeleton";
 constexpr std::string_view slack = "<structure>_<group>_slack";
 
 std::array<int, 3> circle_of(const std::string& word) {
@@ -107,7 +110,8 @@ void read_spread(OptionReader& options, const Names& names, Region& region) {
   for (const std::string_view other :
        {std::string_view("<structure>_<group>_stiffness"),
         std::string_view("<structure>_<group>_dashpot"), yield_force, hardening, yield_circle,
-        sliding_friction, radius, exponent, dashpot_stiffness, series_stiffness}) {
+        sliding_friction, radius, exponent, dashpot_stiffness, series_stiffness, law_rule,
+        law_skeleton}) {
     options.forbid(other, names, "not beside -" + option_name(stiffness, names));
   }
   std::ranges::copy(options.reals(stiffness, names, 3), region.stiffness.begin());
@@ -171,6 +175,7 @@ void read_nonlinear_spring(OptionReader& options, const Names& names, Region& re
   spring.friction = options.real(sliding_friction, names);
   spring.radius = options.real(radius, names);
   spring.dashpot_exponent = options.real(exponent, names);
+  read_hysteresis(options, names, region.stiffness, spring);
   if (spring.radius > 0) check_pendulum(options, names, spring);
   if (spring.friction > 0) check_sliding(options, names, region);
   if (spring.has_circle()) check_circle(options, names, region);
@@ -234,13 +239,15 @@ void read_nonlinear_bar(OptionReader& options, const Names& names, Region& regio
   bar.yield_force[0] = force[0];
   bar.hardening = options.real(hardening, names);
   bar.slack = options.real(slack, names);
+  read_hysteresis(options, names, {region.material.young * region.area}, bar);
   if (bar.slack > 0 && region.element != ElementType::tension_bar) {
     options.refuse(slack, names, "for a bar that is tension_only");
   }
-  if (force[0] > 0 && region.element == ElementType::tension_bar) {
-    options.refuse(yield_force, names, "not for a bar that is tension_only");
+  if (bar.yields() && region.element == ElementType::tension_bar) {
+    options.refuse(bar.has_skeleton() ? law_skeleton : yield_force, names,
+                   "not for a bar that is tension_only");
   }
-  if (force[0] > 0) region.element = ElementType::yielding_bar;
+  if (bar.yields()) region.element = ElementType::yielding_bar;
 }
 
 }  // namespace pounding

@@ -36,7 +36,8 @@ void forbid_others(const OptionReader& options, const std::string& element, cons
       "material "
       "rotary_inertia rotary_inertia_factor section compression_only slack sliding_friction "
       "pendulum_radius stiffness stiffness_per_area stiffness_per_length dashpot_per_area "
-      "dashpot_per_length tension_only thickness yield_circle yield_force";
+      "dashpot_per_length tension_only thickness yield_circle yield_force rule skeleton "
+      "skeleton_back unloading_exponent unloading_least pinch deterioration";
   for (const std::string& property : split(properties, ' ')) {
     if (!takes(traits_of(element_of_word(element)), property)) {
       options.forbid("<structure>_<group>_" + property, names,

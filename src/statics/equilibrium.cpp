@@ -120,7 +120,14 @@ class Search {
       for (std::size_t s = 0; s < systems_.size(); ++s) {
         for (const LinkTerms& link : link_terms(systems_[s])) {
           if (!(link.yield_force > 0)) continue;
-          const double force = std::abs(link.stiffness * link.elongation(displacement_[s]));
+          const double pull = link.stiffness * link.elongation(displacement_[s]);
+          const double force = std::abs(pull);
+          if (link.pulls_only && pull < 0) {
+            throw UserError("option -preload static: " + link.place + " of structure " +
+                            systems_[s].name +
+                            " would hold its direction in which it carries nothing at rest; give "
+                            "it a skeleton_back, or leave -preload out");
+          }
           if (force <= link.yield_force) continue;
           std::ostringstream text;
           text << "option -preload static: " << link.place << " of structure " << systems_[s].name

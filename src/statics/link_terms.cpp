@@ -36,6 +36,7 @@ std::vector<LinkTerms> link_terms(const LinearSystem& system) {
     bar.slack = nonlinear.slack;
     if (!bar.one_way) {
       bar.yield_force = nonlinear.yield_force[link.origin.component];
+      bar.pulls_only = nonlinear.has_skeleton() && nonlinear.law.negative.breaks.empty();
       bar.place = "element " + std::to_string(link.number) + " of group '" +
                   link.origin.region->group + "'";
     }

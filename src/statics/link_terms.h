@@ -12,9 +12,10 @@ namespace pounding {
 struct LinkTerms {
   double stiffness = 0;  ///< k [N/m]
   bool one_way = false;
-  double slack = 0;        ///< elongation at which it begins to hold [m]
-  double yield_force = 0;  ///< beyond which it is no rest [N]; 0: it does not yield
-  std::string place;       ///< of one that yields, for messages
+  double slack = 0;         ///< elongation at which it begins to hold [m]
+  double yield_force = 0;   ///< beyond which it is no rest [N]; 0: it does not yield
+  bool pulls_only = false;  ///< beyond which it holds nothing: no rest where it is pressed
+  std::string place;        ///< of one that yields, for messages
   std::vector<LocalIndex> dofs;
   std::vector<double> coefficients;  ///< b, not zero [-]
 

@@ -37,7 +37,7 @@ MAY_INCLUDE = {
     "dynamics": {"common", "system", "interactions", "motion"},
     "output": {"common", "io", "scene", "mesh", "system", "motion", "motion/records", "dynamics"},
     "driver": {"common", "io", "scene", "soil", "elements", "mesh", "system", "modal", "stability", "motion",
-               "interactions", "interactions/pairing", "statics", "dynamics", "output"},
+               "interactions", "interactions/laws", "interactions/pairing", "statics", "dynamics", "output"},
     "ensemble": {"common", "io", "scene", "mesh", "system", "modal", "stability", "motion", "interactions",
                  "interactions/pairing", "dynamics", "output", "driver"},
     "spectra": {"common", "io", "scene", "motion", "output"},

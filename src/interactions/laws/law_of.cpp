@@ -7,6 +7,7 @@
 #include "interactions/laws/damper_law.h"
 #include "interactions/laws/dashpot_law.h"
 #include "interactions/laws/gauge_law.h"
+#include "interactions/laws/hysteretic_link.h"
 #include "interactions/laws/pendulum_law.h"
 #include "interactions/laws/relieving_law.h"
 #include "interactions/laws/series_law.h"
@@ -51,9 +52,14 @@ std::unique_ptr<LinkLaw> stiff_law(const LinkOrigin& origin, double time_step,
     return std::make_unique<PendulumLaw>(stiffness, region.nonlinear.hardening,
                                          region.nonlinear.radius);
   }
-  if (region.nonlinear.yields(origin.component)) {
+  const auto component = static_cast<std::size_t>(origin.component);
+  if (region.nonlinear.is_hysteretic(component)) {
+    return std::make_unique<HystereticLink>(
+        region.nonlinear.law_of(component, stiffness, spring ? 1 : origin.length));
+  }
+  if (region.nonlinear.yields(component)) {
     return std::make_unique<YieldLaw>(stiffness, region.nonlinear.hardening,
-                                      region.nonlinear.yield_force[origin.component]);
+                                      region.nonlinear.yield_force[component]);
   }
   // The elongation of a compression-only spring is how far it is pressed down.
   const double damping = origin.beta * stiffness + (spring ? origin.share * region.dashpot[2] : 0);

@@ -1,0 +1,65 @@
+#include "interactions/laws/hysteretic_law.h"
+
+#include <cmath>
+
+#include "interactions/laws/make_path.h"
+
+namespace pounding::interactions {
+namespace {
+
+constexpr double of_energies = 1e-14;  ///< round-off over their largest part
+
+double first_elongation(const Skeleton& skeleton) {
+  return skeleton.breaks.empty() ? 0 : skeleton.breaks.front().elongation;
+}
+
+}  // namespace
+
+HystereticLaw::HystereticLaw(const Hysteresis& law)
+    : stiffness_(law.first_slope()),
+      first_plus_(first_elongation(law.positive)),
+      first_minus_(first_elongation(law.negative)),
+      path_(make_path(law)) {}
+
+double HystereticLaw::elastic_energy(double now, double after) const {
+  const auto pulled = [&](double elongation) {
+    if (first_plus_ == 0) elongation = std::min(0.0, elongation);
+    return first_minus_ == 0 ? std::max(0.0, elongation) : elongation;
+  };
+  return stiffness_ * pulled(now) * pulled(after) / 2;
+}
+
+void HystereticLaw::advance(double elongation, std::span<double> memory) const {
+  const double way = elongation - memory[elongation_now];
+  const auto [wanted, stored] =
+      path_->follow(memory[elongation_now], elongation, memory.subspan(of_the_law));
+  const double before = memory[force_now];
+  const double elastic = before + stiffness_ * way;
+  const double extra = std::max(0.0, stored - wanted * wanted / (2 * stiffness_));
+  // Work of the mean force and U, less f^2 / (2 k0) held anew.
+  const auto left = [&](double force) {
+    return (force + before) * (elastic - force) / (2 * stiffness_) + memory[beyond];
+  };
+  const double scale = (before * before + elastic * elastic + wanted * wanted) / (2 * stiffness_) +
+                       memory[beyond] + extra;
+  double force = wanted;
+  if (left(wanted) < -of_energies * scale) {
+    const double middle = stiffness_ * way / 2;
+    const double reach = std::sqrt(std::pow(before + middle, 2) + 2 * stiffness_ * memory[beyond]);
+    force = std::clamp(wanted, middle - reach, middle + reach);
+  }
+  const double held = left(force);
+  const double kept = held >= extra - of_energies * scale ? extra : std::max(0.0, held);
+  memory[lost_so_far] += held - kept;
+  memory[beyond] = kept;
+  memory[force_now] = force;
+  memory[on_path] = wanted;
+  memory[elongation_now] = elongation;
+  memory[moved] = 1;
+  if (first_plus_ > 0) memory[most_plus] = std::max(memory[most_plus], elongation / first_plus_);
+  if (first_minus_ > 0) {
+    memory[most_minus] = std::max(memory[most_minus], -elongation / first_minus_);
+  }
+}
+
+}  // namespace pounding::interactions

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <span>
+
+#include "interactions/laws/hysteresis_path.h"
+
+namespace pounding::interactions {
+
+/// Law in one dimension of a step of central differences, a HysteresisPath F(e) made passive. With
+/// its first slope k0 it holds between two elongations one step apart
+///
+///     E_{n+1/2} = f_n^2 / (2 k0) + U_n + 1/2 f_n (e_{n+1} - e_n),         U_n >= 0
+///
+/// so that the stable step is that of k0, and loses, with f* = f_{n-1} + k0 (e_n - e_{n-1}),
+///
+///     D_n = (f_n + f_{n-1}) (f* - f_n) / (2 k0) + U_{n-1} - U_n           >= 0
+///
+/// f_n is the force of the path, U_n the rest of the energy that it can give back, both as far as
+/// D_n allows: a corner of the path inside of a step can make the mean force of the step give more
+/// than the path does. Then U_n is less, and later losses fill it first; where none is left
+/// f_n is the next force that gives nothing, for that step. Pure; the memory starts at 0.
+class HystereticLaw {
+ public:
+  explicit HystereticLaw(const Hysteresis& law);
+
+  /// Numbers of one memory.
+  std::size_t memory_size() const { return of_the_law + path_->memory_size(); }
+  /// Brings a memory to an elongation e_n [m].
+  void advance(double elongation, std::span<double> memory) const;
+
+  /// Force f_n of a memory [N], after `advance` like all that follow.
+  double force(std::span<const double> memory) const { return memory[force_now]; }
+  /// E_{n+1/2} less 1/2 f_n (e_{n+1} - e_n) [J].
+  double stored(std::span<const double> memory) const {
+    return memory[force_now] * memory[force_now] / (2 * stiffness_) + memory[beyond];
+  }
+  /// Sum of D_n [J].
+  double lost(std::span<const double> memory) const { return memory[lost_so_far]; }
+  /// Force of the path itself, which `force` is but for single steps.
+  double path_force(std::span<const double> memory) const { return memory[on_path]; }
+  /// Largest elongation over that of the first break of its direction; 0 before any.
+  double ductility(std::span<const double> memory) const {
+    return std::max(memory[most_plus], memory[most_minus]);
+  }
+  double tangent() const { return stiffness_; }
+  /// Whether no `advance` has moved it.
+  bool is_untouched(std::span<const double> memory) const { return memory[moved] == 0; }
+  /// E between two elongations [m] one step apart of an untouched memory, elastic.
+  double elastic_energy(double now, double after) const;
+
+ private:
+  enum Number : std::size_t {
+    elongation_now,
+    force_now,
+    beyond,       ///< U
+    lost_so_far,  ///< sum of D [J]
+    on_path,
+    most_plus,
+    most_minus,
+    moved,  ///< 1 after the first `advance`
+    of_the_law
+  };
+
+  double stiffness_;
+  double first_plus_ = 0;  ///< elongations of the first breaks; 0: carries nothing
+  double first_minus_ = 0;
+  std::unique_ptr<HysteresisPath> path_;
+};
+
+}  // namespace pounding::interactions

@@ -1,0 +1,196 @@
+#include "scene/hysteresis_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "scene/option_table.h"
+
+namespace pounding {
+namespace {
+
+using Names = OptionReader::Names;
+
+constexpr std::string_view rule_option = "<structure>_<group>_rule";
+constexpr std::string_view skeleton_option = "<structure>_<group>_skeleton";
+constexpr std::string_view back_option = "<structure>_<group>_skeleton_back";
+constexpr std::string_view exponent_option = "<structure>_<group>_unloading_exponent";
+constexpr std::string_view least_option = "<structure>_<group>_unloading_least";
+constexpr std::string_view pinch_option = "<structure>_<group>_pinch";
+constexpr std::string_view deterioration_option = "<structure>_<group>_deterioration";
+
+constexpr double rounded = 1e-3;  ///< of the first corner off its line, as tables have it
+constexpr double even = 1e-9;     ///< of slopes that are meant to be equal
+
+HystereticRule rule_of(const std::string& word) {
+  constexpr std::string_view words[] = {"kinematic", "isotropic", "origin",  "peak",
+                                        "straight",  "bending",   "pinching"};
+  return static_cast<HystereticRule>(std::ranges::find(words, word) - std::begin(words));
+}
+
+double slope_between(const SkeletonBreak& a, const SkeletonBreak& b) {
+  return (b.force - a.force) / (b.elongation - a.elongation);
+}
+
+/// Corners of an option, the first one put on the line of the first slope.
+std::vector<SkeletonBreak> read_corners(OptionReader& options, std::string_view pattern,
+                                        const Names& names, double first_slope) {
+  const std::vector<double> values = options.reals(pattern, names);
+  if (pattern == back_option && values == std::vector<double>{0}) return {};
+  if (values.size() % 2 != 0) options.refuse(pattern, names, "an elongation without its force");
+  std::vector<SkeletonBreak> corners;
+  for (std::size_t i = 0; i < values.size(); i += 2) corners.push_back({values[i], values[i + 1]});
+  SkeletonBreak& first = corners.front();
+  if (!(first.force > 0)) options.refuse(pattern, names, "the force of its first corner is 0");
+  if (!(std::abs(first.elongation * first_slope / first.force - 1) <= rounded)) {
+    std::ostringstream text;
+    text << "its first corner is not on the line of the stiffness, which has " << first.force
+         << " at " << first.force / first_slope;
+    options.refuse(pattern, names, text.str());
+  }
+  first.elongation = first.force / first_slope;
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    if (!(corners[i].elongation > corners[i - 1].elongation)) {
+      options.refuse(pattern, names, "elongations must increase from corner to corner");
+    }
+    if (corners[i].force / corners[i].elongation >
+        (1 + even) * corners[i - 1].force / corners[i - 1].elongation) {
+      options.refuse(pattern, names,
+                     "corner " + std::to_string(i + 1) +
+                         " lies above the line from the origin through the one before it");
+    }
+  }
+  return corners;
+}
+
+void read_skeleton(OptionReader& options, const Names& names,
+                   const std::array<double, 6>& first_slopes, NonlinearSpring& spring) {
+  options.forbid("<structure>_<group>_yield_force", names,
+                 "not beside -" + option_name(skeleton_option, names) +
+                     ", whose first corner says where it yields");
+  const auto has_one = [](double slope) { return slope > 0; };
+  if (std::ranges::count_if(first_slopes, has_one) != 1) {
+    options.refuse(skeleton_option, names,
+                   "its stiffness must be along or about one axis only; give the other ones to a "
+                   "group of their own");
+  }
+  const auto found = std::ranges::find_if(first_slopes, has_one);
+  Hysteresis& law = spring.law;
+  law.positive.breaks = read_corners(options, skeleton_option, names, *found);
+  law.positive.last_slope = law.negative.last_slope = spring.hardening * *found;
+  law.negative.breaks = options.given(back_option, names)
+                            ? read_corners(options, back_option, names, *found)
+                            : law.positive.breaks;
+  double least = law.positive.breaks.front().force;
+  if (!law.negative.breaks.empty()) least = std::min(least, law.negative.breaks.front().force);
+  spring.yield_force[static_cast<std::size_t>(found - first_slopes.begin())] = least;
+  for (const Skeleton* skeleton : {&law.positive, &law.negative}) {
+    if (skeleton->breaks.empty()) continue;
+    const SkeletonBreak& last = skeleton->breaks.back();
+    if (skeleton->last_slope > (1 + even) * last.force / last.elongation) {
+      options.refuse("<structure>_<group>_hardening", names,
+                     "more than the secant of the last corner");
+    }
+  }
+}
+
+/// Sliders in parallel cannot soften, nor have other slopes back than there.
+void check_sliders(const OptionReader& options, const Names& names, const Hysteresis& law) {
+  if (law.is_one_sided() || law.positive.breaks.size() != law.negative.breaks.size()) {
+    options.refuse(back_option, names,
+                   "kinematic hardening has the same slopes in both directions");
+  }
+  double before = law.first_slope();
+  for (std::size_t i = 1; i <= law.positive.breaks.size(); ++i) {
+    const bool last = i == law.positive.breaks.size();
+    const auto& plus = law.positive.breaks;
+    const auto& minus = law.negative.breaks;
+    const double slope = last ? law.positive.last_slope : slope_between(plus[i - 1], plus[i]);
+    if (slope < -even * before || slope > (1 + even) * before) {
+      options.refuse(skeleton_option, names,
+                     "with kinematic hardening slopes must fall from corner to corner, and none "
+                     "below 0; -" +
+                         option_name(rule_option, names) + " peak may soften");
+    }
+    if (!last && !(std::abs(slope_between(minus[i - 1], minus[i]) - slope) <= rounded * before)) {
+      options.refuse(back_option, names,
+                     "kinematic hardening has the same slopes in both directions");
+    }
+    before = slope;
+  }
+}
+
+void read_paths(OptionReader& options, const Names& names, Hysteresis& law) {
+  const std::string goes_with = "goes with -" + option_name(rule_option, names) + " ";
+  const bool peak = law.rule == HystereticRule::peak || law.rule == HystereticRule::pinching;
+  if (peak || law.rule == HystereticRule::bending || law.rule == HystereticRule::origin) {
+    if (law.rule == HystereticRule::origin) {
+      options.forbid(exponent_option, names, goes_with + "peak, pinching or bending");
+    } else if (options.given(exponent_option, names)) {
+      law.unloading_exponent = options.real(exponent_option, names);
+    } else if (law.rule == HystereticRule::bending) {
+      law.unloading_exponent = 0.5;
+    }
+    law.unloading_least = options.real(least_option, names);
+  } else {
+    for (const std::string_view option : {exponent_option, least_option}) {
+      options.forbid(option, names, goes_with + "peak, pinching or bending");
+    }
+  }
+  if (law.rule == HystereticRule::pinching) {
+    const std::vector<double> pinch = options.reals(pinch_option, names, 2);
+    law.pinch_force = pinch[0];
+    law.pinch_elongation = pinch[1];
+    if (!(pinch[0] <= pinch[1]) || !(pinch[1] < 1)) {
+      options.refuse(pinch_option, names, "the force must not exceed the way, nor the way reach 1");
+    }
+  } else {
+    options.forbid(pinch_option, names, goes_with + "pinching");
+  }
+  if (!options.given(deterioration_option, names)) return;
+  if (!peak) options.forbid(deterioration_option, names, goes_with + "peak or pinching");
+  const std::vector<double> values = options.reals(deterioration_option, names);
+  if (values.size() > 2 || std::ranges::any_of(values, [](double x) { return !(x > 0); })) {
+    options.refuse(deterioration_option, names, "one or two positive numbers");
+  }
+  law.lasting_energy = values[0];
+  if (values.size() == 2) law.deterioration_exponent = values[1];
+}
+
+}  // namespace
+
+void read_hysteresis(OptionReader& options, const Names& names,
+                     const std::array<double, 6>& first_slopes, NonlinearSpring& spring) {
+  Hysteresis& law = spring.law;
+  law.rule = rule_of(options.choice(rule_option, names));
+  if (options.given(skeleton_option, names)) {
+    read_skeleton(options, names, first_slopes, spring);
+  } else {
+    options.forbid(back_option, names, "goes with -" + option_name(skeleton_option, names));
+  }
+  const bool kinematic = law.rule == HystereticRule::kinematic;
+  if (!kinematic && !spring.yields()) {
+    options.refuse(rule_option, names,
+                   "nothing yields; give -" +
+                       option_name("<structure>_<group>_yield_force", names) + " or -" +
+                       option_name(skeleton_option, names));
+  }
+  if (spring.has_circle() && (!kinematic || spring.has_skeleton())) {
+    options.refuse(kinematic ? skeleton_option : rule_option, names,
+                   "not beside -" + option_name("<structure>_<group>_yield_circle", names) +
+                       ", on which kinematic hardening of two slopes is all there is");
+  }
+  read_paths(options, names, law);
+  if (!spring.has_skeleton()) return;
+  if (kinematic) check_sliders(options, names, law);
+  const bool one_sided = law.rule == HystereticRule::origin || law.rule == HystereticRule::peak ||
+                         law.rule == HystereticRule::pinching;
+  if (law.is_one_sided() && !one_sided) {
+    options.refuse(back_option, names,
+                   "what carries nothing back takes -" + option_name(rule_option, names) +
+                       " origin, peak or pinching");
+  }
+}
+
+}  // namespace pounding
