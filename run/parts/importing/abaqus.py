@@ -8,7 +8,7 @@ from .abaqus_joints import JointReader
 from .abaqus_sections import SectionReader
 from .frames import normal_of
 from .model import BAR, AxialSpring, Element, InputFault, Material, Model, PointMass, Spring
-from .texts import numbers, whole
+from .texts import numbers, whole, whole_range
 from .vectors import cross, difference, permutation, unit
 
 ELEMENTS = {"C3D8": ("hex8_full", 8), "C3D8I": ("hex8", 8), "C3D8R": ("hex8", 8), "C3D6": ("wedge6", 6),
@@ -182,7 +182,7 @@ class Reader:
             open_row = rows[-1] if (width is None and more) or (width and len(rows[-1][1]) < width + 1 and more) else None
         members = []
         for place, values in rows:
-            ids = [whole(text, place) if text.lstrip("-").isdigit() else text.upper() for text in values]
+            ids = [whole(text, place) if not at or text.isdigit() else text.upper() for at, text in enumerate(values)]
             if kind == "B31" and len(ids) == 4:
                 towards = self.node(ids.pop(), scope, place)
             else:
@@ -222,11 +222,13 @@ class Reader:
         members: list = []
         for place, fields in block.data:
             if "GENERATE" in block.parameters:
-                first, last, step = ([whole(text, place) for text in fields if text] + [1])[:3]
-                if step <= 0 or last < first:
-                    raise InputFault(f"{place}: GENERATE from {first} to {last} by {step}")
+                given = [whole(text, place) for text in fields if text]
+                if len(given) < 2:
+                    raise InputFault(f"{place}: GENERATE has a first and a last number")
+                first, last, step = (given + [1])[:3]
+                span = whole_range(first, last, step, place)
                 wanted = getattr(inner, "nodes" if table == "node_sets" else "elements")
-                members += [wanted[n] for n in range(first, last + 1, step) if n in wanted]
+                members += [wanted[n] for n in sorted(wanted) if n in span]
                 continue
             for text in fields:
                 if not text:

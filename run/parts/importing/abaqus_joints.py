@@ -10,6 +10,14 @@ NAMED = {"ENCASTRE": ALL, "PINNED": TRANSLATIONS, "XSYMM": X | RY | RZ, "YSYMM":
 WHOLE_RELEASES = ("ALLM", "M1-M2-T")
 
 
+def span_of(values, place: str) -> int:
+    """Components from the first number to the second, or the first alone. Throws InputFault."""
+    first, last = values[0], (values[1:] or values)[0]
+    if not 1 <= first <= last:
+        raise InputFault(f"{place}: components from {first} to {last}")
+    return sum(1 << (dof - 1) for dof in range(first, min(last, 6) + 1))
+
+
 class JointReader:
     """`reader` is the whole deck's."""
 
@@ -36,9 +44,7 @@ class JointReader:
                 if first > 6:  # temperature and the like
                     self.model.cards.note("BOUNDARY", "")
                     continue
-                if not 1 <= first <= last:
-                    raise InputFault(f"{place}: components from {first} to {last}")
-                components = sum(1 << (dof - 1) for dof in range(first, min(last, 6) + 1))
+                components = span_of((first, last), place)
                 if len(fields) > 3 and fields[3] and number(fields[3], place) != 0:
                     self.model.said.append(f"{place}: a displacement of {fields[3]} is held at zero")
             for node in self.reader.nodes_of(fields[0], scope, place):
@@ -84,7 +90,7 @@ class JointReader:
         for place, fields in block.data:
             values = [whole(text, place) for text in fields if text]
             if values:
-                components |= sum(1 << (dof - 1) for dof in range(values[0], (values[1:] or values)[0] + 1) if dof <= 6)
+                components |= span_of(values, place)
         return components or ALL
 
     def _kinematic(self, block: Block, scope, _motion) -> None:
@@ -94,7 +100,7 @@ class JointReader:
             nodes += self.reader.nodes_of(fields[0], scope, place)
             values = [whole(text, place) for text in fields[1:] if text]
             if values:
-                components &= sum(1 << (dof - 1) for dof in range(values[0], (values[1:] or values)[0] + 1))
+                components &= span_of(values, place)
         self.waiting.append(("coupling", nodes, components, block))
 
     def _mpc(self, block: Block, scope, _motion) -> None:
@@ -116,6 +122,8 @@ class JointReader:
         rows = iter(block.data)
         for place, fields in rows:
             terms, values = whole(fields[0], place), []
+            if not 1 <= terms <= 1000:
+                raise InputFault(f"{place}: an equation of {terms} terms")
             for _ in range(-(-terms // 4)):
                 values += [text for text in next(rows, (place, []))[1]]
                 while len(values) % 3 and not values[-1]:

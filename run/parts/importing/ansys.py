@@ -20,6 +20,8 @@ CONTROL = {"NUMOFF", "DOF", "FINISH", "EXTOPT", "MPTEMP", "TREF", "TOFFST", "ANT
            "MDAMP", "DMPSTR", "PSTRES", "TINTP", "TRNOPT", "LSCLEAR", "CMEDIT", "WPSTYL", "LSWRITE", "UNITS"}
 LOADS = {"F", "SF", "SFE", "SFL", "SFA", "SFGRAD", "BF", "BFE", "BFUNIF", "ACEL", "OMEGA", "DOMEGA", "CGLOC", "CGOMGA", "DCGOMG",
          "CMOMEGA", "CMDOMEGA", "CMACEL", "FK", "IC", "INISTATE", "SFCUM", "FCUM", "BFCUM", "BFECUM", "LDREAD"}
+# Nodes that an element of a type cannot do without.
+NEEDED = {185: 8, 45: 8, 181: 3, 63: 3, 43: 3, 188: 2, 4: 2, 180: 2, 8: 2, 184: 2}
 SECOND_ORDER = {186: "SOLID186", 187: "SOLID187", 95: "SOLID95", 92: "SOLID92", 281: "SHELL281", 93: "SHELL93", 189: "BEAM189"}
 
 
@@ -121,9 +123,11 @@ class Reader:
         name = f"type_{type_number}_mat_{material}"
         key = (type_number, material, real, section)
         common = key, name, material, real, section, reals, own, place
-        for node in nodes:
-            if node:
+        for at, node in enumerate(nodes):
+            if node or at < min(NEEDED.get(type_, 1), len(nodes)):
                 self.model.at(node, place)
+        if len(nodes) < NEEDED.get(type_, 1):
+            raise InputFault(f"{place}: element {own} of type {type_} has {len(nodes)} nodes")
         if type_ in (185, 45):
             self._solid(solid_kind(type_, keys), type_, nodes, common)
         elif type_ in SHELLS:
@@ -242,6 +246,8 @@ class Reader:
         if quadratic or along > 6 or (along == 0 and keys.get(3, 0) == 1) or (along and set(ends) & set(self.turned)):
             self.model.cards.lose("ELEMENT 14 KEYOPT OR CV2", "springs act along and about the global axes, or between two "
                                   "nodes, linearly", place)
+        elif along == 0 and len(ends) < 2:
+            raise InputFault(f"{place}: a spring along its line has two nodes")
         elif along == 0:
             self.model.axial_springs.append(AxialSpring(ends, stiffness, dashpot, name, "ELEMENT 14", place))
         else:

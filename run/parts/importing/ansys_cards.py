@@ -37,7 +37,9 @@ def widths_of(line: str, place: str) -> list:
     """Widths of the fields of a format of Fortran: (3i9,6e21.13e3). Throws InputFault."""
     found: list = []
     for count, width in re.findall(r"(\d*)[ieagf](\d+)(?:\.\d+(?:e\d+)?)?", line.lower()):
-        found += [int(width)] * int(count or 1)
+        found += [int(width)] * min(int(count or 1), 1001)
+    if len(found) > 1000:
+        raise InputFault(f"{place}: '{line.strip()}' is a format of {len(found)} fields")
     if not found or not line.strip().startswith("("):
         raise InputFault(f"{place}: '{line.strip()}' is no format")
     return found
@@ -86,6 +88,8 @@ class Commands:
             place, line = self._next()
             if is_end(line.strip()):
                 return
+            if not line.strip():
+                raise InputFault(f"{place}: an empty line in the block of {command.name}")
             command.rows.append((place, cut(line, widths)))
 
     def _read_nblock(self, command: Command) -> None:
@@ -120,6 +124,8 @@ class Commands:
         for _ in range(command.int(0)):
             place, line = self._next()
             fields = cut(line, formats[0])
+            if len(fields) < 2:
+                raise InputFault(f"{place}: a set of real constants has a number and a count")
             own, count = whole(fields[0], place), whole(fields[1], place)
             values = [number(text, place) for text in fields[2:] if text]
             while len(values) < count:

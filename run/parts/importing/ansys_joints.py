@@ -2,7 +2,7 @@
 
 from .ansys_cards import Command
 from .model import ALL, BEAMS, TRANSLATIONS, InputFault
-from .texts import whole
+from .texts import whole, whole_range
 from .vectors import global_components
 
 LABELS = {label: 1 << k for k, label in enumerate(("UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"))} | {"ALL": ALL}
@@ -47,7 +47,7 @@ class JointReader:
             if value < 0:
                 if not members:
                     raise InputFault(f"{command.place}: a component begins with the end of a range")
-                members += range(members[-1] + 1, 1 - value)
+                members += whole_range(members[-1], -value, 1, command.place)[1:]
             else:
                 members.append(value)
         if kind.startswith("NODE"):

@@ -62,7 +62,7 @@ class JointReader:
             values = [card.int(k) for k in range(8) if card.int(k)]
             if keyword.name.endswith("GENERATE"):
                 for first, last in zip(values[::2], values[1::2]):
-                    members += [node for node in range(first, last + 1) if node in self.model.nodes]
+                    members += [node for node in self.model.nodes if first <= node <= last]
             else:
                 for node in values:
                     self.model.at(node, card.place)

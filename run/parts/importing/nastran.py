@@ -221,6 +221,8 @@ class Reader:
             raise InputFault(f"{card.place}: PBUSH {key[1]} is not in the deck")
         stiffness, dashpot = self.properties.springs[key]
         nodes = tuple(card.int(at) for at in (2, 3) if card.text(at))
+        if not nodes:
+            raise InputFault(f"{card.place}: CBUSH {card.int(0)} has no grid point")
         places = [self.model.at(node, card.place) for node in nodes]
         way = difference(places[-1], places[0])
         apart = length(way) > 0

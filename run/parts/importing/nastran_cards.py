@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .model import InputFault
-from .texts import lines_of, number, whole
+from .texts import lines_of, number, whole, whole_range
 from .vectors import applied, cross, difference, length, sum_of, unit
 
 GLOBAL = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -48,7 +48,7 @@ class Card:
                 if k + 1 < len(words) and words[k].upper() == "BY":
                     step = whole(words[k + 1], self.place)
                     k += 2
-                found += range(found[-1] + step, last + 1, step)
+                found += whole_range(found[-1], last, step, self.place)[1:]
                 continue
             found.append(whole(words[k], f"{self.place}: {self.name}"))
             k += 1

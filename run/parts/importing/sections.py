@@ -10,6 +10,8 @@ from .model import Section
 def rectangle(width: float, height: float) -> Section:
     """The height along z. Torsion by the series of Saint-Venant."""
     area, (low, high) = width * height, sorted((width, height))
+    if not low > 0:
+        return Section(area, 0.0, 0.0, 0.0)
     series = sum(math.tanh(n * math.pi * high / (2 * low)) / n**5 for n in range(1, 2000, 2))
     torsion = high * low**3 * (1 / 3 - 64 / math.pi**5 * low / high * series)
     return Section(area, width * height**3 / 12, height * width**3 / 12, torsion, 5 / 6 * area, 5 / 6 * area)

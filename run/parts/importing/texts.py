@@ -9,6 +9,9 @@ from .model import InputFault
 SHORT = re.compile(r"^([+-]?(?:\d+\.?\d*|\.\d+))([+-]\d+)$")  # 2.1+11, as Nastran has it
 
 
+MOST = 10**8  # numbers of a range
+
+
 def number(text: str, place: str) -> float:
     """A number; throws InputFault."""
     try:
@@ -30,6 +33,13 @@ def whole(text: str, place: str) -> int:
         return int(text)
     except ValueError as error:
         raise InputFault(f"{place}: '{text}' is not a whole number") from error
+
+
+def whole_range(first: int, last: int, step: int, place: str) -> range:
+    """Numbers from the first to the last; throws InputFault where there are too many to be meant."""
+    if step < 1 or last < first or last - first > MOST:
+        raise InputFault(f"{place}: a range from {first} to {last} by {step}")
+    return range(first, last + 1, step)
 
 
 def lines_of(path: Path, seen=()):
