@@ -105,6 +105,10 @@ Facts scaling_facts(const Building& building) {
   if (building.system->mass_scaling.time_step > 0) {
     facts.add("mass_scaling", mass_scaling_facts(building));
   }
+  if (building.system->condensed_dofs > 0) {
+    facts.add("condensed_dofs", building.system->condensed_dofs,
+              "  {condensed_dofs} dofs without mass follow the springs that hold them\n");
+  }
   facts.values.update(target.values);
   facts.text = target.text + facts.text;
   for (const Sliver& sliver : building.system->slivers) {

@@ -12,6 +12,26 @@ std::string filter_name(std::size_t filter) {
   return "filter_" + std::to_string(filter + 1);
 }
 
+/// Times that a motion of dofs without mass is renewed, a twentieth of the change being left.
+constexpr int renewals = 12;
+
+/// Brings dofs without mass to where they are at rest between the others: S v = 0 in their rows,
+/// by (M + S) v = M v_before there, M being lent.
+template <typename Field>
+void let_follow(const LinearSystem& system, Field& field) {
+  if (system.condensed.empty() || !system.coupled_mass) return;
+  const CoupledMass& mass = *system.coupled_mass;
+  std::vector<double> momentum(field.size());
+  std::vector<double> x(mass.field_size());
+  for (int i = 0; i < renewals; ++i) {
+    for (std::size_t k = 0; k < field.size(); ++k) momentum[k] = system.lumped_mass[k] * field[k];
+    mass.take(momentum.data(), x.data());
+    mass.solve(x.data());
+    mass.put(x.data(), momentum.data());
+    for (const LocalIndex dof : system.condensed) field[dof] = momentum[dof];
+  }
+}
+
 }  // namespace
 
 StateVectors::StateVectors(const LinearSystem& system, StructureState& state)
@@ -48,14 +68,17 @@ State::State(std::span<const LinearSystem> systems, std::size_t support_columns)
         structure.filtered.push_back(zeros_on_large_pages(dofs));
       }
     }
-    std::copy(system.rest_displacement.begin(), system.rest_displacement.end(),
-              structure.displacement.begin());
     for (std::size_t d = 0; d < 3; ++d) {
       const std::vector<double> iota = system.influence(static_cast<int>(d));
       for (std::size_t i = 0; i < iota.size(); ++i) {
         structure.displacement[i] += iota[i] * system.initial_displacement[d];
         structure.velocity[i] += iota[i] * system.initial_velocity[d];
       }
+    }
+    let_follow(system, structure.displacement);
+    let_follow(system, structure.velocity);
+    for (std::size_t i = 0; i < system.rest_displacement.size(); ++i) {
+      structure.displacement[i] += system.rest_displacement[i];
     }
   }
 }

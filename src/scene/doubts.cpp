@@ -53,7 +53,7 @@ class Doubts {
     const std::string owner = "material " + material.name;
     if (seen_.insert(owner).second) {
       look_at(owner, young, material.young);
-      look_at(owner, density, material.density);
+      if (material.density > 0) look_at(owner, density, material.density);
       look_at(owner, poisson, material.poisson);
     }
   }

@@ -183,7 +183,7 @@ constexpr std::array option_rows{
 
     OptionRow{Block::material, "material_<material>_young", Kind::real, "Pa", required, positive, "", "Young's modulus"},
     OptionRow{Block::material, "material_<material>_poisson", Kind::real, "-", required, poisson_ratio, "", "Poisson's ratio"},
-    OptionRow{Block::material, "material_<material>_density", Kind::real, "kg/m3", required, positive, "", "density"},
+    OptionRow{Block::material, "material_<material>_density", Kind::real, "kg/m3", required, not_negative, "", "density; 0: none, for beams and bars, whose mass is that of their length or of points"},
 
     OptionRow{Block::section, "section_<section>_profile", Kind::text, "name", absent("left out: its own name, if that is one"), any, "a standard section: HEB160, IPE300, UPN200, W14x132, SHS100x5, HSS8x8x1/2, RECT600x400, ROUND50", "standard section whose numbers it takes where the next five are left out"},
     OptionRow{Block::section, "section_<section>_area", Kind::real, "m2", required, positive, "", "area"},

@@ -126,6 +126,17 @@ Material read_material(OptionReader& options, const Names& region) {
           options.real("material_<material>_density", {name})};
 }
 
+/// Solids and shells have no mass but that of their material.
+void require_density(const OptionReader& options, const Region& region) {
+  const ElementFamily family = traits_of(region.element).family;
+  if (region.material.density > 0 ||
+      (family != ElementFamily::solid && family != ElementFamily::shell)) {
+    return;
+  }
+  options.refuse("material_<material>_density", {region.material.name},
+                 "group " + region.group + " is of solids or shells, which need one above 0");
+}
+
 Section read_section(OptionReader& options, const Names& region) {
   const std::string_view pattern = "<structure>_<group>_section";
   Section section;
@@ -175,6 +186,7 @@ void read_point_mass(OptionReader& options, const Names& names, Region& region) 
 void read_solid(OptionReader& options, const Names& names, Region& region) {
   const ElementTraits& element = traits_of(region.element);
   region.material = read_material(options, names);
+  require_density(options, region);
   if (takes(element, "section")) {
     region.section = read_section(options, names);
     region.parts = read_parts(options, names);

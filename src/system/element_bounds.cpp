@@ -11,6 +11,7 @@
 #include "mesh/location.h"
 #include "stiffness/element_loop.h"
 #include "system/critical_time_step.h"
+#include "system/mass_scaling.h"
 #include "system/slivers.h"
 
 namespace pounding {
@@ -69,7 +70,8 @@ void ElementBounds::add(const ElementBlock& block, std::span<const double> stiff
                         std::span<const double> mass, std::span<const LocalIndex> dofs,
                         double mass_scaling) {
   mass_scaling_.push_back(mass_scaling);
-  if (*std::max_element(mass.begin(), mass.end()) > 0) {
+  const bool has_mass = *std::max_element(mass.begin(), mass.end()) > 0;
+  if (has_mass && !holds_massless(stiffness, mass)) {
     frequencies_.push_back(frequency(stiffness, mass));
     return;
   }

@@ -1,6 +1,7 @@
 #include "system/finite_element_system.h"
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 
 #include "common/error.h"
@@ -21,6 +22,12 @@
 
 namespace pounding {
 namespace {
+
+/// Part of S that a dof without mass is lent, so that it can be divided by, and swings with a
+/// period a little above two steps.
+constexpr double held_part = 0.05;
+/// Mass over stiffness of a dof without mass in a reduced structure [s2]: 100 kHz of its own.
+constexpr double held_in_modes = 2.5e-12;
 
 /// Everything that one sweep over the elements of this rank yields.
 class Assembly {
@@ -57,6 +64,7 @@ class Assembly {
           [&](const ElementBlock& block, std::size_t e, const ElementLayout& layout,
               stiffness::ElementWork& work) { add(block, e, layout, work); });
       lent_ = lend_mass(mesh_, system_.lumped_mass);
+      lend_to_held();
       check_mass();
     });
     system_.stiffness = finished(std::move(matrix_));
@@ -67,6 +75,8 @@ class Assembly {
     MPI_Allreduce(MPI_IN_PLACE, &system_.total_mass, 1, MPI_DOUBLE, MPI_SUM, mesh_.comm);
     on_every_rank(mesh_.comm, [&] { added_mass_.finish(system_); });
     added_mass_.share(system_);
+    const auto condensed = static_cast<GlobalIndex>(system_.condensed.size());
+    MPI_Allreduce(&condensed, &system_.condensed_dofs, 1, MPI_INT64_T, MPI_SUM, mesh_.comm);
     added_inertia_.share(system_.rotary_scaling);
   }
 
@@ -103,6 +113,7 @@ class Assembly {
     add_law_stiffness(region, block.share_of(element), layout, work);
     if (taut_.get() != nullptr) insert(taut_, work.stiffness.data());
     const double scaling = added_mass_.add(block, element, region, stiffness, mass);
+    note_holding(block, scaling, stiffness, mass, {dofs.data(), size});
     // Elements that a rigid body holds altogether never strain.
     const bool strains = !is_in_rigid_body(mesh_, block, element);
     bounds_.add(block, strains ? stiffness : std::span(unstrained_.data(), size * size), mass,
@@ -119,6 +130,35 @@ class Assembly {
       for (std::size_t i = 0; i < size; ++i) damping_[i * size + i] += extra.alpha * mass[i];
       insert(extra_damping_, damping_.data());
     }
+  }
+
+  /// Notes the mass that an element may lend to the dofs that it holds and gives none, see
+  /// lend_to_held.
+  void note_holding(const ElementBlock& block, double scaling, std::span<const double> stiffness,
+                    std::span<const double> mass, std::span<const LocalIndex> dofs) {
+    if (follows_law(structure_.regions[block.region])) return;
+    const double factor = scaling > 0 ? held_part * scaling : held_in_modes;
+    if (!(scaling > 0) && !structure_.modal) return;
+    for (std::size_t i = 0; i < dofs.size(); ++i) {
+      if (dofs[i] < 0 || dofs[i] >= mesh_.owned_dofs || mass[i] > 0) continue;
+      const double own = factor * stiffness[i * dofs.size() + i];
+      if (own > 0) held_[dofs[i]] += own;
+    }
+  }
+
+  /// Lends mass to dofs without any that springs hold: where these are scaled, S is their inertia,
+  /// by which they follow as at rest but for motions that the step does not resolve; of a reduced
+  /// structure they are far above its modes.
+  void lend_to_held() {
+    for (const auto& [dof, mass] : held_) {
+      if (system_.lumped_mass[dof] > 0 ||
+          std::ranges::find(lent_, dof, &LentMass::first) != lent_.end()) {
+        continue;
+      }
+      lent_.emplace_back(dof, mass);
+      system_.condensed.push_back(dof);
+    }
+    std::ranges::sort(lent_);
   }
 
   /// Adds the stiffness that laws of springs hold, at its largest.
@@ -214,21 +254,29 @@ class Assembly {
       }
     }
     const std::string option = "-" + structure_.name + "_";
-    const std::string only = ", and only " + holders + " hold" +
-                             (holders.find(',') == std::string::npos ? "s" : "") +
-                             " it there; a step condenses nothing: ";
+    const std::string only =
+        holders.empty() ? ", and nothing holds it there: "
+                        : ", and only " + holders + " hold" +
+                              (holders.find(',') == std::string::npos ? "s" : "") + " it there: ";
+    const std::string others =
+        holders.empty() || structure_.mass_scaling > 0
+            ? ", or clamp the component"
+            : ", or give " + option +
+                  "mass_scaling, beside which linear springs and beams condense it, or clamp "
+                  "the component";
     if (!point.empty() && component >= 3) {
-      return only + "give " + option + point + "_rotary_inertia, or clamp the component";
+      return only + "give " + option + point + "_rotary_inertia" + others;
     }
     return only + "put a point_mass there (" + option + "<group>_element, " + option +
-           "<group>_mass" + (component < 3 ? "" : ", " + option + "<group>_rotary_inertia") +
-           "), or clamp the component";
+           "<group>_mass" + (component < 3 ? "" : ", " + option + "<group>_rotary_inertia") + ")" +
+           others;
   }
 
   const Structure& structure_;
   const Mesh& mesh_;
   LinearSystem& system_;
   std::vector<LentMass> lent_;
+  std::map<LocalIndex, double> held_;  ///< mass that may be lent to a dof that springs hold
   MatHandle matrix_;  ///< linear elements; these three are null if nobody wants them
   MatHandle taut_;    ///< one-way elements as well
   MatHandle extra_damping_;

@@ -75,6 +75,10 @@ struct LinearSystem {
   /// Per owned dof, whether an inelastic element acts on it; empty if no rank has one.
   std::vector<char> inelastic;
   MassScaling mass_scaling;
+  /// Owned dofs without a mass of their own, which follow as what holds them lets them, and how
+  /// many there are on all ranks.
+  std::vector<LocalIndex> condensed;
+  GlobalIndex condensed_dofs = 0;
   RotaryScaling rotary_scaling;               ///< in `lumped_mass` already
   std::vector<RigidBodyReport> rigid_bodies;  ///< and ties, of all ranks
   /// M + S of the dofs in S, the rigid bodies and ties; null if this rank has none of them.

@@ -147,12 +147,21 @@ double mass_scaling_factor(double time_step, const Rayleigh& damping, double fre
   return std::max(0.0, needed - (1 - time_step * damping.alpha / 2) / (frequency * frequency));
 }
 
+bool holds_massless(std::span<const double> stiffness, std::span<const double> lumped_mass) {
+  const std::size_t n = lumped_mass.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!(lumped_mass[i] > 0) && stiffness[i * n + i] != 0) return true;
+  }
+  return false;
+}
+
 double add_element_mass(double time_step, const Rayleigh& damping,
                         std::span<const double> stiffness, std::span<const double> lumped_mass,
                         std::span<double> added, double stiffening) {
   const bool has_mass = *std::max_element(lumped_mass.begin(), lumped_mass.end()) > 0;
-  const double frequency = has_mass ? std::sqrt(largest_eigenvalue(stiffness, lumped_mass))
-                                    : std::numeric_limits<double>::infinity();
+  const double frequency = has_mass && !holds_massless(stiffness, lumped_mass)
+                               ? std::sqrt(largest_eigenvalue(stiffness, lumped_mass))
+                               : std::numeric_limits<double>::infinity();
   const double factor = mass_scaling_factor(time_step, damping, frequency, stiffening);
   for (std::size_t i = 0; factor > 0 && i < added.size(); ++i) added[i] += factor * stiffness[i];
   return factor;

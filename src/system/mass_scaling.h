@@ -40,10 +40,14 @@ struct ScalingOffer {
   std::string groups;        ///< of them
 };
 
-/// c_e [s2]; `frequency` [rad/s] is infinite for an element without mass; `stiffening` is the
-/// factor on K for the fastest motions.
+/// c_e [s2]; `frequency` [rad/s] is infinite for an element that holds dofs without mass;
+/// `stiffening` is the factor on K for the fastest motions.
 double mass_scaling_factor(double time_step, const Rayleigh& damping, double frequency,
                            double stiffening = 1);
+
+/// Whether an element holds a dof to which it gives no mass: it has no frequency of its own.
+/// `stiffness` of shape (n, n), `lumped_mass` of shape (n).
+bool holds_massless(std::span<const double> stiffness, std::span<const double> lumped_mass);
 
 /// Adds S_e, shape (n, n) [kg, kg m2], of an element with the given matrices, and returns c_e. Does
 /// nothing and returns 0 where the element allows the wanted step by itself.
