@@ -30,7 +30,7 @@ Facts time_step_facts(const Scene& scene, const Model& model) {
   facts.add("time_step_source", step_source_text(scene, model));
   if (std::isfinite(model.filler_time_step)) {
     facts.add("filler_time_step", model.filler_time_step,
-              "fillers allow a time step of {filler_time_step:.4e} s\n");
+              "fillers and stops allow a time step of {filler_time_step:.4e} s\n");
   }
   facts.add("steps", model.steps);
   facts.add("end_time", scene.end_time);

@@ -88,7 +88,7 @@ StepLimits step_limits(const Scene& scene, const Model& model) {
 
 void limit_by_fillers(double stable, double last, StepLimits& limits) {
   ResolvedMotion fillers = resolved_motion({}, false, 2 / stable, last);
-  fillers.structure = "the fillers";
+  fillers.structure = "the fillers and stops";
   limits.stable = std::min(limits.stable, stable);
   limits.resolved = faster(limits.resolved, fillers);
 }
