@@ -1,5 +1,6 @@
 """Cards that have no place in a scene are named with their counts: refused where stiffness, mass or support would be
 lost, noted where none would; and files that are none end with one line."""
+import random
 import unittest
 
 import imported
@@ -240,6 +241,14 @@ class Losses(unittest.TestCase):
         for text, part in DYNA_NONE.items():
             with self.subTest(part):
                 refused(self, "model.k", text, part, "model.k")
+
+    def test_damaged_decks(self):
+        """One line, or a model: never more, and in no time."""
+        rng = random.Random(3)
+        for name, deck, lost in (("model.inp", ABAQUS, ABAQUS_LOST), ("model.bdf", NASTRAN, NASTRAN_LOST),
+                                 ("model.cdb", ANSYS, ANSYS_LOST), ("model.k", DYNA, DYNA_LOST)):
+            texts = [imported.damaged(deck + rng.choice(["", *lost]), rng) for _ in range(400)]
+            self.assertEqual(imported.survives(name, texts), [], name)
 
     def test_losses_go_by_their_names_alone(self):
         more = "*MPC\nLINK, 2, 3\n*PLASTIC\n2e8\n"

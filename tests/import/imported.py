@@ -1,4 +1,5 @@
 """Imports decks that tests write, and compares the scenes with the same models written by hand."""
+import json
 import os
 import re
 import runpy
@@ -139,3 +140,46 @@ def said_mass(text):
 def close(test, found, expected, tolerance=2e-6):
     for value, reference in zip(found, expected):
         test.assertLess(abs(value - reference), tolerance * max(1.0, abs(reference)), (found, expected))
+
+
+def damaged(text, rng):
+    """A text with a line or two of it changed, cut, repeated or lost."""
+    lines = text.splitlines()
+    for _ in range(rng.randint(1, 2)):
+        at = rng.randrange(len(lines))
+        line, way = lines[at], rng.randrange(5)
+        place = rng.randrange(len(line) + 1)
+        if way == 0:
+            lines[at] = rng.choice(lines)
+        elif way == 1:
+            lines[at] = line[:place]
+        elif way == 2:
+            lines[at] = line[:place] + rng.choice("0123456789.,-+eE *$!=") + line[place + 1:]
+        elif way == 3:
+            lines[at] = line[:place] + rng.choice(["0", "-1", "99999999999", "zz", ",", " "]) + line[place:]
+        else:
+            lines = lines[:at + 1]
+    return "\n".join(lines) + "\n"
+
+
+def survives(name, texts):
+    """What no reader may say of texts of a format, in a process of its own: faults other than one line with the file's
+    name, and texts that take more than 10 s."""
+    script = ("import json, signal, sys, traceback\nfrom pathlib import Path\nsys.dont_write_bytecode = True\n"
+              f"sys.path[:0] = [{str(COMMAND.parent)!r}, {str(COMMAND.parents[1] / 'python')!r}]\n"
+              "from parts.importing.formats import read\nfrom parts.importing.model import InputFault\n"
+              "from parts.importing.scaling import in_si\nfrom parts.importing.scene import Scene\n"
+              "from parts.importing.units import units_of\nfrom parts.importing.weighing import weigh\n"
+              "path, texts, found = Path(sys.argv[1]), json.load(sys.stdin), []\n"
+              "for text in texts:\n    path.write_text(text)\n    signal.alarm(10)\n    told = ''\n"
+              "    try:\n        model = read(path, None)\n        in_si(model, units_of('mm,t,s'))\n"
+              "        try:\n            Scene(model, 'm').mesh.text(model.nodes)\n            weigh(model)\n"
+              "        except InputFault as fault:\n            told = str(fault)\n"
+              "    except InputFault as fault:\n        told = str(fault)\n"
+              "        if path.name not in told:\n            found.append(told)\n"
+              "    except Exception:\n        found.append(traceback.format_exc() + text)\n"
+              "    if '\\n' in told:\n        found.append(told)\n"
+              "print(json.dumps(found))\n")
+    done = subprocess.run(["/usr/bin/python3", "-W", "error", "-c", script, of_file(name, "")], input=json.dumps(texts), text=True,
+                          capture_output=True, timeout=300, check=False)
+    return json.loads(done.stdout) if done.returncode == 0 else [f"status {done.returncode}: {done.stderr[-2000:]}"]

@@ -42,7 +42,10 @@ def blocks_of(path: Path, seen=()) -> list:
             blocks[-1].data.append((place, [text.strip() for text in line.split(",")]))
             continue
         while line.endswith(","):
-            line += next(lines, ("", ""))[1].strip()
+            more = next(lines, None)
+            if more is None:
+                break
+            line += more[1].strip()
         words = [word.strip() for word in line.strip()[1:].split(",")]
         parameters = {}
         for word in words[1:]:

@@ -40,7 +40,7 @@ def widths_of(line: str, place: str) -> list:
         found += [int(width)] * min(int(count or 1), 1001)
     if len(found) > 1000:
         raise InputFault(f"{place}: '{line.strip()}' is a format of {len(found)} fields")
-    if not found or not line.strip().startswith("("):
+    if 0 in found or not found or not line.strip().startswith("("):
         raise InputFault(f"{place}: '{line.strip()}' is no format")
     return found
 
