@@ -17,11 +17,13 @@
 namespace pounding {
 namespace {
 
+constexpr int of_section = -2;
+
 /// A link that an item of the option may mean, as it travels between ranks.
 struct Candidate {
   int item = 0;
   int component = 0;
-  int part = 0;             ///< of SpringPart; -1: a pair with filler
+  int part = 0;             ///< of SpringPart; -1: a pair with filler; -2: of a section
   int bar = 0;              ///< 1: a bar, which has one component
   std::int64_t number = 0;  ///< of its element or pair
   Vector3 place{};          ///< middle of the element [m]
@@ -64,6 +66,23 @@ void add_links(const Model& model, const Loop& loop, int item, int rank,
                        origin.length > 0 ? 1 : 0, links[b].number,
                        middle_of(model.meshes[s], loop.group, links[b].number), rank,
                        static_cast<int>(b)});
+    }
+  }
+}
+
+/// Laws of sections of this rank that an item means.
+void add_section_laws(const Model& model, const Solver& solver, const Loop& loop, int item,
+                      int rank, std::vector<Candidate>& found) {
+  for (std::size_t s = 0; s < model.systems.size(); ++s) {
+    const interactions::InelasticElements* const elements = solver.inelastic(s);
+    if (model.systems[s].name != loop.structure || elements == nullptr) continue;
+    for (std::size_t k = 0; k < elements->parts().size(); ++k) {
+      const interactions::InelasticElements::Part& part = elements->parts()[k];
+      const ElementBlock& block = elements->block_of(part);
+      if (block.group != loop.group) continue;
+      const std::int64_t tag = block.tags[part.element];
+      found.push_back({item, static_cast<int>(part.number), of_section, 0, tag,
+                       middle_of(model.meshes[s], loop.group, tag), rank, static_cast<int>(k)});
     }
   }
 }
@@ -115,8 +134,23 @@ void keep_nearest(const Loop& loop, int item, std::vector<Candidate>& all) {
       all, [&](const Candidate& link) { return link.item == item && !kept.contains(link.number); });
 }
 
-std::string name_of(const std::string& item, const Candidate& link) {
+/// Names of the parts of a region's law.
+std::vector<std::string> part_names(const Model& model, const Loop& loop) {
+  for (std::size_t s = 0; s < model.systems.size(); ++s) {
+    for (const auto& [region, law] : model.systems[s].laws) {
+      const bool meant = std::ranges::any_of(
+          model.meshes[s].blocks,
+          [&, of = region](const auto& b) { return b.region == of && b.group == loop.group; });
+      if (model.systems[s].name == loop.structure && meant) return law->parts();
+    }
+  }
+  return {};
+}
+
+std::string name_of(const std::string& item, const Candidate& link,
+                    const std::vector<std::string>& parts) {
   std::string name = item + "." + std::to_string(link.number);
+  if (link.part == of_section) return name + "." + parts[static_cast<std::size_t>(link.component)];
   if (link.part < 0) return name;
   if (link.bar != 0) return name + ".axial";
   const std::string component(motion_names[static_cast<std::size_t>(link.component)]);
@@ -164,6 +198,7 @@ Loops::Loops(const ObservedRun& run) : run_(run) {
     items_.push_back(loop.name);
     if (loop.contact.empty()) {
       add_links(model, loop, item, rank, all);
+      add_section_laws(model, solver, loop, item, rank, all);
     } else if (solver.fillers() != nullptr && solver.fillers()->pairs().rows().root() == rank) {
       add_rows(scene, *solver.fillers(), loop, item, rank, all);
     }
@@ -179,22 +214,29 @@ Loops::Loops(const ObservedRun& run) : run_(run) {
     keep_nearest(scene.loops[i], item, all);
   }
   std::vector<std::vector<std::size_t>> chosen(model.systems.size() + 1);  // the last: fillers
+  std::vector<std::vector<std::size_t>> sections(model.systems.size());
   for (const Candidate& link : all) {
     const Loop& loop = scene.loops[static_cast<std::size_t>(link.item)];
     if (link.rank == rank) {
       std::size_t s = 0;
       while (s < model.systems.size() && model.systems[s].name != loop.structure) ++s;
       mine_.push_back(static_cast<int>(names_.size()));
-      own_.push_back(
-          {s < model.systems.size() ? &solver.links(s)->records() : &solver.fillers()->records(),
-           chosen[s].size()});
-      chosen[s].push_back(static_cast<std::size_t>(link.index));
+      if (link.part == of_section) {
+        own_.push_back({&solver.inelastic(s)->records(), sections[s].size()});
+        sections[s].push_back(static_cast<std::size_t>(link.index));
+      } else {
+        own_.push_back(
+            {s < model.systems.size() ? &solver.links(s)->records() : &solver.fillers()->records(),
+             chosen[s].size()});
+        chosen[s].push_back(static_cast<std::size_t>(link.index));
+      }
     }
     item_of_.push_back(link.item);
-    names_.push_back(name_of(loop.name, link));
+    names_.push_back(name_of(loop.name, link, part_names(model, loop)));
   }
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
     if (!chosen[s].empty()) solver.links(s)->record(chosen[s]);
+    if (!sections[s].empty()) solver.inelastic(s)->record(sections[s]);
   }
   if (!chosen.back().empty()) solver.fillers()->record(chosen.back());
   values_.assign(2 * own_.size(), 0.0);

@@ -235,7 +235,8 @@ void refuse_dashpots(const Structure& structure) {
 
 void export_matrices(MPI_Comm comm, const Scene& scene, const Model& model) {
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    if (model.systems[s].links && model.systems[s].links->hold_stiffness()) {
+    const bool by_links = model.systems[s].links && model.systems[s].links->hold_stiffness();
+    if (by_links || !model.systems[s].laws.empty()) {
       throw UserError(
           "option -export_matrices: structure " + model.systems[s].name +
           " has tension-only bars, compression-only springs or elements that yield, which no "

@@ -13,6 +13,7 @@
 #include "driver/slide_watch.h"
 #include "driver/storeys.h"
 #include "driver/uplift_watch.h"
+#include "driver/yield_table.h"
 
 namespace pounding {
 namespace {
@@ -63,6 +64,12 @@ std::unique_ptr<FieldWriter> make_fields(const ObservedRun& run) {
   return std::make_unique<FieldWriter>(std::move(layout), run.model.systems, run.model.meshes);
 }
 
+bool has_yielding_sections(const Scene& scene) {
+  return std::ranges::any_of(scene.structures, [](const Structure& structure) {
+    return std::ranges::any_of(structure.regions, &Region::inelastic);
+  });
+}
+
 bool may_lift_off(const Scene& scene) {
   return std::ranges::any_of(scene.structures, [](const Structure& structure) {
     return std::ranges::any_of(structure.regions, &Region::compression_only);
@@ -82,6 +89,7 @@ RunObservers make_observers(const ObservedRun& run, Profile& profile) {
   if (run.contact_root() >= 0) all.add(make_slide_watch(run));
   all.add(make_energy_watch(run));
   if (may_lift_off(run.scene)) all.add(make_uplift_watch(run));
+  if (has_yielding_sections(run.scene)) all.add(make_yield_table(run));
   all.add(make_progress_watch(run, impacts.catalogue()));
   return {std::move(all), impacts, history};
 }

@@ -26,6 +26,22 @@ Facts loop_facts(const RunStatistics& run) {
   return facts;
 }
 
+Facts yield_facts(const RunStatistics& run) {
+  Facts facts;
+  for (const YieldReport& report : run.yielding) {
+    facts.add("yielding", report.name,
+              {{"elements", report.elements},
+               {"yielded", report.yielded},
+               {"ductility", report.ductility},
+               {"element", report.element},
+               {"energy_lost", report.lost}},
+              "  {:-30s} {yielded} of {elements} elements yielded, ductility at most "
+              "{ductility:.4g} in element {element}, {energy_lost:.4g} J lost\n",
+              {report.name});
+  }
+  return facts;
+}
+
 Facts contact_ratio_facts(const Scene& scene, const RunStatistics& run) {
   Facts facts;
   for (std::size_t s = 0; s < run.contact_ratios.size(); ++s) {

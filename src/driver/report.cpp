@@ -87,6 +87,7 @@ void print_results(const FinishedRun& run) {
   print(impact_facts(scene, statistics, run.impacts));
   print(joint_facts(scene, run.model, statistics));
   print(loop_facts(statistics));
+  print(yield_facts(statistics));
   print(contact_ratio_facts(scene, statistics));
   print(force_facts(statistics));
   print(drift_facts(run.recorder.drifts()));
@@ -134,6 +135,7 @@ void write_summary(const std::string& path, const FinishedRun& run) {
   facts.add(separation_facts(scene, model));
   facts.add("contacts", joint_facts(scene, model, statistics));
   facts.add(loop_facts(statistics));
+  facts.add(yield_facts(statistics));
   facts.add(force_facts(statistics));
   facts.add("drifts", drift_facts(run.recorder.drifts()));
   facts.add(probe_facts(scene, statistics, run.recorder, run.spectra));

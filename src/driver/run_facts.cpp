@@ -87,8 +87,9 @@ Facts energy_facts(const RunStatistics& run) {
       "[  of the input work that of gravity {gravity:.4g}\n]");
   if (std::abs(energy.device_work) > 1e-12 * std::abs(energy.energy())) {
     facts.say(
-        "  device work {devices:.4g}: of dashpots, one-way bars and springs, and what regions with "
-        "damping of their own\n  lose beside the damping of their structure\n");
+        "  device work {devices:.4g}: of dashpots, one-way bars and springs, all that yields, and "
+        "of "
+        "regions with damping\n  of their own beside that of their structure\n");
   }
   facts.say(
       "  largest residual of the energy identity: {relative_residual:.2e} of the largest term\n");

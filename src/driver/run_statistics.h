@@ -57,6 +57,16 @@ struct LoopReport {
   interactions::LinkTotals whole() const;
 };
 
+/// Laws of one kind of the sections of a group that may yield.
+struct YieldReport {
+  std::string name;  ///< structure:group:part
+  int elements = 0;
+  int yielded = 0;           ///< of them went beyond the first corner
+  double ductility = 0;      ///< the largest
+  std::int64_t element = 0;  ///< that had it
+  double lost = 0;           ///< energy of all [J]
+};
+
 /// The value of a force that was largest in magnitude, and when.
 struct ForcePeak {
   double value = 0;  ///< [N, N m], of shells per length [N/m, N]
@@ -92,6 +102,7 @@ struct RunStatistics {
   ImpactTotals all_impacts;
   std::vector<interactions::FillerTotals> fillers;  ///< per contact; empty without fillers
   std::vector<LoopReport> loops;                    ///< per item of the option
+  std::vector<YieldReport> yielding;                ///< per kind of law of a group; rank 0
   std::vector<ForceReport> forces;                  ///< per item of the option; rank 0
   std::vector<Slide> slides;                        ///< per contact
   std::vector<JointClosing> closings;               ///< per contact, of the samples of the gaps

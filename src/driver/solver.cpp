@@ -59,8 +59,13 @@ void Solver::make_stepper() {
   stepper_ = std::make_unique<CdLagrange>(parts.comm, parts.systems, *parts.motion, parts.time_step,
                                           *parts.profile, parts.supports, parts.lane);
   links_.clear();
+  inelastic_.clear();
   for (std::size_t s = 0; s < parts.systems.size(); ++s) {
     const LinearSystem& system = parts.systems[s];
+    inelastic_.push_back(system.laws.empty()
+                             ? nullptr
+                             : &stepper_->add(std::make_unique<interactions::InelasticElements>(
+                                   s, parts.meshes[s], system, parts.time_step, system.laws)));
     links_.push_back(system.links
                          ? &stepper_->add(interactions::make_links(system, s, parts.time_step))
                          : nullptr);

@@ -11,6 +11,7 @@
 #include "dynamics/unilateral_contact.h"
 #include "interactions/contact_problem.h"
 #include "interactions/filler_rows.h"
+#include "interactions/inelastic_elements.h"
 #include "interactions/pairing/interface.h"
 #include "interactions/structure_links.h"
 #include "mesh/mesh.h"
@@ -56,6 +57,13 @@ class Solver {
   const interactions::StructureLinks* links(std::size_t structure) const {
     return links_[structure];
   }
+  /// The inelastic elements of a structure; null if it has none.
+  interactions::InelasticElements* inelastic(std::size_t structure) {
+    return inelastic_[structure];
+  }
+  const interactions::InelasticElements* inelastic(std::size_t structure) const {
+    return inelastic_[structure];
+  }
   /// Impulses act in the step just made.
   bool touching() const { return unilateral_ != nullptr && unilateral_->touching(); }
   /// Some row of the interface acts in it, hard contact or a stop that gives way; on the root of
@@ -88,10 +96,11 @@ class Solver {
   std::vector<GapWatch::Bound> bounds_;
   std::unique_ptr<interactions::ContactProblem> contact_;
   std::unique_ptr<CdLagrange> stepper_;
-  std::vector<interactions::StructureLinks*> links_;  ///< per structure, of the stepper
-  interactions::FillerRows* fillers_ = nullptr;       ///< of the stepper
-  UnilateralContact* unilateral_ = nullptr;           ///< of the stepper
-  bool has_stops_ = false;                            ///< some stop gives way
+  std::vector<interactions::StructureLinks*> links_;         ///< per structure, of the stepper
+  std::vector<interactions::InelasticElements*> inelastic_;  ///< per structure, of the stepper
+  interactions::FillerRows* fillers_ = nullptr;              ///< of the stepper
+  UnilateralContact* unilateral_ = nullptr;                  ///< of the stepper
+  bool has_stops_ = false;                                   ///< some stop gives way
   std::vector<double> impulses_;  ///< see row_actions; room where there are stops
   std::vector<double> works_;
 };

@@ -53,6 +53,7 @@ Facts warning_facts(std::span<const std::string> lines);
 /// Facts of what was recorded: loops, contact ratios of springs that press only, forces, drifts,
 /// probes; the report has the peaks of spectra too (record_facts.cpp).
 Facts loop_facts(const RunStatistics& run);
+Facts yield_facts(const RunStatistics& run);
 Facts contact_ratio_facts(const Scene& scene, const RunStatistics& run);
 Facts force_facts(const RunStatistics& run);
 Facts drift_facts(const StoreyDrifts& drifts);

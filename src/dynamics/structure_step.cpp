@@ -341,10 +341,13 @@ void StructureStep::complete() {
 
 void StructureStep::act(std::span<const LocalIndex> dofs, std::span<const double> force,
                         bool from_rest) {
+  // The filter that holds the force at rest has it from the start.
+  const std::size_t filters =
+      from_rest && system_.uniform_damping ? system_.uniform_damping->filters.size() : 0;
   for (std::size_t k = 0; k < dofs.size(); ++k) {
     const std::size_t i = dofs[k];
     state_.inelastic_force[i] = force[k];
-    for (std::size_t f = 0; from_rest && f < state_.filtered.size(); ++f) {
+    for (std::size_t f = 0; f < filters; ++f) {
       state_.filtered[f][i] += (1 - filters_.filters[f].newest()) * force[k];
     }
   }

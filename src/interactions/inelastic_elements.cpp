@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <utility>
 
 #include "common/parallel.h"
@@ -40,9 +39,6 @@ InelasticElements::InelasticElements(std::size_t structure, const Mesh& mesh,
       displacement_(mesh.dof_count, 0.0),
       force_(mesh.owned_dofs, 0.0),
       state_(0) {
-  if (!system.rest_displacement.empty()) {
-    throw std::logic_error("inelastic elements start without a rest");
-  }
   for (LocalIndex dof = 0; dof < mesh.owned_dofs; ++dof) {
     if (system.inelastic[dof] != 0) dofs_.push_back(dof);
   }
@@ -55,6 +51,11 @@ InelasticElements::InelasticElements(std::size_t structure, const Mesh& mesh,
       group.layout = element_layout(block.type);
       group.law = entry.law.get();
       group.memory.assign(block.count() * entry.law->memory_size(), 0.0);
+      for (std::size_t e = 0; e < block.count(); ++e) {
+        for (std::size_t p = 0; block.counted[e] != 0 && p < entry.law->parts().size(); ++p) {
+          parts_.push_back({groups_.size() - 1, e, p});
+        }
+      }
       for (const LocalIndex node : block.connectivity) {
         for (int c = 0; c < group.layout.components; ++c) {
           group.places.push_back(mesh.dof(node, c));
@@ -116,8 +117,16 @@ void InelasticElements::begin(const Step& step) {
   }
   before_ = now_;
   offset_before_ = offset_;
+  for (std::size_t k = 0; k < taken_.size(); ++k) {
+    taken_[k] = state_of(parts_[records_.links()[k]]).taken;
+  }
   exchange(structure, 0);
   offset_ = respond();
+  for (std::size_t k = 0; k < taken_.size(); ++k) {
+    const PartState part = state_of(parts_[records_.links()[k]]);
+    records_.note(k, part.elongation, part.force, part.ductility > 1);
+    records_.add_work(k, part.taken - taken_[k]);
+  }
   const double lag = system_.damping.beta / time_step_;
   for (std::size_t k = 0; k < dofs_.size(); ++k) {
     now_[k] = force_[dofs_[k]];
@@ -141,6 +150,40 @@ void InelasticElements::finish(const Step& step) {
   ledger.link_loss += work - (held - held_before);
 }
 
+PartState InelasticElements::state_of(const Part& part) const {
+  const Group& group = groups_[part.group];
+  const std::size_t numbers = group.law->memory_size();
+  return group.law->part(part.element, part.number,
+                         {group.memory.data() + part.element * numbers, numbers});
+}
+
+std::vector<double> InelasticElements::table() const {
+  std::vector<double> rows;
+  for (const Part& part : parts_) {
+    const ElementBlock& block = block_of(part);
+    const PartState state = state_of(part);
+    rows.insert(rows.end(),
+                {static_cast<double>(block.region), static_cast<double>(block.tags[part.element]),
+                 static_cast<double>(part.number), state.ductility, state.lost});
+  }
+  return gather_rows(mesh_.comm, rows);
+}
+
+void InelasticElements::record(std::vector<std::size_t> parts) {
+  records_.watch(std::move(parts));
+  taken_.assign(records_.links().size(), 0.0);
+}
+
+std::vector<std::string> InelasticElements::record_names() const {
+  std::vector<std::string> names;
+  for (const std::size_t k : records_.links()) {
+    const Part& part = parts_[k];
+    names.push_back("record of " + mesh_.structure + " " +
+                    std::to_string(block_of(part).tags[part.element]) + " " + name_of(part));
+  }
+  return names;
+}
+
 std::string InelasticElements::name_of(const Group& group, const char* numbers) const {
   return "inelastic " + mesh_.structure + " " + mesh_.blocks[group.block].group + " " + numbers;
 }
@@ -162,6 +205,7 @@ void InelasticElements::save(SavedState& saved) const {
   for (std::size_t k = 0; k < dofs_.size(); ++k) force[dofs_[k]] = now_[k];
   saved.put_dofs(static_cast<int>(structure_), "inelastic_force", force);
   saved.put_sums("inelastic " + mesh_.structure + " offset", {&offset_, 1});
+  records_.save(record_names(), saved);
 }
 
 void InelasticElements::load(const SavedState& saved) {
@@ -185,6 +229,7 @@ void InelasticElements::load(const SavedState& saved) {
   saved.get_dofs(static_cast<int>(structure_), "inelastic_force", force);
   for (std::size_t k = 0; k < dofs_.size(); ++k) now_[k] = force[dofs_[k]];
   saved.get_sums("inelastic " + mesh_.structure + " offset", {&offset_, 1});
+  records_.load(record_names(), saved);
 }
 
 }  // namespace pounding::interactions

@@ -7,6 +7,7 @@
 #include "elements/element.h"
 #include "interactions/interaction.h"
 #include "interactions/laws/element_law.h"
+#include "interactions/link_records.h"
 #include "mesh/halo.h"
 #include "mesh/mesh.h"
 #include "system/linear_system.h"
@@ -27,15 +28,8 @@ namespace pounding::interactions {
 /// over the owned dofs, W_n of counted elements (ElementLaw). Allocates nothing in a step.
 class InelasticElements final : public Interaction {
  public:
-  /// Law of the elements of a region; `region`: its number in the structure.
-  struct RegionLaw {
-    int region = 0;
-    std::unique_ptr<ElementLaw> law;
-  };
-
   /// Elements of structure number `structure` of the step. Mesh and system must outlive this
-  /// object. Throws std::logic_error where the structure starts from a rest. Collective over
-  /// the structure's communicator.
+  /// object. Collective over the structure's communicator.
   InelasticElements(std::size_t structure, const Mesh& mesh, const LinearSystem& system,
                     double time_step, std::vector<RegionLaw> laws);
 
@@ -45,6 +39,27 @@ class InelasticElements final : public Interaction {
   void finish(const Step& step) override;
   void save(SavedState& saved) const override;
   void load(const SavedState& saved) override;
+
+  /// One of the laws in one dimension of an element that this rank counts.
+  struct Part {
+    std::size_t group = 0;
+    std::size_t element = 0;  ///< of its block
+    std::size_t number = 0;   ///< of the law
+  };
+  const std::vector<Part>& parts() const { return parts_; }
+  const ElementBlock& block_of(const Part& part) const {
+    return mesh_.blocks[groups_[part.group].block];
+  }
+  std::string name_of(const Part& part) const {
+    return groups_[part.group].law->parts()[part.number];
+  }
+  PartState state_of(const Part& part) const;
+  /// Rows of five numbers of the parts of all ranks: region, element, number of the law, ductility,
+  /// energy lost [J]. Collective over the structure's communicator.
+  std::vector<double> table() const;
+  /// Records some of these parts from now on, numbers into `parts()`.
+  void record(std::vector<std::size_t> parts);
+  const LinkRecords& records() const { return records_; }
 
  private:
   /// Elements of one block, which share a law.
@@ -61,6 +76,7 @@ class InelasticElements final : public Interaction {
   double respond();
   void exchange(const SteppedStructure& structure, double back);
   std::string name_of(const Group& group, const char* numbers) const;
+  std::vector<std::string> record_names() const;
 
   std::size_t structure_;
   const Mesh& mesh_;
@@ -78,6 +94,9 @@ class InelasticElements final : public Interaction {
   double offset_ = 0;                 ///< W_n [J]
   double offset_before_ = 0;          ///< W_{n-1} [J]
   Before state_;                      ///< u_n and v- over dofs_
+  std::vector<Part> parts_;
+  LinkRecords records_;
+  std::vector<double> taken_;  ///< by each recorded part up to the last step [J]
 };
 
 }  // namespace pounding::interactions

@@ -61,6 +61,13 @@ struct YieldingSection {
   std::array<std::optional<Hysteresis>, 2> bending;  ///< moment [N m] over curvature [1/m]
 
   bool any() const { return shear[0] || shear[1] || bending[0] || bending[1]; }
+  /// The option that gave the first of them.
+  const char* option() const {
+    if (shear[0]) return "<structure>_<group>_shear_skeleton_y";
+    if (shear[1]) return "<structure>_<group>_shear_skeleton_z";
+    return bending[0] ? "<structure>_<group>_bending_skeleton_y"
+                      : "<structure>_<group>_bending_skeleton_z";
+  }
 };
 
 /// Same law of another unit of elongation: each elongation times `length`, forces times `strength`.

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <iterator>
+#include <span>
 #include <sstream>
 #include <string>
 
@@ -96,10 +99,10 @@ void read_skeleton(OptionReader& options, const Names& names,
 }
 
 /// Sliders in parallel cannot soften, nor have other slopes back than there.
-void check_sliders(const OptionReader& options, const Names& names, const Hysteresis& law) {
+void check_sliders(const OptionReader& options, const Names& names, std::string_view there,
+                   std::string_view back, const Hysteresis& law) {
   if (law.is_one_sided() || law.positive.breaks.size() != law.negative.breaks.size()) {
-    options.refuse(back_option, names,
-                   "kinematic hardening has the same slopes in both directions");
+    options.refuse(back, names, "kinematic hardening has the same slopes in both directions");
   }
   double before = law.first_slope();
   for (std::size_t i = 1; i <= law.positive.breaks.size(); ++i) {
@@ -108,54 +111,66 @@ void check_sliders(const OptionReader& options, const Names& names, const Hyster
     const auto& minus = law.negative.breaks;
     const double slope = last ? law.positive.last_slope : slope_between(plus[i - 1], plus[i]);
     if (slope < -even * before || slope > (1 + even) * before) {
-      options.refuse(skeleton_option, names,
+      options.refuse(there, names,
                      "with kinematic hardening slopes must fall from corner to corner, and none "
-                     "below 0; -" +
-                         option_name(rule_option, names) + " peak may soften");
+                     "below 0; the rule peak may soften");
     }
     if (!last && !(std::abs(slope_between(minus[i - 1], minus[i]) - slope) <= rounded * before)) {
-      options.refuse(back_option, names,
-                     "kinematic hardening has the same slopes in both directions");
+      options.refuse(back, names, "kinematic hardening has the same slopes in both directions");
     }
     before = slope;
   }
 }
 
-void read_paths(OptionReader& options, const Names& names, Hysteresis& law) {
-  const std::string goes_with = "goes with -" + option_name(rule_option, names) + " ";
-  const bool peak = law.rule == HystereticRule::peak || law.rule == HystereticRule::pinching;
-  if (peak || law.rule == HystereticRule::bending || law.rule == HystereticRule::origin) {
-    if (law.rule == HystereticRule::origin) {
-      options.forbid(exponent_option, names, goes_with + "peak, pinching or bending");
-    } else if (options.given(exponent_option, names)) {
-      law.unloading_exponent = options.real(exponent_option, names);
-    } else if (law.rule == HystereticRule::bending) {
-      law.unloading_exponent = 0.5;
-    }
-    law.unloading_least = options.real(least_option, names);
-  } else {
-    for (const std::string_view option : {exponent_option, least_option}) {
-      options.forbid(option, names, goes_with + "peak, pinching or bending");
+bool has_rule(const Hysteresis& law, std::initializer_list<HystereticRule> rules) {
+  return std::ranges::find(rules, law.rule) != rules.end();
+}
+
+/// Numbers of the ways between loadings, for those laws that have them. `rules`: options of the
+/// rules, for messages.
+void read_paths(OptionReader& options, const Names& names, const std::string& rules,
+                std::span<Hysteresis* const> laws) {
+  using enum HystereticRule;
+  const auto chosen = [&](std::initializer_list<HystereticRule> wanted) {
+    std::vector<Hysteresis*> found;
+    std::ranges::copy_if(laws, std::back_inserter(found),
+                         [&](const Hysteresis* law) { return has_rule(*law, wanted); });
+    return found;
+  };
+  const auto forbid = [&](std::string_view option, const char* with) {
+    options.forbid(option, names, "goes with " + rules + " " + with);
+  };
+  const std::vector<Hysteresis*> with_exponent = chosen({peak, pinching, bending});
+  if (with_exponent.empty()) forbid(exponent_option, "peak, pinching or bending");
+  for (Hysteresis* const law : with_exponent) {
+    if (options.given(exponent_option, names)) {
+      law->unloading_exponent = options.real(exponent_option, names);
+    } else if (law->rule == bending) {
+      law->unloading_exponent = 0.5;
     }
   }
-  if (law.rule == HystereticRule::pinching) {
+  const std::vector<Hysteresis*> with_least = chosen({peak, pinching, bending, origin});
+  if (with_least.empty()) forbid(least_option, "peak, pinching, bending or origin");
+  for (Hysteresis* const law : with_least) law->unloading_least = options.real(least_option, names);
+  const std::vector<Hysteresis*> with_pinch = chosen({pinching});
+  if (with_pinch.empty()) forbid(pinch_option, "pinching");
+  for (Hysteresis* const law : with_pinch) {
     const std::vector<double> pinch = options.reals(pinch_option, names, 2);
-    law.pinch_force = pinch[0];
-    law.pinch_elongation = pinch[1];
     if (!(pinch[0] <= pinch[1]) || !(pinch[1] < 1)) {
       options.refuse(pinch_option, names, "the force must not exceed the way, nor the way reach 1");
     }
-  } else {
-    options.forbid(pinch_option, names, goes_with + "pinching");
+    law->pinch_force = pinch[0];
+    law->pinch_elongation = pinch[1];
   }
+  const std::vector<Hysteresis*> with_energy = chosen({peak, pinching});
+  if (with_energy.empty()) forbid(deterioration_option, "peak or pinching");
   if (!options.given(deterioration_option, names)) return;
-  if (!peak) options.forbid(deterioration_option, names, goes_with + "peak or pinching");
-  const std::vector<double> values = options.reals(deterioration_option, names);
-  if (values.size() > 2 || std::ranges::any_of(values, [](double x) { return !(x > 0); })) {
-    options.refuse(deterioration_option, names, "one or two positive numbers");
+  for (Hysteresis* const law : with_energy) {
+    const std::vector<double> values = options.reals(deterioration_option, names);
+    if (values.size() > 2) options.refuse(deterioration_option, names, "more than two numbers");
+    law->lasting_energy = values[0];
+    if (values.size() == 2) law->deterioration_exponent = values[1];
   }
-  law.lasting_energy = values[0];
-  if (values.size() == 2) law.deterioration_exponent = values[1];
 }
 
 }  // namespace
@@ -181,9 +196,10 @@ void read_hysteresis(OptionReader& options, const Names& names,
                    "not beside -" + option_name("<structure>_<group>_yield_circle", names) +
                        ", on which kinematic hardening of two slopes is all there is");
   }
-  read_paths(options, names, law);
+  Hysteresis* const laws[] = {&law};
+  read_paths(options, names, "-" + option_name(rule_option, names), laws);
   if (!spring.has_skeleton()) return;
-  if (kinematic) check_sliders(options, names, law);
+  if (kinematic) check_sliders(options, names, skeleton_option, back_option, law);
   const bool one_sided = law.rule == HystereticRule::origin || law.rule == HystereticRule::peak ||
                          law.rule == HystereticRule::pinching;
   if (law.is_one_sided() && !one_sided) {
@@ -191,6 +207,45 @@ void read_hysteresis(OptionReader& options, const Names& names,
                    "what carries nothing back takes -" + option_name(rule_option, names) +
                        " origin, peak or pinching");
   }
+}
+
+void read_yielding_section(OptionReader& options, const Names& names, Region& region) {
+  const Section& section = *region.section;
+  const double shear = region.material.young / (2 * (1 + region.material.poisson));
+  const double young = region.material.young;
+  std::vector<Hysteresis*> laws;
+  const auto add = [&](const char* kind, std::size_t axis, double first_slope,
+                       std::optional<Hysteresis>& law) {
+    const std::string prefix = std::string("<structure>_<group>_") + kind;
+    const std::string option = prefix + "_skeleton_" + "yz"[axis];
+    if (!options.given(option, names)) return;
+    if (!(first_slope > 0)) {
+      options.refuse(option, names,
+                     "the beam is not flexible in shear; give its section a shear_area");
+    }
+    Hysteresis& made = law.emplace();
+    made.rule = rule_of(options.choice(prefix + "_rule", names));
+    made.positive.breaks = read_corners(options, option, names, first_slope);
+    made.negative = made.positive;
+    if (made.rule == HystereticRule::kinematic) check_sliders(options, names, option, option, made);
+    laws.push_back(&made);
+  };
+  add("shear", 0, shear * section.shear_area_y, region.yielding.shear[0]);
+  add("shear", 1, shear * section.shear_area_z, region.yielding.shear[1]);
+  add("bending", 0, young * section.inertia_y, region.yielding.bending[0]);
+  add("bending", 1, young * section.inertia_z, region.yielding.bending[1]);
+  for (const char* kind : {"shear", "bending"}) {
+    const std::string prefix = std::string("<structure>_<group>_") + kind;
+    const auto& of = kind[0] == 's' ? region.yielding.shear : region.yielding.bending;
+    if (of[0] || of[1]) continue;
+    options.forbid(prefix + "_rule", names,
+                   "goes with -" + option_name(prefix + "_skeleton_y", names) + " or _z");
+  }
+  read_paths(options, names,
+             "-" + option_name("<structure>_<group>_shear_rule", names) + " or -" +
+                 option_name("<structure>_<group>_bending_rule", names),
+             laws);
+  region.inelastic = region.yielding.any();
 }
 
 }  // namespace pounding

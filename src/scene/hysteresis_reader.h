@@ -12,4 +12,8 @@ namespace pounding {
 void read_hysteresis(OptionReader& options, const OptionReader::Names& names,
                      const std::array<double, 6>& first_slopes, NonlinearSpring& spring);
 
+/// Laws of the section of a beam, whose material and section are read already; marks it inelastic
+/// where there are any. Throws UserError.
+void read_yielding_section(OptionReader& options, const OptionReader::Names& names, Region& region);
+
 }  // namespace pounding

@@ -26,6 +26,7 @@ void refuse_couplings(const OptionReader& options, const Structure& structure) {
     const std::string remedy = "not in a structure with -" + option_name(model, {structure.name}) +
                                " modal; leave it out, or give -" +
                                option_name(model, {structure.name}) + " full";
+    if (region.inelastic) options.forbid(law_option(region), names, remedy);
     if (follows_law(region) && structure.uniform_damping) {
       options.forbid(
           law_option(region), names,

@@ -97,6 +97,7 @@ inline bool follows_law(const Region& region) {
 
 /// The option that takes the stiffness of a region's elements out of K.
 inline const char* law_option(const Region& region) {
+  if (region.inelastic) return region.yielding.option();
   if (region.compression_only) return "<structure>_<group>_compression_only";
   if (region.nonlinear.friction > 0) return "<structure>_<group>_sliding_friction";
   return region.nonlinear.yields() ? "<structure>_<group>_yield_force"

@@ -13,6 +13,7 @@
 #include "scene/absorbing_reader.h"
 #include "scene/clamp_reader.h"
 #include "scene/damping_reader.h"
+#include "scene/hysteresis_reader.h"
 #include "scene/modal_reader.h"
 #include "scene/nearest_name.h"
 #include "scene/option_blocks.h"
@@ -37,7 +38,8 @@ void forbid_others(const OptionReader& options, const std::string& element, cons
       "rotary_inertia rotary_inertia_factor section compression_only slack sliding_friction "
       "pendulum_radius stiffness stiffness_per_area stiffness_per_length dashpot_per_area "
       "dashpot_per_length tension_only thickness yield_circle yield_force rule skeleton "
-      "skeleton_back unloading_exponent unloading_least pinch deterioration";
+      "skeleton_back unloading_exponent unloading_least pinch deterioration shear_skeleton_y "
+      "shear_skeleton_z shear_rule bending_skeleton_y bending_skeleton_z bending_rule";
   for (const std::string& property : split(properties, ' ')) {
     if (!takes(traits_of(element_of_word(element)), property)) {
       options.forbid("<structure>_<group>_" + property, names,
@@ -190,6 +192,7 @@ void read_solid(OptionReader& options, const Names& names, Region& region) {
   if (takes(element, "section")) {
     region.section = read_section(options, names);
     region.parts = read_parts(options, names);
+    read_yielding_section(options, names, region);
   }
   if (takes(element, "area")) {
     region.area = options.real("<structure>_<group>_area", names);

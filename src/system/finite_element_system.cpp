@@ -19,6 +19,7 @@
 #include "system/massless_followers.h"
 #include "system/rotary_scaling.h"
 #include "system/scaled_mass.h"
+#include "system/yielding_beams.h"
 
 namespace pounding {
 namespace {
@@ -45,6 +46,10 @@ class Assembly {
       if (follows_law(structure.regions[block.region]) && taut_.get() == nullptr) {
         taut_ = stiffness::create_matrix(mesh);
       }
+      if (is_inelastic(block) != 0 && inelastic_.get() == nullptr) {
+        inelastic_ = stiffness::create_matrix(
+            mesh, [this](const ElementBlock& other) { return is_inelastic(other) != 0; });
+      }
       if (has_extra_damping(block) && extra_damping_.get() == nullptr) {
         extra_damping_ = stiffness::create_matrix(
             mesh, [this](const ElementBlock& other) { return has_extra_damping(other); });
@@ -69,6 +74,7 @@ class Assembly {
     });
     system_.stiffness = finished(std::move(matrix_));
     system_.taut = finished(std::move(taut_));
+    system_.inelastic_stiffness = finished(std::move(inelastic_));
     system_.extra_damping = finished(std::move(extra_damping_));
     bounds_.finish(system_);
     for (const auto& [dof, mass] : lent_) system_.lumped_mass[dof] = mass;
@@ -110,6 +116,7 @@ class Assembly {
     if (matrix_.get() != nullptr && is_linear(block.type) && !region.inelastic) {
       insert(matrix_, work.stiffness.data());
     }
+    if (region.inelastic) insert(inelastic_, work.stiffness.data());
     add_law_stiffness(region, block.share_of(element), layout, work);
     if (taut_.get() != nullptr) insert(taut_, work.stiffness.data());
     const double scaling = added_mass_.add(block, element, region, stiffness, mass);
@@ -277,8 +284,9 @@ class Assembly {
   LinearSystem& system_;
   std::vector<LentMass> lent_;
   std::map<LocalIndex, double> held_;  ///< mass that may be lent to a dof that springs hold
-  MatHandle matrix_;  ///< linear elements; these three are null if nobody wants them
+  MatHandle matrix_;  ///< linear elements; these four are null if nobody wants them
   MatHandle taut_;    ///< one-way elements as well
+  MatHandle inelastic_;
   MatHandle extra_damping_;
   std::vector<PetscInt> numbers_;
   ElementBounds bounds_;
@@ -318,6 +326,7 @@ LinearSystem build_finite_element_system(const Structure& structure, const Mesh&
   // Modes want every link at its stiffest: the linear elements alone are of no use to them then.
   const bool for_modes = with_matrix && std::ranges::none_of(structure.regions, follows_law);
   Assembly(structure, mesh, !by_element || for_modes, system).run();
+  system.laws = yielding_beams(structure, mesh);
   system.stiffness_method = "assembled";
   if (by_element) {
     auto product =

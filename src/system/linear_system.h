@@ -11,6 +11,7 @@
 #include <mpi.h>
 
 #include "common/types.h"
+#include "interactions/laws/element_law.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
 #include "stiffness/stiffness.h"
@@ -69,6 +70,9 @@ struct LinearSystem {
   std::unique_ptr<stiffness::Stiffness>
       taut;  ///< K with links and inelastic elements at their stiffest; null without any
   std::shared_ptr<Links> links;  ///< null if there are none
+  /// K of the inelastic elements as long as they are elastic; null without any.
+  std::unique_ptr<stiffness::Stiffness> inelastic_stiffness;
+  std::vector<interactions::RegionLaw> laws;  ///< of the inelastic elements
   /// How it follows supports that move on their own; null where the ground moves as one.
   std::shared_ptr<const SupportShapes> supports;
   std::unique_ptr<stiffness::Stiffness> extra_damping;  ///< D [N s/m, N m s]; null if there is none

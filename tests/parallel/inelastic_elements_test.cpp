@@ -103,7 +103,7 @@ struct BodyRun {
                                                              std::sqrt(built.system.stiffening()))),
         stepper(PETSC_COMM_WORLD, {&built.system, 1}, still, time_step, profile) {
     if (!inelastic) return;
-    std::vector<InelasticElements::RegionLaw> laws;
+    std::vector<interactions::RegionLaw> laws;
     for (std::size_t r = 0; r < damped.structure.regions.size(); ++r) {
       if (!damped.structure.regions[r].inelastic) continue;
       const auto region = static_cast<int>(r);

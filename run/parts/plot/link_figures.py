@@ -27,7 +27,7 @@ def _panel(axes, item: str, kind: str, links: dict) -> None:
     """`links`: elongation and force by name."""
     area = {name: _area(*curve) for name, curve in links.items()}
     shown = sorted(links, key=lambda name: -abs(area[name]))[:_MOST]
-    about, filler = kind.startswith("r"), kind == ""
+    about, filler = kind.startswith(("r", "bending")), kind == ""
     for colour, name in zip(_COLOURS, shown):
         elongation, force = links[name]
         axes.plot(1e3 * elongation, 1e-3 * force, lw=0.7, alpha=0.85, color=colour,

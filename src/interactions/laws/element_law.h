@@ -1,9 +1,21 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace pounding::interactions {
+
+/// One of the laws in one dimension that an element follows, as it is in a memory.
+struct PartState {
+  double elongation = 0;  ///< [m, rad]
+  double force = 0;       ///< [N, N m]
+  double ductility = 0;   ///< largest elongation over that of its first corner
+  double lost = 0;        ///< energy [J]
+  double taken = 0;       ///< lost and held [J]
+};
 
 /// Law of the nodal forces of elements that yield or break, as a function of their displacements
 /// and of a history. Its secant energy is that of an elastic element about what it has lost: with
@@ -25,6 +37,21 @@ class ElementLaw {
   /// number among those that this rank has of the region. Returns W_n [J].
   virtual double respond(std::size_t element, std::span<const double> displacement,
                          std::span<double> memory, std::span<double> force) const = 0;
+
+  /// Names of its laws in one dimension, "shear_y" say, the same of every element; none where it
+  /// has no such parts.
+  virtual std::vector<std::string> parts() const { return {}; }
+  /// One of them in the memory of an element.
+  virtual PartState part(std::size_t /*element*/, std::size_t /*number*/,
+                         std::span<const double> /*memory*/) const {
+    return {};
+  }
+};
+
+/// Law of the elements of a region.
+struct RegionLaw {
+  int region = 0;  ///< its number in the structure
+  std::shared_ptr<const ElementLaw> law;
 };
 
 }  // namespace pounding::interactions

@@ -36,6 +36,7 @@ class HystereticLaw {
   double stored(std::span<const double> memory) const {
     return memory[force_now] * memory[force_now] / (2 * stiffness_) + memory[beyond];
   }
+  double elongation(std::span<const double> memory) const { return memory[elongation_now]; }
   /// Sum of D_n [J].
   double lost(std::span<const double> memory) const { return memory[lost_so_far]; }
   /// Force of the path itself, which `force` is but for single steps.

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <memory>
+
+#include "driver/observed_run.h"
+
+namespace pounding {
+
+/// Ductility and lost energy of every element whose section may yield: yielding.csv at the end of
+/// the run, and their sums by group in the report.
+std::unique_ptr<Observer> make_yield_table(const ObservedRun& run);
+
+}  // namespace pounding

@@ -1,0 +1,172 @@
+"""Beams whose sections yield: closed forms of one beam, sticks against the linear ones, ranks, rests, continued runs.
+
+One beam whose end only sways is a spring k = 1 / (L / G A + L^3 / (12 E I)) that yields at Q in shear: a mass that is
+thrown at it turns back where its energy is spent.
+"""
+import os
+import unittest
+
+import numpy
+
+import program
+from loops_test import Loops
+from recorded import Recorded, assert_continues
+
+YOUNG, POISSON = 30e9, 0.2
+SHEAR = YOUNG / (2 * (1 + POISSON))
+LENGTH, AREA, INERTIA = 4.0, 1.0, 1 / 12
+SECTION = ["-section_wall_area", 1, "-section_wall_inertia_y", repr(INERTIA), "-section_wall_inertia_z", repr(INERTIA),
+           "-section_wall_torsion", 0.14, "-section_wall_shear_area", "0.8,0.8", "-section_wall_z_axis", "0,0,1",
+           "-material_concrete_young", YOUNG, "-material_concrete_poisson", POISSON]
+STIFF = SHEAR * 0.8
+BENDS = YOUNG * INERTIA
+
+
+def pairs(first_slope, *corners):
+    """A skeleton whose first corner is given by its force, the others by multiples of its elongation."""
+    force = corners[0]
+    values = [force / first_slope, force]
+    for ductility, at in corners[1:]:
+        values += [ductility * force / first_slope, at]
+    return ",".join(repr(value) for value in values)
+
+
+def beam(*more, time_step=1e-5, end=0.1, mass=2e5):
+    """One beam along x with a mass at its end."""
+    return ["-structures", "one", "-one_mesh", "tests/meshes/line.geo", "-one_mesh_set", f"length={LENGTH},n=1",
+            "-one_line_element", "beam", "-one_line_material", "concrete", "-one_line_section", "wall",
+            "-material_concrete_density", 1e-3, "-one_x_max_element", "point_mass", "-one_x_max_mass", mass, *SECTION,
+            "-time_step", repr(time_step), "-end_time", end, "-output_interval", repr(time_step), "-energy_interval", 10,
+            "-probes", "tip", "-tip_structure", "one", "-tip_at", f"{LENGTH},0,0", *more]
+
+
+class OneBeam(unittest.TestCase):
+    def test_in_shear(self):
+        stiffness = 1 / (LENGTH / STIFF + LENGTH**3 / (12 * BENDS))
+        mass, speed, force = 2e5, 1.5, 4e6
+        top = force / stiffness + (mass * speed**2 / 2 - force**2 / stiffness / 2) / force
+        for axis, across, ranks in (("z", "y", 1), ("y", "z", 2)):
+            velocity = f"0,{speed if axis == 'y' else 0},{speed if axis == 'z' else 0}"
+            run = Recorded(self, beam(
+                "-one_clamp", f"x_min,x_max:x+{across}+rx+ry+rz", "-one_initial_velocity", velocity,
+                f"-one_line_shear_skeleton_{axis}", pairs(STIFF, force)), ranks)
+            found = run.displacement(f"tip.{axis}")
+            self.assertAlmostEqual(found.max() / top, 1, delta=1e-5)
+            found = run.summary["yielding"][f"one:line:shear_{axis}"]
+            self.assertEqual((found["elements"], found["yielded"]), (1, 1))
+            self.assertAlmostEqual(found["ductility"] / (top * stiffness / force), 1, delta=1e-5)
+            self.assertAlmostEqual(found["energy_lost"] / run.energy["devices"], 1, delta=1e-9)
+
+
+STICK_STEP = 1e-4
+
+
+def stick(*more, time_step=STICK_STEP, end=0.6, factor=1.0):
+    """Four storeys of 4 m with a mass on each, shaken along x and y."""
+    shear = pairs(STIFF, factor * 1.2e6, (3, factor * 1.7e6), (15, factor * 2.4e6))
+    moment = pairs(BENDS, factor * 5e6, (3, factor * 8e6), (20, factor * 1e7))
+    return ["-structures", "s", "-s_mesh", "tests/meshes/stick.geo", "-s_clamp", "foot", "-s_column_element", "beam",
+            "-s_column_material", "concrete", "-s_column_section", "wall", "-s_column_divide", 2,
+            "-material_concrete_density", 2400, "-s_floors_element", "point_mass", "-s_floors_mass", 1e5,
+            "-s_floors_rotary_inertia", "1e5,1e5,1e5", *SECTION[:-6], "-section_wall_z_axis", "1,0,0", *SECTION[-4:],
+            "-s_column_shear_skeleton_y", shear, "-s_column_shear_skeleton_z", shear,
+            "-s_column_bending_skeleton_y", moment, "-s_column_bending_skeleton_z", moment,
+            "-time_step", repr(time_step), "-end_time", end, "-output_interval", repr(5 * time_step),
+            "-energy_interval", 5, "-probes", "roof", "-roof_structure", "s", "-roof_at", "0,0,16", *more]
+
+
+class Stick(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        time = numpy.arange(0, 0.7, 0.005)
+        cls.wave = 20 * numpy.sin(2 * numpy.pi * 4 * time) * numpy.sin(numpy.pi * time / 0.7)
+        cls.record = program.write_samples(cls.wave, 0.005)
+        cls.motion = ["-motion_x_record", cls.record, "-motion_x_unit", "m/s2", "-motion_y_record", cls.record,
+                      "-motion_y_unit", "m/s2", "-motion_y_scale", 0.7]
+
+    @classmethod
+    def tearDownClass(cls):
+        os.remove(cls.record)
+
+    def unmarked(self, words):
+        """The same words without laws of sections."""
+        return [word for before, word in zip(["", *words], words) if "_skeleton_" not in f"{before}{word}"]
+
+    def test_elastic_it_is_the_linear_one(self):
+        for damping in (["-s_damping_beta", 1e-4], ["-s_damping_uniform", 0.04]):
+            words = stick(*self.motion, *damping, factor=1e4)
+            linear = Recorded(self, self.unmarked(words), 1)
+            marked = Recorded(self, words, 2)
+            for channel in ("roof.x", "roof.y"):
+                expected = linear.displacement(channel)
+                self.assertGreater(abs(expected).max(), 1e-2)
+                self.assertLess(abs(marked.displacement(channel) - expected).max(), 1e-11 * abs(expected).max())
+
+    def test_yields_alike_on_any_ranks_and_continued(self):
+        words = stick(*self.motion, "-s_damping_beta", 1e-4, "-s_gravity", "0,0,-9.81")
+        whole = Recorded(self, words, 1)
+        yielding = whole.summary["yielding"]
+        for part in ("shear_y", "shear_z", "bending_y", "bending_z"):
+            self.assertGreater(yielding[f"s:column:{part}"]["ductility"], 1.5, part)
+        self.assertGreater(sum(part["energy_lost"] for part in yielding.values()), 1e4)
+        self.assertLess(sum(part["energy_lost"] for part in yielding.values()), whole.energy["devices"])
+        for ranks in (2, 4):
+            other = Recorded(self, words, ranks)
+            self.assertLess(abs(other.displacement("roof.x") - whole.displacement("roof.x")).max(), 1e-10)
+        assert_continues(self, [*words, "-modes", 1, "-spectra_frequencies", 10, "-loops", "s:column"], 0.3, 2000)
+
+    def test_second_order(self):
+        end = ["-end_time", 0.5, "-output_interval", 0.005]
+        x = [Recorded(self, stick(*self.motion, *end, time_step=step), 1).displacement("roof.x")
+             for step in (1e-4, 5e-5, 1.25e-5)]
+        errors = [abs(found - x[-1]).max() for found in x[:-1]]
+        self.assertLess(errors[1], errors[0] / 3)
+        self.assertLess(errors[1], 1e-4 * abs(x[-1]).max())
+
+    def test_loops_take_what_the_table_says(self):
+        words = [*stick(*self.motion), "-output_interval", repr(STICK_STEP), "-loops", "s:column"]
+        run = Loops(self, words, 2)
+        self.assertEqual(len(run.names), 8 * 4)
+        self.assertTrue(run.names[0].endswith(".shear_y"), run.names[0])
+        work = ((run.force[1:] + run.force[:-1]) / 2 * numpy.diff(run.elongation, axis=0)).sum()
+        self.assertAlmostEqual(work / run.summary["loops"]["s:column"]["energy_taken"], 1, delta=1e-2)
+        # The farthest point of each loop is on the skeleton of the section.
+        half = 2.0  # m, of one of the two beams of a storey
+        for name, e, f in zip(run.names, run.elongation.T, run.force.T):
+            shear = ".shear" in name
+            first, slope = (1.2e6, STIFF) if shear else (5e6, BENDS)
+            corners = [(1, first), (3, 1.7e6), (15, 2.4e6)] if shear else [(1, first), (3, 8e6), (20, 1e7)]
+            along = [half * d * first / slope + (force * half**3 / 12 / BENDS if shear else 0) for d, force in corners]
+            far = abs(e).argmax()
+            on = numpy.interp(abs(e[far]), [0, *along], [0, *(force for _, force in corners)])
+            self.assertAlmostEqual(abs(f[far]) / on, 1, delta=1e-9, msg=name)
+        lost = sum(part["energy_lost"] for part in run.summary["yielding"].values())
+        self.assertGreater(lost, 0.1 * work)
+        self.assertLess(lost, work)
+
+    def test_rest_under_gravity(self):
+        gravity = ["-s_gravity", "0.4,0,-9.81", "-preload", "static", "-end_time", 0.05]
+        for damping in (["-s_damping_beta", 1e-4], ["-s_damping_uniform", 0.04]):
+            run = Recorded(self, stick(*gravity, *damping), 2)
+            x = run.displacement("roof.x")
+            self.assertGreater(abs(x[0]), 1e-4)
+            self.assertLess(abs(x - x[0]).max(), 1e-10 * abs(x[0]))
+        program.must_refuse(self, stick(*gravity, factor=0.2), "times beyond the first corner of its bending")
+
+    def test_refusals(self):
+        for more, said in ((["-s_model", "modal"], "-s_model full"),
+                           (["-s_column_bending_skeleton_y", "1,5e6"], "not on the line of the stiffness"),
+                           (["-export_matrices", "/tmp/nothing"], "elements that yield"),
+                           (["-s_column_pinch", "0.2,0.5"], "goes with")):
+            program.must_refuse(self, stick(*more), said, ranks=1)
+
+    def test_two_sticks_that_pound(self):
+        """The shipped scene: rest under gravity, walls that yield, strikes, in one ledger."""
+        run = Recorded(self, ["-options_file", "petsc-options/plant/yielding_stick.yaml", "-end_time", 5.2], 1)
+        self.assertGreater(run.summary["impacts"]["episodes"], 0)
+        self.assertGreater(run.summary["yielding"]["annex:b7:bending_z"]["ductility"], 1)
+        self.assertGreater(run.summary["yielding"]["annex:b7:bending_z"]["energy_lost"], 1e3)
+
+
+if __name__ == "__main__":
+    unittest.main()
