@@ -29,7 +29,8 @@ def block(nx, ny, nz, size):
     places = {number(i, j, k): (size[0] * i / nx, size[1] * j / ny, size[2] * k / nz)
               for k in range(nz + 1) for j in range(ny + 1) for i in range(nx + 1)}
     corners = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
-    cells = [[number(i + a, j + b, k + c) for a, b, c in corners] for k in range(nz) for j in range(ny) for i in range(nx)]
+    cells = [[number(i + a, j + b, k + c) for a, b,
+              c in corners] for k in range(nz) for j in range(ny) for i in range(nx)]
     return places, dict(enumerate(cells, 1))
 
 
@@ -48,7 +49,8 @@ def torsion(a, b):
 class Abaqus(unittest.TestCase):
     def test_frame_with_masses_springs_hinges_and_supports(self):
         """Columns with the long side of their section along x, by n1 of the section; girders by n1 and by a node."""
-        deck = ("*HEADING\nA frame\n" + nodes(FRAME) + elements("B31", "COLUMNS", COLUMNS) + elements("B31", "GIRDER", {3: (2, 3)})
+        deck = ("*HEADING\nA frame\n" + nodes(FRAME) + elements("B31", "COLUMNS", COLUMNS) + elements("B31", "GIRDER",
+                                                                                                      {3: (2, 3)})
                 + elements("B31", "CROSS", {4: (3, 5)}) + elements("MASS", "MACHINE", {11: (5,)})
                 + elements("ROTARYI", "TURNING", {12: (5,)}) + elements("SPRING1", "SOIL", {13: (5,)})
                 + elements("SPRING2", "LINK", {14: (2, 6)}) + elements("MASS", "HUNG", {15: (6,)})
@@ -65,8 +67,10 @@ class Abaqus(unittest.TestCase):
         stay = math.dist(FRAME[5], FRAME[1])
         words = by_hand(hand, {
             "columns": ("line", COLUMNS.values()), "girders": ("line", [(2, 7), (3, 5)]), "machine": ("point", [(5,)]),
-            "hung": ("point", [(6,)]), "soil": ("point", [(5,)]), "link": ("line", [(2, 6)]), "stay": ("line", [(5, 1)]),
-            "foot": ("point", [(1,)]), "pad": ("point", [(4,)]), "guide": ("point", [(6,)]), "hinge": ("point", [(3,), (7,)])},
+            "hung": ("point", [(6,)]), "soil": ("point", [(5,)]), "link": ("line", [(2, 6)]), "stay": ("line", [(5,
+                                                                                                                 1)]),
+            "foot": ("point", [(1,)]), "pad": ("point", [(4,)]), "guide": ("point", [(6,)]), "hinge": ("point",
+                                                                                                       [(3,), (7,)])},
             {"columns_element": "beam", "columns_material": "steel", "columns_section": "c", "girders_element": "beam",
              "girders_material": "steel", "girders_section": "g", "machine_element": "point_mass", "machine_mass": 500,
              "machine_rotary_inertia": "20,30,40", "hung_element": "point_mass", "hung_mass": 80,
@@ -101,7 +105,8 @@ class Abaqus(unittest.TestCase):
         deck = (nodes(places) + elements("C3D8I", "BODY", cells)
                 + elements("S4", "PLATE", dict(enumerate(plates, 200)))
                 + "*NSET, NSET=BASE, GENERATE\n1, 12, 1\n*ELSET, ELSET=ALL\nBODY\nPLATE\n"
-                "*MATERIAL, NAME=STEEL\n*ELASTIC\n210000., .3\n*DENSITY\n7.85e-9\n*SOLID SECTION, ELSET=BODY, MATERIAL=STEEL\n"
+                "*MATERIAL, NAME=STEEL\n*ELASTIC\n210000., .3\n*DENSITY\n7.85e-9\n*SOLID SECTION, ELSET=BODY, "
+                "MATERIAL=STEEL\n"
                 "*SHELL SECTION, ELSET=PLATE, MATERIAL=STEEL, OFFSET=-0.5\n20.\n"
                 "*NONSTRUCTURAL MASS, ELSET=PLATE, UNITS=MASS PER AREA\n1.5e-7\n*BOUNDARY\nBASE, 1, 3\n")
         scene, said = imported.imported(self, "body.inp", deck, "mm,t,s")
@@ -110,7 +115,8 @@ class Abaqus(unittest.TestCase):
         lifted = {n: 1000 + n for n in roof}
         hand = {**metres, **{lifted[n]: (*metres[n][:2], 0.61) for n in roof}}
         words = by_hand(hand, {
-            "body": ("brick", cells.values()), "plate": ("quadrangle", [tuple(lifted[n] for n in plate) for plate in plates]),
+            "body": ("brick", cells.values()), "plate": ("quadrangle",
+                                                         [tuple(lifted[n] for n in plate) for plate in plates]),
             "base": ("point", [(n,) for n in range(1, 13)]), "up": ("point", [(n,) for n in lifted.values()]),
             "down": ("point", [(n,) for n in roof])},
             {"body_element": "hex8", "body_material": "steel", "plate_element": "shell", "plate_material": "steel",
@@ -125,7 +131,8 @@ class Abaqus(unittest.TestCase):
     def test_parts_and_instances(self):
         """One part twice, moved and turned about z, joined by a spring of the assembly."""
         part = ("*PART, NAME=POST\n" + nodes({1: (0, 0, 0), 2: (0, 0, 2), 3: (1, 0, 2)}) + elements("B31", "BEAMS", {
-            1: (1, 2), 2: (2, 3)}) + "*NSET, NSET=FOOT\n1\n*BEAM SECTION, SECTION=CIRC, ELSET=BEAMS, MATERIAL=STEEL\n.05\n"
+            1: (1, 2), 2: (2, 3)}) + "*NSET, NSET=FOOT\n1\n*BEAM SECTION, SECTION=CIRC, ELSET=BEAMS, "
+                                     "MATERIAL=STEEL\n.05\n"
             "0., 1., 0.\n*END PART\n")
         deck = ("*HEADING\n" + part + "*ASSEMBLY, NAME=ALL\n*INSTANCE, NAME=A, PART=POST\n*END INSTANCE\n"
                 "*INSTANCE, NAME=B, PART=POST\n5., 0., 0.\n5., 0., 0., 5., 0., 1., 90.\n*END INSTANCE\n"
@@ -134,10 +141,12 @@ class Abaqus(unittest.TestCase):
         scene, _ = imported.imported(self, "posts.inp", deck)
         hand = {1: (0, 0, 0), 2: (0, 0, 2), 3: (1, 0, 2), 4: (5, 0, 0), 5: (5, 0, 2), 6: (5, 1, 2)}
         area, inertia = math.pi * 0.05**2, math.pi * 0.05**4 / 4
-        words = by_hand(hand, {"b": ("line", [(1, 2), (2, 3), (4, 5)]), "d": ("line", [(5, 6)]), "link": ("line", [(3, 6)]), "feet": ("point", [(1,), (4,)])}, {
+        words = by_hand(hand, {"b": ("line", [(1, 2), (2, 3), (4, 5)]), "d": ("line", [(5, 6)]),
+                               "link": ("line", [(3, 6)]), "feet": ("point", [(1,), (4,)])}, {
             "b_element": "beam", "b_material": "steel", "b_section": "s", "d_element": "beam", "d_material": "steel",
             "d_section": "d", "link_element": "spring", "link_stiffness": "0,3e4,0",
-            "clamp": "feet", **steel(), **section("s", area, inertia, inertia, 2 * inertia, "0,1,0", f"{0.89 * area},{0.89 * area}"),
+            "clamp": "feet", **steel(), **section("s", area, inertia, inertia, 2 * inertia, "0,1,0",
+                                                  f"{0.89 * area},{0.89 * area}"),
             **section("d", area, inertia, inertia, 2 * inertia, "1,0,0", f"{0.89 * area},{0.89 * area}")})
         same(self, scene, words)
 
@@ -150,23 +159,26 @@ class Abaqus(unittest.TestCase):
                 + elements("MASS", "TOP", {60: (91,)}) + "*NSET, NSET=ROOF\n" + "".join(f"{n},\n" for n in roof)
                 + "*NSET, NSET=BASE, GENERATE\n1, 9\n*SURFACE, NAME=UP, TYPE=NODE\nROOF\n" + MATERIAL
                 + "*SOLID SECTION, ELSET=BODY, MATERIAL=STEEL\n*MASS, ELSET=TOP\n900.\n"
-                "*BEAM GENERAL SECTION, SECTION=GENERAL, ELSET=MAST, DENSITY=7850.\n.01, 2e-5, 0., 1e-5, 3e-5\n1., 0., 0.\n"
+                "*BEAM GENERAL SECTION, SECTION=GENERAL, ELSET=MAST, DENSITY=7850.\n.01, 2e-5, 0., 1e-5, 3e-5\n1., "
+                "0., 0.\n"
                 "2.1e11, 8e10\n*COUPLING, CONSTRAINT NAME=FOOT, REF NODE=90, SURFACE=UP\n*KINEMATIC\n1, 6\n"
                 "*BOUNDARY\nBASE, 1, 3\n")
         scene, said = imported.imported(self, "mast.inp", deck)
         words = by_hand({**places, **more}, {
             "body": ("brick", cells.values()), "mast": ("line", [(90, 91)]), "top": ("point", [(91,)]),
             "base": ("point", [(n,) for n in range(1, 10)]), "foot": ("point", [(n,) for n in (*roof, 90)])},
-            {"body_element": "hex8_full", "body_material": "steel", "mast_element": "euler_beam", "mast_material": "steel",
-             "mast_section": "m", "top_element": "point_mass", "top_mass": 900, "clamp": "base", "rigid": "foot", **steel(),
+            {"body_element": "hex8_full", "body_material": "steel", "mast_element": "euler_beam",
+             "mast_material": "steel",
+             "mast_section": "m", "top_element": "point_mass", "top_mass": 900, "clamp": "base", "rigid": "foot",
+             **steel(),
              **section("m", 0.01, 1e-5, 2e-5, 3e-5 * 8e10 / (2.1e11 / 2.6), "1,0,0")})
         same(self, scene, words)
         self.assertIn("rigid bodies 1", said)
 
     def test_bricks_beside_calculix(self):
-        """Modes of a cantilever of C3D8I, extrapolated from two meshes: there masses are consistent, here lumped, and both
-        err by h^2 with opposite signs. Bending and stretching agree to 1e-3 on the finer mesh or extrapolated, torsion,
-        whose inertia lumps worst, to 2e-3 extrapolated."""
+        """Modes of a cantilever of C3D8I, extrapolated from two meshes: there masses are consistent, here lumped,
+        and both err by h^2 with opposite signs. Bending and stretching agree to 1e-3 on the finer mesh or extrapolated,
+        torsion, whose inertia lumps worst, to 2e-3 extrapolated."""
         if not shutil.which("ccx"):
             self.skipTest("CalculiX (ccx) is not there")
         found = {"ccx": [], "pounding": []}
@@ -174,14 +186,16 @@ class Abaqus(unittest.TestCase):
             places, cells = block(16 * fine, 3 * fine, 4 * fine, (3, 0.4, 0.6))
             deck = (nodes(places) + elements("C3D8I", "BODY", cells) + "*NSET, NSET=BASE\n"
                     + "".join(f"{n},\n" for n, x in places.items() if x[0] == 0)
-                    + "*MATERIAL, NAME=CONCRETE\n*ELASTIC\n30e9, .2\n*DENSITY\n2400.\n*SOLID SECTION, ELSET=BODY, MATERIAL=CONCRETE\n"
+                    + "*MATERIAL, NAME=CONCRETE\n*ELASTIC\n30e9, .2\n*DENSITY\n2400.\n*SOLID SECTION, ELSET=BODY, "
+                      "MATERIAL=CONCRETE\n"
                     "*BOUNDARY\nBASE, 1, 3\n*STEP\n*FREQUENCY\n6\n*END STEP\n")
             scene, _ = imported.imported(self, "cantilever.inp", deck)
             found["pounding"].append(frequencies(structure(self, scene, modes=6)))
             path = imported.of_file("cantilever.inp", deck)
             subprocess.run(["ccx", "cantilever"], cwd=path.parent, env={**os.environ, "OMP_NUM_THREADS": "1"},
                            capture_output=True, timeout=300, check=True)
-            rows = re.findall(r"^ +\d+ +\S+ +\S+ +(\S+) +\S+$", (path.parent / "cantilever.dat").read_text(), re.MULTILINE)
+            rows = re.findall(r"^ +\d+ +\S+ +\S+ +(\S+) +\S+$", (path.parent / "cantilever.dat").read_text(),
+                              re.MULTILINE)
             found["ccx"].append([float(text) for text in rows[:6]])
         limits = {name: [(4 * b - a) / 3 for a, b in zip(*pair)] for name, pair in found.items()}
         for number, tolerance in enumerate((1e-3, 1e-3, 1e-3, 2e-3, 1e-3, 1e-3)):

@@ -18,7 +18,8 @@ def eight(*fields):
 def nodes(places, codes=()):
     codes = dict(codes)
     return "*NODE\n" + "".join(f"{n:8d}" + "".join(f"{value:16.9g}" for value in map(float, x))
-                               + "".join(f"{code:8d}" for code in codes.get(n, (0, 0))) + "\n" for n, x in places.items())
+                               + "".join(f"{code:8d}" for code in codes.get(n, (0, 0))) + "\n" for n,
+                               x in places.items())
 
 
 def part(number, title, own_section, material):
@@ -51,22 +52,28 @@ class Dyna(unittest.TestCase):
             self.assertLess(abs(value / reference - 1), 2e-3, found)
         kip = 4448.2216152605
         heights = [b - a for a, b in zip(LEVELS, LEVELS[1:])]
-        close(self, said_mass(said)[:1], ((sum(MASSES) + 1e-4 * sum(a * h for a, h in zip(AREAS, heights))) * kip / 0.3048,))
+        close(self, said_mass(said)[:1], ((sum(MASSES) + 1e-4 * sum(a * h for a, h in zip(AREAS,
+                                                                                          heights))) * kip / 0.3048,))
         self.assertIn("(titles, output and control): CONTROL_TERMINATION 1, DATABASE_NODOUT 1", said)
 
     def test_bricks_shells_beams_and_joints(self):
         """Solids with a wedge, shells on one side of their nodes, beams by a third node with sections off them,
         springs, discrete beams, inertia, a rigid part with extra nodes, a nodal rigid body."""
-        places = {1: (0, 0, 0), 2: (1, 0, 0), 3: (1, 1, 0), 4: (0, 1, 0), 5: (0, 0, 1), 6: (1, 0, 1), 7: (1, 1, 1), 8: (0, 1, 1),
-                  9: (2, 0.5, 0), 10: (2, 0.5, 1), 11: (0, 0, 3), 12: (2, 0, 3), 13: (9, 0, 3), 14: (0, 9, 3), 15: (0, 0, 3),
+        places = {1: (0, 0, 0), 2: (1, 0, 0), 3: (1, 1, 0), 4: (0, 1, 0), 5: (0, 0, 1), 6: (1, 0, 1), 7: (1, 1, 1),
+                  8: (0, 1, 1),
+                  9: (2, 0.5, 0), 10: (2, 0.5, 1), 11: (0, 0, 3), 12: (2, 0, 3), 13: (9, 0, 3), 14: (0, 9, 3),
+                  15: (0, 0, 3),
                   16: (3, 0, 3), 17: (3, 0.5, 3), 18: (3, 0, 3.5)}
         deck = ("*KEYWORD\n$ a comment\n" + nodes(places, {n: (7, 0) for n in (1, 2, 3, 4)})
-                + "*MAT_ELASTIC\n" + ten(1, 7850.0, "2.1e11", 0.3) + "*MAT_RIGID\n" + ten(2, 7850.0, "2.1e11", 0.3) + ten(0, 0, 0)
+                + "*MAT_ELASTIC\n" + ten(1, 7850.0, "2.1e11", 0.3) + "*MAT_RIGID\n" + ten(2, 7850.0, "2.1e11",
+                                                                                          0.3) + ten(0, 0, 0)
                 + "*MAT_SPRING_ELASTIC\n" + ten(3, 4e6) + "*MAT_DAMPER_VISCOUS\n" + ten(4, 2e3)
-                + "*MAT_LINEAR_ELASTIC_DISCRETE_BEAM\n" + ten(5, 1000.0, 1e7, 2e7, 3e7, 1e4, 1e4, 1e4) + ten(100.0, 0, 0)
+                + "*MAT_LINEAR_ELASTIC_DISCRETE_BEAM\n" + ten(5, 1000.0, 1e7, 2e7, 3e7, 1e4, 1e4, 1e4) + ten(100.0, 0,
+                                                                                                             0)
                 + part(1, "body", 1, 1) + part(2, "roof", 2, 1) + part(3, "mast", 3, 1) + part(4, "stay", 4, 3)
                 + part(5, "oil", 4, 4) + part(6, "pad", 5, 5) + part(7, "cap", 2, 2)
-                + "*SECTION_SOLID\n" + ten(1, 1) + "*SECTION_SHELL\n" + ten(2, 16, 0.833) + ten(0.1, 0.1, 0.1, 0.1, -1.0, 25.0)
+                + "*SECTION_SOLID\n" + ten(1, 1) + "*SECTION_SHELL\n" + ten(2, 16, 0.833) + ten(0.1, 0.1, 0.1, 0.1,
+                                                                                                -1.0, 25.0)
                 + "*SECTION_BEAM\n" + ten(3, 1, 0.8333, 2, 0) + ten(0.1, 0.1, 0.2, 0.2, 0.0, 1.0)
                 + "*SECTION_DISCRETE\n" + ten(4, 0) + ten(0) + "*SECTION_BEAM\n" + ten(5, 6) + ten(0.05, 0.002, 0)
                 + "*DEFINE_SD_ORIENTATION\n" + ten(8, 0, 0.0, 1.0, 0.0)
@@ -100,25 +107,32 @@ class Dyna(unittest.TestCase):
         # I about s with 0.2 along t is that about z of the program.
         wide, flat = 0.1 * 0.2**3 / 12, 0.2 * 0.1**3 / 12
         words = by_hand(hand, {
-            "body": ("brick", [range(1, 9)]), "wedge": ("wedge", [(2, 9, 3, 6, 10, 7)]), "roof": ("quadrangle", [(25, 26, 27, 28)]),
+            "body": ("brick", [range(1, 9)]), "wedge": ("wedge", [(2, 9, 3, 6, 10, 7)]), "roof": ("quadrangle",
+                                                                                                  [(25, 26, 27, 28)]),
             "cap": ("triangle", [(26, 40, 27)]), "masta": ("line", [(45, 51)]), "mastb": ("line", [(61, 62), (62, 76)]),
-            "stay": ("line", [(12, 3)]), "oil": ("point", [(12,)]), "pad": ("line", [(11, 15)]), "padmass": ("point", [(11,)]),
+            "stay": ("line", [(12, 3)]), "oil": ("point", [(12,)]), "pad": ("line", [(11, 15)]), "padmass": ("point",
+                                                                                                             [(11,)]),
             "inertia": ("point", [(15,)]), "side": ("point", [(17,)]), "up": ("point", [(18,)]),
             "base": ("point", [(n,) for n in (1, 2, 3, 4, 9)]), "guide": ("point", [(15,)]),
             "r1": ("point", [(n,) for n in (5, 25, 45)]), "r2": ("point", [(n,) for n in (6, 7, 10, 26, 27, 40)]),
-            "r3": ("point", [(8,), (28,)]), "r4": ("point", [(n,) for n in (11, 51, 61)]), "r5": ("point", [(12,), (62,)]),
+            "r3": ("point", [(8,), (28,)]), "r4": ("point", [(n,) for n in (11, 51, 61)]), "r5": ("point", [(12,),
+                                                                                                            (62,)]),
             "r6": ("point", [(n,) for n in (16, 17, 18, 76)])}, {
             "body_element": "hex8", "wedge_element": "wedge6", "roof_element": "shell", "cap_element": "shell",
             **{f"{name}_material": "m" for name in ("body", "wedge", "roof", "cap", "masta", "mastb")},
             "roof_thickness": 0.1, "roof_mass_per_area": 25, "cap_thickness": 0.1, "cap_mass_per_area": 25,
-            "masta_element": "beam", "masta_section": "a", "mastb_element": "beam", "mastb_section": "b", "stay_element": "bar",
-            "stay_material": "rope", "stay_area": 4e6 * stay / 1e11, "oil_element": "grounded_spring", "oil_stiffness": "0,0,0",
+            "masta_element": "beam", "masta_section": "a", "mastb_element": "beam", "mastb_section": "b",
+            "stay_element": "bar",
+            "stay_material": "rope", "stay_area": 4e6 * stay / 1e11, "oil_element": "grounded_spring",
+            "oil_stiffness": "0,0,0",
             "oil_dashpot": "0,2e3,0", "pad_element": "spring", "pad_stiffness": "1e7,2e7,3e7,1e4,1e4,1e4",
             "pad_dashpot": "100,0,0,0,0,0", "padmass_element": "point_mass", "padmass_mass": 25,
             "padmass_rotary_inertia": "1,1,1", "inertia_element": "point_mass", "inertia_mass": 85,
-            "inertia_rotary_inertia": "4,5,6", "side_element": "point_mass", "side_mass": 30, "up_element": "point_mass",
+            "inertia_rotary_inertia": "4,5,6", "side_element": "point_mass", "side_mass": 30,
+            "up_element": "point_mass",
             "up_mass": 20, "clamp": "base,guide:y", "rigid": "r1,r2,r3,r4,r5,r6", "-material_m_young": 2.1e11,
-            "-material_m_poisson": 0.3, "-material_m_density": 7850, "-material_rope_young": 1e11, "-material_rope_poisson": 0,
+            "-material_m_poisson": 0.3, "-material_m_density": 7850, "-material_rope_young": 1e11,
+            "-material_rope_poisson": 0,
             "-material_rope_density": 1e-9, **section("a", 0.02, flat, wide, twist, ",".join(map(str, s5)), shear),
             **section("b", 0.02, flat, wide, twist, ",".join(map(str, s6)), shear)})
         same(self, scene, words)

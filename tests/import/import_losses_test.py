@@ -27,7 +27,8 @@ ABAQUS = """*NODE
 """
 # Lines added -> the card and how often it is lost.
 ABAQUS_LOST = {
-    "*ELEMENT, TYPE=C3D20R, ELSET=Q\n9, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3,\n1, 2, 3, 1, 2\n": "ELEMENT TYPE=C3D20R 1",
+    "*ELEMENT, TYPE=C3D20R, ELSET=Q\n9, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3,\n1, 2, 3, 1, 2\n":
+        "ELEMENT TYPE=C3D20R 1",
     "*ELEMENT, TYPE=B32\n9, 1, 2, 3\n10, 3, 2, 1\n": "ELEMENT TYPE=B32 2",
     "*ELEMENT, TYPE=SPRING1, ELSET=S\n9, 3\n*SPRING, ELSET=S, NONLINEAR\n1\n0., 0.\n1e3, .1\n": "SPRING 1",
     "*ELEMENT, TYPE=SPRING1, ELSET=S\n9, 3\n10, 2\n": "ELEMENT TYPE=SPRING1 2",
@@ -36,7 +37,8 @@ ABAQUS_LOST = {
     "*CONTACT PAIR, INTERACTION=I\nA, B\n*CONTACT PAIR, INTERACTION=I\nC, D\n": "CONTACT PAIR 2",
     "*MPC\nLINK, 2, 3\n": "MPC LINK 1",
     "*EQUATION\n3\n1, 1, 1., 2, 1, -2., 3, 1, 1.\n": "EQUATION 1",
-    "*SURFACE, NAME=S, TYPE=NODE\n2\n*COUPLING, REF NODE=3, SURFACE=S\n*DISTRIBUTING\n1, 3\n": "COUPLING DISTRIBUTING 1",
+    "*SURFACE, NAME=S, TYPE=NODE\n2\n*COUPLING, REF NODE=3, SURFACE=S\n*DISTRIBUTING\n1, 3\n": "COUPLING DISTRIBUTING "
+                                                                                               "1",
     "*RELEASE\n2, S1, M1\n": "RELEASE M1 1",
     "*TRANSFORM, NSET=ROOF\n1., 1., 0., -1., 1., 0.\n*NSET, NSET=ROOF\n3\n*BOUNDARY\nROOF, 1\n": "BOUNDARY 1",
     "*ELEMENT, TYPE=MASS, ELSET=M\n9, 3\n*MASS, ELSET=M, TYPE=ANISOTROPIC\n1., 2., 3.\n": "MASS 1",
@@ -131,9 +133,11 @@ ANSYS_LOST = {
     "TB,BISO,1\n": "TB 1",
     "MP,EY,1,1e10\n": "MP OF OTHER AXES 1",
     "SECTYPE,2,BEAM,Z\nSECDATA,1,1,1,1,1,1\n" + ansys_elements(188, 1, 3).replace(
-        "        0        0        0        0        0        0        2", "        0        2        0        0        0        0        2"):
+        "        0        0        0        0        0        0        2", "        0        2        0        0      "
+                                                                           "  0        0        2"):
         "SECTYPE BEAM Z 1",
-    ansys_elements(21, 3).replace("        2        0", "        2        5", 1) + "KEYOPT,2,3,0\nR,5,1,2,3\n": "ELEMENT 21 OF DIRECTIONS 1",
+    ansys_elements(21, 3).replace("        2        0", "        2        5",
+                                  1) + "KEYOPT,2,3,0\nR,5,1,2,3\n": "ELEMENT 21 OF DIRECTIONS 1",
     ansys_elements(185, 1, 1, 2, 2, 3, 3, 3, 1): "ELEMENT 185 PYRAMID 1",
     "RBE3,1,ALL\nCERIG,1,2\n": "CERIG 1, RBE3 1",
 }
@@ -176,14 +180,19 @@ DYNA_LOST = {
     "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n         1         2\n": "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE 1",
     "*CONSTRAINED_INTERPOLATION\n         1         2\n*CONSTRAINED_SPOTWELD\n         1         2\n":
         "CONSTRAINED_INTERPOLATION 1, CONSTRAINED_SPOTWELD 1",
-    "*MAT_PIECEWISE_LINEAR_PLASTICITY\n         2    7850.0    2.1e11       0.3\n*PART\nother\n         2         1         2\n":
+    "*MAT_PIECEWISE_LINEAR_PLASTICITY\n         2    7850.0    2.1e11       0.3\n*PART\nother\n         2         1   "
+    "      2\n":
         "MAT_PIECEWISE_LINEAR_PLASTICITY 1",
     "*ELEMENT_BEAM\n       9       1       1       3       0       0       4\n":
         "RELEASES OF ELEMENT_BEAM 1",
-    "*BOUNDARY_SPC_NODE\n         3         7         1         0         0         0         0         0\n": "BOUNDARY_SPC 1",
-    "*ELEMENT_INERTIA\n       9       3       0\n       1.0       0.5       0.0       1.0       0.0       1.0       5.0\n": "ELEMENT_INERTIA 1",
-    "*PART\nspring\n         3         3         3\n*SECTION_DISCRETE\n         3         0\n       0.0\n*MAT_SPRING_NONLINEAR_ELASTIC\n"
-    "         3         5\n*ELEMENT_DISCRETE\n       9       3       1       3       0\n": "ELEMENT_DISCRETE 1, MAT_SPRING_NONLINEAR_ELASTIC 1",
+    "*BOUNDARY_SPC_NODE\n         3         7         1         0         0         0         0         0\n":
+        "BOUNDARY_SPC 1",
+    "*ELEMENT_INERTIA\n       9       3       0\n       1.0       0.5       0.0       1.0       0.0       1.0       "
+    "5.0\n": "ELEMENT_INERTIA 1",
+    "*PART\nspring\n         3         3         3\n*SECTION_DISCRETE\n         3         0\n       "
+    "0.0\n*MAT_SPRING_NONLINEAR_ELASTIC\n"
+    "         3         5\n*ELEMENT_DISCRETE\n       9       3       1       3       0\n":
+        "ELEMENT_DISCRETE 1, MAT_SPRING_NONLINEAR_ELASTIC 1",
     "*SECTION_BEAM\n         4         6\n      0.01      1e-5         2\n*PART\npad\n         4         4         4\n"
     "*MAT_LINEAR_ELASTIC_DISCRETE_BEAM\n         4    1000.0       1e6       1e6       1e6\n       0.0\n"
     "*ELEMENT_BEAM\n       9       4       2       3\n": "SECTION_BEAM ELFORM 6 1",
@@ -199,7 +208,8 @@ DYNA_NONE = {
     DYNA + "*ELEMENT_SHELL\n       9       1       1       2       3\n": "part 1 has no *SECTION_SHELL 1",
     DYNA.replace("    2.1e11", "      hard"): "line 7: 'hard' is not a number",
     DYNA.replace("    7850.0", "       0.0"): "--density 1=2500",
-    DYNA + "*BOUNDARY_SPC_SET\n         5         0         1         1         1         0         0         0\n": "line 18: node set 5 is not",
+    DYNA + "*BOUNDARY_SPC_SET\n         5         0         1         1         1         0         0         0\n":
+        "line 18: node set 5 is not",
     DYNA.replace("1e-5      1e-5", "1e-5      2e-5"): "has no third node",
     DYNA.replace("*KEYWORD", "*KEYWORD LONG=Y"): "line 1: long formats",
     "       1     2\n": "line 1: a card before the first keyword",
@@ -265,7 +275,8 @@ class Losses(unittest.TestCase):
 
     def test_units_are_stated_and_known(self):
         path = imported.of_file("model.inp", ABAQUS)
-        for units, part in (("mm,lb,s", "say lbm or lbf"), ("furlong,kg,s", "no unit of length"), ("m,kg", "three units"),
+        for units, part in (("mm,lb,s", "say lbm or lbf"), ("furlong,kg,s", "no unit of length"), ("m,kg",
+                                                                                                   "three units"),
                             ("m,kg,d", "no unit of time")):
             done = imported.command(path, units)
             self.assertEqual(done.returncode, 2)
@@ -291,7 +302,8 @@ class Losses(unittest.TestCase):
                  "1, 2, 3\n": "line 1: data before the first keyword",
                  ABAQUS + "*NODE\n1, 0., 0., 0.\n": "line 19: node 1 is there already",
                  ABAQUS + "*ELEMENT, TYPE=B31, ELSET=ALL\n7, 1, 99\n": "line 19: node 99 is not in the deck",
-                 ABAQUS + "*ELEMENT, TYPE=B31, ELSET=ALL\n7, 1\n": "line 19: element 7 of type B31 has 1 nodes in place of 2",
+                 ABAQUS + "*ELEMENT, TYPE=B31, ELSET=ALL\n7, 1\n": "line 19: element 7 of type B31 has 1 nodes in "
+                                                                   "place of 2",
                  ABAQUS + "*ELEMENT, TYPE=B31, ELSET=OTHER\n7, 1, 3\n": "line 19: element 7 has no section",
                  ABAQUS.replace("7850.", "0."): "--density STEEL=2500",
                  ABAQUS.replace("1., 0., 0.", "0., 0., 1."): "lies along its axis",

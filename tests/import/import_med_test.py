@@ -13,7 +13,8 @@ try:
 except ModuleNotFoundError:
     meshio = None
 
-PLACES = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1), (0, 0, 2), (1, 0, 2), (1, 1, 2),
+PLACES = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1), (0, 0, 2), (1, 0, 2),
+          (1, 1, 2),
           (0, 1, 2), (0.5, 0.5, 3), (2, 0, 0), (2, 0, 1), (0, 0, 3)]
 BRICK = (1, 2, 3, 4, 5, 6, 7, 8)
 # Each type with its cells (of solids in the order of MED: base and top turn the other way) and their families.
@@ -58,7 +59,8 @@ def med_file(cells, scale=1000.0, meshes=1):
                     one = names.create_group(f"{kind}/FAM_{place}_{'_'.join(groups)}")
                     one.attrs["NUM"] = place
                     one.create_group("GRO").attrs["NBR"] = len(groups)
-                    one["GRO"]["NOM"] = np.array([list(name.ljust(80, "\0").encode()) for name in groups], dtype=np.int8)
+                    one["GRO"]["NOM"] = np.array([list(name.ljust(80, "\0").encode()) for name in groups],
+                                                 dtype=np.int8)
     return path
 
 
@@ -73,12 +75,16 @@ class Med(unittest.TestCase):
         scene = path.parent / "out" / "hall.yaml"
         words = by_hand(dict(enumerate(PLACES, 1)), {
             "body": ("brick", [BRICK, (5, 6, 7, 8, 9, 10, 11, 12)]), "side": ("wedge", [(2, 14, 3, 6, 15, 7)]),
-            "tip": ("tetrahedron", [(9, 10, 11, 13)]), "roof": ("quadrangle", [(9, 10, 11, 12)]), "mast": ("line", [(9, 16)]),
+            "tip": ("tetrahedron", [(9, 10, 11, 13)]), "roof": ("quadrangle", [(9, 10, 11, 12)]), "mast": ("line",
+                                                                                                           [(9, 16)]),
             "top": ("point", [(16,)]), "base": ("quadrangle", [(1, 2, 3, 4)])},
-            {"body_element": "hex8", "side_element": "wedge6", "tip_element": "tet4", "roof_element": "shell", "mast_element": "beam",
+            {"body_element": "hex8", "side_element": "wedge6", "tip_element": "tet4", "roof_element": "shell",
+             "mast_element": "beam",
              **{f"{name}_material": "m" for name in ("body", "side", "tip", "roof", "mast")}, "roof_thickness": 0.2,
-             "mast_section": "s", "top_element": "point_mass", "top_mass": 120, "clamp": "base", "-material_m_young": 30e9,
-             "-material_m_poisson": 0.2, "-material_m_density": 2400, **imported.section("s", 0.04, 1e-4, 2e-4, 2e-4, "1,0,0")})
+             "mast_section": "s", "top_element": "point_mass", "top_mass": 120, "clamp": "base",
+             "-material_m_young": 30e9,
+             "-material_m_poisson": 0.2, "-material_m_density": 2400, **imported.section("s", 0.04, 1e-4, 2e-4, 2e-4,
+                                                                                         "1,0,0")})
         same(self, scene, words)
         for name in ("summit", "all"):
             self.assertIn(f'"{name}"', scene.with_suffix(".msh").read_text())
@@ -104,7 +110,8 @@ class Med(unittest.TestCase):
     @unittest.skipUnless(meshio, "python3-meshio is not there")
     def test_a_file_that_meshio_writes(self):
         path = Path(tempfile.mkdtemp(prefix="pounding-import-"), "hall.med")
-        mesh = meshio.Mesh(np.array(PLACES, dtype=float), [("hexahedron", [[n - 1 for n in BRICK]]), ("quad", [[0, 1, 2, 3]])],
+        mesh = meshio.Mesh(np.array(PLACES, dtype=float), [("hexahedron", [[n - 1 for n in BRICK]]), ("quad",
+                                                                                                      [[0, 1, 2, 3]])],
                            cell_data={"cell_tags": [np.array([-1]), np.array([-2])]})
         mesh.cell_tags = {-1: ["BODY"], -2: ["BASE"]}
         meshio.write(path, mesh)
@@ -112,7 +119,8 @@ class Med(unittest.TestCase):
         properties.write_text("hall: {body: {element: hex8, material: C30}, clamp: base}\n")
         done = imported.command(path, "m,kg,s", "--properties", properties)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        words = by_hand(dict(enumerate(PLACES[:8], 1)), {"body": ("brick", [BRICK]), "base": ("quadrangle", [(1, 2, 3, 4)])},
+        words = by_hand(dict(enumerate(PLACES[:8], 1)), {"body": ("brick", [BRICK]), "base": ("quadrangle", [(1, 2, 3,
+                                                                                                              4)])},
                         {"body_element": "hex8", "body_material": "C30", "clamp": "base"})
         same(self, path.parent / "out" / "hall.yaml", words)
 

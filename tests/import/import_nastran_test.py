@@ -33,22 +33,26 @@ HEAD = "SOL 103\nCEND\nTITLE = A MODEL\nSPC = 1\nMETHOD = 5\nBEGIN BULK\n" + sma
 
 class Nastran(unittest.TestCase):
     def test_frame(self):
-        """Bars and beams by vectors and by a point, with offsets, hinges, a product of inertia, masses on arms, springs,
-        bushings, a rigid element, and grid points of a round system; fields of all three kinds."""
+        """Bars and beams by vectors and by a point, with offsets, hinges, a product of inertia, masses on arms,
+        springs, bushings, a rigid element, and grid points of a round system; fields of all three kinds."""
         deck = (HEAD + STEEL + small("CORD2C", 3, 0, 0., 0., 0., 0., 0., 1., 1., 0., 0.)
                 + large("GRID", 1, "", 0., 0., 0., 3) + small("GRID", 2, "", 0., 0., 3.)
-                + small("GRID", 3, 3, 5., 0., 3.) + free("GRID", 4, 3, "5.", "0.", "0.") + small("GRID", 5, 3, 5., 90., 3.)
+                + small("GRID", 3, 3, 5., 0., 3.) + free("GRID", 4, 3, "5.", "0.", "0.") + small("GRID", 5, 3, 5., 90.,
+                                                                                                 3.)
                 + small("GRID", 6, "", 0., 2., 3., "", 456) + small("GRID", 7, "", 5., 0.5, 3.)
                 + small("CBAR", 1, 10, 1, 2, 1., 0., 0.) + small("CBAR", 2, 10, 4, 3, 2)
                 + small("CBAR", 3, 11, 2, 3, 0., 0., 1., "", "", "", 0., 0., .2, 0., 0., .2)
                 + small("CBEAM", 4, 12, 2, 5, 0., 0., 1.)
                 + small("PBAR", 10, 1, ".02", "6.-5", "2.-5", "3.-5", "12.", "", *[""] * 8, "", "", "1.-5")
                 + small("PBARL", 11, 1, "", "BAR", "", "", "", "", ".1", ".2", "5.")
-                + small("PBEAM", 12, 1, ".01", "8.-5", "1.-5", "", "2.-5", "", *[""] * 8, "YESA", 1., *[""] * 6, ".5", ".4")
+                + small("PBEAM", 12, 1, ".01", "8.-5", "1.-5", "", "2.-5", "", *[""] * 8, "YESA", 1., *[""] * 6, ".5",
+                        ".4")
                 + small("CONM2", 20, 5, 0, 300., .1, 0., .5, "", 10., "", 12., "", "", 14.)
                 + small("CELAS2", 21, "3.+6", 5, 3) + small("CDAMP2", 22, "4.+3", 5, 3)
-                + small("CONROD", 23, 5, 6, 1, ".001") + small("CONM2", 24, 6, "", 40.) + small("CBUSH", 25, 30, 6, "", "", "", "", 0)
-                + small("PBUSH", 30, "K", "1.+6", "2.+6", "3.+6") + small("RBE2", 26, 3, 123456, 7) + small("CONM2", 27, 7, "", 60.)
+                + small("CONROD", 23, 5, 6, 1, ".001") + small("CONM2", 24, 6, "", 40.) + small("CBUSH", 25, 30, 6, "",
+                                                                                                "", "", "", 0)
+                + small("PBUSH", 30, "K", "1.+6", "2.+6", "3.+6") + small("RBE2", 26, 3, 123456,
+                                                                          7) + small("CONM2", 27, 7, "", 60.)
                 + small("SPC1", 1, 123456, 1) + small("SPC", 1, 4, 123, 0.) + "ENDDATA\n")
         scene, said = imported.imported(self, "frame.bdf", deck)
         nodes = {1: (0, 0, 0), 2: (0, 0, 3), 3: (5, 0, 3), 4: (5, 0, 0), 5: (0, 5, 3), 6: (0, 2, 3), 7: (5, 0.5, 3),
@@ -65,9 +69,9 @@ class Nastran(unittest.TestCase):
 
     @staticmethod
     def words(nodes, i1, i2, i12):
-        """The frame by hand. With y and z of Nastran the tensor of y y, y z, z z is [[I1, I12], [I12, I2]], and its greatest
-        direction is where the section is longest. Of the column from 1 to 2 they are the global x and y, of the other
-        one, whose v is towards node 2, -x and -y."""
+        """The frame by hand. With y and z of Nastran the tensor of y y, y z, z z is [[I1, I12], [I12, I2]], and its
+        greatest direction is where the section is longest. Of the column from 1 to 2 they are the global x and y, of
+        the other one, whose v is towards node 2, -x and -y."""
         strong = (i1 + i2) / 2 + math.hypot((i1 - i2) / 2, i12)
         weak = i1 + i2 - strong
         angle = 0.5 * math.atan2(2 * i12, i1 - i2)
@@ -81,24 +85,29 @@ class Nastran(unittest.TestCase):
                   "foot": ("point", [(1,)]), "hinged": ("point", [(4,)]), "arm": ("point", [(5,), (10,)]),
                   "up": ("point", [(2,), (8,)]), "hand": ("point", [(3,), (7,), (9,)])}
         return by_hand(nodes, groups, {
-            "columns_element": "beam", "columns_material": "steel", "columns_section": "c", "columns_mass_per_length": 12,
+            "columns_element": "beam", "columns_material": "steel", "columns_section": "c",
+            "columns_mass_per_length": 12,
             "girder_element": "beam", "girder_material": "steel", "girder_section": "g", "girder_mass_per_length": 5,
-            "cross_element": "beam", "cross_material": "steel", "cross_section": "k", "rod_element": "bar", "rod_material": "steel",
-            "rod_area": 0.001, "machine_element": "point_mass", "machine_mass": 300, "machine_rotary_inertia": "10,12,14",
+            "cross_element": "beam", "cross_material": "steel", "cross_section": "k", "rod_element": "bar",
+            "rod_material": "steel",
+            "rod_area": 0.001, "machine_element": "point_mass", "machine_mass": 300,
+            "machine_rotary_inertia": "10,12,14",
             "hung_element": "point_mass", "hung_mass": 40, "side_element": "point_mass", "side_mass": 60,
             "soil_element": "grounded_spring", "soil_stiffness": "0,0,3e6", "soil_dashpot": "0,0,4e3",
             "pad_element": "grounded_spring", "pad_stiffness": "1e6,2e6,3e6", "clamp": "foot,hinged:x+y+z",
             "rigid": "arm,up,hand", **steel(),
             # z of the program along the direction in which the section is longest.
             **section("c", area, strong, weak, 3e-5, ",".join(map(repr, one))),
-            **section("g", area, 0.1 * 0.2**3 / 12, 0.2 * 0.1**3 / 12, twist, "0,0,1", f"{area * 5 / 6},{area * 5 / 6}"),
+            **section("g", area, 0.1 * 0.2**3 / 12, 0.2 * 0.1**3 / 12, twist, "0,0,1",
+                      f"{area * 5 / 6},{area * 5 / 6}"),
             **section("k", 0.01, 8e-5, 1e-5, 2e-5, "0,0,1", "0.004,0.005")})
 
     def test_bricks_plates_and_turned_grid_points(self):
-        """In inches with a weight density and WTMASS: a brick with a wedge beside it, plates off their grid points on top,
-        a post that is hinged at a plate's corner, and supports in a turned system."""
+        """In inches with a weight density and WTMASS: a brick with a wedge beside it, plates off their grid points on
+        top, a post that is hinged at a plate's corner, and supports in a turned system."""
         inch, pound = 0.0254, 4.4482216152605
-        points = {1: (0, 0, 0), 2: (40, 0, 0), 3: (40, 40, 0), 4: (0, 40, 0), 5: (0, 0, 40), 6: (40, 0, 40), 7: (40, 40, 40),
+        points = {1: (0, 0, 0), 2: (40, 0, 0), 3: (40, 40, 0), 4: (0, 40, 0), 5: (0, 0, 40), 6: (40, 0, 40),
+                  7: (40, 40, 40),
                   8: (0, 40, 40), 9: (70, 0, 0), 10: (70, 0, 40), 11: (0, 0, 100), 12: (20, 20, 120)}
         weight, gravity = 0.1, 386.0886
         deck = ("SOL 103\nCEND\nSPC = 7\nBEGIN BULK\n" + small("PARAM", "WTMASS", f"{1 / gravity:.6f}")

@@ -127,7 +127,8 @@ def same(test, scene, words, tolerance=1e-9, modes=10, ranks=1):
     test.assertEqual(len(found), len(expected))
     test.assertGreater(expected[0], 0.01)
     for number, (value, reference) in enumerate(zip(found, expected), 1):
-        test.assertLess(abs(value - reference), tolerance * max(reference, 1e-3), f"mode {number}: {value}, {reference}")
+        test.assertLess(abs(value - reference), tolerance * max(reference, 1e-3), f"mode {number}: {value}, "
+                                                                                  f"{reference}")
     return one
 
 
@@ -180,6 +181,7 @@ def survives(name, texts):
               "    except Exception:\n        found.append(traceback.format_exc() + text)\n"
               "    if '\\n' in told:\n        found.append(told)\n"
               "print(json.dumps(found))\n")
-    done = subprocess.run(["/usr/bin/python3", "-W", "error", "-c", script, of_file(name, "")], input=json.dumps(texts), text=True,
+    done = subprocess.run(["/usr/bin/python3", "-W", "error", "-c", script, of_file(name, "")],
+                          input=json.dumps(texts), text=True,
                           capture_output=True, timeout=300, check=False)
     return json.loads(done.stdout) if done.returncode == 0 else [f"status {done.returncode}: {done.stderr[-2000:]}"]

@@ -15,25 +15,31 @@ ELEMENTS = {"C3D8": ("hex8_full", 8), "C3D8I": ("hex8", 8), "C3D8R": ("hex8", 8)
             "C3D4": ("tet4", 4), "S4": ("shell", 4), "S4R": ("shell", 4), "S4RS": ("shell", 4), "S4RSW": ("shell", 4),
             "S3": ("shell", 3), "S3R": ("shell", 3), "S3RS": ("shell", 3), "STRI3": ("shell", 3), "B31": ("beam", 2),
             "B33": ("euler_beam", 2), "T3D2": (BAR, 2)}
-POINTS = {"MASS": 1, "ROTARYI": 1, "SPRING1": 1, "DASHPOT1": 1, "SPRING2": 2, "DASHPOT2": 2, "SPRINGA": 2, "DASHPOTA": 2}
+POINTS = {"MASS": 1, "ROTARYI": 1, "SPRING1": 1, "DASHPOT1": 1, "SPRING2": 2, "DASHPOT2": 2, "SPRINGA": 2,
+          "DASHPOTA": 2}
 # Nodes of elements that are counted and lost, so that their data are not taken for more elements.
-LOST = {"C3D20": 20, "C3D20R": 20, "C3D20H": 20, "C3D10": 10, "C3D10M": 10, "C3D15": 15, "C3D8H": 8, "C3D8RH": 8, "S8": 8,
+LOST = {"C3D20": 20, "C3D20R": 20, "C3D20H": 20, "C3D10": 10, "C3D10M": 10, "C3D15": 15, "C3D8H": 8, "C3D8RH": 8,
+        "S8": 8,
         "S8R": 8, "S6": 6, "STRI65": 6, "B32": 3, "B32R": 3, "B32H": 3, "B31OS": 2, "B31H": 2, "T3D3": 3, "M3D4": 4,
-        "M3D4R": 4, "M3D3": 3, "SC8R": 8, "SC6R": 6, "CONN3D2": 2, "GAPUNI": 2, "CPS4": 4, "CPE4": 4, "CPS3": 3, "CAX4": 4,
+        "M3D4R": 4, "M3D3": 3, "SC8R": 8, "SC6R": 6, "CONN3D2": 2, "GAPUNI": 2, "CPS4": 4, "CPE4": 4, "CPS3": 3,
+        "CAX4": 4,
         "R3D4": 4, "R3D3": 3, "SFM3D4": 4, "C3D5": 5}
 FACES = {8: ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)),
          6: ((0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)),
          4: ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0))}
 PLOTS = {"HEADING", "PREPRINT", "RESTART", "OUTPUT", "NODE OUTPUT", "ELEMENT OUTPUT", "CONTACT OUTPUT", "ENERGY OUTPUT",
-         "NODE PRINT", "EL PRINT", "NODE FILE", "EL FILE", "ENERGY PRINT", "ENERGY FILE", "CONTACT PRINT", "CONTACT FILE",
+         "NODE PRINT", "EL PRINT", "NODE FILE", "EL FILE", "ENERGY PRINT", "ENERGY FILE", "CONTACT PRINT",
+         "CONTACT FILE",
          "SECTION PRINT", "MODAL OUTPUT", "MODAL FILE", "MONITOR", "FILE FORMAT", "TIME POINTS", "DIAGNOSTICS", "PRINT",
          "SURFACE OUTPUT", "INTEGRATED OUTPUT", "FILTER"}
 STEPS = {"STEP", "END STEP", "STATIC", "DYNAMIC", "FREQUENCY", "COMPLEX FREQUENCY", "BUCKLE", "MODAL DYNAMIC", "VISCO",
-         "STEADY STATE DYNAMICS", "RESPONSE SPECTRUM", "RANDOM RESPONSE", "CONTROLS", "AMPLITUDE", "CLOAD", "DLOAD", "DSLOAD",
+         "STEADY STATE DYNAMICS", "RESPONSE SPECTRUM", "RANDOM RESPONSE", "CONTROLS", "AMPLITUDE", "CLOAD", "DLOAD",
+         "DSLOAD",
          "DSFLUX", "BASE MOTION", "TEMPERATURE", "FIELD", "INITIAL CONDITIONS", "SELECT EIGENMODES", "MODAL DAMPING",
          "GLOBAL DAMPING", "PHYSICAL CONSTANTS", "BULK VISCOSITY", "FIXED MASS SCALING", "VARIABLE MASS SCALING",
          "SOLVER CONTROLS", "SPECTRUM", "PSD-DEFINITION", "CORRELATION", "LOAD CASE", "END LOAD CASE", "NO ANALYSIS"}
-THERMAL = {"EXPANSION", "CONDUCTIVITY", "SPECIFIC HEAT", "LATENT HEAT", "FRICTION", "SURFACE INTERACTION", "SURFACE BEHAVIOR",
+THERMAL = {"EXPANSION", "CONDUCTIVITY", "SPECIFIC HEAT", "LATENT HEAT", "FRICTION", "SURFACE INTERACTION",
+           "SURFACE BEHAVIOR",
            "CONTACT DAMPING", "CONTACT CONTROLS", "CONTACT INITIALIZATION DATA", "CONTACT FORMULATION", "ORIENTATION",
            "TRANSFORM", "SECTION CONTROLS", "HOURGLASS STIFFNESS", "FAIL STRESS", "FAIL STRAIN"}
 
@@ -61,12 +67,15 @@ class Reader:
         self.material: str | None = None
         self.axes: dict = {}  # node -> local axes of *TRANSFORM
         self.orientations: dict = {}
+        self.largest = 0  # number of a node
         self.valued: set = set()  # masses and springs that have a value
         self.sections = SectionReader(self)
         self.joints = JointReader(self)
         self.handlers = {
-            "MATERIAL": self._name_material, "ELASTIC": self._elastic, "DENSITY": self._density, "DAMPING": self._damping,
-            "SOLID SECTION": self.sections.solid, "SHELL SECTION": self.sections.shell, "BEAM SECTION": self.sections.beam,
+            "MATERIAL": self._name_material, "ELASTIC": self._elastic, "DENSITY": self._density,
+            "DAMPING": self._damping,
+            "SOLID SECTION": self.sections.solid, "SHELL SECTION": self.sections.shell,
+            "BEAM SECTION": self.sections.beam,
             "BEAM GENERAL SECTION": self.sections.general, "NONSTRUCTURAL MASS": self.sections.added_mass,
             "SPRING": self._spring, "DASHPOT": self._spring, "MASS": self._mass, "ROTARY INERTIA": self._mass,
             **self.joints.handlers}
@@ -94,7 +103,8 @@ class Reader:
         places = [at for at, (one, _, _) in enumerate(self.blocks) if one is block]
         found = []
         for one, _, _ in self.blocks[places[-1] + 1:]:
-            if one.keyword not in ("TRANSVERSE SHEAR STIFFNESS", "CENTROID", "SHEAR CENTER", "KINEMATIC", "DISTRIBUTING"):
+            if one.keyword not in ("TRANSVERSE SHEAR STIFFNESS", "CENTROID", "SHEAR CENTER", "KINEMATIC",
+                                   "DISTRIBUTING"):
                 break
             found.append(one)
             self.taken.add(id(one))
@@ -155,13 +165,15 @@ class Reader:
 
     def _read_node(self, block: Block, scope: Scope, motion: Motion) -> None:
         if block.name("SYSTEM", "R") != "R":
-            raise InputFault(f"{block.place}: *NODE, SYSTEM={block.name('SYSTEM')} is not known; give rectangular coordinates")
+            raise InputFault(f"{block.place}: *NODE, SYSTEM={block.name('SYSTEM')} is not known; give rectangular "
+                             "coordinates")
         members = []
         for place, fields in block.data:
             own = whole(fields[0], place)
             if own in scope.nodes:
                 raise InputFault(f"{place}: node {own} is there already")
-            number = own if own > 0 and own not in self.model.nodes else max(self.model.nodes, default=0) + 1
+            number = own if own > 0 and own not in self.model.nodes else self.largest + 1
+            self.largest = max(self.largest, number)
             self.model.nodes[number] = motion.place((numbers(fields[1:4], place) + [0.0] * 3)[:3])
             scope.nodes[own] = number
             members.append(number)
@@ -179,7 +191,8 @@ class Reader:
             else:
                 rows.append((place, list(values)))
             more = len(fields) > 1 and not fields[-1]
-            open_row = rows[-1] if (width is None and more) or (width and len(rows[-1][1]) < width + 1 and more) else None
+            short = width is None or len(rows[-1][1]) < width + 1
+            open_row = rows[-1] if more and short else None
         members = []
         for place, values in rows:
             ids = [whole(text, place) if not at or text.isdigit() else text.upper() for at, text in enumerate(values)]
@@ -188,7 +201,8 @@ class Reader:
             else:
                 towards = None
             if width and len(ids) != width + 1:
-                raise InputFault(f"{place}: element {values[0]} of type {kind} has {len(ids) - 1} nodes in place of {width}")
+                raise InputFault(f"{place}: element {values[0]} of type {kind} has {len(ids) - 1} nodes in place of "
+                                 f"{width}")
             raw = Raw(kind, ids[0], tuple(self.node(one, scope, place) for one in ids[1:]) if width else (), place)
             members.append(raw)
             if raw.number in scope.elements:
@@ -233,13 +247,15 @@ class Reader:
             for text in fields:
                 if not text:
                     continue
-                found = None if text.isdigit() else inner.find(table, text.upper()) or self.deck.find(table, text.upper())
+                found = None if text.isdigit() else inner.find(table, text.upper()) or self.deck.find(table,
+                                                                                                      text.upper())
                 members += found if found is not None else [one(text, inner, place)]
         self._store(scope, table, block.name(key), members)
 
     def _read_nset(self, block: Block, scope: Scope, _motion: Motion) -> None:
         if "ELSET" in block.parameters:
-            members = sorted({node for raw in self.elements_of(block.name("ELSET"), scope, block.place) for node in raw.nodes})
+            members = sorted({node for raw in self.elements_of(block.name("ELSET"), scope,
+                                                               block.place) for node in raw.nodes})
             self._store(scope, "node_sets", block.name("NSET"), members)
         else:
             self._read_set(block, scope, "node_sets", "NSET", self.node)
@@ -352,7 +368,8 @@ class Reader:
         if self.material is None or not block.data:
             raise InputFault(f"{block.place}: *{block.keyword} outside a material, or without numbers")
         if len(block.data) > 1:
-            self.model.said.append(f"{block.place}: *{block.keyword} has {len(block.data)} lines; the first one is taken")
+            self.model.said.append(f"{block.place}: *{block.keyword} has {len(block.data)} lines; the first one is "
+                                   "taken")
         return self.model.materials[self.material], numbers(block.data[0][1], block.data[0][0])
 
     def _elastic(self, block: Block, _scope, _motion) -> None:
@@ -405,7 +422,8 @@ class Reader:
             axes = self.orientations.get(block.name("ORIENTATION"))
             if axes is None or permutation(axes) is None:
                 return self.lose(block, "springs act along and about the global axes")
-        if "NONLINEAR" in block.parameters or len(block.data) > 2 or any(any(fields[1:]) for _, fields in block.data[1:]):
+        if "NONLINEAR" in block.parameters or len(block.data) > 2 or any(any(fields[1:]) for _,
+                                                                         fields in block.data[1:]):
             return self.lose(block, "springs and dashpots are linear")
         along_line = all(raw.type.endswith("A") for raw in raws)  # their first line is empty
         if not block.data or (len(block.data) < 2 and not along_line):

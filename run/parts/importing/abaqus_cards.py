@@ -38,7 +38,8 @@ def blocks_of(path: Path, seen=()) -> list:
             continue
         if not line.lstrip().startswith("*"):
             if not blocks:
-                raise InputFault(f"{place}: data before the first keyword; a deck of Abaqus begins with one, as *HEADING")
+                raise InputFault(f"{place}: data before the first keyword; a deck of Abaqus begins with one, as "
+                                 "*HEADING")
             blocks[-1].data.append((place, [text.strip() for text in line.split(",")]))
             continue
         while line.endswith(","):

@@ -82,7 +82,8 @@ class JointReader:
             return self.model.cards.lose(f"COUPLING {what.keyword}", "couplings that distribute forces are not known",
                                          block.place)
         components = self._ranges(followers[0])
-        self.waiting.append((block.parameters.get("CONSTRAINT NAME", "coupling"), [*reference, *nodes], components, block))
+        self.waiting.append((block.parameters.get("CONSTRAINT NAME", "coupling"), [*reference, *nodes], components,
+                             block))
         return None
 
     def _ranges(self, block: Block) -> int:
@@ -130,7 +131,8 @@ class JointReader:
                     values.pop()
             if len(values) < 3 * terms:
                 raise InputFault(f"{place}: an equation of {terms} terms has a node, a component and a factor for each")
-            parts = [(values[3 * k], whole(values[3 * k + 1], place), number(values[3 * k + 2], place)) for k in range(terms)]
+            parts = [(values[3 * k], whole(values[3 * k + 1], place), number(values[3 * k + 2],
+                                                                             place)) for k in range(terms)]
             if terms == 2 and parts[0][1] == parts[1][1] <= 6 and parts[0][2] == -parts[1][2] != 0:
                 pairs = [self.reader.nodes_of(part[0], scope, place) for part in parts]
                 if len(pairs[0]) == len(pairs[1]):
@@ -163,7 +165,8 @@ class JointReader:
                 if raw.element is None or raw.element.kind not in BEAMS:
                     raise InputFault(f"{place}: element {raw.number} is no beam")
                 if what not in WHOLE_RELEASES:
-                    self.model.cards.lose(f"RELEASE {what}", "a hinge lets all three rotations go; allowed, it does here", place)
+                    self.model.cards.lose(f"RELEASE {what}", "a hinge lets all three rotations go; allowed, it does "
+                                                             "here", place)
                 ends = list(raw.element.hinged)
                 ends[int(end[1]) - 1] = True
                 raw.element.hinged = tuple(ends)
@@ -187,6 +190,7 @@ class JointReader:
             elif components & TRANSLATIONS == TRANSLATIONS and (components == TRANSLATIONS or not turning & nodes):
                 self.model.pins.append((nodes, place))
             else:
-                self.model.cards.lose("EQUATION", "equations join all displacements of two nodes that coincide", place, count)
+                self.model.cards.lose("EQUATION", "equations join all displacements of two nodes that coincide", place,
+                                      count)
                 continue
             self.model.cards.use("EQUATION", count)

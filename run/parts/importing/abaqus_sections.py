@@ -99,7 +99,8 @@ class SectionReader:
         shape = block.name("SECTION")
         if shape not in SHEAR or shape == "GENERAL":
             self._members(block, scope, *BEAMS)
-            return self.reader.lose(block, f"cross-section {shape} is not known; give its numbers in *BEAM GENERAL SECTION")
+            return self.reader.lose(block, f"cross-section {shape} is not known; give its numbers in *BEAM GENERAL "
+                                           "SECTION")
         section, centroid = shape_of(block, shape)
         key = self._new(block, block.name("MATERIAL"), section=section)
         direction = self._direction(block, 1, motion)

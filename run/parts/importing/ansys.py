@@ -13,16 +13,22 @@ from .model import BAR, AxialSpring, Element, InputFault, Model, PointMass, Prop
 from .texts import number, whole
 from .vectors import applied, cross, difference, dot, scaled
 
-CONTROL = {"NUMOFF", "DOF", "FINISH", "EXTOPT", "MPTEMP", "TREF", "TOFFST", "ANTYPE", "MODOPT", "MXPAND", "LUMPM", "KUSE", "TIME",
-           "TUNIF", "TOTAL", "ERESX", "SSTIF", "SHPP", "SOLVE", "NLGEOM", "OUTRES", "OUTPR", "AUTOTS", "NSUBST", "KBC", "ERNORM",
-           "EQSLV", "PRED", "CNVTOL", "NEQIT", "LNSRCH", "CSYS", "LOCAL", "CSCIR", "CLOCAL", "DSYS", "ALLSEL", "NSEL", "ESEL",
-           "TYPE", "MAT", "REAL", "SECNUM", "ESYS", "RATE", "CMSEL", "EXPASS", "NUMEXP", "BCSOPTION", "RESCONTROL", "DMPRAT",
+CONTROL = {"NUMOFF", "DOF", "FINISH", "EXTOPT", "MPTEMP", "TREF", "TOFFST", "ANTYPE", "MODOPT", "MXPAND", "LUMPM",
+           "KUSE", "TIME",
+           "TUNIF", "TOTAL", "ERESX", "SSTIF", "SHPP", "SOLVE", "NLGEOM", "OUTRES", "OUTPR", "AUTOTS", "NSUBST", "KBC",
+           "ERNORM",
+           "EQSLV", "PRED", "CNVTOL", "NEQIT", "LNSRCH", "CSYS", "LOCAL", "CSCIR", "CLOCAL", "DSYS", "ALLSEL", "NSEL",
+           "ESEL",
+           "TYPE", "MAT", "REAL", "SECNUM", "ESYS", "RATE", "CMSEL", "EXPASS", "NUMEXP", "BCSOPTION", "RESCONTROL",
+           "DMPRAT",
            "MDAMP", "DMPSTR", "PSTRES", "TINTP", "TRNOPT", "LSCLEAR", "CMEDIT", "WPSTYL", "LSWRITE", "UNITS"}
-LOADS = {"F", "SF", "SFE", "SFL", "SFA", "SFGRAD", "BF", "BFE", "BFUNIF", "ACEL", "OMEGA", "DOMEGA", "CGLOC", "CGOMGA", "DCGOMG",
+LOADS = {"F", "SF", "SFE", "SFL", "SFA", "SFGRAD", "BF", "BFE", "BFUNIF", "ACEL", "OMEGA", "DOMEGA", "CGLOC", "CGOMGA",
+         "DCGOMG",
          "CMOMEGA", "CMDOMEGA", "CMACEL", "FK", "IC", "INISTATE", "SFCUM", "FCUM", "BFCUM", "BFECUM", "LDREAD"}
 # Nodes that an element of a type cannot do without.
 NEEDED = {185: 8, 45: 8, 181: 3, 63: 3, 43: 3, 188: 2, 4: 2, 180: 2, 8: 2, 184: 2}
-SECOND_ORDER = {186: "SOLID186", 187: "SOLID187", 95: "SOLID95", 92: "SOLID92", 281: "SHELL281", 93: "SHELL93", 189: "BEAM189"}
+SECOND_ORDER = {186: "SOLID186", 187: "SOLID187", 95: "SOLID95", 92: "SOLID92", 281: "SHELL281", 93: "SHELL93",
+                189: "BEAM189"}
 
 
 class Reader:
@@ -163,9 +169,11 @@ class Reader:
         return self.model.properties.setdefault(key, Property(given or name, material, place=place, **more))
 
     def _solid(self, kind: str | None, type_: int, nodes: list, common) -> None:
-        shape, nodes = shape_of((nodes + nodes[-1:] * 8)[:8] if len(nodes) != 4 else [*nodes[:3], nodes[2], *[nodes[3]] * 4])
+        shape, nodes = shape_of((nodes + nodes[-1:] * 8)[:8] if len(nodes) != 4 else [*nodes[:3], nodes[2],
+                                                                                      *[nodes[3]] * 4])
         if kind is None or shape is None:
-            self.model.cards.lose(f"ELEMENT {type_} {'LAYERED' if kind is None else 'PYRAMID'}", "this shape is not known", common[7])
+            self.model.cards.lose(f"ELEMENT {type_} {'LAYERED' if kind is None else 'PYRAMID'}", "this shape is not "
+                                                                                                 "known", common[7])
             return
         self._property(common, common[2])
         self._add(kind if shape == "brick" else shape, nodes, common)
@@ -181,7 +189,8 @@ class Reader:
         else:
             thicknesses = {value for value in reals[:4] if value}
             if len(thicknesses) != 1:
-                raise InputFault(f"{place}: element {own} has {'no thickness' if not thicknesses else 'a thickness that varies'}")
+                fault = "a thickness that varies" if thicknesses else "no thickness"
+                raise InputFault(f"{place}: element {own} has {fault}")
             thickness = thicknesses.pop()
             rest = reals + [0.0] * 20
             added = rest[5] if type_ == 181 else rest[17] if type_ == 63 else rest[7]
@@ -219,7 +228,8 @@ class Reader:
             if strain:
                 self.model.cards.lose("ISTRN OF BEAM4", "initial strains are not known", place)
             angle = math.radians(theta)
-            one = Section(area, iyy, izz, ixx or iyy + izz, area / shear_z if shear_z else 0.0, area / shear_y if shear_y else 0.0)
+            one = Section(area, iyy, izz, ixx or iyy + izz, area / shear_z if shear_z else 0.0,
+                          area / shear_y if shear_y else 0.0)
         self._property(common, material, section=one, added=added)
         self._add("beam", nodes[:2], common, z_axis=turned_z(frame, angle) if angle else frame[2], arms=arms)
 
@@ -230,7 +240,8 @@ class Reader:
         else:
             area, added, one_way = (reals + [0.0] * 3)[:3]
             if one_way and type_ == 180:
-                self.model.cards.lose("TENSKEY OF LINK180", "bars of one direction are told in the scene: tension_only", place)
+                self.model.cards.lose("TENSKEY OF LINK180",
+                                      "bars of one direction are told in the scene: tension_only", place)
             if type_ == 8:
                 if added:
                     self.model.cards.lose("ISTRN OF LINK8", "initial strains are not known", place)
@@ -244,7 +255,8 @@ class Reader:
         along = keys.get(2, 0)
         ends = tuple(node for node in nodes[:2] if node)
         if quadratic or along > 6 or (along == 0 and keys.get(3, 0) == 1) or (along and set(ends) & set(self.turned)):
-            self.model.cards.lose("ELEMENT 14 KEYOPT OR CV2", "springs act along and about the global axes, or between two "
+            self.model.cards.lose("ELEMENT 14 KEYOPT OR CV2", "springs act along and about the global axes, or "
+                                                              "between two "
                                   "nodes, linearly", place)
         elif along == 0 and len(ends) < 2:
             raise InputFault(f"{place}: a spring along its line has two nodes")

@@ -1,4 +1,5 @@
-"""Element types, real constants, sections and materials of ANSYS archives. Axes y and z of its beams are the program's."""
+"""Element types, real constants, sections and materials of ANSYS archives. Axes y and z of its beams are those of
+the program."""
 
 from . import sections
 from .ansys_cards import Command
@@ -31,7 +32,8 @@ class Properties:
         self.current: int | None = None
         self.last_real: int | None = None
         self.values: dict = {}  # material -> name of LABELS -> value
-        self.handlers = {"ET": self._type, "ETBLOCK": self._types, "KEYOP": self._key, "KEYOPT": self._key, "R": self._real,
+        self.handlers = {"ET": self._type, "ETBLOCK": self._types, "KEYOP": self._key, "KEYOPT": self._key,
+                         "R": self._real,
                          "RMORE": self._more, "RLBLOCK": self._reals, "SECTYPE": self._section, "SECDATA": self._data,
                          "SECBLOCK": self._layers, "SECOFFSET": self._offset, "SECCONTROL": self._control,
                          "SECCONTROLS": self._control, "MP": self._material, "MPDATA": self._material}
@@ -94,14 +96,16 @@ class Properties:
 
     def _control(self, command: Command) -> bool:
         if any(command.real(at) for at in range(len(command.words))):
-            self.model.cards.lose("SECCONTROL", "stiffnesses and masses in place of those of the section", command.place)
+            self.model.cards.lose("SECCONTROL", "stiffnesses and masses in place of those of the section",
+                                  command.place)
             return False
         return True
 
     def _material(self, command: Command) -> None:
         words = command.words[:]
         if words and words[0].upper().startswith("R") and "." in words[0]:  # MPDATA,R5.0, 1,EX  , 1, 1, 2e11
-            label = next((at for at in range(1, min(4, len(words))) if words[at][:1].isalpha() and words[at].upper() != "UNBL"),
+            label = next((at for at in range(1, min(4, len(words)))
+                          if words[at][:1].isalpha() and words[at].upper() != "UNBL"),
                          None)
             if label is None:
                 raise InputFault(f"{command.place}: {command.name} names no property")
@@ -141,7 +145,8 @@ class Properties:
             raise InputFault(f"{place}: section {number_} is no BEAM of SECTYPE")
         _, shape, _, values, (where, way), own = self.sections[number_]
         if shape not in BEAM_SHAPES:
-            self.model.cards.lose(f"SECTYPE BEAM {shape}", "this cross-section is not known; give its numbers as ASEC", own)
+            self.model.cards.lose(f"SECTYPE BEAM {shape}", "this cross-section is not known; give its numbers as ASEC",
+                                  own)
             return None
         if len(values) < BEAM_SHAPES[shape]:
             raise InputFault(f"{own}: a section {shape} has {BEAM_SHAPES[shape]} dimensions")

@@ -1,5 +1,5 @@
-"""Reads LS-DYNA decks (.k, .key) into the neutral model. Axis s of a beam of LS-DYNA, the one towards its third node, is z
-of the program, its t axis is -y."""
+"""Reads LS-DYNA decks (.k, .key) into the neutral model. Axis s of a beam of LS-DYNA, towards its third node, is z of the
+program, its t axis is -y."""
 
 from pathlib import Path
 
@@ -14,7 +14,8 @@ from .vectors import applied, difference, length, scaled, unit
 NODE = (8, 16, 16, 16, 8, 8)
 MASS = (8, 8, 16, 8)
 DISCRETE = (8, 8, 8, 8, 8, 16, 8, 16)
-TITLES = ("DATABASE_", "CONTROL_", "DEFINE_CURVE", "DEFINE_TABLE", "DEFINE_FUNCTION", "TITLE", "KEYWORD", "END", "HOURGLASS",
+TITLES = ("DATABASE_", "CONTROL_", "DEFINE_CURVE", "DEFINE_TABLE", "DEFINE_FUNCTION", "TITLE", "KEYWORD", "END",
+          "HOURGLASS",
           "TERMINATION_", "INTERFACE_", "COMMENT", "DEFINE_VECTOR", "DEFINE_BOX", "CASE_")
 LOADS = ("LOAD_", "INITIAL_", "EOS_")
 DAMPING = ("DAMPING_",)
@@ -43,11 +44,14 @@ class Reader:
                 self.materials[keyword.card(0).int(0)] = keyword
             elif keyword.name.startswith("SECTION_"):
                 self._section(keyword)
-        self.handlers = {"ELEMENT_SOLID": self._solids, "ELEMENT_SHELL": self._shells, "ELEMENT_SHELL_THICKNESS": self._shells,
+        self.handlers = {"ELEMENT_SOLID": self._solids, "ELEMENT_SHELL": self._shells,
+                         "ELEMENT_SHELL_THICKNESS": self._shells,
                          "ELEMENT_SHELL_OFFSET": self._shells, "ELEMENT_BEAM": self._beams,
                          "ELEMENT_BEAM_ORIENTATION": self._beams, "ELEMENT_BEAM_OFFSET": self._beams,
-                         "ELEMENT_DISCRETE": self._discrete, "ELEMENT_MASS": self._masses, "ELEMENT_INERTIA": self._inertias,
-                         "ELEMENT_INERTIA_OFFSET": self._inertias, "DAMPING_GLOBAL": self._damping, **self.joints.handlers}
+                         "ELEMENT_DISCRETE": self._discrete, "ELEMENT_MASS": self._masses,
+                         "ELEMENT_INERTIA": self._inertias,
+                         "ELEMENT_INERTIA_OFFSET": self._inertias, "DAMPING_GLOBAL": self._damping,
+                         **self.joints.handlers}
         for keyword in self.keywords:
             if keyword.name.startswith("ELEMENT_"):
                 self._handle(keyword)
@@ -101,7 +105,8 @@ class Reader:
     def _way(self, keyword: Keyword) -> None:
         for card in keyword.cards():
             if card.int(1) not in (0, 2):
-                self.model.cards.lose("DEFINE_SD_ORIENTATION", "springs act along a vector, or from node to node", card.place)
+                self.model.cards.lose("DEFINE_SD_ORIENTATION", "springs act along a vector, or from node to node",
+                                      card.place)
             elif card.int(1) == 2:
                 ends = [self.model.at(card.int(k), card.place) for k in (5, 6)]
                 self.ways[card.int(0)] = difference(ends[1], ends[0])
@@ -146,11 +151,13 @@ class Reader:
                     raise InputFault(f"{card.place}: element {card.int(0)} has no card of nodes")
                 nodes = [second.int(k) for k in range(8)]
                 if second.int(8) or second.int(9):
-                    self.model.cards.lose("ELEMENT_SOLID of second order", "elements of second order are not known", card.place)
+                    self.model.cards.lose("ELEMENT_SOLID of second order", "elements of second order are not known",
+                                          card.place)
                     continue
             title, (form, _), material, part = self.part_of(card, 1, "SOLID")
             if form.int(1, 1) in SECOND_ORDER:
-                self.model.cards.lose(f"SECTION_SOLID ELFORM {form.int(1)}", "elements of second order are not known", card.place)
+                self.model.cards.lose(f"SECTION_SOLID ELFORM {form.int(1)}", "elements of second order are not known",
+                                      card.place)
                 continue
             nodes = [node for node in nodes if node]
             nodes += nodes[-1:] * (8 - len(nodes))
@@ -184,7 +191,8 @@ class Reader:
                 thicknesses = [more.real(k) for k in range(4)]
             given = {value for value in thicknesses[:len(nodes)] if value}
             if len(given) > 1:
-                self.model.cards.lose("THICKNESS THAT VARIES", "a shell has one thickness; allowed, the largest holds", card.place)
+                self.model.cards.lose("THICKNESS THAT VARIES", "a shell has one thickness; allowed, the largest holds",
+                                      card.place)
             if not given:
                 raise InputFault(f"{card.place}: element {card.int(0)} has no thickness")
             thickness = max(given)
@@ -194,7 +202,8 @@ class Reader:
                                                            place=card.place))
             arm = offset * thickness + (more.real(0) if keyword.name == "ELEMENT_SHELL_OFFSET" else 0.0)
             places = [self.model.at(node, card.place) for node in nodes]
-            arms = (scaled(normal_of(places, f"{card.place}: element {card.int(0)}"), arm),) * len(nodes) if arm else None
+            arms = (scaled(normal_of(places, f"{card.place}: element {card.int(0)}"),
+                           arm),) * len(nodes) if arm else None
             self._add("shell", card.int(0), nodes, key, card.place, part, arms=arms)
             self.model.cards.use(keyword.name)
 
@@ -215,7 +224,8 @@ class Reader:
             self.elastic(material, card.place)
             added = first.real(6)
             if form == 3:
-                self.model.properties.setdefault(part, Property(title, material, area=second.real(0), added=added, place=card.place))
+                self.model.properties.setdefault(part, Property(title, material, area=second.real(0), added=added,
+                                                                place=card.place))
                 self._add(BAR, card.int(0), nodes, part, card.place, part)
                 continue
             section, off = self._cross_section(form, first, second)
@@ -228,7 +238,8 @@ class Reader:
             elif card.int(4):
                 way = difference(self.model.at(card.int(4), card.place), ends[0])
             elif section is not None and section.inertia_y == section.inertia_z and not any(off):
-                way = min(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), key=lambda one: abs(sum(a * b for a, b in zip(one, axis))))
+                way = min(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+                          key=lambda one: abs(sum(a * b for a, b in zip(one, axis))))
             else:
                 raise InputFault(f"{who} has no third node for the direction of its section")
             frame = frame_about(axis, way, who)
@@ -236,16 +247,19 @@ class Reader:
             if keyword.name == "ELEMENT_BEAM_OFFSET":
                 arms = [tuple(a + b for a, b in zip(arm, more.vector(at))) for arm, at in zip(arms, (0, 3))]
             hinged = [self._released(card, at) for at in (5, 7)]
-            self.model.properties.setdefault(part, Property(title, material, section=section, added=added, place=card.place))
+            self.model.properties.setdefault(part, Property(title, material, section=section, added=added,
+                                                            place=card.place))
             long = tuple(arm if length(arm) > 0 else None for arm in arms)
-            self._add("beam", card.int(0), nodes, part, card.place, part, z_axis=frame[2], arms=long if any(long) else None,
+            self._add("beam", card.int(0), nodes, part, card.place, part, z_axis=frame[2],
+                      arms=long if any(long) else None,
                       hinged=tuple(hinged))
 
     def _released(self, card: Card, at: int) -> bool:
         """Whether an end turns on its own, by its codes of translations and rotations."""
         moves, turns = card.int(at), card.int(at + 1)
         if moves or turns not in (0, 7):
-            self.model.cards.lose("RELEASES OF ELEMENT_BEAM", "a hinge lets all three rotations go; allowed, it does here, where "
+            self.model.cards.lose("RELEASES OF ELEMENT_BEAM", "a hinge lets all three rotations go; allowed, it does "
+                                                              "here, where "
                                   "it has one of them", card.place)
         return turns != 0
 
@@ -254,7 +268,8 @@ class Reader:
         if form in (1, 4, 5, 11):
             s, t = second.real(0), second.real(2)
             if second.real(1, s) not in (0.0, s) or second.real(3, t) not in (0.0, t):
-                self.model.cards.lose("SECTION_BEAM THAT TAPERS", "beams that taper are not known; allowed, end 1 holds", second.place)
+                self.model.cards.lose("SECTION_BEAM THAT TAPERS", "beams that taper are not known; allowed, end 1 "
+                                                                  "holds", second.place)
             if first.int(4) == 1:
                 one = sections.ring(s / 2, t / 2)
             elif first.int(4) == 0:
@@ -266,7 +281,8 @@ class Reader:
         if form in (2, 12, 13):
             area, about_s, about_t, torsion, shear = (second.real(k) for k in range(5))
             if second.real(5):
-                self.model.cards.lose("IST OF SECTION_BEAM", "a product of inertia is not known; give principal axes", second.place)
+                self.model.cards.lose("IST OF SECTION_BEAM", "a product of inertia is not known; give principal axes",
+                                      second.place)
             return Section(area, about_t, about_s, torsion or about_s + about_t, shear, shear), (0.0, 0.0)
         return None, (0.0, 0.0)
 
@@ -280,9 +296,11 @@ class Reader:
         stiffness = tuple(values.real(2 + k) for k in range(6))
         dashpot = tuple(dampers.real(k) for k in range(6))
         way = difference(self.model.nodes[nodes[1]], self.model.nodes[nodes[0]])
-        across = [k for k in range(3) if length(way) > 0 and abs(way[k]) < (1 - 1e-9) * length(way) and (stiffness[k] or dashpot[k])]
+        size = length(way)
+        across = [k for k in range(3) if size > 0 and abs(way[k]) < (1 - 1e-9) * size and (stiffness[k] or dashpot[k])]
         if second.int(2) or across:
-            self.model.cards.lose("SECTION_BEAM ELFORM 6", "discrete beams act along the global axes, between nodes that "
+            self.model.cards.lose("SECTION_BEAM ELFORM 6", "discrete beams act along the global axes, between nodes "
+                                                           "that "
                                   "coincide or along their line", card.place)
             return
         self.model.springs.append(Spring(nodes, stiffness, dashpot, title, card.place))
@@ -314,7 +332,8 @@ class Reader:
             direction = unit(way) if way else None
             along = [k for k in range(3) if direction and abs(abs(direction[k]) - 1) < 1e-9]
             if not along:
-                self.model.cards.lose("ELEMENT_DISCRETE", "springs act along and about the global axes, or between two nodes", card.place)
+                self.model.cards.lose("ELEMENT_DISCRETE", "springs act along and about the global axes, or between "
+                                                          "two nodes", card.place)
                 continue
             six = tuple(value if k == along[0] + 3 * torsional else 0.0 for k in range(6))
             both = (six, (0.0,) * 6) if spring else ((0.0,) * 6, six)
@@ -332,10 +351,12 @@ class Reader:
         for at in range(0, len(keyword.lines), step):
             card, values = keyword.card(at, *EIGHT), keyword.card(at + 1)
             if card.int(2) or any(values.real(k) for k in (1, 2, 4)):
-                self.model.cards.lose("ELEMENT_INERTIA", "rotary inertia is about the global axes, without products", card.place)
+                self.model.cards.lose("ELEMENT_INERTIA", "rotary inertia is about the global axes, without products",
+                                      card.place)
                 continue
             arm = keyword.card(at + 2).vector(0) if step == 3 else None
-            self.model.masses.append(PointMass(card.int(1), values.real(6), (values.real(0), values.real(3), values.real(5)),
+            self.model.masses.append(PointMass(card.int(1), values.real(6), (values.real(0), values.real(3),
+                                                                             values.real(5)),
                                                arm if arm and length(arm) > 0 else None, "inertia", card.place))
             self.model.cards.use(keyword.name)
 

@@ -75,7 +75,8 @@ def keywords_of(path: Path, seen=()) -> list:
         if not line.startswith("*"):
             if not found:
                 if line.strip():
-                    raise InputFault(f"{place}: a card before the first keyword; a deck of LS-DYNA begins with *KEYWORD")
+                    raise InputFault(f"{place}: a card before the first keyword; a deck of LS-DYNA begins with "
+                                     "*KEYWORD")
                 continue
             found[-1].lines.append((place, line))
             continue
@@ -87,7 +88,8 @@ def keywords_of(path: Path, seen=()) -> list:
             break
     result: list = []
     for keyword in found:
-        keyword.lines = [row for row in keyword.lines if row[1].strip() or keyword.name.startswith(("PART", "TITLE", "SECTION"))]
+        keyword.lines = [row for row in keyword.lines if row[1].strip() or keyword.name.startswith(("PART", "TITLE",
+                                                                                                    "SECTION"))]
         if keyword.name in ("INCLUDE", "INCLUDE_PATH_RELATIVE"):
             for _, line in keyword.lines:
                 result += keywords_of(path.parent / line.strip(), (*seen, path.resolve()))

@@ -6,7 +6,8 @@ from .model import X, Y, Z, InputFault
 CODES = (0, X, Y, Z, X | Y, Y | Z, Z | X, X | Y | Z)
 ELASTIC = ("MAT_ELASTIC", "MAT_001")
 RIGID = ("MAT_RIGID", "MAT_020")
-OTHERS = ("MAT_SPRING_ELASTIC", "MAT_S01", "MAT_DAMPER_VISCOUS", "MAT_S02", "MAT_LINEAR_ELASTIC_DISCRETE_BEAM", "MAT_066")
+OTHERS = ("MAT_SPRING_ELASTIC", "MAT_S01", "MAT_DAMPER_VISCOUS", "MAT_S02", "MAT_LINEAR_ELASTIC_DISCRETE_BEAM",
+          "MAT_066")
 FAMILIES = {"SET_BEAM": ("beam", "bar"), "SET_SHELL": ("shell",), "SET_SOLID": ("hex8", "hex8_full", "wedge6", "tet4")}
 
 
@@ -19,7 +20,8 @@ class JointReader:
         self.of_part: dict = {}  # rigid part -> its nodes
         self.waiting: list = []  # what is done when all sets are known
         self.handlers = {"BOUNDARY_SPC_NODE": self._node, "BOUNDARY_SPC_SET": self._set, "SET_NODE": self._nodes,
-                         "SET_NODE_LIST": self._nodes, "SET_NODE_LIST_GENERATE": self._nodes, "SET_SEGMENT": self._segments,
+                         "SET_NODE_LIST": self._nodes, "SET_NODE_LIST_GENERATE": self._nodes,
+                         "SET_SEGMENT": self._segments,
                          "CONSTRAINED_NODAL_RIGID_BODY": self._body, "CONSTRAINED_EXTRA_NODES_SET": self._extra,
                          "CONSTRAINED_EXTRA_NODES_NODE": self._extra, "CONSTRAINED_RIGID_BODIES": self._merge,
                          "CONSTRAINED_NODE_SET": self._pin, "BOUNDARY_PRESCRIBED_MOTION_SET": self._moved,
@@ -82,9 +84,11 @@ class JointReader:
 
     def _elements(self, keyword: Keyword) -> None:
         families = FAMILIES[keyword.name.removesuffix("_LIST")]
-        found = [self.reader.elements[kind, card.int(k)] for card in keyword.cards()[1:] for k in range(8) for kind in families
+        found = [self.reader.elements[kind, card.int(k)]
+                 for card in keyword.cards()[1:] for k in range(8) for kind in families
                  if (kind, card.int(k)) in self.reader.elements]
-        self.model.element_sets[f"{keyword.name[4:].removesuffix('_LIST').lower()}_set_{keyword.card(0).int(0)}"] = found
+        name = keyword.name[4:].removesuffix("_LIST").lower()
+        self.model.element_sets[f"{name}_set_{keyword.card(0).int(0)}"] = found
 
     def _body(self, keyword: Keyword) -> bool | None:
         lost = False
@@ -132,7 +136,8 @@ class JointReader:
                 continue
             components = 1 << (dof - 1 if dof < 4 else dof - 2)
             by_set = keyword.name.endswith("SET")
-            self.model.said.append(f"{place}: nodes with a motion of their own are held; the motion is told in the scene")
+            self.model.said.append(f"{place}: nodes with a motion of their own are held; the motion is told in the "
+                                   "scene")
             self.waiting.append(lambda number=number, place=place, components=components, by_set=by_set: [
                 self.model.hold(node, components) for node in (self.nodes(number, place) if by_set else [number])])
 
@@ -153,7 +158,8 @@ class JointReader:
                     for node in self.of_part[part]:
                         self.model.hold(node, held)
                 elif held:
-                    self.model.cards.lose("CMO OF MAT_RIGID", "a rigid body is clamped as a whole or not at all", card.place)
+                    self.model.cards.lose("CMO OF MAT_RIGID", "a rigid body is clamped as a whole or not at all",
+                                          card.place)
         elif keyword.name in ELASTIC:
             card = keyword.card(0)
             if card.real(4) or card.real(5):

@@ -1,4 +1,4 @@
-"""Nodes that move together: arms of elements and masses, hinges, rigid bodies, pins, and the supports that reach them."""
+"""Nodes that move together: arms of elements and masses, hinges, rigid bodies, pins, and supports that reach them."""
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -90,7 +90,8 @@ class Joints:
             if element.kind in BEAMS and all(element.hinged):
                 element.kind, element.z_axis = "bar", None
             elif element.kind == SHELL or element.kind in BEAMS:
-                turning |= {node for k, node in enumerate(element.nodes) if element.kind == SHELL or not element.hinged[k]}
+                turning |= {node for k,
+                            node in enumerate(element.nodes) if element.kind == SHELL or not element.hinged[k]}
         for element in self.model.elements:
             if element.kind in BEAMS and any(element.hinged):
                 at = element.hinged.index(True)
@@ -139,7 +140,8 @@ class Joints:
             self.following |= set(nodes)
             if held:
                 first = next(node for node in nodes if self.model.supports.get(node, 0))
-                self.model.cards.lose("SUPPORT OF A RIGID BODY", "a rigid body, or a node with rigid arms, is clamped as a "
+                self.model.cards.lose("SUPPORT OF A RIGID BODY", "a rigid body, or a node with rigid arms, is clamped "
+                                                                 "as a "
                                       "whole or not at all", f"node {first}")
             elif len(own) > 1:
                 name = next((names[node] for node in nodes if node in names), None)
@@ -190,10 +192,12 @@ class Joints:
                 for node in own:
                     self.model.hold(node, TRANSLATIONS)
             elif held:
-                self.model.cards.lose("HINGE AT A SUPPORT", "of nodes that share their displacements all three are held, or "
+                self.model.cards.lose("HINGE AT A SUPPORT", "of nodes that share their displacements all three are "
+                                                            "held, or "
                                       "none", place)
             elif set(nodes) & self.following:
-                self.model.cards.lose("HINGE AT A RIGID BODY", "a hinge cannot be at a node of a rigid body or at an arm",
+                self.model.cards.lose("HINGE AT A RIGID BODY", "a hinge cannot be at a node of a rigid body or at an "
+                                                               "arm",
                                       place)
             elif len(own) > 1:
                 self.pins.append(own)

@@ -1,4 +1,4 @@
-"""Reads meshes of Salome and Code_Aster (.med) into the neutral model: nodes, cells and groups, which is all they hold."""
+"""Reads meshes of Salome and Code_Aster (.med) into the neutral model: nodes, cells and groups, all that they hold."""
 
 from pathlib import Path
 
@@ -9,7 +9,8 @@ from .model import BAR, Element, InputFault, Model
 from .weighing import AS_BRICK, bricks, tetrahedra
 
 # Type of cells -> kind of element, nodes, and the places of its nodes in the mirrored cell.
-CELLS = {"HE8": ("hex8", 8, (0, 3, 2, 1, 4, 7, 6, 5)), "PE6": ("wedge6", 6, (0, 2, 1, 3, 5, 4)), "TE4": ("tet4", 4, (0, 2, 1, 3)),
+CELLS = {"HE8": ("hex8", 8, (0, 3, 2, 1, 4, 7, 6, 5)), "PE6": ("wedge6", 6, (0, 2, 1, 3, 5, 4)), "TE4": ("tet4", 4,
+                                                                                                         (0, 2, 1, 3)),
          "QU4": ("shell", 4, None), "TR3": ("shell", 3, None), "SE2": (BAR, 2, None), "PO1": ("point", 1, None)}
 
 
@@ -30,7 +31,8 @@ def _read(file, path: Path) -> Model:
     model = Model(path.stem, has_properties=False)
     meshes = list(file["ENS_MAA"])
     if len(meshes) != 1:
-        raise InputFault(f"{path}: it holds {len(meshes)} meshes ({', '.join(meshes)}), and one is wanted; write it alone")
+        raise InputFault(f"{path}: it holds {len(meshes)} meshes ({', '.join(meshes)}), and one is wanted; write it "
+                         "alone")
     mesh = file["ENS_MAA"][meshes[0]]
     dimension = int(mesh.attrs["ESP"])
     if "NOE" not in mesh:
@@ -61,7 +63,8 @@ def _read(file, path: Path) -> Model:
 def _cells(model: Model, path: Path, type_: str, cells, places, names) -> None:
     if type_ not in CELLS:
         count = int(cells["NOD"].attrs.get("NBR", 0)) if "NOD" in cells else 0
-        model.cards.lose(f"CELLS {type_}", "cells of first order are known: HE8, PE6, TE4, QU4, TR3, SE2, PO1", path.name, count)
+        model.cards.lose(f"CELLS {type_}", "cells of first order are known: HE8, PE6, TE4, QU4, TR3, SE2, PO1",
+                         path.name, count)
         return
     kind, width, mirrored = CELLS[type_]
     nodes = np.asarray(cells["NOD"][()], dtype=int).reshape((width, -1)).T

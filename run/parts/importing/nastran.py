@@ -13,12 +13,17 @@ from .vectors import along_global_axes, applied, difference, length, permutation
 SOLIDS = {"CHEXA": ("hex8", 8, 20), "CPENTA": ("wedge6", 6, 15), "CTETRA": ("tet4", 4, 10)}
 PLATES = {"CQUAD4": 4, "CQUADR": 4, "CTRIA3": 3, "CTRIAR": 3}
 BEAMS = ("CBAR", "CBEAM")
-TITLES = {"PLOTEL", "SET1", "SET3", "PARAM", "ENDDATA", "SUPORT", "SUPORT1", "EIGR", "EIGRL", "EIGB", "EIGC", "EIGP", "TSTEP",
-          "TSTEPNL", "NLPARM", "NLPCI", "ASET", "ASET1", "OMIT", "OMIT1", "MONPNT1", "DTI", "TABDMP1", "FREQ", "FREQ1", "FREQ2",
-          "FREQ3", "FREQ4", "FREQ5", "RANDPS", "RANDT1", "TABRND1", "TABLED1", "TABLED2", "TABLED3", "TABLED4", "TABLEM1",
+TITLES = {"PLOTEL", "SET1", "SET3", "PARAM", "ENDDATA", "SUPORT", "SUPORT1", "EIGR", "EIGRL", "EIGB", "EIGC", "EIGP",
+          "TSTEP",
+          "TSTEPNL", "NLPARM", "NLPCI", "ASET", "ASET1", "OMIT", "OMIT1", "MONPNT1", "DTI", "TABDMP1", "FREQ", "FREQ1",
+          "FREQ2",
+          "FREQ3", "FREQ4", "FREQ5", "RANDPS", "RANDT1", "TABRND1", "TABLED1", "TABLED2", "TABLED3", "TABLED4",
+          "TABLEM1",
           "DESVAR", "DCONSTR", "DRESP1", "DVPREL1", "DEFORM", "TF"}
-LOADS = {"FORCE", "FORCE1", "FORCE2", "MOMENT", "MOMENT1", "MOMENT2", "PLOAD", "PLOAD1", "PLOAD2", "PLOAD4", "GRAV", "LOAD",
-         "RFORCE", "ACCEL", "ACCEL1", "TEMP", "TEMPD", "TEMPP1", "TEMPRB", "DLOAD", "TLOAD1", "TLOAD2", "RLOAD1", "RLOAD2",
+LOADS = {"FORCE", "FORCE1", "FORCE2", "MOMENT", "MOMENT1", "MOMENT2", "PLOAD", "PLOAD1", "PLOAD2", "PLOAD4", "GRAV",
+         "LOAD",
+         "RFORCE", "ACCEL", "ACCEL1", "TEMP", "TEMPD", "TEMPP1", "TEMPRB", "DLOAD", "TLOAD1", "TLOAD2", "RLOAD1",
+         "RLOAD2",
          "DAREA", "DELAY", "DPHASE", "LSEQ", "SPCD", "SLOAD", "TIC", "NOLIN1", "SPCR"}
 
 
@@ -90,7 +95,8 @@ class Reader:
         number, default = card.int(0), self.defaults.get("GRDSET", Card("GRDSET", [], card.place))
         if number in self.grids:
             raise InputFault(f"{card.place}: grid point {number} is there already")
-        self.grids[number] = (card.int(1, default.int(1, 0)), card.vector(2), card.int(5, default.int(5, 0)), card.place)
+        self.grids[number] = (card.int(1, default.int(1, 0)), card.vector(2), card.int(5, default.int(5, 0)),
+                              card.place)
         fixed = card.text(6) or default.text(6)
         if fixed.strip("0"):
             self.joints.permanent.append((number, fixed, card.place))
@@ -117,7 +123,8 @@ class Reader:
     def _solid(self, card: Card) -> None:
         kind, count, more = SOLIDS[card.name]
         if any(card.text(2 + k) for k in range(count, more)):
-            return self.model.cards.lose(f"{card.name} of second order", "elements of second order are not known", card.place)
+            return self.model.cards.lose(f"{card.name} of second order", "elements of second order are not known",
+                                         card.place)
         return self._add(card, kind, [card.int(2 + k) for k in range(count)], card.int(1))
 
     def _plate(self, card: Card) -> None:
@@ -128,12 +135,14 @@ class Reader:
         key = card.int(1, card.int(0))
         if thicknesses:
             if len(thicknesses) < count or max(thicknesses) - min(thicknesses) > 1e-9 * max(thicknesses):
-                self.model.cards.lose(f"T1 TO T{count} OF {card.name}", "a thickness that varies within an element; allowed, the "
+                self.model.cards.lose(f"T1 TO T{count} OF {card.name}", "a thickness that varies within an element; "
+                                                                        "allowed, the "
                                       "first holds", card.place)
             own = self.model.properties.get(key)
             if own is not None and thicknesses[0] != own.thickness:
                 fresh = f"{key} {thicknesses[0]!r}"
-                self.model.properties.setdefault(fresh, Property(f"{own.name}_t", own.material, thickness=thicknesses[0],
+                self.model.properties.setdefault(fresh, Property(f"{own.name}_t", own.material,
+                                                                 thickness=thicknesses[0],
                                                                  added=own.added, place=card.place))
                 key = fresh
         arms = None
@@ -149,7 +158,8 @@ class Reader:
         source = card if any(card.text(k) for k in (4, 5, 6)) else default
         kind = (card.text(7) or default.text(7) or "GGG").upper()
         if kind[:3] != "GGG" and not re.fullmatch(r"[\d.]+|1", kind):
-            self.model.cards.lose(f"OFFT {kind} OF {card.name}", "vectors are in the axes of displacements, GGG", card.place)
+            self.model.cards.lose(f"OFFT {kind} OF {card.name}", "vectors are in the axes of displacements, GGG",
+                                  card.place)
         arms = [applied(self.frame(node), card.vector(at)) for node, at in zip(nodes, (10, 13))]
         start = [sum_of(x, arm) for x, arm in zip(ends, arms)]
         if source.text(4) and "." not in source.text(4) and not source.text(5) and not source.text(6):
@@ -169,7 +179,8 @@ class Reader:
                 digits = "".join(sorted(text.strip()))
                 hinged[end] = "5" in digits or "6" in digits or "4" in digits
                 if digits != "456":
-                    self.model.cards.lose(f"PINS {digits} OF {card.name}", "a hinge lets all three rotations go; allowed, it does "
+                    self.model.cards.lose(f"PINS {digits} OF {card.name}", "a hinge lets all three rotations go; "
+                                                                           "allowed, it does "
                                           "here, where it has one of them", card.place)
         long = [arm if length(arm) > 0 else None for arm in arms]
         self._add(card, "beam", nodes, key, z_axis=tuple(towards), arms=tuple(long) if any(long) else None,
@@ -208,7 +219,8 @@ class Reader:
             places = permutation(self.frame(node))
             found.append(None if places is None else places[(component - 1) % 3] + (component - 1) // 3 * 3)
         if None in found or len(set(found)) > 1:
-            self.model.cards.lose(card.name, "springs act along the global axes, on the same component of both nodes", card.place)
+            self.model.cards.lose(card.name, "springs act along the global axes, on the same component of both nodes",
+                                  card.place)
             return False
         six = tuple(value if k == found[0] else 0.0 for k in range(6))
         both = (six, (0.0,) * 6) if family == "PELAS" else ((0.0,) * 6, six)
@@ -248,7 +260,8 @@ class Reader:
             return False
         across = [k for k in range(3) if apart and abs(way[k]) < (1 - 1e-9) * length(way) and (six[0][k] or six[1][k])]
         if across:
-            self.model.cards.lose("CBUSH", "a force across the length of a bushing makes moments; its nodes have to coincide",
+            self.model.cards.lose("CBUSH", "a force across the length of a bushing makes moments; its nodes have to "
+                                           "coincide",
                                   card.place)
             return False
         self.model.springs.append(Spring(nodes, *six, name, card.place))

@@ -19,7 +19,8 @@ class JointReader:
         self.lost: list = []  # cards of MPC that join otherwise: (set, place)
         self.waiting: list = []  # (name, independent, dependent, components, card)
         self.wanted = {word: self._named(control, word) for word in ("SPC", "MPC")}
-        self.handlers = {"SPC": self._spc, "SPC1": self._spc1, "SPCADD": self._add, "MPCADD": self._add, "MPC": self._mpc,
+        self.handlers = {"SPC": self._spc, "SPC1": self._spc1, "SPCADD": self._add, "MPCADD": self._add,
+                         "MPC": self._mpc,
                          "RBE2": self._rbe2, "RBAR": self._rbar}
 
     @staticmethod
@@ -83,7 +84,8 @@ class JointReader:
         depends = card.text(6).strip("0")
         components = components_of(depends, card.place) if depends else ALL
         if not whole:
-            self.model.cards.lose("RBAR", "rigid bars couple all components, those of the first node independent", card.place)
+            self.model.cards.lose("RBAR", "rigid bars couple all components, those of the first node independent",
+                                  card.place)
         else:
             self.waiting.append((f"rbar_{card.int(0)}", card.int(1), [card.int(2)], components, card))
         return False
@@ -92,13 +94,15 @@ class JointReader:
         """Sets in force: those of case control with their sums, or the only one."""
         named, place = self.wanted[word]
         if len(named) > 1:
-            raise InputFault(f"{place}: case control names the sets {', '.join(map(str, sorted(named)))} of {word}; a scene has "
+            raise InputFault(f"{place}: case control names the sets {', '.join(map(str, sorted(named)))} of {word}; a "
+                             "scene has "
                              "one: leave one")
         if not named:
             free = set(there) - {one for (kind, _), sets in self.sums.items() if kind == word for one in sets}
             named = {key for kind, key in self.sums if kind == word} or free
             if len(named) > 1:
-                raise InputFault(f"{self.reader.name}: sets {', '.join(map(str, sorted(named)))} of {word}, and no case control names one: say "
+                raise InputFault(f"{self.reader.name}: sets {', '.join(map(str, sorted(named)))} of {word}, and no "
+                                 "case control names one: say "
                                  f"{word} = one of them before BEGIN BULK")
         found: set = set()
         for one in named:
@@ -119,7 +123,8 @@ class JointReader:
                     self._apply(node, components, card.name, card.place)
         unused = set(self.sets) - chosen
         if unused:
-            self.model.said.append(f"sets {', '.join(map(str, sorted(unused)))} of SPC are not named by case control: not read")
+            self.model.said.append(f"sets {', '.join(map(str, sorted(unused)))} of SPC are not named by case control: "
+                                   "not read")
         chosen = self._chosen("MPC", {*self.equal, *(key for key, _ in self.lost)})
         turning = {node for element in self.model.elements if element.kind == "shell" or element.kind in BEAMS
                    for node in element.nodes}
@@ -133,14 +138,15 @@ class JointReader:
                 elif components & TRANSLATIONS == TRANSLATIONS and (components == TRANSLATIONS or not turning & pair):
                     self.model.pins.append((set(pair), place))
                 else:
-                    self.model.cards.lose("MPC", "equations join all displacements of two nodes that coincide", place, count)
+                    self.model.cards.lose("MPC", "equations join all displacements of two nodes that coincide", place,
+                                          count)
         for name, first, others, components, card in self.waiting:
             for node in (first, *others):
                 self.model.at(node, card.place)
             if components == ALL or (components & TRANSLATIONS == TRANSLATIONS and not turning & set(others)):
                 self.model.rigid.append((name, [first, *others], card.place))
                 self.model.cards.use(card.name)
-            elif components == TRANSLATIONS and all(self.model.nodes[node] == self.model.nodes[first] for node in others):
+            elif components == TRANSLATIONS and len({self.model.nodes[node] for node in (first, *others)}) == 1:
                 self.model.pins.append(({first, *others}, card.place))
                 self.model.cards.use(card.name)
             else:
@@ -149,6 +155,7 @@ class JointReader:
     def _apply(self, node: int, components: int, card: str, place: str) -> None:
         held = global_components(components, self.reader.frame(node))
         if held is None:
-            self.model.cards.lose(card if card != "GRID" else "PS OF GRID", "supports hold along the global axes", place)
+            self.model.cards.lose(card if card != "GRID" else "PS OF GRID", "supports hold along the global axes",
+                                  place)
         else:
             self.model.hold(node, held)

@@ -64,7 +64,8 @@ class PropertyReader:
             ("bending of another material, or none", bending != membrane), ("12 I / T^3", card.real(4, 1.0) != 1.0),
             ("shear of another material", shear not in (0, membrane)), ("no membrane", membrane == 0)) if is_wrong]
         if wrong:
-            self.model.cards.lose("PSHELL", f"plates are of one material and full thickness ({wrong[0]}); allowed, it is one", card.place)
+            self.model.cards.lose("PSHELL", f"plates are of one material and full thickness ({wrong[0]}); allowed, it "
+                                            "is one", card.place)
         self._put(card, membrane or bending, thickness=card.real(2), added=card.real(7) * self.reader.mass_factor)
 
     def _bar(self, card: Card) -> None:
@@ -92,7 +93,8 @@ class PropertyReader:
         dimensions = [card.real(8 + k) for k in range(len(values))]
         section = shape_of(kind, dimensions, card)
         if section is None:
-            self.model.cards.lose(f"{card.name} {kind}", "this cross-section is not known; give its numbers in PBAR", card.place)
+            self.model.cards.lose(f"{card.name} {kind}", "this cross-section is not known; give its numbers in PBAR",
+                                  card.place)
             return self._put(card, card.int(1))
         rest = len([text for text in card.fields[8 + len(values):] if text])
         far = [card.real(10 + len(values) + k, value) for k, value in enumerate(dimensions[:SHAPES[kind]])]
@@ -118,7 +120,8 @@ class PropertyReader:
         if tapers:
             self.model.cards.lose("PBEAM", "beams that taper are not known; allowed, end A holds", card.place)
         if any(last.real(k) for k in (4, 5, *range(8, 16))):
-            self.model.cards.lose("PBEAM", "inertia per length, and masses and axes off the beam, are not known", card.place)
+            self.model.cards.lose("PBEAM", "inertia per length, and masses and axes off the beam, are not known",
+                                  card.place)
         area = numbers[0]
         section = Section(area, numbers[1], numbers[2], numbers[4], last.real(1, 1.0) * area, last.real(0, 1.0) * area,
                           -numbers[3])

@@ -6,8 +6,10 @@ from .model import ALL, BAR, BEAMS, COMPONENTS, ROTATIONS, SHELL, SOLIDS, InputF
 from .vectors import difference, length, unit
 
 # First words of the options of a structure: no group has their names.
-WORDS = ("absorbing", "allow", "clamp", "damping", "diaphragm", "gravity", "ignore", "initial", "join", "levels", "mass",
-         "matrices", "mesh", "modal", "model", "p", "pin", "rigid", "soil", "stiffness", "target", "tie", "time", "none",
+WORDS = ("absorbing", "allow", "clamp", "damping", "diaphragm", "gravity", "ignore", "initial", "join", "levels",
+         "mass",
+         "matrices", "mesh", "modal", "model", "p", "pin", "rigid", "soil", "stiffness", "target", "tie", "time",
+         "none",
          "ungrouped")
 SPRING_YOUNG, SPRING_DENSITY = 1e11, 1e-9  # of bars that stand for springs aslant: their mass is nothing
 
@@ -24,8 +26,8 @@ def axis_of(vector) -> tuple:
 
 
 class Scene:
-    """What is written: `options` of the structure, materials and sections as dictionaries, `mesh`, and the model with the
-    nodes that were added. Throws InputFault."""
+    """What is written: `options` of the structure, materials and sections as dictionaries, `mesh`, and the model
+    with the nodes that were added. Throws InputFault."""
 
     def __init__(self, model: Model, structure: str):
         self.model, self.structure = model, structure
@@ -106,7 +108,8 @@ class Scene:
         region["material"], factor = self._material(one.material, material, kind)
         if kind in BEAMS:
             if one.section is None:
-                raise InputFault(f"{first.place}: element {first.number} is a beam, and {one.name} has no cross-section")
+                raise InputFault(f"{first.place}: element {first.number} is a beam, and {one.name} has no "
+                                 "cross-section")
             region["section"] = self._section(name, one, kind, axis, factor, first)
         elif kind == BAR:
             region["area"] = positive(one.section.area if one.section else one.area, "area", one, first)
@@ -132,21 +135,25 @@ class Scene:
         if kind not in BEAMS and kind != BAR and abs(factor - 1) > 5e-3:
             self.model.cards.lose(f"G OF MATERIAL {key}", "shells and solids have G = E / (2 (1 + nu))", material.place)
         if not material.density > 0:
-            raise InputFault(f"{material.place}: material {key} has no density, and elements without mass cannot be stepped; "
+            raise InputFault(f"{material.place}: material {key} has no density, and elements without mass cannot be "
+                             "stepped; "
                              f"say one in kg/m3 with --density {key}=2500")
         if not (material.young > 0 and -1 < poisson < 0.5):
-            raise InputFault(f"{material.place}: material {key} has Young's modulus {material.young:g} Pa and Poisson's ratio "
+            raise InputFault(f"{material.place}: material {key} has Young's modulus {material.young:g} Pa and "
+                             "Poisson's ratio "
                              f"{poisson:g}; they have to be positive, and between -1 and 0.5")
         if key not in self.written:
             self.written[key] = self.material_names.free(key)
-            self.materials[self.written[key]] = {"young": material.young, "poisson": poisson, "density": material.density}
+            self.materials[self.written[key]] = {"young": material.young, "poisson": poisson,
+                                                 "density": material.density}
         return self.written[key], factor
 
     def _section(self, name, one, kind, axis, factor, first) -> str:
         section = one.section
         if axis is None:
             raise InputFault(f"{first.place}: element {first.number} has no direction of its section")
-        values = {what: positive(getattr(section, what), what, one, first) for what in ("area", "inertia_y", "inertia_z",
+        values = {what: positive(getattr(section, what), what, one, first) for what in ("area", "inertia_y",
+                                                                                        "inertia_z",
                                                                                        "torsion")}
         values["torsion"] *= factor
         if section.shear_y > 0 and section.shear_z > 0 and kind == "beam":
@@ -220,11 +227,13 @@ class Scene:
             raise InputFault(f"{spring.place}: a spring along the line between two nodes that coincide")
         along = [k for k in range(3) if abs(abs(way[k]) - size) <= 1e-9 * size]
         if along:
-            values = [tuple(value if k == along[0] else 0.0 for k in range(6)) for value in (spring.stiffness, spring.dashpot)]
+            values = [tuple(value if k == along[0] else 0.0 for k in range(6)) for value in (spring.stiffness,
+                                                                                             spring.dashpot)]
             self.model.springs.append(Spring(spring.nodes, *values, spring.name, spring.place))
             return
         if spring.dashpot:
-            self.model.cards.lose(spring.card, "dashpots between two nodes act along and about global axes", spring.place)
+            self.model.cards.lose(spring.card, "dashpots between two nodes act along and about global axes",
+                                  spring.place)
         if spring.stiffness:
             area = spring.stiffness * size / SPRING_YOUNG
             name = next((one for one, region in self.options.items() if region.get("material") == "springs_aslant"
@@ -309,6 +318,7 @@ def family_of(kind: str) -> str:
 
 def positive(value: float, what: str, one, first) -> float:
     if not value > 0:
-        raise InputFault(f"{one.place or first.place}: {one.name} has {what.replace('_', ' ')} {value:g}, and it has to be "
+        raise InputFault(f"{one.place or first.place}: {one.name} has {what.replace('_', ' ')} {value:g}, and it has "
+                         "to be "
                          "above 0")
     return value

@@ -53,7 +53,7 @@ def model_told(scene, mass: float, centre, expected: float | None) -> list:
     if model.has_properties:
         text = f"mass {mass:.9g} kg"
         if expected is not None:
-            text += f", expected {expected:.9g} kg: {100 * (mass / expected - 1):+.4f} %" if expected else ", expected none"
+            text += f", expected {expected:.9g} kg: {100 * (mass / expected - 1):+.4f} %"
         if centre:
             text += ", centre of gravity " + ", ".join(f"{value:.7g}" for value in centre) + " m"
         lines.append(text)
@@ -65,7 +65,8 @@ def modes_told(scene: Path, structure: str, modes: int) -> tuple:
     not built."""
     words = [str(program()), "-options_file", str(scene), "-dry_run", "-modes", str(modes)]
     with tempfile.TemporaryDirectory(prefix="pounding-") as folder:
-        done = subprocess.run([*words, "-output", folder], env=environment(), capture_output=True, text=True, check=False)
+        done = subprocess.run([*words, "-output", folder], env=environment(), capture_output=True, text=True,
+                              check=False)
     if done.returncode:
         return [], complaint(done.stderr) or f"the program ended with status {done.returncode}"
     lines = []

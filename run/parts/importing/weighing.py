@@ -34,7 +34,8 @@ def tetrahedra(x: np.ndarray) -> tuple:
 def _plates(x: np.ndarray) -> tuple:
     """Areas and first moments; a quadrangle is two triangles, in both ways, halved."""
     area, moment = np.zeros(len(x)), np.zeros((len(x), 3))
-    cuts = [(1.0, (0, 1, 2))] if x.shape[1] == 3 else [(0.5, cut) for cut in ((0, 1, 2), (0, 2, 3), (0, 1, 3), (1, 2, 3))]
+    cuts = [(1.0, (0, 1, 2))] if x.shape[1] == 3 else [(0.5, cut) for cut in ((0, 1, 2), (0, 2, 3), (0, 1, 3), (1, 2,
+                                                                                                                3))]
     for part, cut in cuts:
         corners = x[:, cut]
         size = part * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
