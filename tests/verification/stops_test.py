@@ -147,11 +147,14 @@ class Yard(unittest.TestCase):
         self.assertLess(abs(one.force("post") - other.force("post")).max(), tolerance * one.force("post").max())
 
     def test_on_any_ranks_and_in_modes(self):
-        one = Recorded(self, yard(), 1)
+        one = Recorded(self, yard("-loops", "post"), 1)
         struck = one.summary["impacts"]
         self.assertGreater(struck["post"]["episodes"], 2)
         self.assertGreater(struck["hook"]["episodes"], 0)
         self.assertGreater(struck["post"]["energy_lost"], 0)
+        self.assertAlmostEqual(one.energy["devices"] / struck["post"]["energy_lost"], 1, delta=1e-9)
+        loop = one.summary["loops"]["post"]
+        self.assertAlmostEqual(loop["largest_elongation"] / struck["post"]["max_penetration"], 1, delta=1e-12)
         for ranks in (2, 3, 4):
             self.same(one, Recorded(self, yard(), ranks), 1e-8)
         modal = [word for name in ("left", "right") for word in (f"-{name}_model", "modal", f"-{name}_modal_vectors", 24,
