@@ -122,7 +122,7 @@ class Ansys(unittest.TestCase):
             + component("BASE", [1, -4]) + "MP,EX,1,30000\nMP,NUXY,1,.2\nMP,DENS,1,2.4E-9\nMP,ALPX,1,1e-5\n"
             "SECTYPE,       7,SHEL,    ,ROOF\nSECOFFSET,BOT\nSECBLOCK,       1\n  100.000    ,         1,  0.0    ,   "
             "      3\n"
-            "D,BASE,UX,0\nD,BASE,UY\nD,BASE,UZ\nALPHAD,.5\nFINISH\n")
+            "D,1,UX,0,,4,1,UY\nD,BASE,UZ\nALPHAD,.5\nFINISH\n")
         scene, said = imported.imported(self, "block.cdb", deck, "mm,t,s")
         metres = {n: tuple(value / 1000 for value in x) for n, x in places.items()}
         lifted = {5: 15, 6: 16, 7: 17, 8: 18, 10: 20}

@@ -4,6 +4,7 @@ import random
 import unittest
 
 import imported
+import program
 from imported import imported as import_deck
 from imported import refused
 
@@ -140,6 +141,8 @@ ANSYS_LOST = {
                                   1) + "KEYOPT,2,3,0\nR,5,1,2,3\n": "ELEMENT 21 OF DIRECTIONS 1",
     ansys_elements(185, 1, 1, 2, 2, 3, 3, 3, 1): "ELEMENT 185 PYRAMID 1",
     "RBE3,1,ALL\nCERIG,1,2\n": "CERIG 1, RBE3 1",
+    "NSEL,S,LOC,Z,6\nD,ALL,UX\n": "D OF SELECTED NODES 1",
+    "CP,R5.0,UX,2,3\nD,3,UXX\n": "CP 1, D UXX 1",
 }
 ANSYS_NOTED = {
     "F,3,FX,5.\nSFE,1,1,PRES,,1.\nACEL,0,0,9.81\nD,3,TEMP,5\nANTYPE,2\n/GO\nFINISH\n": (
@@ -259,6 +262,18 @@ class Losses(unittest.TestCase):
                                  ("model.cdb", ANSYS, ANSYS_LOST), ("model.k", DYNA, DYNA_LOST)):
             texts = [imported.damaged(deck + rng.choice(["", *lost]), rng) for _ in range(400)]
             self.assertEqual(imported.survives(name, texts), [], name)
+
+    def test_modes_of_the_program(self):
+        """The command as a user calls it prints mass and modes that the program finds, and a refusal of the program."""
+        path = imported.of_file("model.inp", ABAQUS)
+        done = program.command("import", path, path.parent / "out", "--units", "m,kg,s", "--modes", 3)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertRegex(done.stdout, r"structure model: 3 nodes, 12 dofs \(18 before clamping\), mass 1480 kg")
+        self.assertEqual(len([line for line in done.stdout.splitlines() if line[:7].strip().isdigit()]), 3)
+        path = imported.of_file("motion.inp", ABAQUS)
+        done = program.command("import", path, path.parent / "out", "--units", "m,kg,s", "--modes", 1)
+        self.assertEqual((done.returncode, len(done.stderr.splitlines())), (1, 1))
+        self.assertIn("is written, and the program refuses it: pounding: ", done.stderr)
 
     def test_losses_go_by_their_names_alone(self):
         more = "*MPC\nLINK, 2, 3\n*PLASTIC\n2e8\n"

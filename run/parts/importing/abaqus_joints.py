@@ -32,6 +32,8 @@ class JointReader:
     def _boundary(self, block: Block, scope, motion) -> None:
         if block.name("TYPE", "DISPLACEMENT") != "DISPLACEMENT":
             return self.model.cards.note(block.keyword, "motions of the ground are told in the scene")
+        if block.name("OP", "MOD") == "NEW" and block.data:
+            self.model.said.append(f"{block.place}: supports of all steps are taken together")
         for place, fields in block.data:
             if len(fields) < 2:
                 raise InputFault(f"{place}: *BOUNDARY has a node or set and its components")

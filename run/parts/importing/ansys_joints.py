@@ -7,6 +7,8 @@ from .vectors import global_components
 
 LABELS = {label: 1 << k for k, label in enumerate(("UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"))} | {"ALL": ALL}
 
+OTHER_LABELS = {"TEMP", "VOLT", "MAG", "PRES", "AX", "AY", "AZ", "CURR", "EMF", "CONC", "ENKE", "ENDS"}
+
 
 class JointReader:
     """`reader` is the whole archive's."""
@@ -15,6 +17,7 @@ class JointReader:
         self.reader, self.model = reader, reader.model
         self.components: dict = {}  # name -> nodes
         self.sets: dict = {}  # nodes of CP -> [components, place, cards]
+        self.selects = any(command.name in ("NSEL", "CMSEL", "NSLE") for command in reader.commands)
         self.held: dict = {}  # node -> [components, place]
         self.handlers = {"D": self._support, "CMBLOCK": self._component, "CP": self._couple}
 
@@ -29,14 +32,27 @@ class JointReader:
         return [node]
 
     def _support(self, command: Command) -> bool:
-        label = command.text(1).upper()
-        if label not in LABELS:
-            self.model.cards.note(f"D {label}", "says nothing of displacements")
+        """D, node, label, value, value2, last node, step, more labels."""
+        labels = [text.upper() for text in (command.text(1), *command.words[6:]) if text]
+        if set(labels) & OTHER_LABELS:
+            self.model.cards.note(f"D {labels[0]}", "says nothing of displacements")
+            return False
+        if not labels or set(labels) - set(LABELS):
+            self.model.cards.lose(f"D {' '.join(labels)}", "supports hold UX to ROTZ, or ALL", command.place)
+            return False
+        if command.text(0).upper() in ("ALL", "") and self.selects:
+            self.model.cards.lose("D OF SELECTED NODES", "selections are not followed; name the nodes or a component",
+                                  command.place)
             return False
         if command.text(2).upper() not in ("", "%_FIX%") and command.real(2):
             self.model.said.append(f"{command.place}: a displacement of {command.text(2)} is held at zero")
-        for node in self._nodes(command.text(0), command.place):
-            self.held.setdefault(node, [0, command.place])[0] |= LABELS[label]
+        nodes = self._nodes(command.text(0), command.place)
+        if command.text(4):
+            span = whole_range(nodes[0], command.int(4), command.int(5, 1), command.place)
+            nodes = [node for node in self.model.nodes if node in span]
+        for node in nodes:
+            for label in labels:
+                self.held.setdefault(node, [0, command.place])[0] |= LABELS[label]
         return True
 
     def _component(self, command: Command) -> None:
@@ -58,8 +74,11 @@ class JointReader:
 
     def _couple(self, command: Command) -> bool:
         label = command.text(1).upper()
-        if label not in LABELS:
+        if label in OTHER_LABELS:
             self.model.cards.note(f"CP {label}", "says nothing of displacements")
+            return False
+        if label not in LABELS:
+            self.model.cards.lose(f"CP {label}", "couplings are of UX to ROTZ, or ALL", command.place)
             return False
         nodes = frozenset(node for at in range(2, len(command.words)) if command.text(at) for node in self._nodes(
             command.text(at), command.place))

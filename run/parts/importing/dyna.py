@@ -1,4 +1,4 @@
-"""Reads LS-DYNA decks (.k, .key) into the neutral model. Axis s of a beam of LS-DYNA, towards its third node, is z of the
+"""Reads LS-DYNA decks (.k, .key) into the neutral model. Axis s of a beam there, towards its third node, is z of the
 program, its t axis is -y."""
 
 from pathlib import Path
@@ -16,7 +16,7 @@ MASS = (8, 8, 16, 8)
 DISCRETE = (8, 8, 8, 8, 8, 16, 8, 16)
 TITLES = ("DATABASE_", "CONTROL_", "DEFINE_CURVE", "DEFINE_TABLE", "DEFINE_FUNCTION", "TITLE", "KEYWORD", "END",
           "HOURGLASS",
-          "TERMINATION_", "INTERFACE_", "COMMENT", "DEFINE_VECTOR", "DEFINE_BOX", "CASE_")
+          "TERMINATION_", "INTERFACE_", "COMMENT", "DEFINE_VECTOR", "DEFINE_COORDINATE", "DEFINE_BOX", "CASE_")
 LOADS = ("LOAD_", "INITIAL_", "EOS_")
 DAMPING = ("DAMPING_",)
 SOLID_FORMS = {2: "hex8_full", 18: "hex8_full"}
