@@ -112,6 +112,8 @@ class Reader:
 
     def _handle(self, block: Block, scope: Scope, motion: Motion) -> None:
         keyword = block.keyword
+        for parameter in block.strangers():
+            self.model.cards.lose(f"{keyword} {parameter}", "this parameter is not known", block.place)
         if keyword in self.handlers:
             self.handlers[keyword](block, scope, motion)
         elif keyword in ("NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "PART", "END PART", "ASSEMBLY", "END ASSEMBLY",

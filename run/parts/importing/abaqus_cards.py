@@ -8,6 +8,24 @@ from .model import InputFault
 from .texts import lines_of, number, numbers
 from .vectors import cross, difference, dot, sum_of, unit
 
+# Parameters of keywords that are read, or say nothing of a model; any other one is a loss.
+PARAMETERS = {
+    "NODE": "NSET,SYSTEM", "ELEMENT": "TYPE,ELSET,SOLID ELEMENT NUMBERING",
+    "NSET": "NSET,GENERATE,ELSET,INSTANCE,INTERNAL,UNSORTED",
+    "ELSET": "ELSET,GENERATE,INSTANCE,INTERNAL,UNSORTED", "SURFACE": "NAME,TYPE,INTERNAL",
+    "SOLID SECTION": "ELSET,MATERIAL,ORIENTATION,CONTROLS,COMPOSITE",
+    "SHELL SECTION": "ELSET,MATERIAL,OFFSET,ORIENTATION,SECTION INTEGRATION,TEMPERATURE,POISSON,CONTROLS,COMPOSITE,"
+                     "NODAL THICKNESS,SHELL THICKNESS",
+    "BEAM SECTION": "ELSET,MATERIAL,SECTION,TEMPERATURE,POISSON,CONTROLS",
+    "BEAM GENERAL SECTION": "ELSET,SECTION,DENSITY,POISSON,ZERO", "SPRING": "ELSET,NONLINEAR,ORIENTATION",
+    "DASHPOT": "ELSET,NONLINEAR,ORIENTATION", "MASS": "ELSET,TYPE,ORIENTATION", "ROTARY INERTIA": "ELSET,ORIENTATION",
+    "NONSTRUCTURAL MASS": "ELSET,UNITS", "BOUNDARY": "TYPE,OP,AMPLITUDE,REGION TYPE,FIXED",
+    "RIGID BODY": "REF NODE,NSET,ELSET,TIE NSET,PIN NSET,ISOTHERMAL,ANALYTICAL SURFACE",
+    "COUPLING": "CONSTRAINT NAME,REF NODE,SURFACE,ORIENTATION", "KINEMATIC COUPLING": "REF NODE,ORIENTATION",
+    "TIE": "NAME,ADJUST,POSITION TOLERANCE,TYPE", "ELASTIC": "TYPE,MODULI",
+    "DAMPING": "ALPHA,BETA,STRUCTURAL,COMPOSITE",
+    "MPC": "", "EQUATION": "", "RELEASE": "", "TRANSFORM": "NSET,TYPE", "ORIENTATION": "NAME,DEFINITION,SYSTEM"}
+
 
 @dataclass(slots=True)
 class Block:
@@ -24,6 +42,11 @@ class Block:
         if value is None:
             raise InputFault(f"{self.place}: *{self.keyword} has no {key}")
         return value.strip().strip('"').upper()
+
+    def strangers(self) -> list:
+        """Its parameters that nothing reads."""
+        known = PARAMETERS.get(self.keyword)
+        return [] if known is None else [key for key in self.parameters if key not in known.split(",")]
 
     def number(self, key: str, fallback: float) -> float:
         return number(self.parameters[key], self.place) if key in self.parameters else fallback
