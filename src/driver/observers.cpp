@@ -64,9 +64,15 @@ std::unique_ptr<FieldWriter> make_fields(const ObservedRun& run) {
   return std::make_unique<FieldWriter>(std::move(layout), run.model.systems, run.model.meshes);
 }
 
-bool has_yielding_sections(const Scene& scene) {
+bool has_skeletons(const Scene& scene) {
   return std::ranges::any_of(scene.structures, [](const Structure& structure) {
-    return std::ranges::any_of(structure.regions, &Region::inelastic);
+    return std::ranges::any_of(structure.regions, [](const Region& region) {
+      bool has_any = region.inelastic;
+      for (std::size_t c = 0; c < region.nonlinear.yield_force.size(); ++c) {
+        has_any = has_any || region.nonlinear.is_hysteretic(c);
+      }
+      return has_any;
+    });
   });
 }
 
@@ -89,7 +95,7 @@ RunObservers make_observers(const ObservedRun& run, Profile& profile) {
   if (run.contact_root() >= 0) all.add(make_slide_watch(run));
   all.add(make_energy_watch(run));
   if (may_lift_off(run.scene)) all.add(make_uplift_watch(run));
-  if (has_yielding_sections(run.scene)) all.add(make_yield_table(run));
+  if (has_skeletons(run.scene)) all.add(make_yield_table(run));
   all.add(make_progress_watch(run, impacts.catalogue()));
   return {std::move(all), impacts, history};
 }

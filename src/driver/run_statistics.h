@@ -57,7 +57,7 @@ struct LoopReport {
   interactions::LinkTotals whole() const;
 };
 
-/// Laws of one kind of the sections of a group that may yield.
+/// Laws of one kind of the elements of a group that yield by a skeleton.
 struct YieldReport {
   std::string name;  ///< structure:group:part
   int elements = 0;

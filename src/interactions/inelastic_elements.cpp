@@ -4,28 +4,10 @@
 #include <array>
 #include <utility>
 
-#include "common/parallel.h"
+#include "common/gather_rows.h"
 #include "mesh/ghost_dofs.h"
 
 namespace pounding::interactions {
-namespace {
-
-/// Rows of all ranks, one after the other. Collective.
-std::vector<double> gather_rows(MPI_Comm comm, const std::vector<double>& rows) {
-  const auto ranks = static_cast<std::size_t>(size_of(comm));
-  const int count = static_cast<int>(rows.size());
-  std::vector<int> counts(ranks);
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
-  std::vector<int> begins(ranks, 0);
-  for (std::size_t r = 1; r < ranks; ++r) begins[r] = begins[r - 1] + counts[r - 1];
-  std::vector<double> all(static_cast<std::size_t>(begins.back() + counts.back()));
-  MPI_Allgatherv(rows.data(), count, MPI_DOUBLE, all.data(), counts.data(), begins.data(),
-                 MPI_DOUBLE, comm);
-  return all;
-}
-
-}  // namespace
-
 InelasticElements::InelasticElements(std::size_t structure, const Mesh& mesh,
                                      const LinearSystem& system, double time_step,
                                      std::vector<RegionLaw> laws)
@@ -155,18 +137,6 @@ PartState InelasticElements::state_of(const Part& part) const {
   const std::size_t numbers = group.law->memory_size();
   return group.law->part(part.element, part.number,
                          {group.memory.data() + part.element * numbers, numbers});
-}
-
-std::vector<double> InelasticElements::table() const {
-  std::vector<double> rows;
-  for (const Part& part : parts_) {
-    const ElementBlock& block = block_of(part);
-    const PartState state = state_of(part);
-    rows.insert(rows.end(),
-                {static_cast<double>(block.region), static_cast<double>(block.tags[part.element]),
-                 static_cast<double>(part.number), state.ductility, state.lost});
-  }
-  return gather_rows(mesh_.comm, rows);
 }
 
 void InelasticElements::record(std::vector<std::size_t> parts) {

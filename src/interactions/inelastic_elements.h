@@ -54,9 +54,6 @@ class InelasticElements final : public Interaction {
     return groups_[part.group].law->parts()[part.number];
   }
   PartState state_of(const Part& part) const;
-  /// Rows of five numbers of the parts of all ranks: region, element, number of the law, ductility,
-  /// energy lost [J]. Collective over the structure's communicator.
-  std::vector<double> table() const;
   /// Records some of these parts from now on, numbers into `parts()`.
   void record(std::vector<std::size_t> parts);
   const LinkRecords& records() const { return records_; }

@@ -183,6 +183,49 @@ class PeakOriented(unittest.TestCase):
         assert_continues(self, [*words, "-modes", 1, "-spectra_frequencies", 10], 0.4, 500)
 
 
+class Brace(unittest.TestCase):
+    """A bar of 4 m that yields at 400 kN when it is stretched and buckles at 150 kN when it is pressed."""
+    LENGTH, STRENGTH, AREA, YOUNG = 4.0, 4e5, 1e-3, 2e11
+
+    def words(self, speed, *more):
+        first = self.STRENGTH / (self.YOUNG * self.AREA)
+        back = 1.5e5 / (self.YOUNG * self.AREA)
+        return ["-structures", "one", "-one_mesh", "tests/meshes/line.geo", "-one_mesh_set", f"length={self.LENGTH},n=1",
+                "-one_clamp", "x_min,x_max:y+z", "-one_line_element", "bar", "-one_line_material", "steel",
+                "-one_line_area", self.AREA, "-material_steel_young", self.YOUNG, "-material_steel_poisson", 0.3,
+                "-material_steel_density", 1e-3, "-one_x_max_element", "point_mass", "-one_x_max_mass", 1e4,
+                "-one_line_rule", "peak", "-one_line_skeleton", pairs([(first, self.STRENGTH)]),
+                "-one_line_skeleton_back", pairs([(back, 1.5e5), (5 * back, 5e4)]), "-one_initial_velocity",
+                f"{speed},0,0", "-time_step", 1e-5, "-end_time", 0.2, "-output_interval", 1e-5, "-energy_interval", 10,
+                "-probes", "tip", "-tip_structure", "one", "-tip_at", f"{self.LENGTH},0,0", *more]
+
+    def test_stretched_and_pressed(self):
+        stiffness = self.YOUNG * self.AREA / self.LENGTH
+        for speed, ranks in ((1.0, 1), (-0.7, 2)):
+            run = Recorded(self, self.words(speed), ranks)
+            x = run.displacement("tip.x")
+            energy = 1e4 * speed**2 / 2
+            if speed > 0:
+                top = self.STRENGTH / stiffness + (energy - self.STRENGTH**2 / stiffness / 2) / self.STRENGTH
+                self.assertAlmostEqual(x.max() / top, 1, delta=1e-5)
+            else:  # over the peak, down to the plateau of 50 kN, and on
+                peak = 1.5e5 / stiffness
+                left = energy - 1.5e5 * peak / 2 - (1.5e5 + 5e4) / 2 * 4 * peak
+                self.assertGreater(left, 0)
+                top = 5 * peak + left / 5e4
+                self.assertAlmostEqual(-x.min() / top, 1, delta=1e-5)
+            found = run.summary["yielding"]["one:line:axial"]
+            self.assertEqual((found["elements"], found["yielded"]), (1, 1))
+            self.assertAlmostEqual(found["energy_lost"] / run.energy["devices"], 1, delta=1e-5)
+
+    def test_in_modes(self):
+        full = Recorded(self, self.words(1.0), 1)
+        modes = Recorded(self, self.words(1.0, "-one_model", "modal", "-one_modal_vectors", 2), 1)
+        self.assertLess(abs(full.displacement("tip.x") - modes.displacement("tip.x")).max(), 1e-10)
+        for name, value in full.summary["yielding"]["one:line:axial"].items():
+            self.assertAlmostEqual(modes.summary["yielding"]["one:line:axial"][name] / value, 1, delta=1e-9, msg=name)
+
+
 class Refusals(unittest.TestCase):
     def test_laws_that_cannot_be(self):
         for options, said in (

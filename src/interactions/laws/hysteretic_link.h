@@ -30,6 +30,8 @@ class HystereticLink final : public LinkLaw {
   bool has_yielded(std::span<const double> memory) const override {
     return law_.ductility(memory) > 1;
   }
+  double ductility(std::span<const double> memory) const override { return law_.ductility(memory); }
+  double lost(std::span<const double> memory) const override { return law_.lost(memory); }
   void yield(double now, double /*kept*/, std::span<double> memory) const override {
     const auto last = memory.first(law_.memory_size());
     std::ranges::copy(last, memory.begin() + static_cast<std::ptrdiff_t>(last.size()));

@@ -50,6 +50,11 @@ class LinkLaw {
   /// Whether it has left its straight line for good.
   virtual bool has_yielded(std::span<const double> /*memory*/) const { return false; }
 
+  /// Largest elongation over that of the first corner of its skeleton; below 0 without one.
+  virtual double ductility(std::span<const double> /*memory*/) const { return -1; }
+  /// Energy that a law with a skeleton lost so far [J].
+  virtual double lost(std::span<const double> /*memory*/) const { return 0; }
+
   /// Rate r [N/m] of a law N_n = r (e_{n+1} - e_{n-1}) + offset, 0 of any other: such links are
   /// solved for together, and their elongations are counted from e_n, so that these have no
   /// round-off of a large one. `share`: of a step, for which the force acts; half of the first one.

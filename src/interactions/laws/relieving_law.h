@@ -34,6 +34,10 @@ class RelievingLaw final : public LinkLaw {
   bool has_yielded(std::span<const double> memory) const override {
     return link_->has_yielded(memory);
   }
+  double ductility(std::span<const double> memory) const override {
+    return link_->ductility(memory);
+  }
+  double lost(std::span<const double> memory) const override { return link_->lost(memory); }
   bool is_idle(double /*now*/, std::span<const double> /*memory*/ = {}) const override {
     return false;
   }
