@@ -110,7 +110,7 @@ class PropertyReader:
             if block[0].upper() in ("YES", "YESA", "NO"):
                 stress = block[0].upper() == "YES"
                 station = [Card("", block, card.place).real(2 + k, numbers[k]) for k in range(6)]
-                tapers |= any(abs(a - b) > 1e-9 * abs(b) for a, b in zip(station, numbers))
+                tapers |= any(abs(a - b) > 1e-3 * abs(b) for a, b in zip(station, numbers))
             elif stress:
                 stress = False
             else:
