@@ -137,10 +137,17 @@ EpsHandle create_eigen_solver(const LinearSystem& system, const Mesh& mesh, Mat 
 }
 
 EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix, int count,
-                       Mat mass) {
+                       Mat mass, std::vector<VecHandle>* known) {
   EpsHandle solver = create_eigen_solver(system, mesh, matrix, "lowest_", mass);
-  const int sought =
-      static_cast<int>(std::min<GlobalIndex>(count + looked_past, system.independent_dofs()));
+  GlobalIndex left = system.independent_dofs();
+  if (known != nullptr) {
+    std::vector<Vec> vectors;
+    for (const VecHandle& vector : *known) vectors.push_back(vector.get());
+    POUNDING_PETSC(
+        EPSSetDeflationSpace(solver.get(), static_cast<PetscInt>(vectors.size()), vectors.data()));
+    left -= static_cast<GlobalIndex>(vectors.size());
+  }
+  const int sought = static_cast<int>(std::min<GlobalIndex>(count + looked_past, left));
   // Many are found in portions: the projected problem stays small.
   constexpr int portion = 100;
   POUNDING_PETSC(EPSSetDimensions(solver.get(), sought, PETSC_DEFAULT,

@@ -44,8 +44,8 @@ inline constexpr double lowest_shift = -1;
 /// Finds at least the `count` lowest eigenpairs of a mass-scaled stiffness, or of a stiffness and a
 /// mass matrix where that is not diagonal, shift-and-invert with a Cholesky factorisation (MUMPS),
 /// the shift just below zero so that free structures pass; PETSc's options with the prefix lowest_
-/// hold. Throws std::runtime_error if fewer converge. Collective.
+/// hold. `known`: eigenvectors that are left out. Throws UserError if fewer converge. Collective.
 EpsHandle solve_lowest(const LinearSystem& system, const Mesh& mesh, Mat matrix, int count,
-                       Mat mass = nullptr);
+                       Mat mass = nullptr, std::vector<VecHandle>* known = nullptr);
 
 }  // namespace pounding

@@ -13,6 +13,7 @@
 #include "modal/lowest_iteration.h"
 #include "modal/rigid_motions.h"
 #include "modal/scaled_operator.h"
+#include "modal/shifted_solver.h"
 #include "system/admissible_motions.h"
 
 namespace pounding {
@@ -35,6 +36,73 @@ double frequency_bound(const LinearSystem& system) {
   PetscReal norm = 0;
   POUNDING_PETSC(MatNorm(scaled.get(), NORM_INFINITY, &norm));
   return std::sqrt(norm);
+}
+
+/// An eigenpair in the coordinates of the problem that was solved, over the owned dofs.
+struct FoundPair {
+  double value = 0;  ///< [1/s2]
+  std::vector<double> vector;
+};
+
+/// The problem A x = lambda B x of the lowest modes; B null: the identity.
+struct LowestProblem {
+  const LinearSystem& system;
+  const Mesh& mesh;
+  Mat matrix;
+  Mat mass;
+};
+
+/// Adds the pairs that a solver found of A + `above` B.
+void take_pairs(const LinearSystem& system, EPS solver, double above,
+                std::vector<FoundPair>& found) {
+  PetscInt count = 0;
+  POUNDING_PETSC(EPSGetConverged(solver, &count));
+  for (PetscInt i = 0; i < count; ++i) {
+    FoundPair& pair = found.emplace_back();
+    pair.vector.resize(system.lumped_mass.size());
+    const VecHandle vector = wrap_vector(system, pair.vector);
+    POUNDING_PETSC(EPSGetEigenpair(solver, i, &pair.value, nullptr, vector.get(), nullptr));
+    pair.value -= above;
+  }
+}
+
+/// Number of eigenvalues below a value, by Sylvester's law of inertia.
+int eigenvalues_below(const LowestProblem& problem, double value) {
+  if (problem.mass == nullptr) {
+    return ShiftedSolver(problem.system, problem.matrix, value).eigenvalues_below();
+  }
+  MatHandle shifted;
+  POUNDING_PETSC(MatDuplicate(problem.matrix, MAT_COPY_VALUES, shifted.out()));
+  POUNDING_PETSC(MatAXPY(shifted.get(), -value, problem.mass, DIFFERENT_NONZERO_PATTERN));
+  return ShiftedSolver(problem.system, shifted.get(), 0).eigenvalues_below();
+}
+
+/// Seeks what is missing among the `wanted` lowest pairs: a Krylov space of one vector sees a copy
+/// of a frequency by its round-off alone, and may end before. The law of inertia counts the
+/// eigenvalues; those that were not seen are found beside the vectors that were. `zero`: below it
+/// eigenvalues are 0 [1/s2].
+void find_missed(const LowestProblem& problem, int wanted, double zero,
+                 std::vector<FoundPair>& found) {
+  constexpr double same = 1e-7;  // relative difference of two eigenvalues that are one
+  for (;;) {
+    std::ranges::stable_sort(found, {}, &FoundPair::value);
+    const double last = found[static_cast<std::size_t>(wanted) - 1].value;
+    const double limit = last + std::max(zero, same * std::abs(last));
+    const auto known = static_cast<int>(
+        std::ranges::count_if(found, [&](const FoundPair& pair) { return pair.value < limit; }));
+    const int missing = eigenvalues_below(problem, limit) - known;
+    if (missing <= 0) return;
+    std::vector<VecHandle> vectors;
+    for (FoundPair& pair : found) vectors.push_back(wrap_vector(problem.system, pair.vector));
+    const std::size_t before = found.size();
+    const EpsHandle more =
+        solve_lowest(problem.system, problem.mesh, problem.matrix, missing, problem.mass, &vectors);
+    vectors.clear();
+    take_pairs(problem.system, more.get(), 0, found);
+    const bool any = std::any_of(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(),
+                                 [&](const FoundPair& pair) { return pair.value < limit; });
+    if (!any) refuse_modes(problem.system, problem.mesh, known, known + missing);
+  }
 }
 
 }  // namespace
@@ -106,42 +174,39 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
     mass = admissible->restrict_matrix(mass_matrix(system).get(), 1);
   }
   const int wanted = static_cast<int>(std::min<GlobalIndex>(count, system.independent_dofs()));
-  LowestPairs pairs;
+  const double bound = std::pow(near_zero * frequency_bound(system), 2);
+  std::vector<FoundPair> found;
   if (must_iterate(system, matrix.get(), choice)) {
     const auto to_coordinates = [&](std::vector<double>& field) {
       if (admissible) admissible->to_coordinates(field);
       if (diagonal_mass) weigh(system, field);
     };
-    pairs = iterate_lowest(
+    const LowestPairs pairs = iterate_lowest(
         {system, mesh, matrix.get(), mass.get(), frequency_bound(system), to_coordinates}, wanted);
+    result.method = pairs.method;
+    take_pairs(system, pairs.solver.get(), pairs.above, found);
   } else {
-    pairs.solver = solve_lowest(system, mesh, matrix.get(), wanted, mass.get());
+    take_pairs(system, solve_lowest(system, mesh, matrix.get(), wanted, mass.get()).get(), 0,
+               found);
+    find_missed({system, mesh, matrix.get(), mass.get()}, wanted, bound, found);
   }
-  result.method = pairs.method;
-  PetscInt found = 0;
-  POUNDING_PETSC(EPSGetConverged(pairs.solver.get(), &found));
-  std::vector<double> storage(system.lumped_mass.size());
-  const VecHandle vector = wrap_vector(system, storage);
-  const double bound = near_zero * frequency_bound(system);
-  for (int i = 0; i < found; ++i) {
-    double eigenvalue = 0;
-    POUNDING_PETSC(
-        EPSGetEigenpair(pairs.solver.get(), i, &eigenvalue, nullptr, vector.get(), nullptr));
-    eigenvalue -= pairs.above;
-    if (admissible) admissible->to_motion(storage);
+  for (FoundPair& pair : found) {
+    std::vector<double>& field = pair.vector;
+    if (admissible) admissible->to_motion(field);
     std::vector<double> shape;
-    if (keep_shapes) shape = storage;
+    if (keep_shapes) shape = field;
     if (!diagonal_mass) {
-      weigh(system, storage);
+      weigh(system, field);
     } else {
       std::ranges::transform(
           shape, system.lumped_mass, shape.begin(),
           [](double y, double mass_of_dof) { return y / std::sqrt(mass_of_dof); });
     }
     result.modes.push_back(
-        describe_mode(eigenvalue, motions.participation(storage.data()), motions.inertia()));
+        describe_mode(pair.value, motions.participation(field.data()), motions.inertia()));
     result.modes.back().shape = std::move(shape);
-    if (eigenvalue < bound * bound) result.modes.back().location = locate_largest(mesh, storage);
+    if (pair.value < bound) result.modes.back().location = locate_largest(mesh, field);
+    field = {};
   }
   std::stable_sort(result.modes.begin(), result.modes.end(),
                    [](const Mode& a, const Mode& b) { return a.frequency < b.frequency; });

@@ -55,8 +55,9 @@ double reference_frequency(const Structure& structure, const ModalResult& modal)
 
 /// The lowest `count` modes by SLEPc's Krylov-Schur on M^-1/2 K M^-1/2, shift-and-invert with a
 /// Cholesky factorisation (MUMPS), the shift just below zero so that free structures pass; on K
-/// and M + S where mass is coupled. By `iterate_lowest` where `must_iterate` says so of
-/// `choice`.
+/// and M + S where mass is coupled. The law of inertia counts the eigenvalues up to the last one,
+/// and copies of a frequency that were not seen are sought. By `iterate_lowest`, uncounted, where
+/// `must_iterate` says so of `choice`.
 /// Frequencies of rigid-body modes come out as 0. Participation: Gamma = phi^T M iota, effective
 /// mass Gamma^2. `keep_shapes`: with phi, phi^T M phi = 1. Needs the matrix of the system unless
 /// `count` is 0. Throws UserError when SLEPc finds fewer than asked. Collective.
