@@ -1,15 +1,18 @@
 #include "spectra/spectra_job.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "common/error.h"
 #include "io/csv_file.h"
 #include "io/spectra_table.h"
+#include "motion/rotated_spectrum.h"
 #include "motion/spectrum_shape.h"
 #include "output/impact_catalogue.h"
 #include "spectra/signal_reader.h"
@@ -100,16 +103,23 @@ AfterRecord after(const SpectraOptions& options, const Input& input, Treatment t
   return ignored ? AfterRecord::ignored : AfterRecord::free_vibration;
 }
 
-std::vector<std::vector<double>> compute(const SpectraOptions& options, const SampledSignal& signal,
-                                         double ratio, AfterRecord after_record) {
-  std::vector<std::vector<double>> columns(options.true_peaks ? 6 : 3);
-  for (const SpectrumPoint& point : response_spectrum(signal.acceleration, signal.time_step,
-                                                      options.frequencies, ratio, after_record)) {
+/// Pseudo columns of a spectrum.
+std::vector<std::vector<double>> columns_of(const std::vector<SpectrumPoint>& spectrum) {
+  std::vector<std::vector<double>> columns(3);
+  for (const SpectrumPoint& point : spectrum) {
     columns[0].push_back(point.displacement);
     columns[1].push_back(point.pseudo_velocity);
     columns[2].push_back(point.pseudo_acceleration);
   }
+  return columns;
+}
+
+std::vector<std::vector<double>> compute(const SpectraOptions& options, const SampledSignal& signal,
+                                         double ratio, AfterRecord after_record) {
+  std::vector<std::vector<double>> columns = columns_of(response_spectrum(
+      signal.acceleration, signal.time_step, options.frequencies, ratio, after_record));
   if (!options.true_peaks) return columns;
+  columns.resize(6);
   for (const TrueSpectrumPoint& point : true_response_spectrum(
            signal.acceleration, signal.time_step, options.frequencies, ratio, after_record)) {
     columns[3].push_back(point.velocity);
@@ -130,6 +140,68 @@ std::vector<Spectrum> spectra_of(const SpectraOptions& options, const Input& inp
     }
   }
   return spectra;
+}
+
+/// Name of the percentile of the peaks over all directions: "rotd50".
+std::string percentile_name(double percent) {
+  char text[40];
+  std::snprintf(text, sizeof text, "rotd%02.10g", percent);
+  return text;
+}
+
+/// Spectra of a pair of components over all horizontal directions.
+std::vector<Spectrum> spectra_of_pair(const SpectraOptions& options, const Input& first,
+                                      const Input& second) {
+  const SampledSignal& one = first.named.signal;
+  const SampledSignal& other = second.named.signal;
+  if (one.time_step != other.time_step || one.first_time != other.first_time ||
+      one.acceleration.size() != other.acceleration.size()) {
+    throw UserError("--rotd: " + first.named.name + " and " + second.named.name +
+                    " have other times: they are no pair");
+  }
+  const auto all = rotated_spectra(one.acceleration, other.acceleration, one.time_step,
+                                   options.frequencies, options.damping_ratios, options.rotated,
+                                   after(options, first, Treatment::complete));
+  const std::string source = source_of(first.named);
+  const std::string probe = first.named.is_history
+                                ? source.substr(0, source.rfind(',') + 1)
+                                : first.named.name + " " + second.named.name + ",";
+  std::vector<Spectrum> spectra;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const std::size_t percentiles = options.rotated.size();
+    spectra.push_back({probe + percentile_name(options.rotated[k % percentiles]),
+                       Treatment::complete, options.damping_ratios[k / percentiles],
+                       columns_of(all[k])});
+  }
+  return spectra;
+}
+
+/// The pairs among the inputs: x and y of a probe, or one record after the other.
+std::vector<std::pair<const Input*, const Input*>> pairs_of(const std::vector<Input>& inputs) {
+  std::vector<std::pair<const Input*, const Input*>> pairs;
+  std::vector<const Input*> records;
+  for (const Input& input : inputs) {
+    if (!input.named.is_history) {
+      records.push_back(&input);
+      continue;
+    }
+    if (!input.named.name.ends_with(".x")) continue;
+    std::string partner = input.named.name;
+    partner.back() = 'y';
+    const auto found = std::ranges::find_if(inputs, [&](const Input& other) {
+      return other.named.name == partner && other.named.folder == input.named.folder;
+    });
+    if (found != inputs.end()) pairs.emplace_back(&input, &*found);
+  }
+  if (records.size() % 2 != 0) {
+    throw UserError("--rotd: " + std::to_string(records.size()) +
+                    " components of records are no pairs; give two columns or two files");
+  }
+  for (std::size_t i = 0; i + 1 < records.size(); i += 2) {
+    pairs.emplace_back(records[i], records[i + 1]);
+  }
+  if (pairs.empty()) throw UserError("--rotd: no probe has both x and y among the channels");
+  return pairs;
 }
 
 /// Takes the spectra of one more channel, in the same order, into the envelope.
@@ -224,18 +296,29 @@ void run_spectra(const SpectraOptions& options) {
   }
   file.header(header_of(options));
   std::vector<Spectrum> envelope;
-  for (const Input& input : inputs) {
-    std::vector<Spectrum> spectra = spectra_of(options, input);
-    if (peaks) write_peaks(*peaks, input);
+  const auto take = [&](std::vector<Spectrum> spectra, double interval) {
     if (!options.envelope) {
-      write_spectra(file, options, spectra, input.named.signal.time_step);
+      write_spectra(file, options, spectra, interval);
     } else if (envelope.empty()) {
       envelope = std::move(spectra);
     } else {
       widen(envelope, spectra);
     }
+  };
+  if (!options.rotated.empty()) {
+    for (const auto& [first, second] : pairs_of(inputs)) {
+      take(spectra_of_pair(options, *first, *second), first->named.signal.time_step);
+    }
+  } else {
+    for (const Input& input : inputs) {
+      take(spectra_of(options, input), input.named.signal.time_step);
+      if (peaks) write_peaks(*peaks, input);
+    }
   }
-  for (Spectrum& spectrum : envelope) spectrum.source = "envelope,";
+  for (Spectrum& spectrum : envelope) {
+    const std::string direction = spectrum.source.substr(spectrum.source.rfind(','));
+    spectrum.source = "envelope" + (options.rotated.empty() ? "," : direction);
+  }
   write_spectra(file, options, envelope, longest_step);
   if (peaks) peaks->close();
   file.close();

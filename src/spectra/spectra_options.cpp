@@ -59,6 +59,16 @@ bool read_damping(const std::string& text, SpectraOptions& options) {
   return true;
 }
 
+bool read_percentiles(const std::string& text, SpectraOptions& options) {
+  const auto percentiles = parse_reals(text);
+  if (!percentiles ||
+      std::ranges::any_of(*percentiles, [](double p) { return p < 0 || p > 100; })) {
+    return false;
+  }
+  options.rotated = *percentiles;
+  return true;
+}
+
 bool read_frequencies(const std::string& text, SpectraOptions& options) {
   if (text == "regulatory") {
     options.frequencies = regulatory_frequencies();
@@ -145,6 +155,11 @@ constexpr std::array option_specs{
                }},
     OptionSpec{"envelope", "", "no value", "the envelope of all channels instead of each",
                [](const std::string&, SpectraOptions& o) { return o.envelope = true; }},
+    OptionSpec{"rotd", "PERCENT,...", "numbers from 0 to 100",
+               "percentiles over all horizontal directions of a pair of components\n"
+               "instead of each: 50 (RotD50), 100 (RotD100); of a history x and y of\n"
+               "every probe, of records two columns or files",
+               read_percentiles},
     OptionSpec{"broaden", "PERCENT", "a number from 0, below 100",
                "widen every peak by so much to both sides (15 in Regulatory\n"
                "Guide 1.122)",
@@ -213,6 +228,11 @@ void check_together(const SpectraOptions& options) {
                  options.dirac_step > 0)) {
     throw UserError(
         "--impacts, --contacts, --margin and --dirac-step have no effect without --treatment or "
+        "--peaks");
+  }
+  if (!options.rotated.empty() && (options.true_peaks || peaks)) {
+    throw UserError(
+        "--rotd has pseudo peaks of complete signals: not with --true, --treatment, "
         "--peaks");
   }
   const auto place = [](const std::string& file) {

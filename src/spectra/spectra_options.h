@@ -22,6 +22,7 @@ struct SpectraOptions {
   std::vector<double> frequencies;  ///< [Hz], increasing, above 0
   bool true_peaks = false;          ///< columns of the true peaks beside the pseudo ones
   bool envelope = false;            ///< the envelope of all channels instead of each
+  std::vector<double> rotated;      ///< percentiles over all horizontal directions; empty: none
   double broadening = 0;            ///< [-]
   std::string after;                ///< "auto", "free_vibration" or "ignored"
   std::vector<Treatment> treatments{Treatment::complete};
