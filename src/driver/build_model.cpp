@@ -7,6 +7,7 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "common/progress.h"
+#include "driver/applied_loads.h"
 #include "driver/field_plan.h"
 #include "driver/filler_limit.h"
 #include "driver/mesh_pieces.h"
@@ -34,6 +35,7 @@
 #include "system/axial_forces.h"
 #include "system/build_system.h"
 #include "system/links.h"
+#include "system/load_shapes.h"
 
 namespace pounding {
 namespace {
@@ -68,6 +70,7 @@ void share_findings(MPI_Comm comm, Scene& scene, WholeMeshes& whole,
   }
   broadcast_probes(comm, model.probes);
   broadcast_forces(comm, model.forces);
+  broadcast_loads(comm, model.loads);
 }
 
 /// Rank 0 reads the meshes, finds who faces whom, and sends every rank its part.
@@ -137,8 +140,9 @@ void build_meshes(MPI_Comm comm, Scene& scene, std::span<const double> stiffness
   if (scene.dry_run && scene.write_model) write_model(comm, scene, model);
   model.storey_bases = find_storey_bases(comm, scene, model);
   const Progress progress(comm, "modal bases", scene.progress_interval);
-  auto bases = find_bases(comm, scene, whole.meshes, model.interface, model.probes, model.forces,
-                          model.storey_bases, model.support_columns(), profile);
+  auto bases =
+      find_bases(comm, scene, whole.meshes, model.interface, model.probes, model.forces,
+                 model.storey_bases, model.support_columns(), model.scene_loads(), profile);
   for (std::size_t s = 0; s < count; ++s) {
     if (bases[s]) {
       scale_stiffness(stiffness_factors[s], *bases[s]);
@@ -199,6 +203,8 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
     building.mode_gaps = modes_at_contacts(comm, model, s);  // before its rows go into the system
     system = build_reduced_system(comm, owners_of_reduced(size_of(comm), scene)[s], wanted, mesh,
                                   *building.basis, model.support_columns());
+    system.loads = shape_reduced_loads(model.scene_loads(), static_cast<int>(s),
+                                       building.basis->load_parts, system.owned_dofs() > 0);
     building.limits = limits_of(wanted, system, mesh, building.basis_or_null(), {});
     return;
   }
@@ -216,6 +222,7 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
     const ScopedTimer timer(profile, Phase::assembly);
     const Progress progress = begin(comm, scene, structure, "assembly");
     system = build_system(structure, mesh, scene.stiffness, with_matrix);
+    system.loads = shape_loads(model.scene_loads(), static_cast<int>(s), mesh);
   }
   const ScopedTimer timer(profile, Phase::modes);
   require_passive_matrices(structure, system);
@@ -304,6 +311,9 @@ Model build_model(MPI_Comm comm, Scene& scene, std::span<const double> stiffness
     if (!scene.supports.empty()) {
       model.supports =
           std::make_unique<SupportMotion>(scene.supports, *model.motion, scene.resampling);
+    }
+    if (!scene.loads.empty()) {
+      model.load_histories = std::make_unique<LoadHistories>(scene.loads);
     }
   });
   build_meshes(comm, scene, stiffness_factors, profile, contacts_known, model);

@@ -92,6 +92,7 @@ class Export {
       }
       write_dofs(folder);
       write_influence(folder);
+      write_loads(folder);
       write_contact(folder);
       write_probes(folder);
     });
@@ -133,6 +134,28 @@ class Export {
     }
     write_matrix(folder + "influence.mtx", "columns: ground motion along x, y, z", {size(), 3},
                  entries);
+  }
+
+  /// Loads on this structure: their names, and their forces in columns.
+  void write_loads(const std::string& folder) const {
+    if (!model_.systems[structure_].loads) return;
+    std::vector<MatrixEntry> entries;
+    CsvFile names(folder + "loads.csv");
+    names.comment("columns of loads.mtx: forces at a history of 1");
+    names.header("load");
+    PetscInt column = 0;
+    for (std::size_t l = 0; l < model_.loads.size(); ++l) {
+      if (model_.loads[l].structure != static_cast<int>(structure_)) continue;
+      names.row(scene_.loads[l].name, {});
+      for (const NodalForce& force : model_.loads[l].forces) {
+        const PetscInt row = row_of(force.node, force.component);
+        if (row >= 0) entries.push_back({row, column, force.value});
+      }
+      ++column;
+    }
+    names.close();
+    write_matrix(folder + "loads.mtx", "columns: loads as in loads.csv, N and N m",
+                 {size(), column}, entries);
   }
 
   /// Row of a node's component, -1 if it is clamped.

@@ -28,7 +28,8 @@ std::string found_at(const Places& places, const char* what) {
   return std::to_string(places.count) + what + place_text(places.first);
 }
 
-/// Groups that clamps, rigid groups, soil, contacts, supports and probes name, and those left out.
+/// Groups that clamps, rigid groups, soil, contacts, supports, loads and probes name, and those left
+/// out.
 std::set<std::string> named_groups(const Scene& scene, const Structure& structure) {
   std::set<std::string> names(structure.ignored_groups.begin(), structure.ignored_groups.end());
   for (const Clamp& clamp : structure.clamps) names.insert(clamp.group);
@@ -47,6 +48,9 @@ std::set<std::string> named_groups(const Scene& scene, const Structure& structur
     for (const SupportedGroup& group : support.groups) {
       if (group.structure == structure.name && !group.is_all_ground()) names.insert(group.group);
     }
+  }
+  for (const Load& load : scene.loads) {
+    if (load.structure == structure.name) names.insert(load.group);
   }
   for (const Probe& probe : scene.probes) {
     if (probe.structure == structure.name) names.insert(probe.group);
@@ -87,9 +91,9 @@ bool is_zero(const Vector3& vector) {
 }
 
 bool is_shaken(const Scene& scene) {
-  return !scene.supports.empty() || std::ranges::any_of(scene.motion, [](const auto& component) {
-    return component.has_value();
-  });
+  return !scene.supports.empty() || !scene.loads.empty() ||
+         std::ranges::any_of(scene.motion,
+                             [](const auto& component) { return component.has_value(); });
 }
 
 bool starts_in_motion(const Structure& structure) {

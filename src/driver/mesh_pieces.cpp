@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* common_kind = "pounding mesh pieces 2";
+constexpr const char* common_kind = "pounding mesh pieces 3";
 constexpr const char* piece_kind = "pounding mesh piece 1";
 
 std::string common_path(const Scene& scene) {
@@ -259,6 +259,14 @@ void pass_common(Stream& stream, Whole& whole, AnyModel& model,
     stream.array(force.elements);
     stream.array(force.regions);
     stream.array(force.nodes);
+  });
+  stream.list(model.loads, [&](auto& load) {
+    stream(load.structure);
+    stream.array(load.forces);
+    stream(load.nodes);
+    stream(load.extent);
+    stream(load.force);
+    stream(load.moment);
   });
   stream.list(model.warnings, [&](auto& warning) { stream(warning); });
   stream(model.partition_imbalance);

@@ -16,12 +16,15 @@
 #include "interactions/pairing/interface.h"
 #include "mesh/force_places.h"
 #include "mesh/mesh.h"
+#include "mesh/nodal_load.h"
 #include "mesh/probe_set.h"
 #include "motion/ground_motion.h"
+#include "motion/load_histories.h"
 #include "motion/support_motion.h"
 #include "scene/scene.h"
 #include "statics/equilibrium.h"
 #include "system/linear_system.h"
+#include "system/load_shapes.h"
 
 namespace pounding {
 
@@ -39,9 +42,11 @@ struct Model {
   interactions::Interface interface;  ///< reports on rank 0 only
   std::vector<ResolvedProbe> probes;
   std::vector<ResolvedForce> forces;
+  std::vector<NodalLoad> loads;  ///< of the scene, on every rank
   std::unique_ptr<GroundMotion> motion;
-  std::unique_ptr<SupportMotion> supports;  ///< null where the ground moves as one
-  std::optional<Equilibrium> equilibrium;   ///< that the run starts from
+  std::unique_ptr<SupportMotion> supports;        ///< null where the ground moves as one
+  std::unique_ptr<LoadHistories> load_histories;  ///< null where no load acts
+  std::optional<Equilibrium> equilibrium;         ///< that the run starts from
   /// Gaps of the rows of the interface at the start, at rest where the run starts so [m].
   std::vector<double> start_gaps;
   std::vector<JointGaps> joint_gaps;  ///< per contact
@@ -59,6 +64,14 @@ struct Model {
   std::span<const SupportColumn> support_columns() const {
     return supports ? std::span<const SupportColumn>(supports->columns())
                     : std::span<const SupportColumn>();
+  }
+  /// Loads as they are on the meshes, and before the run.
+  SceneLoads scene_loads() const {
+    SceneLoads all{loads, {}};
+    for (std::size_t l = 0; load_histories && l < load_histories->size(); ++l) {
+      all.before_start.push_back(load_histories->before_start(l));
+    }
+    return all;
   }
   /// Free ones of all structures over all ranks.
   std::size_t dofs() const {

@@ -60,4 +60,29 @@ Facts support_facts(const SupportMotion& supports) {
   return facts;
 }
 
+Facts load_facts(const Scene& scene, const Model& model) {
+  Facts facts{Json::array()};
+  for (std::size_t l = 0; l < scene.loads.size(); ++l) {
+    const Load& load = scene.loads[l];
+    const NodalLoad& on = model.loads[l];
+    const double peak = model.load_histories->peak(l, scene.end_time);
+    const Json& of =
+        facts.values.emplace_back(Json{{"name", load.name},
+                                       {"on", load.structure + ":" + load.group},
+                                       {"nodes", on.nodes},
+                                       {"extent", on.extent},
+                                       {"force", on.force},
+                                       {"moment", on.moment},
+                                       {"function", model.load_histories->describe(l)},
+                                       {"peak", peak},
+                                       {"at_rest", model.load_histories->before_start(l)}});
+    facts.text += told(
+        "load {name}: on {nodes} nodes of {on}, force {force:.6g} N[, moment about the origin "
+        "{moment:.6g} N m]\n"
+        "  times {function}, at most {peak:.4g}[; {at_rest:.4g} before the run]\n",
+        of);
+  }
+  return facts;
+}
+
 }  // namespace pounding

@@ -47,6 +47,7 @@ void print_title(const Scene& scene, const std::string& overrides, int ranks) {
 void print_model(const Scene& scene, const Model& model) {
   print(motion_facts(*model.motion));
   if (model.supports) print(support_facts(*model.supports));
+  if (model.load_histories) print(load_facts(scene, model));
   for (const Building& building : model.buildings) print(structure_facts(building));
   for (std::size_t c = 0; c < model.interface.reports.size(); ++c) {
     print(contact_facts(scene, model, c));
@@ -118,6 +119,7 @@ void write_summary(const std::string& path, const FinishedRun& run) {
   if (model.equilibrium) facts.add("equilibrium", rest_facts(scene, model));
   facts.add("motion", motion_facts(*model.motion));
   if (model.supports) facts.add("supports", support_facts(*model.supports));
+  if (model.load_histories) facts.add("loads", load_facts(scene, model));
   facts.add(time_step_facts(scene, model));
   facts.add("output_interval", run.recorder.interval());
   facts.add("ranks", run.ranks);

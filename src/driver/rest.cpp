@@ -23,7 +23,7 @@ double length(const Vector3& v) {
 }
 
 bool is_weightless(const StructureRest& rest) {
-  return length(rest.weight) == 0;
+  return length(rest.weight) == 0 && length(rest.load) == 0;
 }
 
 }  // namespace
@@ -48,8 +48,8 @@ std::vector<std::string> rest_warnings(const Model& model) {
   std::vector<std::string> warnings;
   if (model.equilibrium && std::ranges::all_of(model.equilibrium->structures, is_weightless)) {
     warnings.emplace_back(
-        "-preload static, and no structure has a weight: the run starts undeformed; give -gravity "
-        "9.81");
+        "-preload static, and no structure has a weight or a load at rest: the run starts "
+        "undeformed; give -gravity 9.81");
   }
   for (std::size_t s = 0; model.equilibrium && s < model.systems.size(); ++s) {
     const StructureRest& rest = model.equilibrium->structures[s];

@@ -26,6 +26,7 @@ Facts structure_rest_facts(const Scene& scene, const Model& model, std::size_t s
   const StructureRest& of = model.equilibrium->structures[s];
   Facts facts{{{"method", of.method},
                {"weight", of.weight},
+               {"load", of.load},
                {"support", of.support},
                {"contact", of.contact},
                {"settlement", of.settlement},
@@ -35,6 +36,7 @@ Facts structure_rest_facts(const Scene& scene, const Model& model, std::size_t s
   facts.say(
       "  structure {}, {method}\n"
       "    weight                 {weight:.6g} N\n"
+      "[    loads                  {load:.6g} N\n]"
       "    supports push it by    {support:.6g} N\n",
       {model.systems[s].name});
   if (!scene.structures[s].clamps.empty()) {

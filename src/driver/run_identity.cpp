@@ -13,7 +13,8 @@
 namespace pounding {
 namespace {
 
-std::string hash_of(const GroundMotion& motion, const SupportMotion* supports) {
+std::string hash_of(const GroundMotion& motion, const SupportMotion* supports,
+                    const LoadHistories* loads) {
   Hash hash;
   for (int direction = 0; direction < 3; ++direction) {
     const Accelerogram& component = motion.component(direction);
@@ -31,6 +32,10 @@ std::string hash_of(const GroundMotion& motion, const SupportMotion* supports) {
     hash.add(supports->own(c).time_step);
     hash.add(supports->own(c).start);
     hash.add_all(supports->own(c).acceleration);
+  }
+  for (std::size_t l = 0; loads != nullptr && l < loads->size(); ++l) {
+    hash.add_all(loads->function(l).times);
+    hash.add_all(loads->function(l).values);
   }
   return hash.text();
 }
@@ -62,7 +67,7 @@ std::map<std::string, std::string> lasting_options(MPI_Comm comm, const std::str
 
 RunIdentity identity_of(MPI_Comm comm, const std::string& resolved, const Model& model) {
   RunIdentity identity{lasting_options(comm, resolved), model.time_step,
-                       hash_of(*model.motion, model.supports.get())};
+                       hash_of(*model.motion, model.supports.get(), model.load_histories.get())};
   for (const Building& building : model.buildings) {
     if (!follows_spectra(*building.structure, building.beams)) continue;
     for (const Region& region : building.structure->regions) {

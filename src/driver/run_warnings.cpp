@@ -16,10 +16,11 @@ bool stands_still(const Scene& scene) {
   const Vector3 zero{0, 0, 0};
   const bool shaken = std::ranges::any_of(
       scene.motion, [](const auto& component) { return component.has_value(); });
-  return !shaken && std::ranges::all_of(scene.structures, [&zero](const Structure& structure) {
-    return structure.initial_displacement == zero && structure.initial_velocity == zero &&
-           structure.gravity == zero;
-  });
+  return !shaken && scene.loads.empty() &&
+         std::ranges::all_of(scene.structures, [&zero](const Structure& structure) {
+           return structure.initial_displacement == zero && structure.initial_velocity == zero &&
+                  structure.gravity == zero;
+         });
 }
 
 const Accelerogram& samples(const Model& model, int direction) {

@@ -199,7 +199,8 @@ std::vector<double> modes_at_contacts(MPI_Comm comm, const Model& model, std::si
 
 std::vector<Separation> find_separations(const Scene& scene, const Model& model) {
   std::vector<Separation> found;
-  if (model.supports || model.motion->from_below() || model.motion->peak_acceleration() == 0) {
+  if (model.supports || model.load_histories || model.motion->from_below() ||
+      model.motion->peak_acceleration() == 0) {
     return found;
   }
   std::vector<ModalPeaks> peaks;

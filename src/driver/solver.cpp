@@ -57,7 +57,7 @@ void Solver::restart() {
 void Solver::make_stepper() {
   const Parts& parts = parts_;
   stepper_ = std::make_unique<CdLagrange>(parts.comm, parts.systems, *parts.motion, parts.time_step,
-                                          *parts.profile, parts.supports, parts.lane);
+                                          *parts.profile, parts.supports, parts.loads, parts.lane);
   links_.clear();
   inelastic_.clear();
   for (std::size_t s = 0; s < parts.systems.size(); ++s) {

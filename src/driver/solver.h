@@ -16,6 +16,7 @@
 #include "interactions/structure_links.h"
 #include "mesh/mesh.h"
 #include "motion/ground_motion.h"
+#include "motion/load_histories.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -38,6 +39,7 @@ class Solver {
     double progress_interval = std::numeric_limits<double>::infinity();  ///< [s], see Progress
     std::span<const Contact> contacts;        ///< of the scene, needed where joints have fillers
     const SupportMotion* supports = nullptr;  ///< null where the ground moves as one
+    const LoadHistories* loads = nullptr;     ///< null where no load acts
     RunLane lane{};                           ///< of a member of an ensemble
   };
 

@@ -16,9 +16,10 @@
 namespace pounding {
 
 /// Facts of the ground motion by direction as it was understood, null where there is none, and of
-/// the components in which supports move otherwise (motion_facts.cpp).
+/// the components in which supports move otherwise, and of the loads (motion_facts.cpp).
 Facts motion_facts(const GroundMotion& motion);
 Facts support_facts(const SupportMotion& supports);
+Facts load_facts(const Scene& scene, const Model& model);
 
 /// Facts of a structure as it was built (structure_facts.cpp), and of its parts: damping; soil
 /// under its mat, spread springs and absorbing faces (soil_facts.cpp); basis and modes; scaled mass

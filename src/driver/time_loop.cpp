@@ -20,7 +20,8 @@ Solver::Parts solver_parts(MPI_Comm comm, const Scene& scene, const Model& model
                       &profile,
                       scene.progress_interval,
                       scene.contacts,
-                      model.supports.get()};
+                      model.supports.get(),
+                      model.load_histories.get()};
   for (const Building& building : model.buildings) {
     parts.energy_margins.push_back(building.energy_margin);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/progress.h"
+#include "driver/applied_loads.h"
 #include "driver/mesh_checks.h"
 #include "driver/model_doubts.h"
 #include "driver/shear_doubts.h"
@@ -69,6 +70,8 @@ WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model) {
   model.interface = interactions::find_interface(scene, whole.meshes, &whole.gap_shares);
   model.probes = resolve_probes(scene, whole.meshes);
   model.forces = resolve_forces(scene, whole.meshes);
+  model.loads = find_loads(scene, whole.meshes);
+  append(load_doubts(scene, whole.meshes, model.loads), model.warnings);
   append(probe_warnings(model.probes, whole.meshes, model.interface), model.warnings);
   append(place_doubts(scene, whole.meshes, model.interface, model.probes), model.warnings);
   return whole;

@@ -12,17 +12,19 @@ namespace pounding {
 
 CdLagrange::CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems,
                        const GroundMotion& motion, double time_step, Profile& profile,
-                       const SupportMotion* supports, RunLane lane)
+                       const SupportMotion* supports, const LoadHistories* loads, RunLane lane)
     : systems_(systems),
       motion_(motion),
       support_motion_(supports),
+      loads_(loads),
       time_step_(time_step),
       profile_(profile),
       state_(systems, supports != nullptr ? supports->columns().size() : 0),
       supports_(state_.supports.displacement.size()),
       energy_(comm, systems, time_step),
       sums_(systems.size()),
-      rest_before_(systems.size(), 0.0) {
+      rest_before_(systems.size(), 0.0),
+      load_values_(loads != nullptr ? loads->size() : 0, 0.0) {
   structure_steps_.reserve(systems_.size());
   lanes_.reserve(systems_.size());
   for (std::size_t s = 0; s < systems_.size(); ++s) {
@@ -83,6 +85,7 @@ void CdLagrange::move_ground() {
   const double time = static_cast<double>(state_.step) * time_step_;
   motion_.evaluate(time, acceleration_);
   if (motion_.from_below()) motion_.evaluate_incident(time, incident_);
+  if (loads_ != nullptr) loads_->evaluate(time, load_values_);
   if (support_motion_ == nullptr) return;
   support_motion_->evaluate(time, supports_.acceleration);
   supports_.begin(state_.supports, force_duration_);
@@ -114,7 +117,7 @@ void CdLagrange::free_velocity(bool with_forces) {
     sums_[s].extra_damping_before = apply_extra_damping(s);
     const double* const rate = with_energies_ ? stiffness_velocity_[s].data() : nullptr;
     structure_steps_[s].begin(force_duration_, acceleration_, {rate, with_forces},
-                              supports_.acceleration);
+                              supports_.acceleration, load_values_);
     systems_[s].stiffness->finish(argument(s), structure_steps_[s]);
     structure_steps_[s].complete();
   }

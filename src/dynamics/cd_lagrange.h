@@ -13,6 +13,7 @@
 #include "dynamics/structure_step.h"
 #include "interactions/interaction.h"
 #include "motion/ground_motion.h"
+#include "motion/load_histories.h"
 #include "motion/support_motion.h"
 #include "system/linear_system.h"
 
@@ -33,7 +34,9 @@ struct RunLane {
 ///     v_{n+1/2} = v_free + sum_k M^-1 b_k^T lambda_k
 ///     u_{n+1}   = u_n + dt v_{n+1/2}
 ///
-/// with uniform damping in place of Rayleigh's the force K u_n goes through filters (update.h), and
+/// with loads M^-1 sum_l f_l(t_n) p_l beside the ground's acceleration (LoadShapes).
+///
+/// With uniform damping in place of Rayleigh's the force K u_n goes through filters (update.h), and
 /// D is the extra damping of regions, if any. The impulses lambda_k [N s] are those of interactions
 /// (Interaction), one after the other: links, fillers, and unilateral contact (UnilateralContact)
 /// last, each by its law and from the velocity that those before it leave.
@@ -51,10 +54,11 @@ struct RunLane {
 class CdLagrange {
  public:
   /// All references must outlive this object. `supports`: null where the ground moves as one;
+  /// `loads`: null where no load acts;
   /// `lane`: where the structures of this run are stepped. Collective.
   CdLagrange(MPI_Comm comm, std::span<const LinearSystem> systems, const GroundMotion& motion,
              double time_step, Profile& profile, const SupportMotion* supports = nullptr,
-             RunLane lane = {});
+             const LoadHistories* loads = nullptr, RunLane lane = {});
 
   /// Takes an interaction in, after those that it has; before the first step. Returns it.
   template <typename Kind>
@@ -100,6 +104,8 @@ class CdLagrange {
   /// Ground acceleration of the current step [m/s2], and how long it acts [s].
   const std::array<double, 3>& ground_acceleration() const { return acceleration_; }
   double force_duration() const { return force_duration_; }
+  /// f of every load in the current step.
+  std::span<const double> load_values() const { return load_values_; }
 
  private:
   /// The step at hand, for interactions.
@@ -126,6 +132,7 @@ class CdLagrange {
   std::span<const LinearSystem> systems_;
   const GroundMotion& motion_;
   const SupportMotion* support_motion_;
+  const LoadHistories* loads_;
   double time_step_;
   Profile& profile_;
   State state_;
@@ -136,6 +143,7 @@ class CdLagrange {
   EnergyBalance energy_;
   std::vector<StepSums> sums_;
   std::vector<double> rest_before_;                          ///< see StepSums
+  std::vector<double> load_values_;                          ///< f of every load in the step
   std::vector<interactions::SteppedStructure*> structures_;  ///< those of the two
   std::vector<interactions::LedgerPart*> ledger_;            ///< those of sums_
   std::vector<std::vector<double>> stiffness_velocity_;      ///< K v-, where energies are asked for

@@ -48,7 +48,7 @@ void CoupledStep::keep(std::size_t place, std::size_t count, const double* force
 }
 
 void CoupledStep::advance(const StepTerms<double>& terms, const std::array<double, 3>& ground_step,
-                          std::span<const double> support_step, const double* stiffness_velocity,
+                          std::span<const double> known_step, const double* stiffness_velocity,
                           DofSums<double>& dof_sums, DofEnergies<double>& dof_energies,
                           StepSums& sums) {
   const bool with_energies = stiffness_velocity != nullptr;
@@ -57,7 +57,7 @@ void CoupledStep::advance(const StepTerms<double>& terms, const std::array<doubl
   }
   filter_forces();
   form_impulses(terms, ground_step);
-  if (!support_step.empty()) add_support_loads(support_step);
+  if (!known_step.empty()) add_known_loads(known_step);
   system_.coupled_mass->solve(field_.data());
   if (with_energies) {
     settle_nodes<true>(terms, stiffness_velocity, dof_sums, dof_energies, sums);
@@ -65,25 +65,25 @@ void CoupledStep::advance(const StepTerms<double>& terms, const std::array<doubl
     settle_nodes<false>(terms, stiffness_velocity, dof_sums, dof_energies, sums);
   }
   sums.filtered += filtered_work();
-  if (!support_step.empty()) sums.support_input += support_work(support_step);
+  if (!known_step.empty()) sums.support_input += known_work(known_step);
 }
 
-void CoupledStep::add_support_loads(std::span<const double> support_step) {
+void CoupledStep::add_known_loads(std::span<const double> known_step) {
   for (const Node& node : nodes_) {
     for (std::size_t c = 0; c < node.count; ++c) {
       const std::size_t i = node.begin + c;
-      field_[node.field + c] -= system_.lumped_mass[i] * support_step[i];
+      field_[node.field + c] -= system_.lumped_mass[i] * known_step[i];
     }
   }
 }
 
-double CoupledStep::support_work(std::span<const double> support_step) const {
+double CoupledStep::known_work(std::span<const double> known_step) const {
   double work = 0;
   for (const Node& node : nodes_) {
     for (std::size_t c = 0; c < node.count; ++c) {
       const std::size_t i = node.begin + c;
       const double sum = 2 * state_.velocity[i] - field_[node.field + c];
-      work -= support_step[i] * system_.lumped_mass[i] * sum / 2;
+      work -= known_step[i] * system_.lumped_mass[i] * sum / 2;
     }
   }
   return work;

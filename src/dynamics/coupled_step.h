@@ -25,11 +25,11 @@ class CoupledStep {
 
   /// q of coupled dofs that follow each other, `place` the number of the first among them all.
   void keep(std::size_t place, std::size_t count, const double* force);
-  /// After every force of the step. `ground_step`: h (a_g - g) [m/s]; `support_step`: what supports
-  /// that move on their own add to it per owned dof, empty without; `stiffness_velocity`: see
+  /// After every force of the step. `ground_step`: h (a_g - g) [m/s]; `known_step`: what supports
+  /// that move on their own and loads add to it per owned dof, empty without; `stiffness_velocity`: see
   /// StepRequest. Adds to the sums.
   void advance(const StepTerms<double>& terms, const std::array<double, 3>& ground_step,
-               std::span<const double> support_step, const double* stiffness_velocity,
+               std::span<const double> known_step, const double* stiffness_velocity,
                DofSums<double>& dof_sums, DofEnergies<double>& dof_energies, StepSums& sums);
 
  private:
@@ -51,9 +51,9 @@ class CoupledStep {
   /// f of all dofs from q, inelastic elements and the filters' memories.
   void filter_forces();
   /// Takes the loads of the supports off the impulses.
-  void add_support_loads(std::span<const double> support_step);
+  void add_known_loads(std::span<const double> known_step);
   /// Their work on v+ + v-, after the step [J].
-  double support_work(std::span<const double> support_step) const;
+  double known_work(std::span<const double> known_step) const;
   /// The part of the energy balance that stems from f - q.
   double filtered_work() const;
   template <bool with_energies>

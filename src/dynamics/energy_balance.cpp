@@ -56,6 +56,7 @@ void EnergyBalance::add_step(std::span<const StepSums> sums,
     device_.add(open_.device);
     links_.add(open_.links);
     gravity_.add(open_.gravity);
+    loads_.add(open_.loads);
     friction_.add(open_.friction);
     for (std::size_t b = 0; b < systems_.size(); ++b) {
       damping_.add(open_filtered_[b]);
@@ -92,6 +93,7 @@ EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
           time_step_ / 2 * (systems_[b].gravity[d] - ground_acceleration[d]) * sums[b].momentum[d];
       result.gravity += time_step_ / 2 * systems_[b].gravity[d] * sums[b].momentum[d];
     }
+    result.loads += time_step_ / 2 * sums[b].load;
     result.device += time_step_ / 2 * sums[b].device;
     result.links += sums[b].link_loss;
     result.contact += sums[b].contact_work;
@@ -125,15 +127,17 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   }
   MPI_Allreduce(MPI_IN_PLACE, structures.data(), static_cast<int>(values * structures.size()),
                 MPI_DOUBLE, MPI_SUM, comm_);
-  std::array<double, 8> sums{initial_,
+  std::array<double, 9> sums{initial_,
                              damping_.total() - (stored_work_ - initial_stored_work_),
                              contact_.total(),
                              input_.total(),
                              device_.total() + lagged_damping_ - initial_lagged_damping_,
                              links_.total(),
                              gravity_.total(),
-                             friction_.total()};
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 8, MPI_DOUBLE, MPI_SUM, comm_);
+                             friction_.total(),
+                             loads_.total()};
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
+                comm_);
   EnergyLine line;
   line.time = static_cast<double>(closed_steps() - 1) * time_step_;
   for (const StructureEnergy& structure : structures) {
@@ -147,6 +151,7 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   line.link_loss = sums[5];
   line.gravity_work = sums[6];
   line.friction_loss = sums[7];
+  line.load_work = sums[8];
   line.device_work = sums[4] + line.link_loss;
   line.residual = line.energy() - sums[0] + line.damping_loss + line.device_work -
                   line.contact_work + line.friction_loss - line.input_work;
@@ -156,16 +161,17 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
 template <typename Balance, typename Function>
 void EnergyBalance::for_each_sum(Balance& balance, Function&& function) {
   for (auto* sum : {&balance.damping_, &balance.input_, &balance.contact_, &balance.device_,
-                    &balance.links_, &balance.gravity_, &balance.friction_}) {
+                    &balance.links_, &balance.gravity_, &balance.loads_, &balance.friction_}) {
     function(sum->value);
     function(sum->correction);
   }
   function(balance.initial_);
   function(balance.initial_lagged_damping_);
   function(balance.initial_stored_work_);
-  for (auto* work : {&balance.open_.damping, &balance.open_.input, &balance.open_.contact,
-                     &balance.open_.device, &balance.open_.links, &balance.open_.gravity,
-                     &balance.open_.friction, &balance.open_.contact_supports}) {
+  for (auto* work :
+       {&balance.open_.damping, &balance.open_.input, &balance.open_.contact, &balance.open_.device,
+        &balance.open_.links, &balance.open_.gravity, &balance.open_.loads, &balance.open_.friction,
+        &balance.open_.contact_supports}) {
     function(*work);
   }
   for (auto& sum : balance.filtered_) {

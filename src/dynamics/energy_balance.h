@@ -29,6 +29,7 @@ struct EnergyLine {
   double link_loss = 0;      ///< of links alone: what they took and did not keep
   double slow_relief = 0;    ///< see StructureEnergy
   double gravity_work = 0;   ///< of gravity alone, a part of the input work
+  double load_work = 0;      ///< of loads alone, a part of the input work
   double friction_loss = 0;  ///< of Coulomb's friction in contacts, apart from the contact work
 
   double energy() const { return kinetic + strain; }
@@ -124,6 +125,7 @@ class EnergyBalance {
     double device = 0;
     double links = 0;
     double gravity = 0;  ///< part of the input
+    double loads = 0;    ///< part of the input
     double friction = 0;
     double contact_supports = 0;  ///< part of the input: of supports against contact impulses
   };
@@ -160,6 +162,7 @@ class EnergyBalance {
   Sum device_;
   Sum links_;
   Sum gravity_;
+  Sum loads_;
   Sum friction_;
   /// Work of the uniform damping of each structure, closed and of the open step; a part of the
   /// damping loss.

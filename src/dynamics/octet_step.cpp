@@ -5,6 +5,7 @@
 
 #include "common/row_products.h"
 #include "dynamics/structure_step.h"
+#include "system/load_shapes.h"
 
 namespace pounding {
 namespace {
@@ -72,10 +73,24 @@ void OctetStep::take_system(const LinearSystem& system, double time_step, std::s
   alpha_.set(lane, system.damping.alpha);
   beta_.set(lane, system.damping.beta);
   put_filters(filters_of(system, time_step), lane, filters_);
+  if (system.loads) take_loads(system, lane);
+}
+
+void OctetStep::take_loads(const LinearSystem& system, std::size_t lane) {
+  const std::vector<LoadShape>& shapes = system.loads->loads;
+  loads_.resize(shapes.size());
+  for (std::size_t l = 0; l < shapes.size(); ++l) {
+    loads_[l].number = shapes[l].load;
+    loads_[l].shape.resize(coordinates(), Octet{});
+    for (std::size_t k = 0; k < shapes[l].dofs.size(); ++k) {
+      const auto i = static_cast<std::size_t>(shapes[l].dofs[k]);
+      loads_[l].shape[i].set(lane, shapes[l].force[k] * system.inverse_mass[i]);
+    }
+  }
 }
 
 void OctetStep::step(double duration, const std::array<Octet, 3>& ground_acceleration,
-                     bool with_energies) {
+                     std::span<const double> loads, bool with_energies) {
   ++steps_;
   const Octet h = all_octet(duration);
   terms_ = {all_octet(time_step_), h, all_octet(1) - h * alpha_, beta_};
@@ -86,6 +101,11 @@ void OctetStep::step(double duration, const std::array<Octet, 3>& ground_acceler
       shaken_[d] = shaken_[d] || ground_step_[d][lane] != 0;
     }
     momentum_[d] = Octet{};
+  }
+  for (Load& load : loads_) {
+    load.value = loads[load.number];
+    load.step = all_octet(-duration * load.value);
+    load.gained = Octet{};
   }
   sums_ = DofSums<Octet>{};
   energies_ = DofEnergies<Octet>{};
@@ -127,6 +147,7 @@ void OctetStep::advance() {
     for (std::size_t d = 0; d < 3; ++d) {
       if (shaken[d]) add_product(ground_step[d], influence_[d][i], ground);
     }
+    for (const Load& load : loads_) add_product(load.step, load.shape[i], ground);
     Octet free = free_velocity(terms, before, f, inverse_mass_[i], ground);
     if (has_extra) {
       const Octet extra = extra_damping_[i] * before;
@@ -139,6 +160,7 @@ void OctetStep::advance() {
     for (std::size_t d = 0; d < 3; ++d) {
       if (shaken[d]) add_product(influence_[d][i], gained, momentum[d]);
     }
+    for (Load& load : loads_) add_product(load.shape[i], gained, load.gained);
     displacement[i] = dof.displacement;
     velocity[i] = dof.velocity;
   }
@@ -245,6 +267,11 @@ void OctetLane::correct(std::span<const LocalIndex> dofs, const interactions::Be
     for (std::size_t d = 0; d < 3; ++d) {
       correction.momentum[d] += octet_.influence_[d][i][lane_] * gained;
     }
+    for (const OctetStep::Load& load : octet_.loads_) {
+      const double more = load.shape[i][lane_] * gained;
+      correction.support_input -= load.step[lane_] * more / 2;
+      correction.load += load.value * more;
+    }
     u.set(lane_, state_.displacement[i] = dof.displacement);
     v.set(lane_, state_.velocity[i] = dof.velocity);
   }
@@ -264,6 +291,10 @@ void OctetLane::sum_up(StepSums& total) const {
   total.strain_back = energies.strain_back[lane_];
   total.displacement_mass = energies.displacement_mass[lane_];
   for (std::size_t d = 0; d < 3; ++d) total.momentum[d] += octet_.momentum_[d][lane_];
+  for (const OctetStep::Load& load : octet_.loads_) {
+    total.support_input -= load.step[lane_] * load.gained[lane_] / 2;
+    total.load += load.value * load.gained[lane_];
+  }
   total.extra_damping_before = octet_.extra_before_[lane_];
   total.device += octet_.device_[lane_];
 }

@@ -35,13 +35,25 @@ class OctetStep {
   const OctetState& state() const { return state_; }
 
   /// The step with the ground's acceleration [m/s2], gravity apart; `duration`: see
-  /// StructureStep::begin; `with_energies`: those before the step are asked for.
-  void step(double duration, const std::array<Octet, 3>& ground_acceleration, bool with_energies);
+  /// StructureStep::begin; `loads`: f of every load of the scene, the same in all runs;
+  /// `with_energies`: those before the step are asked for.
+  void step(double duration, const std::array<Octet, 3>& ground_acceleration,
+            std::span<const double> loads, bool with_energies);
 
  private:
   friend class OctetLane;
 
+  /// A load of the structure.
+  struct Load {
+    std::size_t number = 0;    ///< in the scene
+    std::vector<Octet> shape;  ///< M^-1 p of each coordinate
+    double value = 0;          ///< f in this step
+    Octet step{};              ///< -h f
+    Octet gained{};            ///< p^T s
+  };
+
   void take_system(const LinearSystem& system, double time_step, std::size_t lane);
+  void take_loads(const LinearSystem& system, std::size_t lane);
   template <bool with_energies, bool filtered>
   void advance();
 
@@ -52,6 +64,7 @@ class OctetStep {
   std::vector<Octet> stiffness_;
   std::vector<Octet> extra_damping_;  ///< D of each coordinate; empty without
   std::array<std::vector<Octet>, 3> influence_;
+  std::vector<Load> loads_;
   std::array<Octet, 3> gravity_{};
   std::array<bool, 3> shaken_{};  ///< directions in which ground or gravity act
   Octet alpha_{};

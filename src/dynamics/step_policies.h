@@ -153,32 +153,32 @@ class InfluenceGround {
   Lanes* momentum_;
 };
 
-/// The ground's part as `Ground` tells it, and that of supports which move on their own, told dof
-/// by dof: h sum_c iota_c r_c''.
+/// The ground's part as `Ground` tells it, and that of supports which move on their own and of
+/// loads, told dof by dof: h ( sum_c iota_c r_c'' - M^-1 sum_l f_l p_l ).
 template <typename Ground>
-class SupportedGround {
+class LoadedGround {
  public:
   /// `work` gains the sum of these times M s.
-  SupportedGround(Ground& ground, const double* support_step, Lanes& work)
-      : ground_(ground), support_step_(support_step), work_(work) {}
+  LoadedGround(Ground& ground, const double* known_step, Lanes& work)
+      : ground_(ground), known_step_(known_step), work_(work) {}
 
   template <int vector, typename Count>
   Lanes step(std::size_t i, Count count) const {
-    Lanes supports;
-    load_first(support_step_ + i, count, supports);
-    return ground_.template step<vector>(i, count) + supports;
+    Lanes known;
+    load_first(known_step_ + i, count, known);
+    return ground_.template step<vector>(i, count) + known;
   }
   template <int vector, typename Count>
   void add(std::size_t i, Count count, const Lanes& momentum) {
-    Lanes supports;
-    load_first(support_step_ + i, count, supports);
-    add_product(supports, momentum, work_);
+    Lanes known;
+    load_first(known_step_ + i, count, known);
+    add_product(known, momentum, work_);
     ground_.template add<vector>(i, count, momentum);
   }
 
  private:
   Ground& ground_;
-  const double* support_step_;
+  const double* known_step_;
   Lanes& work_;
 };
 

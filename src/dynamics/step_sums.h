@@ -16,6 +16,7 @@ struct StepSums : interactions::LedgerPart {
   std::array<double, 3> momentum{};  ///< iota_d^T M s [kg m/s]
   double filtered = 0;               ///< (f - q)^T s, f the force that uniform damping filters [W]
   double device = 0;                 ///< x^T s, x the force of the extra damping [W]
+  double load = 0;                   ///< sum_l f_l p_l^T s of loads [W], in the support input too
   double kinetic_before = 0;         ///< v-^T M v- [J], if energies are asked for
   double added_kinetic_before = 0;   ///< v-^T S v- [J] likewise
   double stiffness_before = 0;       ///< v-^T K v- [W] likewise

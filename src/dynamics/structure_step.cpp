@@ -6,6 +6,7 @@
 #include "dynamics/contact_correction.h"
 #include "dynamics/rest_forces.h"
 #include "dynamics/step_policies.h"
+#include "system/load_shapes.h"
 #include "system/support_shapes.h"
 
 namespace pounding {
@@ -61,15 +62,15 @@ StructureStep::StructureStep(const LinearSystem& system, StructureState& state, 
       filters_(filters_of(system, time_step)),
       forces_(system.lumped_mass.size()) {
   terms_.time_step = time_step;
-  if (system.supports) support_step_.assign(system.lumped_mass.size(), 0.0);
+  if (system.supports || system.loads) known_step_.assign(system.lumped_mass.size(), 0.0);
   find_segments(dofs_of_extra_forces(system));
   if (system.coupled_mass) coupled_ = std::make_unique<CoupledStep>(system, state, filters_);
 }
 
 double StructureStep::ground_step_at(std::size_t dof) const {
-  const double supports = support_step_.empty() ? 0 : support_step_[dof];
+  const double known = known_step_.empty() ? 0 : known_step_[dof];
   if (system_.generalised) {
-    double step = supports;
+    double step = known;
     for (std::size_t d = 0; d < 3; ++d) {
       add_product(ground_step_[d], system_.generalised->influence[d][dof], step);
     }
@@ -77,11 +78,26 @@ double StructureStep::ground_step_at(std::size_t dof) const {
   }
   const int direction = system_.direction[dof];
   const double ground = direction < 0 ? 0 : ground_step_[direction];
-  return support_step_.empty() ? ground : ground + supports;
+  return known_step_.empty() ? ground : ground + known;
+}
+
+double StructureStep::load_power() const {
+  double power = 0;
+  for (std::size_t l = 0; system_.loads && l < system_.loads->loads.size(); ++l) {
+    const LoadShape& shape = system_.loads->loads[l];
+    const double value = load_values_[shape.load];
+    if (value == 0) continue;
+    double product = 0;
+    for (std::size_t k = 0; k < shape.dofs.size(); ++k) {
+      product += shape.force[k] * state_.velocity[shape.dofs[k]];
+    }
+    power += value * product;
+  }
+  return power;
 }
 
 void StructureStep::add_momentum(std::size_t dof, double momentum) {
-  if (!support_step_.empty()) sums_.support_input -= support_step_[dof] * momentum / 2;
+  if (!known_step_.empty()) sums_.support_input -= known_step_[dof] * momentum / 2;
   if (system_.generalised) {
     for (std::size_t d = 0; d < 3; ++d) {
       sums_.momentum[d] += system_.generalised->influence[d][dof] * momentum;
@@ -156,7 +172,8 @@ void StructureStep::watch(std::span<const LocalIndex> dofs, bool always) {
 }
 
 void StructureStep::begin(double duration, const std::array<double, 3>& ground_acceleration,
-                          const StepRequest& request, std::span<const double> supports) {
+                          const StepRequest& request, std::span<const double> supports,
+                          std::span<const double> loads) {
   terms_ = {terms_.time_step, duration, 1 - duration * system_.damping.alpha, system_.damping.beta};
   stiffness_velocity_ = request.stiffness_velocity;
   keeps_ = (request.forces || always_keeps_) && !forces_.none();
@@ -170,18 +187,28 @@ void StructureStep::begin(double duration, const std::array<double, 3>& ground_a
   for (std::size_t v = 0; v < pattern_vectors; ++v) {
     momentum_[0][v] = momentum_[1][v] = influenced_momentum_[v] = Lanes{};
   }
-  std::fill(support_step_.begin(), support_step_.end(), 0.0);
+  std::fill(known_step_.begin(), known_step_.end(), 0.0);
   for (std::size_t c = 0; system_.supports && c < supports.size(); ++c) {
     const std::vector<double>& shape = system_.supports->shape[c];
     const double step = duration * supports[c];
-    for (std::size_t i = 0; i < shape.size(); ++i) support_step_[i] += step * shape[i];
+    for (std::size_t i = 0; i < shape.size(); ++i) known_step_[i] += step * shape[i];
   }
-  support_work_ = Lanes{};
+  load_values_ = loads;
+  for (std::size_t l = 0; system_.loads && l < system_.loads->loads.size(); ++l) {
+    const LoadShape& shape = system_.loads->loads[l];
+    const double step = duration * load_values_[shape.load];
+    for (std::size_t k = 0; k < shape.dofs.size(); ++k) {
+      const auto i = static_cast<std::size_t>(shape.dofs[k]);
+      known_step_[i] -= step * shape.force[k] * system_.inverse_mass[i];
+    }
+  }
+  known_work_ = Lanes{};
   vector_sums_ = {};
   dof_sums_ = {};
   vector_energies_ = {};
   dof_energies_ = {};
   sums_ = {};
+  sums_.load = load_power();
 }
 
 void StructureStep::receive(LocalIndex begin, LocalIndex end, const double* force) {
@@ -259,13 +286,13 @@ void StructureStep::advance_vectors(std::size_t first, std::size_t end, const do
 }
 
 template <bool with_energies, typename Damping, typename Masses, typename Ground>
-void StructureStep::advance_on_supports(std::size_t first, std::size_t end, const double* force,
-                                        const Damping& damping, Masses masses, Ground& ground) {
-  if (support_step_.empty()) {
+void StructureStep::advance_with_known(std::size_t first, std::size_t end, const double* force,
+                                       const Damping& damping, Masses masses, Ground& ground) {
+  if (known_step_.empty()) {
     advance_vectors<with_energies>(first, end, force, damping, masses, ground);
     return;
   }
-  SupportedGround<Ground> supported(ground, support_step_.data(), support_work_);
+  LoadedGround<Ground> supported(ground, known_step_.data(), known_work_);
   advance_vectors<with_energies>(first, end, force, damping, masses, supported);
 }
 
@@ -312,19 +339,19 @@ void StructureStep::advance(const Segment& segment, LocalIndex begin, LocalIndex
     case Order::translations: {
       const std::size_t node = segment.first_node + offset / 3;
       PatternGround ground(ground_[0], momentum_[0]);
-      advance_on_supports<with_energies>(first, stop, force, damping,
-                                         NodeMasses(&node_mass_[node], &node_inverse_mass_[node]),
-                                         ground);
+      advance_with_known<with_energies>(first, stop, force, damping,
+                                        NodeMasses(&node_mass_[node], &node_inverse_mass_[node]),
+                                        ground);
       break;
     }
     case Order::nodes_of_six: {
       PatternGround ground(ground_[1], momentum_[1]);
-      advance_on_supports<with_energies>(first, stop, force, damping, dof_masses, ground);
+      advance_with_known<with_energies>(first, stop, force, damping, dof_masses, ground);
       break;
     }
     case Order::generalised: {
       InfluenceGround ground(*system_.generalised, ground_step_, influenced_momentum_);
-      advance_on_supports<with_energies>(first, stop, force, damping, dof_masses, ground);
+      advance_with_known<with_energies>(first, stop, force, damping, dof_masses, ground);
       break;
     }
     case Order::none:
@@ -334,7 +361,7 @@ void StructureStep::advance(const Segment& segment, LocalIndex begin, LocalIndex
 
 void StructureStep::complete() {
   if (coupled_) {
-    coupled_->advance(terms_, ground_step_, support_step_, stiffness_velocity_, dof_sums_,
+    coupled_->advance(terms_, ground_step_, known_step_, stiffness_velocity_, dof_sums_,
                       dof_energies_, sums_);
   }
 }
@@ -389,7 +416,8 @@ StepSums StructureStep::sums() const {
     if (l % 6 < 3) total.momentum[l % 3] += momentum_[1][l / lanes][l % lanes];
   }
   for (std::size_t d = 0; d < 3; ++d) total.momentum[d] += add_up(influenced_momentum_[d]);
-  total.support_input -= add_up(support_work_) / 2;
+  total.support_input -= add_up(known_work_) / 2;
+  total.load += load_power();
   return total;
 }
 

@@ -46,9 +46,10 @@ class StructureStep final : public stiffness::ForceReceiver, public interactions
   /// before the first step. `always`: they are kept in every step in which a correction needs them.
   void watch(std::span<const LocalIndex> dofs, bool always) override;
   /// `duration`: of the velocity's step [s]; `supports`: r_c'' of every column of SupportShapes
-  /// [m/s2, rad/s2].
+  /// [m/s2, rad/s2]; `loads`: f of every load of the scene (LoadShapes), until `sums`.
   void begin(double duration, const std::array<double, 3>& ground_acceleration,
-             const StepRequest& request, std::span<const double> supports = {});
+             const StepRequest& request, std::span<const double> supports = {},
+             std::span<const double> loads = {});
   void receive(LocalIndex begin, LocalIndex end, const double* force) override;
   /// After every range of the step.
   void complete();
@@ -89,17 +90,19 @@ class StructureStep final : public stiffness::ForceReceiver, public interactions
   template <bool with_energies, typename Damping, typename Masses, typename Ground>
   void advance_vectors(std::size_t first, std::size_t end, const double* force,
                        const Damping& damping, Masses masses, Ground& ground);
-  /// Dofs by vectors, with what supports do where they move on their own.
+  /// Dofs by vectors, with what loads do, and supports where they move on their own.
   template <bool with_energies, typename Damping, typename Masses, typename Ground>
-  void advance_on_supports(std::size_t first, std::size_t end, const double* force,
-                           const Damping& damping, Masses masses, Ground& ground);
+  void advance_with_known(std::size_t first, std::size_t end, const double* force,
+                          const Damping& damping, Masses masses, Ground& ground);
   /// Dofs one by one.
   template <bool with_energies>
   void advance_dofs(std::size_t first, std::size_t end, const double* force);
-  /// h ((a_g - g) iota + sum_c iota_c r_c'') of a dof.
+  /// h ((a_g - g) iota + sum_c iota_c r_c'' - M^-1 sum_l f_l p_l) of a dof.
   double ground_step_at(std::size_t dof) const;
-  /// Adds to iota_d^T M s, and to the work of supports, what M s is at a dof.
+  /// Adds to iota_d^T M s, and to the work of supports and loads, what M s is at a dof.
   void add_momentum(std::size_t dof, double momentum);
+  /// sum_l f_l p_l^T v of the velocities as they are [W].
+  double load_power() const;
 
   const LinearSystem& system_;
   StructureState& state_;
@@ -114,8 +117,10 @@ class StructureStep final : public stiffness::ForceReceiver, public interactions
   bool keeps_ = false;                          ///< in this step
   const double* stiffness_velocity_ = nullptr;  ///< see StepRequest
   std::array<double, 3> ground_step_{};
-  std::vector<double> support_step_;  ///< h sum_c iota_c r_c'' per owned dof; empty without
-  Lanes support_work_{};              ///< sum of support_step_ times M s
+  /// h ( sum_c iota_c r_c'' - M^-1 sum_l f_l p_l ) per owned dof; empty without supports and loads.
+  std::vector<double> known_step_;
+  std::span<const double> load_values_;  ///< f of all loads of the scene in this step
+  Lanes known_work_{};                   ///< sum of known_step_ times M s
   /// Patterns of nodes without and with rotations: h (a_g - g) iota, and the sums of M s.
   Lanes ground_[2][pattern_vectors]{};
   Lanes momentum_[2][pattern_vectors]{};

@@ -57,6 +57,8 @@ Model member_structures(const MemberScene& member, const EnsembleModel& shared) 
     scale_stiffness(member.stiffness_factors[s], *building.basis);
     model.systems[s] =
         build_reduced_system(MPI_COMM_SELF, 0, structure, *building.mesh, *building.basis);
+    model.systems[s].loads = shape_reduced_loads(shared.model->scene_loads(), static_cast<int>(s),
+                                                 building.basis->load_parts, true);
     building.limits =
         limits_of(structure, model.systems[s], *building.mesh, building.basis_or_null(), {});
     building.energy_margin =
@@ -142,6 +144,7 @@ Model member_model(const MemberScene& member, const EnsembleModel& shared) {
   try {
     Model model = member_structures(member, shared);
     model.motion = std::make_unique<GroundMotion>(scene.motion, scene.resampling);
+    if (!scene.loads.empty()) model.load_histories = std::make_unique<LoadHistories>(scene.loads);
     Profile profile;
     put_at_rest(MPI_COMM_SELF, scene, shared.model->meshes, profile, model);
     find_start_gaps(scene, model);

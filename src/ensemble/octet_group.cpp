@@ -49,7 +49,9 @@ void OctetGroup::step(std::int64_t n) {
     }
   }
   const double duration = runs_.front()->stepper().force_duration();
-  for (OctetStep& octet : octets_) octet.step(duration, acceleration_, with_energies);
+  for (OctetStep& octet : octets_) {
+    octet.step(duration, acceleration_, runs_.front()->stepper().load_values(), with_energies);
+  }
   for (failed_lane_ = 0; failed_lane_ < runs_.size(); ++failed_lane_) runs_[failed_lane_]->close();
   std::array<Octet, 3> gained = acceleration_;
   for (Octet& value : gained) value = value * all_octet(duration);

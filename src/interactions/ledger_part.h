@@ -9,7 +9,7 @@ struct LedgerPart {
   double link_loss = 0;              ///< taken in the step and not kept [J]
   double link_loss_before = 0;       ///< the same of the step before, of gathered rows [J]
   double link_input = 0;             ///< work of a wave from below [J]
-  double support_input = 0;          ///< work of supports' motion, contacts apart [J]
+  double support_input = 0;          ///< work of supports' motion and loads, contacts apart [J]
   double contact_support_input = 0;  ///< of supports against contact impulses [J]
   double contact_work = 0;           ///< 1/2 lambda^T L v- of normal impulses [J]
   double friction_loss = 0;          ///< -1/2 lambda_t^T L_t (v- + v+) [J]

@@ -22,6 +22,19 @@ std::string hash_of(std::span<const TracePoint> points) {
   return hash.text();
 }
 
+std::string hash_of(std::span<const NodalLoad> loads) {
+  Hash hash;
+  for (const NodalLoad& load : loads) {
+    for (const NodalForce& force : load.forces) {
+      hash.add(static_cast<double>(force.node));
+      hash.add(static_cast<double>(force.component));
+      hash.add(force.value);
+    }
+    hash.add(static_cast<double>(load.forces.size()));
+  }
+  return hash.text();
+}
+
 std::string hash_of(const GlobalMesh& mesh) {
   Hash hash;
   hash.add_all(mesh.coordinates);
@@ -110,6 +123,8 @@ BasisKey basis_key(const Structure& structure, const GlobalMesh& mesh,
   if (request.candidates > request.modes) vectors.add(static_cast<double>(request.candidates));
   if (request.gravity != Vector3{0, 0, 0}) vectors.add_all(request.gravity);
   if (structure.p_delta) vectors.add("p_delta");
+  if (!request.loads.empty()) vectors.add(hash_of(request.loads));
+  if (structure.p_delta) vectors.add_all(request.loads_at_rest);
   if (request.attachment && request.patches > 0) {
     vectors.add("patches");
     vectors.add(static_cast<double>(request.patches));

@@ -19,6 +19,7 @@
 #include "modal/rigid_motions.h"
 #include "modal/shifted_solver.h"
 #include "system/admissible_motions.h"
+#include "system/load_shapes.h"
 #include "system/support_shapes.h"
 
 namespace pounding {
@@ -250,9 +251,22 @@ class BasisMaker {
       }
       loads.append(weight);
     }
+    for (std::size_t l = 0; system_.loads && l < system_.loads->loads.size(); ++l) {
+      loads.append(scaled_load(system_.loads->loads[l]));
+    }
     if (request_.attachment) add_contact_loads(loads);
     space_.normalise(loads);
     return loads;
+  }
+
+  /// M^-1/2 p of a load.
+  std::vector<double> scaled_load(const LoadShape& shape) const {
+    std::vector<double> load(dofs_, 0.0);
+    for (std::size_t k = 0; k < shape.dofs.size(); ++k) {
+      const LocalIndex dof = shape.dofs[k];
+      load[dof] = std::sqrt(system_.inverse_mass[dof]) * shape.force[k];
+    }
+    return load;
   }
 
   /// M^-1/2 times forces on contact points, one alone or those of a patch alike.
@@ -329,6 +343,7 @@ class BasisMaker {
     add_participation(rotation, basis);
     add_rows(rotation, basis);
     if (system_.supports) add_supports(rotation, basis);
+    if (system_.loads) add_loads(rotation, basis);
   }
 
   /// Modes are vectors of A whatever the others are: they come out of the rotation as they went in,
@@ -381,6 +396,12 @@ class BasisMaker {
       }
     }
     add_over_ranks(system_.comm, basis.support_rows);
+  }
+
+  void add_loads(const DenseMatrix& rotation, ModalBasis& basis) const {
+    DenseMatrix scaled(dofs_, 0);
+    for (const LoadShape& shape : system_.loads->loads) scaled.append(scaled_load(shape));
+    basis.load_parts = transposed_product(rotation, space_.parts(scaled)).values;
   }
 
   void add_rows(const DenseMatrix& rotation, ModalBasis& basis) const {
@@ -443,6 +464,7 @@ void broadcast_basis(MPI_Comm comm, int root, ModalBasis& basis) {
   broadcast_array(comm, basis.rows, root);
   broadcast_array(comm, basis.support_participation, root);
   broadcast_array(comm, basis.support_rows, root);
+  broadcast_array(comm, basis.load_parts, root);
 }
 
 }  // namespace pounding

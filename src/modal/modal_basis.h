@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "mesh/nodal_load.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -29,6 +30,8 @@ struct ModalBasis {
   /// points, shape (points, columns); empty where the ground moves as one.
   std::vector<double> support_participation;
   std::vector<double> support_rows;
+  /// Phi^T p of the loads on the structure, in their order, shape (its loads, k).
+  std::vector<double> load_parts;
 
   std::size_t size() const { return squared_frequency.size(); }
 };
@@ -44,10 +47,12 @@ struct ModalRequest {
   std::vector<TracePoint> contact_points;
   std::vector<TracePoint> other_points;  ///< where the motion is wanted as well
   std::vector<TracePoint> shown_points;  ///< and for pictures and forces, which choose no modes
+  std::vector<NodalLoad> loads;          ///< on the structure
+  std::vector<double> loads_at_rest;     ///< f of each before the run
 };
 
 /// The lowest modes, and beside them the attachment vectors: static responses to gravity, where the
-/// run starts at rest under it, and to unit forces at the contact points, so that forces there find
+/// run starts at rest under it, to the system's loads, and to unit forces at the contact points, so that forces there find
 /// all the flexibility of the structure and not only that of the modes (Craig and Chang, AIAA J. 15
 /// (1977), 1009; residual flexibility). With Y the modes in y = M^1/2 u and A = M^-1/2 K M^-1/2,
 ///

@@ -17,6 +17,7 @@
 ///     /inertia             (6) [kg, kg m2]
 ///     /points              (n, 2) node in file order, component
 ///     /rows                (n, k) of the basis at the points
+///     /load_parts          (l, k) Phi^T p of loads; left out without any
 namespace pounding {
 
 /// Hashes of the sources of a basis, by their names.
@@ -31,7 +32,8 @@ struct StoredBasis {
   std::string differs;  ///< "mesh, contact points"
 };
 
-/// Serial. Throws std::runtime_error if the file is not a modal basis or damaged.
-StoredBasis read_modal_basis(const std::string& path, const BasisKey& key);
+/// Serial. `loads`: their number on the structure. Throws std::runtime_error if the file is not a
+/// modal basis or damaged.
+StoredBasis read_modal_basis(const std::string& path, const BasisKey& key, std::size_t loads = 0);
 
 }  // namespace pounding

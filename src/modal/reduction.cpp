@@ -112,12 +112,13 @@ void with_file(const Structure& structure, const std::function<void()>& work) {
 }
 
 /// The basis in the structure's file, if there is one that belongs to it. Rank 0.
-std::optional<ModalBasis> stored_basis(const Structure& structure, const BasisKey& key) {
+std::optional<ModalBasis> stored_basis(const Structure& structure, const BasisKey& key,
+                                       std::size_t loads) {
   const std::string& path = structure.modal->basis_file;
   StoredBasis stored;
   with_file(structure, [&] {
     if (std::filesystem::exists(path)) {
-      stored = read_modal_basis(path, key);
+      stored = read_modal_basis(path, key, loads);
     } else {
       NewFile(path + ".new");  // goes again
     }
@@ -180,19 +181,23 @@ LargestCompression turn_weight_with_columns(const Structure& structure, const Li
   return set_axial_forces(structure, rest.displacement[0], mesh);
 }
 
-void compute(const Structure& structure, std::span<const SupportColumn> columns, Profile& profile,
-             Reduction& reduction) {
+void compute(const Structure& structure, std::span<const SupportColumn> columns,
+             const SceneLoads& loads, Profile& profile, Reduction& reduction) {
   reduction.mesh.comm = reduction.workers.comm;
   std::optional<LinearSystem> system;
   {
     const ScopedTimer timer(profile, Phase::assembly);
     Structure unscaled = structure;
     unscaled.mass_scaling = 0;  // the coordinates are scaled, not the elements
-    system = build_system(unscaled, reduction.mesh);
+    const auto build = [&] {
+      system = build_system(unscaled, reduction.mesh);
+      system->loads = shape_loads(loads, reduction.structure, reduction.mesh);
+    };
+    build();
     if (structure.p_delta) {
       const LargestCompression largest =
           turn_weight_with_columns(unscaled, *system, reduction.mesh);
-      system = build_system(unscaled, reduction.mesh);
+      build();
       require_no_buckling(structure, reduction.mesh, *system, largest);
     }
   }
@@ -244,7 +249,7 @@ std::vector<std::optional<ModalBasis>> find_bases(
     MPI_Comm comm, const Scene& scene, std::span<const GlobalMesh> meshes,
     const interactions::Interface& interface, std::span<const ResolvedProbe> probes,
     std::span<const ResolvedForce> forces, std::span<const ResolvedProbe> storey_bases,
-    std::span<const SupportColumn> columns, Profile& profile) {
+    std::span<const SupportColumn> columns, const SceneLoads& loads, Profile& profile) {
   const auto structure_of = [&](const Reduction& r) -> const Structure& {
     return scene.structures[r.structure];
   };
@@ -256,6 +261,11 @@ std::vector<std::optional<ModalBasis>> find_bases(
     reduction.structure = static_cast<int>(s);
     reduction.request =
         request_of(comm, scene, reduction.structure, meshes[s], interface, probes, forces);
+    for (std::size_t l = 0; l < loads.nodal.size(); ++l) {
+      if (loads.nodal[l].structure != reduction.structure) continue;
+      reduction.request.loads.push_back(loads.nodal[l]);
+      reduction.request.loads_at_rest.push_back(loads.before_start[l]);
+    }
     for (const ResolvedProbe& base : storey_bases) {
       for (std::size_t k = 0; base.structure == reduction.structure && k < base.nodes.size(); ++k) {
         for (int d = 0; d < 3; ++d) reduction.request.shown_points.push_back({base.nodes[k], d});
@@ -266,7 +276,8 @@ std::vector<std::optional<ModalBasis>> find_bases(
       forbid_damping_matrix(scene.structures[s]);
       if (!scene.structures[s].modal->basis_file.empty()) {
         reduction.key = basis_key(scene.structures[s], meshes[s], reduction.request);
-        if (auto basis = stored_basis(scene.structures[s], reduction.key)) {
+        if (auto basis =
+                stored_basis(scene.structures[s], reduction.key, reduction.request.loads.size())) {
           reduction.basis = std::move(*basis);
           stored = 1;
         }
@@ -281,7 +292,7 @@ std::vector<std::optional<ModalBasis>> find_bases(
   on_every_rank(comm, [&] {
     for (Reduction& reduction : reductions) {
       if (reduction.workers.hold(rank_of(comm))) {
-        compute(structure_of(reduction), columns, profile, reduction);
+        compute(structure_of(reduction), columns, loads, profile, reduction);
       }
     }
   });

@@ -28,6 +28,8 @@ const char* title_of(OptionBlock block) {
       return "Motion of a support along an axis";
     case OptionBlock::support_rotation:
       return "Rotation of a support about an axis";
+    case OptionBlock::load:
+      return "Loads, forces with a history of their own";
     case OptionBlock::probe:
       return "Probes";
     case OptionBlock::force:

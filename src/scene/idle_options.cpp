@@ -137,6 +137,7 @@ class IdleOptions {
     look_at_names(OptionBlock::region, regions);
     look_at_names(OptionBlock::contact, alone(listed.contacts));
     look_at_names(OptionBlock::support, alone(listed.supports));
+    look_at_names(OptionBlock::load, alone(listed.loads));
     look_at_names(OptionBlock::probe, alone(listed.probes));
     look_at_names(OptionBlock::force, alone(listed.forces));
   }

@@ -28,6 +28,7 @@ enum class OptionBlock {
   support,
   support_motion,
   support_rotation,
+  load,
   probe,
   force,
   spectra

@@ -12,6 +12,7 @@
 #include "elements/element_traits.h"
 #include "scene/filler.h"
 #include "scene/force_item.h"
+#include "scene/load.h"
 #include "scene/nonlinear_spring.h"
 #include "scene/soil.h"
 #include "scene/uniform_damping.h"
@@ -360,6 +361,7 @@ struct Scene {
   std::vector<Contact> contacts;
   std::array<std::optional<MotionComponent>, 3> motion;
   std::vector<Support> supports;   ///< that move otherwise than `motion`
+  std::vector<Load> loads;         ///< forces beside gravity and the ground's
   bool motion_from_below = false;  ///< an incident wave; else the ground itself moves like that
   Resampling resampling = Resampling::linear;
   StiffnessMethod stiffness = StiffnessMethod::automatic;

@@ -13,6 +13,7 @@
 #include "scene/filler_reader.h"
 #include "scene/force_reader.h"
 #include "scene/idle_options.h"
+#include "scene/load_reader.h"
 #include "scene/mesh_options.h"
 #include "scene/motion_reader.h"
 #include "scene/nearest_name.h"
@@ -40,7 +41,7 @@ class SceneReader {
   ReadScene read() {
     scene_.title = options_.text("title");
     listed_ = {read_names("structures"), read_names("contacts"), read_names("probes"),
-               read_names("supports"), read_names("forces")};
+               read_names("supports"),   read_names("forces"),   read_names("loads")};
     require_apart(listed_.structures);
     refuse_unknown_options(options_.database(), listed_);
     mention_structures_left_out();
@@ -67,6 +68,9 @@ class SceneReader {
       scene_.supports.push_back(read_support(options_, name));
     }
     check_supports(options_, scene_);
+    for (const std::string& name : listed_.loads) {
+      scene_.loads.push_back(read_load(options_, scene_, name));
+    }
     for (const std::string& name : listed_.probes) scene_.probes.push_back(read_probe(name));
     read_loops();
     for (const std::string& name : listed_.forces) {

@@ -85,6 +85,9 @@ std::vector<std::vector<std::string>> owners(const OptionsDatabase& database,
         for (const char* axis : direction_names) result.push_back({support, axis});
       }
       break;
+    case OptionBlock::load:
+      add(with_complete(database, block, as_set(listed.loads)));
+      break;
     case OptionBlock::probe:
       add(with_complete(database, block, as_set(listed.probes)));
       break;

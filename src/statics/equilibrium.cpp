@@ -16,6 +16,7 @@
 #include "statics/make_static_stiffness.h"
 #include "statics/unilateral_rows.h"
 #include "system/admissible_motions.h"
+#include "system/load_shapes.h"
 
 namespace pounding {
 namespace {
@@ -88,6 +89,7 @@ class Search {
           weight_[s][i] += systems[s].lumped_mass[i] * iota[i] * systems[s].gravity[d];
         }
       }
+      if (systems[s].loads) systems[s].loads->add_at_rest(weight_[s]);
     }
   }
 
@@ -330,10 +332,11 @@ class Search {
     std::vector<double> momentum(displacement_[s]);
     for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] *= system.lumped_mass[i];
     rest.settlement = total(s, momentum);
+    if (system.loads) rest.load = system.loads->total_at_rest();
     for (std::size_t d = 0; d < 3; ++d) {
       rest.weight[d] = system.total_mass * system.gravity[d];
       rest.settlement[d] /= system.total_mass;
-      rest.support[d] = -rest.weight[d] - rest.contact[d];
+      rest.support[d] = -rest.weight[d] - rest.load[d] - rest.contact[d];
     }
     if (!system.generalised) {
       find_support(s, rest);
@@ -358,12 +361,13 @@ class Search {
     Vector3 left{0, 0, 0};
     for (std::size_t d = 0; d < 3; ++d) {
       // Held nodes hand their own part on to the supports.
-      rest.support[d] = free_support[d] - (rest.weight[d] - free_weight[d]) -
+      const double given = rest.weight[d] + rest.load[d];
+      rest.support[d] = free_support[d] - (given - free_weight[d]) -
                         (rest.contact[d] - free_contact[d]) - handed[d];
-      left[d] = rest.weight[d] + rest.contact[d] + rest.support[d];
+      left[d] = given + rest.contact[d] + rest.support[d];
     }
-    const double scale = std::max(
-        {largest_size(rest.weight), largest_size(rest.contact), largest_size(rest.support)});
+    const double scale = std::max({largest_size(rest.weight), largest_size(rest.load),
+                                   largest_size(rest.contact), largest_size(rest.support)});
     rest.imbalance = scale > 0 ? largest_size(left) / scale : 0;
   }
 
@@ -395,9 +399,9 @@ class Search {
   bool any_told_open_;  ///< contacts open by what was told of their gaps
   UnilateralRows rows_;
   std::vector<std::unique_ptr<StaticStiffness>> stiffness_;  ///< per structure
-  Fields weight_;
+  Fields weight_;                                            ///< and loads as they are at rest
   Fields displacement_;
-  Fields residual_;             ///< M g + R^T f - K u
+  Fields residual_;             ///< M g + p + R^T f - K u
   Fields correction_;           ///< (K + sigma M)^-1 of it
   double weight_size_ = 0;      ///< see size_of_residual, of the weight
   std::vector<double> force_;   ///< f per row [N]

@@ -16,13 +16,14 @@ namespace pounding {
 /// Forces that hold one structure at rest, and how far it settles.
 struct StructureRest {
   Vector3 weight{0, 0, 0};      ///< total mass x its gravity [N]
+  Vector3 load{0, 0, 0};        ///< of its loads before the run [N]
   Vector3 contact{0, 0, 0};     ///< of contact points on it [N]
   Vector3 support{0, 0, 0};     ///< of clamps, grounded springs and bars to the ground on it [N]
   Vector3 settlement{0, 0, 0};  ///< mean displacement over its mass, clamped nodes included [m]
   double largest_displacement = 0;  ///< of a component; 0 of a reduced structure [m]
   std::string place;                ///< where that is; empty of a reduced structure
-  /// |weight + contact + support| over the largest of them, the support summed up from K u; 0 of a
-  /// reduced structure, whose support follows from the other two [-].
+  /// |weight + load + contact + support| over the largest of them, the support summed up from K u; 0 of a
+  /// reduced structure, whose support follows from the others [-].
   double imbalance = 0;
   std::string method;  ///< how its stiffness was solved
 };
@@ -35,7 +36,7 @@ struct Equilibrium {
   std::vector<double> opening;        ///< L u_0 likewise: by how much it is wider than unloaded [m]
   int acting_links = 0;               ///< tension-only bars and compression-only springs that carry
   int idle_links = 0;
-  double gravity_potential = 0;  ///< -f_g^T u_0 [J]
+  double gravity_potential = 0;  ///< -(f_g + f_l)^T u_0, of weight and loads [J]
   int iterations = 0;
   int rows_tried = 0;  ///< contact points and links that a solution was made for
   /// Root of the energy r^T (K + sigma M)^-1 r of the force r that the start leaves, over that of
@@ -46,14 +47,15 @@ struct Equilibrium {
 /// Static equilibrium of all structures with their contacts, tension-only bars and
 /// compression-only springs (see UnilateralRows):
 ///
-///     K u_0 = M g + R^T f,      0 <= f _|_ w0 + R u_0 + c f >= 0
+///     K u_0 = M g + p + R^T f,      0 <= f _|_ w0 + R u_0 + c f >= 0
 ///
 /// by the proximal point method (Rockafellar, SIAM J. Control Optim. 14 (1976), 877), which needs
 /// no stiffness that holds by itself, so that blocks which only rest on each other pass:
 ///
-///     (K + sigma M) d = M g + R^T f - K u,       u <- u + d,
+///     (K + sigma M) d = M g + p + R^T f - K u,       u <- u + d,
 ///     with f such that the rows are fulfilled by u + d
 ///
+/// with p the loads as they are before the run (LoadShapes).
 /// sigma = 1 / s2 shrinks what is left by 1 / (1 + omega^2 / sigma) at a held frequency omega, and
 /// refines the solution like any correction by its residual. Forces are measured by their energy
 /// f^T (K + sigma M)^-1 f, in which a moment on the small rotary inertia of a thin shell counts for

@@ -24,6 +24,7 @@
 namespace pounding {
 
 class Links;
+struct LoadShapes;
 struct SupportShapes;
 
 /// A displacement component of a node, by numbers that do not depend on the partition.
@@ -45,7 +46,8 @@ struct GeneralisedCoordinates {
 
 /// One building as a linear second-order system in the ground frame, whatever its origin:
 ///
-///     (M + S) u'' + C u' + K u = -M iota a_g(t) + L^T r,      C = alpha M + beta K + D
+///     (M + S) u'' + C u' + K u = -M iota a_g(t) + sum_l f_l(t) p_l + L^T r
+///     C = alpha M + beta K + D
 ///
 /// or, with uniform damping over a band, s G K in place of K (see UniformDamping) and C = D, where
 /// the motions u are those that rigid bodies and ties admit (see RigidBody, TiedPart), with M
@@ -75,6 +77,8 @@ struct LinearSystem {
   std::vector<interactions::RegionLaw> laws;  ///< of the inelastic elements
   /// How it follows supports that move on their own; null where the ground moves as one.
   std::shared_ptr<const SupportShapes> supports;
+  /// Loads with a history of their own; null where none acts on it.
+  std::shared_ptr<const LoadShapes> loads;
   std::unique_ptr<stiffness::Stiffness> extra_damping;  ///< D [N s/m, N m s]; null if there is none
   /// Per owned dof, whether an inelastic element acts on it; empty if no rank has one.
   std::vector<char> inelastic;

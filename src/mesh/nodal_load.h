@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/types.h"
+
+namespace pounding {
+
+/// Force or moment on a component of a node.
+struct NodalForce {
+  GlobalIndex node = 0;        ///< file order
+  std::int32_t component = 0;  ///< 0-2 along, 3-5 about x, y, z
+  double value = 0;            ///< at a history of 1 [N, N m]
+};
+
+/// A load of the scene as forces on the nodes of its structure, held components included.
+struct NodalLoad {
+  int structure = 0;               ///< in the scene
+  std::vector<NodalForce> forces;  ///< by node and component, each once
+  GlobalIndex nodes = 0;           ///< on which it acts
+  double extent = 0;               ///< of its lines, surfaces or volumes [m, m2, m3]
+  Vector3 force{0, 0, 0};          ///< sum of the forces [N]
+  Vector3 moment{0, 0, 0};         ///< sum of the moments, and of the forces about the origin [N m]
+};
+
+}  // namespace pounding

@@ -1,0 +1,123 @@
+#include "motion/load_histories.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "common/error.h"
+#include "motion/records/record_text.h"
+
+namespace pounding {
+namespace {
+
+using Kind = LoadFunction::Kind;
+
+double interpolated(const std::vector<double>& times, const std::vector<double>& values, double t) {
+  const auto after = std::ranges::upper_bound(times, t);
+  if (after == times.begin()) return values.front();
+  if (after == times.end()) return values.back();
+  const auto i = static_cast<std::size_t>(after - times.begin());
+  const double share = (t - times[i - 1]) / (times[i] - times[i - 1]);
+  return values[i - 1] + share * (values[i] - values[i - 1]);
+}
+
+double value_at(const LoadFunction& f, double t) {
+  switch (f.kind) {
+    case Kind::constant:
+      return 1;
+    case Kind::step:
+      return t < f.start ? 0 : 1;
+    case Kind::ramp:
+      return std::clamp((t - f.start) / f.rise, 0.0, 1.0);
+    case Kind::harmonic:
+      return t < f.start ? 0
+                         : std::sin(2 * std::numbers::pi * f.frequency * (t - f.start) + f.phase);
+    case Kind::table:
+      return interpolated(f.times, f.values, t);
+  }
+  return 0;
+}
+
+/// Two columns, time and value; lines before the first row of numbers are a header.
+void read_table(const std::string& load, LoadFunction& function) {
+  const auto refuse = [&](int line, const std::string& why) {
+    throw UserError("option -" + load + "_table " + function.file + ", line " +
+                    std::to_string(line) + ": " + why);
+  };
+  for (const TextLine& line : read_text_lines(function.file)) {
+    if (line.text.empty() || is_comment(line.text)) continue;
+    const std::vector<std::string_view> words = split_words(line.text);
+    std::vector<double> numbers;
+    for (const std::string_view word : words) {
+      if (const auto number = parse_number(word)) numbers.push_back(*number);
+    }
+    if (numbers.size() != words.size()) {
+      if (function.times.empty() && numbers.empty()) continue;  // names of the columns
+      refuse(line.number, "'" + line.text.substr(0, 40) + "' is no pair of time and value");
+    }
+    if (numbers.size() != 2) {
+      refuse(line.number,
+             std::to_string(numbers.size()) + " numbers where a time [s] and a value belong");
+    }
+    if (!function.times.empty() && !(numbers[0] > function.times.back())) {
+      refuse(line.number, "the time does not increase");
+    }
+    function.times.push_back(numbers[0]);
+    function.values.push_back(numbers[1]);
+  }
+  if (function.times.empty()) {
+    throw UserError("option -" + load + "_table " + function.file + ": no pair of time and value");
+  }
+}
+
+}  // namespace
+
+LoadHistories::LoadHistories(std::span<const Load> loads) {
+  for (const Load& load : loads) {
+    History& history = histories_.emplace_back(History{load.function, load.factor});
+    if (!load.function.file.empty()) read_table(load.name, history.function);
+  }
+}
+
+void LoadHistories::evaluate(double t, std::span<double> values) const noexcept {
+  for (std::size_t l = 0; l < histories_.size(); ++l) {
+    values[l] = histories_[l].factor * value_at(histories_[l].function, t);
+  }
+}
+
+double LoadHistories::before_start(std::size_t load) const noexcept {
+  const auto& [function, factor] = histories_[load];
+  const bool acts = function.kind == Kind::constant || function.kind == Kind::table;
+  return acts ? factor * value_at(function, 0) : 0;
+}
+
+double LoadHistories::peak(std::size_t load, double end) const {
+  const auto& [function, factor] = histories_[load];
+  double largest = std::max(std::abs(value_at(function, 0)), std::abs(value_at(function, end)));
+  if (function.kind == Kind::harmonic && function.start <= end) largest = 1;
+  for (std::size_t i = 0; i < function.times.size(); ++i) {
+    const bool inside = function.times[i] >= 0 && function.times[i] <= end;
+    if (inside) largest = std::max(largest, std::abs(function.values[i]));
+  }
+  return std::abs(factor) * largest;
+}
+
+std::string LoadHistories::describe(std::size_t load) const {
+  const LoadFunction& f = histories_[load].function;
+  switch (f.kind) {
+    case Kind::constant:
+      return "constant";
+    case Kind::step:
+      return "step at " + text_of(f.start) + " s";
+    case Kind::ramp:
+      return "ramp from " + text_of(f.start) + " s on, over " + text_of(f.rise) + " s";
+    case Kind::harmonic:
+      return "harmonic, " + text_of(f.frequency) + " Hz from " + text_of(f.start) + " s on";
+    case Kind::table:
+      return (f.file.empty() ? "table" : f.file) + ", " + std::to_string(f.times.size()) +
+             " values from " + text_of(f.times.front()) + " s to " + text_of(f.times.back()) + " s";
+  }
+  return "";
+}
+
+}  // namespace pounding

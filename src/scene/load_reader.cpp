@@ -1,0 +1,146 @@
+#include "scene/load_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "scene/nearest_name.h"
+#include "scene/option_values.h"
+
+namespace pounding {
+namespace {
+
+using Names = OptionReader::Names;
+
+/// Options of forces along the axes, and where a load keeps them.
+constexpr std::array<std::pair<std::string_view, Vector3 Load::*>, 5> vector_options{
+    {{"<load>_force", &Load::force},
+     {"<load>_moment", &Load::moment},
+     {"<load>_line_force", &Load::line_force},
+     {"<load>_surface_force", &Load::surface_force},
+     {"<load>_body_force", &Load::body_force}}};
+
+void read_place(OptionReader& options, const Scene& scene, Load& load) {
+  constexpr std::string_view pattern = "<load>_on";
+  const std::vector<std::string> words = split(options.text(pattern, {load.name}), ':');
+  if (words.size() != 2 || words[0].empty() || words[1].empty()) {
+    options.refuse(pattern, {load.name});
+  }
+  load.structure = words[0];
+  load.group = words[1];
+  const auto found = std::ranges::find(scene.structures, load.structure, &Structure::name);
+  if (found == scene.structures.end()) {
+    std::vector<std::string> known;
+    for (const Structure& structure : scene.structures) known.push_back(structure.name);
+    options.refuse(
+        pattern, {load.name},
+        "there is no structure '" + load.structure + "'" + suggestion(load.structure, known));
+  }
+  if (!found->matrices.empty()) {
+    options.refuse(pattern, {load.name},
+                   "structure " + load.structure + " is made of matrices, which have no groups");
+  }
+}
+
+void read_forces(OptionReader& options, Load& load) {
+  bool any = false;
+  for (const auto& [pattern, member] : vector_options) {
+    if (!options.given(pattern, {load.name})) continue;
+    const std::vector<double> values = options.reals(pattern, {load.name}, 3);
+    std::ranges::copy(values, (load.*member).begin());
+    any = any || load.*member != Vector3{0, 0, 0};
+  }
+  if (options.given("<load>_pressure", {load.name})) {
+    load.pressure = options.real("<load>_pressure", {load.name});
+    any = any || load.pressure != 0;
+  }
+  if (!any) {
+    options.refuse("<load>_on", {load.name},
+                   "the load is none: give -" + load.name +
+                       "_force, _moment, _line_force, _surface_force, _pressure or _body_force");
+  }
+}
+
+/// Pairs of time and value, "0,0; 0.1,1".
+void read_values(OptionReader& options, const std::string& name, LoadFunction& function) {
+  constexpr std::string_view pattern = "<load>_values";
+  for (const std::string& pair : split(options.text(pattern, {name}), ';')) {
+    const auto numbers = parse_reals(pair);
+    if (!numbers || numbers->size() != 2) {
+      options.refuse(pattern, {name}, "'" + pair + "' is no pair of time and value");
+    }
+    if (!function.times.empty() && !((*numbers)[0] > function.times.back())) {
+      options.refuse(pattern, {name}, "times do not increase");
+    }
+    function.times.push_back((*numbers)[0]);
+    function.values.push_back((*numbers)[1]);
+  }
+}
+
+LoadFunction::Kind history_kind(const std::string& word) {
+  using Kind = LoadFunction::Kind;
+  return word == "constant" ? Kind::constant
+         : word == "step"   ? Kind::step
+         : word == "ramp"   ? Kind::ramp
+                            : Kind::harmonic;
+}
+
+/// Options that only some kinds of histories have.
+void read_kind(OptionReader& options, const std::string& name, LoadFunction& function) {
+  using Kind = LoadFunction::Kind;
+  const auto take = [&](std::string_view pattern, bool has, double& value) {
+    if (has) {
+      value = options.real(pattern, {name});
+    } else {
+      options.forbid(pattern, {name}, "the history of load " + name + " has no such number");
+    }
+  };
+  const bool harmonic = function.kind == Kind::harmonic;
+  take("<load>_start", harmonic || function.kind == Kind::step || function.kind == Kind::ramp,
+       function.start);
+  take("<load>_rise", function.kind == Kind::ramp, function.rise);
+  take("<load>_frequency", harmonic, function.frequency);
+  take("<load>_phase", harmonic, function.phase);
+}
+
+void read_function(OptionReader& options, const std::string& name, LoadFunction& function) {
+  constexpr std::array<std::string_view, 3> kinds{"<load>_function", "<load>_table",
+                                                  "<load>_values"};
+  std::string_view chosen;
+  for (const std::string_view kind : kinds) {
+    if (!options.given(kind, {name})) continue;
+    if (!chosen.empty()) {
+      options.refuse(kind, {name},
+                     "the load has a history already, by -" + option_name(chosen, {name}));
+    }
+    chosen = kind;
+  }
+  if (chosen == kinds[1] || chosen == kinds[2]) {
+    function.kind = LoadFunction::Kind::table;
+    if (chosen == kinds[1]) {
+      function.file = options.text(kinds[1], {name});
+    } else {
+      read_values(options, name, function);
+    }
+  } else {
+    function.kind = history_kind(options.choice(kinds[0], {name}));
+  }
+  read_kind(options, name, function);
+}
+
+}  // namespace
+
+Load read_load(OptionReader& options, const Scene& scene, const std::string& name) {
+  Load load;
+  load.name = name;
+  read_place(options, scene, load);
+  read_forces(options, load);
+  load.factor = options.real("<load>_factor", {name});
+  if (load.factor == 0) {
+    options.refuse("<load>_factor", {name}, "the load is none; take it out of -loads");
+  }
+  read_function(options, name, load.function);
+  return load;
+}
+
+}  // namespace pounding

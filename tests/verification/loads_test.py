@@ -1,0 +1,299 @@
+"""Loads with a history of their own: forces and moments on nodes, forces per length, area and volume, pressures.
+
+Closed forms: what central differences make of one mass and one spring, step by step; sags of a cantilever with
+shear; a bar under a pressure, and under a force per volume that is its weight. Whatever model moves, the ledger
+closes, and members, modes, ranks and restarts give one motion.
+"""
+import math
+import os
+import shutil
+import tempfile
+import unittest
+
+import h5py
+import numpy
+
+import program
+from recorded import Recorded, assert_follows
+
+YOUNG, DENSITY, AREA, LENGTH = 2e9, 2500.0, 0.25, 2.0
+STEP = 2e-5
+LEDGER = 1e-11
+
+
+def bar(*more, cells=1, probe="end"):
+    """A bar of bricks along x, clamped at its start, without Poisson's effect."""
+    return ["-structures", "bar", "-bar_mesh", "tests/meshes/box.geo", "-bar_mesh_set",
+            f"lx={LENGTH},ly=0.5,lz=0.5,nx={cells}", "-bar_clamp", "x_min", "-bar_body_element", "hex8",
+            "-bar_body_material", "stuff", "-material_stuff_young", YOUNG, "-material_stuff_poisson", 0,
+            "-material_stuff_density", DENSITY, "-time_step", STEP, "-output_interval", STEP,
+            "-probes", probe, f"-{probe}_structure", "bar", f"-{probe}_group", "x_max", "-loads", "push",
+            "-push_on", "bar:x_max", *more]
+
+
+def stepped(function, force, steps):
+    """Displacements by central differences of the bar as one mass on a spring, which is pushed by f(t)."""
+    stiffness, mass = YOUNG * AREA / LENGTH, DENSITY * AREA * LENGTH / 2
+    displacement, velocity, history = 0.0, 0.0, []
+    for n in range(steps + 1):
+        history.append(displacement)
+        duration = STEP / 2 if n == 0 else STEP
+        velocity += duration * (force * function(n * STEP) - stiffness * displacement) / mass
+        displacement += STEP * velocity
+    return numpy.array(history)
+
+
+class OneMass(unittest.TestCase):
+    """One brick: four nodes of its free face that move as one."""
+    FORCE, STEPS = 3e4, 400
+
+    def push(self, *more, ranks=program.RANKS):
+        return Recorded(self, bar("-push_force", f"{self.FORCE / 4},0,0", "-end_time", self.STEPS * STEP, *more), ranks,
+                        LEDGER)
+
+    def assert_moves(self, run, function):
+        expected = stepped(function, self.FORCE, self.STEPS)
+        assert_follows(self, run.displacement("end.x"), expected, 1e-10, "displacement")
+        work = run.energy["loads"]
+        self.assertAlmostEqual(work / run.energy["input"], 1, delta=1e-10)
+
+    def test_a_constant_load_acts_at_once(self):
+        run = self.push()
+        self.assert_moves(run, lambda t: 1)
+        period = 2 * math.pi / math.sqrt(2 * YOUNG / DENSITY / LENGTH**2)
+        middle = run.displacement("end.x")[round(period / 2 / STEP)]
+        self.assertAlmostEqual(middle / (2 * self.FORCE * LENGTH / (YOUNG * AREA)), 1, delta=1e-4)
+
+    def test_step(self):
+        self.assert_moves(self.push("-push_function", "step", "-push_start", 0.001), lambda t: float(t >= 0.001))
+
+    def test_ramp(self):
+        self.assert_moves(self.push("-push_function", "ramp", "-push_start", 0.001, "-push_rise", 0.002),
+                          lambda t: min(1, max(0, (t - 0.001) / 0.002)))
+
+    def test_harmonic(self):
+        self.assert_moves(self.push("-push_function", "harmonic", "-push_frequency", 300, "-push_phase", 0.4),
+                          lambda t: math.sin(2 * math.pi * 300 * t + 0.4))
+
+    def test_values_and_factor(self):
+        self.assert_moves(self.push("-push_values", "0.001,0.5; 0.002,-2; 0.004,1", "-push_factor", 0.5),
+                          lambda t: 0.5 * numpy.interp(t, [0.001, 0.002, 0.004], [0.5, -2, 1]))
+
+    def test_table_in_a_file(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
+            file.write("time,value\n# blast\n0.001, 0\n0.0011, 1\n0.005, -0.2\n")
+            file.flush()
+            self.assert_moves(self.push("-push_table", file.name),
+                              lambda t: numpy.interp(t, [0.001, 0.0011, 0.005], [0, 1, -0.2]))
+
+    def test_force_per_area_and_pressure_are_the_same_push(self):
+        force = self.push("-push_force", "0,0,0", "-push_surface_force", f"{self.FORCE / AREA},0,0")
+        pressure = self.push("-push_force", "0,0,0", "-push_pressure", -self.FORCE / AREA)
+        self.assert_moves(force, lambda t: 1)
+        self.assert_moves(pressure, lambda t: 1)
+        self.assertAlmostEqual(pressure.summary["loads"][0]["extent"], AREA, delta=1e-12)
+
+    def test_reduced(self):
+        run = self.push("-bar_model", "modal", "-bar_modal_vectors", 12)
+        assert_follows(self, run.displacement("end.x"), stepped(lambda t: 1, self.FORCE, self.STEPS), 1e-9, "reduced")
+
+    def test_ends_with_a_scaled_mass_and_uniform_damping(self):
+        for more in (["-bar_mass_scaling", 8e-4, "-time_step", 5e-4, "-output_interval", 5e-4],
+                     ["-bar_damping_uniform", 0.05], ["-bar_rigid", "x_max"], ["-bar_damping_beta", 1e-5]):
+            with self.subTest(more=more):
+                self.push(*more)  # its ledger closes
+
+
+class AtRest(unittest.TestCase):
+    """Constant loads under a static start."""
+
+    def assert_stays(self, run, channel, expected, tolerance=1e-10):
+        found = run.displacement(channel)
+        self.assertLess(abs(found / expected - 1).max(), tolerance, channel)
+
+    def rest(self, words, *more, ranks=program.RANKS):
+        run = Recorded(self, [*words, "-preload", "static", "-end_time", 20 * STEP, *more], ranks, LEDGER)
+        self.assertEqual([line for line in run.summary["warnings"] if "weight" in line], [])
+        return run
+
+    def test_pressure_on_a_bar(self):
+        for ranks in (1, 2, 3):
+            run = self.rest(bar("-push_pressure", 4e5, cells=3), ranks=ranks)
+            self.assert_stays(run, "end.x", -4e5 * LENGTH / YOUNG)
+            rest = run.summary["equilibrium"]["structures"]["bar"]
+            self.assertAlmostEqual(rest["load"][0] / (-4e5 * AREA), 1, delta=1e-12)
+            self.assertAlmostEqual(rest["support"][0] / (4e5 * AREA), 1, delta=1e-9)
+            self.assertLess(rest["imbalance"], 1e-9)
+
+    def test_body_force_is_a_weight(self):
+        weight = DENSITY * 9.81
+        words = bar("-push_body_force", f"{weight},0,0", "-push_on", "bar:body", cells=4)
+        run = self.rest(words)
+        self.assert_stays(run, "end.x", weight * LENGTH**2 / (2 * YOUNG))
+        self.assertAlmostEqual(run.summary["loads"][0]["extent"], AREA * LENGTH, delta=1e-12)
+        reduced = self.rest(words, "-bar_model", "modal", "-bar_modal_vectors", 3)
+        self.assert_stays(reduced, "end.x", weight * LENGTH**2 / (2 * YOUNG), 1e-7)
+
+    def test_loads_that_set_in_with_the_run_leave_the_rest_alone(self):
+        run = self.rest(bar("-push_force", "1e3,0,0", "-push_function", "step", "-gravity", 9.81))
+        self.assertEqual(run.summary["equilibrium"]["structures"]["bar"]["load"], [0, 0, 0])
+
+
+class Cantilever(unittest.TestCase):
+    """One beam, whose sag under a load at its end and along it is exact."""
+    INERTIA, SHEAR, HEIGHT, POISSON = 3e-4, 0.02, 2.0, 0.25
+
+    def mast(self, *more, elements=1):
+        return ["-structures", "mast", "-mast_mesh", "tests/meshes/cantilever.geo", "-mast_mesh_set", f"n={elements}",
+                "-mast_clamp", "base", "-mast_stem_element", "beam", "-mast_stem_material", "steel",
+                "-mast_stem_section", "tube", "-material_steel_young", YOUNG, "-material_steel_poisson", self.POISSON,
+                "-material_steel_density", DENSITY, "-section_tube_area", 0.04, "-section_tube_inertia_y", self.INERTIA,
+                "-section_tube_inertia_z", self.INERTIA, "-section_tube_torsion", 2 * self.INERTIA,
+                "-section_tube_z_axis", "0,1,0", "-section_tube_shear_area", f"{self.SHEAR},{self.SHEAR}",
+                "-probes", "top", "-top_structure", "mast", "-top_group", "top", "-time_step", STEP,
+                "-output_interval", STEP, "-end_time", 10 * STEP, "-preload", "static", "-loads", "push", *more]
+
+    def sag(self, *more, elements=1):
+        run = Recorded(self, self.mast(*more, elements=elements), identity=LEDGER)
+        return run.displacement("top.x").mean(), run
+
+    def test_force_moment_and_force_per_length(self):
+        bending, shear = YOUNG * self.INERTIA, YOUNG / (2 * (1 + self.POISSON)) * self.SHEAR
+        height = self.HEIGHT
+        for elements in (1, 3):
+            tip, _ = self.sag("-push_on", "mast:top", "-push_force", "1e3,0,0", elements=elements)
+            self.assertAlmostEqual(tip / (1e3 * height**3 / (3 * bending) + 1e3 * height / shear), 1, delta=1e-9)
+            turned, _ = self.sag("-push_on", "mast:top", "-push_moment", "0,1e3,0", elements=elements)
+            self.assertAlmostEqual(turned / (1e3 * height**2 / (2 * bending)), 1, delta=1e-9)
+            spread, run = self.sag("-push_on", "mast:stem", "-push_line_force", "500,0,0", elements=elements)
+            expected = 500 * height**4 / (8 * bending) + 500 * height**2 / (2 * shear)
+            self.assertAlmostEqual(spread / expected, 1, delta=1e-9)
+            rest = run.summary["equilibrium"]["structures"]["mast"]
+            self.assertAlmostEqual(rest["support"][0] / (-500 * height), 1, delta=1e-9)
+            self.assertAlmostEqual(run.summary["loads"][0]["moment"][1] / (500 * height**2 / 2), 1, delta=1e-12)
+
+
+class EveryRoom(unittest.TestCase):
+    """A longer bar under three loads."""
+    LOADS = ["-loads", "push,shake,press", "-push_force", "100,40,-30", "-push_values", "0,0; 0.001,1; 0.003,-0.5",
+             "-shake_on", "bar:body", "-shake_body_force", "0,2e4,1e4", "-shake_function", "harmonic",
+             "-shake_frequency", 120, "-press_on", "bar:y_max", "-press_pressure", 3e3, "-press_function", "step",
+             "-press_start", 5e-4]
+
+    def words(self, *more):
+        return bar(*self.LOADS, "-end_time", 200 * STEP, *more, cells=8)
+
+    def test_ranks_see_one_motion(self):
+        runs = [Recorded(self, self.words(), ranks, LEDGER) for ranks in (1, 2, 3, 4)]
+        for run in runs[1:]:
+            for axis in "xyz":
+                assert_follows(self, run.displacement(f"end.{axis}"), runs[0].displacement(f"end.{axis}"), 1e-11, axis)
+
+    def test_all_modes_are_the_full_model(self):
+        full = Recorded(self, self.words(), identity=LEDGER)
+        modal = Recorded(self, self.words("-bar_model", "modal", "-bar_modal_vectors", 200), identity=LEDGER)
+        for axis in "xyz":
+            assert_follows(self, modal.displacement(f"end.{axis}"), full.displacement(f"end.{axis}"), 1e-8, axis)
+
+    def test_a_stored_basis_has_them(self):
+        with tempfile.TemporaryDirectory() as folder:
+            modal = ["-bar_model", "modal", "-bar_modal_vectors", 9, "-bar_modal_basis", f"{folder}/bar.h5"]
+            first = Recorded(self, self.words(*modal), identity=LEDGER)
+            again = Recorded(self, self.words(*modal), identity=LEDGER)
+            self.assertGreater(abs(first.displacement("end.y")).max(), 1e-6)
+            for axis in "xyz":
+                numpy.testing.assert_array_equal(first.displacement(f"end.{axis}"), again.displacement(f"end.{axis}"))
+            other = Recorded(self, self.words(*modal, "-press_pressure", 6e3), identity=LEDGER)
+            change = abs(other.displacement("end.y") - first.displacement("end.y")).max()
+            self.assertGreater(change, 0.1 * abs(first.displacement("end.y")).max())
+
+    def test_restart_to_the_bit(self):
+        folders = []
+        for more in (["-end_time", 200 * STEP], ["-end_time", 120 * STEP, "-checkpoint_steps", 100]):
+            folder, _ = program.must_run(self, self.words("-modes", 0, *more))
+            folders.append(folder)
+            self.addCleanup(shutil.rmtree, folder)
+        continued, _ = program.must_run(self, self.words("-modes", 0, "-restart",
+                                                         os.path.join(folders[1], "checkpoint.h5")))
+        self.addCleanup(shutil.rmtree, continued)
+        with h5py.File(os.path.join(folders[0], "history.h5")) as one:
+            with h5py.File(os.path.join(continued, "history.h5")) as other:
+                for name in ("displacement", "velocity"):
+                    numpy.testing.assert_array_equal(one[name][()], other[name][()])
+        tables = [open(os.path.join(folder, "energy.csv")).read() for folder in (folders[0], continued)]
+        self.assertEqual(*tables)
+
+    def test_restart_with_another_table_is_refused(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
+            def write(last):
+                file.seek(0)
+                file.write(f"0 0\n0.001 1\n0.003 {last}\n")
+                file.truncate()
+                file.flush()
+            words = [*bar("-push_force", "100,0,0", "-push_table", file.name, "-modes", 0)]
+            write(1)
+            folder, _ = program.must_run(self, [*words, "-end_time", 60 * STEP, "-checkpoint_steps", 40])
+            self.addCleanup(shutil.rmtree, folder)
+            write(2)
+            program.must_refuse(self, [*words, "-end_time", 100 * STEP, "-restart",
+                                       os.path.join(folder, "checkpoint.h5")], "motion")
+
+    def test_members_of_an_ensemble(self):
+        words = self.words("-bar_model", "modal", "-bar_modal_vectors", 9, "-modes", 0, "-spectra_frequencies", "50,200")
+        table = tempfile.NamedTemporaryFile("w", suffix=".csv")
+        self.addCleanup(table.close)
+        table.write("bar_stiffness_factor\n1\n1.3\n")
+        table.flush()
+        folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, folder)
+        result = program.run([*words, "-ensemble", table.name, "-output", folder])
+        self.assertEqual(result.returncode, 0, result.stdout[-1000:] + result.stderr[-1000:])
+        with h5py.File(os.path.join(folder, "ensemble.h5")) as file:
+            peaks, residual = file["peaks/displacement"][()], file["energy/residual"][()]
+        self.assertLess(abs(residual).max(), LEDGER)
+        for member, factor in enumerate((1, 1.3)):
+            single = Recorded(self, [*words, "-bar_stiffness_factor", factor], identity=LEDGER)
+            expected = [abs(single.displacement(f"end.{axis}")).max() for axis in "xyz"]
+            numpy.testing.assert_allclose(numpy.ravel(peaks[member])[:3], expected, rtol=1e-9)
+
+
+class Refused(unittest.TestCase):
+    def refuse(self, *more, parts=(), words=None):
+        program.must_refuse(self, (words or bar)(*more, "-end_time", 0.001), *parts)
+
+    def test_bad_loads(self):
+        self.refuse(parts=["push_on", "the load is none"])
+        self.refuse("-push_force", "0,0,0", parts=["the load is none"])
+        self.refuse("-push_force", "1,0", parts=["push_force", "three numbers"])
+        self.refuse("-push_force", "1,0,0", "-push_factor", 0, parts=["push_factor"])
+        self.refuse("-push_force", "1,0,0", "-push_on", "barn:x_max", parts=["no structure 'barn'"])
+        self.refuse("-push_force", "1,0,0", "-push_on", "bar:x_mex", parts=["push_on", "x_mex"])
+        self.refuse("-push_force", "1,0,0", "-push_on", "x_max", parts=["push_on", "structure:group"])
+        self.refuse("-push_moment", "1,0,0", parts=["push_moment", "no rotations"])
+        self.refuse("-push_line_force", "1,0,0", parts=["push_line_force", "no lines"])
+        self.refuse("-push_body_force", "1,0,0", parts=["push_body_force", "no elements with a volume"])
+        self.refuse("-push_pressure", 1, "-push_on", "bar:corners", parts=["push_pressure", "no surfaces"])
+
+    def test_bad_histories(self):
+        force = ["-push_force", "1,0,0"]
+        self.refuse(*force, "-push_function", "ramp", parts=["push_rise"])
+        self.refuse(*force, "-push_function", "harmonic", parts=["push_frequency"])
+        self.refuse(*force, "-push_rise", 0.1, parts=["push_rise"])
+        self.refuse(*force, "-push_function", "step", "-push_values", "0,1", parts=["has a history already"])
+        self.refuse(*force, "-push_values", "0,1; 0,2", parts=["times do not increase"])
+        self.refuse(*force, "-push_values", "0,1,2", parts=["no pair"])
+        self.refuse(*force, "-push_table", "/nowhere/f.csv", parts=["/nowhere/f.csv"])
+        for text, part in (("0 1\n0 2\n", "line 2"), ("0 1 2\n", "3 numbers"), ("0 1\nx y\n", "line 2"),
+                           ("words only\n", "no pair")):
+            with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
+                file.write(text)
+                file.flush()
+                self.refuse(*force, "-push_table", file.name, parts=[part])
+
+    def test_doubts(self):
+        _, summary = program.must_run(self, bar("-push_force", "1,0,0", "-push_on", "bar:x_min", "-end_time", 0.001))
+        self.assertTrue(any("acts on clamped components" in line for line in summary["warnings"]))
+
+
+if __name__ == "__main__":
+    unittest.main()
