@@ -92,6 +92,21 @@ class Matrices(unittest.TestCase):
             file.write("\n".join([*lines, f"{row} {column} {float(value) * 1.001!r}"]) + "\n")
         program.must_refuse(self, [*words, *restart], "written with -s2_matrices (its stiffness)", "start anew")
 
+    def test_the_script_of_the_docs_finds_the_modes(self):
+        place = self.export(1)
+        with open(os.path.join(program.SOURCE, "docs", "matrices.md")) as file:
+            script = file.read().split("```python\n")[1].split("```")[0]
+        self.assertIn('"results/matrices/s1/"', script)
+        result = subprocess.run(["/usr/bin/python3", "-c", script.replace("results/matrices/", place + "/")],
+                                capture_output=True, text=True, timeout=300)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        found = numpy.array([line.split() for line in result.stdout.splitlines()], dtype=float)
+        _, own = program.must_run(self, [*PAIR, "-modes", 6, "-end_time", 1e-4], 1)
+        for mode, row in zip(own["structures"]["s1"]["frequencies"], found, strict=True):
+            self.assertAlmostEqual(row[0] / mode["frequency"], 1, delta=1e-7)
+            largest = max(mode["effective_modal_mass"][:3])
+            numpy.testing.assert_allclose(row[1:], mode["effective_modal_mass"][:3], atol=1e-4 * largest)
+
     def test_a_rigid_motion_needs_no_force(self):
         """Beside the clamped feet: K times a translation is zero at every dof that no foot holds."""
         place = self.export(1)
