@@ -28,8 +28,8 @@ std::string found_at(const Places& places, const char* what) {
   return std::to_string(places.count) + what + place_text(places.first);
 }
 
-/// Groups that clamps, rigid groups, soil, contacts, supports, loads and probes name, and those left
-/// out.
+/// Groups that clamps, rigid groups, soil, contacts, supports, loads and probes name, and those
+/// left out.
 std::set<std::string> named_groups(const Scene& scene, const Structure& structure) {
   std::set<std::string> names(structure.ignored_groups.begin(), structure.ignored_groups.end());
   for (const Clamp& clamp : structure.clamps) names.insert(clamp.group);

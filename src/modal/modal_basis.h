@@ -52,9 +52,10 @@ struct ModalRequest {
 };
 
 /// The lowest modes, and beside them the attachment vectors: static responses to gravity, where the
-/// run starts at rest under it, to the system's loads, and to unit forces at the contact points, so that forces there find
-/// all the flexibility of the structure and not only that of the modes (Craig and Chang, AIAA J. 15
-/// (1977), 1009; residual flexibility). With Y the modes in y = M^1/2 u and A = M^-1/2 K M^-1/2,
+/// run starts at rest under it, to the system's loads, and to unit forces at the contact points, so
+/// that forces there find all the flexibility of the structure and not only that of the modes
+/// (Craig and Chang, AIAA J. 15 (1977), 1009; residual flexibility). With Y the modes in y = M^1/2
+/// u and A = M^-1/2 K M^-1/2,
 ///
 ///     z_j = P (A - shift)^-1 P M^-1/2 e_j,      P = I - Y Y^T
 ///

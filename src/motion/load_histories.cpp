@@ -21,7 +21,7 @@ double interpolated(const std::vector<double>& times, const std::vector<double>&
   return values[i - 1] + share * (values[i] - values[i - 1]);
 }
 
-double value_at(const LoadFunction& f, double t) {
+double history_at(const LoadFunction& f, double t) {
   switch (f.kind) {
     case Kind::constant:
       return 1;
@@ -81,19 +81,19 @@ LoadHistories::LoadHistories(std::span<const Load> loads) {
 
 void LoadHistories::evaluate(double t, std::span<double> values) const noexcept {
   for (std::size_t l = 0; l < histories_.size(); ++l) {
-    values[l] = histories_[l].factor * value_at(histories_[l].function, t);
+    values[l] = histories_[l].factor * history_at(histories_[l].function, t);
   }
 }
 
 double LoadHistories::before_start(std::size_t load) const noexcept {
   const auto& [function, factor] = histories_[load];
   const bool acts = function.kind == Kind::constant || function.kind == Kind::table;
-  return acts ? factor * value_at(function, 0) : 0;
+  return acts ? factor * history_at(function, 0) : 0;
 }
 
 double LoadHistories::peak(std::size_t load, double end) const {
   const auto& [function, factor] = histories_[load];
-  double largest = std::max(std::abs(value_at(function, 0)), std::abs(value_at(function, end)));
+  double largest = std::max(std::abs(history_at(function, 0)), std::abs(history_at(function, end)));
   if (function.kind == Kind::harmonic && function.start <= end) largest = 1;
   for (std::size_t i = 0; i < function.times.size(); ++i) {
     const bool inside = function.times[i] >= 0 && function.times[i] <= end;

@@ -7,8 +7,8 @@
 
 namespace pounding {
 
-/// Response spectra of a pair of horizontal accelerations that do not depend on how their axes
-/// stand: at each frequency the peak of the oscillator along every direction in the plane, each
+/// Response spectra of a pair of horizontal accelerations whatever directions their axes
+/// have: at each frequency the peak of the oscillator along every direction in the plane, each
 /// degree of half a turn, and of these 180 peaks a percentile. RotD50 is their median, RotD100
 /// their largest (D. M. Boore, BSSA 100 (2010), 1830). Percentiles between two peaks are linear
 /// between them.

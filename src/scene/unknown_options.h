@@ -18,9 +18,9 @@ struct ListedNames {
 };
 
 /// Refuses the first option that the table does not explain for the listed names, naming the
-/// nearest one that it does. A structure, material, section, contact, probe, support, force or load that
-/// is wholly defined but not used is allowed: it may belong to a library, or be switched off by
-/// `-contacts none`. Throws UserError.
+/// nearest one that it does. A structure, material, section, contact, probe, support, force or load
+/// that is wholly defined but not used is allowed: it may belong to a library, or be switched off
+/// by `-contacts none`. Throws UserError.
 void refuse_unknown_options(const OptionsDatabase& database, const ListedNames& in_use);
 
 }  // namespace pounding
