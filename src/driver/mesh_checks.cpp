@@ -170,8 +170,8 @@ void check_connectivity(const Scene& scene, const Structure& structure,
                      "; let the mesh have a node there that both share");
   }
   if (connectivity.nothing_held() && !may_fly(scene, structure)) {
-    refuse_loose(structure, "nothing holds it to the ground that shakes; give -" + structure.name +
-                                "_clamp or grounded springs");
+    refuse_loose(structure, "nothing holds it to the ground, and it is shaken or pushed; give -" +
+                                structure.name + "_clamp or grounded springs");
   }
   if (connectivity.loose_pieces() > 0 && !connectivity.nothing_held() &&
       !starts_in_motion(structure)) {

@@ -56,10 +56,10 @@ std::vector<std::string> rest_warnings(const Model& model) {
     const double settlement = std::max(rest.largest_displacement, length(rest.settlement));
     const std::string& name = model.systems[s].name;
     if (settlement > small_settlement * model.interface.model_size) {
-      warnings.push_back(sentence(
-          "structure {} settles by {} m under its weight: displacements are taken for small; are "
-          "its stiffness and its density in SI units?",
-          {name, settlement}));
+      warnings.push_back(
+          sentence("structure {} settles by {} m under its weight and loads: displacements are "
+                   "taken for small; are its stiffness and its density in SI units?",
+                   {name, settlement}));
     } else if (rest.imbalance > small_imbalance) {
       warnings.push_back(
           sentence("structure {}: the forces that hold it miss its weight by {} of it",

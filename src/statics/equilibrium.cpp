@@ -287,7 +287,8 @@ class Search {
     const auto worst = std::max_element(squares.begin(), squares.end()) - squares.begin();
     std::ostringstream text;
     text << "option -preload static: structure " << systems_[static_cast<std::size_t>(worst)].name
-         << " finds no rest under its weight, " << left << " of it is left after " << iterations_
+         << " finds no rest under its weight and loads, " << left << " of it is left after "
+         << iterations_
          << " iterations: nothing holds it, or less than 0.1 Hz; clamp it, give it springs or a "
             "contact below"
          << (any_told_open_
