@@ -275,7 +275,7 @@ std::vector<std::string> load_doubts(const Scene& scene, std::span<const GlobalM
     const GlobalMesh& mesh = meshes[static_cast<std::size_t>(loads[l].structure)];
     double size = 0;
     double held = 0;
-    for (const NodalForce& force : loads[l].forces) {
+    for (const NodalValue& force : loads[l].forces) {
       size += std::abs(force.value);
       const bool free = (mesh.free_components[force.node] >> force.component & 1) != 0;
       held += free ? 0 : std::abs(force.value);

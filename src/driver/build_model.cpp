@@ -17,6 +17,7 @@
 #include "driver/rest.h"
 #include "driver/rest_gaps.h"
 #include "driver/separation.h"
+#include "driver/start_states.h"
 #include "driver/storeys.h"
 #include "driver/subject_facts.h"
 #include "driver/time_step.h"
@@ -36,6 +37,7 @@
 #include "system/build_system.h"
 #include "system/links.h"
 #include "system/load_shapes.h"
+#include "system/start_state.h"
 
 namespace pounding {
 namespace {
@@ -71,6 +73,7 @@ void share_findings(MPI_Comm comm, Scene& scene, WholeMeshes& whole,
   broadcast_probes(comm, model.probes);
   broadcast_forces(comm, model.forces);
   broadcast_loads(comm, model.loads);
+  broadcast_start_states(comm, model.starts);
 }
 
 /// Rank 0 reads the meshes, finds who faces whom, and sends every rank its part.
@@ -140,9 +143,9 @@ void build_meshes(MPI_Comm comm, Scene& scene, std::span<const double> stiffness
   if (scene.dry_run && scene.write_model) write_model(comm, scene, model);
   model.storey_bases = find_storey_bases(comm, scene, model);
   const Progress progress(comm, "modal bases", scene.progress_interval);
-  auto bases =
-      find_bases(comm, scene, whole.meshes, model.interface, model.probes, model.forces,
-                 model.storey_bases, model.support_columns(), model.scene_loads(), profile);
+  auto bases = find_bases(comm, scene, whole.meshes, model.interface, model.probes, model.forces,
+                          model.storey_bases, model.support_columns(), model.scene_loads(),
+                          model.starts, profile);
   for (std::size_t s = 0; s < count; ++s) {
     if (bases[s]) {
       scale_stiffness(stiffness_factors[s], *bases[s]);
@@ -205,6 +208,8 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
                                   *building.basis, model.support_columns());
     system.loads = shape_reduced_loads(model.scene_loads(), static_cast<int>(s),
                                        building.basis->load_parts, system.owned_dofs() > 0);
+    system.start = shape_reduced_start(building.basis->start_parts, system.lumped_mass,
+                                       system.owned_dofs() > 0);
     building.limits = limits_of(wanted, system, mesh, building.basis_or_null(), {});
     return;
   }
@@ -223,6 +228,7 @@ void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& 
     const Progress progress = begin(comm, scene, structure, "assembly");
     system = build_system(structure, mesh, scene.stiffness, with_matrix);
     system.loads = shape_loads(model.scene_loads(), static_cast<int>(s), mesh);
+    system.start = shape_start(model.starts[s], system, mesh);
   }
   const ScopedTimer timer(profile, Phase::modes);
   require_passive_matrices(structure, system);

@@ -147,7 +147,7 @@ class Export {
     for (std::size_t l = 0; l < model_.loads.size(); ++l) {
       if (model_.loads[l].structure != static_cast<int>(structure_)) continue;
       names.row(scene_.loads[l].name, {});
-      for (const NodalForce& force : model_.loads[l].forces) {
+      for (const NodalValue& force : model_.loads[l].forces) {
         const PetscInt row = row_of(force.node, force.component);
         if (row >= 0) entries.push_back({row, column, force.value});
       }

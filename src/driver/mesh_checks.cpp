@@ -97,7 +97,7 @@ bool is_shaken(const Scene& scene) {
 }
 
 bool starts_in_motion(const Structure& structure) {
-  return !is_zero(structure.initial_velocity) || !is_zero(structure.initial_displacement);
+  return structure.starts_in_motion() || structure.starts_displaced();
 }
 
 /// A block that stands on another by its weight.

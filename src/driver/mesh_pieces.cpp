@@ -64,6 +64,9 @@ std::vector<Ingredient> ingredients_of(const Scene& scene,
   for (const auto& [name, value] : scene.mesh_options) list.push_back({"option " + name, value});
   for (const Structure& structure : scene.structures) {
     list.push_back({"mesh of " + structure.name, digest_of_file(structure.mesh).sha256});
+    if (structure.initial_state.empty()) continue;
+    list.push_back(
+        {"initial state of " + structure.name, digest_of_file(structure.initial_state).sha256});
   }
   for (std::size_t s = 0; s < std::min(opened.size(), scene.structures.size()); ++s) {
     const Structure& structure = scene.structures[s];
@@ -267,6 +270,10 @@ void pass_common(Stream& stream, Whole& whole, AnyModel& model,
     stream(load.extent);
     stream(load.force);
     stream(load.moment);
+  });
+  stream.list(model.starts, [&](auto& start) {
+    stream.array(start.displacement);
+    stream.array(start.velocity);
   });
   stream.list(model.warnings, [&](auto& warning) { stream(warning); });
   stream(model.partition_imbalance);

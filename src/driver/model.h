@@ -42,7 +42,8 @@ struct Model {
   interactions::Interface interface;  ///< reports on rank 0 only
   std::vector<ResolvedProbe> probes;
   std::vector<ResolvedForce> forces;
-  std::vector<NodalLoad> loads;  ///< of the scene, on every rank
+  std::vector<NodalLoad> loads;    ///< of the scene, on every rank
+  std::vector<NodalStart> starts;  ///< per structure, on every rank
   std::unique_ptr<GroundMotion> motion;
   std::unique_ptr<SupportMotion> supports;        ///< null where the ground moves as one
   std::unique_ptr<LoadHistories> load_histories;  ///< null where no load acts

@@ -101,7 +101,7 @@ class JointDoubts {
   /// Bodies in flight may come from far.
   bool stands_still() const {
     return std::ranges::none_of(scene_.structures, [](const Structure& structure) {
-      return structure.initial_velocity != Vector3{0, 0, 0} || structure.allow_loose;
+      return structure.starts_in_motion() || structure.allow_loose;
     });
   }
 

@@ -18,7 +18,7 @@ bool stands_still(const Scene& scene) {
       scene.motion, [](const auto& component) { return component.has_value(); });
   return !shaken && scene.loads.empty() &&
          std::ranges::all_of(scene.structures, [&zero](const Structure& structure) {
-           return structure.initial_displacement == zero && structure.initial_velocity == zero &&
+           return !structure.starts_displaced() && !structure.starts_in_motion() &&
                   structure.gravity == zero;
          });
 }

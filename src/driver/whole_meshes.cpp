@@ -7,6 +7,7 @@
 #include "driver/mesh_checks.h"
 #include "driver/model_doubts.h"
 #include "driver/shear_doubts.h"
+#include "driver/start_states.h"
 #include "driver/warnings.h"
 #include "interactions/pairing/absorbing_faces.h"
 #include "mesh/find_supported_nodes.h"
@@ -71,6 +72,7 @@ WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model) {
   model.probes = resolve_probes(scene, whole.meshes);
   model.forces = resolve_forces(scene, whole.meshes);
   model.loads = find_loads(scene, whole.meshes);
+  model.starts = find_start_states(scene, whole.meshes);
   append(load_doubts(scene, whole.meshes, model.loads), model.warnings);
   append(probe_warnings(model.probes, whole.meshes, model.interface), model.warnings);
   append(place_doubts(scene, whole.meshes, model.interface, model.probes), model.warnings);

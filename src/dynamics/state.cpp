@@ -4,6 +4,7 @@
 
 #include "common/memory.h"
 #include "dynamics/rest_forces.h"
+#include "system/start_state.h"
 
 namespace pounding {
 namespace {
@@ -68,7 +69,11 @@ State::State(std::span<const LinearSystem> systems, std::size_t support_columns)
         structure.filtered.push_back(zeros_on_large_pages(dofs));
       }
     }
-    for (std::size_t d = 0; d < 3; ++d) {
+    for (std::size_t i = 0; system.start && i < dofs; ++i) {
+      structure.displacement[i] += system.start->displacement[i];
+      structure.velocity[i] += system.start->velocity[i];
+    }
+    for (std::size_t d = 0; !system.start && d < 3; ++d) {
       const std::vector<double> iota = system.influence(static_cast<int>(d));
       for (std::size_t i = 0; i < iota.size(); ++i) {
         structure.displacement[i] += iota[i] * system.initial_displacement[d];

@@ -12,6 +12,7 @@
 #include "modal/reduced_system.h"
 #include "scene/factor_reader.h"
 #include "stability/structure_limits.h"
+#include "system/start_state.h"
 
 namespace pounding {
 namespace {
@@ -59,6 +60,8 @@ Model member_structures(const MemberScene& member, const EnsembleModel& shared) 
         build_reduced_system(MPI_COMM_SELF, 0, structure, *building.mesh, *building.basis);
     model.systems[s].loads = shape_reduced_loads(shared.model->scene_loads(), static_cast<int>(s),
                                                  building.basis->load_parts, true);
+    model.systems[s].start =
+        shape_reduced_start(building.basis->start_parts, model.systems[s].lumped_mass, true);
     building.limits =
         limits_of(structure, model.systems[s], *building.mesh, building.basis_or_null(), {});
     building.energy_margin =

@@ -22,15 +22,19 @@ std::string hash_of(std::span<const TracePoint> points) {
   return hash.text();
 }
 
+void add_values(const std::vector<NodalValue>& values, Hash& hash) {
+  for (const NodalValue& value : values) {
+    hash.add(static_cast<double>(value.node));
+    hash.add(static_cast<double>(value.component));
+    hash.add(value.value);
+  }
+  hash.add(static_cast<double>(values.size()));
+}
+
 std::string hash_of(std::span<const NodalLoad> loads) {
   Hash hash;
   for (const NodalLoad& load : loads) {
-    for (const NodalForce& force : load.forces) {
-      hash.add(static_cast<double>(force.node));
-      hash.add(static_cast<double>(force.component));
-      hash.add(force.value);
-    }
-    hash.add(static_cast<double>(load.forces.size()));
+    add_values(load.forces, hash);
   }
   return hash.text();
 }
@@ -125,6 +129,13 @@ BasisKey basis_key(const Structure& structure, const GlobalMesh& mesh,
   if (structure.p_delta) vectors.add("p_delta");
   if (!request.loads.empty()) vectors.add(hash_of(request.loads));
   if (structure.p_delta) vectors.add_all(request.loads_at_rest);
+  if (!request.start.empty()) {
+    vectors.add("start");
+    add_values(request.start.displacement, vectors);
+    add_values(request.start.velocity, vectors);
+    vectors.add_all(request.start_displacement);
+    vectors.add_all(request.start_velocity);
+  }
   if (request.attachment && request.patches > 0) {
     vectors.add("patches");
     vectors.add(static_cast<double>(request.patches));

@@ -20,6 +20,7 @@
 #include "modal/shifted_solver.h"
 #include "system/admissible_motions.h"
 #include "system/load_shapes.h"
+#include "system/start_state.h"
 #include "system/support_shapes.h"
 
 namespace pounding {
@@ -344,6 +345,7 @@ class BasisMaker {
     add_rows(rotation, basis);
     if (system_.supports) add_supports(rotation, basis);
     if (system_.loads) add_loads(rotation, basis);
+    if (system_.start) add_start(rotation, basis);
   }
 
   /// Modes are vectors of A whatever the others are: they come out of the rotation as they went in,
@@ -402,6 +404,17 @@ class BasisMaker {
     DenseMatrix scaled(dofs_, 0);
     for (const LoadShape& shape : system_.loads->loads) scaled.append(scaled_load(shape));
     basis.load_parts = transposed_product(rotation, space_.parts(scaled)).values;
+  }
+
+  void add_start(const DenseMatrix& rotation, ModalBasis& basis) const {
+    DenseMatrix scaled(dofs_, 0);  // M^1/2 u
+    for (const std::vector<double>* field :
+         {&system_.start->displacement, &system_.start->velocity}) {
+      std::vector<double> column = *field;
+      for (std::size_t i = 0; i < dofs_; ++i) column[i] *= std::sqrt(system_.lumped_mass[i]);
+      scaled.append(column);
+    }
+    basis.start_parts = transposed_product(rotation, space_.parts(scaled)).values;
   }
 
   void add_rows(const DenseMatrix& rotation, ModalBasis& basis) const {
@@ -465,6 +478,7 @@ void broadcast_basis(MPI_Comm comm, int root, ModalBasis& basis) {
   broadcast_array(comm, basis.support_participation, root);
   broadcast_array(comm, basis.support_rows, root);
   broadcast_array(comm, basis.load_parts, root);
+  broadcast_array(comm, basis.start_parts, root);
 }
 
 }  // namespace pounding

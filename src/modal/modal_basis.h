@@ -32,6 +32,9 @@ struct ModalBasis {
   std::vector<double> support_rows;
   /// Phi^T p of the loads on the structure, in their order, shape (its loads, k).
   std::vector<double> load_parts;
+  /// Phi^T M of displacement and velocity at t = 0, shape (2, k); empty where its nodes start
+  /// alike.
+  std::vector<double> start_parts;
 
   std::size_t size() const { return squared_frequency.size(); }
 };
@@ -49,6 +52,9 @@ struct ModalRequest {
   std::vector<TracePoint> shown_points;  ///< and for pictures and forces, which choose no modes
   std::vector<NodalLoad> loads;          ///< on the structure
   std::vector<double> loads_at_rest;     ///< f of each before the run
+  NodalStart start;                      ///< of nodes that start differently
+  Vector3 start_displacement{0, 0, 0};   ///< of the others [m]
+  Vector3 start_velocity{0, 0, 0};       ///< of the others [m/s]
 };
 
 /// The lowest modes, and beside them the attachment vectors: static responses to gravity, where the

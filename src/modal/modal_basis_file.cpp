@@ -37,7 +37,7 @@ double whole(double value, double largest) {
   return value;
 }
 
-ModalBasis read_arrays(const Hdf5Reader& file, std::size_t loads) {
+ModalBasis read_arrays(const Hdf5Reader& file, std::size_t loads, bool start) {
   ModalBasis basis;
   basis.modes = static_cast<int>(whole(file.number("/", "modes"), most_coordinates));
   basis.attachment_vectors =
@@ -55,18 +55,20 @@ ModalBasis read_arrays(const Hdf5Reader& file, std::size_t loads) {
   const std::vector<double> points = file.array("points");
   basis.rows = file.array("rows");
   if (loads > 0) basis.load_parts = file.array("load_parts");
+  if (start) basis.start_parts = file.array("start_parts");
   const std::size_t size = basis.size();
   const auto modes = std::ranges::count_if(basis.mode_numbers, [](int n) { return n > 0; });
   if (size == 0 || basis.mode_numbers.size() != size || modes != basis.modes ||
       basis.participation.size() != 6 * size || centre.size() != 3 || inertia.size() != 6 ||
       points.size() % 2 != 0 || basis.rows.size() != points.size() / 2 * size ||
       basis.load_parts.size() != loads * size ||
+      basis.start_parts.size() != (start ? 2 * size : 0) ||
       basis.modes + basis.attachment_vectors != static_cast<int>(size)) {
     throw std::runtime_error("sizes that do not belong together");
   }
   for (const auto* values : std::initializer_list<const std::vector<double>*>{
            &basis.squared_frequency, &basis.participation, &centre, &inertia, &points, &basis.rows,
-           &basis.load_parts}) {
+           &basis.load_parts, &basis.start_parts}) {
     if (!std::ranges::all_of(*values, [](double value) { return std::isfinite(value); })) {
       throw std::runtime_error("a value is not finite");
     }
@@ -110,18 +112,22 @@ void write_modal_basis(const std::string& path, const BasisKey& key, const Modal
   file.write_array("points", 2, points);
   file.write_array("rows", basis.size(), basis.rows);
   if (!basis.load_parts.empty()) file.write_array("load_parts", basis.size(), basis.load_parts);
+  if (!basis.start_parts.empty()) {
+    file.write_array("start_parts", basis.size(), basis.start_parts);
+  }
   file.close();
   file.move_to(path);
 }
 
-StoredBasis read_modal_basis(const std::string& path, const BasisKey& key, std::size_t loads) {
+StoredBasis read_modal_basis(const std::string& path, const BasisKey& key, std::size_t loads,
+                             bool start) {
   const Hdf5Reader file(path, Hdf5Reader::Kind::sealed);
   try {
     if (file.text("/", "format") != format) throw std::runtime_error("another format");
     schema::require(file, schema::basis);
     StoredBasis stored;
     stored.differs = difference(file, key);
-    if (stored.differs.empty()) stored.basis = read_arrays(file, loads);
+    if (stored.differs.empty()) stored.basis = read_arrays(file, loads, start);
     return stored;
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(path + ": no modal basis, or a damaged one (" + error.what() + ")");

@@ -18,6 +18,7 @@
 ///     /points              (n, 2) node in file order, component
 ///     /rows                (n, k) of the basis at the points
 ///     /load_parts          (l, k) Phi^T p of loads; left out without any
+///     /start_parts         (2, k) Phi^T M u_0 and v_0; left out where all nodes start alike
 namespace pounding {
 
 /// Hashes of the sources of a basis, by their names.
@@ -32,8 +33,9 @@ struct StoredBasis {
   std::string differs;  ///< "mesh, contact points"
 };
 
-/// Serial. `loads`: their number on the structure. Throws std::runtime_error if the file is not a
-/// modal basis or damaged.
-StoredBasis read_modal_basis(const std::string& path, const BasisKey& key, std::size_t loads = 0);
+/// Serial. `loads`: their number on the structure; `start`: its nodes start differently. Throws
+/// std::runtime_error if the file is not a modal basis or damaged.
+StoredBasis read_modal_basis(const std::string& path, const BasisKey& key, std::size_t loads = 0,
+                             bool start = false);
 
 }  // namespace pounding

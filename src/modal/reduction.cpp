@@ -21,6 +21,7 @@
 #include "system/links.h"
 #include "system/mass_scaling.h"
 #include "system/matrix_system.h"
+#include "system/start_state.h"
 
 namespace pounding {
 namespace {
@@ -113,12 +114,12 @@ void with_file(const Structure& structure, const std::function<void()>& work) {
 
 /// The basis in the structure's file, if there is one that belongs to it. Rank 0.
 std::optional<ModalBasis> stored_basis(const Structure& structure, const BasisKey& key,
-                                       std::size_t loads) {
+                                       const ModalRequest& request) {
   const std::string& path = structure.modal->basis_file;
   StoredBasis stored;
   with_file(structure, [&] {
     if (std::filesystem::exists(path)) {
-      stored = read_modal_basis(path, key, loads);
+      stored = read_modal_basis(path, key, request.loads.size(), !request.start.empty());
     } else {
       NewFile(path + ".new");  // goes again
     }
@@ -192,6 +193,7 @@ void compute(const Structure& structure, std::span<const SupportColumn> columns,
     const auto build = [&] {
       system = build_system(unscaled, reduction.mesh);
       system->loads = shape_loads(loads, reduction.structure, reduction.mesh);
+      system->start = shape_start(reduction.request.start, *system, reduction.mesh);
     };
     build();
     if (structure.p_delta) {
@@ -249,7 +251,8 @@ std::vector<std::optional<ModalBasis>> find_bases(
     MPI_Comm comm, const Scene& scene, std::span<const GlobalMesh> meshes,
     const interactions::Interface& interface, std::span<const ResolvedProbe> probes,
     std::span<const ResolvedForce> forces, std::span<const ResolvedProbe> storey_bases,
-    std::span<const SupportColumn> columns, const SceneLoads& loads, Profile& profile) {
+    std::span<const SupportColumn> columns, const SceneLoads& loads,
+    std::span<const NodalStart> starts, Profile& profile) {
   const auto structure_of = [&](const Reduction& r) -> const Structure& {
     return scene.structures[r.structure];
   };
@@ -266,6 +269,9 @@ std::vector<std::optional<ModalBasis>> find_bases(
       reduction.request.loads.push_back(loads.nodal[l]);
       reduction.request.loads_at_rest.push_back(loads.before_start[l]);
     }
+    reduction.request.start = starts[s];
+    reduction.request.start_displacement = scene.structures[s].initial_displacement;
+    reduction.request.start_velocity = scene.structures[s].initial_velocity;
     for (const ResolvedProbe& base : storey_bases) {
       for (std::size_t k = 0; base.structure == reduction.structure && k < base.nodes.size(); ++k) {
         for (int d = 0; d < 3; ++d) reduction.request.shown_points.push_back({base.nodes[k], d});
@@ -276,8 +282,7 @@ std::vector<std::optional<ModalBasis>> find_bases(
       forbid_damping_matrix(scene.structures[s]);
       if (!scene.structures[s].modal->basis_file.empty()) {
         reduction.key = basis_key(scene.structures[s], meshes[s], reduction.request);
-        if (auto basis =
-                stored_basis(scene.structures[s], reduction.key, reduction.request.loads.size())) {
+        if (auto basis = stored_basis(scene.structures[s], reduction.key, reduction.request)) {
           reduction.basis = std::move(*basis);
           stored = 1;
         }

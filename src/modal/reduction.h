@@ -23,11 +23,13 @@ std::vector<int> owners_of_reduced(int ranks, const Scene& scene);
 /// belongs to the structure, else computed, several structures at a time, and written there. A
 /// basis is computed by one rank alone, so that it has the same bits on any number of ranks, unless
 /// the structure asks for several. `meshes` are read on rank 0 only. `columns`: motions of the
-/// scene's supports; `loads`: all of the scene. Throws UserError on every rank alike. Collective.
+/// scene's supports; `loads`: all of the scene; `starts`: per structure. Throws UserError on
+/// every rank alike. Collective.
 std::vector<std::optional<ModalBasis>> find_bases(
     MPI_Comm comm, const Scene& scene, std::span<const GlobalMesh> meshes,
     const interactions::Interface& interface, std::span<const ResolvedProbe> probes,
     std::span<const ResolvedForce> forces, std::span<const ResolvedProbe> storey_bases,
-    std::span<const SupportColumn> columns, const SceneLoads& loads, Profile& profile);
+    std::span<const SupportColumn> columns, const SceneLoads& loads,
+    std::span<const NodalStart> starts, Profile& profile);
 
 }  // namespace pounding

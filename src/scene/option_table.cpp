@@ -120,6 +120,7 @@ constexpr std::array option_rows{
     OptionRow{Block::structure, "<structure>_target_frequency", Kind::real, "Hz", value("50"), positive, "", "time step target: frequencies up to this one count"},
     OptionRow{Block::structure, "<structure>_initial_displacement", Kind::reals, "m", value("0,0,0"), any, "three numbers x,y,z", "of every free node at t = 0"},
     OptionRow{Block::structure, "<structure>_initial_velocity", Kind::reals, "m/s", value("0,0,0"), any, "three numbers x,y,z", "of every free node at t = 0"},
+    OptionRow{Block::structure, "<structure>_initial_state", Kind::text, "file", value("none"), any, "a file or none", "displacement and velocity of single nodes at t = 0, in place of those of all: a table with a first line of names, node or x,y,z, then some of ux to rz and vx to wz"},
     OptionRow{Block::structure, "<structure>_gravity", Kind::reals, "m/s2", absent("left out: 0,0,-gravity"), any, "three numbers x,y,z", "constant body acceleration; without preload it is applied at once at t = 0"},
     OptionRow{Block::structure, "<structure>_p_delta", Kind::boolean, "flag", value("false"), any, "", "the axial forces of beams and bars at rest turn with them: weight on columns that lean; needs gravity and preload static"},
     OptionRow{Block::structure, "<structure>_damping_alpha", Kind::real, "1/s", value("0"), not_negative, "", "Rayleigh damping, mass term: C = alpha M + beta K"},
@@ -187,6 +188,8 @@ constexpr std::array option_rows{
     OptionRow{Block::region, "<structure>_<group>_damping_beta", Kind::real, "s", absent("left out: that of the structure"), not_negative, "", "Rayleigh damping of its elements, stiffness term"},
     OptionRow{Block::region, "<structure>_<group>_damping_ratio", Kind::real, "-", absent("optional"), damping_ratio, "", "instead of alpha and beta: damping ratio at two frequencies"},
     OptionRow{Block::region, "<structure>_<group>_damping_frequencies", Kind::reals, "Hz", absent("required with the ratio"), positive, "two numbers f1,f2", "the two frequencies of the damping ratio"},
+    OptionRow{Block::region, "<structure>_<group>_initial_displacement", Kind::reals, "m", absent("left out: that of the structure"), any, "three numbers x,y,z", "of every free node of the group at t = 0"},
+    OptionRow{Block::region, "<structure>_<group>_initial_velocity", Kind::reals, "m/s", absent("left out: that of the structure"), any, "three numbers x,y,z", "of every free node of the group at t = 0"},
 
     OptionRow{Block::material, "material_<material>_young", Kind::real, "Pa", required, positive, "", "Young's modulus"},
     OptionRow{Block::material, "material_<material>_poisson", Kind::real, "-", required, poisson_ratio, "", "Poisson's ratio"},

@@ -77,7 +77,10 @@ struct Region {
   YieldingSection yielding;           ///< beams
   /// Forces of its elements are those of an element law, not K u; see InelasticElements.
   bool inelastic = false;
-  std::optional<Rayleigh> damping;       ///< in place of the structure's
+  std::optional<Rayleigh> damping;  ///< in place of the structure's
+  /// Displacement [m] and velocity [m/s] of its nodes at t = 0, in place of the structure's.
+  std::optional<Vector3> initial_displacement;
+  std::optional<Vector3> initial_velocity;
   std::optional<Foundation> foundation;  ///< soil: empty until the mesh is read, see lay_foundation
 };
 
@@ -191,8 +194,21 @@ struct Structure {
   std::optional<StepTarget> step_target;  ///< its step is `mass_scaling` until one is designed
   Vector3 initial_displacement{0, 0, 0};  ///< of every free node [m]
   Vector3 initial_velocity{0, 0, 0};      ///< of every free node [m/s]
+  std::string initial_state;              ///< file of those of single nodes; empty: none
   Vector3 gravity{0, 0, 0};               ///< constant body acceleration [m/s2]
 
+  /// Some node starts away from its place, or in motion; a file may say either.
+  bool starts_displaced() const {
+    return initial_displacement != Vector3{0, 0, 0} || !initial_state.empty() ||
+           std::ranges::any_of(regions, [](const Region& region) {
+             return region.initial_displacement.has_value();
+           });
+  }
+  bool starts_in_motion() const {
+    return initial_velocity != Vector3{0, 0, 0} || !initial_state.empty() ||
+           std::ranges::any_of(
+               regions, [](const Region& region) { return region.initial_velocity.has_value(); });
+  }
   /// Bound of the factor on K for the fastest motions [-].
   double stiffening() const { return uniform_damping ? uniform_damping->at_once() : 1; }
   /// The motion enters it as a wave from below.

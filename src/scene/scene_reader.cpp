@@ -199,9 +199,14 @@ class SceneReader {
 
   /// A run starts from the equilibrium or from a given place.
   void require_one_start(const Structure& structure) const {
-    if (scene_.preload && structure.initial_displacement != Vector3{0, 0, 0}) {
-      options_.refuse("<structure>_initial_displacement", {structure.name},
-                      "the run starts from the static equilibrium; not with -preload static");
+    if (!scene_.preload) return;
+    const std::string why = "the run starts from the static equilibrium; not with -preload static";
+    if (structure.initial_displacement != Vector3{0, 0, 0}) {
+      options_.refuse("<structure>_initial_displacement", {structure.name}, why);
+    }
+    for (const Region& region : structure.regions) {
+      options_.forbid("<structure>_<group>_initial_displacement", {structure.name, region.group},
+                      why);
     }
   }
 

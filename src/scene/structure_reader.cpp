@@ -226,6 +226,11 @@ Region read_region(OptionReader& options, const Names& names, const Rayleigh& in
     read_point_mass(options, names, region);
   }
   region.damping = read_region_damping(options, names, region, inherited);
+  for (const auto& [pattern, start] :
+       {std::pair("<structure>_<group>_initial_displacement", &Region::initial_displacement),
+        std::pair("<structure>_<group>_initial_velocity", &Region::initial_velocity)}) {
+    if (options.given(pattern, names)) region.*start = read_vector(options, pattern, names);
+  }
   return region;
 }
 
@@ -381,6 +386,8 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   structure.mass_scaling = options.real("<structure>_mass_scaling", {name});
   structure.initial_displacement = read_vector(options, "<structure>_initial_displacement", {name});
   structure.initial_velocity = read_vector(options, "<structure>_initial_velocity", {name});
+  const std::string state = options.text("<structure>_initial_state", {name});
+  structure.initial_state = state == "none" ? "" : state;
   if (options.given("<structure>_gravity", {name})) {
     structure.gravity = read_vector(options, "<structure>_gravity", {name});
   }

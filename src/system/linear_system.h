@@ -25,6 +25,7 @@ namespace pounding {
 
 class Links;
 struct LoadShapes;
+struct StartState;
 struct SupportShapes;
 
 /// A displacement component of a node, by numbers that do not depend on the partition.
@@ -93,7 +94,9 @@ struct LinearSystem {
   std::unique_ptr<CoupledMass> coupled_mass;
   Vector3 initial_displacement{0, 0, 0};  ///< of every translation at t = 0 [m]
   Vector3 initial_velocity{0, 0, 0};      ///< of every translation at t = 0 [m/s]
-  Vector3 gravity{0, 0, 0};               ///< constant body acceleration [m/s2]
+  /// State at t = 0 in place of these two where nodes start differently; null where they do not.
+  std::shared_ptr<const StartState> start;
+  Vector3 gravity{0, 0, 0};  ///< constant body acceleration [m/s2]
   /// u_0 of the static equilibrium, of the owned dofs, or empty: added to initial_displacement.
   std::vector<double> rest_displacement;
   double total_mass = 0;  ///< clamped nodes included [kg]

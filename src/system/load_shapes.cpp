@@ -43,7 +43,7 @@ Vector3 LoadShapes::total_at_rest() const {
 std::shared_ptr<const LoadShapes> shape_loads(const SceneLoads& loads, int s, const Mesh& mesh) {
   return make_shapes(loads, s, [&](const NodalLoad& load, LoadShape& shape) {
     std::vector<std::pair<LocalIndex, double>> here;
-    for (const NodalForce& force : load.forces) {
+    for (const NodalValue& force : load.forces) {
       const LocalIndex node = mesh.owned_node(force.node);
       const LocalIndex dof = node < 0 ? -1 : mesh.dof(node, force.component);
       if (dof >= 0) here.emplace_back(dof, force.value);
