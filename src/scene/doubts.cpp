@@ -53,7 +53,11 @@ class Doubts {
     const std::string owner = "material " + material.name;
     if (seen_.insert(owner).second) {
       look_at(owner, young, material.young);
-      if (material.density > 0) look_at(owner, density, material.density);
+      if (material.density > 0) {
+        look_at(owner, density, material.density);
+      } else {
+        add(owner + ": no density, its beams and bars weigh nothing but their mass_per_length");
+      }
       look_at(owner, poisson, material.poisson);
     }
   }

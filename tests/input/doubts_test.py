@@ -65,6 +65,12 @@ class Doubts(unittest.TestCase):
         return program.must_refuse(self, [*words, "-output", os.path.join(self.folder, "out")], *parts, ranks=1)
 
 
+class WithoutMass(Doubts):
+    def test_beams_that_weigh_nothing(self):
+        self.one([*FEET, "-s_column_material", "light", "-material_light_young", 2e11, "-material_light_poisson", 0.3,
+                  "-material_light_density", 0, "-s_mass_scaling", 1e-4], "material light: no density", "weigh nothing")
+
+
 class WithoutEffect(Doubts):
     IDLE = {"loops_at": "0,0,0", "fields_start": "0.05", "fields_end": "0.08", "gap_interval": "1e-3", "force_window": "2e-3",
             "impact_merge_time": "2e-3", "gap_tolerance": "1e-9", "preload_solver": "direct", "courant": "0.5",
