@@ -148,7 +148,7 @@ class Labels(unittest.TestCase):
                           "tangential_impulse", "slip", "friction_loss", "window_force"])
         self.assertEqual(list(self.fine.csv["energy.csv"]),
                          ["time", "kinetic", "strain", "damping_loss", "contact_work", "friction_loss", "input_work",
-                          "gravity_work", "device_work", "residual"])
+                          "gravity_work", "load_work", "device_work", "residual"])
         self.assertEqual(list(self.fine.csv["spectra.csv"]),
                          ["probe", "direction", "treatment", "damping", "frequency", "period", "displacement",
                           "pseudo_velocity", "pseudo_acceleration", "interval", "valid_up_to", "start", "broadening"])
