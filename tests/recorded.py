@@ -130,6 +130,18 @@ class Recorded:
         return self.force(contact)[inside].mean()
 
 
+def ensemble_of(test, words, column, values):
+    """Peaks of displacement of the members that differ in one option, and residuals of their ledgers."""
+    with tempfile.TemporaryDirectory(prefix="pounding-") as folder:
+        table = os.path.join(folder, "members.csv")
+        with open(table, "w") as file:
+            file.write("\n".join([column, *map(str, values)]) + "\n")
+        result = program.run([*words, "-ensemble", table, "-output", os.path.join(folder, "results")])
+        test.assertEqual(result.returncode, 0, result.stdout[-1000:] + result.stderr[-1000:])
+        with h5py.File(os.path.join(folder, "results", "ensemble.h5")) as file:
+            return file["peaks/displacement"][()], file["energy/residual"][()]
+
+
 def all_nodes(probe, structure, group="body"):
     """Options that record every node of a group on its own."""
     return [f"-{probe}_structure", structure, f"-{probe}_group", group, f"-{probe}_average", "false"]

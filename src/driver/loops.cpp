@@ -204,6 +204,7 @@ Loops::Loops(const ObservedRun& run) : run_(run) {
     }
   }
   all = of_all_ranks(run.comm, all);
+  std::vector<std::vector<std::string>> parts;  // of each item
   for (std::size_t i = 0; i < scene.loops.size(); ++i) {
     const int item = static_cast<int>(i);
     if (std::ranges::find(all, item, &Candidate::item) == all.end()) {
@@ -212,6 +213,7 @@ Loops::Loops(const ObservedRun& run) : run_(run) {
           " yields, slides, damps or acts in one direction only; name a group that does");
     }
     keep_nearest(scene.loops[i], item, all);
+    parts.push_back(part_names(model, scene.loops[i]));
   }
   std::vector<std::vector<std::size_t>> chosen(model.systems.size() + 1);  // the last: fillers
   std::vector<std::vector<std::size_t>> sections(model.systems.size());
@@ -232,7 +234,7 @@ Loops::Loops(const ObservedRun& run) : run_(run) {
       }
     }
     item_of_.push_back(link.item);
-    names_.push_back(name_of(loop.name, link, part_names(model, loop)));
+    names_.push_back(name_of(loop.name, link, parts[static_cast<std::size_t>(link.item)]));
   }
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
     if (!chosen[s].empty()) solver.links(s)->record(chosen[s]);

@@ -3,21 +3,10 @@
 #include <algorithm>
 
 #include "common/matrix3.h"
-#include "scene/nearest_name.h"
+#include "scene/structure_reader.h"
 
 namespace pounding {
 namespace {
-
-/// The structure of an item, which the scene must have.
-const Structure& structure_of(OptionReader& options, const Scene& scene, const std::string& name) {
-  const std::string wanted = options.text("<force>_structure", {name});
-  const auto found = std::ranges::find(scene.structures, wanted, &Structure::name);
-  if (found != scene.structures.end()) return *found;
-  std::vector<std::string> known;
-  for (const Structure& structure : scene.structures) known.push_back(structure.name);
-  options.refuse("<force>_structure", {name},
-                 "there is no structure '" + wanted + "'" + suggestion(wanted, known));
-}
 
 /// Why elements cannot have the forces that an item asks for; empty if they can.
 std::string reason_against(ForceKind kind, ElementType element) {
@@ -78,7 +67,8 @@ ForceKind kind_of(const std::string& word) {
 ForceItem read_force(OptionReader& options, const Scene& scene, const std::string& name) {
   ForceItem force;
   force.name = name;
-  const Structure& structure = structure_of(options, scene, name);
+  const Structure& structure = named_structure(options, scene, "<force>_structure", name,
+                                               options.text("<force>_structure", {name}));
   force.structure = structure.name;
   force.kind = kind_of(options.choice("<force>_kind", {name}));
   if (structure.modal && structure.p_delta && force.kind != ForceKind::shells) {

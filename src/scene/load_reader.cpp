@@ -4,8 +4,8 @@
 #include <array>
 #include <utility>
 
-#include "scene/nearest_name.h"
 #include "scene/option_values.h"
+#include "scene/structure_reader.h"
 
 namespace pounding {
 namespace {
@@ -28,15 +28,8 @@ void read_place(OptionReader& options, const Scene& scene, Load& load) {
   }
   load.structure = words[0];
   load.group = words[1];
-  const auto found = std::ranges::find(scene.structures, load.structure, &Structure::name);
-  if (found == scene.structures.end()) {
-    std::vector<std::string> known;
-    for (const Structure& structure : scene.structures) known.push_back(structure.name);
-    options.refuse(
-        pattern, {load.name},
-        "there is no structure '" + load.structure + "'" + suggestion(load.structure, known));
-  }
-  if (!found->matrices.empty()) {
+  const Structure& structure = named_structure(options, scene, pattern, load.name, load.structure);
+  if (!structure.matrices.empty()) {
     options.refuse(pattern, {load.name},
                    "structure " + load.structure + " is made of matrices, which have no groups");
   }

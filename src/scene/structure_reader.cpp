@@ -417,4 +417,15 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   return structure;
 }
 
+const Structure& named_structure(const OptionReader& options, const Scene& scene,
+                                 std::string_view pattern, const std::string& owner,
+                                 const std::string& structure) {
+  const auto found = std::ranges::find(scene.structures, structure, &Structure::name);
+  if (found != scene.structures.end()) return *found;
+  std::vector<std::string> known;
+  for (const Structure& other : scene.structures) known.push_back(other.name);
+  options.refuse(pattern, {owner},
+                 "there is no structure '" + structure + "'" + suggestion(structure, known));
+}
+
 }  // namespace pounding

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "scene/option_reader.h"
 #include "scene/scene.h"
@@ -10,5 +11,10 @@ namespace pounding {
 /// A structure with its regions (in alphabetical order of their groups), materials and sections.
 /// Throws UserError.
 Structure read_structure(OptionReader& options, const std::string& name);
+
+/// The structure of the scene that an option names. Throws UserError naming the nearest one.
+const Structure& named_structure(const OptionReader& options, const Scene& scene,
+                                 std::string_view pattern, const std::string& owner,
+                                 const std::string& structure);
 
 }  // namespace pounding

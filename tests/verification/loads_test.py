@@ -14,7 +14,7 @@ import h5py
 import numpy
 
 import program
-from recorded import Recorded, assert_follows
+from recorded import Recorded, assert_follows, ensemble_of
 
 YOUNG, DENSITY, AREA, LENGTH = 2e9, 2500.0, 0.25, 2.0
 STEP = 2e-5
@@ -240,16 +240,7 @@ class EveryRoom(unittest.TestCase):
 
     def test_members_of_an_ensemble(self):
         words = self.words("-bar_model", "modal", "-bar_modal_vectors", 9, "-modes", 0, "-spectra_frequencies", "50,200")
-        table = tempfile.NamedTemporaryFile("w", suffix=".csv")
-        self.addCleanup(table.close)
-        table.write("bar_stiffness_factor\n1\n1.3\n")
-        table.flush()
-        folder = tempfile.mkdtemp()
-        self.addCleanup(shutil.rmtree, folder)
-        result = program.run([*words, "-ensemble", table.name, "-output", folder])
-        self.assertEqual(result.returncode, 0, result.stdout[-1000:] + result.stderr[-1000:])
-        with h5py.File(os.path.join(folder, "ensemble.h5")) as file:
-            peaks, residual = file["peaks/displacement"][()], file["energy/residual"][()]
+        peaks, residual = ensemble_of(self, words, "bar_stiffness_factor", (1, 1.3))
         self.assertLess(abs(residual).max(), LEDGER)
         for member, factor in enumerate((1, 1.3)):
             single = Recorded(self, [*words, "-bar_stiffness_factor", factor], identity=LEDGER)

@@ -8,11 +8,10 @@ import shutil
 import tempfile
 import unittest
 
-import h5py
 import numpy
 
 import program
-from recorded import Recorded, assert_follows
+from recorded import Recorded, assert_follows, ensemble_of
 
 YOUNG, DENSITY, AREA, LENGTH, CELLS, STEP = 2e9, 2500.0, 0.25, 2.0, 8, 2e-5
 
@@ -92,16 +91,7 @@ class Starts(unittest.TestCase):
     def test_members_of_an_ensemble(self):
         words = [*bar("-bar_clamp", "x_min", "-bar_model", "modal", "-bar_modal_vectors", 12), *self.stretched(),
                  "-modes", 0, "-spectra_frequencies", "50,200"]
-        table = tempfile.NamedTemporaryFile("w", suffix=".csv")
-        self.addCleanup(table.close)
-        table.write("bar_stiffness_factor\n1\n1.3\n")
-        table.flush()
-        folder = tempfile.mkdtemp()
-        self.addCleanup(shutil.rmtree, folder)
-        result = program.run([*words, "-ensemble", table.name, "-output", folder])
-        self.assertEqual(result.returncode, 0, result.stdout[-1000:] + result.stderr[-1000:])
-        with h5py.File(os.path.join(folder, "ensemble.h5")) as file:
-            peaks = file["peaks/displacement"][()]
+        peaks, _ = ensemble_of(self, words, "bar_stiffness_factor", (1, 1.3))
         for member, factor in enumerate((1, 1.3)):
             single = Recorded(self, [*words, "-bar_stiffness_factor", factor])
             self.assertAlmostEqual(peaks[member][0] / abs(single.displacement("end.x")).max(), 1, delta=1e-9)
