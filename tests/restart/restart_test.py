@@ -397,6 +397,19 @@ class Refusals(RestartCase):
             self.write(folder, "checkpoint.h5", bytes(bad))
             self.refuse(folder, ["damaged"], ranks=(1,))
 
+    def test_a_damaged_file_is_not_sealed_anew(self):
+        folder = self.copy()
+        data = content(folder, "checkpoint.h5")
+        superblock, header = data.index(b"\x89HDF"), data.index(b"OHDR")
+        for place in (superblock + 8, superblock + 13, header, header + 5):
+            bad = bytearray(data)
+            bad[place] ^= 64
+            self.write(folder, "checkpoint.h5", bytes(bad))
+            result = program.command("seal", checkpoint(folder))
+            self.assertEqual((result.returncode, len(result.stderr.splitlines())), (1, 1), result.stderr)
+            self.assertIn("cannot read it whole", result.stderr)
+            self.assertEqual(content(folder, "checkpoint.h5"), bytes(bad))
+
     def test_changed_but_not_sealed(self):
         def push(file):
             file["structures/bar/velocity"][0, 2] += 1e-9  # no energy to speak of
