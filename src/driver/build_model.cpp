@@ -92,6 +92,7 @@ void share_meshes(MPI_Comm comm, Scene& scene, Profile& profile,
   model.partition_imbalance = partition.imbalance;
   model.partition_edge_cut = partition.edge_cut;
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+    if (!scene.export_matrices.empty()) model.node_tags.push_back(whole.meshes[s].node_tags);
     model.meshes.push_back(distribute_mesh(comm, scene.structures[s].name, whole.meshes[s],
                                            partition, static_cast<int>(s)));
   }

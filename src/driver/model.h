@@ -36,7 +36,10 @@ struct JointGaps {
 
 /// Everything about a scene that is constant in time, on this rank.
 struct Model {
-  std::vector<Mesh> meshes;           ///< per structure, one after the other for the solver
+  std::vector<Mesh> meshes;  ///< per structure, one after the other for the solver
+  /// Numbers of the nodes in the mesh file, per structure, by file order; on rank 0, where matrices
+  /// are exported and the mesh was read whole.
+  std::vector<std::vector<std::int64_t>> node_tags;
   std::vector<LinearSystem> systems;  ///< per structure
   std::vector<Building> buildings;    ///< per structure: these two and what is known of them
   interactions::Interface interface;  ///< reports on rank 0 only

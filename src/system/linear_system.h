@@ -66,6 +66,8 @@ struct LinearSystem {
   /// Per dof, the direction (0-2) in which it is a translation, -1 for rotations: the influence
   /// vector iota of direction d is 1 where this is d. Empty in generalised coordinates.
   std::vector<std::int8_t> direction;
+  /// Label of the node of every owned dof in the files that the matrices come from; empty without.
+  std::vector<std::string> node_labels;
   /// Null for a model whose dofs are components of nodes.
   std::unique_ptr<GeneralisedCoordinates> generalised;
   std::unique_ptr<stiffness::Stiffness> stiffness;  ///< K of the linear elements

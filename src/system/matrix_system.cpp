@@ -28,6 +28,7 @@ constexpr double same_place = 1e-6;
 struct ListedDof {
   Vector3 position{0, 0, 0};
   int component = 0;
+  std::string label;  ///< of the node in the program that wrote it, may be empty
 };
 
 std::vector<ListedDof> read_rows(const std::string& path) {
@@ -49,10 +50,16 @@ std::vector<ListedDof> read_rows(const std::string& path) {
                       ": expected x,y,z,component with a component ux, uy, uz, rx, ry or rz");
     }
     row.component = static_cast<int>(found - component_names.begin());
+    std::getline(words >> std::ws, row.label);
     rows.push_back(row);
   }
   if (rows.empty()) throw UserError(path + ": no rows");
   return rows;
+}
+
+/// "node 1203 at (x, y, z)", or without a label "node at (x, y, z)".
+std::string node_text(const ListedDof& row) {
+  return "node " + row.label + (row.label.empty() ? "" : " ") + "at " + place_text(row.position);
 }
 
 /// Finds the nodes of this rank by position.
@@ -103,6 +110,9 @@ class MatrixSystem {
   void fill(LinearSystem& system) {
     on_every_rank(mesh_.comm, [&] { read_mass(system); });
     MPI_Allreduce(MPI_IN_PLACE, &system.total_mass, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm);
+    const bool labelled =
+        std::ranges::any_of(rows_, [](const ListedDof& row) { return !row.label.empty(); });
+    if (labelled) system.node_labels = std::move(labels_);
     system.stiffness = std::make_unique<stiffness::AssembledStiffness>(read_square("stiffness"));
     if (!matrix_file(folder_, "damping").empty()) {
       system.extra_damping =
@@ -123,6 +133,7 @@ class MatrixSystem {
   /// ListedDof by row the dof that it is; every free dof of the mesh must have one row.
   void find_dofs() {
     const NodeFinder finder(mesh_);
+    labels_.resize(mesh_.owned_dofs);
     std::vector<int> known(rows_.size(), 0);
     std::vector<PetscInt> times(mesh_.owned_dofs, 0);
     number_.assign(rows_.size(), -1);
@@ -133,6 +144,7 @@ class MatrixSystem {
         const LocalIndex dof = mesh_.dof(node, rows_[row].component);
         number_[row] = static_cast<PetscInt>(mesh_.dof_global(node, rows_[row].component));
         times[std::max(dof, 0)] += dof >= 0 ? 1 : 0;
+        if (dof >= 0) labels_[dof] = rows_[row].label;
       }
     }
     const int count = static_cast<int>(rows_.size());
@@ -141,11 +153,8 @@ class MatrixSystem {
     on_every_rank(mesh_.comm, [&] {
       for (std::size_t row = 0; row < rows_.size(); ++row) {
         if (known[row] == 0) {
-          const Vector3& x = rows_[row].position;
-          std::ostringstream text;
-          text << folder_ << "/dofs.csv: no node of the mesh of " << mesh_.structure << " is at ("
-               << x[0] << ", " << x[1] << ", " << x[2] << ")";
-          throw UserError(text.str());
+          throw UserError(folder_ + "/dofs.csv: the mesh of " + mesh_.structure + " has no " +
+                          node_text(rows_[row]));
         }
       }
       check_dofs(times);
@@ -210,8 +219,8 @@ class MatrixSystem {
       if (owned_dof_[row] >= 0) system.lumped_mass[owned_dof_[row]] = mass;
       if (number_[row] >= 0 && !(mass > 0)) {
         throw UserError(path + ": row " + std::to_string(row + 1) + " (" +
-                        std::string(motion_names[rows_[row].component]) + " of the node at " +
-                        place_text(rows_[row].position) +
+                        std::string(motion_names[rows_[row].component]) + " of " +
+                        node_text(rows_[row]) +
                         ") has no mass, and a step condenses nothing: condense it out of the "
                         "matrices (docs/matrices.md), or give it a mass");
       }
@@ -287,6 +296,7 @@ class MatrixSystem {
   std::vector<ListedDof> rows_;
   std::vector<PetscInt> number_;     ///< per row of the files, global dof; -1: clamped
   std::vector<PetscInt> owned_dof_;  ///< local dof, -1: of another rank, or clamped
+  std::vector<std::string> labels_;  ///< of the node of every owned dof
 };
 
 }  // namespace

@@ -10,7 +10,8 @@ namespace pounding {
 
 /// A structure from matrices that another code made: `structure.matrices` is a folder with
 ///
-///     dofs.csv        one line per row of the matrices: x, y, z [m], component (ux ... rz)
+///     dofs.csv        one line per row of the matrices: x, y, z [m], component (ux ... rz), and
+///                     as one likes a label of the node, which messages and exports repeat
 ///     stiffness.mtx   K [N/m, N, N m]
 ///     mass.mtx        M [kg, kg m2]: a column of lumped masses, or a matrix, which is then lumped
 ///     by

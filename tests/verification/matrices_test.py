@@ -93,20 +93,51 @@ class Matrices(unittest.TestCase):
             file.write("\n".join([*lines, f"{row} {column} {float(value) * 1.001!r}"]) + "\n")
         program.must_refuse(self, [*words, *restart], "written with -s2_matrices (its stiffness)", "start anew")
 
-    def test_the_script_of_the_docs_finds_the_modes(self):
-        place = self.export(1)
+    def script_of_the_docs(self, language, place, interpreter):
+        """Frequencies and effective masses that a script on the page prints for the exported matrices."""
         with open(os.path.join(program.SOURCE, "docs", "matrices.md")) as file:
-            script = file.read().split("```python\n")[1].split("```")[0]
-        self.assertIn('"results/matrices/s1/"', script)
-        result = subprocess.run(["/usr/bin/python3", "-c", script.replace("results/matrices/", place + "/")],
-                                capture_output=True, text=True, timeout=300)
+            script = file.read().split(f"```{language}\n")[1].split("```")[0]
+        self.assertIn("results/matrices/s1/", script)
+        result = subprocess.run([*interpreter, script.replace("results/matrices/", place + "/")],
+                                capture_output=True, text=True, timeout=300, cwd=program.SOURCE)
         self.assertEqual(result.returncode, 0, result.stderr)
-        found = numpy.array([line.split() for line in result.stdout.splitlines()], dtype=float)
+        return numpy.array([line.split() for line in result.stdout.splitlines()], dtype=float)
+
+    def test_the_scripts_of_the_docs_find_the_modes(self):
+        place = self.export(1)
         _, own = program.must_run(self, [*PAIR, "-modes", 6, "-end_time", 1e-4], 1)
-        for mode, row in zip(own["structures"]["s1"]["frequencies"], found, strict=True):
-            self.assertAlmostEqual(row[0] / mode["frequency"], 1, delta=1e-7)
-            whole = own["structures"]["s1"]["mass"]
-            numpy.testing.assert_allclose(row[1:], mode["effective_modal_mass"][:3], atol=1e-6 * whole)
+        octave = shutil.which("octave-cli")
+        for language, interpreter in (("python", ["/usr/bin/python3", "-c"]),
+                                      ("matlab", [octave, "--no-gui", "--no-init-file", "-q", "--eval"])):
+            if interpreter[0] is None:
+                continue  # tests/package/octave_test.py says so
+            found = self.script_of_the_docs(language, place, interpreter)
+            for mode, row in zip(own["structures"]["s1"]["frequencies"], found, strict=True):
+                self.assertAlmostEqual(row[0] / mode["frequency"], 1, delta=1e-7)
+                whole = own["structures"]["s1"]["mass"]
+                numpy.testing.assert_allclose(row[1:], mode["effective_modal_mass"][:3], atol=1e-6 * whole)
+
+    def test_labels_of_nodes_go_out_and_in(self):
+        """An export has the numbers of the mesh file, one of imported matrices the labels that they came with."""
+        place, again = os.path.join(self.folder, "labelled"), os.path.join(self.folder, "again")
+        shutil.copytree(self.export(1), place)
+        path = os.path.join(place, "s1", "dofs.csv")
+        with open(path) as file:
+            head, names, *rows = file.read().splitlines()
+        self.assertEqual(names, "x,y,z,component,node")
+        places = {}
+        for row in rows:
+            *where, _, number = row.split(",")
+            self.assertGreater(int(number), 0)
+            self.assertEqual(places.setdefault(number, where), where)
+        self.assertEqual(len({tuple(where) for where in places.values()}), len(places))
+        with open(path, "w") as file:
+            file.write("\n".join([head, names, *(f"{row.rsplit(',', 1)[0]},pier A {row.rsplit(',', 1)[1]}"
+                                                  for row in rows)]) + "\n")
+        result = program.run([*self.from_files(place), "-dry_run", "-export_matrices", again], 2)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(path) as before, open(os.path.join(again, "s1", "dofs.csv")) as after:
+            self.assertEqual(before.read(), after.read())
 
     def test_a_rigid_motion_needs_no_force(self):
         """Beside the clamped feet: K times a translation is zero at every dof that no foot holds."""
@@ -212,7 +243,7 @@ class Matrices(unittest.TestCase):
         cases = [
             (lambda folder: os.remove(os.path.join(folder, "mass.mtx")), "neither mass.mtx"),
             (lambda folder: os.remove(os.path.join(folder, "dofs.csv")), "dofs.csv: no such file"),
-            (rewritten("dofs.csv", moved), "no node of the mesh of s2 is at (9, 9, 9)"),
+            (rewritten("dofs.csv", moved), "the mesh of s2 has no node at (9, 9, 9)"),
             (rewritten("dofs.csv", lambda lines: lines[:2] + lines[3:]), "no row for ux"),
             (rewritten("dofs.csv", lambda lines: lines + [lines[-1]]), "more than one row for uz"),
             (rewritten("stiffness.mtx", lambda lines: lines[:-1]), "the file ends too early"),
