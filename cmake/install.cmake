@@ -2,6 +2,8 @@
 #   bin                 the programs, and pounding-tools, which starts the tools below
 #   share/pounding      scenes and meshes as in the repository, tools (run), the Python package (python)
 #   share/doc/pounding  the pages
+#   share/man           man pages of the programs
+#   share/bash-completion/completions  completion of their options
 include(GNUInstallDirs)
 set(POUNDING_SHARE ${CMAKE_INSTALL_DATADIR}/pounding)
 
@@ -19,6 +21,16 @@ install(DIRECTORY run/parts DESTINATION ${POUNDING_SHARE}/run
   PATTERN verification EXCLUDE)
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# Man pages and completion are made of what the programs say when asked for help; none where these do not run here.
+set(manual ${CMAKE_BINARY_DIR}/manual)
+add_custom_command(OUTPUT ${manual}/made
+  COMMAND ${CMAKE_SOURCE_DIR}/packaging/manual.py ${CMAKE_BINARY_DIR} ${PROJECT_VERSION} ${manual}
+  DEPENDS pounding pounding-spectra ${CMAKE_SOURCE_DIR}/packaging/manual.py VERBATIM)
+add_custom_target(manual ALL DEPENDS ${manual}/made)
+install(FILES ${manual}/pounding.1 ${manual}/pounding-mesh.1 ${manual}/pounding-spectra.1
+  DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
+install(FILES ${manual}/pounding ${manual}/pounding-spectra
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions OPTIONAL)
 # `import pounding` in Debian's Python finds the package where the prefix is /usr.
 install(CODE "
   set(modules \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib/python3/dist-packages\")

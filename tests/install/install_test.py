@@ -101,6 +101,12 @@ class Installed(unittest.TestCase):
         self.assertEqual(lines[0], str(self.prefix / "bin" / "pounding"))
         self.assertGreater(int(lines[1]), 100)
 
+    def test_manual_and_completion_are_where_man_and_bash_look(self):
+        manual = self.prefix / "share" / "man" / "man1"
+        self.assertEqual(sorted(path.name for path in manual.iterdir()), ["pounding-mesh.1", "pounding-spectra.1", "pounding.1"])
+        completions = self.prefix / "share" / "bash-completion" / "completions"
+        self.assertEqual(sorted(path.name for path in completions.iterdir()), ["pounding", "pounding-spectra"])
+
     def test_nothing_points_to_the_build(self):
         for name in ("pounding", "pounding-mesh", "pounding-spectra"):
             self.assertNotIn("not found", self.call("ldd", self.prefix / "bin" / name).stdout)
