@@ -13,6 +13,7 @@
 #include "common/library_versions.h"
 #include "common/parallel.h"
 #include "common/version.h"
+#include "scene/option_table.h"
 #include "scene/option_values.h"
 #include "scene/resolved_options.h"
 #include "system/matrix_system.h"
@@ -55,6 +56,18 @@ std::vector<std::string> machine_names(MPI_Comm comm) {
   return names;
 }
 
+/// Whether an option names a file that every run reads: not a table of members or of fidelity, nor a
+/// basis, which a run may write.
+bool is_read_by_a_run(const std::string& name) {
+  if (name == "restart") return true;
+  return name != "fidelity_table" && !name.ends_with("_modal_basis") &&
+         std::ranges::any_of(option_table(), [&](const OptionRow& row) {
+           const std::size_t own = row.pattern.rfind('>');  // behind the names of the user
+           return row.unit == "file" && own != std::string_view::npos &&
+                  name.ends_with(row.pattern.substr(own + 1));
+         });
+}
+
 /// Files on rank 0, each once for an option, in the order in which they are named.
 class Inputs {
  public:
@@ -78,7 +91,7 @@ class Inputs {
       for (const char* matrix : {"stiffness", "mass", "damping"}) {
         add(name, matrix_file(value, matrix));
       }
-    } else if (ends("_record") || ends("_target") || ends("_mesh") || name == "restart") {
+    } else if (is_read_by_a_run(name)) {
       add(name, value);
     }
   }

@@ -81,6 +81,14 @@ probes: post
         self.assertEqual([one["option"] for one in told], ["motion_x_record", "motion_y_record"])
         self.assertEqual(told[0]["sha256"], told[1]["sha256"])
 
+    def test_tables_of_loads_and_starts_are_inputs(self):
+        push = self.write("push.txt", "0 0\n0.1 1\n")
+        start = self.write("start.csv", "x,y,z,vx\n1,0,0,0.1\n")
+        inputs = self.run_case("-loads", "push", "-push_on", "stick:post", "-push_line_force", "0,0,9", "-push_table", push,
+                               "-stick_initial_state", start, ranks=2)["inputs"]
+        told = {one["option"]: one["file"] for one in inputs}
+        self.assertEqual((told.get("push_table"), told.get("stick_initial_state")), (push, start))
+
     def test_all_matrices_have_hashes(self):
         self.run_case("-export_matrices", self.folder)
         folder = os.path.join(self.folder, "stick")

@@ -19,7 +19,7 @@ FREE = {"contacts", "output", "title", "restart", "write_modes", "write_model", 
         "export_matrices", "progress_interval", "mesh_time_limit", "gap_interval",
         "energy_interval", "impact_merge_time", "force_window", "gap_tolerance", "time_step", "courant",
         "omega_max_tolerance", "allow_unstable", "stiffness", "dry_run"}
-READ = ("_mesh", "_record", "_target", "_matrices")  # endings of options whose files decide the model
+READ = ("_mesh", "_record", "_target", "_matrices", "_table", "_initial_state")  # endings of options whose files decide the model
 
 
 class NoTwin(Exception):
