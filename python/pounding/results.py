@@ -44,6 +44,7 @@ class Result:
     impacts: dict = field(default_factory=dict)
     forces: dict = field(default_factory=dict)  # of forces.csv: largest values
     energy: dict = field(default_factory=dict)
+    equipment: dict = field(default_factory=dict)  # of equipment.csv: required spectrum and capacity
     title: str = ""
     without: "Result | None" = None  # the run without pounding, where one is set beside it
 
@@ -304,6 +305,7 @@ def load(folder: Path | str) -> Result:
         "impacts.csv": lambda path: result.impacts.update(_read_table(path)),
         "forces.csv": lambda path: result.forces.update(_read_table(path)),
         "energy.csv": lambda path: result.energy.update(_read_table(path)),
+        "equipment.csv": lambda path: result.equipment.update(_read_table(path)),
     }
     for name, read in readers.items():
         path = folder / name

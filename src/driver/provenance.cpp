@@ -56,8 +56,8 @@ std::vector<std::string> machine_names(MPI_Comm comm) {
   return names;
 }
 
-/// Whether an option names a file that every run reads: not a table of members or of fidelity, nor a
-/// basis, which a run may write.
+/// Whether an option names a file that every run reads: not a table of members or of fidelity, nor
+/// a basis, which a run may write.
 bool is_read_by_a_run(const std::string& name) {
   if (name == "restart") return true;
   return name != "fidelity_table" && !name.ends_with("_modal_basis") &&

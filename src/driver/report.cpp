@@ -93,6 +93,7 @@ void print_results(const FinishedRun& run) {
   print(force_facts(statistics));
   print(drift_facts(run.recorder.drifts()));
   print(probe_facts(scene, statistics, run.recorder, run.spectra));
+  print(equipment_facts(scene, run.equipment));
   print("\n");
   print(warning_facts(statistics.warnings));
   print(energy_facts(statistics));
@@ -141,6 +142,7 @@ void write_summary(const std::string& path, const FinishedRun& run) {
   facts.add(force_facts(statistics));
   facts.add("drifts", drift_facts(run.recorder.drifts()));
   facts.add(probe_facts(scene, statistics, run.recorder, run.spectra));
+  facts.add(equipment_facts(scene, run.equipment));
   std::vector<std::string> warnings = scene.warnings;
   warnings.insert(warnings.end(), model.warnings.begin(), model.warnings.end());
   warnings.insert(warnings.end(), statistics.warnings.begin(), statistics.warnings.end());

@@ -11,6 +11,7 @@
 #include "common/memory.h"
 #include "common/parallel.h"
 #include "driver/build_model.h"
+#include "driver/equipment_demand.h"
 #include "driver/field_plan.h"
 #include "driver/floor_spectra.h"
 #include "driver/folder_checks.h"
@@ -93,6 +94,8 @@ void run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
       std::ranges::copy(replaced_results(scene, resolved), std::back_inserter(scene.warnings));
     }
   });
+  std::vector<TargetSpectrum> capacities;  // of equipment, on rank 0
+  on_rank0(comm, [&] { capacities = read_capacities(scene); });
   if (root) print_title(scene, overrides_text(origin), size_of(comm));
   if (!scene.law_cycles.empty()) return write_law_loops(comm, scene);
   if (scene.write_mesh_pieces > 0) return write_mesh_pieces(comm, scene, profile);
@@ -150,8 +153,12 @@ void run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
       append(peak_warnings(scene, statistics.peaks, loop.recorder()), statistics.warnings);
     }
     statistics.wall_time = MPI_Wtime() - start;
-    const FinishedRun finished{provenance,     scene,           resolved, model,        statistics,
-                               loop.impacts(), loop.recorder(), spectra,  size_of(comm)};
+    const std::vector<EquipmentVerdict> equipment = judge_equipment(scene, capacities, spectra);
+    if (!equipment.empty()) {
+      write_equipment(scene.output + "/equipment.csv", scene, equipment, scene.csv_digits);
+    }
+    const FinishedRun finished{provenance,     scene,           resolved, model,     statistics,
+                               loop.impacts(), loop.recorder(), spectra,  equipment, size_of(comm)};
     write_summary(scene.output + "/summary.json", finished);
     print_results(finished);
   });

@@ -78,6 +78,9 @@ void require_ensemble_scene(const Scene& scene) {
   for (const Contact& contact : scene.contacts) require_lasting_pairs(contact);
   if (!scene.supports.empty()) refuse("supports move on their own", "leave -supports out");
   if (!scene.forces.empty()) refuse("forces are recorded", "give -forces none");
+  if (!scene.equipment.empty()) {
+    refuse("equipment is set beside its floors' spectra", "give -equipment none");
+  }
   if (!scene.loops.empty()) refuse("loops are recorded", "give -loops none");
   if (scene.fields_interval > 0) refuse("fields are written", "give -fields_interval 0");
   if (!scene.restart.empty()) {

@@ -184,7 +184,7 @@ double TargetSpectrum::at(double f) const {
   return ratio[i - 1] * std::pow(ratio[i] / ratio[i - 1], s);
 }
 
-TargetSpectrum read_target_spectrum(const std::string& file) {
+TargetSpectrum read_target_spectrum(const std::string& file, const std::string& values) {
   TargetSpectrum target;
   bool names_allowed = true;
   for (const auto& line : read_text_lines(file)) {
@@ -197,13 +197,13 @@ TargetSpectrum read_target_spectrum(const std::string& file) {
     names_allowed = false;
     if (!row || row->values.size() != 2 || !(row->values[0] > 0) || !(row->values[1] > 0)) {
       throw UserError(at_line(file, line.number) + "'" + line.text.substr(0, 60) +
-                      "' is not a frequency [Hz] and a ratio PSA / PGA, both positive");
+                      "' is not a frequency [Hz] and " + values + ", both positive");
     }
     target.frequency.push_back(row->values[0]);
     target.ratio.push_back(row->values[1]);
   }
   const std::size_t size = target.frequency.size();
-  if (size < 2) throw UserError(file + ": a target spectrum needs at least 2 lines of numbers");
+  if (size < 2) throw UserError(file + ": a spectrum needs at least 2 lines of numbers");
   if (target.frequency[1] < target.frequency[0]) {
     std::reverse(target.frequency.begin(), target.frequency.end());
     std::reverse(target.ratio.begin(), target.ratio.end());

@@ -18,8 +18,10 @@ struct TargetSpectrum {
 };
 
 /// Reads a target spectrum: lines of frequency [Hz], PSA / PGA; frequencies increase or decrease; #
-/// opens a comment; a line of names may come first. Throws UserError (file, line, remedy).
-TargetSpectrum read_target_spectrum(const std::string& file);
+/// opens a comment; a line of names may come first. `values`: name of the second column in
+/// messages. Throws UserError (file, line, remedy).
+TargetSpectrum read_target_spectrum(const std::string& file,
+                                    const std::string& values = "a ratio PSA / PGA");
 
 /// Between the samples of a synthetic accelerogram [s].
 inline constexpr double synthetic_interval = 0.005;

@@ -34,6 +34,8 @@ const char* title_of(OptionBlock block) {
       return "Probes";
     case OptionBlock::force:
       return "Forces";
+    case OptionBlock::equipment:
+      return "Equipment on floors";
     case OptionBlock::spectra:
       return "Floor response spectra";
   }

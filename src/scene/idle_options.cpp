@@ -140,6 +140,7 @@ class IdleOptions {
     look_at_names(OptionBlock::load, alone(listed.loads));
     look_at_names(OptionBlock::probe, alone(listed.probes));
     look_at_names(OptionBlock::force, alone(listed.forces));
+    look_at_names(OptionBlock::equipment, alone(listed.equipment));
   }
 
   std::vector<std::string> lines() const { return lines_; }

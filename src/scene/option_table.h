@@ -31,6 +31,7 @@ enum class OptionBlock {
   load,
   probe,
   force,
+  equipment,
   spectra
 };
 

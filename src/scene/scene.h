@@ -10,6 +10,7 @@
 
 #include "common/types.h"
 #include "elements/element_traits.h"
+#include "scene/equipment.h"
 #include "scene/filler.h"
 #include "scene/force_item.h"
 #include "scene/load.h"
@@ -388,6 +389,7 @@ struct Scene {
   std::vector<Loop> loops;
   std::vector<ForceItem> forces;
   SpectraRequest spectra;
+  std::vector<Equipment> equipment;
   double end_time = 0;             ///< [s]
   double courant = 0;              ///< fraction of the stable time step [-]
   double time_step = 0;            ///< [s]; 0: courant times the stable one

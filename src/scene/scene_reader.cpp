@@ -8,6 +8,7 @@
 #include "common/error.h"
 #include "scene/absorbing_reader.h"
 #include "scene/doubts.h"
+#include "scene/equipment_reader.h"
 #include "scene/factor_reader.h"
 #include "scene/fidelity_target.h"
 #include "scene/filler_reader.h"
@@ -41,7 +42,8 @@ class SceneReader {
   ReadScene read() {
     scene_.title = options_.text("title");
     listed_ = {read_names("structures"), read_names("contacts"), read_names("probes"),
-               read_names("supports"),   read_names("forces"),   read_names("loads")};
+               read_names("supports"),   read_names("forces"),   read_names("loads"),
+               read_names("equipment")};
     require_apart(listed_.structures);
     refuse_unknown_options(options_.database(), listed_);
     mention_structures_left_out();
@@ -77,6 +79,9 @@ class SceneReader {
       scene_.forces.push_back(read_force(options_, scene_, name));
     }
     read_spectra();
+    for (const std::string& name : listed_.equipment) {
+      scene_.equipment.push_back(read_equipment(options_, scene_, name));
+    }
     for (const auto& doubts : {idle_options(options_, scene_, listed_), scene_doubts(scene_)}) {
       scene_.warnings.insert(scene_.warnings.end(), doubts.begin(), doubts.end());
     }

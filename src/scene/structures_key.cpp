@@ -123,12 +123,14 @@ std::string structures_key(const Options& in_force) {
   const std::vector<std::string> contacts = names_in(in_force, "contacts");
   const std::vector<std::string> probes = names_in(in_force, "probes");
   const std::vector<std::string> forces = names_in(in_force, "forces");
+  const std::vector<std::string> equipment = names_in(in_force, "equipment");
   Options sorted = in_force;
   std::ranges::sort(sorted);
   Hash hash;
   for (const auto& [name, value] : sorted) {
     if (!belongs(name, structures, contacts) || is_of_block(name, OptionBlock::probe, probes) ||
         is_of_block(name, OptionBlock::force, forces) ||
+        is_of_block(name, OptionBlock::equipment, equipment) ||
         is_preset_option(name, value, structures, contacts)) {
       continue;
     }

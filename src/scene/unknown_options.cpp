@@ -94,6 +94,9 @@ std::vector<std::vector<std::string>> owners(const OptionsDatabase& database,
     case OptionBlock::force:
       add(with_complete(database, block, as_set(listed.forces)));
       break;
+    case OptionBlock::equipment:
+      add(with_complete(database, block, as_set(listed.equipment)));
+      break;
   }
   return result;
 }

@@ -56,6 +56,7 @@ def _parts(runs: Runs) -> list:
     """(title, rows) of the tables that are shown."""
     return [("Options that differ", tables.options(runs)), ("Impacts", tables.impacts(runs)),
             ("Peaks", tables.peaks(runs)),
+            *([("Equipment: smallest ratio of capacity over required", held)] if (held := tables.equipment(runs)) else []),
             (f"Spectra over those of {runs.labels[0]}, {100 * runs.dampings[0]:g} % damping",
              tables.worst_ratios(runs))]
 

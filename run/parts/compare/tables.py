@@ -66,6 +66,21 @@ def peaks(runs: Runs) -> list:
     return rows
 
 
+def equipment(runs: Runs) -> list:
+    """A row per item of equipment: smallest ratio of capacity over required of every run, and whether it holds."""
+    found = [result.summary.get("equipment", {}) for result in runs.results]
+    rows = []
+    for name in dict.fromkeys(name for one in found for name in one):
+        row = {"item": name}
+        for label, one in zip(runs.labels, found):
+            own = one.get(name, {})
+            row[f"ratio {label}"] = own.get("ratio") if own.get("ratio") is not None else ""
+            row[f"at Hz {label}"] = own.get("frequency", "")
+            row[f"holds {label}"] = {True: "yes", False: "NO"}.get(own.get("passes"), "")
+        rows.append(row)
+    return rows
+
+
 def same(one: str | None, other: str | None) -> bool:
     """Whether two texts say the same: as words, or as numbers."""
     if one == other:

@@ -6,6 +6,7 @@ from html import escape
 import numpy as np
 
 from pounding.results import DIRECTIONS, Result
+from . import equipment
 from . import twin as twins
 from .markup import readable
 
@@ -235,11 +236,12 @@ def sentences(run: Result, twin: Result | None, why: str = "") -> list:
     """The answer, its first line alone enough for who reads no further. Nothing of a folder without summary.json."""
     if not run.summary:
         return []
+    held = equipment.sentences(run, twin)
     if touched(run):
-        return [*_touched(run), *_floors(run, twin, why), *_margin(run), *checks(run)]
+        return [*held, *_touched(run), *_floors(run, twin, why), *_margin(run), *checks(run)]
     if not run.summary.get("contacts"):
-        return ["No contacts: each building moves on its own in this run.", *checks(run)]
-    return [*_apart(run), *_margin(run), *checks(run)]
+        return [*held, "No contacts: each building moves on its own in this run.", *checks(run)]
+    return [*held, *_apart(run), *_margin(run), *checks(run)]
 
 
 def html(run: Result, twin: Result | None, why: str) -> str:

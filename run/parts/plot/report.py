@@ -4,7 +4,7 @@ from html import escape
 from pathlib import Path
 
 from pounding.results import Missing, Result
-from . import (answer, answer_figure, contact_figures, damping_figure, floor_figures, force_figures, link_figures,
+from . import (answer, answer_figure, contact_figures, damping_figure, equipment, floor_figures, force_figures, link_figures,
                model_tables, origin_tables, place_figure, result_tables, spectra_figures, view)
 from .markup import html_figure, write_page
 
@@ -40,9 +40,10 @@ def _found(result: Result, drawn: _Drawn) -> str:
               + drawn.html(*contact_figures.JOINT, *place_figure.ALL))
     floors = (result_tables.probe_table(result, twin) + drawn.html(*spectra_figures.ALL)
               + result_tables.drift_table(result) + drawn.html(*floor_figures.ALL))
+    items = equipment.table(result, twin) + drawn.html(*equipment.ALL) if equipment.items(result) else ""
     forces = result_tables.force_table(result, twin) + drawn.html(*force_figures.ALL, *link_figures.ALL)
     energy = result_tables.energy_table(result) + drawn.html(contact_figures.energy_balance)
-    return (_part("The joints", joints) + _part("The floors", floors) + _part("Forces and links", forces)
+    return (_part("Equipment", items) + _part("The joints", joints) + _part("The floors", floors) + _part("Forces and links", forces)
             + _part("Energy", energy, page=False))
 
 
