@@ -124,6 +124,7 @@ void check_member_gaps(std::span<const MemberScene> members,
                        std::span<const interactions::GapShare> shares, MemberDoubts& doubts) {
   for (std::size_t m = 0; m < members.size(); ++m) {
     const Scene& scene = members[m].scene;
+    const interactions::GivenGaps gaps(scene.contacts);
     std::vector<interactions::InterfaceReport> reports = interface.reports;
     for (interactions::InterfaceReport& report : reports) {
       report.smallest_gap = std::numeric_limits<double>::infinity();
@@ -136,8 +137,7 @@ void check_member_gaps(std::span<const MemberScene> members,
       for (std::size_t row = 0; row < interface.constraints.size(); ++row) {
         interactions::Constraint& constraint =
             own.constraints.emplace_back(interface.constraints[row]);
-        const double gap = member_gap(scene, constraint, shares[row]);
-        set_gap(scene, shares[row], constraint);
+        const double gap = set_gap(scene, gaps, shares[row], constraint);
         interactions::InterfaceReport& report = reports[constraint.contact];
         report.smallest_gap = std::min(report.smallest_gap, gap);
         report.largest_gap = std::max(report.largest_gap, gap);

@@ -41,8 +41,9 @@ Model member_structures(const MemberScene& member, const EnsembleModel& shared) 
   Model model;
   model.interface.constraints = shared.model->interface.constraints;
   model.interface.model_size = shared.model->interface.model_size;
+  const interactions::GivenGaps gaps(scene.contacts);
   for (std::size_t row = 0; row < model.interface.constraints.size(); ++row) {
-    set_gap(scene, shared.gap_shares[row], model.interface.constraints[row]);
+    set_gap(scene, gaps, shared.gap_shares[row], model.interface.constraints[row]);
   }
   model.time_step = shared.model->time_step;
   model.steps = shared.model->steps;
@@ -132,17 +133,13 @@ StepLimits member_limits(const MemberScene& member, const EnsembleModel& shared)
   return limits;
 }
 
-double member_gap(const Scene& scene, const interactions::Constraint& row,
-                  const interactions::GapShare& share) {
-  const std::vector<double>& gap = scene.contacts[row.contact].gap.values;
-  return gap.empty() ? row.geometric_gap : interactions::given_gap(gap, share);
-}
-
-void set_gap(const Scene& scene, const interactions::GapShare& share,
-             interactions::Constraint& row) {
+double set_gap(const Scene& scene, const interactions::GivenGaps& gaps,
+               const interactions::GapShare& share, interactions::Constraint& row) {
   const Contact& contact = scene.contacts[row.contact];
-  row.initial_gap = member_gap(scene, row, share);
+  const double gap = gaps.of(row, share);
+  row.initial_gap = gap;
   if (contact.filler || contact.is_elastic()) interactions::fill_joint(contact, row);
+  return gap;
 }
 
 Model member_model(const MemberScene& member, const EnsembleModel& shared) {

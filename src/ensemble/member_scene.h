@@ -5,6 +5,7 @@
 
 #include "driver/model.h"
 #include "interactions/pairing/find_interface.h"
+#include "interactions/pairing/gap_field.h"
 #include "modal/modal_basis.h"
 #include "scene/member_table.h"
 #include "scene/scene_reader.h"
@@ -29,14 +30,10 @@ MemberScene read_member(const OptionsDatabase& scene, const MemberTable& table, 
 /// Lays the foundations on soil that a scene got from its meshes into that of a member.
 void lay_foundations(const Scene& scene, MemberScene& member);
 
-/// Width of the joint at a row [m]: as the scene of a member gives it, or by the meshes.
-double member_gap(const Scene& scene, const interactions::Constraint& row,
-                  const interactions::GapShare& share);
-
 /// Gives a row the initial gap of the scene of a member, or that of the meshes, and its filler.
-/// Throws UserError as fill_joint does.
-void set_gap(const Scene& scene, const interactions::GapShare& share,
-             interactions::Constraint& row);
+/// Throws UserError as fill_joint does. Returns the width of the joint there [m].
+double set_gap(const Scene& scene, const interactions::GivenGaps& gaps,
+               const interactions::GapShare& share, interactions::Constraint& row);
 
 /// Model that the members share on a rank.
 struct EnsembleModel {

@@ -31,7 +31,10 @@ std::vector<std::string> free_options(const std::vector<std::string>& structures
     }
   }
   for (const std::string& contact : contacts) {
-    names.push_back(option_name("<contact>_gap", {contact}));
+    for (const char* pattern : {"<contact>_gap", "<contact>_gap_deviation", "<contact>_gap_length",
+                                "<contact>_gap_seed"}) {
+      names.push_back(option_name(pattern, {contact}));
+    }
   }
   return names;
 }
@@ -80,7 +83,8 @@ void check_columns(const MemberTable& table, const std::vector<std::string>& str
     if (std::ranges::find(free, column) == free.end()) {
       throw UserError(table.file + ": column '" + column +
                       "' is no option that may differ from run to run; those are motion_..., "
-                      "motion_level, <contact>_gap, <structure>_damping_factor, _stiffness_factor "
+                      "motion_level, <contact>_gap, _gap_deviation, _gap_length and _gap_seed, "
+                      "<structure>_damping_factor, _stiffness_factor "
                       "and _modal_damping" +
                       suggestion(column, free));
     }

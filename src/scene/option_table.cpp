@@ -207,6 +207,9 @@ constexpr std::array option_rows{
     OptionRow{Block::contact, "<contact>_secondary", Kind::text, "group", required, any, "structure:group", "secondary side, a surface of a structure"},
     OptionRow{Block::contact, "<contact>_primary", Kind::text, "group", required, any, "structure:group, or wall", "primary side, the surface that it faces; wall: rigid, parallel to the secondary"},
     OptionRow{Block::contact, "<contact>_gap", Kind::text, "m", value("geometry"), any, "geometry, or one, two or four numbers g1,g2,...", "initial gap: uniform, linear, or at the four corners"},
+    OptionRow{Block::contact, "<contact>_gap_deviation", Kind::real, "m", value("0"), not_negative, "", "standard deviation of a random part of the gap over the face, as tolerances of building make it; 0: none"},
+    OptionRow{Block::contact, "<contact>_gap_length", Kind::real, "m", absent("required with gap_deviation"), positive, "", "length over which that part is correlated: its covariance falls with exp(-distance/length)"},
+    OptionRow{Block::contact, "<contact>_gap_seed", Kind::integer, "-", value("1"), any, "", "seed of that part: another number, another joint of the same tolerances"},
     OptionRow{Block::contact, "<contact>_gap_at", Kind::choice, "word", value("auto"), any, "auto|rest|unloaded", "with preload static: the state in which the joint has its gap, at rest under the weight or unloaded as the meshes are; auto: at rest where the gap is given and positive everywhere, not beside a wall"},
     OptionRow{Block::contact, "<contact>_passes", Kind::integer, "-", value("1"), Range{1, 2, false, false}, "", "2: nodes of the primary side are kept out of the secondary as well"},
     OptionRow{Block::contact, "<contact>_friction", Kind::real, "-", value("0"), Range{0, 10, false, false}, "", "Coulomb's coefficient of friction; 0: smooth"},
@@ -290,7 +293,7 @@ constexpr std::array option_rows{
     OptionRow{Block::equipment, "<equipment>_margin", Kind::real, "-", value("0.1"), not_negative, "", "margin: it passes where its capacity is 1 + margin times what is required"},
     OptionRow{Block::equipment, "<equipment>_broadening", Kind::real, "-", value("0.15"), Range{0, 1, false, true}, "", "part by which the floor's spectrum is widened to both sides before, for the uncertainty of the building's frequencies"},
     OptionRow{Block::equipment, "<equipment>_band", Kind::reals, "Hz", absent("all that both spectra have"), positive, "two frequencies low,high", "frequencies that count"},
-    OptionRow{Block::equipment, "<equipment>_high_band", Kind::reals, "Hz", value("20,40"), positive, "two frequencies low,high", "frequencies whose smallest ratio is told apart: relays and contactors chatter there"},
+    OptionRow{Block::equipment, "<equipment>_high_band", Kind::reals, "Hz", value("20,40"), positive, "two frequencies low,high", "frequencies whose smallest ratio is reported apart: relays and contactors chatter there"},
     OptionRow{Block::equipment, "<equipment>_dip", Kind::real, "-", value("0"), Range{0, 1, false, true}, "", "part of the required ratio that may lack where the frequencies a sixth of an octave below and above have all of it"},
 
     OptionRow{Block::spectra, "spectra_damping", Kind::reals, "-", value("0.05"), damping_ratio, "a comma-separated list of numbers", "damping ratios of the oscillators"},

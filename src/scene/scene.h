@@ -235,6 +235,9 @@ struct ContactSide {
 /// t2), (max t1, max t2), (min t1, max t2).
 struct InitialGap {
   std::vector<double> values;  ///< empty: from geometry; else 1, 2 or 4 values [m]
+  double deviation = 0;        ///< of a random part over the face [m]; 0: none
+  double length = 1;           ///< over which that part is correlated [m]
+  int seed = 1;                ///< of that part
 };
 
 /// Makes a contact a stop between nodes of its sides.

@@ -344,6 +344,11 @@ class SceneReader {
         options_.refuse("<contact>_gap", {name}, "wrong count of numbers");
       }
     }
+    contact.gap.deviation = options_.real("<contact>_gap_deviation", {name});
+    if (contact.gap.deviation > 0) {
+      contact.gap.length = options_.real("<contact>_gap_length", {name});
+      contact.gap.seed = options_.integer("<contact>_gap_seed", {name});
+    }
     contact.stop = read_stop(options_, name);
     if (contact.stop) {
       check_stop(options_, contact, !scene_.export_matrices.empty());

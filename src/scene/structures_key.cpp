@@ -55,7 +55,7 @@ bool belongs(const std::string& name, const std::vector<std::string>& structures
     return std::string();
   };
   const std::string of_contact = rest(contacts);
-  if (!of_contact.empty()) return of_contact != "gap" && of_contact != "gap_at";
+  if (!of_contact.empty()) return of_contact != "gap" && !of_contact.starts_with("gap_");
   const std::string of_structure = rest(structures);
   return !of_structure.empty() && !is_representation(of_structure);
 }

@@ -278,6 +278,11 @@ class Kinds(unittest.TestCase):
         self.check(*words, struck=False)
         self.refuse_thick(words)
 
+    def test_joints_of_random_width(self):
+        self.check("-floor1_gap", ".01", "-floor2_gap", ".01", "-floor1_gap_length", "2", "-floor2_gap_length", "1",
+                   "-floor2_gap_deviation", ".002", columns="motion_x_seed,motion_x_pga,floor1_gap_deviation,floor2_gap_seed",
+                   rows=["1,3.5,0,1", "1,5,0.002,2", "1,4,0.003,3"])
+
     def refuse_thick(self, words):
         """Before any basis is computed, as a single run does."""
         output = tempfile.mkdtemp(prefix="pounding-ensemble-")

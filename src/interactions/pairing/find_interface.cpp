@@ -16,6 +16,7 @@
 #include "interactions/pairing/crossing.h"
 #include "interactions/pairing/facet_finder.h"
 #include "interactions/pairing/filler_parts.h"
+#include "interactions/pairing/gap_field.h"
 #include "interactions/pairing/pair_terms.h"
 #include "interactions/pairing/sliding_builder.h"
 #include "interactions/pairing/stop_rows.h"
@@ -30,6 +31,7 @@ class PairFinder {
   PairFinder(const Scene& scene, std::span<const GlobalMesh> meshes, int contact,
              std::vector<GapShare>* shares)
       : shares_(shares),
+        contacts_(scene.contacts),
         contact_(scene.contacts[contact]),
         number_(contact),
         sides_(find_sides(scene, meshes, contact_)) {
@@ -268,6 +270,7 @@ class PairFinder {
   }
 
   void set_gaps(std::span<Constraint> constraints) {
+    const GivenGaps gaps(contacts_);
     std::array<double, 2> low{1e300, 1e300};
     std::array<double, 2> high{-1e300, -1e300};
     for (const GlobalIndex node : sides_.secondary.face.nodes) {
@@ -286,8 +289,7 @@ class PairFinder {
       for (std::size_t t = 0; t < 2; ++t) {
         s[t] = high[t] > low[t] ? (constraint.place[t] - low[t]) / (high[t] - low[t]) : 0;
       }
-      constraint.initial_gap = contact_.gap.values.empty() ? constraint.geometric_gap
-                                                           : given_gap(contact_.gap.values, s);
+      constraint.initial_gap = gaps.of(constraint, s);
       if (shares_ != nullptr) shares_->push_back(s);
       if (constraint.geometric_gap == open_gap) continue;
       report_.smallest_gap = std::min(report_.smallest_gap, constraint.initial_gap);
@@ -322,6 +324,7 @@ class PairFinder {
   }
 
   std::vector<GapShare>* shares_;  ///< of all constraints; null: not wanted
+  std::span<const Contact> contacts_;
   const Contact& contact_;
   int number_;
   std::size_t first_row_ = 0;  ///< of the contact, in the interface
@@ -332,12 +335,6 @@ class PairFinder {
 };
 
 }  // namespace
-
-double given_gap(const std::vector<double>& g, const GapShare& s) {
-  if (g.size() == 1) return g[0];
-  if (g.size() == 2) return g[0] * (1 - s[0]) + g[1] * s[0];
-  return (g[0] * (1 - s[0]) + g[1] * s[0]) * (1 - s[1]) + (g[3] * (1 - s[0]) + g[2] * s[0]) * s[1];
-}
 
 Interface find_interface(const Scene& scene, std::span<const GlobalMesh> meshes,
                          std::vector<GapShare>* shares) {

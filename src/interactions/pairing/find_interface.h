@@ -10,9 +10,6 @@
 
 namespace pounding::interactions {
 
-/// The gap [m] there of one number, two or four (see InitialGap).
-double given_gap(const std::vector<double>& values, const GapShare& share);
-
 /// Finds the pairs of every contact of the scene: for each node of the secondary group the facet of
 /// the primary group that the normal through the node meets; weights are the facet's shape
 /// functions there, one node alone where it meets a node (matched). `meshes` in the order of the

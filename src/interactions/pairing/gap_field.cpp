@@ -1,0 +1,64 @@
+#include "interactions/pairing/gap_field.h"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+
+namespace pounding::interactions {
+namespace {
+
+constexpr int wave_count = 4096;
+
+/// Gap at a place on the secondary face from the one, two or four values of a contact.
+double given_gap(const std::vector<double>& g, const GapShare& s) {
+  if (g.size() == 1) return g[0];
+  if (g.size() == 2) return g[0] * (1 - s[0]) + g[1] * s[0];
+  return (g[0] * (1 - s[0]) + g[1] * s[0]) * (1 - s[1]) + (g[3] * (1 - s[0]) + g[2] * s[0]) * s[1];
+}
+
+/// FNV-1a, so that contacts of one seed have fields of their own.
+std::uint64_t seed_of(const Contact& contact) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char letter : contact.name) {
+    hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211ULL;
+  }
+  return hash ^ static_cast<std::uint64_t>(contact.gap.seed) * 0x9E3779B97F4A7C15ULL;
+}
+
+}  // namespace
+
+GapField::GapField(const Contact& contact) {
+  if (contact.gap.deviation == 0) return;
+  size_ = contact.gap.deviation * std::sqrt(2.0 / wave_count);
+  std::mt19937_64 bits(seed_of(contact));
+  const auto uniform = [&] { return std::ldexp(static_cast<double>(bits() >> 11), -53); };
+  constexpr double turn = 2 * std::numbers::pi;
+  for (int i = 0; i < wave_count; ++i) {
+    // The share of waves below k is 1 - (1 + length^2 k^2)^(-1/2).
+    const double above = 1 - uniform();
+    const double number = std::sqrt(1 / (above * above) - 1) / contact.gap.length;
+    const double angle = turn * uniform();
+    waves_.push_back({{number * std::cos(angle), number * std::sin(angle)}, turn * uniform()});
+  }
+}
+
+double GapField::at(const std::array<double, 2>& place) const {
+  double sum = 0;
+  for (const Wave& wave : waves_) {
+    sum += std::cos(wave.number[0] * place[0] + wave.number[1] * place[1] + wave.phase);
+  }
+  return size_ * sum;
+}
+
+GivenGaps::GivenGaps(std::span<const Contact> contacts) : contacts_(contacts) {
+  for (const Contact& contact : contacts) fields_.emplace_back(contact);
+}
+
+double GivenGaps::of(const Constraint& row, const GapShare& share) const {
+  const std::vector<double>& gap = contacts_[row.contact].gap.values;
+  return (gap.empty() ? row.geometric_gap : given_gap(gap, share)) +
+         fields_[row.contact].at(row.place);
+}
+
+}  // namespace pounding::interactions

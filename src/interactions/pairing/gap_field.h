@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "interactions/pairing/interface.h"
+#include "scene/scene.h"
+
+namespace pounding::interactions {
+
+/// Random part of the width of a joint over its face: a Gaussian field of mean zero whose
+/// covariance at a distance r is deviation^2 exp(-r / length), by its spectral representation
+/// (Shinozuka and Deodatis, Applied Mechanics Reviews 44, 1991): the sum of 4,096 plane waves of
+/// equal size, whose wave vectors follow the spectral density of that covariance in the plane,
+/// (1 + length^2 k^2)^(-3/2), and whose phases are uniform. A function of the place alone, so that
+/// it does not depend on the mesh. The seed and the name of the contact determine it. Zero without
+/// a deviation.
+class GapField {
+ public:
+  explicit GapField(const Contact& contact);
+
+  /// Value at a place on the tangent axes of the face [m].
+  double at(const std::array<double, 2>& place) const;
+
+ private:
+  struct Wave {
+    std::array<double, 2> number{};  ///< [1/m]
+    double phase = 0;
+  };
+  double size_ = 0;  ///< of each wave [m]
+  std::vector<Wave> waves_;
+};
+
+/// Initial gaps of the rows of a scene's contacts, as their options give them.
+class GivenGaps {
+ public:
+  explicit GivenGaps(std::span<const Contact> contacts);
+
+  /// Gap of a row [m]: that of the geometry or the given one at its share of the face, and the
+  /// random part at its place.
+  double of(const Constraint& row, const GapShare& share) const;
+
+ private:
+  std::span<const Contact> contacts_;
+  std::vector<GapField> fields_;  ///< by contact
+};
+
+}  // namespace pounding::interactions

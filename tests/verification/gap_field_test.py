@@ -1,0 +1,56 @@
+"""Joints of random width: gaps of the rows of a face, the same on every number of ranks, in every run with the seed.
+
+Two walls of shells face each other; gaps come from the exported rows of the contact. The statistics of the field itself
+are those of unit/interactions/gap_field_test.cpp."""
+import os
+import tempfile
+import unittest
+
+import numpy
+
+import program
+import two_buildings
+
+
+class GapField(unittest.TestCase):
+    def gaps(self, *words, ranks=2, contact="floor1"):
+        with tempfile.TemporaryDirectory() as folder:
+            result = program.run(["-options_file", str(two_buildings.SCENE), "-modes", 0, "-dry_run", "-floor1_gap", .05,
+                                  "-left_damping_reference", 3, "-right_damping_reference", 4, "-export_matrices", folder,
+                                  *words], ranks)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            columns = program.read_csv(os.path.join(folder, "left", "gaps.csv"))
+        return numpy.array([float(gap) for name, gap in zip(columns["contact"], columns["initial_gap"]) if name == contact])
+
+    def field(self, seed, *words, **more):
+        return self.gaps("-floor1_gap_deviation", .008, "-floor1_gap_length", 1.5, "-floor1_gap_seed", seed, *words, **more)
+
+    def test_every_pair_has_a_gap_of_its_own(self):
+        uniform, one = self.gaps(), self.field(1)
+        numpy.testing.assert_array_equal(uniform, .05)
+        self.assertEqual(len(numpy.unique(one)), len(one))
+        self.assertLess(abs(one - .05).max(), 5 * .008)
+        self.assertGreater(abs(one - .05).max(), .1 * .008)
+        self.assertFalse((one == self.field(2)).any())
+
+    def test_ranks_and_other_contacts_do_not_change_it(self):
+        one = self.field(1)
+        for ranks in (1, 3):
+            numpy.testing.assert_array_equal(self.field(1, ranks=ranks), one)
+        both = ["-floor2_gap", .05, "-floor2_gap_deviation", .008, "-floor2_gap_length", 1.5]
+        numpy.testing.assert_array_equal(self.field(1, *both), one)
+        self.assertFalse((self.field(1, *both, contact="floor2")[:len(one)] == one).any())
+
+    def test_it_lies_on_the_gap_that_is_given(self):
+        slope = self.gaps("-floor1_gap", ".04,.06") - .05
+        numpy.testing.assert_allclose(self.field(1, "-floor1_gap", ".04,.06"), self.field(1) + slope, rtol=1e-14)
+
+    def test_refused(self):
+        scene = ["-options_file", str(two_buildings.SCENE), "-dry_run", "-floor1_gap", .05, "-floor1_gap_deviation", .008]
+        program.must_refuse(self, scene, "-floor1_gap_length")
+        program.must_refuse(self, [*scene, "-floor1_gap_length", 0], "-floor1_gap_length")
+        program.must_refuse(self, [*scene, "-floor1_gap_length", 1, "-floor1_along", "1,0,0"], "-floor1_gap_deviation", "makes it a stop")
+
+
+if __name__ == "__main__":
+    unittest.main()
