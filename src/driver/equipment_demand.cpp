@@ -175,6 +175,7 @@ Facts equipment_facts(const Scene& scene, std::span<const EquipmentVerdict> verd
             {"needed", 1 + item.margin},
             {"damping", item.damping},
             {"broadening", item.broadening},
+            {"dip", item.dip},
             {"high_band", item.high_band}};
     double high = infinity;
     for (const EquipmentDemand& demand : verdicts[i].demands) {

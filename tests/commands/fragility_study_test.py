@@ -170,6 +170,35 @@ class Study(unittest.TestCase):
             self.assertTrue((out / name).read_bytes().startswith(b"\x89PNG"), name)
         self.assertIn("<table", (out / "fragility.html").read_text())
 
+    def test_equipment_fails_as_in_single_runs_and_joints_differ_by_sample(self):
+        (self.place / "relay.csv").write_text("1,20\n100,20\n")
+        item = {"equipment": "relay", "relay_probe": "left_roof", "relay_direction": "x", "relay_capacity_unit": "m/s2",
+                "relay_capacity": str(self.place / "relay.csv"), "relay_dip": 0.05}
+        field = {"deviation": 0.002, "length": 1.5}
+        study = {"options": {**STUDY["options"], **item}, "full_order": {"share": 0}, "capacities": [], "levels": [5.0],
+                 "joints": {"floor1": {"field": field}, "floor2": {"field": field}}}
+        self.fragility("--runner", "ensemble", "--ranks", "2", **study)
+        rows = [row for row in rows_of(self.place / "out" / "probability.csv") if row["event"].startswith("relay fails")]
+        found = {row["gap [m]"]: int(row["hits"]) for row in rows}
+        failed, gaps = 0, set()
+        for sample, row in enumerate(rows_of(self.place / "out" / "design.csv")):
+            options = {**study["options"], "motion_x_seed": row["motion x"], "motion_x_duration": 6, "motion_x_pga": 5,
+                       "motion_x_envelope": "0.3,4", "spectra_frequencies": STUDY["frequencies"],
+                       "spectra_damping": STUDY["dampings"],
+                       **{f"{name}_{key}": value for name, one in STUDY["reduction"].items()
+                          for key, value in one.items()}}
+            for floor in ("floor1", "floor2"):
+                options |= {f"{floor}_gap": 0.01, f"{floor}_gap_deviation": 0.002, f"{floor}_gap_length": 1.5,
+                            f"{floor}_gap_seed": 100000 + sample}
+            run = pounding.run(two_buildings.SCENE, self.place / f"own-{sample}", 1, **options)
+            failed += not run.summary["equipment"]["relay"]["passes"]
+            gaps.add(tuple(run.summary["contacts"]["floor1"]["initial_gap"]))
+        self.assertEqual(found["0.01"], failed)
+        self.assertGreater(failed, found["apart"])
+        self.assertEqual(len(gaps), 3)
+        self.refuse("joints: floor1: field: length", joints={"floor1": {"field": {"deviation": 0.002}}})
+        self.refuse("relay.csv", options={**study["options"], "relay_capacity": "other/relay.csv"})
+
     def check_full_order(self):
         rows = rows_of(self.place / "out" / "full_order.csv")
         error = {row["channel"]: float(row["rms"]) for row in rows}

@@ -1,6 +1,6 @@
 """What the outcomes of a study say: moments of spectra by cell, probabilities, curves, joints, enough motions."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy import stats
@@ -8,6 +8,7 @@ from scipy import stats
 from pounding.fragility import (Fragility, FitRefused, binomial_interval, fit_paired, members_needed, moments, widened)
 
 from .design import Design
+from .equipment import Item
 from .outcomes import Outcomes
 from .study import Study, StudyError
 
@@ -25,6 +26,7 @@ class Analysis:
     study: Study
     design: Design
     outcomes: Outcomes
+    equipment: list = field(default_factory=list)
 
     def __post_init__(self):
         self.index = {(one.gap, one.level, one.sample): number for number, one in enumerate(self.design.members)
@@ -79,6 +81,10 @@ class Analysis:
         found = self.outcomes
         if event == CONTACT:
             return found.episodes[members].sum(-1) > 0
+        if isinstance(event, Item):
+            damping = int(abs(found.damping - event.damping).argmin())
+            return np.any([event.fails(found.frequency, found.spectra[members][:, :, channel, damping])
+                           for channel in (found.channels.index(f"{event.probe} {way}") for way in event.ways)], axis=0)
         inside = (found.frequency >= event.band[0]) & (found.frequency <= event.band[1])
         channel = found.channels.index(f"{event.probe} {event.direction}")
         damping = int(abs(found.damping - event.damping).argmin())
@@ -86,7 +92,7 @@ class Analysis:
 
     @property
     def events(self) -> list:
-        return [CONTACT, *self.study.capacities]
+        return [CONTACT, *self.study.capacities, *self.equipment]
 
     def gaps_of(self, event) -> list:
         return list(self.study.gaps) if event == CONTACT else [*self.study.gaps, None]

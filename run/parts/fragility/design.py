@@ -8,6 +8,7 @@ from pounding.fragility import latin_hypercube
 
 from .study import Study, StudyError
 
+MOST_SAMPLES = 100_000  # so that studies of different seeds have different joints
 APART = "apart"  # the runs without pounding, whose gap is the study's `apart`
 
 
@@ -70,6 +71,7 @@ def build(study: Study) -> Design:
             off = drawn[sample, names.index(f"{contact}_gap")] if joint.deviation else 0.0
             nominal = study.apart if gap is None else gap
             values += (",".join(text_of(max(0.0, nominal + one + off)) for one in joint.shape),)
+            values += (str((study.seed * MOST_SAMPLES + sample) % 2**31),) if joint.field else ()
         values += tuple(text_of(drawn[sample, names.index(one.name)]) for one in study.factors)
         return Member(sample, gap, level, values, disturbed)
 
@@ -77,7 +79,9 @@ def build(study: Study) -> Design:
                for level in study.levels]
     repeated = choose(study, members)
     members += [member(one.sample, one.gap, one.level, True) for one in (members[index] for index in repeated)]
-    columns = motion_columns(study) + [f"{name}_gap" for name in study.joints] + [one.name for one in study.factors]
+    joints = [column for name, joint in study.joints.items()
+              for column in (f"{name}_gap", *([f"{name}_gap_seed"] if joint.field else []))]
+    columns = motion_columns(study) + joints + [one.name for one in study.factors]
     return Design(columns, members, drawn, motions, repeated)
 
 

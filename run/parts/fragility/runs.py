@@ -4,7 +4,7 @@ import csv
 import hashlib
 import itertools
 import json
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from parts import called, finished
@@ -16,7 +16,7 @@ from pounding.results import ResultError, load
 from pounding.runs import LOG, Job, clear, environment, finish
 from pounding.scenes import write_scene
 
-from . import outcomes
+from . import equipment, outcomes
 from .design import Design
 from .study import Study, StudyError, check_names
 
@@ -29,6 +29,9 @@ def scene_options(study: Study, reduced: bool, folder: Path) -> dict:
     for axis, one in study.axes.items():
         kind = {"target": one.target} if one.target else {"record": one.records[0]}
         found |= {f"motion_{axis}_{key}": value for key, value in {**kind, **one.understood}.items()}
+    for name, joint in study.joints.items():
+        if joint.field:
+            found |= {f"{name}_gap_deviation": str(joint.field[0]), f"{name}_gap_length": str(joint.field[1])}
     if reduced:
         found |= study.reduction
         for structure in [name.removesuffix("_model") for name, value in found.items()
@@ -61,6 +64,7 @@ class Scouted:
     inputs: dict  # path -> hash
     probes: list
     contacts: list
+    equipment: list = field(default_factory=list)  # see equipment.of_run
 
 
 class Runner:
@@ -114,17 +118,22 @@ class Runner:
         failure = finish(lambda: Job(words, place.absolute(), 1, Path.cwd(), self.variables))
         if failure:
             raise StudyError(f"{self.study.path}: {failure}")
-        summary = load(place).summary
+        found = load(place)
+        summary, items = found.summary, equipment.of_run(found)
         clear(place)
         own = str(self.scene(reduced).absolute())
         inputs = {path: found for path, found in finished.inputs_of(summary).items() if path != own}
-        return Scouted(inputs, list(summary.get("probes", {})), list(summary.get("contacts", {})))
+        return Scouted(inputs, list(summary.get("probes", {})), list(summary.get("contacts", {})), items)
 
     def _words(self, member, reduced: bool) -> list:
         words = ["-options_file", str(self.scene(reduced).absolute())]
         for column, value in zip(self.design.columns, member.values):
             words += [f"-{column}", value]
         return words
+
+    @property
+    def equipment(self) -> list:
+        return equipment.items(self.scouted[True].equipment)
 
     def scene(self, reduced: bool) -> Path:
         return self.bases[reduced] / "scene.yaml"
@@ -187,7 +196,7 @@ class Runner:
     def _at_once(self, place: Path) -> str:
         ranks = f"{self.ranks} rank{'s' if self.ranks > 1 else ''}"
         print(f"fragility: ensemble {place.name} on {ranks}; progress in {place / LOG}", flush=True)
-        words = ["-options_file", str(self.scene(True).absolute()), "-ensemble",
+        words = ["-options_file", str(self.scene(True).absolute()), "-equipment", "none", "-ensemble",
                  str((place / "members.csv").absolute())]
         return finish(lambda: Job(words, place.absolute(), self.ranks, Path.cwd(), self.variables))
 

@@ -46,10 +46,12 @@ class Axis:
 @dataclass(frozen=True)
 class Joint:
     """A contact: by how much its gap differs from the nominal one, `shape` [m] (one value, two or four), and a
-    deviation that is drawn, of all values alike."""
+    deviation that is drawn, of all values alike. `field`: standard deviation and length of correlation [m] of a random
+    part over the face, another one in each sample; empty: none."""
 
     shape: tuple = (0.0,)
     deviation: Variable | None = None
+    field: tuple = ()
 
 
 @dataclass(frozen=True)
@@ -257,12 +259,22 @@ def _joints(reader: _Reader) -> dict:
                          "`joints: {roof: {}}`")
     found = {}
     for name in values:
-        one = _Reader(values[name] or {}, reader.path, f"joints: {name}", ("shape", "deviation"))
+        one = _Reader(values[name] or {}, reader.path, f"joints: {name}", ("shape", "deviation", "field"))
         shape = tuple(one.numbers("shape", [0.0]))
         if len(shape) not in (1, 2, 4):
             one.fail("shape", "has neither one value nor two or four")
         drawn = _variable(one.part("deviation", SPREAD), f"{name}_gap") if one.values.get("deviation") else None
-        found[name] = Joint(shape, drawn)
+        found[name] = Joint(shape, drawn, _field(one))
+    return found
+
+
+def _field(reader: _Reader) -> tuple:
+    if not reader.values.get("field"):
+        return ()
+    one = reader.part("field", ("deviation", "length"))
+    found = one.number("deviation", None, 0.0), one.number("length", None, 0.0)
+    if not all(found):
+        one.fail("deviation" if not found[0] else "length", "is not above 0")
     return found
 
 
