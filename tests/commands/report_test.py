@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy
 
+import browser
 import program
 import two_buildings
 from two_buildings import pounding
@@ -25,7 +26,6 @@ from parts.plot import answer, force_figures, markup, model_tables, twin  # noqa
 MORE = {"modes": 4, "spectra_damping": "0.02,0.05", "forces": "base,corner", "base_structure": "left",
         "base_kind": "reactions", "corner_structure": "left", "corner_kind": "members", "corner_group": "columns",
         "corner_at": "0,0,1"}
-BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 
 
 def page(folder):
@@ -56,7 +56,7 @@ class Report(unittest.TestCase):
         cls.hit = two_buildings.run(cls.place / "hit", gap=0.01, **MORE)
         cls.alone = two_buildings.run(cls.place / "alone", contacts="none", **MORE)
         cls.wide = two_buildings.run(cls.place / "wide", 1, gap=0.06, **MORE)
-        drawn = program.command("plot", cls.place / "hit", "--without", cls.place / "alone", *(["--pdf"] if BROWSER else []))
+        drawn = program.command("plot", cls.place / "hit", "--without", cls.place / "alone", *(["--pdf"] if browser.found()[0] else []))
         assert drawn.returncode == 0, drawn.stderr
         cls.said = drawn.stdout
 
@@ -289,8 +289,8 @@ class Report(unittest.TestCase):
         self.assertEqual([force_figures.unit_of(name) for name in ("Fx", "My1", "T", "N12", "M12", "Q1")],
                          ["kN", "kN m", "kN m", "kN/m", "kN", "kN/m"])
 
-    @unittest.skipUnless(BROWSER, "no chromium here to print the page")
     def test_it_is_printed(self):
+        browser.needed(self)
         self.assertIn("report.pdf", self.said)
         content = (self.place / "hit" / "report.pdf").read_bytes()
         self.assertTrue(content.startswith(b"%PDF-"))

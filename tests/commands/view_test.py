@@ -15,6 +15,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+import browser
 import program
 
 sys.path[:0] = [os.path.join(program.SOURCE, "run"), os.path.join(program.SOURCE, "python")]
@@ -120,16 +121,11 @@ class View(unittest.TestCase):
             self.assertIn("cannot be read", drawn.stdout)
 
     def test_a_browser_draws_it(self):
-        browser = shutil.which("chromium")
-        if browser is None:
-            self.skipTest("no chromium (Debian's package)")
+        used = browser.needed(self)
         with tempfile.TemporaryDirectory() as folder:
             page = Path(folder, "page.html")
             page.write_text(self.page.replace("</body>", f"<script>{SCRIPT}</script></body>"), encoding="utf-8")
-            result = subprocess.run([browser, "--headless=new", "--no-sandbox", "--use-angle=swiftshader",
-                                     "--enable-unsafe-swiftshader", "--enable-logging=stderr", "--disable-extensions",
-                                     f"--user-data-dir={folder}/profile", "--dump-dom", page.as_uri()],
-                                    capture_output=True, text=True, timeout=120)
+            result = browser.open_page(used, page)
         self.assertEqual([line for line in result.stderr.splitlines() if ":CONSOLE" in line], [])
         found = re.search(r'<pre id="seen">(.*?)</pre>', result.stdout, re.DOTALL)
         self.assertIsNotNone(found, result.stderr[-2000:])
