@@ -66,15 +66,7 @@ void ContactProblem::take_new_pairs() {
 std::vector<double> ContactProblem::row_force(int row, std::size_t structure,
                                               LocalIndex owned_dofs) const {
   std::vector<double> force(owned_dofs, 0.0);
-  const auto dofs = interface_.rows().row_dofs(row);
-  for (std::size_t a = 0; a < dofs.size(); ++a) {
-    const std::size_t dof = dofs[a];
-    const int place = interface_.known_place(dof);
-    if (interface_.structure_of(dof) == structure && place >= 0) {
-      interface_.trace(structure).add_force(static_cast<std::size_t>(place),
-                                            interface_.rows().row_coefficients(row)[a], force);
-    }
-  }
+  interface_.add_force(row, 1, structure, force);
   return force;
 }
 

@@ -42,6 +42,17 @@ void InterfaceRows::gather(std::size_t fields, std::span<double> values) {
   gather_.gather(static_cast<int>(fields), {mine_.data(), fields * known}, values);
 }
 
+void InterfaceRows::add_force(int row, double f, std::size_t structure,
+                              std::span<double> owned) const {
+  const auto dofs = operator_.row_dofs(row);
+  for (std::size_t a = 0; a < dofs.size(); ++a) {
+    const std::size_t dof = dofs[a];
+    if (structure_of(dof) != structure || known_place_[dof] < 0) continue;
+    traces_[structure].add_force(static_cast<std::size_t>(known_place_[dof]),
+                                 f * operator_.row_coefficients(row)[a], owned);
+  }
+}
+
 void InterfaceRows::pick(std::size_t structure, std::span<const double> impulses) {
   const std::vector<int>& known = traces_[structure].known();
   for (std::size_t k = 0; k < known.size(); ++k) {

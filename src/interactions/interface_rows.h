@@ -36,8 +36,6 @@ class InterfaceRows {
   }
   /// The interface of a structure, as far as this rank knows it.
   const Trace& trace(std::size_t structure) const { return traces_[structure]; }
-  /// Place in the trace of its structure of a dof that this rank knows; -1 of the others.
-  int known_place(std::size_t dof) const { return known_place_[dof]; }
 
   /// Field number `field` of `fields` that are gathered together, from values over the owned dofs
   /// of a structure; `supports`: motion of the supports that carries it along, see Trace::apply.
@@ -47,6 +45,8 @@ class InterfaceRows {
   void set_places(std::size_t structure, std::span<const double> places);
   /// Gathers the fields that were set: shape (fields, dofs). Members only, collective over them.
   void gather(std::size_t fields, std::span<double> values);
+  /// owned += f (row of L T)^T over the dofs of a structure that this rank owns. Local.
+  void add_force(int row, double f, std::size_t structure, std::span<double> owned) const;
   /// Adds the values of all members up. Members only, collective over them.
   void add_over_members(std::span<double> values) { gather_.add(values); }
 
@@ -66,7 +66,7 @@ class InterfaceRows {
   std::vector<std::vector<int>> structure_dofs_;  ///< per structure: its dofs of the operator
   std::vector<Trace> traces_;                     ///< per structure
   std::vector<std::size_t> first_known_;          ///< per structure, into the values of this rank
-  std::vector<int> known_place_;                  ///< per dof
+  std::vector<int> known_place_;  ///< per dof: place in its structure's trace; -1: not known here
   InterfaceGather gather_;
   InterfaceCompliance compliance_;
   std::vector<double> mine_;           ///< shape (known, fields)

@@ -9,7 +9,6 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
-#include "interactions/contact_problem.h"
 #include "interactions/solvers/lcp.h"
 #include "mesh/location.h"
 #include "statics/link_terms.h"
@@ -34,31 +33,6 @@ constexpr double violation = 1e-13;
 
 using Fields = std::vector<std::vector<double>>;  // per structure, owned dofs
 
-/// Rows that are told to be open, and those that face nothing yet.
-std::vector<char> all_open(const interactions::Interface& interface, std::span<const char> told) {
-  std::vector<char> open(told.begin(), told.end());
-  for (std::size_t row = 0; row < open.size(); ++row) {
-    if (interface.constraints[row].initial_gap == interactions::open_gap) open[row] = 1;
-  }
-  return open;
-}
-
-std::vector<double> initial_gaps(const interactions::Interface& interface) {
-  std::vector<double> gaps;
-  for (const interactions::Constraint& constraint : interface.constraints) {
-    gaps.push_back(constraint.initial_gap);
-  }
-  return gaps;
-}
-
-std::unique_ptr<interactions::ContactProblem> contact_of(MPI_Comm comm,
-                                                         const interactions::Interface& interface,
-                                                         std::span<const LinearSystem> systems,
-                                                         std::span<const Mesh> meshes) {
-  if (interface.constraints.empty()) return nullptr;
-  return std::make_unique<interactions::ContactProblem>(comm, interface, systems, meshes, 0);
-}
-
 double largest_size(const Vector3& v) {
   return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
 }
@@ -72,10 +46,8 @@ class Search {
         systems_(systems),
         meshes_(meshes),
         interface_(interface),
-        contact_(contact_of(comm, interface, systems, meshes)),
         any_told_open_(std::ranges::any_of(open_rows, [](char open) { return open != 0; })),
-        rows_(comm, contact_.get(), initial_gaps(interface), all_open(interface, open_rows),
-              systems),
+        rows_(comm, interface.constraints, open_rows, systems, meshes),
         force_(rows_.size(), 0.0),
         is_tried_(rows_.size(), false) {
     for (std::size_t s = 0; s < systems.size(); ++s) {
@@ -121,20 +93,26 @@ class Search {
     on_every_rank(comm_, [&] {
       for (std::size_t s = 0; s < systems_.size(); ++s) {
         for (const LinkTerms& link : link_terms(systems_[s])) {
-          if (!(link.yield_force > 0)) continue;
+          if (link.one_way) continue;
+          const interactions::LinkOrigin& origin = link.link->origin;
+          const NonlinearSpring& law = origin.region->nonlinear;
+          const double limit = law.yield_force[origin.component];
+          if (!(limit > 0)) continue;
+          const std::string place = "element " + std::to_string(link.link->number) + " of group '" +
+                                    origin.region->group + "'";
           const double pull = link.stiffness * link.elongation(displacement_[s]);
           const double force = std::abs(pull);
-          if (link.pulls_only && pull < 0) {
-            throw UserError("option -preload static: " + link.place + " of structure " +
+          if (law.has_skeleton() && law.law.negative.breaks.empty() && pull < 0) {
+            throw UserError("option -preload static: " + place + " of structure " +
                             systems_[s].name +
                             " would hold its direction in which it carries nothing at rest; give "
                             "it a skeleton_back, or leave -preload out");
           }
-          if (force <= link.yield_force) continue;
+          if (force <= limit) continue;
           std::ostringstream text;
-          text << "option -preload static: " << link.place << " of structure " << systems_[s].name
-               << " holds " << force << " N at rest, more than its yield force of "
-               << link.yield_force << " N; give a larger one, or leave -preload out";
+          text << "option -preload static: " << place << " of structure " << systems_[s].name
+               << " holds " << force << " N at rest, more than its yield force of " << limit
+               << " N; give a larger one, or leave -preload out";
           throw UserError(text.str());
         }
       }
@@ -299,7 +277,7 @@ class Search {
     throw UserError(text.str());
   }
 
-  Equilibrium describe() const {
+  Equilibrium describe() {
     Equilibrium result;
     result.iterations = iterations_;
     result.residual = relative_residual();
@@ -396,7 +374,6 @@ class Search {
   std::span<const LinearSystem> systems_;
   std::span<const Mesh> meshes_;
   const interactions::Interface& interface_;
-  std::unique_ptr<interactions::ContactProblem> contact_;  ///< null without contacts
   bool any_told_open_;  ///< contacts open by what was told of their gaps
   UnilateralRows rows_;
   std::vector<std::unique_ptr<StaticStiffness>> stiffness_;  ///< per structure

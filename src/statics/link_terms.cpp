@@ -1,7 +1,6 @@
 #include "statics/link_terms.h"
 
 #include "interactions/laws/law_of.h"
-#include "system/links.h"
 
 namespace pounding {
 namespace {
@@ -29,17 +28,7 @@ std::vector<LinkTerms> link_terms(const LinearSystem& system) {
   for (const Link& link : system.links->links()) {
     const double stiffness = tangent_of(link);
     if (!(stiffness > 0)) continue;
-    LinkTerms& bar = bars.emplace_back();
-    bar.stiffness = stiffness;
-    bar.one_way = is_one_way_link(link);
-    const NonlinearSpring& nonlinear = link.origin.region->nonlinear;
-    bar.slack = nonlinear.slack;
-    if (!bar.one_way) {
-      bar.yield_force = nonlinear.yield_force[link.origin.component];
-      bar.pulls_only = nonlinear.has_skeleton() && nonlinear.law.negative.breaks.empty();
-      bar.place = "element " + std::to_string(link.number) + " of group '" +
-                  link.origin.region->group + "'";
-    }
+    LinkTerms& bar = bars.emplace_back(LinkTerms{&link, stiffness, is_one_way_link(link)});
     for (std::size_t i = 0; i < link.place.size(); ++i) {
       if (link.place[i] >= 0) {
         trace.add_force(static_cast<std::size_t>(link.place[i]), link.weight[i], field);

@@ -1,23 +1,20 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "system/linear_system.h"
+#include "system/links.h"
 
 namespace pounding {
 
 /// A link that holds a force at rest, over the owned dofs of its structure, or its generalised
 /// coordinates: its elongation is sum of coefficient x dof.
 struct LinkTerms {
-  double stiffness = 0;  ///< k [N/m]
+  const Link* link = nullptr;
+  double stiffness = 0;  ///< k, the largest tangent of its law [N/m]
   bool one_way = false;
-  double slack = 0;         ///< elongation at which it begins to hold [m]
-  double yield_force = 0;   ///< beyond which it is no rest [N]; 0: it does not yield
-  bool pulls_only = false;  ///< beyond which it holds nothing: no rest where it is pressed
-  std::string place;        ///< of one that yields, for messages
-  std::vector<LocalIndex> dofs;
-  std::vector<double> coefficients;  ///< b, not zero [-]
+  std::vector<LocalIndex> dofs{};
+  std::vector<double> coefficients{};  ///< b, not zero [-]
 
   /// b . u of the owned dofs [m].
   double elongation(const std::vector<double>& u) const {
@@ -27,8 +24,8 @@ struct LinkTerms {
   }
 };
 
-/// Tension-only bars, compression-only springs and what yields of this rank: links that hold a
-/// force at rest, which dashpots do not. Local.
+/// Tension-only bars, compression-only springs and yielding elements of this rank: links that hold
+/// a force at rest, which dashpots do not. They borrow the system's links. Local.
 std::vector<LinkTerms> link_terms(const LinearSystem& system);
 
 }  // namespace pounding

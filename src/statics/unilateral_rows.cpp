@@ -2,84 +2,84 @@
 
 #include <algorithm>
 
-#include "common/parallel.h"
+#include "common/gather_rows.h"
 #include "statics/link_terms.h"
 
 namespace pounding {
 
-UnilateralRows::UnilateralRows(MPI_Comm comm, const interactions::ContactProblem* contact,
-                               std::span<const double> gaps, std::span<const char> open,
-                               std::span<const LinearSystem> systems)
-    : comm_(comm) {
-  if (contact != nullptr) add_contacts(*contact, gaps, open, systems);
-  contacts_ = size();
-  for (std::size_t s = 0; s < systems.size(); ++s) add_links(s, systems[s]);
+UnilateralRows::UnilateralRows(MPI_Comm comm, std::span<const interactions::Constraint> contacts,
+                               std::span<const char> open, std::span<const LinearSystem> systems,
+                               std::span<const Mesh> meshes)
+    : comm_(comm),
+      contacts_(static_cast<int>(contacts.size())),
+      compliance_(contacts.size(), 0.0),
+      open_(open.begin(), open.end()),
+      rows_(comm, all_constraints(contacts, systems), systems, meshes) {}
+
+std::vector<interactions::Constraint> UnilateralRows::all_constraints(
+    std::span<const interactions::Constraint> contacts, std::span<const LinearSystem> systems) {
+  std::vector<interactions::Constraint> constraints(contacts.begin(), contacts.end());
+  for (std::size_t s = 0; s < systems.size(); ++s) add_links(s, systems[s], constraints);
+  open_.resize(constraints.size(), 0);
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    initial_.push_back(std::max(0.0, constraints[i].initial_gap));
+    if (initial_[i] == interactions::open_gap) open_[i] = 1;
+  }
+  return constraints;
 }
 
-void UnilateralRows::add_contacts(const interactions::ContactProblem& contact,
-                                  std::span<const double> gaps, std::span<const char> open,
-                                  std::span<const LinearSystem> systems) {
-  for (int i = 0; i < contact.rows(); ++i) {
-    Row& row = rows_.emplace_back();
-    row.initial = std::max(0.0, gaps[i]);
-    row.open = open[i] != 0;
-    for (std::size_t s = 0; s < systems.size(); ++s) {
-      const std::vector<double> force = contact.row_force(i, s, systems[s].owned_dofs());
-      for (const LocalIndex dof : contact.trace(s).dofs()) {
-        if (force[dof] != 0) row.entries.push_back({s, dof, force[dof]});
-      }
+void UnilateralRows::add_links(std::size_t structure, const LinearSystem& system,
+                               std::vector<interactions::Constraint>& constraints) {
+  if (!system.links) return;
+  const std::size_t places = Link{}.place.size();
+  std::vector<double> mine;  // per link c, slack, and of each place node, component, coefficient
+  for (const LinkTerms& bar : link_terms(system)) {
+    if (!bar.one_way) continue;
+    mine.insert(mine.end(), {1 / bar.stiffness, bar.link->origin.region->nonlinear.slack});
+    for (std::size_t i = 0; i < places; ++i) {
+      const int place = bar.link->place[i];
+      const TracePoint point = place < 0 ? TracePoint{} : system.links->points()[place];
+      mine.insert(mine.end(),
+                  {static_cast<double>(point.node), static_cast<double>(point.component),
+                   place < 0 ? 0.0 : -bar.link->weight[i]});
+    }
+  }
+  const std::vector<double> all = gather_rows(comm_, mine);
+  for (auto value = all.begin(); value != all.end();) {
+    compliance_.push_back(*value++);
+    interactions::Constraint& constraint = constraints.emplace_back();
+    constraint.initial_gap = *value++;
+    for (std::size_t i = 0; i < places; ++i, value += 3) {
+      if (value[2] == 0) continue;
+      constraint.terms.push_back({static_cast<int>(structure), static_cast<GlobalIndex>(value[0]),
+                                  static_cast<int>(value[1]), value[2]});
     }
   }
 }
 
-void UnilateralRows::add_links(std::size_t structure, const LinearSystem& system) {
-  std::vector<LinkTerms> bars = link_terms(system);
-  std::erase_if(bars, [](const LinkTerms& bar) { return !bar.one_way; });
-  std::vector<int> counts(size_of(comm_));
-  const int mine = static_cast<int>(bars.size());
-  MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);
-  for (int rank = 0; rank < size_of(comm_); ++rank) {
-    std::vector<double> numbers(2 * static_cast<std::size_t>(counts[rank]));
-    const bool own = rank == rank_of(comm_);
-    for (std::size_t i = 0; own && i < bars.size(); ++i) {
-      numbers[2 * i] = 1 / bars[i].stiffness;
-      numbers[2 * i + 1] = bars[i].slack;
+std::vector<double> UnilateralRows::responses(std::span<const std::vector<double>> displacement) {
+  std::vector<double> changes(compliance_.size(), 0.0);
+  if (rows_.members() == 0) return changes;
+  if (rows_.member()) {
+    std::vector<double> gathered(rows_.dofs());
+    for (std::size_t s = 0; s < displacement.size(); ++s) {
+      rows_.set(s, 0, 1, displacement[s].data(), {});
     }
-    MPI_Bcast(numbers.data(), 2 * counts[rank], MPI_DOUBLE, rank, comm_);
-    for (std::size_t i = 0; 2 * i < numbers.size(); ++i) {
-      Row& row = rows_.emplace_back();
-      row.compliance = numbers[2 * i];
-      row.initial = numbers[2 * i + 1];
-      for (std::size_t k = 0; own && k < bars[i].dofs.size(); ++k) {
-        row.entries.push_back({structure, bars[i].dofs[k], -bars[i].coefficients[k]});
-      }
-    }
+    rows_.gather(1, gathered);
+    for (int i = 0; i < size(); ++i) changes[i] = rows_.rows().apply(i, gathered);
   }
+  MPI_Bcast(changes.data(), size(), MPI_DOUBLE, rows_.root(), comm_);
+  return changes;
 }
 
-std::vector<double> UnilateralRows::responses(
-    std::span<const std::vector<double>> displacement) const {
-  std::vector<double> sums(rows_.size(), 0.0);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    for (const Entry& entry : rows_[i].entries) {
-      sums[i] += entry.coefficient * displacement[entry.structure][entry.dof];
-    }
-  }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), size(), MPI_DOUBLE, MPI_SUM, comm_);
-  return sums;
-}
-
-std::vector<double> UnilateralRows::openings(
-    std::span<const std::vector<double>> displacement) const {
+std::vector<double> UnilateralRows::openings(std::span<const std::vector<double>> displacement) {
   std::vector<double> openings = responses(displacement);
-  for (std::size_t i = 0; i < rows_.size(); ++i) openings[i] += rows_[i].initial;
+  for (std::size_t i = 0; i < openings.size(); ++i) openings[i] += initial_[i];
   return openings;
 }
 
 void UnilateralRows::add_force(int row, double f, std::span<std::vector<double>> forces) const {
-  for (const Entry& entry : rows_[row].entries) {
-    forces[entry.structure][entry.dof] += f * entry.coefficient;
-  }
+  for (std::size_t s = 0; s < forces.size(); ++s) rows_.add_force(row, f, s, forces[s]);
 }
 
 }  // namespace pounding

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
 #include <mpi.h>
 
-#include "interactions/contact_problem.h"
+#include "interactions/interface_rows.h"
 #include "system/linear_system.h"
 
 namespace pounding {
@@ -21,47 +20,41 @@ namespace pounding {
 /// contact holds and does not push apart; R its row of L, c = 0) and, for a
 /// link with the force f and the elongation e (of a spring: how far it is pressed), w = f / k - e,
 /// that is w0 = 0, R = -b, c = 1 / k. The force on the dofs is R^T f of both. Every rank knows
-/// every row and, of its dofs, those that it owns.
+/// every row; displacements reach all of them by the gather of interactions (InterfaceRows).
 class UnilateralRows {
  public:
-  /// `contact` may be null. `open`: per contact point, whether it is open whatever the
-  /// displacements are. Collective over `comm`.
-  UnilateralRows(MPI_Comm comm, const interactions::ContactProblem* contact,
-                 std::span<const double> gaps, std::span<const char> open,
-                 std::span<const LinearSystem> systems);
+  /// `open`: per contact point, whether it is open whatever the displacements are; one that faces
+  /// nothing yet is open as well. Collective over `comm`.
+  UnilateralRows(MPI_Comm comm, std::span<const interactions::Constraint> contacts,
+                 std::span<const char> open, std::span<const LinearSystem> systems,
+                 std::span<const Mesh> meshes);
 
-  int size() const { return static_cast<int>(rows_.size()); }
+  int size() const { return static_cast<int>(compliance_.size()); }
   int contacts() const { return contacts_; }  ///< rows of contact points, the first ones
-  double compliance(int row) const { return rows_[row].compliance; }  ///< c [m/N]
-  bool open(int row) const { return rows_[row].open; }  ///< f is 0 and w means nothing
+  double compliance(int row) const { return compliance_[row]; }  ///< c [m/N]
+  bool open(int row) const { return open_[row] != 0; }           ///< f is 0 and w means nothing
   /// w0 + R u of all rows [m]; `displacement` per structure over the owned dofs. Collective.
-  std::vector<double> openings(std::span<const std::vector<double>> displacement) const;
+  std::vector<double> openings(std::span<const std::vector<double>> displacement);
   /// Changes R u of w, all rows [m]. Collective.
-  std::vector<double> responses(std::span<const std::vector<double>> displacement) const;
+  std::vector<double> responses(std::span<const std::vector<double>> displacement);
   /// Adds f R^T of a row to forces per structure over the owned dofs. Local.
   void add_force(int row, double f, std::span<std::vector<double>> forces) const;
 
  private:
-  /// Part of one owned dof in w.
-  struct Entry {
-    std::size_t structure = 0;
-    LocalIndex dof = 0;
-    double coefficient = 0;
-  };
-  struct Row {
-    double initial = 0;     ///< w0 [m]
-    double compliance = 0;  ///< c [m/N]
-    bool open = false;
-    std::vector<Entry> entries;
-  };
-  void add_contacts(const interactions::ContactProblem& contact, std::span<const double> gaps,
-                    std::span<const char> open, std::span<const LinearSystem> systems);
-  /// Links of one structure, those of rank 0 first.
-  void add_links(std::size_t structure, const LinearSystem& system);
+  /// Constraints of one structure's one-way links, those of rank 0 first; their slack is the
+  /// initial gap.
+  void add_links(std::size_t structure, const LinearSystem& system,
+                 std::vector<interactions::Constraint>& constraints);
+  /// Those of the contact points and of all links.
+  std::vector<interactions::Constraint> all_constraints(
+      std::span<const interactions::Constraint> contacts, std::span<const LinearSystem> systems);
 
   MPI_Comm comm_;
-  int contacts_ = 0;
-  std::vector<Row> rows_;
+  int contacts_;
+  std::vector<double> initial_;     ///< w0 [m]
+  std::vector<double> compliance_;  ///< c [m/N]
+  std::vector<char> open_;
+  interactions::InterfaceRows rows_;
 };
 
 }  // namespace pounding

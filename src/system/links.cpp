@@ -199,16 +199,16 @@ void Links::keep(const Mesh& mesh, const ElementBlock& block, std::size_t elemen
 }
 
 void Links::find_trace(const LinearSystem& system, const Mesh& mesh) {
-  std::vector<TracePoint> places;
+  points_.clear();
   for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
     for (int c = 0; c < 6; ++c) {
       const LocalIndex dof = mesh.dof(node, c);
       if (dof >= 0 && std::binary_search(dofs_.begin(), dofs_.end(), dof)) {
-        places.push_back({mesh.file_node[node], c});
+        points_.push_back({mesh.file_node[node], c});
       }
     }
   }
-  trace_ = std::make_unique<Trace>(system, mesh, places, true);
+  trace_ = std::make_unique<Trace>(system, mesh, points_, true);
   for (Link& link : links_) {
     link.supports.clear();
     for (std::size_t c = 0; system.supports && c < system.supports->columns.size(); ++c) {

@@ -58,6 +58,7 @@ class Links {
   const std::vector<Link>& links() const { return links_; }  ///< of this rank
   const Trace& trace() const { return *trace_; }
   const std::vector<LocalIndex>& dofs() const { return dofs_; }  ///< of the mesh, per place of it
+  const std::vector<TracePoint>& points() const { return points_; }  ///< likewise, in file order
   /// Some link of some rank holds stiffness that is no part of K: it acts in one direction only, or
   /// yields.
   bool hold_stiffness() const { return hold_stiffness_; }
@@ -81,7 +82,8 @@ class Links {
   bool hold_stiffness_ = false;
   bool driven_ = false;
   std::vector<Link> links_;
-  std::vector<LocalIndex> dofs_;  ///< per place of the trace, increasing
+  std::vector<LocalIndex> dofs_;    ///< per place of the trace, increasing
+  std::vector<TracePoint> points_;  ///< per place of the trace
   std::unique_ptr<Trace> trace_;
 };
 
