@@ -67,12 +67,27 @@ def summary(folder):
         return json.load(file)
 
 
+def well_ended(test, result):
+    """A program or command that ended; fails the test unless its exit status is 0."""
+    test.assertEqual(result.returncode, 0, result.stdout[-2000:] + result.stderr[-2000:])
+    return result
+
+
+def must_end(test, *arguments, **options):
+    """`run` that ends with exit status 0."""
+    return well_ended(test, run(*arguments, **options))
+
+
+def must_do(test, *words, **options):
+    """`command` that ends with exit status 0."""
+    return well_ended(test, command(*words, **options))
+
+
 def must_run(test, arguments, ranks=RANKS, timeout=900):
     """Runs into a fresh folder and returns it with the summary; fails the test on an error. Numbers in tables have all
     their digits unless the arguments say otherwise."""
     folder = tempfile.mkdtemp(prefix="pounding-")
-    result = run(["-csv_digits", 17, *arguments, "-output", folder], ranks, timeout)
-    test.assertEqual(result.returncode, 0, result.stdout[-2000:] + result.stderr[-2000:])
+    must_end(test, ["-csv_digits", 17, *arguments, "-output", folder], ranks, timeout)
     return folder, summary(folder)
 
 

@@ -136,8 +136,7 @@ def ensemble_of(test, words, column, values):
         table = os.path.join(folder, "members.csv")
         with open(table, "w") as file:
             file.write("\n".join([column, *map(str, values)]) + "\n")
-        result = program.run([*words, "-ensemble", table, "-output", os.path.join(folder, "results")])
-        test.assertEqual(result.returncode, 0, result.stdout[-1000:] + result.stderr[-1000:])
+        result = program.must_end(test, [*words, "-ensemble", table, "-output", os.path.join(folder, "results")])
         with h5py.File(os.path.join(folder, "results", "ensemble.h5")) as file:
             return file["peaks/displacement"][()], file["energy/residual"][()]
 
@@ -163,8 +162,7 @@ def assert_continues(test, arguments, stop, checkpoint, ranks=program.RANKS):
     with tempfile.TemporaryDirectory() as cut:
         for more in (["-end_time", stop, "-checkpoint_steps", checkpoint],
                      ["-restart", os.path.join(cut, "checkpoint.h5")]):
-            result = program.run(["-csv_digits", 17, *arguments, *more, "-output", cut], ranks)
-            test.assertEqual(result.returncode, 0, result.stderr[-2000:])
+            result = program.must_end(test, ["-csv_digits", 17, *arguments, *more, "-output", cut], ranks)
         with h5py.File(os.path.join(folder, "history.h5")) as whole, \
                 h5py.File(os.path.join(cut, "history.h5")) as continued:
             for name in ("displacement", "velocity", "acceleration", "contact_force", "link_elongation", "link_force",

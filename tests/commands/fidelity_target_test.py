@@ -65,16 +65,14 @@ class FidelityTarget(unittest.TestCase):
         self.assertEqual(len(keys), 1)
 
     def test_says_what_it_took_and_why(self):
-        result = program.run(self.coarse + ["-dry_run", "-fidelity_target", 0.05], 2)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = program.must_end(self, self.coarse + ["-dry_run", "-fidelity_target", 0.05], 2)
         line, = [line for line in result.stdout.splitlines() if line.startswith("fidelity target")]
         self.assertIn(f"'{fastest(0.05)['setting']}'", line)
         plain = program.run(self.coarse + ["-dry_run"], 2)
         self.assertNotIn("fidelity target", plain.stdout)
 
     def test_what_the_user_gave_wins(self):
-        result = program.run(self.coarse + ["-dry_run", "-fidelity_target", 0.05, "-s1_model", "full"], 2)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = program.must_end(self, self.coarse + ["-dry_run", "-fidelity_target", 0.05, "-s1_model", "full"], 2)
         line, = [line for line in result.stdout.splitlines() if line.startswith("fidelity target")]
         self.assertNotIn("modal", line)
         self.assertIn("mass_scaling", line)
@@ -92,9 +90,8 @@ class FidelityTarget(unittest.TestCase):
 
     def test_shipped_cases_of_the_pair_are_those_measured(self):
         for case in ("gap2", "demo"):
-            result = program.run(["-options_file", f"petsc-options/azalee/{case}.yaml", "-dry_run",
-                                  "-fidelity_target", 0.0005, "-modes", 1], 2)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            result = program.must_end(self, ["-options_file", f"petsc-options/azalee/{case}.yaml", "-dry_run",
+                                             "-fidelity_target", 0.0005, "-modes", 1], 2)
             self.assertIn("'intervals'", result.stdout)
 
     def test_wrong_words_are_one_line(self):

@@ -25,8 +25,7 @@ class Law(unittest.TestCase):
             scene = os.path.join(folder, "scene.yaml")
             with open(scene, "w") as file:
                 file.write(SCENE)
-            result = program.command("law", scene, "--amplitudes", "0.5,4", "--out", folder)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            result = program.must_do(self, "law", scene, "--amplitudes", "0.5,4", "--out", folder)
             self.assertGreater(os.path.getsize(os.path.join(folder, "laws.png")), 5000)
             with open(os.path.join(folder, "laws.csv"), newline="") as file:
                 rows = list(csv.DictReader(file))

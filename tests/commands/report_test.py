@@ -61,8 +61,7 @@ class Report(unittest.TestCase):
         cls.said = drawn.stdout
 
     def plot(self, *words):
-        done = program.command("plot", *words)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = program.must_do(self, "plot", *words)
         return done.stdout
 
     @staticmethod

@@ -61,8 +61,7 @@ class Links(InFolder):
         names = ("comparison.html", "spectra.csv", "impacts.csv", "peaks.csv", "options.csv", "spectra_left_roof.png")
         for name in names:
             (self.out / name).symlink_to(self.precious)
-        done = program.command("compare", self.place / "a", self.place / "b", "--out", self.out)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = program.must_do(self, "compare", self.place / "a", self.place / "b", "--out", self.out)
         self.assertEqual(self.precious.read_text(), "precious")
         self.assertEqual([name for name in names if (self.out / name).is_symlink()], [])
 

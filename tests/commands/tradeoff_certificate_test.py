@@ -225,8 +225,7 @@ class OwnScene(unittest.TestCase):
         self.assertIn(summary["options"]["left_modal_vectors"], within)  # the fastest of them: their times are close
 
     def test_with_full_order_it_is_measured(self):
-        done = program.command(*self.words)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = program.must_do(self, *self.words)
         measured = self.certificate()
         self.assertTrue(measured["measured"])
         self.assertLessEqual(measured["error"]["1-400"], 0.9)

@@ -63,8 +63,7 @@ class SceneStudy(unittest.TestCase):
         with open(os.path.join(reduced, "notes.txt"), "w") as file:
             file.write("a user's")
         os.truncate(os.path.join(reduced, "spectra.csv"), 1000)
-        again = program.command(*self.words)
-        self.assertEqual(again.returncode, 0, again.stderr)
+        again = program.must_do(self, *self.words)
         self.assertEqual(os.stat(path).st_mtime_ns, before)
         self.assertTrue(os.path.exists(os.path.join(reduced, "notes.txt")))
         self.assertGreater(os.path.getsize(os.path.join(reduced, "spectra.csv")), 1000)  # run again, whole

@@ -111,13 +111,11 @@ class View(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             for name in ("summary.json", "history.h5", "impacts.csv", "energy.csv", "spectra.csv"):
                 shutil.copy(os.path.join(self.folder, name), folder)
-            drawn = program.command("plot", folder)
-            self.assertEqual(drawn.returncode, 0, drawn.stderr)
+            drawn = program.must_do(self, "plot", folder)
             self.assertIn("view skipped: no fields.h5", drawn.stdout)
             self.assertNotIn('id="view"', Path(folder, "report.html").read_text(encoding="utf-8"))
             Path(folder, "fields.h5").write_bytes(b"no HDF5 at all")
-            drawn = program.command("plot", folder)
-            self.assertEqual(drawn.returncode, 0, drawn.stderr)
+            drawn = program.must_do(self, "plot", folder)
             self.assertIn("cannot be read", drawn.stdout)
 
     def test_a_browser_draws_it(self):

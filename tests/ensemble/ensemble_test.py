@@ -118,15 +118,13 @@ class Members(unittest.TestCase):
 
     def test_two_ranks_and_another_order_of_groups(self):
         folder = tempfile.mkdtemp(prefix="pounding-ensemble-")
-        run = program.run([*self.words, "-output", folder], 2)
-        self.assertEqual(run.returncode, 0, run.stderr[-2000:])
+        run = program.must_end(self, [*self.words, "-output", folder], 2)
         self.same_as(folder)
         with h5py.File(os.path.join(folder, "ensemble.h5"), "r+") as file:  # as if killed
             for member in (1, 4, 9):
                 file["done"][member] = 0
                 file["spectra/pseudo_acceleration"][member] = np.nan
-        run = program.run([*self.words, "-output", folder], 1)
-        self.assertEqual(run.returncode, 0, run.stderr[-2000:])
+        run = program.must_end(self, [*self.words, "-output", folder], 1)
         self.assertIn("7 of 10 members are done already", run.stdout)
         self.same_as(folder)
 
@@ -143,8 +141,7 @@ class Members(unittest.TestCase):
             file["done"][9] = 7
         with self.assertRaisesRegex(pounding.ResultError, "member 2 are not those written"):
             pounding.load_ensemble(folder)
-        run = program.run([*self.words, "-output", folder], 2)
-        self.assertEqual(run.returncode, 0, run.stderr[-2000:])
+        run = program.must_end(self, [*self.words, "-output", folder], 2)
         self.assertIn("the numbers of 3 members that are said to be done are not those written", run.stdout)
         self.same_as(folder)
 
@@ -182,8 +179,7 @@ class Members(unittest.TestCase):
         if job.returncode == 2:
             self.assertIn("stopped by SIGTERM", errors)
             self.assertFalse(pounding.load_ensemble(folder).done.all())
-        run = program.run(words, 1)
-        self.assertEqual(run.returncode, 0, run.stderr[-2000:])
+        run = program.must_end(self, words, 1)
         self.same_as(folder)
 
     def test_another_table_or_scene_is_refused(self):
@@ -228,8 +224,7 @@ class Kinds(unittest.TestCase):
     def check(self, *words, struck=True, rows=ROWS, columns=COLUMNS):
         folder = tempfile.mkdtemp(prefix="pounding-ensemble-")
         words = [*SCENE, *MODAL, "-end_time", "0.9", "-spectra_damping", "0.05", "-csv_digits", "17", *words]
-        job = program.run([*words, "-ensemble", table(rows, columns), "-output", folder], program.RANKS)
-        self.assertEqual(job.returncode, 0, job.stdout[-2000:] + job.stderr[-2000:])
+        job = program.must_end(self, [*words, "-ensemble", table(rows, columns), "-output", folder], program.RANKS)
         result = pounding.load_ensemble(folder)
         self.assertTrue(result.done.all())
         self.assertLess(np.abs(result.residual).max(), 1e-9)
@@ -339,8 +334,7 @@ class Refusals(unittest.TestCase):
         rows = ["0.01,3.5,1", "20,3.5,1", "20,0.3,1", "0.01,0.3,1e-9"]
         words = [*SCENE, *MODAL, "-dry_run", "-ensemble", table(rows, "floor1_gap,motion_x_pga,right_damping_factor")]
         for ranks in (1, 2):
-            run = program.run(words, ranks)
-            self.assertEqual(run.returncode, 0, run.stderr[-2000:])
+            run = program.must_end(self, words, ranks)
             warnings = [line for line in run.stdout.splitlines() if line.startswith("warning: ")]
             gaps = [line for line in warnings if "contact floor1: the gap given, up to 20 m" in line]
             self.assertEqual(len(gaps), 1, run.stdout)

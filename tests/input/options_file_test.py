@@ -105,8 +105,7 @@ class CommandLine(Options):
 
     def test_version(self):
         for word in ("-version", "--version"):
-            result = program.run([word], 2, timeout=60)
-            self.assertEqual(result.returncode, 0)
+            result = program.must_end(self, [word], 2, timeout=60)
             self.assertRegex(result.stdout, r"^pounding \d+\.\d+\.\d+ \([\w-]+\)\n(  \w+ .*\d\n)+$")
 
 
@@ -147,8 +146,7 @@ class Libraries(Options):
         for name in ("petsc-options", "meshes"):
             os.symlink(os.path.join(program.SOURCE, name), os.path.join(self.folder, name))
         for ranks in (1, 2):
-            result = program.run(words, ranks, timeout=120, folder=self.folder, environment=environment)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            result = program.must_end(self, words, ranks, timeout=120, folder=self.folder, environment=environment)
             summary = program.summary(os.path.join(self.folder, "results"))
             self.assertEqual(summary["end_time"], 1e-4)
             (doubt,) = [line for line in summary["warnings"] if "PETSC_OPTIONS" in line]
@@ -174,8 +172,7 @@ class Libraries(Options):
         with open(os.path.join(folder, "stiffness.petsc.info"), "w") as file:
             file.write("-lowest_eps_type nope\n-lowest_eps_tol nope\n")
         for ranks in (1, 2):
-            result = program.run([*scene, "-m_matrices", folder], ranks, timeout=60)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            result = program.must_end(self, [*scene, "-m_matrices", folder], ranks, timeout=60)
 
     def test_no_option_of_the_scene_is_called_unused(self):
         for ranks in (1, 2):

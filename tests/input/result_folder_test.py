@@ -50,8 +50,7 @@ class ResultFolder(unittest.TestCase):
                 self.assertEqual(result.returncode, 1)
                 line, = program.error_lines(result)
                 self.assertIn(f"option -output {self.folder}: another run writes there (process ", line)
-            dry = program.run([*BAR, "-output", self.folder, "-dry_run"], 1)
-            self.assertEqual(dry.returncode, 0, dry.stderr)
+            dry = program.must_end(self, [*BAR, "-output", self.folder, "-dry_run"], 1)
             with open(self.path("running.lock")) as file:
                 os.kill(int(file.read().split()[1]), signal.SIGTERM)
             self.assertEqual(first.wait(120), 2)
@@ -59,8 +58,7 @@ class ResultFolder(unittest.TestCase):
 
     def test_what_an_earlier_run_left_goes(self):
         for ranks in (1, 2):
-            result = program.run([*BAR, "-output", self.folder], ranks)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            result = program.must_end(self, [*BAR, "-output", self.folder], ranks)
             with open(self.path("notes.txt"), "w") as file:
                 file.write("mine")
             again = program.run([*BAR, "-output", self.folder], ranks)
@@ -78,8 +76,7 @@ class ResultFolder(unittest.TestCase):
                 os.remove(self.path(name))
 
     def test_marks_of_the_history(self):
-        result = program.run([*BAR, "-output", self.folder], 2)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = program.must_end(self, [*BAR, "-output", self.folder], 2)
         with h5py.File(self.path("history.h5"), "r") as file:
             self.assertEqual(file.attrs["complete"], 1)
             self.assertEqual(file["records"][0], len(file["time"]))
@@ -113,8 +110,7 @@ class ResultFolder(unittest.TestCase):
         """Links of every name that a run writes: what they point to stays as it is, and the results are files."""
         words = [*BAR, "-end_time", 0.2, "-fields_interval", 0.1, "-write_modes", "-write_model", "-checkpoint_steps", 50,
                  "-forces", "base", "-base_kind", "reactions", "-base_structure", "bar", "-output", self.folder]
-        result = program.run(words, 2)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = program.must_end(self, words, 2)
         names = os.listdir(self.folder)
         self.assertGreater(len(names), 10)
         elsewhere = tempfile.mkdtemp(prefix="pounding-elsewhere-")
@@ -126,8 +122,7 @@ class ResultFolder(unittest.TestCase):
             if name in names:
                 os.remove(self.path(name))
             os.symlink(os.path.join(elsewhere, name), self.path(name))
-        result = program.run(words, 2)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = program.must_end(self, words, 2)
         for name in os.listdir(elsewhere):
             with open(os.path.join(elsewhere, name)) as file:
                 self.assertEqual(file.read(), "mine", name)

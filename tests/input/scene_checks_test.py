@@ -42,8 +42,7 @@ class Run(unittest.TestCase):
         for ranks in (1, 2):
             if not again:
                 shutil.rmtree(self.output, ignore_errors=True)
-            result = program.run(["-output", self.output, *words], ranks, timeout=120)
-            self.assertEqual(result.returncode, 0, result.stdout[-1000:] + result.stderr[-1000:])
+            result = program.must_end(self, ["-output", self.output, *words], ranks, timeout=120)
             printed = [line[9:] for line in result.stdout.splitlines() if line.startswith("warning: ")]
             self.assertEqual(program.summary(self.output)["warnings"], printed)
             found.append(printed)
@@ -188,8 +187,7 @@ class Folder(Run):
             words = [*CHAIN, "-modes", "2", "-dry_run", "-output", self.output]
             self.assertEqual(program.run(words, ranks, timeout=60).returncode, 0)
             self.assertFalse(os.path.exists(self.output))
-            result = program.run([*words, "-write_modes"], ranks, timeout=60)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            result = program.must_end(self, [*words, "-write_modes"], ranks, timeout=60)
             self.assertEqual(sorted(os.listdir(self.output)), ["modes.h5", "modes.xdmf"])
             shutil.rmtree(self.output)
 

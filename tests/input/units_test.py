@@ -12,8 +12,7 @@ class Units(unittest.TestCase):
     def doubts(self, *words, ranks=1):
         """The warnings of a run on the coarse pair, printed and in summary.json alike."""
         with tempfile.TemporaryDirectory() as folder:
-            result = program.run([*program.COARSE_PAIR, *QUIET, *words, "-output", folder], ranks)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            result = program.must_end(self, [*program.COARSE_PAIR, *QUIET, *words, "-output", folder], ranks)
             warnings = program.summary(folder)["warnings"]
         printed = [line[len("warning: "):] for line in result.stdout.splitlines() if line.startswith("warning: ")]
         self.assertEqual(printed, warnings)

@@ -15,8 +15,7 @@ class LogView(unittest.TestCase):
     def test_the_lines_of_a_step_are_events(self):
         for ranks in (1, 2):
             folder = self.enterContext(tempfile.TemporaryDirectory())
-            result = program.run(CASE + ["-output", folder], ranks)
-            self.assertEqual(result.returncode, 0, result.stderr[-2000:])
+            result = program.must_end(self, CASE + ["-output", folder], ranks)
             steps = program.summary(folder)["steps"] + 1  # t_0 is one too
             calls = {name: re.search(rf"^{name[:16]}\S* +(\d+) ", result.stdout, re.MULTILINE) for name in LINES}
             for name, found in calls.items():

@@ -27,8 +27,7 @@ def phases(text):
 class Progress(unittest.TestCase):
     def test_every_long_phase_says_so_once(self):
         for ranks in (1, 2):
-            result = program.run(CASE + ["-progress_interval", "1e-5"], ranks)
-            self.assertEqual(result.returncode, 0, result.stderr[-2000:])
+            result = program.must_end(self, CASE + ["-progress_interval", "1e-5"], ranks)
             told = phases(result.stdout)
             for phase in PHASES:
                 self.assertEqual(told.get(phase), 1, (ranks, phase, result.stdout[:4000]))
@@ -36,8 +35,7 @@ class Progress(unittest.TestCase):
             self.assertRegex(result.stdout, r"a: bounds of the gap rates: \d\.\d s, row \d+ of \d+")
 
     def test_short_phases_are_silent(self):
-        result = program.run(CASE + ["-progress_interval", "1000"])
-        self.assertEqual(result.returncode, 0, result.stderr[-2000:])
+        result = program.must_end(self, CASE + ["-progress_interval", "1000"])
         self.assertEqual(phases(result.stdout), {})
 
 

@@ -160,8 +160,7 @@ probes: post
         folder = os.path.join(self.folder, "results")
         words = ["-options_file", self.scene, "-motion_x_pga", 2.5, "-end_time", 0.05, "-output", folder]
         for ranks in (1, 2):
-            result = program.run(words, ranks)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            result = program.must_end(self, words, ranks)
             self.assertIn("\nA post, 1 m\n  with end_time 0.05, motion_x_pga 2.5\n", result.stdout)
             self.assertEqual(program.summary(folder)["overrides"], {"end_time": "0.05", "motion_x_pga": "2.5"})
 

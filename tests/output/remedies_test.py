@@ -13,8 +13,7 @@ SCALING = re.compile(r"(\d+) elements of (.+) hold the step: -(\w+)_mass_scaling
 
 class Remedies(unittest.TestCase):
     def dry_run(self, *words, ranks=program.RANKS):
-        result = program.run(program.COARSE_PAIR + ["-dry_run", *words], ranks)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = program.must_end(self, program.COARSE_PAIR + ["-dry_run", *words], ranks)
         steps = re.findall(r"stable time step (\S+) s \(bound.*without damping (\S+) s", result.stdout)
         self.assertEqual(len(steps), 2)
         return result.stdout, [(float(stable), float(undamped)) for stable, undamped in steps]

@@ -78,8 +78,7 @@ class SpectraStart(unittest.TestCase):
         forces = ["-forces", "base", "-base_structure", "mass", "-base_kind", "reactions"]
         words = scene(self.record, "-motion_z_time_step", 0.01, *forces)
         folder = tempfile.mkdtemp(prefix="pounding-")
-        ended = program.run([*words, "-end_time", 2, "-checkpoint_steps", 4000, "-output", folder])
-        self.assertEqual(ended.returncode, 0, ended.stderr)
+        ended = program.must_end(self, [*words, "-end_time", 2, "-checkpoint_steps", 4000, "-output", folder])
         restart = ["-restart", os.path.join(folder, "checkpoint.h5")]
         continued, _ = program.must_run(self, [*words, *restart, "-spectra_start", 3])
         whole, _ = program.must_run(self, [*words, "-spectra_start", 3])

@@ -51,8 +51,7 @@ SCENES = {
 
 
 def cut(test, scene, ranks, folder, on=1):
-    result = program.run([*scene, "-mesh_pieces", folder, "-write_mesh_pieces", ranks], on)
-    test.assertEqual(result.returncode, 0, result.stdout[-2000:] + result.stderr[-2000:])
+    result = program.must_end(test, [*scene, "-mesh_pieces", folder, "-write_mesh_pieces", ranks], on)
     return result.stdout
 
 
@@ -91,8 +90,7 @@ class Same(unittest.TestCase):
             cut(self, scene, ranks, f"{place}/pieces")
             runs = []
             for folder, more in (("whole", []), ("pieces", ["-mesh_pieces", f"{place}/pieces"])):
-                result = program.run([*scene, *more, "-output", f"{place}/{folder}-results"], ranks)
-                self.assertEqual(result.returncode, 0, result.stdout[-2000:] + result.stderr[-2000:])
+                result = program.must_end(self, [*scene, *more, "-output", f"{place}/{folder}-results"], ranks)
                 left = contents(f"{place}/{folder}-results")
                 runs.append((report(result.stdout), left, program.summary(f"{place}/{folder}-results")))
         (said, whole, whole_summary), (said_in_pieces, pieces, summary) = runs
@@ -239,11 +237,9 @@ class Refused(unittest.TestCase):
 
     def test_a_run_on_pieces_continues_one_on_whole_meshes(self):
         folder = self.place.name + "/continued"
-        first = program.run([*self.SCENE, "-checkpoint_steps", 5, "-output", folder], 2)
-        self.assertEqual(first.returncode, 0, first.stderr)
-        result = program.run([*self.SCENE, "-mesh_pieces", self.pieces, "-end_time", 3e-3, "-restart",
-                              f"{folder}/checkpoint.h5", "-output", folder], 2)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        first = program.must_end(self, [*self.SCENE, "-checkpoint_steps", 5, "-output", folder], 2)
+        result = program.must_end(self, [*self.SCENE, "-mesh_pieces", self.pieces, "-end_time", 3e-3, "-restart",
+                                         f"{folder}/checkpoint.h5", "-output", folder], 2)
         through = program.must_run(self, [*self.SCENE, "-end_time", 3e-3], 2)[0]
         for name, values in contents(through).items():
             if not isinstance(values, str):

@@ -61,8 +61,7 @@ class Oscillators(unittest.TestCase):
 
     def step(self, frequencies, *more, said=None):
         """The step of a dry run, which also says whence it is."""
-        done = program.run(self.words(frequencies, *more, "-dry_run"), 1)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = program.must_end(self, self.words(frequencies, *more, "-dry_run"), 1)
         if said:
             self.assertIn(said, done.stdout)
         return float(re.search(r"(?:^|; )time step (\S+) s", done.stdout, re.M).group(1))

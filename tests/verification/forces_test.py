@@ -152,8 +152,7 @@ class Points(Shaken, unittest.TestCase):
                            "base,upper,plain,held", "-plain_structure", "it", "-plain_kind", "reactions", "-held_structure",
                            "it", "-held_kind", "members", "-held_group", "corners", "-it_corners_element", "grounded_spring",
                            "-it_corners_stiffness", "1e4,1e4,1e4", "-output", folder)
-        result = program.run(words)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = program.must_end(self, words)
         self.assertEqual(program.summary(folder)["moments_about"],
                          {"base": list(POINT), "upper": [0, 0, 1.5], "plain": [0, 0, 0]})
         printed = result.stdout[result.stdout.index("\nforce "):]

@@ -143,8 +143,7 @@ class Reduction(unittest.TestCase):
 
     def test_cut_off_counts_the_modes_below_it(self):
         words = ["-s1_model", "modal", "-s1_modal_cutoff", 40, "-dry_run"]
-        result = program.run(PAIR + words, 2)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = program.must_end(self, PAIR + words, 2)
         frequencies = self.full_summary["structures"]["s1"]["frequencies"]
         self.assertLess(frequencies[-1]["frequency"], 40)
         line = [line for line in result.stdout.splitlines() if "below the cut-off of 40 Hz" in line]
@@ -152,8 +151,7 @@ class Reduction(unittest.TestCase):
         self.assertGreaterEqual(int(line[0].split()[0]), len(frequencies))
 
     def test_more_modes_than_dofs_are_all_of_them_with_a_word(self):
-        result = program.run(PAIR + reduced("s1", 5000) + ["-dry_run"], 1)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = program.must_end(self, PAIR + reduced("s1", 5000) + ["-dry_run"], 1)
         self.assertIn(f"{DOFS} modes (5000 asked for, the structure has no more)", result.stdout)
 
     def test_a_step_too_long_names_the_coordinate(self):

@@ -163,8 +163,7 @@ class Thrown(unittest.TestCase):
         with tempfile.TemporaryDirectory() as cut:
             for more in (["-end_time", 0.6, "-checkpoint_steps", 3300],
                          ["-restart", os.path.join(cut, "checkpoint.h5"), "-end_time", 1]):
-                result = program.run(self.words(*more, "-output", cut), 2)
-                self.assertEqual(result.returncode, 0, result.stderr[-2000:])
+                result = program.must_end(self, self.words(*more, "-output", cut), 2)
             with h5py.File(os.path.join(folder, "history.h5")) as whole, \
                     h5py.File(os.path.join(cut, "history.h5")) as continued:
                 for name in ("displacement", "velocity", "acceleration"):

@@ -73,8 +73,7 @@ class GivenGap(unittest.TestCase):
         self.assertGreater(closed.summary["equilibrium"]["contacts"]["joint"]["force"], 1)
 
     def test_said_of_every_contact_and_once_where_it_is_assumed(self):
-        dry = program.run(scene("-dry_run"))
-        self.assertEqual(dry.returncode, 0, dry.stderr)
+        dry = program.must_end(self, scene("-dry_run"))
         rest, unloaded = re.search(r"gap at rest ([\d.e-]+) to [\d.e-]+ mm, unloaded ([\d.e-]+) to", dry.stdout).groups()
         self.assertAlmostEqual(float(rest) / (1e3 * GAP), 1, delta=1e-3)
         self.assertAlmostEqual(float(unloaded) / (1e3 * (GAP + SETTLED)), 1, delta=1e-3)
@@ -100,8 +99,7 @@ class GivenGap(unittest.TestCase):
         whole = Recorded(self, scene(*more, steps=200))
         folder = tempfile.mkdtemp()
         try:
-            first = program.run([*scene(*more, steps=200), "-checkpoint_steps", 100, "-output", folder])
-            self.assertEqual(first.returncode, 0, first.stderr)
+            first = program.must_end(self, [*scene(*more, steps=200), "-checkpoint_steps", 100, "-output", folder])
             again = Recorded(self, scene(*more, "-restart", os.path.join(folder, "checkpoint.h5"), steps=200))
         finally:
             shutil.rmtree(folder)

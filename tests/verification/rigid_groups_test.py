@@ -36,8 +36,7 @@ class Dense:
     def __init__(self, case, arguments, groups):
         folder = tempfile.mkdtemp()
         try:
-            result = program.run([*arguments, "-end_time", 1e-4, "-dry_run", "-export_matrices", folder], 1)
-            case.assertEqual(result.returncode, 0, result.stderr)
+            result = program.must_end(case, [*arguments, "-end_time", 1e-4, "-dry_run", "-export_matrices", folder], 1)
             place = os.path.join(folder, "t")
             self.stiffness = scipy.io.mmread(os.path.join(place, "stiffness.mtx")).toarray()
             self.mass = scipy.io.mmread(os.path.join(place, "mass.mtx")).toarray().ravel()

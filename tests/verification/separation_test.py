@@ -95,8 +95,7 @@ class Oscillators(unittest.TestCase):
 
     def test_printed_by_every_dry_run(self):
         for ranks in (1, 2):
-            result = program.run([*self.words(), "-dry_run"], ranks)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            result = program.must_end(self, [*self.words(), "-dry_run"], ranks)
             self.assertRegex(result.stdout, r"joint gap, 400 mm: peaks along its normal by response spectrum: left ")
             self.assertRegex(result.stdout, r"needed so that nothing hits: modal [\d.]+ mm, DDC [\d.]+ \(correlation 0\.0")
 
@@ -120,8 +119,7 @@ class Oscillators(unittest.TestCase):
             self.assertAlmostEqual(found[name], found["secondary"]["peak_displacement"], delta=1e-15)
 
     def test_none_without_modes(self):
-        result = program.run([*self.words("-modes", 0), "-dry_run"], 2)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = program.must_end(self, [*self.words("-modes", 0), "-dry_run"], 2)
         self.assertNotIn("joint gap", result.stdout)
 
 

@@ -115,8 +115,7 @@ class Bases(unittest.TestCase):
         whole, first = tempfile.mkdtemp(dir=self.folder), tempfile.mkdtemp(dir=self.folder)
         for folder, more in ((whole, []), (first, ["-end_time", 1.2, "-checkpoint_steps", 60000]),
                              (first, ["-restart", os.path.join(first, "checkpoint.h5")])):
-            done = program.run([*words, *more, "-output", folder], 2)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            done = program.must_end(self, [*words, *more, "-output", folder], 2)
         self.assertEqual(program.summary(first)["drifts"], program.summary(whole)["drifts"])
 
 

@@ -319,8 +319,7 @@ class Pair(unittest.TestCase):
 
     def test_matrices_hold_the_stiffness_of_the_materials(self):
         with tempfile.TemporaryDirectory() as folder:
-            result = program.run(UNIFORM_PAIR + ["-dry_run", "-export_matrices", folder])
-            self.assertEqual(result.returncode, 0, result.stderr)
+            result = program.must_end(self, UNIFORM_PAIR + ["-dry_run", "-export_matrices", folder])
             written = program.read_csv(os.path.join(folder, "s1", "uniform_damping.csv"))
             own = Recorded(self, UNIFORM_PAIR + ["-time_step", 3.2e-5])
             law = Filters(own.summary["structures"]["s1"]["damping"])
