@@ -1,16 +1,60 @@
 """Scenes, or parts of them, that several tests run: words after the program's name."""
 
+
+def material(name, young, poisson, density):
+    """A material [Pa, -, kg/m3]."""
+    return [f"-material_{name}_young", young, f"-material_{name}_poisson", poisson, f"-material_{name}_density", density]
+
+
+def section(name, area, inertia_y, inertia_z, torsion, z_axis="0,0,1"):
+    """A cross-section [m2, m4] whose local z is along an axis."""
+    return [f"-section_{name}_area", area, f"-section_{name}_inertia_y", inertia_y, f"-section_{name}_inertia_z",
+            inertia_z, f"-section_{name}_torsion", torsion, f"-section_{name}_z_axis", z_axis]
+
+
+def box_of(name, sizes, of, element="hex8"):
+    """A structure that is one block, of the material `of`."""
+    return [f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set", sizes, f"-{name}_body_element", element,
+            f"-{name}_body_material", of]
+
+
+def in_modes(name, vectors):
+    """A structure reduced to so many modes beside its attachment vectors."""
+    return [f"-{name}_model", "modal", f"-{name}_modal_vectors", vectors]
+
+
+def clock(step, end, every=None):
+    """The time step, the end and the time between two records [s]: a step unless it is said."""
+    return ["-time_step", step, "-end_time", end, "-output_interval", step if every is None else every]
+
+
+def contacts(**sides):
+    """Contacts by their names: secondary side, primary side and, unless it is that of the meshes, gap [m]."""
+    words = ["-contacts", ",".join(sides)]
+    for name, side in sides.items():
+        words += [word for key, value in zip(("secondary", "primary", "gap"), side) for word in (f"-{name}_{key}", value)]
+    return words
+
+
+def probes(**places):
+    """Averaged probes by their names: structure:group, or structure@x,y,z."""
+    words = ["-probes", ",".join(places)]
+    for name, place in places.items():
+        structure, key, where = place.replace(":", " group ").replace("@", " at ").split(" ", 2)
+        words += [f"-{name}_structure", structure, f"-{name}_{key}", where]
+    return words
+
+
 # The two-storey pair on a very coarse mesh, reduced, that pounds.
 SMALL = "cells_x=3,cells_y=3,column_elements=1"
 SMALL_MODAL_PAIR = ["-options_file", "petsc-options/azalee/gap2.yaml", "-s1_mesh_set", SMALL, "-s2_mesh_set", SMALL,
                     "-motion_x_pga", 20, "-motion_x_envelope", "0.02,20", "-floor2_gap", "4e-4,2e-4",
                     "-floor1_gap", 0.02, "-modes", 3, "-time_step", 5e-5, "-spectra_frequencies", "1:200:5lin",
-                    "-s1_model", "modal", "-s1_modal_vectors", 20, "-s2_model", "modal", "-s2_modal_vectors", 20]
+                    *in_modes("s1", 20), *in_modes("s2", 20)]
 
 # Viaducts on piers of steel.
-STEEL = ["-material_steel_young", "2.1e11", "-material_steel_poisson", 0.3, "-material_steel_density", 7850]
-SECTION = ["-section_leg_area", 0.04, "-section_leg_inertia_y", "4e-4", "-section_leg_inertia_z", "2e-4",
-           "-section_leg_torsion", "3e-4", "-section_leg_z_axis", "0,1,0"]
+STEEL = material("steel", "2.1e11", 0.3, 7850)
+SECTION = section("leg", 0.04, "4e-4", "2e-4", "3e-4", "0,1,0")
 SPAN, BEARING = 6.0, "3e7,4e7,2e8,1e6,1e6,1e6"
 
 
@@ -33,13 +77,9 @@ def braces(name):
 def oscillators(mass, stiffness, alpha):
     """Two bricks that are clamped at their far faces and face each other over a gap: each an oscillator, with its mass
     [kg], stiffness [N/m] and damping alpha [1/s]; probes of the faces."""
-    words = ["-structures", "left,right", "-contacts", "gap", "-gap_secondary", "left:x_max", "-gap_primary", "right:x_min",
-             "-probes", "face1,face2", "-face1_structure", "left", "-face1_group", "x_max",
-             "-face2_structure", "right", "-face2_group", "x_min"]
+    words = ["-structures", "left,right", *contacts(gap=("left:x_max", "right:x_min")),
+             *probes(face1="left:x_max", face2="right:x_min")]
     for i, (name, start, wall) in enumerate((("left", -1, "x_min"), ("right", 0, "x_max"))):
-        words += [f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set", f"x0={start}",
-                  f"-{name}_clamp", wall, f"-{name}_body_element", "hex8",
-                  f"-{name}_body_material", name, f"-{name}_damping_alpha", alpha[i],
-                  f"-material_{name}_young", stiffness[i], f"-material_{name}_poisson", 0,
-                  f"-material_{name}_density", 2 * mass[i]]
+        words += [*box_of(name, f"x0={start}", name), f"-{name}_clamp", wall, f"-{name}_damping_alpha", alpha[i],
+                  *material(name, stiffness[i], 0, 2 * mass[i])]
     return words

@@ -4,12 +4,12 @@ import tempfile
 import unittest
 
 import program
+from decks import contacts, in_modes, material
 from program import write_samples
 
 SITE = ["-structures", "site", "-site_mesh", "tests/meshes/column.geo", "-site_rock_element", "hex8",
         "-site_rock_material", "ground", "-site_soil_element", "hex8", "-site_soil_material", "ground",
-        "-material_ground_young", "2e8", "-material_ground_poisson", 0.3, "-material_ground_density", 2000,
-        "-end_time", 0.01, "-modes", 0]
+        *material("ground", "2e8", 0.3, 2000), "-end_time", 0.01, "-modes", 0]
 BELOW = ["-motion_input", "below"]
 BASE = ["-site_absorbing_base", "bottom"]
 
@@ -37,7 +37,7 @@ class Refused(unittest.TestCase):
         self.refused(["-site_absorbing", "sides,x_min"], "-site_absorbing x_min", "stands in two absorbing groups")
         self.refused(BELOW + BASE + ["-site_absorbing", "bottom"], "-site_absorbing bottom", "absorbing_base")
         self.refused(["-site_absorbing", "bottom", "-site_matrices", "there"], "-site_absorbing bottom", "_matrices")
-        self.refused(["-site_absorbing", "bottom", "-site_model", "modal", "-site_modal_vectors", 3],
+        self.refused(["-site_absorbing", "bottom", *in_modes("site", 3)],
                      "-site_absorbing bottom", "full order", on=(1, 2))
         with tempfile.TemporaryDirectory() as folder:
             self.refused(["-site_absorbing", "bottom", "-export_matrices", folder], "-export_matrices", "absorbing")
@@ -63,8 +63,7 @@ class Refused(unittest.TestCase):
         self.refused(BELOW + BASE + ["-site_rock_damping_alpha", 1], "-motion_input below", "damping alpha")
         self.refused(BELOW + BASE + ["-site_top_element", "grounded_spring", "-site_top_stiffness", "1,1,1"],
                      "-motion_input below", "springs to the ground (top)")
-        self.refused(BELOW + BASE + ["-contacts", "joint", "-joint_secondary", "site:x_max", "-joint_primary",
-                                     "wall", "-joint_gap", 0.1], "-motion_input below", "wall")
+        self.refused(BELOW + BASE + [*contacts(joint=("site:x_max", "wall", 0.1))], "-motion_input below", "wall")
 
     def test_two_ways_to_move(self):
         """A structure on the moving ground beside one that a wave moves."""

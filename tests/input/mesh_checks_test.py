@@ -9,16 +9,14 @@ import tempfile
 import unittest
 
 import program
+from decks import material, probes, section
 import wrong_input_test
 
-TABLE = ["-structures", "t", "-t_mesh", "tests/meshes/table.geo", "-t_clamp", "base",
-         "-t_column_element", "beam", "-t_column_material", "steel", "-t_column_section", "tube",
-         "-t_slab_element", "shell", "-t_slab_material", "steel", "-t_slab_thickness", "0.05",
-         "-material_steel_young", "200e9", "-material_steel_poisson", "0.3",
-         "-material_steel_density", "7800", "-section_tube_area", "1e-2",
-         "-section_tube_inertia_y", "1e-5", "-section_tube_inertia_z", "1e-5",
-         "-section_tube_torsion", "1e-5", "-section_tube_z_axis", "1,0,0", "-end_time", "1e-4",
-         "-modes", "3", "-t_gravity", "0,0,-9.81"]
+TABLE = ["-structures", "t", "-t_mesh", "tests/meshes/table.geo", "-t_clamp", "base", "-t_column_element", "beam",
+         "-t_column_material", "steel", "-t_column_section", "tube", "-t_slab_element", "shell",
+         "-t_slab_material", "steel", "-t_slab_thickness", "0.05", *material("steel", "200e9", "0.3", "7800"),
+         *section("tube", "1e-2", "1e-5", "1e-5", "1e-5", "1,0,0"), "-end_time", "1e-4", "-modes", "3",
+         "-t_gravity", "0,0,-9.81"]
 
 
 def table(fault, *more):
@@ -120,9 +118,8 @@ class Uses(MeshCase):
         self.refuse(table(0, "-t_ignore", "stairs"), "-t_ignore", "'stairs'")
 
     def test_faces_may_go_without_a_use(self):
-        block = ["-structures", "t", "-t_mesh", "tests/meshes/box.geo", "-t_clamp", "z_min",
-                 "-t_body_element", "hex8", "-t_body_material", "m", "-material_m_young", "1e9",
-                 "-material_m_poisson", "0", "-material_m_density", "1e3", "-end_time", "1e-4"]
+        block = ["-structures", "t", "-t_mesh", "tests/meshes/box.geo", "-t_clamp", "z_min", "-t_body_element", "hex8",
+                 "-t_body_material", "m", *material("m", "1e9", "0", "1e3"), "-end_time", "1e-4"]
         found, _ = self.connectivity(block)
         self.assertEqual({group["group"] for group in found["groups_without_use"]},
                          {"x_min", "x_max", "y_min", "y_max", "z_max"})
@@ -132,9 +129,8 @@ class Uses(MeshCase):
             "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n0 1 \"p\"\n1 2 \"l\"\n"
             "$EndPhysicalNames\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 2 0 0\n$EndNodes\n$Elements\n3\n"
             f"1 15 2 1 1 1\n2 1 2 2 1 1 2\n{second_tag} 1 2 2 1 {second_nodes}\n$EndElements\n", ".msh")
-        return ["-structures", "t", "-t_mesh", mesh, "-t_clamp", "p", "-t_l_element", "bar",
-                "-t_l_area", "1", "-t_l_material", "s", "-material_s_young", "1",
-                "-material_s_poisson", "0", "-material_s_density", "1", "-end_time", "1", "-modes", "0"]
+        return ["-structures", "t", "-t_mesh", mesh, "-t_clamp", "p", "-t_l_element", "bar", "-t_l_area", "1",
+                "-t_l_material", "s", *material("s", "1", "0", "1"), "-end_time", "1", "-modes", "0"]
 
     def test_element_twice(self):
         self.refuse(self.two_bars(3, "2 1"), "element 3 of group 'l'", "element 2", "twice")
@@ -202,12 +198,12 @@ class Groups(MeshCase):
         skin = [(3, 2, 1, (5, 6, 7, 8)), (3, 2, 2, (1, 2, 6, 5))]
         mesh = self.msh(self.NAMES, [self.BRICK, self.BASE, *skin])
         self.hold(self.cube(mesh, "tower", "base"))
-        self.hold(self.cube(mesh, "tower", "base", "-probes", "top", "-top_structure", "t", "-top_group", "tower"))
+        self.hold(self.cube(mesh, "tower", "base", *probes(top="t:tower")))
 
     def test_one_name_of_a_volume_and_of_what_is_not_its_skin(self):
         """It would be left out, be it that something else names the group."""
         mesh = self.msh(self.NAMES, [self.BRICK, self.BASE, (2, 2, 1, (2, 3, 9))])
-        for more in ([], ["-probes", "top", "-top_structure", "t", "-top_group", "tower"]):
+        for more in ([], [*probes(top="t:tower")]):
             self.refuse(self.cube(mesh, "tower", "base", *more), "group 'tower'", "1 element (Triangle 3)", "beside those that become", ranks=(2,))
         program.must_run(self, self.cube(mesh, "tower", "base", "-t_ignore", "tower"))
 

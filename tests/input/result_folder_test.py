@@ -11,12 +11,11 @@ import unittest
 import h5py
 
 import program
+from decks import box_of, material, probes
 
-BAR = ["-structures", "bar", "-bar_mesh", "tests/meshes/box.geo", "-bar_mesh_set", "lz=4,nz=4",
-       "-bar_body_element", "hex8_full", "-bar_body_material", "soft", "-material_soft_young", 900,
-       "-material_soft_poisson", 0.2, "-material_soft_density", 1, "-bar_gravity", "0,0,-10",
-       "-bar_clamp", "z_min", "-output_interval", 0.05, "-probes", "top", "-top_structure", "bar",
-       "-top_group", "z_max", "-modes", 1, "-spectra_frequencies", "1:20:5lin", "-end_time", 2]
+BAR = ["-structures", "bar", *box_of("bar", "lz=4,nz=4", "soft", "hex8_full"), *material("soft", 900, 0.2, 1),
+       "-bar_gravity", "0,0,-10", "-bar_clamp", "z_min", "-output_interval", 0.05, *probes(top="bar:z_max"),
+       "-modes", 1, "-spectra_frequencies", "1:20:5lin", "-end_time", 2]
 LONG = BAR + ["-end_time", 1e6, "-output_interval", 0.5]
 
 

@@ -4,6 +4,7 @@ import tempfile
 import unittest
 
 import program
+from decks import in_modes, material
 
 CASE = program.COARSE_PAIR + ["-end_time", "0.001"]
 
@@ -123,15 +124,13 @@ class WrongInput(unittest.TestCase):
     def test_tetrahedra(self):
         mesh = self.with_file('SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 1, 1, 1};\n'
                               'Physical Volume("body") = {1};\n', ".geo")
-        self.refuse(["-structures", "m", "-m_mesh", mesh, "-m_body_element", "hex8",
-                     "-m_body_material", "c", "-material_c_young", "1", "-material_c_poisson", "0",
-                     "-material_c_density", "1", "-end_time", "1"], "group 'body'", "Tetrahedron",
+        self.refuse(["-structures", "m", "-m_mesh", mesh, "-m_body_element", "hex8", "-m_body_material", "c",
+                     *material("c", "1", "0", "1"), "-end_time", "1"], "group 'body'", "Tetrahedron",
                     "hex8")
 
     def test_bar_of_zero_length(self):
-        self.refuse(["-structures", "m", "-m_mesh", self.lines("0 0 0"), "-m_l_element", "bar",
-                     "-m_l_material", "s", "-m_l_area", "1", "-material_s_young", "1",
-                     "-material_s_poisson", "0", "-material_s_density", "1", "-end_time", "1"],
+        self.refuse(["-structures", "m", "-m_mesh", self.lines("0 0 0"), "-m_l_element", "bar", "-m_l_material", "s",
+                     "-m_l_area", "1", *material("s", "1", "0", "1"), "-end_time", "1"],
                     "element 2 of group 'l'", "two of its nodes")
 
     def test_spring_to_a_node_without_mass(self):
@@ -146,10 +145,10 @@ class WrongInput(unittest.TestCase):
         self.refuse(CASE + ["-s1_model", "modal"], "-s1_modal_vectors", "-s1_modal_cutoff")
 
     def test_modal_model_of_no_vectors(self):
-        self.refuse(CASE + ["-s1_model", "modal", "-s1_modal_vectors", "0"], "-s1_modal_vectors 0", ">= 1")
+        self.refuse(CASE + [*in_modes("s1", "0")], "-s1_modal_vectors 0", ">= 1")
 
     def test_modal_model_with_two_sizes(self):
-        self.refuse(CASE + ["-s1_model", "modal", "-s1_modal_vectors", "9", "-s1_modal_cutoff", "50"],
+        self.refuse(CASE + [*in_modes("s1", "9"), "-s1_modal_cutoff", "50"],
                     "-s1_modal_cutoff 50", "not both")
 
     def test_cut_off_below_every_mode(self):
@@ -160,7 +159,7 @@ class WrongInput(unittest.TestCase):
         self.refuse(CASE + ["-s2_modal_vectors", "9"], "-s2_modal_vectors 9", "-s2_model modal")
 
     def test_modal_model_that_is_all_clamped(self):
-        self.refuse(CASE + ["-s1_model", "modal", "-s1_modal_vectors", "9", "-contacts", "none",
+        self.refuse(CASE + [*in_modes("s1", "9"), "-contacts", "none",
                             "-s1_clamp", "base,column,slab,beam,joint_beam,joint_column,brace1,brace2"],
                     "s1", "clamp")
 

@@ -13,6 +13,7 @@ import h5py
 import numpy
 
 import program
+from decks import clock, probes
 
 START, END, FREQUENCIES = 2.0, 4.0, "0.5:50:40log"
 
@@ -20,11 +21,9 @@ START, END, FREQUENCIES = 2.0, 4.0, "0.5:50:40log"
 def scene(record, *words):
     return ["-structures", "mass", "-mass_mesh", "tests/meshes/chain.geo", "-mass_first_element", "point_mass",
             "-mass_first_mass", 50, "-mass_support_element", "grounded_spring",
-            "-mass_support_stiffness", "17765,17765,17765", "-mass_damping_alpha", 7.54,
-            "-mass_gravity", "0,0,-9.81", "-motion_z_record", record, "-motion_z_unit", "m/s2",
-            "-end_time", END, "-output_interval", 1e-3, "-time_step", 5e-4, "-modes", 1,
-            "-spectra_frequencies", FREQUENCIES, "-spectra_damping", "0.02,0.05", "-probes", "it",
-            "-it_structure", "mass", "-it_at", "1,0,0", *words]
+            "-mass_support_stiffness", "17765,17765,17765", "-mass_damping_alpha", 7.54, "-mass_gravity", "0,0,-9.81",
+            "-motion_z_record", record, "-motion_z_unit", "m/s2", *clock(5e-4, END, 1e-3), "-modes", 1,
+            "-spectra_frequencies", FREQUENCIES, "-spectra_damping", "0.02,0.05", *probes(it="mass@1,0,0"), *words]
 
 
 class SpectraStart(unittest.TestCase):

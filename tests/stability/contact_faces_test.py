@@ -10,7 +10,7 @@ import unittest
 import numpy
 
 import program
-from decks import SMALL_MODAL_PAIR as PAIR
+from decks import clock, contacts, SMALL_MODAL_PAIR as PAIR
 from history import History, refused, scenes
 from small_meshes import Mesh
 
@@ -34,10 +34,9 @@ def storey(x, length):
 
 def pair(folder, one, two, sides, regions=("body",), speed="1,0,0", end_time=0.06):
     """Two free structures of shells, the first thrown at the second; the gap is that of the meshes."""
-    words = ["-structures", "one,two", "-contacts", "joint", "-joint_secondary", f"one:{sides}",
-             "-joint_primary", f"two:{sides}", "-one_initial_velocity", speed, "-time_step", STEP,
-             "-end_time", end_time, "-output_interval", STEP / 2, *scenes.cheap(f"one:{sides}", f"two:{sides}"),
-             *scenes.material("soft", 1e3, 0.0, 2400.0)]
+    words = ["-structures", "one,two", *contacts(joint=(f"one:{sides}", f"two:{sides}")),
+             "-one_initial_velocity", speed, *clock(STEP, end_time, STEP / 2),
+             *scenes.cheap(f"one:{sides}", f"two:{sides}"), *scenes.material("soft", 1e3, 0.0, 2400.0)]
     for name, mesh in (("one", one), ("two", two)):
         words += [f"-{name}_mesh", mesh.write(os.path.join(folder, f"{name}.msh"))]
         for region in regions:

@@ -12,6 +12,7 @@ import numpy
 from history import History, scenes
 from houses import Pair, Run
 from small_meshes import brick
+from decks import box_of, clock, contacts
 
 SOFT = 1e-30
 GRAVITY, YOUNG, DENSITY = 9.81, 30e9, 2400.0
@@ -52,13 +53,11 @@ class FarFromItsPlace(unittest.TestCase):
         """100 km from its mesh the parts of u^T K u cancel to some joules of either sign, a hundred times
         what the block has at 1 cm/s. No step may carry it further into the wall than one step's way."""
         speed, time_step = 0.01, 1e-6
-        run = History(self, [
-            "-structures", "one", "-one_mesh", "tests/meshes/box.geo", "-one_mesh_set", "x0=100000",
-            "-one_body_element", "hex8_full", "-one_body_material", "c", *scenes.material("c", YOUNG, 0.2, DENSITY),
-            "-stiffness", "assembled", "-one_initial_displacement", "-99999.9995,0,0",
-            "-one_initial_velocity", f"{-speed},0,0", "-contacts", "stop", "-stop_secondary", "one:x_min",
-            "-stop_primary", "wall", "-stop_gap", 100000, "-time_step", time_step, "-end_time", 0.06,
-            "-output_interval", 0.01, *scenes.cheap("one:x_min")], 1)
+        run = History(self, ["-structures", "one", *box_of("one", "x0=100000", "c", "hex8_full"),
+                             *scenes.material("c", YOUNG, 0.2, DENSITY), "-stiffness", "assembled",
+                             "-one_initial_displacement", "-99999.9995,0,0", "-one_initial_velocity", f"{-speed},0,0",
+                             *contacts(stop=("one:x_min", "wall", 100000)), *clock(time_step, 0.06, 0.01),
+                             *scenes.cheap("one:x_min")], 1)
         self.assertEqual(run.summary["impacts"]["episodes"], 1)
         self.assertLess(run.summary["impacts"]["max_penetration"], 1.05 * speed * time_step)
 
@@ -172,13 +171,11 @@ class AllAtOnce(unittest.TestCase):
 class Ties(unittest.TestCase):
     def bar(self, height):
         dt = 10 / 100 / 30
-        return History(self, ["-structures", "bar", "-bar_mesh", "tests/meshes/box.geo",
-                              "-bar_mesh_set", "lz=10,nz=100", "-bar_body_element", "hex8_full",
-                              "-bar_body_material", "soft",
-                              *scenes.material("soft", 900.0, 0, 1.0), "-contacts", "stop", "-stop_secondary",
-                              "bar:z_min", "-stop_primary", "wall", "-stop_gap", repr(height),
-                              "-allow_unstable", "true", "-time_step", repr(dt), "-end_time", 1.9,
-                              "-bar_initial_velocity", "0,0,-10", *scenes.cheap("bar:z_max")], 2)
+        return History(self, ["-structures", "bar", *box_of("bar", "lz=10,nz=100", "soft", "hex8_full"),
+                              *scenes.material("soft", 900.0, 0, 1.0),
+                              *contacts(stop=("bar:z_min", "wall", repr(height))), "-allow_unstable", "true",
+                              "-time_step", repr(dt), "-end_time", 1.9, "-bar_initial_velocity", "0,0,-10",
+                              *scenes.cheap("bar:z_max")], 2)
 
     def test_impact_exactly_on_a_step(self):
         # At Courant number one the bar is exact; the first contact may be seen a step later.
@@ -196,12 +193,11 @@ class Ties(unittest.TestCase):
 class Rest(unittest.TestCase):
     def column(self, tolerance):
         alpha = numpy.pi * numpy.sqrt(YOUNG / DENSITY) / 1.2  # critical at the first frequency
-        return History(self, ["-structures", "body", "-body_mesh", "tests/meshes/box.geo", "-body_mesh_set",
-                              "lx=0.4,ly=0.4,lz=1.2,nx=2,ny=2,nz=6", "-body_body_element", "hex8_full",
-                              "-body_body_material", "concrete", *scenes.material("concrete", YOUNG, 0, DENSITY),
-                              "-body_gravity", f"0,0,{-GRAVITY}", "-body_damping_alpha", repr(float(alpha)),
-                              "-contacts", "stop", "-stop_secondary", "body:z_min", "-stop_primary", "wall",
-                              "-stop_gap", 0, "-gap_tolerance", tolerance, "-time_step", 4.5e-5, "-end_time", 0.02,
+        return History(self, ["-structures", "body",
+                              *box_of("body", "lx=0.4,ly=0.4,lz=1.2,nx=2,ny=2,nz=6", "concrete", "hex8_full"),
+                              *scenes.material("concrete", YOUNG, 0, DENSITY), "-body_gravity", f"0,0,{-GRAVITY}",
+                              "-body_damping_alpha", repr(float(alpha)), *contacts(stop=("body:z_min", "wall", 0)),
+                              "-gap_tolerance", tolerance, "-time_step", 4.5e-5, "-end_time", 0.02,
                               *scenes.cheap("body:z_min")])
 
     def test_tolerance_of_the_gap_keeps_nodes_on_the_ground(self):

@@ -61,11 +61,3 @@ def assert_finite(test, folder):
                 for key in file:
                     if file[key].dtype.kind == "f":
                         test.assertTrue(numpy.isfinite(file[key][()]).all(), key)
-
-
-def probes(**groups):
-    """Options of averaged probes: name=("structure", "group")."""
-    words = ["-probes", ",".join(groups)]
-    for name, (structure, group) in groups.items():
-        words += [f"-{name}_structure", structure, f"-{name}_group", group]
-    return words

@@ -13,6 +13,7 @@ import unittest
 import numpy
 
 from history import History, refused, scenes
+from decks import clock
 
 SPEED, MASS, LIMIT = 0.5, 50.0, 1e-3  # the limit of every oscillator [s]
 RATIOS = {"free": 0.0, "weak": 0.006, "strong": 0.3, "over": 1.9149}
@@ -63,8 +64,7 @@ class Below(unittest.TestCase):
     def test_histories_are_those_of_the_scheme(self):
         for part in (0.5, 0.9, 0.999):
             dt = part * LIMIT
-            run = History(self, [*oscillators(RATIOS), "-time_step", repr(dt), "-end_time", repr(4000 * dt),
-                                 "-output_interval", repr(dt / 2)], 2)
+            run = History(self, [*oscillators(RATIOS), *clock(repr(dt), repr(4000 * dt), repr(dt / 2))], 2)
             self.assertLess(run.energy["relative_residual"], 1e-12)
             for name, ratio in RATIOS.items():
                 z = roots(part, ratio)
@@ -81,8 +81,7 @@ class AtTheLimit(unittest.TestCase):
         probe = History(self, [*oscillators(RATIOS), "-end_time", 1e-9])
         stable = probe.summary["stable_time_step"]
         self.assertAlmostEqual(stable / LIMIT, 1, delta=1e-6)
-        run = History(self, [*oscillators(RATIOS), "-time_step", repr(stable), "-end_time", repr(20000 * stable),
-                             "-output_interval", repr(stable / 2)])
+        run = History(self, [*oscillators(RATIOS), *clock(repr(stable), repr(20000 * stable), repr(stable / 2))])
         steps = numpy.arange(len(run.time))
         for name, ratio in RATIOS.items():
             found = abs(run.channel("displacement", f"at_{name}.x"))
@@ -95,8 +94,8 @@ class AtTheLimit(unittest.TestCase):
 class Above(unittest.TestCase):
     def diverge(self, words, part, steps, ranks=1):
         dt = part * LIMIT
-        return refused(self, [*words, "-time_step", repr(dt), "-allow_unstable", "true", "-end_time",
-                              repr(steps * dt), "-output_interval", repr(50 * dt)], "the run diverged", ranks=ranks)
+        return refused(self, [*words, *clock(repr(dt), repr(steps * dt), repr(50 * dt)),
+                              "-allow_unstable", "true"], "the run diverged", ranks=ranks)
 
     def test_found_before_it_has_grown_a_million_times(self):
         for (part, ratio), (radius, steps) in UNSTABLE.items():

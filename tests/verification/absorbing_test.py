@@ -19,6 +19,7 @@ import numpy
 import scipy.io
 
 import program
+from decks import box_of, clock, contacts, material, probes
 from recorded import Recorded, assert_continues, write_samples
 
 DENSITY, SHEAR, POISSON = 2000.0, 200.0, 0.3  # kg/m3, m/s
@@ -40,8 +41,7 @@ def column(lower, upper, n_lower, n_upper, *more, rock=(SHEAR, DENSITY), soil=(S
         words += [f"-site_{group}_element", "hex8", f"-site_{group}_material", group,
                   f"-material_{group}_young", repr(young(speed, density)), f"-material_{group}_poisson", POISSON,
                   f"-material_{group}_density", density]
-    words += ["-probes", "base,top,all", "-base_structure", "site", "-base_group", "bottom", "-top_structure", "site",
-              "-top_group", "top", "-all_structure", "site", "-all_group", "all"]
+    words += [*probes(base="site:bottom", top="site:top", all="site:all")]
     return words + list(more)
 
 
@@ -122,8 +122,8 @@ class TwoLayers(unittest.TestCase):
     def test_transfer_function(self):
         pulse = Pulse(0.02)
         soil, rock = 20.0, 8.0
-        run = Recorded(self, column(rock, soil, 16, 100, *pulse.along("x"), "-end_time", 6, "-output_interval",
-                                    self.STEP, "-time_step", self.STEP / 4, rock=self.ROCK, soil=self.SOIL), 2)
+        run = Recorded(self, column(rock, soil, 16, 100, *pulse.along("x"), *clock(self.STEP / 4, 6, self.STEP),
+                                    rock=self.ROCK, soil=self.SOIL), 2)
         os.remove(pulse.file)
         times = run.time
         ratio = self.SOIL[0] * self.SOIL[1] / (self.ROCK[0] * self.ROCK[1])
@@ -141,8 +141,7 @@ class FreeField(WithPulse):
 
     def test_a_wide_block_moves_as_a_column(self):
         """Its sides tied by height: every node of the surface moves as the free field does."""
-        words = column(10, 10, 5, 5, *self.pulse.along("x", "z"), "-end_time", 1.3, "-output_interval", 5e-3,
-                       "-time_step", 1e-3, soil=(150.0, 1800.0))
+        words = column(10, 10, 5, 5, *self.pulse.along("x", "z"), *clock(1e-3, 1.3, 5e-3), soil=(150.0, 1800.0))
         free = Recorded(self, words, 1)
         wide = list(words)
         wide[wide.index("-site_levels") + 1] = "sides"
@@ -175,8 +174,8 @@ class FreeField(WithPulse):
 
 class SameRun(WithPulse):
     def words(self, *more):
-        return column(10, 10, 8, 8, *self.pulse.along("x", "y", "z"), "-end_time", 1.2, "-output_interval", 1e-3,
-                      "-time_step", 5e-4, *more, soil=(150.0, 1800.0))
+        return column(10, 10, 8, 8, *self.pulse.along("x", "y", "z"), *clock(5e-4, 1.2, 1e-3), *more,
+                      soil=(150.0, 1800.0))
 
     def test_on_any_ranks(self):
         runs = [Recorded(self, self.words(), ranks) for ranks in (1, 2, 3)]
@@ -205,7 +204,7 @@ class SkewFaces(unittest.TestCase):
             words += [f"-site_{group}_element", "hex8", f"-site_{group}_material", group,
                       f"-material_{group}_young", repr(young(speed, density)), f"-material_{group}_poisson", POISSON,
                       f"-material_{group}_density", density]
-        return words + ["-probes", "p", "-p_structure", "site", "-p_group", "all", "-p_average", "false", *more]
+        return words + [*probes(p="site:all"), "-p_average", "false", *more]
 
     def faces(self):
         """Corners, outward normal, density, V_s of the three facets."""
@@ -242,8 +241,7 @@ class SkewFaces(unittest.TestCase):
             dofs = [(*(round(float(v), 9) for v in row[:3]), row[3]) for row in rows]
             stiffness = scipy.io.mmread(os.path.join(where, "stiffness.mtx")).toarray()
             mass = numpy.diag(scipy.io.mmread(os.path.join(where, "mass.mtx")).toarray().ravel())
-        absorbing = ["-site_absorbing", "x_min,bottom", "-time_step", 2e-4, "-end_time", 0.05, "-output_interval", 2e-4,
-                     "-energy_interval", 1]
+        absorbing = ["-site_absorbing", "x_min,bottom", *clock(2e-4, 0.05), "-energy_interval", 1]
         run = Recorded(self, self.words(*absorbing, *more), ranks)
         dashpots, dt = self.dashpots(dofs), 2e-4
         v = numpy.array([{"ux": 1.0, "uy": 2.0, "uz": 3.0}[dof[3]] for dof in dofs])
@@ -274,10 +272,8 @@ class Limit(unittest.TestCase):
     """No dashpot moves the stable step: a cube that dashpots hold on all its sides, and one without."""
 
     def words(self, density, *more):
-        return ["-structures", "cube", "-cube_mesh", "tests/meshes/box.geo", "-cube_mesh_set", "nx=3,ny=3,nz=3",
-                "-cube_body_element", "hex8", "-cube_body_material", "soil", "-material_soil_young", "1e8",
-                "-material_soil_poisson", POISSON, "-material_soil_density", density, "-energy_interval", 20,
-                "-output_interval", 0.01, *more]
+        return ["-structures", "cube", *box_of("cube", "nx=3,ny=3,nz=3", "soil"),
+                *material("soil", "1e8", POISSON, density), "-energy_interval", 20, "-output_interval", 0.01, *more]
 
     FACES = ["-cube_absorbing", "x_min,x_max,y_min,z_min"]
 
@@ -342,9 +338,8 @@ class Pounding(WithPulse):
                 right += [option.replace("left", "right"), value]
         right[right.index("-right_mesh_set") + 1] += ",x0=1"
         right[right.index("-right_soil_material") + 1] = "soft"
-        return left + right + ["-material_soft_young", repr(young(80.0, 1500.0)), "-material_soft_poisson", POISSON,
-                               "-material_soft_density", 1500, "-contacts", "joint", "-joint_secondary", "left:x_max",
-                               "-joint_primary", "right:x_min", "-joint_gap", 0.002, *more]
+        return left + right + [*material("soft", repr(young(80.0, 1500.0)), POISSON, 1500),
+                               *contacts(joint=("left:x_max", "right:x_min", 0.002)), *more]
 
     def test_no_impact_is_missed(self):
         runs = [Recorded(self, self.words(*more), ranks)

@@ -6,6 +6,7 @@ import unittest
 
 import numpy
 
+from decks import box_of, clock, contacts, in_modes, material, probes
 from program import write_samples
 from recorded import Recorded, assert_continues
 
@@ -15,9 +16,7 @@ MASS = 2400 * 0.3**3
 
 def box(name, start, sides, cells, *more):
     (x, y, z), (lx, ly, lz), (nx, ny, nz) = start, sides, cells
-    return [f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set",
-            f"x0={x},y0={y},z0={z},lx={lx},ly={ly},lz={lz},nx={nx},ny={ny},nz={nz}",
-            f"-{name}_body_element", "hex8", f"-{name}_body_material", "concrete", *more]
+    return [*box_of(name, f"x0={x},y0={y},z0={z},lx={lx},ly={ly},lz={lz},nx={nx},ny={ny},nz={nz}", "concrete"), *more]
 
 
 class AllJoints(unittest.TestCase):
@@ -35,23 +34,17 @@ class AllJoints(unittest.TestCase):
                  *box("deck", (0, -0.3, -0.3), (2, 0.6, 0.3), (16, 3, 1), "-deck_clamp", "z_min"),
                  *box("block", (0.2, -0.15, 0), (0.3, 0.3, 0.3), (2, 2, 2)),
                  *box("post", (0.9, -0.2, -0.3), (0.3, 0.4, 1.2), (1, 2, 6), "-post_clamp", "z_min"),
-                 "-material_concrete_young", 3e8, "-material_concrete_poisson", 0.2,
-                 "-material_concrete_density", 2400, "-deck_gravity", "0,0,0", "-post_gravity", "0,0,0",
+                 *material("concrete", 3e8, 0.2, 2400), "-deck_gravity", "0,0,0", "-post_gravity", "0,0,0",
                  "-block_gravity", "0,0,-9.81", "-block_initial_velocity", "3,0.2,0",
                  "-block_corners_element", "grounded_spring", "-block_corners_stiffness", "2e3,2e3,0",
                  "-block_corners_yield_force", "20,20,0", "-block_corners_hardening", 0.05,
                  "-block_corners_dashpot", "50,50,0", "-block_damping_beta", 2e-6, "-post_damping_uniform", 0.03,
-                 "-contacts", "floor,joint",
-                 "-floor_secondary", "block:z_min", "-floor_primary", "deck:z_max", "-floor_gap", 0,
-                 "-floor_friction", 0.2, "-floor_sliding", 1.5,
-                 "-joint_secondary", "block:x_max", "-joint_primary", "post:x_min", "-joint_gap", 0.35,
-                 "-joint_friction", 0.2, "-joint_filler", "0.1:8e3,0.6:2e4", "-joint_filler_unloading", 1e6,
-                 "-joint_filler_thickness", 0.1,
+                 *contacts(floor=("block:z_min", "deck:z_max", 0), joint=("block:x_max", "post:x_min", 0.35)),
+                 "-floor_friction", 0.2, "-floor_sliding", 1.5, "-joint_friction", 0.2,
+                 "-joint_filler", "0.1:8e3,0.6:2e4", "-joint_filler_unloading", 1e6, "-joint_filler_thickness", 0.1,
                  "-supports", "west,east", "-west_groups", "deck:z_min", "-east_groups", "post:z_min",
                  "-motion_x_record", self.record, "-motion_x_unit", "m/s2", "-east_delay", 0.03,
-                 "-probes", "middle,top", "-middle_structure", "block", "-middle_group", "body",
-                 "-top_structure", "post", "-top_group", "z_max", "-time_step", 1e-5, "-end_time", 0.35,
-                 "-output_interval", 1e-3, "-energy_interval", 50]
+                 *probes(middle="block:body", top="post:z_max"), *clock(1e-5, 0.35, 1e-3), "-energy_interval", 50]
         return [*words, *more]
 
     def test_ledger_and_ranks(self):
@@ -69,7 +62,7 @@ class AllJoints(unittest.TestCase):
 
     def test_all_modes(self):
         full = Recorded(self, self.words("-end_time", 0.2), 2, IDENTITY)
-        reduced = Recorded(self, self.words("-end_time", 0.2, "-post_model", "modal", "-post_modal_vectors", 108), 2,
+        reduced = Recorded(self, self.words("-end_time", 0.2, *in_modes("post", 108)), 2,
                            IDENTITY)
         for channel in ("middle.x", "top.x"):
             difference = abs(full.displacement(channel) - reduced.displacement(channel)).max()

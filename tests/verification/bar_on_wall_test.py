@@ -16,6 +16,7 @@ import unittest
 import numpy
 
 import program
+from decks import box_of, clock, contacts, material, probes
 from recorded import IDENTITY, IDENTITY_OF_A_FLIGHT, Recorded, assert_follows
 from references import chains
 
@@ -73,16 +74,11 @@ RATIO = 0.5  # damping ratio at the highest frequency 2 c/h that beta = h / (2 c
 
 
 def scene(elements, time_step, end_time, height, *more, cells_across=1):
-    return ["-structures", "bar", "-bar_mesh", "tests/meshes/box.geo",
-            "-bar_mesh_set", f"lz=10,nz={elements},lx={cells_across},nx={cells_across}",
-            "-bar_body_element", "hex8_full", "-bar_body_material", "soft",
-            "-material_soft_young", 900, "-material_soft_poisson", 0, "-material_soft_density", 1,
-            "-contacts", "stop", "-stop_secondary", "bar:z_min", "-stop_primary", "wall",
-            "-stop_gap", height, "-time_step", repr(time_step),
-            "-end_time", end_time, "-output_interval", repr(time_step / 2), "-energy_interval", 1,
-            "-probes", "whole,bottom,top", "-whole_structure", "bar", "-whole_group", "body",
-            "-bottom_structure", "bar", "-bottom_group", "z_min",
-            "-top_structure", "bar", "-top_group", "z_max", *more]
+    return ["-structures", "bar",
+            *box_of("bar", f"lz=10,nz={elements},lx={cells_across},nx={cells_across}", "soft", "hex8_full"),
+            *material("soft", 900, 0, 1), *contacts(stop=("bar:z_min", "wall", height)),
+            *clock(repr(time_step), end_time, repr(time_step / 2)), "-energy_interval", 1,
+            *probes(whole="bar:body", bottom="bar:z_min", top="bar:z_max"), *more]
 
 
 def step_of(elements, courant, ratio=0.0):

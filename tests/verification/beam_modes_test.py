@@ -18,6 +18,7 @@ import unittest
 
 import numpy
 
+import decks
 import modal_run
 
 CANTILEVER_EXACT = [9.088777, 56.958393, 159.485150, 312.527242]
@@ -69,7 +70,7 @@ def cantilever(elements):
     area, inertia = side**2, side**4 / 12
     words = modal_run.material(200e9 * factor, 0.3, 7800) + ["-@_clamp", "x_min"]
     words += modal_run.group("line", "euler_beam", section="@")
-    words += modal_run.section("@", area, inertia, inertia / factor, inertia)
+    words += decks.section("@", area, inertia, inertia / factor, inertia)
     return modal_run.case("line", words, length=3, n=elements)
 
 
@@ -77,14 +78,14 @@ def portal(elements):
     words = modal_run.material(200e9, 0.3, 7800) + ["-@_clamp", "base"]
     words += modal_run.group("columns", "euler_beam", section="@c")
     words += modal_run.group("girder", "euler_beam", section="@g")
-    words += modal_run.section("@c", 5.38e-3, 1e-2, 1.673e-5, 1e-2)
-    words += modal_run.section("@g", 2.85e-3, 1e-2, 1.943e-5, 1e-2)
+    words += decks.section("@c", 5.38e-3, 1e-2, 1.673e-5, 1e-2)
+    words += decks.section("@g", 2.85e-3, 1e-2, 1.943e-5, 1e-2)
     return modal_run.case("portal", words, n=elements)
 
 
 def cross(elements):
     words = modal_run.material(200e9, 0.3, 8000) + modal_run.group("arms", "euler_beam", section="@")
-    words += modal_run.section("@", 0.125**2, 2, 0.125**4 / 12, 2)
+    words += decks.section("@", 0.125**2, 2, 0.125**4 / 12, 2)
     words += modal_run.group("ends", "grounded_spring", stiffness="1e14,1e14,1e14")
     return modal_run.case("double_cross", words, n=elements)
 

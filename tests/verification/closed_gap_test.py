@@ -14,6 +14,7 @@ import unittest
 
 import numpy
 
+from decks import clock, contacts, material, probes
 from recorded import Recorded, assert_follows, write_sine
 from references import oscillators
 
@@ -24,12 +25,9 @@ def oscillator(mass, frequency, time_step, end, gap, *more):
     stiffness = mass * (2 * math.pi * frequency)**2
     return ["-structures", "mass", "-mass_mesh", "tests/meshes/box.geo", "-mass_clamp", "x_min",
             "-mass_body_element", "hex8_full", "-mass_body_material", "spring",
-            "-material_spring_young", repr(stiffness), "-material_spring_poisson", 0,
-            "-material_spring_density", repr(2 * mass), "-contacts", "stop",
-            "-stop_secondary", "mass:x_max", "-stop_primary", "wall", "-stop_gap", gap,
-            "-time_step", repr(time_step), "-end_time", repr(end),
-            "-output_interval", repr(time_step / 2), "-impact_merge_time", 1e-9,
-            "-probes", "face", "-face_structure", "mass", "-face_group", "x_max", *more]
+            *material("spring", repr(stiffness), 0, repr(2 * mass)), *contacts(stop=("mass:x_max", "wall", gap)),
+            *clock(repr(time_step), repr(end), repr(time_step / 2)), "-impact_merge_time", 1e-9,
+            *probes(face="mass:x_max"), *more]
 
 
 def landings(impulse):
@@ -117,8 +115,7 @@ class BallOnAShakenTable(unittest.TestCase):
                       f"-{name}_gravity", f"0,0,{self.ACCELERATION / gamma!r}",
                       f"-table{k}_secondary", f"{name}:plate", f"-table{k}_primary", "wall",
                       f"-table{k}_gap", 0]
-        return words + ["-material_skin_young", 1e3, "-material_skin_poisson", 0,
-                        "-material_skin_density", self.MASS / 0.1]
+        return words + [*material("skin", 1e3, 0, self.MASS / 0.1)]
 
     def test_takes_off_and_lands(self):
         record = write_sine(self.ACCELERATION, self.FREQUENCY, self.END, 5e-5)

@@ -9,6 +9,7 @@ import unittest
 
 import numpy
 
+from decks import box_of, clock, material, probes
 from recorded import Recorded
 
 OMEGA, DURATION = 2 * math.pi * 2, 1.37
@@ -28,8 +29,7 @@ def oscillators(steps):
     time_step = DURATION / steps
     names = [f"one{k}" for k in range(len(ERRORS))]
     words = ["-structures", ",".join(names), "-probes", ",".join(f"at_{name}" for name in names),
-             "-time_step", repr(time_step), "-end_time", repr(DURATION),
-             "-output_interval", repr(time_step / 2)]
+             *clock(repr(time_step), repr(DURATION), repr(time_step / 2))]
     for name, ratio in zip(names, ERRORS):
         words += [f"-{name}_mesh", "tests/meshes/chain.geo",
                   f"-{name}_initial_displacement", "1,0,0", f"-{name}_initial_velocity", "0.5,0,0",
@@ -94,16 +94,13 @@ class Bar(unittest.TestCase):
             errors = []
             for number, steps in enumerate(self.STEPS):
                 time_step = self.END / steps
-                run = Recorded(self, [
-                    "-structures", "bar", "-bar_mesh", "tests/meshes/box.geo", "-bar_mesh_set",
-                    f"lz={self.LENGTH},nz={self.ELEMENTS}", "-bar_clamp", "z_min",
-                    "-bar_body_element", "hex8_full", "-bar_body_material", "soft",
-                    "-material_soft_young", self.YOUNG, "-material_soft_poisson", 0,
-                    "-material_soft_density", self.DENSITY, "-bar_gravity", f"0,0,{self.GRAVITY}",
-                    "-bar_damping_alpha", alpha, "-bar_damping_beta", beta,
-                    "-time_step", repr(time_step), "-end_time", repr(self.END),
-                    "-output_interval", repr(time_step / 2), "-probes", "top",
-                    "-top_structure", "bar", "-top_group", "z_max"], 1 + number % 3)
+                run = Recorded(self, ["-structures", "bar",
+                                      *box_of("bar", f"lz={self.LENGTH},nz={self.ELEMENTS}", "soft", "hex8_full"),
+                                      "-bar_clamp", "z_min", *material("soft", self.YOUNG, 0, self.DENSITY),
+                                      "-bar_gravity", f"0,0,{self.GRAVITY}", "-bar_damping_alpha", alpha,
+                                      "-bar_damping_beta", beta,
+                                      *clock(repr(time_step), repr(self.END), repr(time_step / 2)),
+                                      *probes(top="bar:z_max")], 1 + number % 3)
                 self.assertEqual(len(run.time), steps + 1)
                 errors.append(abs(run.displacement("top.z")[-1] - self.exact(alpha, beta)))
             orders = numpy.log2(numpy.array(errors[:-1]) / errors[1:])

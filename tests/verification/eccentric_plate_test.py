@@ -10,6 +10,7 @@ import unittest
 import numpy
 
 import program
+from decks import clock, material
 from recorded import Recorded, all_nodes, assert_follows, lumped_fractions, reference
 
 LENGTH, WIDTH, THICKNESS, DENSITY, SPEED = 3.0, 2.0, 0.22, 2400.0, 0.5
@@ -41,15 +42,13 @@ STOPS = {  # a gap that opens along y leaves contact to the nodes of the end onl
 
 
 def scene(stop, cells, element, ratio, omega, time_step, end_time):
-    return ["-structures", "plate", "-plate_mesh", "tests/meshes/plate.geo", "-plate_mesh_set",
-            f"nx={cells[0]},ny={cells[1]}", "-plate_body_element", element,
-            "-plate_body_material", "concrete", "-material_concrete_young", 30e9,
-            "-material_concrete_poisson", 0.2, "-material_concrete_density", DENSITY,
+    return ["-structures", "plate", "-plate_mesh", "tests/meshes/plate.geo",
+            "-plate_mesh_set", f"nx={cells[0]},ny={cells[1]}", "-plate_body_element", element,
+            "-plate_body_material", "concrete", *material("concrete", 30e9, 0.2, DENSITY),
             "-plate_initial_velocity", f"{SPEED},0,0", "-plate_damping_beta", repr(2 * ratio / omega),
             "-contacts", "stop", "-stop_primary", "wall", *STOPS[stop],
-            "-time_step", repr(time_step), "-end_time", repr(end_time),
-            "-output_interval", repr(time_step / 2), "-energy_interval", 1,
-            "-probes", "all", *all_nodes("all", "plate")]
+            *clock(repr(time_step), repr(end_time), repr(time_step / 2)), "-energy_interval", 1, "-probes", "all",
+            *all_nodes("all", "plate")]
 
 
 def centre_and_spin(run, cells):

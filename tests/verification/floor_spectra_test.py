@@ -12,6 +12,7 @@ import unittest
 
 import numpy
 
+from decks import clock, contacts, material, probes
 from recorded import Recorded, write_samples
 from references import earthquake, response_spectra
 from references.response_spectra import HALF_SINE
@@ -23,28 +24,21 @@ DAMPINGS = (0.0, 0.02, 0.05, 0.1)
 def ground(record, end, frequencies, dampings="0.05", time_step=SAMPLING):
     """A clamped face on the shaken ground."""
     return ["-structures", "block", "-block_mesh", "tests/meshes/box.geo", "-block_clamp", "z_min",
-            "-block_body_element", "hex8_full", "-block_body_material", "rock",
-            "-material_rock_young", 1e6, "-material_rock_poisson", 0,
-            "-material_rock_density", 2000, "-motion_x_record", record, "-motion_x_unit", "m/s2",
-            "-time_step", time_step, "-end_time", end,
-            "-output_interval", time_step * (1 + 1e-9),
-            "-spectra_frequencies", ",".join(map(repr, frequencies)),
-            "-spectra_damping", dampings, "-probes", "base", "-base_structure", "block",
-            "-base_group", "z_min"]
+            "-block_body_element", "hex8_full", "-block_body_material", "rock", *material("rock", 1e6, 0, 2000),
+            "-motion_x_record", record, "-motion_x_unit", "m/s2", *clock(time_step, end, time_step * (1 + 1e-9)),
+            "-spectra_frequencies", ",".join(map(repr, frequencies)), "-spectra_damping", dampings,
+            *probes(base="block:z_min")]
 
 
 class FreeMass(unittest.TestCase):
     FREQUENCIES = (1, 3, 10, 30, 100, 200, 400)
 
     def mass(self, time_step, end, *more):
-        return ["-structures", "mass", "-mass_mesh", "tests/meshes/floor.geo",
-                "-mass_plate_element", "shell", "-mass_plate_material", "skin",
-                "-mass_plate_thickness", 0.1, "-material_skin_young", 1e3,
-                "-material_skin_poisson", 0, "-material_skin_density", 30,
-                "-time_step", repr(time_step), "-end_time", end, "-output_interval",
-                SAMPLING * (1 + 1e-9), "-spectra_frequencies", ",".join(map(str, self.FREQUENCIES)),
-                "-spectra_damping", ",".join(map(str, DAMPINGS)),
-                "-probes", "probe", "-probe_structure", "mass", "-probe_group", "plate", *more]
+        return ["-structures", "mass", "-mass_mesh", "tests/meshes/floor.geo", "-mass_plate_element", "shell",
+                "-mass_plate_material", "skin", "-mass_plate_thickness", 0.1, *material("skin", 1e3, 0, 30),
+                *clock(repr(time_step), end, SAMPLING * (1 + 1e-9)),
+                "-spectra_frequencies", ",".join(map(str, self.FREQUENCIES)),
+                "-spectra_damping", ",".join(map(str, DAMPINGS)), *probes(probe="mass:plate"), *more]
 
     def test_step(self):
         run = Recorded(self, self.mass(SAMPLING, 1.2, "-mass_gravity", "3,0,0"))
@@ -58,8 +52,7 @@ class FreeMass(unittest.TestCase):
     def test_impulse(self):
         for time_step in (SAMPLING, SAMPLING / 5):
             run = Recorded(self, self.mass(time_step, 1.5, "-mass_initial_velocity", "0,0,2",
-                                       "-contacts", "stop", "-stop_secondary", "mass:plate",
-                                       "-stop_primary", "wall", "-stop_gap", 0.1))
+                                           *contacts(stop=("mass:plate", "wall", 0.1))))
             self.assertEqual(len(run.column("start")), 1)
             for ratio in DAMPINGS:
                 frequency, found = run.spectrum("probe", "z", ratio)

@@ -9,6 +9,7 @@ import unittest
 import numpy
 
 import program
+from decks import clock, contacts, material, probes
 from recorded import Recorded
 
 START = 0.02
@@ -16,13 +17,10 @@ START = 0.02
 
 def mass(time_step, end_time, *more):
     """A mass at x = 1 that starts at START; the other point of the mesh is a mass that stays."""
-    return ["-structures", "chain", "-chain_mesh", "tests/meshes/chain.geo",
-            "-chain_first_element", "point_mass", "-chain_first_mass", 50,
-            "-chain_second_element", "point_mass", "-chain_second_mass", 1,
-            "-chain_initial_displacement", f"{START},0,0", "-time_step", repr(time_step),
-            "-end_time", repr(end_time), "-output_interval", repr(time_step / 2),
-            "-energy_interval", 1, "-probes", "one,two", "-one_structure", "chain", "-one_at", "1,0,0",
-            "-two_structure", "chain", "-two_at", "2,0,0", *more]
+    return ["-structures", "chain", "-chain_mesh", "tests/meshes/chain.geo", "-chain_first_element", "point_mass",
+            "-chain_first_mass", 50, "-chain_second_element", "point_mass", "-chain_second_mass", 1,
+            "-chain_initial_displacement", f"{START},0,0", *clock(repr(time_step), repr(end_time), repr(time_step / 2)),
+            "-energy_interval", 1, *probes(one="chain@1,0,0", two="chain@2,0,0"), *more]
 
 
 class InitialDisplacement(unittest.TestCase):
@@ -65,13 +63,11 @@ class InitialDisplacement(unittest.TestCase):
     def test_bar_that_was_moved_as_a_whole(self):
         """Uniform displacement of a bar fixed at one end: the end element is stretched by all of it."""
         count, young, density, area = 8, 2e11, 7800.0, 0.01
-        words = ["-structures", "bar", "-bar_mesh", "tests/meshes/line.geo", "-bar_mesh_set",
-                 f"length=4,n={count}", "-bar_clamp", "x_min", "-bar_line_element", "bar",
-                 "-bar_line_material", "steel", "-bar_line_area", area, "-material_steel_young", young,
-                 "-material_steel_poisson", 0.3, "-material_steel_density", density,
-                 "-bar_initial_displacement", f"{START},0,0", "-end_time", 2e-3, "-time_step", 2e-5,
-                 "-output_interval", 1e-5, "-energy_interval", 1, "-probes", "tip",
-                 "-tip_structure", "bar", "-tip_at", "4,0,0"]
+        words = ["-structures", "bar", "-bar_mesh", "tests/meshes/line.geo", "-bar_mesh_set", f"length=4,n={count}",
+                 "-bar_clamp", "x_min", "-bar_line_element", "bar", "-bar_line_material", "steel",
+                 "-bar_line_area", area, *material("steel", young, 0.3, density),
+                 "-bar_initial_displacement", f"{START},0,0", *clock(2e-5, 2e-3, 1e-5), "-energy_interval", 1,
+                 *probes(tip="bar@4,0,0")]
         h = 4 / count
         k = young * area / h * (2 * numpy.eye(count) - numpy.eye(count, k=1) - numpy.eye(count, k=-1))
         k[-1, -1] /= 2
@@ -96,11 +92,9 @@ class InitialDisplacement(unittest.TestCase):
         """A block moved towards a wall by most of the gap hits it when the rest is run through."""
         gap, speed, time_step = 0.03, 0.7, 1e-4
         words = ["-structures", "block", "-block_mesh", "tests/meshes/box.geo", "-block_body_element", "hex8",
-                 "-block_body_material", "rock", "-material_rock_young", 1e9, "-material_rock_poisson", 0.2,
-                 "-material_rock_density", 2400, "-block_initial_displacement", f"{START},0,0",
-                 "-block_initial_velocity", f"{speed},0,0", "-contacts", "hit",
-                 "-hit_secondary", "block:x_max", "-hit_primary", "wall", "-hit_gap", gap,
-                 "-end_time", 0.03, "-time_step", repr(time_step)]
+                 "-block_body_material", "rock", *material("rock", 1e9, 0.2, 2400),
+                 "-block_initial_displacement", f"{START},0,0", "-block_initial_velocity", f"{speed},0,0",
+                 *contacts(hit=("block:x_max", "wall", gap)), "-end_time", 0.03, "-time_step", repr(time_step)]
         run = Recorded(self, words)
         self.assertEqual(len(run.impacts["start"]), 1)
         self.assertAlmostEqual(run.column("start")[0], (gap - START) / speed, delta=time_step)

@@ -11,6 +11,7 @@ import unittest
 
 import numpy
 
+import decks
 import modal_run
 import program
 from recorded import Recorded
@@ -24,7 +25,7 @@ def portal(step):
     words = modal_run.material(200e9, 0.3, 7800) + ["-@_clamp", "base"]
     for name in ("columns", "girder"):
         words += modal_run.group(name, "beam", section=f"@{name[0]}")
-        words += modal_run.section(f"@{name[0]}", 5.38e-3, 1.673e-5, 1.673e-5, 3e-5)
+        words += decks.section(f"@{name[0]}", 5.38e-3, 1.673e-5, 1.673e-5, 3e-5)
     words += ["-@_damping_alpha", 0.2, "-@_damping_beta", BETA]
     if step:
         words += ["-@_mass_scaling", step]

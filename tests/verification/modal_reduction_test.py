@@ -15,6 +15,7 @@ import h5py
 import numpy
 
 import program
+from decks import box_of, contacts, in_modes, material, probes
 from recorded import IDENTITY, Recorded
 
 CHEAP = ["-modes", 6, "-spectra_frequencies", "1:400:60log"]
@@ -27,7 +28,7 @@ QUANTITIES = ("displacement", "velocity", "acceleration", "gap", "contact_force"
 
 
 def reduced(structure, modes, *more):
-    words = [f"-{structure}_model", "modal", f"-{structure}_modal_vectors", modes]
+    words = [*in_modes(structure, modes)]
     return words + [f"-{structure}_{more[i]}" if i % 2 == 0 else more[i] for i in range(len(more))]
 
 
@@ -219,15 +220,12 @@ class Bricks(unittest.TestCase):
     """A brick of finite elements flies against one of modes; neither is held."""
 
     def test_mixed_scene_closes_the_energy_identity(self):
-        words = ["-structures", "left,right", "-contacts", "gap", "-gap_secondary", "left:x_max",
-                 "-gap_primary", "right:x_min", "-gap_gap", 0.01, "-left_initial_velocity", "1,0,0",
-                 "-left_damping_beta", 1e-4, "-right_damping_alpha", 0.5, "-right_damping_beta", 1e-4,
-                 "-end_time", 0.15, "-probes", "hit", "-hit_structure", "right", "-hit_group", "x_min"]
+        words = ["-structures", "left,right", *contacts(gap=("left:x_max", "right:x_min", 0.01)),
+                 "-left_initial_velocity", "1,0,0", "-left_damping_beta", 1e-4, "-right_damping_alpha", 0.5,
+                 "-right_damping_beta", 1e-4, "-end_time", 0.15, *probes(hit="right:x_min")]
         for name, x0 in (("left", -2), ("right", 0)):
-            words += [f"-{name}_mesh", "tests/meshes/box.geo",
-                      f"-{name}_mesh_set", f"x0={x0},lx=2,nx=6,ny=2,nz=2", f"-{name}_body_element", "hex8",
-                      f"-{name}_body_material", "soft"]
-        words += ["-material_soft_young", 1e7, "-material_soft_poisson", 0.3, "-material_soft_density", 1000]
+            words += [*box_of(name, f"x0={x0},lx=2,nx=6,ny=2,nz=2", "soft")]
+        words += [*material("soft", 1e7, 0.3, 1000)]
         impulses = []
         for ranks in (1, 2, 3):
             run = Recorded(self, words + reduced("right", 12), ranks)
@@ -258,12 +256,9 @@ class Damping(unittest.TestCase):
 
     def test_ratios_of_the_modes(self):
         alpha = 5.0
-        brick = ["-structures", "tower", "-tower_mesh", "tests/meshes/box.geo", "-tower_clamp", "z_min",
-                 "-tower_mesh_set", "lz=4,nz=2", "-tower_body_element", "hex8",
-                 "-tower_body_material", "soft", "-material_soft_young", 2e5,
-                 "-material_soft_poisson", 0.2, "-material_soft_density", 100,
-                 "-tower_initial_velocity", "1,0.3,0.1", "-probes", "top", "-top_structure", "tower",
-                 "-top_group", "z_max", "-end_time", 3, "-time_step", 2e-3]
+        brick = ["-structures", "tower", *box_of("tower", "lz=4,nz=2", "soft"), "-tower_clamp", "z_min",
+                 *material("soft", 2e5, 0.2, 100), "-tower_initial_velocity", "1,0.3,0.1", *probes(top="tower:z_max"),
+                 "-end_time", 3, "-time_step", 2e-3]
         brick += ["-output_interval", 2e-3, "-spectra_frequencies", 10, "-modes", 24]
         folder, summary = program.must_run(self, brick + ["-tower_damping_alpha", alpha])
         frequencies = [mode["frequency"] for mode in summary["structures"]["tower"]["frequencies"]]

@@ -3,13 +3,14 @@
 Several structures in one run cost little more than one. In the words of a case, @ stands for the
 name of its structure.
 """
+import decks
 import program
 
 CONCRETE = {"young": 30e9, "poisson": 0.2, "density": 2400}
 
 
 def material(young, poisson, density):
-    return ["-material_@_young", young, "-material_@_poisson", poisson, "-material_@_density", density]
+    return decks.material("@", young, poisson, density)
 
 
 def group(name, element, **properties):
@@ -20,12 +21,6 @@ def group(name, element, **properties):
     for key, value in properties.items():
         words += [f"-@_{name}_{key}", value]
     return words
-
-
-def section(name, area, inertia_y, inertia_z, torsion):
-    return [f"-section_{name}_area", area, f"-section_{name}_inertia_y", inertia_y,
-            f"-section_{name}_inertia_z", inertia_z, f"-section_{name}_torsion", torsion,
-            f"-section_{name}_z_axis", "0,0,1"]
 
 
 def case(mesh, words, **parameters):

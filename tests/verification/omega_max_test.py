@@ -12,6 +12,7 @@ values may be above by a few 1e-9, not below.
 import math
 import unittest
 
+import decks
 import modal_run
 import program
 
@@ -103,7 +104,7 @@ class OmegaMax(unittest.TestCase):
             self.assertEqual(bending > 2 * wave / length, bends)
             expected.append(max(bending, 2 * wave / length))
             words = modal_run.material(*STEEL) + modal_run.group("line", "beam", section="@")
-            words += modal_run.section("@", area, area * radius**2, area * radius**2, area * radius**2)
+            words += decks.section("@", area, area * radius**2, area * radius**2, area * radius**2)
             words += ["-section_@_shear_area", f"{shear},{shear}", "-spectra_frequencies", "1,1e5"]
             cases.append(modal_run.case("line", words, length=length, n=1))
         for case, omega in zip(cases, expected):
@@ -119,7 +120,7 @@ class OmegaMax(unittest.TestCase):
             self.assertEqual(bending > stretching, bends)
             expected.append(max(bending, stretching))
             words = modal_run.material(*STEEL) + modal_run.group("line", "euler_beam", section="@")
-            words += modal_run.section("@", area, area * radius**2 / 4, area * radius**2, area * radius**2)
+            words += decks.section("@", area, area * radius**2 / 4, area * radius**2, area * radius**2)
             cases.append(modal_run.case("line", words, length=length, n=1))
         self.check(cases, expected)
 

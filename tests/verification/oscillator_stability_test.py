@@ -14,6 +14,7 @@ import unittest
 import numpy
 
 import program
+from decks import box_of, clock, material, probes
 from recorded import Recorded
 
 LIMIT = 1e-3  # s, of all oscillators
@@ -53,8 +54,7 @@ def scene(kinds, part, steps, free_mass, taken=lambda ratio, kind: True):
     cases = {f"{kind}{k}": (ratio, kind) for kind in kinds for k, ratio in enumerate(RATIOS) if taken(ratio, kind)}
     time_step = part * LIMIT
     words = ["-structures", ",".join(cases), "-probes", ",".join(f"at_{name}" for name in cases),
-             "-time_step", repr(time_step), "-end_time", repr(steps * time_step),
-             "-output_interval", repr(time_step / 2), "-allow_unstable"]
+             *clock(repr(time_step), repr(steps * time_step), repr(time_step / 2)), "-allow_unstable"]
     for name, (ratio, kind) in cases.items():
         words += oscillator(name, ratio, kind, free_mass)
     return cases, words
@@ -158,15 +158,11 @@ class ClampedBar(unittest.TestCase):
     def strike(self, part, alpha, beta, steps):
         ratio = alpha / (2 * self.OMEGA) + beta * self.OMEGA / 2
         limit = critical(ratio) / self.OMEGA
-        words = ["-structures", "bar", "-bar_mesh", "tests/meshes/box.geo", "-bar_mesh_set",
-                 f"lz={self.LENGTH},nz={self.ELEMENTS}", "-bar_clamp", "z_min",
-                 "-bar_body_element", "hex8_full", "-bar_body_material", "concrete",
-                 "-material_concrete_young", self.YOUNG, "-material_concrete_poisson", 0,
-                 "-material_concrete_density", self.DENSITY, "-bar_initial_velocity", "0,0,1",
-                 "-bar_damping_alpha", repr(alpha), "-bar_damping_beta", repr(beta),
-                 "-time_step", repr(part * limit), "-end_time", repr(steps * part * limit),
-                 "-output_interval", repr(limit / 2), "-allow_unstable", "-probes", "top",
-                 "-top_structure", "bar", "-top_group", "z_max"]
+        words = ["-structures", "bar", *box_of("bar", f"lz={self.LENGTH},nz={self.ELEMENTS}", "concrete", "hex8_full"),
+                 "-bar_clamp", "z_min", *material("concrete", self.YOUNG, 0, self.DENSITY),
+                 "-bar_initial_velocity", "0,0,1", "-bar_damping_alpha", repr(alpha), "-bar_damping_beta", repr(beta),
+                 *clock(repr(part * limit), repr(steps * part * limit), repr(limit / 2)), "-allow_unstable",
+                 *probes(top="bar:z_max")]
         return limit, words
 
     def test_bounded_below(self):

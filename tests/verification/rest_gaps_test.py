@@ -11,6 +11,7 @@ import tempfile
 import unittest
 
 import program
+from decks import clock, contacts, material, probes
 from recorded import Recorded
 
 GRAVITY, YOUNG, DENSITY = 9.81, 30e9, 2400.0
@@ -21,11 +22,9 @@ MODAL = [word for name in ("over", "under") for word in (f"-{name}_model", "moda
 
 
 def scene(*more, gap=GAP, step=5e-5, steps=20):
-    words = ["-structures", "over,under", "-contacts", "joint", "-joint_secondary", "over:z_min", "-joint_primary",
-             "under:z_max", "-joint_gap", gap, "-gravity", GRAVITY, "-preload", "static", "-time_step", step,
-             "-end_time", repr(steps * step), "-output_interval", step, "-probes", "foot", "-foot_structure", "over",
-             "-foot_group", "z_min", "-material_concrete_young", YOUNG, "-material_concrete_poisson", 0,
-             "-material_concrete_density", DENSITY]
+    words = ["-structures", "over,under", *contacts(joint=("over:z_min", "under:z_max", gap)), "-gravity", GRAVITY,
+             "-preload", "static", *clock(step, repr(steps * step)), *probes(foot="over:z_min"),
+             *material("concrete", YOUNG, 0, DENSITY)]
     for name, start, length, clamp in (("over", 0, HUNG, "z_max"), ("under", -STANDING, STANDING, "z_min")):
         words += [f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set", f"lx={SIDE},ly={SIDE},lz={length},"
                   f"z0={start},nz=4", f"-{name}_clamp", clamp, f"-{name}_body_element", "hex8",

@@ -11,6 +11,7 @@ import math
 import unittest
 
 import program
+from decks import box_of, clock, contacts, material, probes
 from recorded import Recorded
 
 GRAVITY, YOUNG, DENSITY = 9.81, 30e9, 2400.0
@@ -18,15 +19,10 @@ SOUND = math.sqrt(YOUNG / DENSITY)
 
 
 def scene(box, time_step, end_time, *more):
-    return ["-structures", "body", "-body_mesh", "tests/meshes/box.geo", "-body_mesh_set", box,
-            "-body_body_element", "hex8_full", "-body_body_material", "concrete",
-            "-material_concrete_young", YOUNG, "-material_concrete_poisson", 0,
-            "-material_concrete_density", DENSITY, "-body_gravity", f"0,0,{-GRAVITY}",
-            "-contacts", "stop", "-stop_secondary", "body:z_min", "-stop_primary", "wall",
-            "-stop_gap", 0, "-time_step", repr(time_step), "-end_time", repr(end_time),
-            "-output_interval", repr(time_step / 2), "-energy_interval", 1,
-            "-probes", "top,bottom", "-top_structure", "body", "-top_group", "z_max",
-            "-bottom_structure", "body", "-bottom_group", "z_min", *more]
+    return ["-structures", "body", *box_of("body", box, "concrete", "hex8_full"),
+            *material("concrete", YOUNG, 0, DENSITY), "-body_gravity", f"0,0,{-GRAVITY}",
+            *contacts(stop=("body:z_min", "wall", 0)), *clock(repr(time_step), repr(end_time), repr(time_step / 2)),
+            "-energy_interval", 1, *probes(top="body:z_max", bottom="body:z_min"), *more]
 
 
 class RestingBlock(unittest.TestCase):
@@ -123,11 +119,9 @@ class RestingColumn(unittest.TestCase):
 
     def test_nodal_reactions(self):
         # Instead of the wall a pad under each node, stiff enough to be rigid to twelve digits.
-        pads = ["-structures", "body,pads", "-contacts", "corner,edge,centre",
-                "-pads_mesh", "tests/meshes/pads.geo", "-pads_clamp", "base",
-                "-pads_body_element", "hex8_full", "-pads_body_material", "rigid",
-                "-material_rigid_young", 1e22, "-material_rigid_poisson", 0,
-                "-material_rigid_density", 5e15]
+        pads = ["-structures", "body,pads", "-contacts", "corner,edge,centre", "-pads_mesh", "tests/meshes/pads.geo",
+                "-pads_clamp", "base", "-pads_body_element", "hex8_full", "-pads_body_material", "rigid",
+                *material("rigid", 1e22, 0, 5e15)]
         for name in ("corner", "edge", "centre"):
             pads += [f"-{name}_secondary", "body:z_min", f"-{name}_primary", f"pads:{name}",
                      f"-{name}_gap", 0]

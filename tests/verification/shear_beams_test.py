@@ -18,6 +18,7 @@ import numpy
 import scipy.linalg
 import scipy.optimize
 
+import decks
 import modal_run
 import program
 from recorded import Recorded
@@ -55,7 +56,7 @@ def cantilever_frequencies(length, area, inertia, shear_area, young, poisson, de
 
 def square(name, side):
     area, inertia = side**2, side**4 / 12
-    return (modal_run.section(name, area, inertia, inertia, 1.69 * inertia) +
+    return (decks.section(name, area, inertia, inertia, 1.69 * inertia) +
             [f"-section_{name}_shear_area", f"{area * 5 / 6!r},{area * 5 / 6!r}"])
 
 
@@ -215,7 +216,7 @@ class Frames(unittest.TestCase):
         mass = 3 * kip / FOOT**2
         for name in ("columns", "girders"):
             words += modal_run.group(name, "beam", section="@", mass_per_length=repr(mass))
-        words += modal_run.section("@", area, 1e3 * inertia, inertia, 1e3 * inertia)
+        words += decks.section("@", area, 1e3 * inertia, inertia, 1e3 * inertia)
         for ranks in (1, 2):
             result, = modal_run.structures(self, [modal_run.case("plane_frame", words)], 8, ranks)
             found = [(2 * math.pi * f)**2 for f in modal_run.moving(result, (0, 1, 5))]

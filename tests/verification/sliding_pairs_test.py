@@ -9,6 +9,7 @@ import unittest
 
 import numpy
 
+from decks import box_of, clock, contacts, in_modes, material
 from program import must_refuse
 from recorded import IDENTITY_OF_A_FLIGHT, Recorded, assert_continues
 
@@ -22,21 +23,14 @@ FIXED = ["-deck_clamp", "z_min"]
 
 def scene(start, speed, end_time, *more, sliding=4.5, cells=20, across=1):
     """A block whose hind end is at x = start, on a deck from x = 0 to 4 m."""
-    words = ["-structures", "deck,block", "-contacts", "joint", "-joint_secondary", "block:z_min",
-             "-joint_primary", "deck:z_max", "-joint_gap", 0,
-             "-deck_mesh", "tests/meshes/box.geo", "-deck_mesh_set",
-             f"x0=0,y0={-WIDTH / 2},z0={-HEIGHT},lx={LENGTH},ly={WIDTH},lz={HEIGHT},nx={cells},ny={across}",
-             "-block_mesh", "tests/meshes/box.geo", "-block_mesh_set",
-             f"x0={start},y0={-BLOCK / 2},z0=0,lx={BLOCK},ly={BLOCK},lz={BLOCK}",
-             "-deck_body_element", "hex8", "-deck_body_material", "concrete",
-             "-block_body_element", "hex8", "-block_body_material", "concrete",
-             "-material_concrete_young", YOUNG, "-material_concrete_poisson", 0.0,
-             "-material_concrete_density", DENSITY,
-             "-deck_gravity", "0,0,0", "-block_gravity", f"0,0,{-GRAVITY}",
-             "-block_initial_velocity", f"{speed},0,0", "-time_step", 1.5e-5, "-end_time", end_time,
-             "-output_interval", 1e-3, "-energy_interval", 100, "-impact_merge_time", 1e-3,
-             "-probes", "middle,load", "-middle_structure", "deck", "-middle_at", f"{LENGTH / 2},{-WIDTH / 2},{-HEIGHT}",
-             "-load_structure", "block", "-load_group", "body", *more]
+    words = ["-structures", "deck,block", *contacts(joint=("block:z_min", "deck:z_max", 0)),
+             *box_of("deck", f"x0=0,y0={-WIDTH / 2},z0={-HEIGHT},lx={LENGTH},ly={WIDTH},lz={HEIGHT},nx={cells},ny={across}", "concrete"),
+             *box_of("block", f"x0={start},y0={-BLOCK / 2},z0=0,lx={BLOCK},ly={BLOCK},lz={BLOCK}", "concrete"),
+             *material("concrete", YOUNG, 0.0, DENSITY), "-deck_gravity", "0,0,0", "-block_gravity", f"0,0,{-GRAVITY}",
+             "-block_initial_velocity", f"{speed},0,0", *clock(1.5e-5, end_time, 1e-3), "-energy_interval", 100,
+             "-impact_merge_time", 1e-3, "-probes", "middle,load", "-middle_structure", "deck",
+             "-middle_at", f"{LENGTH / 2},{-WIDTH / 2},{-HEIGHT}", "-load_structure", "block", "-load_group", "body",
+             *more]
     return words + (["-joint_sliding", sliding] if sliding else [])
 
 
@@ -127,7 +121,7 @@ class OnAFixedDeck(unittest.TestCase):
     def test_reduced_is_the_same(self):
         words = scene(0.3, 1.5, 0.1, "-joint_friction", 0.3, *FIXED)
         full = Recorded(self, words, 2, LONG)
-        reduced = Recorded(self, [*words, "-block_model", "modal", "-block_modal_vectors", 24], 2, LONG)
+        reduced = Recorded(self, [*words, *in_modes("block", 24)], 2, LONG)
         for channel in ("load.x", "load.z"):
             self.assertLess(abs(reduced.displacement(channel) - full.displacement(channel)).max(), 1e-9, channel)
 

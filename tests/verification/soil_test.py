@@ -15,6 +15,7 @@ import h5py
 import numpy
 
 import program
+from decks import clock, contacts, in_modes, material, probes, section
 from recorded import Recorded, assert_continues, write_samples
 
 VELOCITY, DENSITY, RADIUS = 200.0, 2000.0, 10.0
@@ -61,8 +62,7 @@ def ground(nu, *more):
 def body(*more):
     return ["-structures", "block", "-block_mesh", "tests/meshes/mat.geo", "-block_body_element", "point_mass",
             "-block_body_mass", MASS, "-block_body_rotary_inertia", f"{INERTIA!r},{INERTIA!r},{INERTIA!r}",
-            "-time_step", STEP, "-output_interval", STEP, "-end_time", END, "-energy_interval", 50, "-modes", 6,
-            "-probes", "it", "-it_structure", "block", "-it_group", "body", *more]
+            *clock(STEP, END), "-energy_interval", 50, "-modes", 6, *probes(it="block:body"), *more]
 
 
 def alone(nu, *more):
@@ -157,7 +157,7 @@ class Impedance(unittest.TestCase):
     def test_in_all_modes(self):
         full = self.shaken(on_arm(0.45, 8, 3), "xz", 1)
         for ranks in (1, 2):
-            reduced = self.shaken(on_arm(0.45, 8, 3, "-block_model", "modal", "-block_modal_vectors", 18), "xz", ranks)
+            reduced = self.shaken(on_arm(0.45, 8, 3, *in_modes("block", 18)), "xz", ranks)
             for axis in "xyz":
                 u, v = full.run.displacement(f"it.{axis}"), reduced.run.displacement(f"it.{axis}")
                 self.assertLess(abs(u - v).max() / abs(u).max(), 1e-9)
@@ -165,9 +165,8 @@ class Impedance(unittest.TestCase):
     def test_a_kept_basis_is_read_again(self):
         """Soil acts on rotations too, which are places of the basis as translations are."""
         with tempfile.TemporaryDirectory(prefix="pounding-") as place:
-            words = on_arm(0.45, 8, 3, "-block_model", "modal", "-block_modal_vectors", 18, "-motion_x_record",
-                           self.record, "-motion_x_unit", "m/s2", "-end_time", 0.3, "-block_modal_basis",
-                           f"{place}/basis.h5")
+            words = on_arm(0.45, 8, 3, *in_modes("block", 18), "-motion_x_record", self.record,
+                           "-motion_x_unit", "m/s2", "-end_time", 0.3, "-block_modal_basis", f"{place}/basis.h5")
             made, read = Recorded(self, words, 2), Recorded(self, words, 2)
             with h5py.File(f"{place}/basis.h5") as file:
                 self.assertEqual(set(file["points"][:, 1]), set(range(6)))
@@ -196,8 +195,8 @@ class Limits(unittest.TestCase):
     def test_energy_never_grows_at_the_limit(self):
         """Thrown sideways and up at 0.999 of the limit, with a mass on the mat as well."""
         for factor, ranks in zip(self.FACTORS, (1, 2, 1)):
-            words = self.soil(factor, 0.45, "-courant", 0.999, "-time_step", 0, "-block_initial_velocity", "1,2,3",
-                              "-energy_interval", 1, "-end_time", 20, "-output_interval", 0.1)
+            words = self.soil(factor, 0.45, "-courant", 0.999, *clock(0, 20, 0.1), "-block_initial_velocity", "1,2,3",
+                              "-energy_interval", 1)
             folder, summary = program.must_run(self, words, ranks)
             self.assertLess(summary["energy"]["relative_residual"], 1e-11)
             columns = program.read_csv(f"{folder}/energy.csv")
@@ -243,19 +242,18 @@ class MatOfShells(unittest.TestCase):
     SIDE, THICKNESS, HEAVY = 2.0, 0.05, 7800.0
 
     def words(self, *more):
-        return ["-structures", "t", "-t_mesh", "tests/meshes/table.geo", "-t_ignore", "column", "-t_slab_element",
-                "shell", "-t_slab_material", "steel", "-t_slab_thickness", self.THICKNESS, "-material_steel_young", 200e9,
-                "-material_steel_poisson", 0.3, "-material_steel_density", self.HEAVY, "-t_soil_mat", "slab",
-                "-t_soil_vs", VELOCITY, "-t_soil_density", DENSITY, "-t_soil_poisson", repr(THIRD), "-end_time", 0.01,
-                "-modes", 6, *more]
+        return ["-structures", "t", "-t_mesh", "tests/meshes/table.geo", "-t_ignore", "column",
+                "-t_slab_element", "shell", "-t_slab_material", "steel", "-t_slab_thickness", self.THICKNESS,
+                *material("steel", 200e9, 0.3, self.HEAVY), "-t_soil_mat", "slab", "-t_soil_vs", VELOCITY,
+                "-t_soil_density", DENSITY, "-t_soil_poisson", repr(THIRD), "-end_time", 0.01, "-modes", 6, *more]
 
     def test_frequencies_are_those_of_a_rigid_mat(self):
         unit = DENSITY * VELOCITY**2 * self.SIDE / 2
         mass = self.SIDE**2 * self.THICKNESS * self.HEAVY
         turn = mass / 2 * (self.SIDE / 2)**2  # lumped at 3 x 3 nodes: half of it stands at the edges
         for ranks in (1, 2, 3):
-            run = Recorded(self, self.words("-gravity", 9.81, "-preload", "static", "-probes", "p", "-p_structure", "t",
-                                            "-p_group", "slab"), ranks, identity=1e-11)
+            run = Recorded(self, self.words("-gravity", 9.81, "-preload", "static",
+                                            *probes(p="t:slab")), ranks, identity=1e-11)
             structure = run.summary["structures"]["t"]
             found = {mode["direction"]: mode["frequency"] for mode in structure["frequencies"]}
             for direction, stiffness, inertia in (("x", 5.52, mass), ("z", 7.05, mass), ("rx", 6.0, turn),
@@ -287,15 +285,14 @@ class Stick(unittest.TestCase):
     def words(self, *more):
         inertia = self.BENDING / self.YOUNG
         turns = self.MAT * (self.SIDE**2 + self.DEPTH**2) / 12
-        return ["-structures", "stick", "-stick_mesh", "tests/meshes/stick.geo", "-stick_mesh_set",
-                f"storey={self.HEIGHT!r}", "-stick_column_element", "beam", "-stick_column_material", "light",
-                "-stick_column_section", "pipe", "-material_light_young", self.YOUNG, "-material_light_poisson", 0.2,
-                "-material_light_density", 100, "-section_pipe_area", 3, "-section_pipe_inertia_y", inertia,
-                "-section_pipe_inertia_z", inertia, "-section_pipe_torsion", inertia, "-section_pipe_z_axis", "1,0,0",
+        return ["-structures", "stick", "-stick_mesh", "tests/meshes/stick.geo",
+                "-stick_mesh_set", f"storey={self.HEIGHT!r}", "-stick_column_element", "beam",
+                "-stick_column_material", "light", "-stick_column_section", "pipe",
+                *material("light", self.YOUNG, 0.2, 100), *section("pipe", 3, inertia, inertia, inertia, "1,0,0"),
                 "-stick_column_damping_beta", 2 * 0.04 / (2 * math.pi * 3.83), "-stick_floors_element", "point_mass",
                 "-stick_floors_mass", self.FLOOR, "-stick_floors_rotary_inertia", "3e6,3e6,3e6",
-                "-stick_foot_element", "point_mass", "-stick_foot_mass", self.MAT, "-stick_foot_rotary_inertia",
-                f"{turns!r},{turns!r},{2 * turns!r}", "-modes", 4, *more]
+                "-stick_foot_element", "point_mass", "-stick_foot_mass", self.MAT,
+                "-stick_foot_rotary_inertia", f"{turns!r},{turns!r},{2 * turns!r}", "-modes", 4, *more]
 
     def on_soil(self, *more):
         velocity = math.sqrt(1.48e10 / (5.52 * self.SIDE / 2) / 2000)
@@ -306,9 +303,8 @@ class Stick(unittest.TestCase):
     def test_frequency_and_amplification(self):
         record = write_samples(pulse(int(self.TIME / STEP)), STEP)
         self.addCleanup(os.remove, record)
-        run = Recorded(self, self.on_soil(
-            "-motion_x_record", record, "-motion_x_unit", "m/s2", "-time_step", 2e-4, "-output_interval", STEP,
-            "-end_time", self.TIME, "-probes", "it", "-it_structure", "stick", "-it_group", "roof"), 2)
+        run = Recorded(self, self.on_soil("-motion_x_record", record, "-motion_x_unit", "m/s2",
+                                          *clock(2e-4, self.TIME, STEP), *probes(it="stick:roof")), 2)
         self.assertLess(run.energy["relative_residual"], 1e-11)
         frequencies = numpy.arange(3.3, 4.4, 0.005)
         harmonic = Harmonic(run, 2 * math.pi * frequencies)
@@ -331,15 +327,15 @@ class AtAWall(unittest.TestCase):
     def test_gaps_looked_at_more_rarely_change_no_impact(self):
         found = []
         for interval, ranks in ((0, 1), (0.05, 1), (0.05, 2)):
-            run = Recorded(self, [
-                "-structures", "slab", "-slab_mesh", "tests/meshes/torsional_slab.geo", "-slab_body_element", "hex8",
-                "-slab_body_material", "c", "-material_c_young", 3e10, "-material_c_poisson", 0.2,
-                "-material_c_density", 2400, "-slab_middle_element", "point_mass", "-slab_middle_mass", 1e3,
-                "-slab_middle_rotary_inertia", "1e5,1e5,1e5", "-slab_soil_mat", "middle", "-slab_soil_size", 4,
-                "-slab_soil_vs", 40, "-slab_soil_density", 1800, "-slab_soil_poisson", 0.45, "-slab_soil_shape", "disk",
-                "-slab_initial_velocity", "0.2,0,0.1", "-contacts", "hit", "-hit_secondary", "slab:far_high",
-                "-hit_primary", "wall", "-hit_gap", 2e-3, "-end_time", 0.2, "-output_interval", 1e-3,
-                "-gap_interval", interval, "-probes", "it", "-it_structure", "slab", "-it_group", "middle"], ranks,
+            run = Recorded(self, ["-structures", "slab", "-slab_mesh", "tests/meshes/torsional_slab.geo",
+                                  "-slab_body_element", "hex8", "-slab_body_material", "c",
+                                  *material("c", 3e10, 0.2, 2400), "-slab_middle_element", "point_mass",
+                                  "-slab_middle_mass", 1e3, "-slab_middle_rotary_inertia", "1e5,1e5,1e5",
+                                  "-slab_soil_mat", "middle", "-slab_soil_size", 4, "-slab_soil_vs", 40,
+                                  "-slab_soil_density", 1800, "-slab_soil_poisson", 0.45, "-slab_soil_shape", "disk",
+                                  "-slab_initial_velocity", "0.2,0,0.1", *contacts(hit=("slab:far_high", "wall", 2e-3)),
+                                  "-end_time", 0.2, "-output_interval", 1e-3, "-gap_interval", interval,
+                                  *probes(it="slab:middle")], ranks,
                            identity=1e-11)
             self.assertLess(run.energy["relative_residual"], 1e-11)
             found.append(run)

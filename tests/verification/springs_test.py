@@ -12,18 +12,16 @@ import unittest
 import numpy
 
 import program
+from decks import clock, material, probes, section
 from recorded import Recorded
 
 SPEED = 0.5
 
 
 def chain(time_step, end_time, *more):
-    return ["-structures", "chain", "-chain_mesh", "tests/meshes/chain.geo",
-            "-chain_initial_velocity", f"{SPEED},0,0",
-            "-time_step", repr(time_step), "-end_time", repr(end_time),
-            "-output_interval", repr(time_step / 2), "-energy_interval", 1,
-            "-probes", "one,two", "-one_structure", "chain", "-one_at", "1,0,0",
-            "-two_structure", "chain", "-two_at", "2,0,0", *more]
+    return ["-structures", "chain", "-chain_mesh", "tests/meshes/chain.geo", "-chain_initial_velocity", f"{SPEED},0,0",
+            *clock(repr(time_step), repr(end_time), repr(time_step / 2)), "-energy_interval", 1,
+            *probes(one="chain@1,0,0", two="chain@2,0,0"), *more]
 
 
 def point(group, mass):
@@ -135,15 +133,11 @@ class Rotation(unittest.TestCase):
         for rock in (1e4, 1e5, 1e6):
             words = ["-structures", "mast", "-mast_mesh", "tests/meshes/cantilever.geo",
                      "-mast_mesh_set", f"height={height},n=2", "-mast_stem_element", "beam",
-                     "-mast_stem_material", "steel", "-mast_stem_section", "tube",
-                     "-material_steel_young", young, "-material_steel_poisson", 0.3,
-                     "-material_steel_density", 1e-3, "-section_tube_area", 1e-2,
-                     "-section_tube_inertia_y", inertia, "-section_tube_inertia_z", inertia,
-                     "-section_tube_torsion", inertia, "-section_tube_z_axis", "0,1,0",
+                     "-mast_stem_material", "steel", "-mast_stem_section", "tube", *material("steel", young, 0.3, 1e-3),
+                     *section("tube", 1e-2, inertia, inertia, inertia, "0,1,0"),
                      "-mast_base_element", "grounded_spring",
                      "-mast_base_stiffness", f"1e8,1e8,1e8,{rock!r},{2 * rock!r},1e6",
-                     "-mast_top_element", "point_mass", "-mast_top_mass", mass,
-                     "-end_time", 1e-5]
+                     "-mast_top_element", "point_mass", "-mast_top_mass", mass, "-end_time", 1e-5]
             found = dict((direction, f) for f, direction in reversed(frequencies(self, words, 2)))
             for direction, about in (("x", 2 * rock), ("y", rock)):
                 flexibility = 1e-8 + height**2 / about + height**3 / (3 * young * inertia)

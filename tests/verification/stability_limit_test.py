@@ -14,6 +14,7 @@ import numpy
 import scipy.linalg
 
 import program
+from decks import clock, material, probes
 from recorded import Recorded
 
 YOUNG, DENSITY = 2e11, 7800.0
@@ -31,11 +32,10 @@ class Bar:
 
     def __init__(self, lengths, elements, clamp, damping, regions=None, dashpot=0.0):
         self.damping = {name: (regions or {}).get(name, damping) for name in AREAS}
-        self.words = ["-structures", "bar", "-bar_mesh", "tests/meshes/halves.geo", "-bar_mesh_set",
-                      f"length_1={lengths[0]},length_2={lengths[1]},n1={elements[0]},n2={elements[1]}",
-                      "-bar_clamp", clamp, "-material_steel_young", YOUNG, "-material_steel_poisson", 0.3,
-                      "-material_steel_density", DENSITY,
-                      "-bar_damping_alpha", damping[0], "-bar_damping_beta", damping[1]]
+        self.words = ["-structures", "bar", "-bar_mesh", "tests/meshes/halves.geo",
+                      "-bar_mesh_set", f"length_1={lengths[0]},length_2={lengths[1]},n1={elements[0]},n2={elements[1]}",
+                      "-bar_clamp", clamp, *material("steel", YOUNG, 0.3, DENSITY), "-bar_damping_alpha", damping[0],
+                      "-bar_damping_beta", damping[1]]
         for name, area in AREAS.items():
             self.words += [f"-bar_{name}_element", "bar", f"-bar_{name}_material", "steel",
                            f"-bar_{name}_area", area]
@@ -158,11 +158,9 @@ class History(unittest.TestCase):
         for (damping, regions), dashpot in zip(DAMPINGS, dashpots):
             bar = Bar((3, 2), (6, 9), "x_min", damping, regions, dashpot)
             time_step, steps = 0.8 * bar.limit(), 300
-            run = Recorded(self, bar.words + [
-                "-time_step", repr(time_step), "-end_time", repr(steps * time_step), "-output_interval",
-                repr(time_step / 2), "-energy_interval", 1, "-bar_initial_velocity", "1,0,0", "-probes",
-                "joint,tip", "-joint_structure", "bar", "-joint_at", "3,0,0", "-tip_structure", "bar",
-                "-tip_at", "5,0,0"])
+            run = Recorded(self, bar.words + [*clock(repr(time_step), repr(steps * time_step), repr(time_step / 2)),
+                                              "-energy_interval", 1, "-bar_initial_velocity", "1,0,0",
+                                              *probes(joint="bar@3,0,0", tip="bar@5,0,0")])
             u, v = numpy.zeros((2, len(bar.mass)))
             v += 1
             found = numpy.column_stack([run.displacement("joint.x"), run.displacement("tip.x")])

@@ -11,17 +11,15 @@ import unittest
 import numpy
 
 import program
+from decks import box_of, clock, in_modes, material, probes
 from recorded import Recorded, assert_follows, ensemble_of
 
 YOUNG, DENSITY, AREA, LENGTH, CELLS, STEP = 2e9, 2500.0, 0.25, 2.0, 8, 2e-5
 
 
 def bar(*more):
-    return ["-structures", "bar", "-bar_mesh", "tests/meshes/box.geo", "-bar_mesh_set",
-            f"lx={LENGTH},ly=0.5,lz=0.5,nx={CELLS}", "-bar_body_element", "hex8", "-bar_body_material", "stuff",
-            "-material_stuff_young", YOUNG, "-material_stuff_poisson", 0, "-material_stuff_density", DENSITY,
-            "-time_step", STEP, "-output_interval", STEP, "-end_time", 200 * STEP, "-probes", "end",
-            "-end_structure", "bar", "-end_group", "x_max", *more]
+    return ["-structures", "bar", *box_of("bar", f"lx={LENGTH},ly=0.5,lz=0.5,nx={CELLS}", "stuff"),
+            *material("stuff", YOUNG, 0, DENSITY), *clock(STEP, 200 * STEP), *probes(end="bar:x_max"), *more]
 
 
 def places():
@@ -73,14 +71,13 @@ class Starts(unittest.TestCase):
             u = u + STEP * v
         words = bar("-bar_clamp", "x_min", *self.stretched())
         assert_follows(self, Recorded(self, words).displacement("end.x"), numpy.array(expected), 1e-10, "chain")
-        modal = ["-bar_model", "modal", "-bar_modal_vectors", 200]
+        modal = [*in_modes("bar", 200)]
         assert_follows(self, Recorded(self, [*words, *modal]).displacement("end.x"), numpy.array(expected), 1e-9, "modes")
 
     def test_a_stored_basis_has_it(self):
         folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, folder)
-        words = bar("-bar_clamp", "x_min", "-bar_model", "modal", "-bar_modal_vectors", 12, "-bar_modal_basis",
-                    os.path.join(folder, "bar.h5"))
+        words = bar("-bar_clamp", "x_min", *in_modes("bar", 12), "-bar_modal_basis", os.path.join(folder, "bar.h5"))
         first = Recorded(self, [*words, *self.stretched()])
         again = Recorded(self, [*words, *self.stretched()])
         self.assertGreater(abs(first.displacement("end.x")).max(), 1.5e-3)
@@ -89,7 +86,7 @@ class Starts(unittest.TestCase):
         self.assertLess(abs(other.displacement("end.x")).max(), 1e-6)
 
     def test_members_of_an_ensemble(self):
-        words = [*bar("-bar_clamp", "x_min", "-bar_model", "modal", "-bar_modal_vectors", 12), *self.stretched(),
+        words = [*bar("-bar_clamp", "x_min", *in_modes("bar", 12)), *self.stretched(),
                  "-modes", 0, "-spectra_frequencies", "50,200"]
         peaks, _ = ensemble_of(self, words, "bar_stiffness_factor", (1, 1.3))
         for member, factor in enumerate((1, 1.3)):

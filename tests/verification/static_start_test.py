@@ -14,6 +14,7 @@ import numpy
 import scipy.io
 
 import program
+from decks import box_of, clock, contacts, in_modes, material, probes, section
 from recorded import Recorded, write_sine
 
 GRAVITY, YOUNG, DENSITY = 9.81, 30e9, 2400.0
@@ -21,9 +22,7 @@ REST = ["-gravity", GRAVITY, "-preload", "static"]
 
 
 def box(name, sizes, *more, poisson=0.0):
-    return [f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set", sizes, f"-{name}_body_element", "hex8",
-            f"-{name}_body_material", "concrete", "-material_concrete_young", YOUNG,
-            "-material_concrete_poisson", poisson, "-material_concrete_density", DENSITY, *more]
+    return [*box_of(name, sizes, "concrete"), *material("concrete", YOUNG, poisson, DENSITY), *more]
 
 
 def largest_speed(run, mass):
@@ -40,9 +39,8 @@ class HungBar(unittest.TestCase):
 
     def hang(self, *more, ranks=program.RANKS, steps=50):
         step = 5e-5
-        return Recorded(self, ["-structures", "bar", *box("bar", self.SIZES, "-bar_clamp", "z_max"), "-time_step",
-                               step, "-end_time", steps * step, "-output_interval", step, "-probes", "foot",
-                               "-foot_structure", "bar", "-foot_group", "z_min", *REST, *more], ranks)
+        return Recorded(self, ["-structures", "bar", *box("bar", self.SIZES, "-bar_clamp", "z_max"),
+                               *clock(step, steps * step), *probes(foot="bar:z_min"), *REST, *more], ranks)
 
     def assert_hangs(self, run, tolerance=1e-12):
         foot = run.displacement("foot.z")
@@ -72,7 +70,7 @@ class HungBar(unittest.TestCase):
         self.assertIn("conjugate gradients", run.summary["equilibrium"]["structures"]["bar"]["method"])
 
     def test_few_modes_find_the_same(self):
-        run = self.hang("-bar_model", "modal", "-bar_modal_vectors", 2)
+        run = self.hang(*in_modes("bar", 2))
         self.assertLess(abs(run.displacement("foot.z") / -self.SAG - 1).max(), 1e-6)
 
     def test_matrices_find_the_same(self):
@@ -93,7 +91,7 @@ class HungBar(unittest.TestCase):
             run = self.hang(*uniform, "-bar_damping_filters", filters, *more, ranks=ranks, steps=500)
             self.assertLess(run.summary["structures"]["bar"]["damping"]["stiffness_at_rest"], 0.98)
             self.assert_hangs(run)
-        reduced = self.hang(*uniform, "-bar_model", "modal", "-bar_modal_vectors", 2, steps=500)
+        reduced = self.hang(*uniform, *in_modes("bar", 2), steps=500)
         self.assertLess(abs(reduced.displacement("foot.z") / -self.SAG - 1).max(), 1e-6)
         self.assertLess(numpy.ptp(reduced.displacement("foot.z")), 1e-12 * self.SAG)
 
@@ -109,8 +107,8 @@ class HungBar(unittest.TestCase):
     def test_reaches_the_wall_below(self):
         gap = 0.4 * self.SAG
         force = (self.SAG - gap) * YOUNG * self.AREA / self.LENGTH
-        wall = ["-contacts", "stop", "-stop_secondary", "bar:z_min", "-stop_primary", "wall", "-stop_gap", repr(gap)]
-        for more in ([], ["-bar_model", "modal", "-bar_modal_vectors", 2]):
+        wall = [*contacts(stop=("bar:z_min", "wall", repr(gap)))]
+        for more in ([], [*in_modes("bar", 2)]):
             run = self.hang(*wall, *more)
             self.assertLess(abs(run.displacement("foot.z") / -gap - 1).max(), 1e-9)
             self.assertLess(abs(run.force("stop")[1:] / force - 1).max(), 1e-5 if more else 1e-10)
@@ -119,8 +117,7 @@ class HungBar(unittest.TestCase):
             self.assertAlmostEqual(contact["force"] / force, 1, delta=1e-5 if more else 1e-12)
 
     def test_a_wall_out_of_reach_carries_nothing(self):
-        run = self.hang("-contacts", "stop", "-stop_secondary", "bar:z_min", "-stop_primary", "wall", "-stop_gap",
-                        repr(1.001 * self.SAG))
+        run = self.hang(*contacts(stop=("bar:z_min", "wall", repr(1.001 * self.SAG))))
         self.assert_hangs(run)
         self.assertEqual(run.summary["equilibrium"]["contacts"]["stop"], {"points": 0, "force": 0})
         self.assertEqual(run.summary["impacts"]["episodes"], 0)
@@ -141,10 +138,8 @@ class RestingColumn(unittest.TestCase):
     def stand(self, steps, ranks, *more):
         step = 4.5e-5
         return Recorded(self, ["-structures", "body", *box("body", "lx=0.4,ly=0.4,lz=1.2,nx=2,ny=2,nz=6", poisson=0.2),
-                               "-contacts", "stop", "-stop_secondary", "body:z_min", "-stop_primary", "wall",
-                               "-stop_gap", 0, "-time_step", step, "-end_time", steps * step, "-output_interval",
-                               10 * step, "-energy_interval", 1000, "-probes", "top", "-top_structure", "body",
-                               "-top_group", "z_max", *REST, *more], ranks)
+                               *contacts(stop=("body:z_min", "wall", 0)), *clock(step, steps * step, 10 * step),
+                               "-energy_interval", 1000, *probes(top="body:z_max"), *REST, *more], ranks)
 
     def assert_stands(self, run):
         self.assertLess(abs(run.force("stop")[1:] / self.WEIGHT - 1).max(), 1e-10)
@@ -160,7 +155,7 @@ class RestingColumn(unittest.TestCase):
     def test_stands_on_more_ranks_and_in_modes(self):
         self.assert_stands(self.stand(2000, 2))
         self.assert_stands(self.stand(2000, 3))
-        self.assert_stands(self.stand(2000, 2, "-body_model", "modal", "-body_modal_vectors", 12))
+        self.assert_stands(self.stand(2000, 2, *in_modes("body", 12)))
 
     def test_options_reach_its_solvers(self):
         words = ["-structures", "body", *box("body", "nz=2", "-body_clamp", "z_min"), "-end_time", 1e-4, *REST]
@@ -174,8 +169,8 @@ class RestingColumn(unittest.TestCase):
         for more, why in ((["-contacts", "none", "-body_allow_loose", "true"], "finds no rest under its weight"),
                           (["-body_initial_displacement", "0,0,0.1"], "not with -preload static"),
                           (["-preload", "dynamic"], "none static"), (["-gravity", -9.81], ">= 0")):
-            words = ["-structures", "body", *box("body", "nz=2"), "-contacts", "stop", "-stop_secondary",
-                     "body:z_min", "-stop_primary", "wall", "-stop_gap", 0, "-end_time", 0.01, *REST, *more]
+            words = ["-structures", "body", *box("body", "nz=2"), *contacts(stop=("body:z_min", "wall", 0)),
+                     "-end_time", 0.01, *REST, *more]
             result = program.run([*words, "-output", tempfile.mkdtemp()], 2)
             self.assertEqual(result.returncode, 1)
             lines = program.error_lines(result)
@@ -256,12 +251,12 @@ class Cantilever(unittest.TestCase):
 class OnSprings(unittest.TestCase):
     def test_settles_by_its_weight_over_the_springs(self):
         stiffness, mass = 4e4, 100.0
-        words = ["-structures", "frame", "-frame_mesh", "tests/meshes/braces.geo", "-frame_ignore",
-                 "anchors,left,right", "-frame_mass_element", "point_mass", "-frame_mass_mass", mass,
+        words = ["-structures", "frame", "-frame_mesh", "tests/meshes/braces.geo",
+                 "-frame_ignore", "anchors,left,right", "-frame_mass_element", "point_mass", "-frame_mass_mass", mass,
                  "-frame_support_element", "grounded_spring", "-frame_support_stiffness", f"1e4,1e4,{stiffness}",
-                 "-frame_support_dashpot", "0,0,50,0,0,0", "-probes", "hung", "-hung_structure", "frame", "-hung_at",
-                 "0,0,0", "-time_step", 1e-3, "-end_time", 1, "-frame_gravity", f"0.1,0,{-GRAVITY}", *REST]
-        for more in ([], ["-frame_model", "modal", "-frame_modal_vectors", 3]):
+                 "-frame_support_dashpot", "0,0,50,0,0,0", *probes(hung="frame@0,0,0"), "-time_step", 1e-3,
+                 "-end_time", 1, "-frame_gravity", f"0.1,0,{-GRAVITY}", *REST]
+        for more in ([], [*in_modes("frame", 3)]):
             run = Recorded(self, words + more)
             self.assertLess(abs(run.displacement("hung.z") / (-mass * GRAVITY / stiffness) - 1).max(), 1e-12)
             self.assertLess(abs(run.displacement("hung.x") / (mass * 0.1 / 1e4) - 1).max(), 1e-12)
@@ -275,14 +270,13 @@ class HungOnBraces(unittest.TestCase):
 
     def test_one_pair_is_taut(self):
         words = ["-structures", "frame", "-frame_mesh", "tests/meshes/braces.geo", "-frame_clamp", "anchors",
-                 "-frame_ignore", "support", "-material_steel_young", 2e9, "-material_steel_poisson", 0.3,
-                 "-material_steel_density", 1e-9, "-frame_mass_element", "point_mass", "-frame_mass_mass", self.MASS,
-                 "-frame_gravity", f"{GRAVITY},0,0", "-probes", "hung", "-hung_structure", "frame", "-hung_at",
-                 "0,0,0", "-time_step", 1e-3, "-end_time", 2, "-preload", "static"]
+                 "-frame_ignore", "support", *material("steel", 2e9, 0.3, 1e-9), "-frame_mass_element", "point_mass",
+                 "-frame_mass_mass", self.MASS, "-frame_gravity", f"{GRAVITY},0,0", *probes(hung="frame@0,0,0"),
+                 "-time_step", 1e-3, "-end_time", 2, "-preload", "static"]
         for side in ("left", "right"):
             words += [f"-frame_{side}_element", "bar", f"-frame_{side}_material", "steel", f"-frame_{side}_area",
                       self.AREA, f"-frame_{side}_tension_only", "true"]
-        modal = ["-frame_model", "modal", "-frame_modal_vectors", 3]
+        modal = [*in_modes("frame", 3)]
         for ranks, more in ((1, []), (2, []), (3, []), (2, modal)):
             with self.subTest(ranks=ranks, more=more):
                 run = Recorded(self, words + more, ranks)
@@ -334,7 +328,7 @@ class Portal(unittest.TestCase):
 
     def test_moves_about_its_rest_as_without_gravity_under_uniform_damping(self):
         uniform = ["-frame_damping_alpha", 0, "-frame_damping_uniform", 0.05, "-time_step", 1.6e-5]
-        for more, tolerance in (([], 1e-8), (["-frame_model", "modal", "-frame_modal_vectors", 8], 1e-3)):
+        for more, tolerance in (([], 1e-8), ([*in_modes("frame", 8)], 1e-3)):
             still, moved = self.shake(*uniform, *more), self.shake(*uniform, *more, *self.WEIGHT)
             self.assertLess(moved.displacement("middle.y")[0], -1e-5)
             self.assert_alike(still, moved, tolerance)
@@ -343,7 +337,7 @@ class Portal(unittest.TestCase):
         still, moved = self.shake(), self.shake(*self.WEIGHT)
         self.assertLess(moved.displacement("middle.y")[0], -1e-5)
         self.assert_alike(still, moved, 1e-8)
-        modal = ["-frame_model", "modal", "-frame_modal_vectors", 8]
+        modal = [*in_modes("frame", 8)]
         reduced = self.shake(*self.WEIGHT, *modal)
         self.assertAlmostEqual(reduced.displacement("middle.y")[0] / moved.displacement("middle.y")[0], 1, delta=1e-6)
         self.assert_alike(self.shake(*modal), reduced, 1e-3)
@@ -355,14 +349,13 @@ class Sag(unittest.TestCase):
     def test_is_that_of_the_stiffness(self):
         area, inertia, length = 0.04, 1.3e-4, 10.0
         words = ["-structures", "a", "-a_mesh", "tests/meshes/line.geo", "-a_mesh_set", f"length={length},n=20",
-                 "-a_clamp", "x_min,x_max", "-a_line_element", "beam", "-a_line_material", "steel", "-a_line_section",
-                 "box", "-material_steel_young", 2e11, "-material_steel_poisson", 0.3, "-material_steel_density", 7850,
-                 "-section_box_area", area, "-section_box_inertia_y", inertia, "-section_box_inertia_z", inertia,
-                 "-section_box_torsion", 2.2e-4, "-section_box_z_axis", "0,0,1", "-probes", "mid", "-mid_structure", "a",
-                 "-mid_at", "5,0,0", "-end_time", 0.002, "-output_interval", 0.001, *REST]
+                 "-a_clamp", "x_min,x_max", "-a_line_element", "beam", "-a_line_material", "steel",
+                 "-a_line_section", "box", *material("steel", 2e11, 0.3, 7850),
+                 *section("box", area, inertia, inertia, 2.2e-4, "0,0,1"), *probes(mid="a@5,0,0"), "-end_time", 0.002,
+                 "-output_interval", 0.001, *REST]
         sag = 7850 * area * GRAVITY * length**4 / (384 * 2e11 * inertia)
         self.assertAlmostEqual(1e3 * sag, 3.0853, delta=5e-4)
-        reduced = ["-a_model", "modal", "-a_modal_vectors", 6]
+        reduced = [*in_modes("a", 6)]
         for more in (["-a_damping_ratio", 0.05, "-a_damping_frequencies", "5,50"], ["-a_damping_uniform", 0.05],
                      ["-a_damping_uniform", 0.05, "-a_damping_band", "1,400", "-a_damping_reference", 200],
                      ["-a_damping_uniform", 0.05, *reduced]):
@@ -375,12 +368,11 @@ class ThinStrip(unittest.TestCase):
 
     def test_finds_its_rest(self):
         length, thickness, young, density = 0.1, 5e-4, 2e11, 7850.0
-        words = ["-structures", "strip", "-strip_mesh", "tests/meshes/quadrilateral.geo", "-strip_mesh_set",
-                 f"length={length},width_0=0.02,width_1=0.02,nx=40,ny=8", "-strip_clamp", "x_min", "-strip_plate_element",
-                 "shell", "-strip_plate_thickness", thickness, "-strip_plate_material", "steel", "-material_steel_young",
-                 young, "-material_steel_poisson", 0, "-material_steel_density", density, "-probes", "tip",
-                 "-tip_structure", "strip", "-tip_at", f"{length},0.01,0", "-end_time", 1e-5, "-output_interval", 1e-6,
-                 *REST]
+        words = ["-structures", "strip", "-strip_mesh", "tests/meshes/quadrilateral.geo",
+                 "-strip_mesh_set", f"length={length},width_0=0.02,width_1=0.02,nx=40,ny=8", "-strip_clamp", "x_min",
+                 "-strip_plate_element", "shell", "-strip_plate_thickness", thickness, "-strip_plate_material", "steel",
+                 *material("steel", young, 0, density), "-probes", "tip", "-tip_structure", "strip",
+                 "-tip_at", f"{length},0.01,0", "-end_time", 1e-5, "-output_interval", 1e-6, *REST]
         sag = density * GRAVITY * length**4 / 8 / (young * thickness**2 / 12)
         for ranks, more in ((1, []), (2, []), (2, ["-strip_damping_uniform", 0.02, "-strip_damping_band", "1,4000"])):
             run = Recorded(self, words + more, ranks)

@@ -12,6 +12,7 @@ import h5py
 import numpy
 
 import program
+from decks import clock, in_modes, material, section
 from support_motion_test import Pulse
 
 MESH = """$MeshFormat
@@ -58,12 +59,9 @@ class Bases(unittest.TestCase):
     def words(self, *more):
         return ["-structures", "a", "-a_mesh", self.mesh, "-a_mass_element", "point_mass", "-a_mass_mass", 5000,
                 "-a_column_element", "beam", "-a_column_material", "steel", "-a_column_section", "leg",
-                "-material_steel_young", "2.1e11", "-material_steel_poisson", 0.3, "-material_steel_density", 7850,
-                "-section_leg_area", 0.04, "-section_leg_inertia_y", "4e-4", "-section_leg_inertia_z", "2e-4",
-                "-section_leg_torsion", "3e-4", "-section_leg_z_axis", "0,1,0", "-time_step", 2e-5,
-                "-output_interval", 1e-3, "-end_time", 2, "-spectra_frequencies", "1,20", "-probes", "top,feet",
-                "-top_structure", "a", "-top_at", f"0,0,{HEIGHT}", "-top_floor", "true", "-feet_structure", "a",
-                "-feet_at", "0,0,0", *more]
+                *material("steel", "2.1e11", 0.3, 7850), *section("leg", 0.04, "4e-4", "2e-4", "3e-4", "0,1,0"),
+                *clock(2e-5, 2, 1e-3), "-spectra_frequencies", "1,20", "-probes", "top,feet", "-top_structure", "a",
+                "-top_at", f"0,0,{HEIGHT}", "-top_floor", "true", "-feet_structure", "a", "-feet_at", "0,0,0", *more]
 
     def clamped(self, *more):
         return self.words("-a_clamp", "foot", "-a_ignore", "soil", *more)
@@ -99,7 +97,7 @@ class Bases(unittest.TestCase):
         self.assertGreater(base, 20 * expected * HEIGHT, "the base moves far")
         self.assertAlmostEqual(found / expected, 1, delta=1e-6)
         self.assertGreater(sway, base / 2)
-        reduced = ["-a_model", "modal", "-a_modal_vectors", 6]
+        reduced = [*in_modes("a", 6)]
         found, _, _ = self.drift(alone + reduced, 1)
         self.assertAlmostEqual(found / expected, 1, delta=1e-3)
 
@@ -107,7 +105,7 @@ class Bases(unittest.TestCase):
         full, sway, base = self.drift(self.on_soil())
         self.assertGreater(base, sway / 2, "soil gives more than the column")
         self.assertLess(full * HEIGHT, sway / 2)
-        reduced, _, _ = self.drift(self.on_soil("-a_model", "modal", "-a_modal_vectors", 12), 1)
+        reduced, _, _ = self.drift(self.on_soil(*in_modes("a", 12)), 1)
         self.assertAlmostEqual(reduced / full, 1, delta=1e-6)
 
     def test_a_continued_run_has_the_same_drift(self):

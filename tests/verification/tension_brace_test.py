@@ -10,6 +10,7 @@ import unittest
 
 import numpy
 
+from decks import clock, material, probes
 from recorded import Recorded
 
 MASS, YOUNG, AREA, SPRING, SPEED = 100.0, 2e9, 1e-4, 30000.0, 0.5
@@ -18,13 +19,10 @@ DENSITY = 1e-9  # of the bars: without weight beside the mass
 
 
 def scene(sides, spring, time_step, end_time):
-    words = ["-structures", "frame", "-frame_mesh", "tests/meshes/braces.geo",
-             "-frame_clamp", "anchors", "-frame_initial_velocity", f"{SPEED},0,0",
-             "-material_steel_young", YOUNG, "-material_steel_poisson", 0.3,
-             "-material_steel_density", DENSITY, "-time_step", repr(time_step),
-             "-end_time", repr(end_time), "-output_interval", repr(time_step / 2),
-             "-energy_interval", 1, "-probes", "hung", "-hung_structure", "frame",
-             "-hung_at", "0,0,0", "-frame_mass_element", "point_mass", "-frame_mass_mass", MASS]
+    words = ["-structures", "frame", "-frame_mesh", "tests/meshes/braces.geo", "-frame_clamp", "anchors",
+             "-frame_initial_velocity", f"{SPEED},0,0", *material("steel", YOUNG, 0.3, DENSITY),
+             *clock(repr(time_step), repr(end_time), repr(time_step / 2)), "-energy_interval", 1,
+             *probes(hung="frame@0,0,0"), "-frame_mass_element", "point_mass", "-frame_mass_mass", MASS]
     for side in sides:
         words += [f"-frame_{side}_element", "bar", f"-frame_{side}_material", "steel",
                   f"-frame_{side}_area", AREA, f"-frame_{side}_tension_only", "true"]

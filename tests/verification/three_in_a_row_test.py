@@ -5,6 +5,7 @@ impulses that bring each body to the common speed.
 """
 import unittest
 
+from decks import box_of, clock, contacts
 from recorded import Recorded
 
 GAP = 0.01
@@ -12,15 +13,13 @@ GAP = 0.01
 
 def scene(masses, speeds, first=GAP, second=GAP, *more):
     """Bricks of 1 m a, b, c with gaps between them, one at a distance from the next."""
-    words = ["-structures", "a,b,c", "-contacts", "ab,bc", "-ab_secondary", "a:x_max", "-ab_primary", "b:x_min",
-             "-bc_secondary", "b:x_max", "-bc_primary", "c:x_min", "-time_step", 1e-4, "-end_time", 0.05,
-             "-output_interval", 1e-4, "-energy_interval", 10, "-probes", "pa,pb,pc"]
+    words = ["-structures", "a,b,c", *contacts(ab=("a:x_max", "b:x_min"), bc=("b:x_max", "c:x_min")),
+             *clock(1e-4, 0.05), "-energy_interval", 10, "-probes", "pa,pb,pc"]
     for name, mass, speed, x in zip("abc", masses, speeds, (0, 1 + first, 2 + first + second)):
-        words += [f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set", f"x0={x!r}", f"-{name}_body_element",
-                  "hex8", f"-{name}_body_material", f"stuff{name}", f"-material_stuff{name}_young", 1e3,
-                  f"-material_stuff{name}_poisson", 0, f"-material_stuff{name}_density", mass, f"-{name}_rigid",
-                  "body", f"-{name}_initial_velocity", f"{speed},0,0",
-                  f"-p{name}_structure", name, f"-p{name}_at", f"{x!r},0,0"]
+        words += [*box_of(name, f"x0={x!r}", f"stuff{name}"), f"-material_stuff{name}_young", 1e3,
+                  f"-material_stuff{name}_poisson", 0, f"-material_stuff{name}_density", mass, f"-{name}_rigid", "body",
+                  f"-{name}_initial_velocity", f"{speed},0,0", f"-p{name}_structure", name, f"-p{name}_at",
+                  f"{x!r},0,0"]
     return words + list(more)
 
 

@@ -15,6 +15,7 @@ import unittest
 import numpy
 
 import program
+from decks import clock, in_modes, material, probes, section
 from recorded import IDENTITY_OF_A_FLIGHT, Recorded
 from bar_on_wall_test import LENGTH, MASS, SPEED, SPEED_OF_SOUND, scene as bar_scene, velocity
 
@@ -90,7 +91,7 @@ class Oscillators(unittest.TestCase):
         for ranks, filters in ((1, 3), (2, 4), (3, 1)):
             step = 1e-4
             words = oscillators() + [w for f in FREQUENCIES for w in (f"-f{f}_damping_filters", filters)]
-            run = Recorded(self, [*words, "-time_step", step, "-end_time", 1.2, "-output_interval", step / 2], ranks)
+            run = Recorded(self, [*words, *clock(step, 1.2, step / 2)], ranks)
             for frequency in FREQUENCIES:
                 law = Filters(run.summary["structures"][f"f{frequency}"]["damping"])
                 self.assertEqual(len(law.rates), filters)
@@ -101,8 +102,7 @@ class Oscillators(unittest.TestCase):
     def test_every_mode_decays_with_the_same_ratio(self):
         for filters, ripple in ((3, 0.0788), (4, 0.0212)):
             words = oscillators() + [w for f in FREQUENCIES for w in (f"-f{f}_damping_filters", filters)]
-            run = Recorded(self, [*words, "-time_step", 2e-5, "-end_time", 6, "-output_interval", 1e-5,
-                                  "-energy_interval", 1000])
+            run = Recorded(self, [*words, *clock(2e-5, 6, 1e-5), "-energy_interval", 1000])
             for frequency in FREQUENCIES:
                 damping = run.summary["structures"][f"f{frequency}"]["damping"]
                 self.assertAlmostEqual(damping["ripple"], ripple, delta=1e-4)
@@ -140,8 +140,7 @@ class Oscillators(unittest.TestCase):
                             self.assertIn("diverged", program.error_lines(result)[0])
                         else:
                             self.assertLess(late, early)
-                            run = Recorded(self, [*words, "-time_step", repr(step), "-end_time", repr(count * step),
-                                                  "-output_interval", repr(step / 2)])
+                            run = Recorded(self, [*words, *clock(repr(step), repr(count * step), repr(step / 2))])
                             u = run.displacement("at_f.x")
                             self.assertLess(abs(u - exact[:len(u)]).max(), 1e-8 * abs(exact).max())
 
@@ -160,7 +159,7 @@ class Oscillators(unittest.TestCase):
 
     def test_none_is_none(self):
         step = 1e-4
-        words = ["-time_step", step, "-end_time", 0.2, "-output_interval", step / 2]
+        words = [*clock(step, 0.2, step / 2)]
         none = Recorded(self, oscillators(0) + words)
         names = ["-structures", "f10", "-probes", "at_f10"]
         plain = Recorded(self, names + oscillator("f10", 10) + words)
@@ -243,8 +242,7 @@ class BarOnWall(unittest.TestCase):
         self.assertIn("-bar_damping_reference", program.error_lines(result)[0])
 
 
-SECTION = ["-section_tube_area", 34e-4, "-section_tube_inertia_y", 3e-6, "-section_tube_inertia_z", 8e-6,
-           "-section_tube_torsion", 1e-7, "-section_tube_z_axis", "0,0,1"]
+SECTION = [*section("tube", 34e-4, 3e-6, 8e-6, 1e-7, "0,0,1")]
 # Mesh, its numbers, what is clamped, the group and its element.
 KINDS = {
     "bars": ("line.geo", "length=3,n=12", "x_min", "line", "bar", "-kind_line_area", 1e-3),
@@ -261,9 +259,9 @@ class Elements(unittest.TestCase):
         mesh, numbers, clamp, group, element, *properties = KINDS[kind]
         return ["-structures", "kind", "-kind_mesh", f"tests/meshes/{mesh}", "-kind_mesh_set", numbers,
                 "-kind_clamp", clamp, f"-kind_{group}_element", element, f"-kind_{group}_material", "steel",
-                "-material_steel_young", 2e11, "-material_steel_poisson", 0.3, "-material_steel_density", 7800,
-                *properties, "-kind_initial_velocity", "1,0.5,0.25", "-kind_damping_uniform", RATIO,
-                "-kind_damping_reference", 50, "-modes", 0, "-energy_interval", 50, *more]
+                *material("steel", 2e11, 0.3, 7800), *properties, "-kind_initial_velocity", "1,0.5,0.25",
+                "-kind_damping_uniform", RATIO, "-kind_damping_reference", 50, "-modes", 0, "-energy_interval", 50,
+                *more]
 
     def test_bounded_below_and_growing_above(self):
         for kind in KINDS:
@@ -330,14 +328,13 @@ class Pair(unittest.TestCase):
             self.check_same(own, read, 1e-8)
 
     def test_all_modes_are_the_structure(self):
-        words = ["-structures", "box", "-probes", "top", "-top_structure", "box", "-top_group", "z_max",
-                 "-box_mesh", "tests/meshes/box.geo", "-box_clamp", "z_min", "-box_body_element", "hex8",
-                 "-box_body_material", "soft", "-material_soft_young", 3e9, "-material_soft_poisson", 0.2,
-                 "-material_soft_density", 2400, "-box_initial_velocity", "1,2,0", "-box_damping_uniform", 0.1,
-                 "-end_time", 0.02, "-output_interval", 1e-5, "-time_step", 1e-5]
+        words = ["-structures", "box", *probes(top="box:z_max"), "-box_mesh", "tests/meshes/box.geo",
+                 "-box_clamp", "z_min", "-box_body_element", "hex8", "-box_body_material", "soft",
+                 *material("soft", 3e9, 0.2, 2400), "-box_initial_velocity", "1,2,0", "-box_damping_uniform", 0.1,
+                 *clock(1e-5, 0.02)]
         full = Recorded(self, words)
         dofs = full.summary["structures"]["box"]["dofs"]
-        modal = Recorded(self, words + ["-box_model", "modal", "-box_modal_vectors", dofs])
+        modal = Recorded(self, words + [*in_modes("box", dofs)])
         largest = abs(full.displacement("top.y")).max()
         for channel in ("top.x", "top.y", "top.z"):
             error = abs(modal.displacement(channel) - full.displacement(channel)).max()
@@ -364,7 +361,7 @@ class WrongInput(unittest.TestCase):
         self.check_refused(uniform + ["-f_damping_filters", 9], "-f_damping_filters", "8")
         self.check_refused(["-f_damping_uniform", 5], "-f_damping_uniform", "0.3")
         self.check_refused(["-f_damping_band", "1,40"], "-f_damping_band", "-f_damping_uniform")
-        self.check_refused(uniform + ["-f_model", "modal", "-f_modal_vectors", 1, "-f_modal_damping", 0.02],
+        self.check_refused(uniform + [*in_modes("f", 1), "-f_modal_damping", 0.02],
                            "-f_modal_damping")
 
     def test_doubts(self):

@@ -9,6 +9,7 @@ the triangles, and cut into tetrahedra, it comes near it.
 import unittest
 
 import modal_run
+from decks import clock, contacts, material
 from recorded import IDENTITY_OF_A_FLIGHT, Recorded
 
 BEAM = 7.932
@@ -37,13 +38,11 @@ def bar(element, axis, **mesh):
     pairs = ",".join(f"{name}={value}" for name, value in sizes.items())
     velocity = "-10,0,0" if axis == "x" else "0,0,-10"
     return ["-structures", "bar", "-bar_mesh", "tests/meshes/prisms.geo", "-bar_mesh_set", pairs,
-            "-bar_body_element", element, "-bar_body_material", "soft", "-material_soft_young", 900,
-            "-material_soft_poisson", 0, "-material_soft_density", 1, "-contacts", "stop",
-            "-stop_secondary", f"bar:{axis}_min", "-stop_primary", "wall", "-stop_gap", 5 + 1e-10,
-            "-bar_initial_velocity", velocity, "-time_step", repr(STEP), "-end_time", 1.9,
-            "-output_interval", repr(STEP), "-energy_interval", 1, "-probes", "bottom,top",
-            "-bottom_structure", "bar", "-bottom_group", f"{axis}_min", "-bottom_average", "true",
-            "-top_structure", "bar", "-top_group", f"{axis}_max", "-top_average", "true"]
+            "-bar_body_element", element, "-bar_body_material", "soft", *material("soft", 900, 0, 1),
+            *contacts(stop=(f"bar:{axis}_min", "wall", 5 + 1e-10)), "-bar_initial_velocity", velocity,
+            *clock(repr(STEP), 1.9), "-energy_interval", 1, "-probes", "bottom,top", "-bottom_structure", "bar",
+            "-bottom_group", f"{axis}_min", "-bottom_average", "true", "-top_structure", "bar",
+            "-top_group", f"{axis}_max", "-top_average", "true"]
 
 
 class Cantilever(unittest.TestCase):

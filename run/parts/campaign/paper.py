@@ -24,5 +24,4 @@ PGA = {5: dict(zip(MOTIONS, (0.45, 0.35, 0.20, 0.20))), 2: dict(zip(MOTIONS, (0.
 CORNERS = {5: {"A": 5.5, "B": 5.0, "C": 4.7, "D": 5.0}, 2: {"A": 2.5, "B": 2.0, "C": 1.9, "D": 2.1},
            0: {"A": 0.0, "B": 0.7, "C": 1.7, "D": 1.6}}
 
-COST_RATIO = 4.0  # Model A over Model B: 10 h and 2.5 h for 25 s
 DURATION = 25.0  # [s]

@@ -5,26 +5,18 @@ from pathlib import Path
 
 import numpy as np
 
-from .bench import program
+from .bench import program  # finds the parts of tests
+
+from decks import box_of, contacts, material, probes, section  # noqa: I001
 
 CONCRETE = (30e9, 0.2, 2400.0)
 PULSE = 2.6  # frequency of the ground motion of the pair, between those of its two structures [Hz]
 
 
-def material(name: str, young: float, poisson: float, density: float) -> list:
-    return [f"-material_{name}_young", repr(young), f"-material_{name}_poisson", repr(poisson),
-            f"-material_{name}_density", repr(density)]
-
-
-def cheap(*probes: str) -> list:
+def cheap(*places: str) -> list:
     """Without modes, one frequency per spectrum; a probe is structure:group."""
-    words = ["-modes", 0, "-spectra_frequencies", 10]
-    if probes:
-        words += ["-probes", ",".join(f"probe{i}" for i in range(len(probes)))]
-    for i, probe in enumerate(probes):
-        structure, group = probe.split(":")
-        words += [f"-probe{i}_structure", structure, f"-probe{i}_group", group]
-    return words
+    named = probes(**{f"probe{i}": place for i, place in enumerate(places)}) if places else []
+    return ["-modes", 0, "-spectra_frequencies", 10, *named]
 
 
 def blocks(densities, speed: float = 1.0, gap: float = 0.001, young: float = 1e-12,
@@ -32,15 +24,12 @@ def blocks(densities, speed: float = 1.0, gap: float = 0.001, young: float = 1e-
     """Two cubes of 1 m, of which the first moves towards the second. So soft that the eight nodes of
     each are free masses of an eighth of the cube: node against node is a plastic impact of the two
     faces, each with half of the mass of its cube."""
-    words = ["-structures", "one,two", "-contacts", "joint", "-joint_secondary", "one:x_max",
-             "-joint_primary", "two:x_min", "-joint_gap", repr(gap),
+    words = ["-structures", "one,two", *contacts(joint=("one:x_max", "two:x_min", repr(gap))),
              "-one_initial_velocity", f"{speed!r},0,0", "-time_step", repr(time_step),
              "-end_time", repr(end_time), "-output_interval", repr(time_step / 2),
              "-energy_interval", 1]
     for name, start, density in zip(("one", "two"), (-1, 0), densities):
-        words += [f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set", f"x0={start}",
-                  f"-{name}_body_element", "hex8_full", f"-{name}_body_material", name,
-                  *material(name, young, 0, density)]
+        words += [*box_of(name, f"x0={start}", name, "hex8_full"), *material(name, young, 0, density)]
     return words + cheap("one:x_max", "two:x_min")
 
 
@@ -77,8 +66,7 @@ def column(thickness: float, speed: float = 1.0, end_time: float = 8e-4) -> list
     return ["-structures", "column", "-column_mesh", "tests/meshes/sliver.geo",
             "-column_mesh_set", f"thickness={thickness!r}", "-column_body_element", "hex8_full",
             "-column_body_material", "concrete", *material("concrete", CONCRETE[0], 0.0, CONCRETE[2]),
-            "-contacts", "stop", "-stop_secondary", "column:z_min", "-stop_primary", "wall",
-            "-stop_gap", 1e-5, "-column_initial_velocity", f"0,0,{-speed!r}",
+            *contacts(stop=("column:z_min", "wall", 1e-5)), "-column_initial_velocity", f"0,0,{-speed!r}",
             "-end_time", repr(end_time), *cheap("column:z_max")]
 
 
@@ -96,9 +84,7 @@ RADIUS = 0.05  # of gyration of the tube [m]
 def lone_elements(names, end_time: float = 2e-3) -> list:
     """Structures of one free element of 1 m each, thrown in all directions."""
     words = ["-structures", ",".join(names), "-end_time", repr(end_time), "-output_interval", 1e-9,
-             *material("concrete", *CONCRETE), "-section_tube_area", 1e-3, "-section_tube_z_axis", "0,0,1",
-             *(word for name in ("inertia_y", "inertia_z", "torsion")
-               for word in (f"-section_tube_{name}", repr(1e-3 * RADIUS**2)))]
+             *material("concrete", *CONCRETE), *section("tube", 1e-3, *[1e-3 * RADIUS**2] * 3)]
     for name in names:
         element, mesh, parameters, group, more = ELEMENTS[name]
         words += [f"-{name}_mesh", f"tests/meshes/{mesh}.geo", f"-{name}_{group}_element", element,
