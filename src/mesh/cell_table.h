@@ -21,7 +21,7 @@ struct CellTable {
   std::size_t count() const { return region.size(); }
 };
 
-/// Adds a cell of `nodes` nodes to a mixed topology; `solid` tells a tetrahedron from a
+/// Adds a cell of `nodes` nodes to a mixed topology; `solid` distinguishes a tetrahedron from a
 /// quadrangle.
 void add_cell(std::span<const GlobalIndex> nodes, bool solid, std::vector<std::int32_t>& topology);
 

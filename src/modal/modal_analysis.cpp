@@ -77,7 +77,7 @@ int eigenvalues_below(const LowestProblem& problem, double value) {
   return ShiftedSolver(problem.system, shifted.get(), 0).eigenvalues_below();
 }
 
-/// Seeks what is missing among the `wanted` lowest pairs: a Krylov space of one vector sees a copy
+/// Seeks the missing ones among the `wanted` lowest pairs: a Krylov space of one vector sees a copy
 /// of a frequency by its round-off alone, and may end before. The law of inertia counts the
 /// eigenvalues; those that were not seen are found beside the vectors that were. Where these are
 /// none, round-off made the count. `zero`: below it eigenvalues are 0 [1/s2]; 0: nothing strains,

@@ -10,7 +10,7 @@
 
 namespace pounding {
 
-/// Mean displacements of what structures stand on, where that moves. Each rank has its part of a
+/// Mean displacements of the supports of structures, where these move. Each rank has its part of a
 /// mean, so that bases of many nodes cost a record three numbers.
 class BaseMotion {
  public:

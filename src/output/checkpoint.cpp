@@ -118,7 +118,7 @@ class CheckpointWriter {
     }
   }
 
-  /// Every rank fills its places, and the file stands on the disk under its final name.
+  /// Every rank fills its places, and the file is on the disk under its final name.
   void finish() {
     on_root([&] { file_->let_others_write(); });
     broadcast_array(comm_, places_);

@@ -27,7 +27,7 @@
 ///     /sums/...                    (ranks, n) numbers that add up over the ranks
 ///
 /// A structure in generalised coordinates has, beside its coordinates, plain vectors of its own
-/// number of dofs, and `basis_check`, by which another basis is told.
+/// number of dofs, and `basis_check`, by which another basis is noticed.
 ///
 /// S is the name of a structure. Nodes come in the order of their tags in the mesh, of those that
 /// the scene uses; columns are x, y, z and, if a node of the structure rotates, the rotations about
@@ -62,7 +62,7 @@ void write_checkpoint(MPI_Comm comm, const std::string& path, const RunIdentity&
 void check_checkpoint(MPI_Comm comm, const std::string& path,
                       const std::map<std::string, std::string>& options);
 
-/// Reads what `write_checkpoint` was given. Throws UserError on every rank alike: no checkpoint,
+/// Reads the state given to `write_checkpoint`. Throws UserError on every rank: no checkpoint,
 /// damaged, of another version, of another scene. Collective.
 SavedState read_checkpoint(MPI_Comm comm, const std::string& path, const RunIdentity& identity,
                            std::span<const Mesh> meshes, std::span<const LinearSystem> systems);

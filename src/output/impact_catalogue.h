@@ -108,12 +108,12 @@ class ImpactCatalogue {
   std::vector<Impact> impacts_;
 };
 
-/// `impacts.csv`: one line per episode, its columns as docs/results.md tells them; `digits`:
+/// `impacts.csv`: one line per episode, its columns as in docs/results.md; `digits`:
 /// significant ones. Throws UserError if the file cannot be written.
 void write_impacts(const std::string& path, const std::vector<std::string>& contacts,
                    std::span<const Impact> impacts, int digits);
 
-/// An impact as `impacts.csv` tells it, with the name of its contact.
+/// An impact as in `impacts.csv`, with the name of its contact.
 struct NamedWindow {
   std::string contact;
   double start = 0;  ///< [s]

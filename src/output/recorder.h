@@ -30,9 +30,9 @@ struct ChannelPeaks {
 /// t_n. Beside these come the columns of the layout, as their owners bring them.
 ///
 /// Values wait in a buffer on the rank that owns them and travel to rank 0 a few thousand records
-/// at a time, or when they are told to; a record itself neither allocates nor communicates. The
+/// at a time, or on demand; a record itself neither allocates nor communicates. The
 /// file can be read by others at any moment, also after the program was killed: `records`, a single
-/// number, tells how many rows of every dataset are whole, and is written after them. The attribute
+/// number, says how many rows of every dataset are whole, and is written after them. The attribute
 /// `complete` is 1 when the run has reached its end, 0 before.
 class Recorder final : public Observer {
  public:

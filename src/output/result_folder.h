@@ -19,10 +19,10 @@ class ResultFolder {
   explicit ResultFolder(const std::string& path);
   ResultFolder(const ResultFolder&) = delete;
   ResultFolder& operator=(const ResultFolder&) = delete;
-  /// Takes running.lock away, and what folders were made for it and are still empty.
+  /// Takes running.lock away, and the folders that were made for it and are still empty.
   ~ResultFolder();
 
-  /// Removes what an earlier run left under the names that this program gives to results, and
+  /// Removes the files of an earlier run under the names that this program gives to results, and
   /// nothing else; returns the names. If the run continues from the checkpoint `restart` in the
   /// folder, that, its history and the shapes of modes stay.
   std::vector<std::string> clear(const std::string& restart) const;

@@ -23,7 +23,7 @@ Parcel pack(const SavedTables& tables) {
   return parcel;
 }
 
-/// Adds the tables of a parcel to those there; what is there stays.
+/// Adds the tables of a parcel to those there, which stay.
 void unpack(const Parcel& parcel, SavedTables& tables) {
   const char* name = parcel.names.data();
   auto values = parcel.values.begin();

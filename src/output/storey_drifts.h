@@ -12,7 +12,7 @@ namespace pounding {
 struct Storey {
   std::string structure;
   std::string upper;     ///< its probe
-  std::string lower;     ///< likewise; "base": what the structure stands on
+  std::string lower;     ///< likewise; "base": the ground or the supports
   int upper_probe = 0;   ///< among the probes of a record
   int lower_probe = -1;  ///< likewise; -1: the base
   int base = -1;         ///< among the bases that move; -1: it follows the ground

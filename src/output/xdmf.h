@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-/// Text of XDMF 3 files: what ParaView is to make of the arrays of an HDF5 file beside them.
+/// Text of XDMF 3 files: the meaning of the arrays of an HDF5 file beside them.
 namespace pounding {
 
 /// An array of the HDF5 file: numbers per node or cell, or vectors of three.

@@ -13,8 +13,8 @@
 
 namespace pounding {
 
-/// Static stiffness of a structure at full order. Products are those of the step, so that what is
-/// at rest for them is at rest in the step; solutions come from one L D L^T factorisation (MUMPS)
+/// Static stiffness of a structure at full order. Products are those of the step, so that a rest
+/// of theirs is one of the step; solutions come from one L D L^T factorisation (MUMPS)
 /// while it fits into the free memory, beyond from conjugate gradients with algebraic multigrid
 /// (GAMG) that knows the six rigid motions.
 class AssembledStatics final : public StaticStiffness {
@@ -43,7 +43,7 @@ class AssembledStatics final : public StaticStiffness {
 
   const LinearSystem& system_;
   std::optional<AdmissibleMotions> admissible_;  ///< of rigid bodies and ties
-  std::vector<LinkTerms> linear_links_;          ///< what yields, not at rest
+  std::vector<LinkTerms> linear_links_;          ///< that would yield
   MatHandle matrix_;                             ///< K + shift M
   MatHandle gathered_;                           ///< all of it on rank 0, null elsewhere
   MatHandle factor_;                             ///< of that; null with the iteration

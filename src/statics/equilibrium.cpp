@@ -46,7 +46,7 @@ class Search {
         systems_(systems),
         meshes_(meshes),
         interface_(interface),
-        any_told_open_(std::ranges::any_of(open_rows, [](char open) { return open != 0; })),
+        any_open_at_rest_(std::ranges::any_of(open_rows, [](char open) { return open != 0; })),
         rows_(comm, interface.constraints, open_rows, systems, meshes),
         force_(rows_.size(), 0.0),
         is_tried_(rows_.size(), false) {
@@ -269,7 +269,7 @@ class Search {
          << iterations_
          << " iterations: nothing holds it, or less than 0.1 Hz; clamp it, give it springs or a "
             "contact below"
-         << (any_told_open_
+         << (any_open_at_rest_
                  ? " (a contact with a positive gap is open at rest: give -<contact>_gap "
                    "0, or -<contact>_gap_at unloaded)"
                  : "")
@@ -374,7 +374,7 @@ class Search {
   std::span<const LinearSystem> systems_;
   std::span<const Mesh> meshes_;
   const interactions::Interface& interface_;
-  bool any_told_open_;  ///< contacts open by what was told of their gaps
+  bool any_open_at_rest_;  ///< contacts whose gaps are those of the rest
   UnilateralRows rows_;
   std::vector<std::unique_ptr<StaticStiffness>> stiffness_;  ///< per structure
   Fields weight_;                                            ///< and loads as they are at rest

@@ -56,13 +56,14 @@ struct Equilibrium {
 ///     with f such that the rows are fulfilled by u + d
 ///
 /// with p the loads as they are before the run (LoadShapes).
-/// sigma = 1 / s2 shrinks what is left by 1 / (1 + omega^2 / sigma) at a held frequency omega, and
+/// sigma = 1 / s2 shrinks the error by 1 / (1 + omega^2 / sigma) at a held frequency omega, and
 /// refines the solution like any correction by its residual. Forces are measured by their energy
-/// f^T (K + sigma M)^-1 f, in which a moment on the small rotary inertia of a thin shell counts for
-/// what it bends. Rows that no iterate violates are never solved for. A structure that nothing
-/// holds against its weight falls on for ever: UserError naming it. Systems need their matrix.
-/// `open_rows`: per row of the interface, whether the contact is open whatever its gap is: its gap
-/// is told of the rest. Collective.
+/// f^T (K + sigma M)^-1 f, in which a moment on the small rotary inertia of a thin shell counts by
+/// the bending that it causes. Rows that no iterate violates are never solved for. A structure that
+/// nothing holds against its weight falls on for ever: UserError naming it. Systems need their
+/// matrix.
+/// `open_rows`: per row of the interface, whether the contact is open whatever its gap is, which
+/// is given for the rest. Collective.
 Equilibrium find_equilibrium(MPI_Comm comm, std::span<const LinearSystem> systems,
                              std::span<const Mesh> meshes, const interactions::Interface& interface,
                              std::span<const char> open_rows, SolverChoice solver);

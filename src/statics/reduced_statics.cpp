@@ -22,7 +22,7 @@ void multiply(const std::vector<double>& matrix, const std::vector<double>& x,
 
 ReducedStatics::ReducedStatics(const LinearSystem& system, double shift) {
   const std::size_t n = system.lumped_mass.size();
-  // K is diagonal: one product tells it.
+  // K is diagonal: one product gives it.
   const std::vector<double> ones(n, 1.0);
   std::vector<double> diagonal(n, 0.0);
   stiffness::StoredForces store(diagonal.data());

@@ -248,7 +248,7 @@ class Assembly {
     return found;
   }
 
-  /// Continues a sentence on a dof without mass: what holds it, and the option that helps.
+  /// Continues a sentence on a dof without mass: the elements that hold it, the option that helps.
   std::string remedy(LocalIndex node, int component) const {
     std::string holders;
     std::string point;  // the group of a point mass there

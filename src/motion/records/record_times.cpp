@@ -47,7 +47,7 @@ double median(std::vector<double> values) {
 }
 
 /// The mean step, or a near one that is written shortly or of a whole number of samples a second,
-/// where times rounded to `rounding` cannot tell them apart.
+/// where times rounded to `rounding` cannot separate them.
 double written_step(double mean, double count, double rounding) {
   const double rounded = std::strtod(text_of(std::round(mean * 1e7) / 1e7).c_str(), nullptr);
   if (std::abs(rounded - mean) * count < 1e-6 * mean) return rounded;
