@@ -57,6 +57,7 @@ class DenseModel {
   const std::vector<Vector3>& nodes() const { return nodes_; }
   const std::vector<double>& stiffness() const { return stiffness_; }
   std::vector<double>& lumped_mass() { return lumped_mass_; }
+  const std::vector<double>& lumped_mass() const { return lumped_mass_; }
 
   std::vector<double> coordinates_of(const std::vector<std::size_t>& element) const {
     std::vector<double> coordinates;
@@ -67,7 +68,9 @@ class DenseModel {
 
   void add(ElementType type, const std::vector<std::size_t>& element,
            const ElementProperties& properties) {
-    const DenseElement matrices = dense_element(type, coordinates_of(element), properties);
+    add(element, dense_element(type, coordinates_of(element), properties));
+  }
+  void add(const std::vector<std::size_t>& element, const DenseElement& matrices) {
     const std::size_t n = element.size() * components_;
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t row = dof(element[i / components_], i % components_);

@@ -26,82 +26,17 @@ inline DenseElement dense_shell(const std::vector<double>& coordinates,
 }
 
 /// Shells assembled densely, six components per node, of which the fixed ones are left out.
-class ShellModel {
+class ShellModel : public DenseModel {
  public:
-  explicit ShellModel(std::vector<Vector3> nodes) : nodes_(std::move(nodes)) {
-    stiffness_.assign(size() * size(), 0.0);
-    lumped_mass_.assign(size(), 0.0);
-    is_fixed_.assign(size(), false);
-  }
-
-  std::size_t size() const { return 6 * nodes_.size(); }
-  const std::vector<Vector3>& nodes() const { return nodes_; }
-  const std::vector<double>& stiffness() const { return stiffness_; }
-  const std::vector<double>& lumped_mass() const { return lumped_mass_; }
+  explicit ShellModel(std::vector<Vector3> nodes) : DenseModel(std::move(nodes), 6) {}
 
   void add(const std::vector<std::size_t>& element, const ShellProperties& properties) {
-    std::vector<double> coordinates;
-    for (const std::size_t node : element)
-      coordinates.insert(coordinates.end(), nodes_[node].begin(), nodes_[node].end());
-    const DenseElement matrices = dense_shell(coordinates, properties);
-    const std::size_t n = 6 * element.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::size_t row = 6 * element[i / 6] + i % 6;
-      lumped_mass_[row] += matrices.lumped_mass[i];
-      for (std::size_t j = 0; j < n; ++j)
-        stiffness_[row * size() + 6 * element[j / 6] + j % 6] += matrices.stiffness[i * n + j];
-    }
-  }
-
-  void fix(std::size_t node, std::size_t component) { is_fixed_[6 * node + component] = true; }
-  void clamp(std::size_t node) {
-    for (std::size_t c = 0; c < 6; ++c) fix(node, c);
+    DenseModel::add(element, dense_shell(coordinates_of(element), properties));
   }
   void fix_everywhere(const std::vector<std::size_t>& components) {
-    for (std::size_t node = 0; node < nodes_.size(); ++node)
+    for (std::size_t node = 0; node < nodes().size(); ++node)
       for (const std::size_t c : components) fix(node, c);
   }
-
-  std::vector<double> solve(const std::vector<double>& load) const {
-    const auto free = free_dofs();
-    std::vector<double> reduced;
-    for (const std::size_t i : free) reduced.push_back(load[i]);
-    reduced = solve_positive_definite(reduced_stiffness(free), reduced);
-    std::vector<double> displacement(size(), 0.0);
-    for (std::size_t i = 0; i < free.size(); ++i) displacement[free[i]] = reduced[i];
-    return displacement;
-  }
-
-  /// Natural frequencies, ascending [Hz].
-  std::vector<double> frequencies() const {
-    const auto free = free_dofs();
-    std::vector<double> mass;
-    for (const std::size_t i : free) mass.push_back(lumped_mass_[i]);
-    auto values = squared_circular_frequencies(reduced_stiffness(free), mass);
-    for (double& value : values) value = std::sqrt(std::max(value, 0.0)) / (2 * std::numbers::pi);
-    return values;
-  }
-
- private:
-  std::vector<std::size_t> free_dofs() const {
-    std::vector<std::size_t> free;
-    for (std::size_t i = 0; i < size(); ++i)
-      if (!is_fixed_[i]) free.push_back(i);
-    return free;
-  }
-
-  std::vector<double> reduced_stiffness(const std::vector<std::size_t>& free) const {
-    std::vector<double> reduced;
-    reduced.reserve(free.size() * free.size());
-    for (const std::size_t i : free)
-      for (const std::size_t j : free) reduced.push_back(stiffness_[i * size() + j]);
-    return reduced;
-  }
-
-  std::vector<Vector3> nodes_;
-  std::vector<double> stiffness_;
-  std::vector<double> lumped_mass_;
-  std::vector<bool> is_fixed_;
 };
 
 /// How the cells of a grid are cut: quadrangles, triangles by one diagonal or by alternating ones.
