@@ -10,6 +10,7 @@
 
 #include "common/error.h"
 #include "io/matrix_market.h"
+#include "support/refusal.h"
 #include "system/square_matrix.h"
 
 /// Matrices out of files: what cannot be is refused with the file and the place.
@@ -41,12 +42,7 @@ class MatrixFiles : public testing::Test {
   }
 
   static std::string complaint(const std::string& path) {
-    try {
-      entries(path);
-    } catch (const UserError& error) {
-      return error.what();
-    }
-    return "";
+    return testing_support::refusal_of([&] { entries(path); });
   }
 
   std::string of_market(const std::string& lines, const std::string& symmetry = "general") const {
@@ -134,12 +130,7 @@ std::string complaint_of(const std::vector<MatrixEntry>& entries) {
     matrix.add(entry);
   }
   matrix.finish();
-  try {
-    matrix.check();
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "";
+  return testing_support::refusal_of([&] { matrix.check(); });
 }
 
 TEST(SquareMatrixChecks, NameThePlace) {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "support/refusal.h"
 
 namespace pounding {
 namespace {
@@ -76,12 +77,7 @@ class UnvFile : public ::testing::Test {
   }
 
   std::string refusal(const std::string& text) {
-    try {
-      read(text);
-    } catch (const UserError& error) {
-      return error.what();
-    }
-    return "";
+    return testing_support::refusal_of([&] { read(text); });
   }
 
   /// Elements of a group in a dimension, by their tags.

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "common/error.h"
+#include "support/refusal.h"
 
 namespace pounding {
 namespace {
@@ -12,12 +13,7 @@ CommandLine read(const std::vector<std::string>& words) {
 }
 
 std::string refusal(const std::vector<std::string>& words) {
-  try {
-    read(words);
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "";
+  return testing_support::refusal_of([&] { read(words); });
 }
 
 TEST(CommandLine, NamesTakeOneValueOrNone) {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.h"
+#include "support/refusal.h"
 
 namespace pounding {
 namespace {
@@ -42,12 +43,7 @@ OptionsDatabase scene_with(const Table& table, const std::string& target) {
 }
 
 std::string message_of(const OptionsDatabase& options) {
-  try {
-    choose_fidelity(options, key);
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "";
+  return testing_support::refusal_of([&] { choose_fidelity(options, key); });
 }
 
 TEST(FidelityTarget, TakesTheFastestWithinItForEveryStructure) {
@@ -99,13 +95,10 @@ TEST(FidelityTarget, WithoutItNothingChanges) {
 TEST(FidelityTarget, RefusesOtherStructuresThanThoseMeasured) {
   const Table table(measured);
   const auto message = [&](const std::string& path) {
-    try {
+    return testing_support::refusal_of([&] {
       choose_fidelity(
           {{"structures", "left"}, {"fidelity_target", "0.05"}, {"fidelity_table", path}}, "def");
-    } catch (const UserError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    });
   };
   EXPECT_THAT(message(table.path()),
               testing::AllOf(testing::HasSubstr("two towers; key abc, of this scene def"),

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "common/error.h"
+#include "support/refusal.h"
 
 namespace pounding {
 namespace {
@@ -13,12 +14,7 @@ OptionsDatabase read(const std::string& text) {
 
 /// The message of the refusal; "" when the text is accepted.
 std::string refusal(const std::string& text) {
-  try {
-    read(text);
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "";
+  return testing_support::refusal_of([&] { read(text); });
 }
 
 TEST(OptionsFile, NestedNamesJoin) {

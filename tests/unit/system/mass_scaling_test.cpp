@@ -8,6 +8,7 @@
 #include "common/dense_eigenvalues.h"
 #include "common/error.h"
 #include "elements/element.h"
+#include "support/refusal.h"
 #include "system/critical_time_step.h"
 #include "unit/elements/dense_eigen.h"
 
@@ -172,14 +173,9 @@ TEST(MassScaling, GroupsNodesOfScaledElements) {
 TEST(MassScaling, RefusesAStepThatAlphaAloneForbids) {
   Structure structure = bars_of(1e-3);
   structure.damping.alpha = 2100;
-  try {
-    coupled_nodes(structure, three_bars(), 0);
-    FAIL() << "accepted";
-  } catch (const UserError& error) {
-    EXPECT_STREQ(error.what(),
-                 "option -bars_mass_scaling 0.001 s: the damping alpha = 2100 1/s of group stiff "
-                 "allows no step above 0.000952381 s; ask for a smaller one");
-  }
+  EXPECT_EQ(testing_support::refusal_of([&] { coupled_nodes(structure, three_bars(), 0); }),
+            "option -bars_mass_scaling 0.001 s: the damping alpha = 2100 1/s of group stiff "
+            "allows no step above 0.000952381 s; ask for a smaller one");
 }
 
 /// Bars along the lines of a square grid of n x n nodes.
