@@ -81,10 +81,7 @@ void assembled_product(benchmark::State& state) {
 void brick_kernel(benchmark::State& state) {
   const auto count = static_cast<int>(state.range(0));
   const std::ptrdiff_t stride = (count + 2 * lane_count) / lane_count * lane_count;
-  ElementProperties concrete;
-  concrete.young = 30e9;
-  concrete.poisson = 0.2;
-  concrete.density = 2400;
+  ElementProperties concrete{.young = 30e9, .poisson = 0.2, .density = 2400};
   const auto split = stiffness::split_brick(ElementType::hex8, concrete, {0.25, 0.3, 0.22});
   const stiffness::BrickStencil stencil = stiffness::brick_stencil(split.value());
   std::vector<double> memory(static_cast<std::size_t>(36 * stride), 1e-3);

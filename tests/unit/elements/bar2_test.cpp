@@ -17,11 +17,7 @@ using testing_support::dense_element;
 using testing_support::DenseModel;
 
 ElementProperties concrete_bar() {
-  ElementProperties p;
-  p.young = 30e9;
-  p.density = 2400;
-  p.area = 0.01;
-  return p;
+  return {.young = 30e9, .density = 2400, .area = 0.01};
 }
 
 /// A straight bar of `count` elements, free to move along itself only.

@@ -19,16 +19,14 @@ using testing_support::DenseModel;
 using testing_support::squared_circular_frequencies;
 
 ElementProperties hea160(const Vector3& z_axis) {
-  ElementProperties p;
-  p.young = 200e9;
-  p.poisson = 0.3;
-  p.density = 7800;
-  p.area = 38.77e-4;
-  p.inertia_y = 1673e-8;
-  p.inertia_z = 615.6e-8;
-  p.torsion = 12.19e-8;
-  p.z_axis = z_axis;
-  return p;
+  return {.young = 200e9,
+          .poisson = 0.3,
+          .density = 7800,
+          .area = 38.77e-4,
+          .inertia_y = 1673e-8,
+          .inertia_z = 615.6e-8,
+          .torsion = 12.19e-8,
+          .z_axis = z_axis};
 }
 
 Vector3 scaled(const Vector3& v, double factor) {

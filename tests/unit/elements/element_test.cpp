@@ -24,18 +24,16 @@ bool is_brick(ElementType type) {
 }
 
 ElementProperties steel() {
-  ElementProperties p;
-  p.young = 200e9;
-  p.poisson = 0.3;
-  p.density = 7800;
-  p.area = 34.01e-4;
-  p.inertia_y = 864.4e-8;
-  p.inertia_z = 317.5e-8;
-  p.torsion = 13.84e-8;
-  p.shear_area_y = 20.2e-4;
-  p.shear_area_z = 6.6e-4;
-  p.z_axis = {0.2, -0.3, 1.0};
-  return p;
+  return {.young = 200e9,
+          .poisson = 0.3,
+          .density = 7800,
+          .area = 34.01e-4,
+          .inertia_y = 864.4e-8,
+          .inertia_z = 317.5e-8,
+          .torsion = 13.84e-8,
+          .shear_area_y = 20.2e-4,
+          .shear_area_z = 6.6e-4,
+          .z_axis = {0.2, -0.3, 1.0}};
 }
 
 /// Distorted solids, and an oblique segment, whose coordinates are multiples of 1/64 m.

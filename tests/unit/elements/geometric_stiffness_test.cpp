@@ -14,11 +14,7 @@ namespace {
 constexpr double force = 7;
 
 ElementProperties pipe() {
-  ElementProperties properties;
-  properties.young = 3e10;
-  properties.area = 0.02;
-  properties.z_axis = {0.3, -0.2, 1};
-  return properties;
+  return {.young = 3e10, .area = 0.02, .z_axis = {0.3, -0.2, 1}};
 }
 
 /// A segment of 3 m that lies aslant, and two unit vectors across it.

@@ -22,10 +22,7 @@ struct MeshShape {
 
 /// Mean tip displacement under a unit load shared by the four tip nodes.
 double tip_displacement(ElementType type, const MeshShape& shape, std::size_t direction) {
-  ElementProperties p;
-  p.young = 1e7;
-  p.poisson = 0.3;
-  p.density = 1;
+  ElementProperties p{.young = 1e7, .poisson = 0.3, .density = 1};
   const auto place = [&](std::array<std::size_t, 3> at, Vector3 x) {
     if (at[0] == 0 || at[0] == 6) return x;
     const double side = at[1] == 0 ? -1 : 1;
@@ -76,10 +73,7 @@ TEST(Hex8Cantilever, RectangularBricksNearlyReachBeamTheory) {
 }
 
 TEST(Hex8Cantilever, ConcreteCantileverFrequencies) {
-  ElementProperties p;
-  p.young = 30e9;
-  p.poisson = 0.2;
-  p.density = 2400;
+  ElementProperties p{.young = 30e9, .poisson = 0.2, .density = 2400};
   struct Row {
     std::array<std::size_t, 3> n;
     ElementType type;

@@ -26,10 +26,7 @@ const std::vector<std::vector<std::size_t>> patch_elements{
 constexpr std::size_t inner_nodes = 8;
 
 DenseModel solid_patch(ElementType type) {
-  ElementProperties p;
-  p.young = 1e6;
-  p.poisson = 0.25;
-  p.density = 1;
+  ElementProperties p{.young = 1e6, .poisson = 0.25, .density = 1};
   DenseModel model(patch_nodes, 3);
   for (const auto& element : patch_elements) model.add(type, element, p);
   return model;

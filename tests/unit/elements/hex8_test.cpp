@@ -19,11 +19,7 @@ using testing_support::squared_circular_frequencies;
 constexpr ElementType both_formulations[] = {ElementType::hex8_full, ElementType::hex8};
 
 ElementProperties concrete(double poisson = 0.2) {
-  ElementProperties p;
-  p.young = 30e9;
-  p.poisson = poisson;
-  p.density = 2400;
-  return p;
+  return {.young = 30e9, .poisson = poisson, .density = 2400};
 }
 
 double lame(const ElementProperties& p) {

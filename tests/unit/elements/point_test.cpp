@@ -8,9 +8,7 @@ namespace pounding {
 namespace {
 
 TEST(Point, MassOnDisplacementsAndInertiaOnRotations) {
-  ElementProperties properties;
-  properties.mass = 12;
-  properties.rotary_inertia = {1, 2, 3};
+  ElementProperties properties{.mass = 12, .rotary_inertia = {1, 2, 3}};
   std::array<double, 6> mass{};
   point_lumped_mass(properties, mass);
   EXPECT_EQ(mass, (std::array<double, 6>{12, 12, 12, 1, 2, 3}));
@@ -35,9 +33,7 @@ TEST(Spring, ToTheGroundIsDiagonal) {
 }
 
 TEST(Spring, BetweenNodesResistsTheirDifferenceOnly) {
-  ElementProperties properties;
-  properties.stiffness = {10, 20, 30, 0, 0, 0};
-  properties.dashpot = {1, 2, 3, 0, 0, 0};
+  ElementProperties properties{.stiffness = {10, 20, 30, 0, 0, 0}, .dashpot = {1, 2, 3, 0, 0, 0}};
   const std::array<double, 6> coordinates{0, 0, 0, 0, 0, 0};  // nodes may coincide
   std::array<double, 36> stiffness{};
   std::array<double, 6> mass{};
@@ -86,10 +82,8 @@ TEST(Soil, ArmTurnsWithItsNode) {
 /// Springs and dashpots of soil are those of the end of the arm: forces on the node that do the
 /// same work, for any motion of it.
 TEST(Soil, ActsAtTheEndOfItsArm) {
-  ElementProperties properties;
-  properties.stiffness = {7, 11, 13, 17, 19, 23};
-  properties.dashpot = {1, 2, 3, 4, 5, 6};
-  properties.arm = {2, 3, 5};
+  ElementProperties properties{
+      .stiffness = {7, 11, 13, 17, 19, 23}, .dashpot = {1, 2, 3, 4, 5, 6}, .arm = {2, 3, 5}};
   std::array<double, 36> stiffness{};
   std::array<double, 36> damping{};
   std::array<double, 6> mass{};

@@ -19,18 +19,16 @@ using testing_support::squared_circular_frequencies;
 constexpr double pi = std::numbers::pi;
 
 ElementProperties w24x76() {
-  ElementProperties p;
-  p.young = 200e9;
-  p.poisson = 0.3;
-  p.density = 7850;
-  p.area = 144.5e-4;
-  p.inertia_y = 87410e-8;
-  p.inertia_z = 3434e-8;
-  p.torsion = 111.5e-8;
-  p.shear_area_y = 65e-4;
-  p.shear_area_z = 63e-4;
-  p.z_axis = {0.1, -0.2, 1};
-  return p;
+  return {.young = 200e9,
+          .poisson = 0.3,
+          .density = 7850,
+          .area = 144.5e-4,
+          .inertia_y = 87410e-8,
+          .inertia_z = 3434e-8,
+          .torsion = 111.5e-8,
+          .shear_area_y = 65e-4,
+          .shear_area_z = 63e-4,
+          .z_axis = {0.1, -0.2, 1}};
 }
 
 double shear_modulus(const ElementProperties& p) {

@@ -24,11 +24,7 @@ const std::vector<double> triangle{0, 0, 0, 1.1, 0.1, 0, 0.3, 0.8, 0};
 constexpr double young = 30e9, poisson = 0.2, thickness = 0.2;
 
 ElementProperties concrete() {
-  ElementProperties properties;
-  properties.young = young;
-  properties.poisson = poisson;
-  properties.thickness = thickness;
-  return properties;
+  return {.young = young, .poisson = poisson, .thickness = thickness};
 }
 
 std::vector<double> rows_of(const std::vector<double>& x) {

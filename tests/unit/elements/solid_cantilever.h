@@ -13,10 +13,7 @@ namespace pounding::testing_support {
 
 /// Concrete without Poisson effect, so that a slender body is the beam of the textbooks.
 inline ElementProperties cantilever_material() {
-  ElementProperties p;
-  p.young = 30e9;
-  p.density = 2400;
-  return p;
+  return {.young = 30e9, .density = 2400};
 }
 
 /// Nodes of one cell of a grid, bottom then top, cut into elements of a type: hexahedra whole,

@@ -10,11 +10,7 @@
 namespace pounding::testing_support {
 
 inline ElementProperties concrete(double poisson = 0.2) {
-  ElementProperties p;
-  p.young = 30e9;
-  p.poisson = poisson;
-  p.density = 2400;
-  return p;
+  return {.young = 30e9, .poisson = poisson, .density = 2400};
 }
 
 /// Expects that a solid of this shape is refused for its Jacobian; `why` names the shape.

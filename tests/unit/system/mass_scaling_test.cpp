@@ -27,14 +27,13 @@ struct Beam {
 /// A short, stiff beam of steel across the axes.
 Beam beam() {
   Beam result;
-  ElementProperties properties;
-  properties.young = 200e9;
-  properties.poisson = 0.3;
-  properties.density = 7800;
-  properties.area = 28.48e-4;
-  properties.inertia_y = 1943e-8;
-  properties.inertia_z = 142.4e-8;
-  properties.torsion = 6.98e-8;
+  ElementProperties properties{.young = 200e9,
+                               .poisson = 0.3,
+                               .density = 7800,
+                               .area = 28.48e-4,
+                               .inertia_y = 1943e-8,
+                               .inertia_z = 142.4e-8,
+                               .torsion = 6.98e-8};
   const std::vector<double> x{0, 0, 0, 0.1, 0.05, 0.02};
   element_matrices(ElementType::beam, x, properties, result.stiffness, result.mass);
   return result;

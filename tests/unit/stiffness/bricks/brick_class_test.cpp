@@ -10,11 +10,7 @@ namespace pounding::stiffness {
 namespace {
 
 ElementProperties concrete() {
-  ElementProperties properties;
-  properties.young = 30e9;
-  properties.poisson = 0.2;
-  properties.density = 2400;
-  return properties;
+  return {.young = 30e9, .poisson = 0.2, .density = 2400};
 }
 
 /// A box pulled along one axis: dilation is the constrained modulus, and a shear is G.

@@ -12,11 +12,7 @@ namespace pounding::stiffness {
 namespace {
 
 ElementProperties concrete() {
-  ElementProperties properties;
-  properties.young = 30e9;
-  properties.poisson = 0.2;
-  properties.density = 2400;
-  return properties;
+  return {.young = 30e9, .poisson = 0.2, .density = 2400};
 }
 
 /// Stiffness of a box with edges along the global axes, nodes in Gmsh's order.

@@ -12,12 +12,7 @@ namespace pounding::stiffness {
 namespace {
 
 ElementProperties concrete(double thickness) {
-  ElementProperties properties;
-  properties.young = 30e9;
-  properties.poisson = 0.2;
-  properties.density = 2400;
-  properties.thickness = thickness;
-  return properties;
+  return {.young = 30e9, .poisson = 0.2, .density = 2400, .thickness = thickness};
 }
 
 /// A rectangle of edges a, b pulled along the first one: u = x e gives H u = 2 a e, with plane

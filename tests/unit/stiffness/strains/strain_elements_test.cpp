@@ -21,13 +21,8 @@ namespace {
 constexpr double tolerance = 1e-13;
 
 ElementProperties concrete() {
-  ElementProperties properties;
-  properties.young = 30e9;
-  properties.poisson = 0.27;
-  properties.density = 2400;
-  properties.thickness = 0.2;
-  properties.drilling_factor = 0.3;
-  return properties;
+  return {
+      .young = 30e9, .poisson = 0.27, .density = 2400, .thickness = 0.2, .drilling_factor = 0.3};
 }
 
 /// Turned out of the axes, and moved away from the origin.
