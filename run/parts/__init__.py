@@ -1,6 +1,7 @@
 """The parts of the commands beside: one package per command, and what a command calls itself. What they share with
 other people's scripts is the package `pounding` of the folder python."""
 
+import argparse
 import atexit
 import os
 import re
@@ -8,6 +9,7 @@ import signal
 import sys
 import traceback
 from pathlib import Path
+from typing import Callable, NoReturn
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
 
@@ -27,6 +29,8 @@ def line_of(error: BaseException) -> str:
     return " ".join(str(error).split())
 
 
+# What the commands need of others; the packages of Debian are python3-numpy and so on.
+NEEDED = ("numpy", "scipy", "h5py", "matplotlib", "yaml")
 STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
@@ -53,6 +57,8 @@ def begin(name: str) -> str:
             leave("interrupted", 1)
         if issubclass(kind, BrokenPipeError):
             leave("nobody reads what it says any more", 1)
+        if issubclass(kind, ModuleNotFoundError) and error.name in NEEDED:
+            leave(f"{error}; install python3-{error.name}", 1)
         if issubclass(kind, (OSError, MemoryError)):
             leave(line_of(error) or "the memory does not hold what it reads", 1)
         place = traceback.extract_tb(trace)[-1] if trace else None
@@ -77,6 +83,29 @@ def begin(name: str) -> str:
         if signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, lambda *_: leave("interrupted", 1))
     return told
+
+
+def parser_of(name: str, about: str) -> argparse.ArgumentParser:
+    """Reader of a command's line, whose help is the text about it as it is written."""
+    return argparse.ArgumentParser(prog=name, description=called(about),
+                                   formatter_class=argparse.RawDescriptionHelpFormatter)
+
+
+def end(name: str, main: Callable, *faults: type, goes_on: bool = False) -> NoReturn:
+    """Ends a command with the status that `main` returns; with 1 and one line where it throws one of `faults` or
+    OSError, or is interrupted. `goes_on`: the same command then goes on from there."""
+    stop_when_terminated()
+    try:
+        sys.exit(main())
+    except BrokenPipeError:
+        raise  # which `begin` answers
+    except (*faults, OSError) as error:
+        print(f"{name}: {line_of(error)}", file=sys.stderr)
+    except KeyboardInterrupt:
+        if not goes_on:
+            raise
+        print(f"{name}: interrupted; the same command goes on from here", file=sys.stderr)
+    sys.exit(1)
 
 
 def stop_when_terminated() -> None:
