@@ -45,10 +45,9 @@ class ResultFolder(unittest.TestCase):
         for ranks in (1, 2):
             first = self.start(ranks)
             for others in (1, 2):
-                result = program.run([*BAR, "-output", self.folder], others, timeout=120)
-                self.assertEqual(result.returncode, 1)
-                line, = program.error_lines(result)
-                self.assertIn(f"option -output {self.folder}: another run writes there (process ", line)
+                program.must_refuse(self, [*BAR, "-output", self.folder],
+                                    f"option -output {self.folder}: another run writes there (process ", ranks=others,
+                                    timeout=120)
             dry = program.must_end(self, [*BAR, "-output", self.folder, "-dry_run"], 1)
             with open(self.path("running.lock")) as file:
                 os.kill(int(file.read().split()[1]), signal.SIGTERM)
@@ -160,10 +159,8 @@ class ResultFolder(unittest.TestCase):
 
     def test_a_summary_is_whole_or_not_there(self):
         os.mkdir(self.path("summary.json.new"))  # where it would be drafted
-        result = program.run([*BAR, "-output", self.folder], 2)
-        self.assertEqual(result.returncode, 1)
-        line, = program.error_lines(result)
-        self.assertIn("summary.json.new: cannot be written: something that is no file has that name", line)
+        program.must_refuse(self, [*BAR, "-output", self.folder],
+                            "summary.json.new: cannot be written: something that is no file has that name", ranks=2)
         self.assertFalse(os.path.exists(self.path("summary.json")))
 
 

@@ -29,11 +29,7 @@ class Run(unittest.TestCase):
 
     def refuse(self, words, *expected):
         for ranks in (1, 2):
-            result = program.run(["-output", self.output, *words], ranks, timeout=120)
-            self.assertEqual(result.returncode, 1, result.stdout[-1000:] + result.stderr[-1000:])
-            (line,) = program.error_lines(result)
-            for word in expected:
-                self.assertIn(word, line)
+            program.must_refuse(self, ["-output", self.output, *words], *expected, ranks=ranks, timeout=120)
             self.assertFalse(os.path.exists(self.output))
 
     def doubts(self, words, again=False):
@@ -161,10 +157,8 @@ class Folder(Run):
         for words in (["-output", "/proc/nowhere/results"], ["-output", file], ["-output", os.path.join(file, "results")],
                       ["-output", self.output, "-export_matrices", file]):
             for ranks in (1, 2):
-                result = program.run([*CHAIN, "-m_mesh", "none.geo", *words], ranks, timeout=60)
-                self.assertEqual(result.returncode, 1)
-                (line,) = program.error_lines(result)
-                self.assertIn(" ".join(words[-2:]), line)
+                program.must_refuse(self, [*CHAIN, "-m_mesh", "none.geo", *words], " ".join(words[-2:]), ranks=ranks,
+                                    timeout=60)
         self.assertEqual(os.listdir(self.folder), ["file"])
 
     def test_left_as_it_was_when_the_scene_is_wrong(self):

@@ -15,12 +15,7 @@ class WrongInput(unittest.TestCase):
         for count in ranks:
             with tempfile.TemporaryDirectory() as folder:
                 output = os.path.join(folder, "results")
-                result = program.run(list(arguments) + ["-output", output], count, timeout=120)
-                self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
-                lines = program.error_lines(result)
-                self.assertEqual(len(lines), 1, result.stderr)
-                for word in words:
-                    self.assertIn(word, lines[0])
+                program.must_refuse(self, list(arguments) + ["-output", output], *words, ranks=count, timeout=120)
                 self.assertFalse(os.path.exists(os.path.join(output, "summary.json")))
 
     def with_file(self, text, suffix=".txt"):
@@ -171,9 +166,7 @@ class WrongInput(unittest.TestCase):
 
     def test_output_that_cannot_be_written(self):
         path = self.with_file("a file, not a folder")
-        result = program.run(CASE + ["-output", path], 2, timeout=120)
-        self.assertEqual(result.returncode, 1)
-        self.assertIn(path, program.error_lines(result)[0])
+        program.must_refuse(self, CASE + ["-output", path], path, ranks=2, timeout=120)
 
 
 if __name__ == "__main__":

@@ -96,11 +96,8 @@ class SpectraStart(unittest.TestCase):
     def test_start_must_leave_something(self):
         for start in (END, 3.9999, -1, "soon"):
             for ranks in (1, 2):
-                result = program.run(scene(self.record, "-motion_z_time_step", 0.01, "-spectra_start", start,
-                                           "-dry_run"), ranks)
-                self.assertEqual(result.returncode, 1)
-                line, = program.error_lines(result)
-                self.assertIn("-spectra_start", line)
+                program.must_refuse(self, scene(self.record, "-motion_z_time_step", 0.01, "-spectra_start", start,
+                                    "-dry_run"), "-spectra_start", ranks=ranks)
 
 
 if __name__ == "__main__":
