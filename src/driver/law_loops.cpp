@@ -11,6 +11,7 @@
 #include "common/parallel.h"
 #include "interactions/laws/hysteretic_law.h"
 #include "io/csv_file.h"
+#include "scene/shell_laws.h"
 
 namespace pounding {
 namespace {
@@ -33,6 +34,10 @@ void add_springs(const Region& region, const std::string& name, std::vector<Name
 }
 
 void add_sections(const Region& region, const std::string& name, std::vector<NamedLaw>& laws) {
+  if (is_shell(region.element)) {
+    if (region.yielding.shear[0]) laws.push_back({name + ":shear", *region.yielding.shear[0]});
+    return;
+  }
   constexpr const char* axes[] = {"y", "z"};
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const auto& [shear, bending] = region.yielding;

@@ -7,7 +7,7 @@
 #include "common/progress.h"
 #include "driver/facts.h"
 #include "driver/rest_gaps.h"
-#include "system/yielding_beams.h"
+#include "system/inelastic_laws.h"
 
 namespace pounding {
 namespace {

@@ -67,7 +67,9 @@ constexpr std::string_view of_bar =
     "material area tension_only slack yield_force hardening mass_per_length rule skeleton "
     "skeleton_back unloading_exponent unloading_least pinch deterioration";
 constexpr std::string_view of_plate =
-    "material thickness rotary_inertia_factor drilling_factor mass_per_area";
+    "material thickness rotary_inertia_factor drilling_factor mass_per_area shear_skeleton "
+    "shear_rule unloading_exponent unloading_least pinch deterioration cracking_force "
+    "cracking_moment cracked_tension cracked_compression cracked_bending";
 constexpr std::string_view of_point = "mass rotary_inertia";
 constexpr std::string_view of_spring =
     "stiffness dashpot dashpot_exponent dashpot_stiffness series_stiffness yield_force hardening "

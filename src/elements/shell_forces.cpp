@@ -108,4 +108,33 @@ std::vector<double> shell_force_rows(ElementType type, std::span<const double> c
   return rows;
 }
 
+std::vector<double> shell_strain_rows(ElementType type, std::span<const double> coordinates,
+                                      const ElementProperties& properties) {
+  const std::vector<double> forces = shell_force_rows(type, coordinates, properties);
+  const std::size_t size = forces.size() / shell_force_names.size();
+  std::vector<double> rows(6 * size);
+  const double t = properties.thickness;
+  for (const std::size_t first : {std::size_t{0}, std::size_t{3}}) {
+    const double stiffness = properties.young * (first == 0 ? t : t * t * t / 12);
+    const double* const from = &forces[first * size];
+    double* const to = &rows[first * size];
+    for (std::size_t i = 0; i < size; ++i) {
+      to[i] = (from[i] - properties.poisson * from[size + i]) / stiffness;
+      to[size + i] = (from[size + i] - properties.poisson * from[i]) / stiffness;
+      to[2 * size + i] = 2 * (1 + properties.poisson) * from[2 * size + i] / stiffness;
+    }
+  }
+  return rows;
+}
+
+double shell_area(ElementType type, std::span<const double> x) {
+  const auto between = [&](std::size_t a, std::size_t b) {
+    return Vector3{x[3 * b] - x[3 * a], x[3 * b + 1] - x[3 * a + 1], x[3 * b + 2] - x[3 * a + 2]};
+  };
+  const bool triangle = type == ElementType::shell3;
+  return norm(triangle ? cross(between(0, 1), between(0, 2))
+                       : cross(between(0, 2), between(1, 3))) /
+         2;
+}
+
 }  // namespace pounding

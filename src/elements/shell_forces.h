@@ -30,4 +30,12 @@ Matrix3 shell_force_axes(const Vector3& normal);
 std::vector<double> shell_force_rows(ElementType type, std::span<const double> coordinates,
                                      const ElementProperties& properties);
 
+/// Mean strains in the same axes, shape (6, dofs of the element): e11, e22, g12, curvatures k11,
+/// k22, 2 k12 [1/m, 1/m2], which are those at the centre whatever the element's shape is.
+std::vector<double> shell_strain_rows(ElementType type, std::span<const double> coordinates,
+                                      const ElementProperties& properties);
+
+/// Area of a shell in its mean plane [m2].
+double shell_area(ElementType type, std::span<const double> coordinates);
+
 }  // namespace pounding

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/gather_rows.h"
+#include "elements/element_traits.h"
 #include "mesh/ghost_dofs.h"
 
 namespace pounding::interactions {
@@ -25,11 +26,14 @@ InelasticElements::InelasticElements(std::size_t structure, const Mesh& mesh,
     if (system.inelastic[dof] != 0) dofs_.push_back(dof);
   }
   for (const RegionLaw& entry : laws_) {
+    std::size_t first = 0;
     for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
       const ElementBlock& block = mesh.blocks[b];
       if (block.region != entry.region) continue;
       Group& group = groups_.emplace_back();
       group.block = b;
+      group.first = first;
+      first += block.count();
       group.layout = element_layout(block.type);
       group.law = entry.law.get();
       group.memory.assign(block.count() * entry.law->memory_size(), 0.0);
@@ -73,8 +77,9 @@ double InelasticElements::respond() {
     for (std::size_t e = 0; e < block.count(); ++e) {
       const LocalIndex* const place = &group.places[e * size];
       for (std::size_t i = 0; i < size; ++i) u[i] = place[i] < 0 ? 0 : displacement_[place[i]];
-      const double held = group.law->respond(
-          e, {u.data(), size}, {group.memory.data() + e * numbers, numbers}, {f.data(), size});
+      const double held =
+          group.law->respond(group.first + e, {u.data(), size},
+                             {group.memory.data() + e * numbers, numbers}, {f.data(), size});
       if (block.counted[e] != 0) offset += held;
       for (std::size_t i = 0; i < size; ++i) {
         if (place[i] >= 0 && place[i] < mesh_.owned_dofs) force_[place[i]] += f[i];
@@ -135,7 +140,7 @@ void InelasticElements::finish(const Step& step) {
 PartState InelasticElements::state_of(const Part& part) const {
   const Group& group = groups_[part.group];
   const std::size_t numbers = group.law->memory_size();
-  return group.law->part(part.element, part.number,
+  return group.law->part(group.first + part.element, part.number,
                          {group.memory.data() + part.element * numbers, numbers});
 }
 
@@ -155,7 +160,9 @@ std::vector<std::string> InelasticElements::record_names() const {
 }
 
 std::string InelasticElements::name_of(const Group& group, const char* numbers) const {
-  return "inelastic " + mesh_.structure + " " + mesh_.blocks[group.block].group + " " + numbers;
+  const ElementBlock& block = mesh_.blocks[group.block];
+  return "inelastic " + mesh_.structure + " " + block.group + " " +
+         std::string(traits_of(block.type).name) + " " + numbers;
 }
 
 void InelasticElements::save(SavedState& saved) const {

@@ -62,6 +62,7 @@ class InelasticElements final : public Interaction {
   /// Elements of one block, which share a law.
   struct Group {
     std::size_t block = 0;  ///< of the mesh
+    std::size_t first = 0;  ///< of its elements, among those of the law
     ElementLayout layout;
     const ElementLaw* law = nullptr;
     std::vector<LocalIndex> places;  ///< of their dofs in displacement_, -1 where held

@@ -17,6 +17,9 @@ struct Plausible {
   const char* hint;
 };
 
+/// Drilling factor of shells that yield above which it carries shear that they do not.
+constexpr double most_beside_yielding = 0.1;
+
 constexpr Plausible young{"young", 1e8, 1e12, "Pa", "is it in MPa or GPa?"};
 constexpr Plausible density{"density", 100, 25000, "kg/m3", "is it in t/m3 or kN/m3?"};
 constexpr Plausible poisson{"poisson", 0, 0.48, "-", "elements lock near 0.5"};
@@ -93,6 +96,13 @@ void look_at_region(const std::string& structure, const Region& region, Doubts& 
   const ElementTraits& element = traits_of(region.element);
   if (takes(element, "thickness")) {
     doubts.look_at(owner, thickness, region.thickness);
+  }
+  if (is_shell(region.element) && region.yielding.any() &&
+      region.drilling_factor > most_beside_yielding) {
+    doubts.add(
+        owner +
+        ": it yields or cracks, and the stiffness against turning about its normal does not: "
+        "it carries shear along edges that do not turn; give drilling_factor 0.01");
   }
   if (takes(element, "area")) {
     doubts.look_at(owner, bar_area, region.area);

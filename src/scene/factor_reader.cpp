@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/shell_laws.h"
+
 namespace pounding {
 namespace {
 
@@ -22,7 +24,7 @@ std::string left_out(const Structure& structure) {
   }
   const auto law = std::ranges::find_if(structure.regions, follows_law);
   if (law == structure.regions.end()) return "";
-  return "not with -" + option_name(law_option(*law), {structure.name, law->group});
+  return "not with -" + option_name(option_of_law(*law), {structure.name, law->group});
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "scene/option_table.h"
+#include "scene/shell_laws.h"
 
 namespace pounding {
 namespace {
@@ -25,6 +26,10 @@ constexpr std::string_view deterioration_option = "<structure>_<group>_deteriora
 
 constexpr double rounded = 1e-3;  ///< of the first corner off its line, as tables have it
 constexpr double even = 1e-9;     ///< of slopes that are meant to be equal
+
+double shear_modulus(const Material& material) {
+  return material.young / (2 * (1 + material.poisson));
+}
 
 HystereticRule rule_of(const std::string& word) {
   constexpr std::string_view words[] = {"kinematic", "isotropic", "origin",  "peak",
@@ -173,6 +178,30 @@ void read_paths(OptionReader& options, const Names& names, const std::string& ru
   }
 }
 
+void read_cracking(OptionReader& options, const Names& names, Region& region) {
+  constexpr std::string_view force = "<structure>_<group>_cracking_force";
+  constexpr std::string_view moment = "<structure>_<group>_cracking_moment";
+  constexpr std::string_view bending = "<structure>_<group>_cracked_bending";
+  if (!options.given(force, names)) {
+    for (const char* other :
+         {"cracking_moment", "cracked_tension", "cracked_compression", "cracked_bending"}) {
+      options.forbid(std::string("<structure>_<group>_") + other, names,
+                     "goes with -" + option_name(force, names));
+    }
+    return;
+  }
+  options.forbid("<structure>_<group>_shear_skeleton", names,
+                 "not beside -" + option_name(force, names) + ": give one law or the other");
+  ShellCracking law;
+  law.force = options.real(force, names);
+  law.moment =
+      options.given(moment, names) ? options.real(moment, names) : law.force * region.thickness / 6;
+  law.tension = options.real("<structure>_<group>_cracked_tension", names);
+  law.compression = options.real("<structure>_<group>_cracked_compression", names);
+  law.bending = options.given(bending, names) ? options.real(bending, names) : law.tension;
+  set_cracking(region, law);
+}
+
 }  // namespace
 
 void read_hysteresis(OptionReader& options, const Names& names,
@@ -211,7 +240,7 @@ void read_hysteresis(OptionReader& options, const Names& names,
 
 void read_yielding_section(OptionReader& options, const Names& names, Region& region) {
   const Section& section = *region.section;
-  const double shear = region.material.young / (2 * (1 + region.material.poisson));
+  const double shear = shear_modulus(region.material);
   const double young = region.material.young;
   std::vector<Hysteresis*> laws;
   const auto add = [&](const char* kind, std::size_t axis, double first_slope,
@@ -245,6 +274,27 @@ void read_yielding_section(OptionReader& options, const Names& names, Region& re
              "-" + option_name("<structure>_<group>_shear_rule", names) + " or -" +
                  option_name("<structure>_<group>_bending_rule", names),
              laws);
+  region.inelastic = region.yielding.any();
+}
+
+void read_yielding_membrane(OptionReader& options, const Names& names, Region& region) {
+  constexpr std::string_view skeleton = "<structure>_<group>_shear_skeleton";
+  constexpr std::string_view rule = "<structure>_<group>_shear_rule";
+  std::vector<Hysteresis*> laws;
+  if (options.given(skeleton, names)) {
+    Hysteresis& law = region.yielding.shear[0].emplace();
+    law.rule = rule_of(options.choice(rule, names));
+    law.positive.breaks = read_corners(options, skeleton, names, shear_modulus(region.material));
+    law.negative = law.positive;
+    if (law.rule == HystereticRule::kinematic) {
+      check_sliders(options, names, skeleton, skeleton, law);
+    }
+    laws.push_back(&law);
+  } else {
+    options.forbid(rule, names, "goes with -" + option_name(skeleton, names));
+  }
+  read_paths(options, names, "-" + option_name(rule, names), laws);
+  read_cracking(options, names, region);
   region.inelastic = region.yielding.any();
 }
 

@@ -16,4 +16,9 @@ void read_hysteresis(OptionReader& options, const OptionReader::Names& names,
 /// where there are any. Throws UserError.
 void read_yielding_section(OptionReader& options, const OptionReader::Names& names, Region& region);
 
+/// Law of a shell in shear in its plane, whose material and thickness are read already; marks it
+/// inelastic where there is one. Throws UserError.
+void read_yielding_membrane(OptionReader& options, const OptionReader::Names& names,
+                            Region& region);
+
 }  // namespace pounding

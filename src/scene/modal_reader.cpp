@@ -4,6 +4,7 @@
 
 #include "common/error.h"
 #include "scene/factor_reader.h"
+#include "scene/shell_laws.h"
 
 namespace pounding {
 namespace {
@@ -26,10 +27,10 @@ void refuse_couplings(const OptionReader& options, const Structure& structure) {
     const std::string remedy = "not in a structure with -" + option_name(model, {structure.name}) +
                                " modal; leave it out, or give -" +
                                option_name(model, {structure.name}) + " full";
-    if (region.inelastic) options.forbid(law_option(region), names, remedy);
+    if (region.inelastic) options.forbid(option_of_law(region), names, remedy);
     if (follows_law(region) && structure.uniform_damping) {
       options.forbid(
-          law_option(region), names,
+          option_of_law(region), names,
           "not with -" + option_name(model, {structure.name}) + " modal and -" + structure.name +
               "_damping_uniform, which would damp slack and yielding elements; leave one of "
               "the three out");

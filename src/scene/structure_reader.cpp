@@ -19,6 +19,7 @@
 #include "scene/option_blocks.h"
 #include "scene/option_values.h"
 #include "scene/rigid_reader.h"
+#include "scene/shell_laws.h"
 #include "scene/soil_reader.h"
 #include "scene/spring_reader.h"
 #include "scene/standard_parts.h"
@@ -38,8 +39,10 @@ void forbid_others(const OptionReader& options, const std::string& element, cons
       "rotary_inertia rotary_inertia_factor section compression_only slack sliding_friction "
       "pendulum_radius stiffness stiffness_per_area stiffness_per_length dashpot_per_area "
       "dashpot_per_length tension_only thickness yield_circle yield_force rule skeleton "
-      "skeleton_back unloading_exponent unloading_least pinch deterioration shear_skeleton_y "
-      "shear_skeleton_z shear_rule bending_skeleton_y bending_skeleton_z bending_rule";
+      "skeleton_back unloading_exponent unloading_least pinch deterioration shear_skeleton "
+      "shear_skeleton_y shear_skeleton_z shear_rule bending_skeleton_y bending_skeleton_z "
+      "bending_rule cracking_force cracking_moment cracked_tension cracked_compression "
+      "cracked_bending";
   for (const std::string& property : split(properties, ' ')) {
     if (!takes(traits_of(element_of_word(element)), property)) {
       options.forbid("<structure>_<group>_" + property, names,
@@ -209,6 +212,7 @@ void read_solid(OptionReader& options, const Names& names, Region& region) {
     region.added_mass = options.real("<structure>_<group>_mass_per_area", names);
     region.rotary_inertia_factor = options.real("<structure>_<group>_rotary_inertia_factor", names);
     region.drilling_factor = options.real("<structure>_<group>_drilling_factor", names);
+    read_yielding_membrane(options, names, region);
   }
 }
 
@@ -330,7 +334,7 @@ void forbid_rigid_groups(const OptionReader& options, const Structure& structure
 void forbid_laws(const OptionReader& options, const Structure& structure) {
   for (const Region& region : structure.regions) {
     if (!structure.matrices.empty() && follows_law(region)) {
-      options.refuse(law_option(region), {structure.name, region.group},
+      options.refuse(option_of_law(region), {structure.name, region.group},
                      "not with -" + structure.name + "_matrices");
     }
   }

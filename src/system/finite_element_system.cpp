@@ -15,11 +15,11 @@
 #include "stiffness/sparse_matrix.h"
 #include "system/each_element.h"
 #include "system/element_bounds.h"
+#include "system/inelastic_laws.h"
 #include "system/links.h"
 #include "system/massless_followers.h"
 #include "system/rotary_scaling.h"
 #include "system/scaled_mass.h"
-#include "system/yielding_beams.h"
 
 namespace pounding {
 namespace {
@@ -326,7 +326,7 @@ LinearSystem build_finite_element_system(const Structure& structure, const Mesh&
   // Modes want every link at its stiffest: the linear elements alone are of no use to them then.
   const bool for_modes = with_matrix && std::ranges::none_of(structure.regions, follows_law);
   Assembly(structure, mesh, !by_element || for_modes, system).run();
-  system.laws = yielding_beams(structure, mesh);
+  system.laws = inelastic_laws(structure, mesh);
   system.stiffness_method = "assembled";
   if (by_element) {
     auto product =

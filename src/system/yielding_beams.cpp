@@ -1,19 +1,14 @@
 #include "system/yielding_beams.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "common/error.h"
-#include "common/parallel.h"
 #include "elements/beam2.h"
 #include "elements/local_frame.h"
-#include "interactions/laws/hysteretic_law.h"
-#include "system/axial_forces.h"
 #include "system/each_element.h"
+#include "system/motion_laws.h"
 
 namespace pounding {
 namespace {
@@ -45,22 +40,9 @@ std::vector<Part> parts_of(const YieldingSection& section) {
   return parts;
 }
 
-/// A motion of the nodes of a beam, and the law that it follows.
-struct Motion {
-  std::array<double, beam_size> shape{};  ///< its elongation is shape . u [m, rad]
-  double stiffness = 0;                   ///< of K [N/m, N m]
-  HystereticLaw law;
-
-  double elongation(std::span<const double> u) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < beam_size; ++i) sum += shape[i] * u[i];
-    return sum;
-  }
-};
-
 /// `part` of a beam between two nodes.
-Motion motion_of(const Part& part, const Segment& segment, const Matrix3& frame,
-                 const ElementProperties& p) {
+LawMotion motion_of(const Part& part, const Segment& segment, const Matrix3& frame,
+                    const ElementProperties& p) {
   const double h = segment.length;
   Vector3 along{}, about{};  // of the sway, and of rotations
   const std::size_t turns = part.shear ? 3 - part.axis : part.axis;
@@ -69,7 +51,7 @@ Motion motion_of(const Part& part, const Segment& segment, const Matrix3& frame,
     about[d] = frame[turns][d];
   }
   const double rigidity = p.young * (turns == 1 ? p.inertia_y : p.inertia_z);
-  std::array<double, beam_size> shape{};
+  std::vector<double> shape(beam_size, 0.0);
   for (std::size_t node = 0; node < 2; ++node) {
     const double sign = node == 0 ? -1 : 1;
     // A sway along y turns by +r_z, one along z by -r_y.
@@ -80,74 +62,32 @@ Motion motion_of(const Part& part, const Segment& segment, const Matrix3& frame,
     }
   }
   const Hysteresis own = scaled(*part.law, h, 1);
-  if (!part.shear) return {shape, rigidity / h, HystereticLaw(own)};
+  if (!part.shear) return {std::move(shape), rigidity / h, HystereticLaw(own)};
   const double bends = 12 * rigidity / (h * h * h);
   const ShearFlexibility phi = shear_flexibility(p, h);
-  return {shape, bends / (1 + (part.axis == 1 ? phi.y : phi.z)),
+  return {std::move(shape), bends / (1 + (part.axis == 1 ? phi.y : phi.z)),
           HystereticLaw(in_series(own, bends))};
 }
 
-class YieldingBeams final : public interactions::ElementLaw {
- public:
-  explicit YieldingBeams(const YieldingSection& section) : parts_(parts_of(section)) {
-    for (const Part& part : parts_) {
-      names_.push_back(part.name);
-      begin_.push_back(begin_.back() + HystereticLaw(*part.law).memory_size());
-    }
+/// Throws std::domain_error where the element cannot follow them.
+std::vector<LawMotion> motions_of(std::span<const Part> parts, std::span<const double> coordinates,
+                                  const ElementProperties& properties) {
+  const Segment segment = segment_between(coordinates);
+  const Matrix3 frame = local_frame(segment.direction, properties.z_axis);
+  std::vector<LawMotion> found;
+  for (const Part& part : parts) found.push_back(motion_of(part, segment, frame, properties));
+  return found;
+}
+
+std::shared_ptr<MotionLaws> laws_of(std::span<const Part> parts) {
+  std::vector<std::string> names;
+  std::vector<const Hysteresis*> laws;
+  for (const Part& part : parts) {
+    names.push_back(part.name);
+    laws.push_back(part.law);
   }
-
-  /// Adds an element, whose K is `stiffness`. Throws std::domain_error.
-  void add(std::span<const double> coordinates, const ElementProperties& properties,
-           std::span<const double> stiffness) {
-    const Segment segment = segment_between(coordinates);
-    const Matrix3 frame = local_frame(segment.direction, properties.z_axis);
-    for (const Part& part : parts_) {
-      motions_.push_back(motion_of(part, segment, frame, properties));
-    }
-    stiffness_.insert(stiffness_.end(), stiffness.begin(), stiffness.end());
-  }
-
-  std::size_t memory_size() const override { return begin_.back(); }
-
-  double respond(std::size_t element, std::span<const double> displacement,
-                 std::span<double> memory, std::span<double> force) const override {
-    const double* const k = &stiffness_[element * beam_size * beam_size];
-    for (std::size_t i = 0; i < beam_size; ++i) {
-      force[i] = 0;
-      for (std::size_t j = 0; j < beam_size; ++j) {
-        force[i] += k[i * beam_size + j] * displacement[j];
-      }
-    }
-    double lost = 0;
-    for (std::size_t m = 0; m < parts_.size(); ++m) {
-      const Motion& motion = motions_[element * parts_.size() + m];
-      const std::span<double> own = memory.subspan(begin_[m], begin_[m + 1] - begin_[m]);
-      const double elongation = motion.elongation(displacement);
-      motion.law.advance(elongation, own);
-      const double less = motion.law.force(own) - motion.stiffness * elongation;
-      for (std::size_t i = 0; i < beam_size; ++i) force[i] += less * motion.shape[i];
-      lost += motion.law.force(own) * elongation / 2 - motion.law.stored(own);
-    }
-    return lost;
-  }
-
-  std::vector<std::string> parts() const override { return names_; }
-
-  interactions::PartState part(std::size_t element, std::size_t number,
-                               std::span<const double> memory) const override {
-    const HystereticLaw& law = motions_[element * parts_.size() + number].law;
-    const auto own = memory.subspan(begin_[number], begin_[number + 1] - begin_[number]);
-    return {law.elongation(own), law.force(own), law.ductility(own), law.lost(own),
-            law.lost(own) + law.stored(own)};
-  }
-
- private:
-  std::vector<Part> parts_;
-  std::vector<std::string> names_;
-  std::vector<Motion> motions_;        ///< shape (elements, parts)
-  std::vector<double> stiffness_;      ///< shape (elements, 12, 12)
-  std::vector<std::size_t> begin_{0};  ///< of each part in a memory, and the end
-};
+  return std::make_shared<MotionLaws>(std::move(names), laws);
+}
 
 }  // namespace
 
@@ -167,67 +107,28 @@ Hysteresis in_series(const Hysteresis& law, double elastic) {
   return result;
 }
 
-std::vector<interactions::RegionLaw> yielding_beams(const Structure& structure, const Mesh& mesh) {
-  std::vector<interactions::RegionLaw> laws;
-  for (std::size_t r = 0; r < structure.regions.size(); ++r) {
-    const Region& region = structure.regions[r];
-    if (!region.yielding.any()) continue;
-    auto beams = std::make_shared<YieldingBeams>(region.yielding);
-    on_every_rank(mesh.comm, [&] {
-      const ElementProperties properties = element_properties(region);
-      stiffness::ElementWork coordinates;
-      for_each_element(
-          structure, mesh,
-          [&](const ElementBlock& block, std::size_t) {
-            return block.region == static_cast<int>(r);
-          },
-          [&](const ElementBlock& block, std::size_t e, const ElementLayout&,
-              const stiffness::ElementWork& work) {
-            try {
-              beams->add(gather_coordinates(mesh, block, e, coordinates), properties,
-                         {work.stiffness.data(), beam_size * beam_size});
-            } catch (const std::domain_error& error) {
-              throw UserError("structure " + structure.name + ": " +
-                              describe_element(mesh, block, e) + ": " + error.what() +
-                              "; give shorter elements, or a skeleton that falls less steeply");
-            }
-          });
-    });
-    laws.push_back({static_cast<int>(r), std::move(beams)});
-  }
-  return laws;
-}
-
-void require_elastic_rest(const std::vector<interactions::RegionLaw>& laws, const Mesh& mesh,
-                          const std::vector<double>& displacement) {
-  if (laws.empty()) return;
-  const std::vector<double> all = with_ghosts(mesh, displacement);
-  on_every_rank(mesh.comm, [&] {
-    for (const auto& [region, law] : laws) {
-      for (const ElementBlock& block : mesh.blocks) {
-        if (block.region != region) continue;
-        const ElementLayout layout = element_layout(block.type);
-        for (std::size_t e = 0; e < block.count(); ++e) {
-          std::array<double, max_element_size> u{}, f{};
-          const auto dofs = stiffness::element_dofs(mesh, block, e, layout);
-          const std::size_t size = layout.size();
-          for (std::size_t i = 0; i < size; ++i) u[i] = dofs[i] < 0 ? 0 : all[dofs[i]];
-          std::vector<double> memory(law->memory_size(), 0.0);
-          law->respond(e, {u.data(), size}, memory, {f.data(), size});
-          for (std::size_t p = 0; p < law->parts().size(); ++p) {
-            const double ductility = law->part(e, p, memory).ductility;
-            if (ductility <= 1) continue;
-            std::ostringstream text;
-            text << "option -preload static: " << describe_element(mesh, block, e)
-                 << " of structure " << mesh.structure << " is at rest " << ductility
-                 << " times beyond the first corner of its " << law->parts()[p]
-                 << "; give a stronger skeleton, or leave -preload out";
-            throw UserError(text.str());
-          }
+std::shared_ptr<interactions::ElementLaw> yielding_beams(const Structure& structure,
+                                                         const Mesh& mesh, int region) {
+  const Region& own = structure.regions[static_cast<std::size_t>(region)];
+  const std::vector<Part> parts = parts_of(own.yielding);
+  auto beams = laws_of(parts);
+  const ElementProperties properties = element_properties(own);
+  stiffness::ElementWork coordinates;
+  for_each_element(
+      structure, mesh,
+      [&](const ElementBlock& block, std::size_t) { return block.region == region; },
+      [&](const ElementBlock& block, std::size_t e, const ElementLayout&,
+          const stiffness::ElementWork& work) {
+        try {
+          beams->add(motions_of(parts, gather_coordinates(mesh, block, e, coordinates), properties),
+                     {work.stiffness.data(), beam_size * beam_size});
+        } catch (const std::domain_error& error) {
+          throw UserError("structure " + structure.name + ": " + describe_element(mesh, block, e) +
+                          ": " + error.what() +
+                          "; give shorter elements, or a skeleton that falls less steeply");
         }
-      }
-    }
-  });
+      });
+  return beams;
 }
 
 }  // namespace pounding

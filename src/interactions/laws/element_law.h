@@ -10,8 +10,8 @@ namespace pounding::interactions {
 
 /// One of the laws in one dimension that an element follows, as it is in a memory.
 struct PartState {
-  double elongation = 0;  ///< [m, rad]
-  double force = 0;       ///< [N, N m]
+  double elongation = 0;  ///< [m, rad], of a shell its shear strain
+  double force = 0;       ///< [N, N m], of a shell its shear stress [Pa]
   double ductility = 0;   ///< largest elongation over that of its first corner
   double lost = 0;        ///< energy [J]
   double taken = 0;       ///< lost and held [J]
@@ -34,7 +34,7 @@ class ElementLaw {
   virtual std::size_t memory_size() const = 0;
   /// Brings the history of an element to its displacements u_n [m, rad] and sets the forces f_n
   /// [N, N m] with which it resists, both node by node, component by component. `element`: its
-  /// number among those that this rank has of the region. Returns W_n [J].
+  /// number among those that this rank has of the region, block by block. Returns W_n [J].
   virtual double respond(std::size_t element, std::span<const double> displacement,
                          std::span<double> memory, std::span<double> force) const = 0;
 

@@ -1,0 +1,153 @@
+"""Shells that crack by damage, through the program: one element thrown in tension, bending and shear against its closed
+form, published values of Code_Aster, walls against linear ones, ranks, rests, continued runs.
+
+Without lateral contraction the force of a strip in tension has two slopes over its strain, as the moment has when it is
+bent to a cylinder; in shear the tensioned diagonal softens and the other one does not.
+"""
+import os
+import tempfile
+import unittest
+
+import numpy
+
+import program
+from loops_test import Loops
+from recorded import Recorded, assert_continues
+from yielding_shells_test import THICKNESS, YOUNG, wall
+
+CRACKS = {"force": 3e5, "tension": 0.1, "moment": 1e4, "bending": 0.3}
+
+
+def cracking(force=CRACKS["force"], moment=CRACKS["moment"], tension=CRACKS["tension"], bending=CRACKS["bending"]):
+    return ["-w_wall_cracking_force", force, "-w_wall_cracking_moment", moment, "-w_wall_cracked_tension", tension,
+            "-w_wall_cracked_bending", bending]
+
+
+def panel(*more, poisson=0.0, velocity="1,0,0", **values):
+    """One square element of 3 m, without mass but at its head."""
+    return wall("-material_concrete_density", 1e-3, "-w_wall_drilling_factor", 1e-9,
+                "-material_concrete_poisson", poisson, "-w_initial_velocity", velocity, "-output_interval", "1e-5",
+                *cracking(**values), *more, sizes="nx=1,nz=1", skeleton=None, time_step=1e-5, mass=5e4, end=0.06)
+
+
+def turn_of(mass, speed, stiffness, first, ratio):
+    """Where a mass turns on a spring of two slopes, the second one `ratio` times the first."""
+    force = stiffness * first
+    left = mass * speed**2 / 2 - force * first / 2
+    slope = ratio * stiffness
+    return first + (-force + (force**2 + 2 * slope * left)**0.5) / slope
+
+
+class OneElement(unittest.TestCase):
+    def test_in_tension(self):
+        speed = 0.2
+        for ranks in (1, 2):
+            run = Recorded(self, panel("-w_clamp", "foot,head:x+y+rx+ry+rz", velocity=f"0,0,{speed}"), ranks)
+            first = CRACKS["force"] / (YOUNG * THICKNESS) * 3
+            top = turn_of(1e5, speed, YOUNG * THICKNESS, first, CRACKS["tension"])
+            z = run.displacement("head.z")
+            self.assertGreater(top, 4 * first)
+            self.assertAlmostEqual(z.max() / top, 1, delta=1e-5)
+            # Back to the origin, and there into sound concrete.
+            force = CRACKS["force"] * 3 * (1 + CRACKS["tension"] * (top / first - 1))
+            lost = 1e5 * speed**2 / 2 - force * top / 2
+            self.assertAlmostEqual(run.energy["devices"] / lost, 1, delta=1e-4)
+            bottom = ((force * top) / (YOUNG * THICKNESS))**0.5
+            self.assertAlmostEqual(-z.min() / bottom, 1, delta=1e-4)
+            found = run.summary["yielding"]["w:wall:cracking"]
+            self.assertAlmostEqual(found["ductility"] / (top / first), 1, delta=1e-5)
+
+    def test_in_shear(self):
+        """A head of great mass keeps its speed: stress over strain is that of the closed form at every step."""
+        poisson = 0.2
+        run = Loops(self, panel("-w_clamp", "foot,head:y+z+rx+ry+rz", "-loops", "w:wall", "-w_head_mass", 1e17,
+                                poisson=poisson, velocity="0.1,0,0"), 2)
+        strain, stress = run.elongation[:, 0], run.force[:, 0]
+        mu = YOUNG / (2 * (1 + poisson)) * THICKNESS
+        lame = YOUNG * poisson / ((1 + poisson) * (1 - 2 * poisson)) * THICKNESS
+        kept = 1 - CRACKS["tension"]
+        threshold = kept / 4 * (CRACKS["force"] / (YOUNG * THICKNESS))**2 * (lame * (1 - 2 * poisson)**2 + 2 * mu)
+        damage = numpy.maximum(0, (mu * kept * strain**2 / 8 / threshold)**0.5 - 1)
+        self.assertGreater(damage.max(), 10)
+        left = (1 + CRACKS["tension"] * damage) / (1 + damage)
+        expected = mu / THICKNESS * strain * (left + 1) / 2
+        self.assertLess(abs(stress - expected).max(), 1e-10 * abs(expected).max())
+
+    def test_in_bending(self):
+        """Both ends turn about the level axis against each other, and take the element into a cylinder."""
+        poisson, density, rate = 0.2, 2400.0, 6.0
+        with tempfile.NamedTemporaryFile("w", suffix=".csv") as table:
+            table.write("x,y,z,wx\n")
+            for x in (-1.5, 1.5):
+                table.write(f"{x},0,0,{-rate}\n{x},0,3,{rate}\n")
+            table.flush()
+            run = Recorded(self, wall(
+                "-w_clamp", "foot:x+y+z+ry+rz,head:x+y+z+ry+rz", "-w_initial_state", table.name, "-output_interval", "1e-5",
+                *cracking(), sizes="nx=1,nz=1", skeleton=None, time_step=1e-5, end=0.02), 2)
+        inertia = density * THICKNESS * 9 / 4 * THICKNESS**2 / 12  # of each of four nodes
+        part = THICKNESS**3 / 12
+        mu, lame = YOUNG / (2 * (1 + poisson)) * part, YOUNG * poisson / (1 - poisson**2) * part
+        first = CRACKS["moment"] / (lame * (1 - poisson) + 2 * mu) * (
+            (lame / 2 * (1 - poisson)**2 + mu) / (lame / 2 + mu))**0.5
+        top = turn_of(4 * inertia * rate**2 / 9, 1, lame + 2 * mu, first, CRACKS["bending"])
+        self.assertGreater(top, 3 * first)
+        self.assertAlmostEqual(run.summary["yielding"]["w:wall:cracking"]["ductility"] / (top / first), 1, delta=1e-4)
+
+
+class Wall(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        time = numpy.arange(0, 0.3, 0.005)
+        cls.record = program.write_samples(25 * numpy.sin(2 * numpy.pi * 8 * time) * numpy.sin(numpy.pi * time / 0.3), 0.005)
+        cls.motion = ["-motion_x_record", cls.record, "-motion_x_unit", "m/s2", "-motion_y_record", cls.record,
+                      "-motion_y_unit", "m/s2", "-motion_y_scale", 0.05]
+
+    @classmethod
+    def tearDownClass(cls):
+        os.remove(cls.record)
+
+    sizes = "nx=4,nz=4,mixed=1,taper=0.8"
+
+    def test_sound_it_is_the_linear_one(self):
+        for damping in (["-w_damping_beta", 1e-5], ["-w_damping_uniform", 0.04]):
+            words = [*self.motion, *damping, "-head_at", "1.2,0,3"]
+            linear = Recorded(self, wall(*words, sizes=self.sizes, skeleton=None), 1)
+            marked = Recorded(self, wall(*words, *cracking(force=1e9, moment=1e8), sizes=self.sizes, skeleton=None), 2)
+            for channel in ("head.x", "head.y", "head.z"):
+                expected = linear.displacement(channel)
+                self.assertGreater(abs(expected).max(), 1e-6)
+                self.assertLess(abs(marked.displacement(channel) - expected).max(), 1e-11 * abs(expected).max())
+            self.assertAlmostEqual(marked.summary["stable_time_step"] / linear.summary["stable_time_step"], 1, delta=1e-9)
+
+    def test_cracks_alike_on_any_ranks_and_continued(self):
+        words = wall(*self.motion, *cracking(), "-w_damping_beta", 1e-5, "-w_gravity", "0,0,-9.81", "-head_at", "1.2,0,3",
+                     sizes=self.sizes, skeleton=None, end=0.2)
+        whole = Recorded(self, words, 1)
+        found = whole.summary["yielding"]["w:wall:cracking"]
+        self.assertEqual(found["elements"], 24)
+        self.assertGreater(found["ductility"], 2)
+        self.assertGreater(found["energy_lost"], 10)
+        for ranks in (2, 4):
+            other = Recorded(self, words, ranks)
+            self.assertLess(abs(other.displacement("head.x") - whole.displacement("head.x")).max(), 1e-10)
+        assert_continues(self, [*words, "-modes", 1, "-spectra_frequencies", 10, "-loops", "w:wall"], 0.1, 3000)
+
+    def test_rest_under_gravity(self):
+        gravity = ["-w_gravity", "0.1,0,-9.81", "-preload", "static", "-end_time", 0.02]
+        x = Recorded(self, wall(*gravity, *cracking(), skeleton=None), 2).displacement("head.x")
+        self.assertGreater(abs(x[0]), 1e-7)
+        self.assertLess(abs(x - x[0]).max(), 1e-10 * abs(x[0]))
+        program.must_refuse(self, wall("-w_gravity", "40,0,-9.81", "-preload", "static", *cracking(), skeleton=None),
+                            "times beyond the first corner of its cracking")
+
+    def test_refusals(self):
+        for more, said in ((["-w_model", "modal"], "-w_model full"),
+                           (["-w_wall_cracked_tension", 1], "[0, 1)"),
+                           (["-w_wall_shear_skeleton", "1.2e-4,1.5e6"], "one law or the other"),
+                           (["-export_matrices", "/tmp/nothing"], "elements that yield")):
+            program.must_refuse(self, wall(*cracking(), *more, skeleton=None), said, ranks=1)
+        program.must_refuse(self, wall("-w_wall_cracked_tension", 0.1, skeleton=None), "-w_wall_cracking_force")
+
+
+if __name__ == "__main__":
+    unittest.main()
