@@ -90,6 +90,9 @@ class Compare(unittest.TestCase):
         for word in ("floor2_gap", "Impacts", "Peaks", "left_roof"):
             self.assertIn(word, page)
         self.assertIn("floor2_gap", self.done.stdout)
+        opening = f"narrow beside wide: {len(self.narrow.impacts['impulse'])} impacts in place of 0; the floor spectra (5 %) grow"
+        self.assertTrue(self.done.stdout.startswith(opening), self.done.stdout[:300])
+        self.assertLess(page.index(opening), page.index("<table"))
 
     def test_three_runs_and_another_number_of_ranks(self):
         two_buildings.run(self.place / "alone", ranks=1, gap=0.01, probes="left_roof")

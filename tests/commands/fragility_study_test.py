@@ -168,7 +168,11 @@ class Study(unittest.TestCase):
         self.assertAlmostEqual(float(joint[1]["EN 1998-1, level floors [m]"]), 0.7 * float(joint[1]["SRSS [m]"]))
         for name in ("fragility.png", "curves.png", "enough.png", "joint.png"):
             self.assertTrue((out / name).read_bytes().startswith(b"\x89PNG"), name)
-        self.assertIn("<table", (out / "fragility.html").read_text())
+        page = (out / "fragility.html").read_text()
+        self.assertIn("<table", page)
+        rows = [row for row in rows_of(out / "joint.csv") if row["joint"] == "any"]
+        widths = " mm at 2 m/s2 .*; ".join(f"{1e3 * float(row['5 % [m]']):.3g}" for row in rows)
+        self.assertRegex(page, f"So that no joint closes in 95 % of the cases it must be as wide as {widths} mm at 5 m/s2")
 
     def test_equipment_fails_as_in_single_runs_and_joints_differ_by_sample(self):
         (self.place / "relay.csv").write_text("1,20\n100,20\n")
@@ -177,7 +181,7 @@ class Study(unittest.TestCase):
         field = {"deviation": 0.002, "length": 1.5}
         study = {"options": {**STUDY["options"], **item}, "full_order": {"share": 0}, "capacities": [], "levels": [5.0],
                  "joints": {"floor1": {"field": field}, "floor2": {"field": field}}}
-        self.fragility("--runner", "ensemble", "--ranks", "2", **study)
+        said = self.fragility("--runner", "ensemble", "--ranks", "2", **study).stdout
         rows = [row for row in rows_of(self.place / "out" / "probability.csv") if row["event"].startswith("relay fails")]
         found = {row["gap [m]"]: int(row["hits"]) for row in rows}
         failed, gaps = 0, set()
@@ -193,6 +197,8 @@ class Study(unittest.TestCase):
             run = pounding.run(two_buildings.SCENE, self.place / f"own-{sample}", 1, **options)
             failed += not run.summary["equipment"]["relay"]["passes"]
             gaps.add(tuple(run.summary["contacts"]["floor1"]["initial_gap"]))
+        self.assertRegex(said, f"relay fails at 5 m/s2 in {100 * failed / 3:.3g} % in a joint of 10 mm .*, "
+                         f"{100 * found['apart'] / 3:.3g} % apart")
         self.assertEqual(found["0.01"], failed)
         self.assertGreater(failed, found["apart"])
         self.assertEqual(len(gaps), 3)

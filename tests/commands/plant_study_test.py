@@ -33,6 +33,8 @@ class PlantStudy(unittest.TestCase):
                 text = file.read()
             for part in ("What it cost", "floor1", 'href="full/report.html"', 'href="apart/report.html"'):
                 self.assertIn(part, text)
+            self.assertLess(text.index('class="answer touched"'), text.index("<table"))
+            self.assertLess(text.index("The buildings touched"), text.index("What it cost"))
             self.assertTrue(os.path.exists(os.path.join(folder, "full", "report.html")))
             again = self.study(folder, *words)
             self.assertEqual(again.returncode, 0, again.stderr)

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from parts.tables import markdown, write_csv
+from parts.plot import answer
 from parts.plot.markup import html_figure, html_table, write_page
 from parts.plot.style import WIDTH, log_scale, plt, save
 from pounding.files import write_text
@@ -54,16 +55,33 @@ def _cells(rows: list) -> tuple:
 
 def _parts(runs: Runs) -> list:
     """(title, rows) of the tables that are shown."""
-    return [("Options that differ", tables.options(runs)), ("Impacts", tables.impacts(runs)),
-            ("Peaks", tables.peaks(runs)),
+    return [("Impacts", tables.impacts(runs)), ("Peaks", tables.peaks(runs)),
             *([("Equipment: smallest ratio of capacity over required", held)] if (held := tables.equipment(runs)) else []),
             (f"Spectra over those of {runs.labels[0]}, {100 * runs.dampings[0]:g} % damping",
-             tables.worst_ratios(runs))]
+             tables.worst_ratios(runs)),
+            ("Options that differ", tables.options(runs))]
+
+
+def answers(runs: Runs) -> list:
+    """A sentence per run beside the first: impacts, the floor spectrum that changes most, equipment that changes sides."""
+    first, found = runs.results[0], []
+    for label, run in zip(runs.labels[1:], runs.results[1:]):
+        counts = [one.summary.get("impacts", {}).get("episodes", 0) for one in (run, first)]
+        line = f"{label} beside {runs.labels[0]}: {counts[0]} impacts in place of {counts[1]}"
+        change = answer.largest_change(run, first)
+        line += f"; the floor spectra ({100 * change.damping:g} %) grow at most {change.text()}" if change else ""
+        held = {one: run.summary.get("equipment", {}).get(one, {}).get("passes")
+                for one in first.summary.get("equipment", {})}
+        for name, passes in held.items():
+            if passes is not None and passes != first.summary["equipment"][name]["passes"]:
+                line += f"; {name} {'passes' if passes else 'fails'}"
+        found.append(f"{line}.")
+    return found
 
 
 def text(runs: Runs) -> str:
     """What the terminal shows."""
-    lines = [f"note: {note}" for note in runs.notes]
+    lines = [*answers(runs), *(f"note: {note}" for note in runs.notes), ""]
     for title, rows in _parts(runs):
         lines += [markdown(title, *_cells(rows)) if rows else f"**{title}**: none\n"]
     return "\n".join(lines)
@@ -79,7 +97,8 @@ def body(runs: Runs, folder: Path) -> str:
         else:
             write_text(folder / f"{name}.csv", "option\n")  # no option differs
     figures = [page for probe in runs.probes for page in spectra_figure(runs, probe, folder)]
-    found = "".join(f'<p class="note">{escape(note)}</p>\n' for note in runs.notes)
+    found = '<div class="answer">\n' + "".join(f"<p>{escape(line)}</p>\n" for line in answers(runs)) + "</div>\n"
+    found += "".join(f'<p class="note">{escape(note)}</p>\n' for note in runs.notes)
     for caption, rows in _parts(runs):
         found += html_table(caption, *_cells(rows)) if rows else f"<p>{escape(caption)}: none.</p>\n"
     return found + "".join(html_figure(folder, page) for page in figures)

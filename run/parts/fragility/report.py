@@ -9,10 +9,10 @@ import numpy as np
 from parts.tables import markdown, write_csv
 from parts.plot.markup import html_figure, html_table, paragraphs, write_page
 from pounding.files import written_beside
-from pounding.fragility import Fragility
+from pounding.fragility import Fragility, binomial_interval
 
 from . import figures
-from .analysis import CONTACT, TOLERANCE, Analysis, fit_row, gap_text
+from .analysis import CONTACT, EXCEEDED, TOLERANCE, Analysis, fit_row, gap_text
 from .outcomes import Outcomes
 
 PLACES = ("gap [m]", "pga [m/s2]")
@@ -111,14 +111,22 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
     return write_page(folder / "fragility.html", study.title, content, f"study {study.path.name}"), text
 
 
-def told(analysis: Analysis, fits: dict, full: Outcomes | None, tables: dict) -> list:
-    """The answer in sentences."""
-    study = analysis.study
-    cells = len(study.gaps) * len(study.levels) * study.samples
-    disturbed = f", and {len(analysis.design.repeated)} disturbed" if analysis.design.repeated else ""
-    lines = [f"{len(analysis.design.members)} runs: {study.samples} samples of motion and building at "
-             f"{len(study.levels)} levels, in {len(study.gaps)} joints ({cells}), apart "
-             f"({len(study.levels) * study.samples}){disturbed}."]
+def needed_joint(rows: list, study) -> str:
+    """Width that the joints need so that none of them closes, at each level, with its interval."""
+    part = EXCEEDED[-1]
+    key = f"{100 * part:g} %"
+
+    def end(value) -> str:
+        return f"{1e3 * value:.3g}" if value != "" else "beyond these samples"
+
+    widths = "; ".join(f"{1e3 * row[f'{key} [m]']:.3g} mm at {row['pga [m/s2]']:g} m/s2 ({end(row[f'{key} low'])} to "
+                       f"{end(row[f'{key} high'])})" for row in rows if row["joint"] == "any")
+    return (f"So that no joint closes in {100 * (1 - part):g} % of the cases it must be as wide as {widths}; in brackets the "
+            f"interval at {100 * study.confidence:g} % confidence.")
+
+
+def touching(fits: dict) -> list:
+    lines = []
     for gap, fit in fits[CONTACT].items():
         if isinstance(fit, Fragility):
             lines.append(f"Joint of {1e3 * gap:g} mm: touches in half of the cases at {fit.theta:.3g} m/s2 "
@@ -126,6 +134,33 @@ def told(analysis: Analysis, fits: dict, full: Outcomes | None, tables: dict) ->
                          f"({fit.beta_interval[0]:.2g} to {fit.beta_interval[1]:.2g}).")
         else:
             lines.append(f"Joint of {1e3 * gap:g} mm: no curve, {fit}.")
+    return lines
+
+
+def failing(analysis: Analysis) -> list:
+    """How likely each item of equipment fails at the strongest level, in every joint and apart."""
+    study, lines = analysis.study, []
+    for item in analysis.equipment:
+        shares = []
+        for gap in analysis.gaps_of(item):
+            count = int(analysis.hits(item, gap)[:, -1].sum())
+            low, high = binomial_interval(count, study.samples, study.confidence)
+            place = "apart" if gap is None else f"in a joint of {1e3 * gap:g} mm"
+            shares.append(f"{100 * count / study.samples:.3g} % {place} ({100 * float(low):.2g} to {100 * float(high):.2g})")
+        lines.append(f"{item.title} fails at {study.levels[-1]:g} m/s2 in {', '.join(shares)}.")
+    return lines
+
+
+def told(analysis: Analysis, fits: dict, full: Outcomes | None, tables: dict) -> list:
+    """The answer in sentences: joint, contact, equipment, and how they were found."""
+    study = analysis.study
+    lines = [needed_joint(tables["joint"], study)]
+    cells = len(study.gaps) * len(study.levels) * study.samples
+    disturbed = f", and {len(analysis.design.repeated)} disturbed" if analysis.design.repeated else ""
+    lines += touching(fits) + failing(analysis)
+    lines += [f"{len(analysis.design.members)} runs: {study.samples} samples of motion and building at "
+             f"{len(study.levels)} levels, in {len(study.gaps)} joints ({cells}), apart "
+             f"({len(study.levels) * study.samples}){disturbed}."]
     wrong = analysis.contradictions()
     lines.append(f"The runs apart say of {cells - wrong} of {cells} runs with a joint whether they touch as these do.")
     if full:

@@ -1,4 +1,4 @@
-"""The page of run/plant: what it cost, impacts by floor, the pictures and spectra of every run."""
+"""The page of run/plant: the answer of every run, impacts by floor, spectra beside each other, what it cost."""
 
 import subprocess
 from html import escape
@@ -8,6 +8,7 @@ from parts import called
 from parts.tables import markdown
 from parts.compare import page
 from parts.compare.runs import Runs
+from parts.plot import answer
 from parts.plot.markup import html_table, write_page
 from pounding.runs import SOURCE, ending_with_us
 
@@ -47,8 +48,10 @@ def write(runs: Runs, folder: Path) -> Path:
         link = result.folder.resolve().relative_to(folder.resolve()) / "report.html"
         links += (f'<li><a href="{escape(str(link))}">{escape(label)}</a></li>\n' if not why else
                   f"<li>{escape(label)}: {escape(why)}</li>\n")
-    content = html_table("What it cost", COST, cost_rows(runs))
+    apart = next((one for one in runs.results if not one.summary.get("contacts")), None)
+    content = "".join(f"<h3>{escape(label)}</h3>\n{answer.html(result, apart, '')}"
+                      for label, result in zip(runs.labels, runs.results) if result is not apart)
     content += f"<p>Reports of the runs, with pictures of the model:</p>\n<ul>\n{links}</ul>\n"
-    content += page.body(runs, folder / "comparison")
+    content += page.body(runs, folder / "comparison") + html_table("What it cost", COST, cost_rows(runs))
     title = runs.results[0].summary.get("title") or "The plant pair"
     return write_page(folder / "plant.html", title, content)
