@@ -188,7 +188,7 @@ class Folder(Run):
 
 class Progress(Run):
     def test_only_where_somebody_sees_it(self):
-        words = [*CHAIN, "-output", self.output]
+        words = [*CHAIN, "-output", self.output, "-progress_interval", 1000]  # a busy machine is no reason
         for ranks in (1, 2):
             self.assertNotIn("per simulated", program.run(words, ranks, timeout=60).stdout)
             with open(os.path.join(self.folder, "log"), "w+") as log:
