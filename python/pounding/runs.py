@@ -18,7 +18,8 @@ SOURCE = Path(__file__).resolve().parents[2]
 LOG = "log.txt"
 # What a run leaves in its folder, or leaves behind where it is killed.
 RESULTS = ("summary.json", "history.h5", "spectra.csv", "impacts.csv", "energy.csv", "forces.csv", "yielding.csv", "equipment.csv",
-           "resolved.yaml", "modes.h5", "modes.xdmf", "model.h5", "model.xdmf", "fields.h5", "fields.xdmf", "checkpoint.h5")
+           "resolved.yaml", "modes.h5", "modes.xdmf", "model.h5", "model.xdmf", "fields.h5", "fields.xdmf", "fields.vtkhdf",
+           "checkpoint.h5")
 CROWD = 4  # ranks per core; more are a slip
 # Where a batch system or a list of machines says what there is, the cores of this machine say nothing.
 ALLOCATIONS = ("SLURM_JOB_ID", "PBS_NODEFILE", "LSB_HOSTS", "LSB_MCPU_HOSTS", "PE_HOSTFILE",

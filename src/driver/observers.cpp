@@ -51,6 +51,8 @@ std::unique_ptr<FieldWriter> make_fields(const ObservedRun& run) {
   layout.title = run.scene.title;
   layout.time_step = run.model.time_step;
   layout.steps = planned_fields(run.scene, run.model).value();
+  layout.xdmf = run.scene.fields_format != FieldsFormat::vtkhdf;
+  layout.vtkhdf = run.scene.fields_format != FieldsFormat::xdmf;
   layout.labels = mesh_labels(run.scene, run.model.interface);
   layout.impulse_root = std::max(run.contact_root(), 0);
   if (run.contact_root() >= 0) {

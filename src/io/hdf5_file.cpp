@@ -160,6 +160,35 @@ void Hdf5File::write_integers(const std::string& name, std::size_t columns,
   write_values(name, columns, H5T_NATIVE_INT32, values.size(), values.data());
 }
 
+void Hdf5File::write_long_integers(const std::string& name, std::span<const std::int64_t> values) {
+  write_values(name, 0, H5T_NATIVE_INT64, values.size(), values.data());
+}
+
+void Hdf5File::write_bytes(const std::string& name, std::span<const std::uint8_t> values) {
+  write_values(name, 0, H5T_NATIVE_UINT8, values.size(), values.data());
+}
+
+void Hdf5File::write_virtual(const std::string& name, hid_t type, std::size_t rows,
+                             std::size_t columns, const std::string& source,
+                             std::span<const VirtualRows> parts) {
+  const int rank = columns == 0 ? 1 : 2;
+  const hsize_t size[2] = {rows, columns};
+  const hid_t space = checked(H5Screate_simple(rank, size, nullptr), "describe " + name);
+  const hid_t properties = checked(H5Pcreate(H5P_DATASET_CREATE), "describe " + name);
+  for (const VirtualRows& part : parts) {
+    const hsize_t start[2] = {part.first, 0};
+    const hsize_t count[2] = {part.count, columns};
+    const hid_t whole = checked(H5Screate_simple(rank, count, nullptr), "describe " + name);
+    H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, count, nullptr);
+    const herr_t status =
+        H5Pset_virtual(properties, space, source.c_str(), part.dataset.c_str(), whole);
+    H5Sclose(whole);
+    checked(status, "describe " + name);
+  }
+  H5Sselect_all(space);
+  checked(H5Dclose(create(name, type, space, properties)), "write " + name);
+}
+
 void Hdf5File::write_values(const std::string& name, std::size_t columns, hid_t type,
                             std::size_t count, const void* values) {
   const int rank = columns == 0 ? 1 : 2;
@@ -270,6 +299,20 @@ void Hdf5File::write_attribute(const std::string& object, const std::string& nam
   H5Aclose(attribute);
   H5Sclose(space);
   H5Tclose(type);
+  H5Oclose(owner);
+  checked(status, "write attribute " + name);
+}
+
+void Hdf5File::write_attribute(const std::string& object, const std::string& name,
+                               const std::vector<std::int64_t>& values) {
+  const hid_t owner = checked(H5Oopen(file_, object.c_str(), H5P_DEFAULT), "open " + object);
+  const hsize_t count = values.size();
+  const hid_t space = count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr);
+  const hid_t attribute =
+      H5Acreate2(owner, name.c_str(), H5T_NATIVE_INT64, space, H5P_DEFAULT, H5P_DEFAULT);
+  const herr_t status = H5Awrite(attribute, H5T_NATIVE_INT64, values.data());
+  H5Aclose(attribute);
+  H5Sclose(space);
   H5Oclose(owner);
   checked(status, "write attribute " + name);
 }

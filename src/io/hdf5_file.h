@@ -11,6 +11,13 @@
 
 namespace pounding {
 
+/// Rows of a virtual dataset that are the whole of a dataset of another file.
+struct VirtualRows {
+  std::string dataset;
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
 /// An HDF5 file written by one rank: two-dimensional datasets that grow by rows, and arrays written
 /// at once. Its metadata carry checksums. Errors throw UserError naming file and dataset.
 class Hdf5File {
@@ -33,6 +40,15 @@ class Hdf5File {
   /// An array of whole numbers of 4 bytes each, otherwise as write_array().
   void write_integers(const std::string& name, std::size_t columns,
                       std::span<const std::int32_t> values);
+  /// A plain vector of whole numbers of 8 bytes each, or of 1 byte each, otherwise as
+  /// write_array().
+  void write_long_integers(const std::string& name, std::span<const std::int64_t> values);
+  void write_bytes(const std::string& name, std::span<const std::uint8_t> values);
+  /// A dataset of shape (rows, columns), or a plain vector if `columns` is 0, that holds no values
+  /// of its own: `parts` are read from the file `source`, in the folder of this one, and rows of
+  /// no part are 0. `type`: HDF5's, of one value.
+  void write_virtual(const std::string& name, hid_t type, std::size_t rows, std::size_t columns,
+                     const std::string& source, std::span<const VirtualRows> parts);
   /// An array of doubles in one piece whose place in the file is taken at once and filled by others
   /// once this one is closed; returns where it begins [bytes].
   std::int64_t reserve(const std::string& name, const std::vector<std::size_t>& shape);
@@ -49,6 +65,9 @@ class Hdf5File {
   void write_attribute(const std::string& object, const std::string& name, double value);
   void write_attribute(const std::string& object, const std::string& name,
                        const std::string& value);
+  /// A vector of whole numbers of 8 bytes each; a single one is a number.
+  void write_attribute(const std::string& object, const std::string& name,
+                       const std::vector<std::int64_t>& values);
 
   /// Begins to append rows, in an order in which the file is readable at any moment,
   /// by other programs at the same time and after this one is killed (single writer, multiple

@@ -76,9 +76,15 @@ void FieldWriter::start(const CdLagrange& /*stepper*/, const SavedState* continu
     std::error_code failure;
     std::filesystem::rename(path + ".new", path, failure);
     if (failure) throw UserError(path + ": could not be written (" + failure.message() + ")");
-    for (std::int64_t frame = 0; frame < frames_; ++frame) text_ += frame_text(frame);
+    for (std::int64_t frame = 0; layout_.xdmf && frame < frames_; ++frame) {
+      text_ += frame_text(frame);
+    }
+    // A list that this run does not keep would be that of the run before.
+    if (!layout_.xdmf) std::filesystem::remove(layout_.folder + "/fields.xdmf", failure);
+    if (!layout_.vtkhdf) std::filesystem::remove(layout_.folder + "/fields.vtkhdf", failure);
   });
   open();
+  flush();
 }
 
 void FieldWriter::copy_frames(const std::string& to) const try {

@@ -11,6 +11,7 @@
 #include "io/new_file.h"
 #include "io/schema.h"
 #include "mesh/node_table.h"
+#include "output/vtkhdf.h"
 
 namespace pounding {
 namespace {
@@ -137,9 +138,13 @@ void FieldWriter::create(const std::string& path) {
     frames_place_ = file->reserve("frames", {1});
   });
   grids_.clear();
+  cell_nodes_.clear();
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     const CellTable cells = gather_cells(meshes_[s]);
     grids_.push_back(write_mesh(file ? &*file : nullptr, meshes_[s], cells, s, layout_.labels));
+    if (!layout_.vtkhdf) continue;
+    on_rank0(layout_.comm,
+             [&] { cell_nodes_.push_back(write_vtk_cells(*file, structures_[s].name, cells)); });
   }
   std::vector<std::int64_t> places;
   on_rank0(layout_.comm, [&] {
@@ -238,7 +243,7 @@ void FieldWriter::observe(const CdLagrange& stepper) {
   on_rank0(layout_.comm, [&] {
     const double frames = static_cast<double>(frames_ + 1);
     file_->write(frames_place_, {&frames, 1});
-    text_ += frame_text(frames_);
+    if (layout_.xdmf) text_ += frame_text(frames_);
   });
   ++frames_;
 }
@@ -257,9 +262,32 @@ std::string FieldWriter::frame_text(std::int64_t frame) const {
   return xdmf_side_by_side("frame " + std::to_string(frame), time_of(frame), grids);
 }
 
+void FieldWriter::list_for_vtk() const {
+  std::vector<VtkhdfArray> arrays;
+  for (std::size_t s = 0; s < structures_.size(); ++s) {
+    const StructureFields& fields = structures_[s];
+    for (const Quantity& quantity : fields.quantities) {
+      auto array = std::ranges::find(arrays, quantity.name, &VtkhdfArray::name);
+      if (array == arrays.end()) {
+        const double offset = quantity.name == "velocity" ? layout_.time_step / 2 : 0;
+        array = arrays.insert(array, {quantity.name, quantity.unit, offset, {}});
+        array->paths.resize(structures_.size());
+      }
+      for (std::int64_t frame = 0; frame < frames_; ++frame) {
+        array->paths[s].push_back(path_of(fields, quantity, frame));
+      }
+    }
+  }
+  std::vector<double> times;
+  for (std::int64_t frame = 0; frame < frames_; ++frame) times.push_back(time_of(frame));
+  write_vtkhdf(layout_.folder + "/fields.vtkhdf", file_name, grids_, cell_nodes_, arrays, times);
+}
+
 void FieldWriter::flush() {
   on_rank0(layout_.comm, [&] {
     if (frames_ == 0) return;
+    if (layout_.vtkhdf) list_for_vtk();
+    if (!layout_.xdmf) return;
     write_whole_file(layout_.folder + "/fields.xdmf", xdmf_document(xdmf_in_time("fields", text_)));
   });
 }

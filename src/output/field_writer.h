@@ -32,9 +32,10 @@ struct ContactPlace {
   int component = 0;     ///< 0-2
 };
 
-/// Writes `fields.h5` and `fields.xdmf`, the motion of all nodes for ParaView. Per structure,
-/// beside what write_mesh() says of it, groups with an array 000000 ... of shape (nodes, 3) for
-/// each frame, nodes in file order:
+/// Writes `fields.h5`, the motion of all nodes, and for ParaView `fields.xdmf`, `fields.vtkhdf` or
+/// both. Per structure, beside the datasets of write_mesh() and, for the latter, of
+/// write_vtk_cells(), groups with an array 000000 ... of shape (nodes, 3) for each frame, nodes in
+/// file order:
 ///
 ///     displacement      u_n, of t_n in `time`, relative to the ground [m]
 ///     velocity          v_{n+1/2}, half a step later, relative to the ground [m/s]
@@ -43,8 +44,9 @@ struct ContactPlace {
 ///
 /// the first two to the bit what the history says of the same node. The arrays take their places in
 /// the file at the beginning; then every rank fills its part of them (FileBlocks) as the run goes.
-/// `frames` is the number of whole frames, written after them, and `fields.xdmf` lists these; what
-/// lies behind is no motion. A frame allocates nothing but the line of the list.
+/// `frames` is the number of whole frames, written after them, and `fields.xdmf` and
+/// `fields.vtkhdf`, whole files at any moment, list these; what lies behind is no motion. A frame
+/// allocates nothing but the line of the list.
 class FieldWriter final : public Observer {
  public:
   struct Layout {
@@ -54,6 +56,8 @@ class FieldWriter final : public Observer {
     std::string title;
     double time_step = 0;  ///< [s]
     FieldSteps steps;
+    bool xdmf = true;    ///< whether fields.xdmf lists the frames
+    bool vtkhdf = true;  ///< whether fields.vtkhdf does
     MeshLabels labels;
     std::vector<ContactPlace> places;  ///< where contacts act, of all ranks
     int impulse_root = 0;              ///< rank that knows all impulses
@@ -118,6 +122,8 @@ class FieldWriter final : public Observer {
   void open();
   void copy_frames(const std::string& to) const;
   std::string frame_text(std::int64_t frame) const;
+  /// Writes `fields.vtkhdf` of the frames so far. Rank 0.
+  void list_for_vtk() const;
   double time_of(std::int64_t frame) const;
 
   Layout layout_;
@@ -128,9 +134,10 @@ class FieldWriter final : public Observer {
   std::int64_t frames_ = 0;
 
   // Rank 0
-  std::vector<XdmfGrid> grids_;    ///< of the structures, without what moves
-  std::int64_t frames_place_ = 0;  ///< of their number in the file [bytes]
-  std::string text_;               ///< of the frames so far
+  std::vector<XdmfGrid> grids_;          ///< of the structures, without what moves
+  std::vector<std::size_t> cell_nodes_;  ///< of all cells of each structure together
+  std::int64_t frames_place_ = 0;        ///< of their number in the file [bytes]
+  std::string text_;                     ///< of the frames so far
 };
 
 }  // namespace pounding

@@ -20,13 +20,14 @@ constexpr const char* lock_name = "running.lock";
 
 /// Files that a run writes, and, while it writes, under which names.
 constexpr std::array written{
-    "resolved.yaml",   "resolved.yaml.new", "summary.json",   "summary.json.new", "spectra.csv",
-    "impacts.csv",     "energy.csv",        "forces.csv",     "laws.csv",         "yielding.csv",
-    "equipment.csv",   "history.h5.new",    "model.xdmf.new", "modes.xdmf.new",   "fields.h5.new",
-    "fields.xdmf.new", "checkpoint.h5.new"};
+    "resolved.yaml",   "resolved.yaml.new", "summary.json",     "summary.json.new", "spectra.csv",
+    "impacts.csv",     "energy.csv",        "forces.csv",       "laws.csv",         "yielding.csv",
+    "equipment.csv",   "history.h5.new",    "model.xdmf.new",   "modes.xdmf.new",   "fields.h5.new",
+    "fields.xdmf.new", "fields.vtkhdf.new", "checkpoint.h5.new"};
 /// Files that a run in the same folder goes on from.
-constexpr std::array continued{"history.h5", "checkpoint.h5", "modes.h5",  "modes.xdmf",
-                               "model.h5",   "model.xdmf",    "fields.h5", "fields.xdmf"};
+constexpr std::array continued{"history.h5", "checkpoint.h5", "modes.h5",
+                               "modes.xdmf", "model.h5",      "model.xdmf",
+                               "fields.h5",  "fields.xdmf",   "fields.vtkhdf"};
 
 std::string lock_path(const std::string& folder) {
   return folder + "/" + lock_name;

@@ -37,7 +37,7 @@ class IdleOptions {
         scene_.motion, [](const auto& component) { return component.has_value(); });
     const bool moved = shaken || !scene_.supports.empty();
     needs("loops_at", !scene_.loops.empty(), "loops");
-    for (const char* option : {"fields_start", "fields_end"}) {
+    for (const char* option : {"fields_start", "fields_end", "fields_format"}) {
       needs(option, scene_.fields_interval > 0, "fields_interval");
     }
     for (const char* option :

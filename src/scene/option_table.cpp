@@ -74,9 +74,10 @@ constexpr std::array option_rows{
     OptionRow{Block::run, "progress_interval", Kind::real, "s", value("2"), positive, "", "phases of the start-up that take longer say how far they are, twice as late each time; in a log the steps as well"},
     OptionRow{Block::run, "output", Kind::text, "folder", value("results"), any, "a folder", "result folder"},
     OptionRow{Block::run, "csv_digits", Kind::integer, "-", value("9"), csv_digits, "", "significant digits of the numbers in spectra.csv, impacts.csv, energy.csv and forces.csv; 17: to the bit"},
-    OptionRow{Block::run, "fields_interval", Kind::real, "s", value("0"), not_negative, "", "time between two frames of the motion of all nodes in fields.xdmf and fields.h5, for ParaView; 0: none"},
+    OptionRow{Block::run, "fields_interval", Kind::real, "s", value("0"), not_negative, "", "time between two frames of the motion of all nodes in fields.h5, for ParaView; 0: none"},
     OptionRow{Block::run, "fields_start", Kind::real, "s", value("0"), not_negative, "", "time of the first frame"},
     OptionRow{Block::run, "fields_end", Kind::real, "s", value("0"), not_negative, "", "no frame is later; 0: until the end of the run"},
+    OptionRow{Block::run, "fields_format", Kind::choice, "word", value("both"), any, "xdmf|vtkhdf|both", "how ParaView finds the frames in fields.h5: by fields.xdmf, by fields.vtkhdf (ParaView 5.12 and later), or by either"},
     OptionRow{Block::run, "checkpoint_interval", Kind::real, "s", value("0"), not_negative, "", "wall time between two checkpoints; 0: one only when a signal stops the run"},
     OptionRow{Block::run, "checkpoint_steps", Kind::integer, "steps", value("0"), not_negative, "", "steps between two checkpoints; 0: none"},
     OptionRow{Block::run, "ensemble", Kind::text, "file", value("none"), any, "a CSV file or none", "many runs at once: a table whose first line names options of the scene, with a line of values for each run; writes ensemble.h5 and ensemble.csv"},
@@ -312,7 +313,7 @@ constexpr std::array option_rows{
 constexpr std::array changeable_on_restart = std::to_array<std::string_view>({
     "title", "end_time", "courant", "time_step", "allow_unstable", "omega_max_tolerance", "progress_interval", "modes", "modes_solver", "write_modes", "write_model", "mesh_time_limit", "dry_run", "output",
     "checkpoint_interval", "checkpoint_steps", "export_matrices", "partition", "mesh_pieces", "write_mesh_pieces", "restart", "spectra_damping",
-    "spectra_frequencies", "spectra_start", "peak_frequency", "csv_digits"});
+    "spectra_frequencies", "spectra_start", "peak_frequency", "csv_digits", "fields_format"});
 // clang-format on
 
 }  // namespace

@@ -342,6 +342,9 @@ enum class PartitionBy { automatic, elements, structures };
 /// the factorisation where it fits into the memory.
 enum class SolverChoice { automatic, direct, iterative };
 
+/// Files that list the frames of the motion of all nodes for ParaView.
+enum class FieldsFormat { xdmf, vtkhdf, both };
+
 enum class Resampling { linear, band_limited };
 
 struct Probe {
@@ -406,7 +409,8 @@ struct Scene {
   double fields_interval = 0;  ///< between two pictures of the whole motion [s]; 0: none
   double fields_start = 0;     ///< of the first [s]
   double fields_end = 0;       ///< of the last at most [s]; 0: the end of the run
-  bool preload = false;        ///< start from the static equilibrium
+  FieldsFormat fields_format = FieldsFormat::both;
+  bool preload = false;  ///< start from the static equilibrium
   SolverChoice preload_solver = SolverChoice::automatic;
   double gap_tolerance = 0;      ///< contact where gap <= gap_tolerance x model size [-]
   double impact_merge_time = 0;  ///< contacts separated by less are one episode [s]

@@ -145,6 +145,10 @@ class SceneReader {
     scene_.fields_interval = options_.real("fields_interval");
     scene_.fields_start = options_.real("fields_start");
     scene_.fields_end = options_.real("fields_end");
+    const std::string format = options_.choice("fields_format");
+    scene_.fields_format = format == "both"   ? FieldsFormat::both
+                           : format == "xdmf" ? FieldsFormat::xdmf
+                                              : FieldsFormat::vtkhdf;
     scene_.checkpoint_interval = options_.real("checkpoint_interval");
     scene_.checkpoint_steps = options_.integer("checkpoint_steps");
     const std::string table = options_.text("ensemble");
