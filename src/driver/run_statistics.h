@@ -8,6 +8,7 @@
 
 #include "common/matrix3.h"
 #include "driver/phase_report.h"
+#include "driver/rank_prediction.h"
 #include "driver/stated_peaks.h"
 #include "dynamics/energy_balance.h"
 #include "interactions/filler_rows.h"
@@ -111,6 +112,7 @@ struct RunStatistics {
   std::vector<std::string> overpressed;      ///< structures with a pendulum whose slope was cut
   std::vector<std::string> warnings;         ///< one line each: what the run came upon
   PhaseReport phases;                        ///< time and memory
+  std::optional<RankPrediction> prediction;  ///< with -predict_ranks; rank 0
 };
 
 }  // namespace pounding

@@ -44,9 +44,11 @@ Facts separation_facts(const Scene& scene, const Model& model);
 /// Facts of the forces that hold a scene at rest that starts there (rest_facts.cpp).
 Facts rest_facts(const Scene& scene, const Model& model);
 
-/// Facts of the ranks' parts, the time step, energies, phases and warnings (run_facts.cpp).
+/// Facts of the ranks' parts, the time step, a step on ranks that are not there, energies, phases
+/// and warnings (run_facts.cpp).
 Facts partition_facts(const Model& model);
 Facts time_step_facts(const Scene& scene, const Model& model);
+Facts prediction_facts(const RankPrediction& prediction);
 Facts energy_facts(const RunStatistics& run);
 Facts phase_facts(const PhaseReport& report);
 Facts warning_facts(std::span<const std::string> lines);

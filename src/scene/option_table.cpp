@@ -71,6 +71,9 @@ constexpr std::array option_rows{
     OptionRow{Block::run, "mesh_time_limit", Kind::real, "s", value("600"), positive, "", "time that Gmsh may take for one mesh"},
     OptionRow{Block::run, "law_cycles", Kind::reals, "-", value("0"), not_negative, "amplitudes over the first corner", "in place of a run: takes every law of the scene through cycles of these amplitudes and writes laws.csv; 0: none"},
     OptionRow{Block::run, "dry_run", Kind::boolean, "flag", value("false"), any, "", "check the model, print the cost of a run, and stop"},
+    OptionRow{Block::run, "predict_ranks", Kind::integer, "ranks", value("0"), rank_count, "", "unknowns, messages, memory and time of a step foreseen on so many ranks, which need not be there; 0: none"},
+    OptionRow{Block::run, "latency", Kind::real, "s", value("2e-6"), positive, "", "time of a short message between these ranks"},
+    OptionRow{Block::run, "bandwidth", Kind::real, "B/s", value("1e10"), positive, "", "of long messages between these ranks"},
     OptionRow{Block::run, "progress_interval", Kind::real, "s", value("2"), positive, "", "phases of the start-up that take longer say how far they are, twice as late each time; in a log the steps as well"},
     OptionRow{Block::run, "output", Kind::text, "folder", value("results"), any, "a folder", "result folder"},
     OptionRow{Block::run, "csv_digits", Kind::integer, "-", value("9"), csv_digits, "", "significant digits of the numbers in spectra.csv, impacts.csv, energy.csv and forces.csv; 17: to the bit"},
@@ -313,7 +316,7 @@ constexpr std::array option_rows{
 constexpr std::array changeable_on_restart = std::to_array<std::string_view>({
     "title", "end_time", "courant", "time_step", "allow_unstable", "omega_max_tolerance", "progress_interval", "modes", "modes_solver", "write_modes", "write_model", "mesh_time_limit", "dry_run", "output",
     "checkpoint_interval", "checkpoint_steps", "export_matrices", "partition", "mesh_pieces", "write_mesh_pieces", "restart", "spectra_damping",
-    "spectra_frequencies", "spectra_start", "peak_frequency", "csv_digits", "fields_format"});
+    "spectra_frequencies", "spectra_start", "peak_frequency", "csv_digits", "fields_format", "predict_ranks", "latency", "bandwidth"});
 // clang-format on
 
 }  // namespace

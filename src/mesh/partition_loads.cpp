@@ -1,0 +1,78 @@
+#include "mesh/partition_loads.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "mesh/element_graph.h"
+
+namespace pounding {
+namespace {
+
+/// A node that a part needs and another one owns.
+struct NeededNode {
+  int part;
+  GlobalIndex node;
+  auto operator<=>(const NeededNode&) const = default;
+};
+
+/// Counts the elements that each part holds; returns the free nodes that parts need of each other.
+std::vector<NeededNode> count_held(const GlobalMesh& mesh, const std::vector<int>& owner,
+                                   std::vector<PartLoad>& loads) {
+  std::vector<NeededNode> needed;
+  std::vector<int> holders;
+  for (const ElementSet& set : mesh.regions) {
+    const ElementTraits& traits = traits_of(set.type);
+    const auto width = static_cast<std::size_t>(traits.layout.nodes);
+    for (std::size_t e = 0; e < set.tags.size(); ++e) {
+      const std::span nodes(&set.connectivity[e * width], width);
+      holders.clear();
+      for (const GlobalIndex node : nodes) holders.push_back(owner[node]);
+      std::ranges::sort(holders);
+      holders.erase(std::unique(holders.begin(), holders.end()), holders.end());
+      for (const int part : holders) {
+        ++loads[part].elements;
+        loads[part].cost += traits.cost;
+        if (holders.size() == 1) continue;
+        for (const GlobalIndex node : nodes) {
+          const bool is_ghost = owner[node] != part && mesh.free_components[node] != 0;
+          if (is_ghost) needed.push_back({part, node});
+        }
+      }
+    }
+  }
+  std::ranges::sort(needed);
+  needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+  return needed;
+}
+
+}  // namespace
+
+std::vector<PartLoad> part_loads(std::span<const GlobalMesh> meshes, const Partition& partition,
+                                 std::span<const int> whole) {
+  std::vector<PartLoad> loads(static_cast<std::size_t>(partition.parts));
+  std::set<std::pair<int, int>> neighbours;
+  for (std::size_t s = 0; s < meshes.size(); ++s) {
+    const GlobalMesh& mesh = meshes[s];
+    const std::vector<int>& owner = partition.node_owner[s];
+    for (std::size_t n = 0; n < owner.size(); ++n) {
+      loads[owner[n]].dofs += component_count(mesh.free_components[n]);
+    }
+    if (whole_part(whole, s) >= 0) continue;
+    std::set<std::pair<int, int>> messages;
+    for (const NeededNode& one : count_held(mesh, owner, loads)) {
+      const int from = owner[one.node];
+      const int dofs = component_count(mesh.free_components[one.node]);
+      loads[one.part].received += dofs;
+      loads[from].sent += dofs;
+      messages.insert({from, one.part});
+      neighbours.insert({from, one.part});
+      neighbours.insert({one.part, from});
+    }
+    for (const auto& [from, to] : messages) ++loads[from].messages;
+  }
+  for (const auto& [part, other] : neighbours) ++loads[part].neighbours;
+  return loads;
+}
+
+}  // namespace pounding

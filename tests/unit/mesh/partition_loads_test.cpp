@@ -1,0 +1,76 @@
+#include "mesh/partition_loads.h"
+
+#include <gtest/gtest.h>
+
+#include "elements/element_traits.h"
+
+namespace pounding {
+namespace {
+
+constexpr std::uint8_t translations = 0x07;
+
+/// Bars in a line whose first node is held.
+GlobalMesh bars(int count) {
+  GlobalMesh mesh;
+  ElementSet set{"bars", 0, ElementType::bar, {}, {}, {}};
+  for (int e = 0; e < count; ++e) {
+    set.tags.push_back(e + 1);
+    set.connectivity.insert(set.connectivity.end(), {e, e + 1});
+  }
+  mesh.regions.push_back(set);
+  mesh.free_components.assign(static_cast<std::size_t>(count) + 1, translations);
+  mesh.free_components[0] = 0;
+  for (int n = 0; n <= count; ++n) mesh.node_tags.push_back(n + 1);
+  return mesh;
+}
+
+TEST(PartitionLoads, CountElementsAtTheCutOnBothSides) {
+  const std::vector meshes{bars(4)};
+  Partition partition;
+  partition.parts = 2;
+  partition.node_owner = {{0, 0, 0, 1, 1}};
+  const std::vector<PartLoad> loads = part_loads(meshes, partition);
+  ASSERT_EQ(loads.size(), 2u);
+  EXPECT_EQ(loads[0].elements, 3);
+  EXPECT_EQ(loads[1].elements, 2);
+  for (const PartLoad& load : loads) {
+    EXPECT_EQ(load.dofs, 6);  // a node is held
+    EXPECT_EQ(load.cost, load.elements * traits_of(ElementType::bar).cost);
+    EXPECT_EQ(load.sent, 3);
+    EXPECT_EQ(load.received, 3);
+    EXPECT_EQ(load.messages, 1);
+    EXPECT_EQ(load.neighbours, 1);
+  }
+}
+
+TEST(PartitionLoads, HeldNodesAreNotSent) {
+  const std::vector meshes{bars(2)};
+  Partition partition;
+  partition.parts = 2;
+  partition.node_owner = {{0, 1, 1}};
+  const std::vector<PartLoad> loads = part_loads(meshes, partition);
+  EXPECT_EQ(loads[0].dofs, 0);
+  EXPECT_EQ(loads[0].received, 3);
+  EXPECT_EQ(loads[0].sent, 0);
+  EXPECT_EQ(loads[1].sent, 3);
+  EXPECT_EQ(loads[1].received, 0);
+  EXPECT_EQ(loads[0].messages, 0);
+  EXPECT_EQ(loads[0].neighbours, 1);
+}
+
+TEST(PartitionLoads, StructuresExchangeApartAndReducedOnesNothing) {
+  const std::vector meshes{bars(3), bars(3), bars(3)};
+  Partition partition;
+  partition.parts = 2;
+  partition.node_owner = {{0, 0, 1, 1}, {0, 0, 1, 1}, {1, 1, 1, 1}};
+  const std::vector<PartLoad> loads = part_loads(meshes, partition, std::vector{-1, -1, 1});
+  EXPECT_EQ(loads[0].messages, 2);
+  EXPECT_EQ(loads[0].neighbours, 1);
+  EXPECT_EQ(loads[0].sent, 6);
+  EXPECT_EQ(loads[0].dofs, 6);
+  EXPECT_EQ(loads[1].dofs, 12 + 9);
+  EXPECT_EQ(loads[1].elements, 4);
+}
+
+}  // namespace
+}  // namespace pounding
