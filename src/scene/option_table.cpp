@@ -301,10 +301,10 @@ constexpr std::array option_rows{
     OptionRow{Block::equipment, "<equipment>_capacity_unit", Kind::choice, "word", required, any, "m/s2|g", "unit of the accelerations of that file"},
     OptionRow{Block::equipment, "<equipment>_damping", Kind::real, "-", value("0.05"), damping_ratio, "", "damping ratio of both spectra, one of spectra_damping"},
     OptionRow{Block::equipment, "<equipment>_margin", Kind::real, "-", value("0.1"), not_negative, "", "margin: it passes where its capacity is 1 + margin times what is required"},
-    OptionRow{Block::equipment, "<equipment>_broadening", Kind::real, "-", value("0.15"), Range{0, 1, false, true}, "", "part by which the floor's spectrum is widened to both sides before, for the uncertainty of the building's frequencies"},
+    OptionRow{Block::equipment, "<equipment>_broadening", Kind::real, "-", value("0.15"), below_1, "", "part by which the floor's spectrum is widened to both sides before, for the uncertainty of the building's frequencies"},
     OptionRow{Block::equipment, "<equipment>_band", Kind::reals, "Hz", absent("all that both spectra have"), positive, "two frequencies low,high", "frequencies that count"},
     OptionRow{Block::equipment, "<equipment>_high_band", Kind::reals, "Hz", value("20,40"), positive, "two frequencies low,high", "frequencies whose smallest ratio is reported apart: relays and contactors chatter there"},
-    OptionRow{Block::equipment, "<equipment>_dip", Kind::real, "-", value("0"), Range{0, 1, false, true}, "", "part of the required ratio that may lack where the frequencies a sixth of an octave below and above have all of it"},
+    OptionRow{Block::equipment, "<equipment>_dip", Kind::real, "-", value("0"), below_1, "", "part of the required ratio that may lack where the frequencies a sixth of an octave below and above have all of it"},
 
     OptionRow{Block::spectra, "spectra_damping", Kind::reals, "-", value("0.05"), damping_ratio, "a comma-separated list of numbers", "damping ratios of the oscillators"},
     OptionRow{Block::spectra, "spectra_frequencies", Kind::text, "Hz", value("0.5:400:200log"), positive, "start:stop:COUNTlog, start:stop:COUNTlin (COUNT 2 to 100000) or an increasing list", "frequencies of the oscillators"},
