@@ -11,6 +11,9 @@ PROGRAM = os.path.abspath(os.path.join(BUILD, "pounding"))
 ALL = bool(os.environ.get("POUNDING_ALL"))  # run/test --all: also what takes long and seldom tells more
 RANKS = int(os.environ.get("POUNDING_RANKS", 2))  # of a run whose test does not ask for another number
 SHARED = os.environ.get("POUNDING_SHARED", os.path.join(os.path.dirname(SOURCE), "shared"))
+# Folders, meshes and records of a test file are in one folder, which goes with its process.
+PLACE = tempfile.TemporaryDirectory(prefix="pounding-test-", ignore_cleanup_errors=True)
+tempfile.tempdir = PLACE.name
 
 
 def environment():

@@ -40,9 +40,7 @@ def places_of(values, place=()):
 class Damaged(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        place = tempfile.TemporaryDirectory(prefix="pounding-")
-        cls.addClassCleanup(place.cleanup)
-        cls.place = Path(place.name)
+        cls.place = Path(tempfile.mkdtemp(prefix="pounding-"))
         cls.sound = two_buildings.run(cls.place / "sound", 1, gap=0.01, probes="left_roof", end_time=0.05, modes=2,
                                       output_interval=1e-3)
         cls.summary = json.loads((cls.place / "sound" / "summary.json").read_text())
@@ -135,9 +133,7 @@ class Arguments(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        place = tempfile.TemporaryDirectory(prefix="pounding-")
-        cls.addClassCleanup(place.cleanup)
-        cls.place = Path(place.name)
+        cls.place = Path(tempfile.mkdtemp(prefix="pounding-"))
         (cls.place / "odd").mkdir()
         (cls.place / "odd" / "summary.json").write_text('{"structures": 5}')
         (cls.place / "cut").mkdir()

@@ -23,9 +23,7 @@ PROBES = "left_floor,left_roof"
 class Compare(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        place = tempfile.TemporaryDirectory(prefix="pounding-")
-        cls.addClassCleanup(place.cleanup)
-        cls.place = Path(place.name)
+        cls.place = Path(tempfile.mkdtemp(prefix="pounding-"))
         cls.wide = two_buildings.run(cls.place / "wide", gap=0.06, probes=PROBES)
         cls.narrow = two_buildings.run(cls.place / "narrow", gap=0.01, probes=PROBES)
         cls.done = cls.compare("wide", "narrow")

@@ -24,19 +24,15 @@ class FidelityTarget(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory(prefix="pounding-")
-        result = program.run(program.COARSE_PAIR + ["-end_time", 1e-4, "-modes", 0, "-output", cls.folder.name], 1)
+        cls.folder = tempfile.mkdtemp(prefix="pounding-")
+        result = program.run(program.COARSE_PAIR + ["-end_time", 1e-4, "-modes", 0, "-output", cls.folder], 1)
         assert result.returncode == 0, result.stderr
-        key = program.summary(cls.folder.name)["structures_key"]
-        path = os.path.join(cls.folder.name, "table.csv")
+        key = program.summary(cls.folder)["structures_key"]
+        path = os.path.join(cls.folder, "table.csv")
         with open(TABLE) as file, open(path, "w") as copy:
             for line in file:
                 copy.write(f"# structures: {key} coarse pair\n" if line.startswith("# structures: ") else line)
         cls.coarse = program.COARSE_PAIR + ["-fidelity_table", path]
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     def test_table_has_full_order_and_faster_settings_for_every_class(self):
         rows = {row["setting"]: row for row in settings()}

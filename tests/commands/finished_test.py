@@ -23,9 +23,7 @@ class Kept(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        place = tempfile.TemporaryDirectory(prefix="pounding-")
-        cls.addClassCleanup(place.cleanup)
-        cls.place = Path(place.name).resolve()
+        cls.place = Path(tempfile.mkdtemp(prefix="pounding-")).resolve()
         for path in two_buildings.FOLDER.iterdir():
             shutil.copy(path, cls.place)
         (cls.place / "outer.geo").write_text('Include StrCat("build", "ing.geo");\n')

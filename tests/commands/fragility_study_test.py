@@ -42,9 +42,7 @@ def rows_of(path):
 
 class Study(unittest.TestCase):
     def setUp(self):
-        place = tempfile.TemporaryDirectory(prefix="pounding-")
-        self.addCleanup(place.cleanup)
-        self.place = Path(place.name)
+        self.place = Path(tempfile.mkdtemp(prefix="pounding-"))
 
     def fragility(self, *words, status=0, out="out", **changes):
         """Runs the command in the folder, with results in `out` there."""
@@ -239,7 +237,6 @@ class Study(unittest.TestCase):
         self.refuse("'cab' is no probe", "--dry-run", motions=told, reduction={},
                     capacities=[{**STUDY["capacities"][0], "probe": "cab"}])
         record = program.write_samples(np.sin(np.arange(300) / 9), 0.01)
-        self.addCleanup(os.unlink, record)
         twice = {"x": {"records": [record, record], "options": {"unit": "m/s2"}}}
         self.refuse("x " + os.path.basename(record), "--dry-run", motions=twice)
 

@@ -40,9 +40,7 @@ def processes(text):
 
 class InFolder(unittest.TestCase):
     def setUp(self):
-        place = tempfile.TemporaryDirectory(prefix="pounding-")
-        self.addCleanup(place.cleanup)
-        self.place = Path(place.name)
+        self.place = Path(tempfile.mkdtemp(prefix="pounding-"))
         for path in two_buildings.FOLDER.iterdir():
             shutil.copy(path, self.place)
 

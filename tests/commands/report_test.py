@@ -52,7 +52,6 @@ class Report(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.place = Path(tempfile.mkdtemp(prefix="pounding-report-"))
-        cls.addClassCleanup(shutil.rmtree, cls.place)
         cls.hit = two_buildings.run(cls.place / "hit", gap=0.01, **MORE)
         cls.alone = two_buildings.run(cls.place / "alone", contacts="none", **MORE)
         cls.wide = two_buildings.run(cls.place / "wide", 1, gap=0.06, **MORE)

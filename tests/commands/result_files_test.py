@@ -23,9 +23,7 @@ from pounding import files, runs, scenes  # noqa: E402
 
 class InFolder(unittest.TestCase):
     def setUp(self):
-        place = tempfile.TemporaryDirectory(prefix="pounding-")
-        self.addCleanup(place.cleanup)
-        self.place = Path(place.name)
+        self.place = Path(tempfile.mkdtemp(prefix="pounding-"))
         self.precious = self.place / "precious.txt"
         self.precious.write_text("precious")
         self.out = self.place / "out"

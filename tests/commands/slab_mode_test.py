@@ -19,7 +19,6 @@ from parts.campaign import slab_mode  # noqa: E402
 def modes(test, arguments, ranks):
     """Folder and summary of a few steps with mode shapes."""
     folder, summary = program.must_run(test, [*arguments, "-write_modes", "-end_time", 2e-5], ranks)
-    test.addCleanup(shutil.rmtree, folder)
     return Path(folder), summary
 
 

@@ -42,7 +42,6 @@ def write_record(test, values, step):
     handle, path = tempfile.mkstemp(suffix=".txt")
     with os.fdopen(handle, "w") as file:
         file.writelines(f"{value:.17g}\n" for value in values)
-    test.addCleanup(os.remove, path)
     return [path, "--unit", "m/s2", "--time-step", repr(step)]
 
 

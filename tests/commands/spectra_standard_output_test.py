@@ -1,7 +1,6 @@
 """The table of pounding-spectra goes to where the shell points its standard output: behind what is
 there, and never in silence to nowhere."""
 import os
-import shutil
 import subprocess
 import tempfile
 import unittest
@@ -12,9 +11,8 @@ from spectra_command import SPECTRA, frequencies, spectra, write_record
 class StandardOutput(unittest.TestCase):
     def setUp(self):
         self.words = write_record(self, [0, 1, -1, 0.5], 0.01) + frequencies([1, 10])
-        self.folder = tempfile.TemporaryDirectory(prefix="pounding-")
-        self.addCleanup(self.folder.cleanup)
-        self.path = os.path.join(self.folder.name, "all.csv")
+        self.folder = tempfile.mkdtemp(prefix="pounding-")
+        self.path = os.path.join(self.folder, "all.csv")
 
     def shell(self, line):
         return subprocess.run(["bash", "-c", line, SPECTRA, *self.words], capture_output=True, text=True, timeout=60)
@@ -60,7 +58,6 @@ class OutputFiles(unittest.TestCase):
     def setUp(self):
         self.words = write_record(self, [0, 1, -1, 0.5], 0.01) + frequencies([1, 10])
         self.folder = tempfile.mkdtemp(prefix="pounding-")
-        self.addCleanup(shutil.rmtree, self.folder)
 
     def refuse(self, path, words=(), option="--output"):
         with open(path, "rb") as file:

@@ -1,7 +1,6 @@
 """pounding-spectra on the results of a run: channels, frames, envelopes, and the five treatments."""
 import json
 import os
-import shutil
 import tempfile
 import unittest
 
@@ -52,10 +51,6 @@ class Results(unittest.TestCase):
         cls.folder = tempfile.mkdtemp(prefix="pounding-")
         make_results(cls.folder)
         cls.history = os.path.join(cls.folder, "history.h5")
-
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(cls.folder)
 
     def psa(self, treatment, values, *words):
         table = computed(self, self.history, "--channels", "roof.x", "--treatment", treatment,
@@ -194,10 +189,6 @@ class Refusals(unittest.TestCase):
         cls.folder = tempfile.mkdtemp(prefix="pounding-")
         make_results(cls.folder)
         cls.history = os.path.join(cls.folder, "history.h5")
-
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(cls.folder)
 
     def refuse(self, words, *expected):
         result = spectra(*words)

@@ -18,9 +18,8 @@ from pounding import runs  # noqa: E402
 
 class Interrupt(unittest.TestCase):
     def setUp(self):
-        place = tempfile.TemporaryDirectory(prefix="pounding-")
-        self.addCleanup(place.cleanup)
-        self.place, self.jobs = Path(place.name), []
+        place = tempfile.mkdtemp(prefix="pounding-")
+        self.place, self.jobs = Path(place), []
         sleeper = mock.patch.object(runs, "command", lambda words, ranks: ["sleep", "60"])
         sleeper.start()
         self.addCleanup(sleeper.stop)

@@ -15,15 +15,11 @@ class SceneStudy(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory(prefix="pounding-")
-        cls.scene = two_buildings.own_scene(cls.folder.name, "modes: 0\n")
-        cls.out = os.path.join(cls.folder.name, "study")
+        cls.folder = tempfile.mkdtemp(prefix="pounding-")
+        cls.scene = two_buildings.own_scene(cls.folder, "modes: 0\n")
+        cls.out = os.path.join(cls.folder, "study")
         cls.words = ["tradeoff", "--scene", cls.scene, "--only", "modal-50", "--output", cls.out]
         cls.done = program.command(*cls.words)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     def rows(self):
         with open(os.path.join(self.out, "tradeoff.csv"), newline="") as file:

@@ -20,9 +20,7 @@ def commands():
 class Tutorial(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        place = tempfile.TemporaryDirectory(prefix="pounding-")
-        cls.addClassCleanup(place.cleanup)
-        cls.place = Path(place.name)
+        cls.place = Path(tempfile.mkdtemp(prefix="pounding-"))
         build = os.path.abspath(program.BUILD)
         lines = ["set -euo pipefail", "export POUNDING_BUILD=" + build]
         for command in commands():

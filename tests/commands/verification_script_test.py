@@ -29,9 +29,8 @@ if __name__ == "__main__":
 
 class Verification(unittest.TestCase):
     def setUp(self):
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.problems, self.output = (os.path.join(place.name, name) for name in ("problems", "output"))
+        place = tempfile.mkdtemp()
+        self.problems, self.output = (os.path.join(place, name) for name in ("problems", "output"))
         os.mkdir(self.problems)
 
     def write(self, name, text):

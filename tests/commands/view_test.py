@@ -5,7 +5,6 @@ import json
 import os
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -55,7 +54,6 @@ class View(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp(prefix="pounding-view-")
-        cls.addClassCleanup(shutil.rmtree, cls.folder)
         result = program.run([*CASE, "-output", cls.folder], 2)
         assert result.returncode == 0, result.stderr
         drawn = program.command("plot", cls.folder)

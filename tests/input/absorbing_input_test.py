@@ -1,5 +1,4 @@
 """What is refused of absorbing faces and of a motion from below: one line, exit status 1, on one and two ranks."""
-import os
 import tempfile
 import unittest
 
@@ -18,10 +17,6 @@ class Refused(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.record = write_samples([0.0, 1.0, 0.0, -1.0, 0.0], 0.01)
-
-    @classmethod
-    def tearDownClass(cls):
-        os.remove(cls.record)
 
     def along(self, axis):
         return [f"-motion_{axis}_record", self.record, f"-motion_{axis}_unit", "m/s2"]
@@ -85,7 +80,6 @@ class Refused(unittest.TestCase):
         record = write_samples([0.0, 1.0, 0.0], 0.01)
         words = SITE + BELOW + BASE + ["-motion_y_record", record, "-motion_y_unit", "m/s2", "-dry_run"]
         result = program.run(words, 2)
-        os.remove(record)
         self.assertEqual(result.returncode, 0, result.stderr[-500:])
         self.assertIn("the site drifts off", result.stdout)
 

@@ -260,7 +260,6 @@ class Groups(MeshCase):
                   "g.gmshOpen(sys.argv[1].encode(), ctypes.byref(e))\ng.gmshModelMeshGenerate(3, ctypes.byref(e))\n"
                   "g.gmshWrite(sys.argv[2].encode(), ctypes.byref(e))\nsys.exit(e.value)\n")
         subprocess.run([sys.executable, "-c", script, model, mesh], check=True, capture_output=True)
-        self.addCleanup(os.remove, mesh)
         self.hold(self.cube(mesh, "body", "base"))
 
 
@@ -415,7 +414,6 @@ class Gmsh(MeshCase):
             mesh = self.with_file(file.read(), ".geo")
         with open(mesh + ".opt", "w") as file:
             file.write("Mesh.Optimize = 0;\n")
-        self.addCleanup(os.remove, mesh + ".opt")
         _, summary = program.must_run(self, TABLE + ["-t_mesh", mesh])
         self.assertEqual([one["file"] for one in summary["inputs"] if one["option"] == "included"], [mesh + ".opt"])
 

@@ -1,6 +1,5 @@
 """What is understood of a record is said before it is used, and what may not be meant is refused or doubted."""
 import os
-import shutil
 import tempfile
 import unittest
 
@@ -25,7 +24,6 @@ class Motion(unittest.TestCase):
         handle, path = tempfile.mkstemp(suffix=".txt")
         with os.fdopen(handle, "w") as file:
             file.write(text)
-        self.addCleanup(os.remove, path)
         return path
 
     def refuse(self, text, *words, options=()):
@@ -142,7 +140,6 @@ class Motion(unittest.TestCase):
             f"{0.02 * i:.2f},{value}\n" for i, value in enumerate([0, 0.05, -0.1, 0.05, 0, 0, 0, 0, 0, 0.05, 0.2, 0.1, 0, 0])))
         for end, felt in ((0.18, 1), (0.2, 2), (0.25, 2)):
             folder = tempfile.mkdtemp(prefix="pounding-")
-            self.addCleanup(shutil.rmtree, folder)
             result = program.run(scene("-motion_x_record", path, "-motion_x_pga", 2, "-end_time", end, "-output", folder))
             self.assertEqual(result.returncode, 0, result.stderr)
             with h5py.File(os.path.join(folder, "history.h5")) as file:

@@ -16,7 +16,6 @@ CASE = program.COARSE_PAIR + ["-end_time", "0.001"]
 class Options(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="pounding-")
-        self.addCleanup(shutil.rmtree, self.folder)
 
     def file(self, name, text):
         path = os.path.join(self.folder, name)

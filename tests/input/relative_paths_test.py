@@ -13,9 +13,8 @@ SHORT = [word for name, value in {**two_buildings.SHORT, "end_time": 1e-3}.items
 
 class RelativePaths(unittest.TestCase):
     def setUp(self):
-        place = tempfile.TemporaryDirectory(prefix="pounding-")
-        self.addCleanup(place.cleanup)
-        self.scene, self.here = Path(place.name, "scene"), Path(place.name, "here")
+        place = tempfile.mkdtemp(prefix="pounding-")
+        self.scene, self.here = Path(place, "scene"), Path(place, "here")
         self.here.mkdir()
         shutil.copytree(two_buildings.FOLDER, self.scene)
 

@@ -22,7 +22,6 @@ LONG = BAR + ["-end_time", 1e6, "-output_interval", 0.5]
 class ResultFolder(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="pounding-")
-        self.addCleanup(shutil.rmtree, self.folder)
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -112,7 +111,6 @@ class ResultFolder(unittest.TestCase):
         names = os.listdir(self.folder)
         self.assertGreater(len(names), 10)
         elsewhere = tempfile.mkdtemp(prefix="pounding-elsewhere-")
-        self.addCleanup(shutil.rmtree, elsewhere)
         drafts = [name + ".new" for name in names]
         for name in [*names, *drafts, "running.lock"]:
             with open(os.path.join(elsewhere, name), "w") as file:

@@ -24,7 +24,6 @@ PROBE = ["-peak_frequency", "100", "-probes", "p", "-p_structure", "m", "-p_at"]
 class Run(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="pounding-")
-        self.addCleanup(shutil.rmtree, self.folder)
         self.output = os.path.join(self.folder, "results")
 
     def refuse(self, words, *expected):

@@ -1,5 +1,4 @@
 """Supports that move on their own and cannot be meant: one line each, on every rank."""
-import os
 import unittest
 
 import program
@@ -11,11 +10,6 @@ class WithRecord(unittest.TestCase):
     def setUpClass(cls):
         cls.record = program.write_samples([0, 0.1, -0.1, 0], 0.01)
         cls.still = program.write_samples([0, 1, 1, 0], 0.01)
-
-    @classmethod
-    def tearDownClass(cls):
-        os.remove(cls.record)
-        os.remove(cls.still)
 
     def words(self, *more, supports="west,east", groups=("v:foot0", "v:foot1"), structure=()):
         words = ["-structures", "v", *viaduct("v", 1, 0.0, *structure), *STEEL, *SECTION, "-end_time", 0.02, "-modes", 0,

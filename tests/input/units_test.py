@@ -42,7 +42,6 @@ class Units(unittest.TestCase):
         handle, path = tempfile.mkstemp(suffix=".txt")
         with os.fdopen(handle, "w") as file:
             file.write("0\n0.34\n-0.2\n0\n" * 20)
-        self.addCleanup(os.remove, path)
         words = ["-motion_x_record", path, "-motion_x_time_step", 0.01, "-motion_x_pga", 0]
         for unit, scale, what in (("m/s2", 1, "in g?"), ("g", 10, "above 3 g")):
             for ranks in (1, 2):

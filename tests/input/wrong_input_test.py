@@ -22,7 +22,6 @@ class WrongInput(unittest.TestCase):
         handle, path = tempfile.mkstemp(suffix=suffix)
         with os.fdopen(handle, "w") as file:
             file.write(text)
-        self.addCleanup(os.remove, path)
         return path
 
     def test_missing_options_file(self):

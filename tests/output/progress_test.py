@@ -47,9 +47,8 @@ LINE = re.compile(r"^  (\d+\.\d) %: t = (\S+) of 0\.15 s, (\S+) s of wall time p
 
 class Steps(unittest.TestCase):
     def started(self, ranks, interval, **streams):
-        folder = tempfile.TemporaryDirectory(prefix="pounding-")
-        self.addCleanup(folder.cleanup)
-        line = program.words([*LOOP, "-progress_interval", interval, "-output", folder.name], ranks)
+        folder = tempfile.mkdtemp(prefix="pounding-")
+        line = program.words([*LOOP, "-progress_interval", interval, "-output", folder], ranks)
         return subprocess.Popen(line, cwd=program.SOURCE, env=program.ENVIRONMENT, stderr=subprocess.DEVNULL, **streams)
 
     def test_a_log_grows_line_by_line(self):

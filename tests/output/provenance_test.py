@@ -7,7 +7,6 @@ import datetime
 import hashlib
 import os
 import re
-import shutil
 import subprocess
 import tempfile
 import unittest
@@ -23,7 +22,6 @@ STEP = 0.02
 class Provenance(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="pounding-origin-")
-        self.addCleanup(shutil.rmtree, self.folder)
         self.write("points.geo", "Point(1) = {0, 0, 0};\nPoint(2) = {1, 0, 0};\n")
         self.write("stick.geo", 'Include "points.geo";\nLine(1) = {1, 2};\nTransfinite Curve {1} = 3;\n'
                    'Physical Curve("post") = {1};\nPhysical Point("foot") = {1};\n')

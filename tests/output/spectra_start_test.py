@@ -32,7 +32,6 @@ class SpectraStart(unittest.TestCase):
         with os.fdopen(handle, "w") as file:
             for i in range(401):
                 file.write(f"{1.0 * numpy.sin(40 * (0.01 * i - 2.5)) if i >= 250 else 0.0:.12g}\n")
-        self.addCleanup(os.remove, self.record)
 
     def run_scene(self, *words, ranks=1):
         folder, summary = program.must_run(self, scene(self.record, "-motion_z_time_step", 0.01, *words), ranks)

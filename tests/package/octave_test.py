@@ -18,9 +18,7 @@ OCTAVE = shutil.which("octave-cli")
 class Octave(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        place = tempfile.TemporaryDirectory(prefix="pounding-")
-        cls.addClassCleanup(place.cleanup)
-        cls.folder = Path(place.name)
+        cls.folder = Path(tempfile.mkdtemp(prefix="pounding-"))
         cls.found = two_buildings.run(cls.folder, gap=0.01, forces="feet", feet_structure="left", feet_kind="reactions")
 
     def octave(self, text, status=0):

@@ -17,9 +17,7 @@ from two_buildings import pounding
 
 class Scenes(unittest.TestCase):
     def setUp(self):
-        place = tempfile.TemporaryDirectory(prefix="pounding-")
-        self.addCleanup(place.cleanup)
-        self.place = Path(place.name)
+        self.place = Path(tempfile.mkdtemp(prefix="pounding-"))
 
     def test_what_is_written_is_what_the_program_reads(self):
         scene = {"include": two_buildings.SCENE, "title": 'quotes " and \\ back', "end_time": 0.01, "modes": 2,
@@ -52,9 +50,7 @@ class Scenes(unittest.TestCase):
 class Results(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        place = tempfile.TemporaryDirectory(prefix="pounding-")
-        cls.addClassCleanup(place.cleanup)
-        cls.folder = Path(place.name)
+        cls.folder = Path(tempfile.mkdtemp(prefix="pounding-"))
         cls.found = two_buildings.run(cls.folder, gap=0.01)
 
     def test_arrays_are_those_of_the_files(self):

@@ -1,6 +1,5 @@
 """Runs of reduced structures that are stopped and continued; bases that are kept in a file."""
 import os
-import shutil
 import tempfile
 import unittest
 
@@ -72,7 +71,6 @@ class Restart(RestartCase):
 class Basis(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="pounding-")
-        self.addCleanup(shutil.rmtree, self.folder)
         self.files = {name: os.path.join(self.folder, name + ".h5") for name in ("s1", "s2")}
         self.case = PAIR + ["-end_time", 0.05]
         for name, path in self.files.items():

@@ -87,7 +87,6 @@ class Warnings(unittest.TestCase):
 class Broken(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="pounding-")
-        self.addCleanup(shutil.rmtree, self.folder)
 
     def refuse(self, mesh, element, *words, group="body", more=()):
         path = mesh.write(os.path.join(self.folder, "broken.msh"))
@@ -143,7 +142,6 @@ class Broken(unittest.TestCase):
 class WithoutMass(unittest.TestCase):
     def test_node_that_no_element_uses_is_left_out(self):
         folder = tempfile.mkdtemp(prefix="pounding-")
-        self.addCleanup(shutil.rmtree, folder)
         found = []
         for number, nodes in enumerate((CUBE.nodes, [*CUBE.nodes.tolist(), [7, 7, 7]])):
             path = Mesh(nodes, CUBE.groups).write(os.path.join(folder, f"{number}.msh"))

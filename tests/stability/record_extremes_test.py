@@ -19,11 +19,10 @@ MASS, OMEGA, TIME_STEP, STEPS = 50.0, 2 * math.pi * 3, 1e-3, 1000
 
 class Records(unittest.TestCase):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory(prefix="pounding-")
-        self.addCleanup(self.folder.cleanup)
+        self.folder = tempfile.mkdtemp(prefix="pounding-")
 
     def words(self, text, *more):
-        path = os.path.join(self.folder.name, "record.txt")
+        path = os.path.join(self.folder, "record.txt")
         with open(path, "w") as file:
             file.write(text)
         return ["-structures", "mass", *scenes.oscillator("mass", MASS * OMEGA**2, MASS, 0.0),

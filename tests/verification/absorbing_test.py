@@ -74,10 +74,6 @@ class WithPulse(unittest.TestCase):
     def setUpClass(cls):
         cls.pulse = Pulse()
 
-    @classmethod
-    def tearDownClass(cls):
-        os.remove(cls.pulse.file)
-
 
 class OneMaterial(WithPulse):
     def run_column(self, cells, ranks, *more, axes="x"):
@@ -124,7 +120,6 @@ class TwoLayers(unittest.TestCase):
         soil, rock = 20.0, 8.0
         run = Recorded(self, column(rock, soil, 16, 100, *pulse.along("x"), *clock(self.STEP / 4, 6, self.STEP),
                                     rock=self.ROCK, soil=self.SOIL), 2)
-        os.remove(pulse.file)
         times = run.time
         ratio = self.SOIL[0] * self.SOIL[1] / (self.ROCK[0] * self.ROCK[1])
         for frequency in (0.5, 1.0, 1.875, 3.0, 3.75, 5.625, 8.0):

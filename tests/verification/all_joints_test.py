@@ -1,7 +1,6 @@
 """Everything that lies between buildings in one scene: a block that slides with friction over many facets of a deck,
 held by springs that yield and by a dashpot, meets a post behind a filler that locks; deck and post stand on supports
 that move apart. Reference: the energy identity, momentum, and every number of ranks."""
-import os
 import unittest
 
 import numpy
@@ -24,10 +23,6 @@ class AllJoints(unittest.TestCase):
     def setUpClass(cls):
         time = numpy.arange(0, 0.4, 1e-3)
         cls.record = write_samples(6 * numpy.sin(2 * numpy.pi * 4 * time) * numpy.sin(numpy.pi * time / 0.4)**2, 1e-3)
-
-    @classmethod
-    def tearDownClass(cls):
-        os.remove(cls.record)
 
     def words(self, *more):
         words = ["-structures", "deck,block,post",

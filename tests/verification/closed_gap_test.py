@@ -9,7 +9,6 @@ The oscillators are hexahedra of unit section and length, clamped at one face: t
 half of the mass on the stiffness E A / L. The balls are squares of shell.
 """
 import math
-import os
 import unittest
 
 import numpy
@@ -120,7 +119,6 @@ class BallOnAShakenTable(unittest.TestCase):
     def test_takes_off_and_lands(self):
         record = write_sine(self.ACCELERATION, self.FREQUENCY, self.END, 5e-5)
         run = Recorded(self, self.scene(record))
-        os.remove(record)
         for k, (gamma, case) in enumerate(self.CASES.items()):
             takeoff, landing, speed, period = case
             impulse = run.force(f"table{k}") * self.TIME_STEP
@@ -177,7 +175,6 @@ class OscillatorBesideAStop(unittest.TestCase):
                     found = run.displacement("face.x")[::round(5e-3 / time_step)]
                     error = numpy.linalg.norm(found - expected) / numpy.linalg.norm(expected)
                     self.assertLess(error, 25 * time_step)
-            os.remove(record)
 
 
 if __name__ == "__main__":

@@ -49,10 +49,6 @@ class Oscillators(unittest.TestCase):
         with open(cls.mesh, "w") as file:
             file.write(MESH)
 
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(cls.folder)
-
     def words(self, frequencies, *more, end_time=10):
         return ["-structures", "a", "-a_mesh", self.mesh, "-a_m_element", "point_mass", "-a_m_mass", MASS,
                 "-a_k_element", "grounded_spring", "-a_k_stiffness", stiffness(*frequencies),

@@ -28,9 +28,7 @@ def widened(frequency, values, part):
 class Equipment(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        place = tempfile.TemporaryDirectory(prefix="pounding-equipment-")
-        cls.addClassCleanup(place.cleanup)
-        cls.place = Path(place.name)
+        cls.place = Path(tempfile.mkdtemp(prefix="pounding-equipment-"))
         flat = cls.file("flat", [(.1, 50.0), (1000, 50.0)])
         cls.hit = cls.run_with("hit", {"flat": {"capacity": flat}}, gap=.01)
         cls.frequency, values = cls.hit.spectrum("left_roof", "x", .05)

@@ -147,7 +147,6 @@ class Points(Shaken, unittest.TestCase):
     def test_point_of_the_moments_is_told(self):
         """Of reactions the origin and of a storey the origin at its level, where nothing else is given; of members none."""
         folder = tempfile.mkdtemp(prefix="pounding-")
-        self.addCleanup(shutil.rmtree, folder)
         words = self.words("-it_clamp", "z_min", "-end_time", 1e-3, "-probes", "none", "-modes", 1, "-forces",
                            "base,upper,plain,held", "-plain_structure", "it", "-plain_kind", "reactions", "-held_structure",
                            "it", "-held_kind", "members", "-held_group", "corners", "-it_corners_element", "grounded_spring",

@@ -5,7 +5,6 @@ References: the turning points and the wear of Code_Aster's problems SDND100 and
 is one; g (sin - mu cos) on a slope; the least of mu times the normal impulse and the momentum across it.
 """
 import math
-import os
 import unittest
 
 import numpy
@@ -66,7 +65,6 @@ class ShakenBlock(unittest.TestCase):
         record = write_sine(amplitude, 1, 12)
         run = Recorded(self, block(time_step, 12, 0.1, *RIGID, "-motion_x_record", record, "-motion_x_unit", "m/s2",
                                    "-motion_y_record", "none", "-motion_z_record", "none"), ranks, LONG)
-        os.remove(record)
         rate = abs(run.velocity("one.x")[(run.time >= 4) & (run.time < 12)])
         return GRAVITY * rate.mean()
 
@@ -144,10 +142,6 @@ class Stack(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.RECORD = write_sine(9.0, 3, 1)
-
-    @classmethod
-    def tearDownClass(cls):
-        os.remove(cls.RECORD)
 
     def words(self, *more, cells=3, friction=0.4):
         words = ["-structures", "deck,block", "-deck_mesh", "tests/meshes/box.geo", "-deck_mesh_set",

@@ -6,7 +6,6 @@ closes, and members, modes, ranks and restarts give one motion.
 """
 import math
 import os
-import shutil
 import tempfile
 import unittest
 
@@ -212,10 +211,8 @@ class EveryRoom(unittest.TestCase):
         for more in (["-end_time", 200 * STEP], ["-end_time", 120 * STEP, "-checkpoint_steps", 100]):
             folder, _ = program.must_run(self, self.words("-modes", 0, *more))
             folders.append(folder)
-            self.addCleanup(shutil.rmtree, folder)
         continued, _ = program.must_run(self, self.words("-modes", 0, "-restart",
                                                          os.path.join(folders[1], "checkpoint.h5")))
-        self.addCleanup(shutil.rmtree, continued)
         with h5py.File(os.path.join(folders[0], "history.h5")) as one:
             with h5py.File(os.path.join(continued, "history.h5")) as other:
                 for name in ("displacement", "velocity"):
@@ -233,7 +230,6 @@ class EveryRoom(unittest.TestCase):
             words = [*bar("-push_force", "100,0,0", "-push_table", file.name, "-modes", 0)]
             write(1)
             folder, _ = program.must_run(self, [*words, "-end_time", 60 * STEP, "-checkpoint_steps", 40])
-            self.addCleanup(shutil.rmtree, folder)
             write(2)
             program.must_refuse(self, [*words, "-end_time", 100 * STEP, "-restart",
                                        os.path.join(folder, "checkpoint.h5")], "motion")

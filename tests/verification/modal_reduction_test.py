@@ -170,9 +170,7 @@ class SeveralRanks(unittest.TestCase):
     """A basis that several ranks compute together is that of one, and repeats itself by its file."""
 
     def setUp(self):
-        place = tempfile.TemporaryDirectory(prefix="pounding-")
-        self.addCleanup(place.cleanup)
-        self.place = place.name
+        self.place = tempfile.mkdtemp(prefix="pounding-")
 
     def words(self, modes, ranks):
         return [*reduced("s1", modes, "modal_basis", f"{self.place}/s1-{ranks}.h5", "modal_ranks", ranks),

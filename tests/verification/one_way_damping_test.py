@@ -65,7 +65,6 @@ class Held(unittest.TestCase):
         handle, mesh = tempfile.mkstemp(suffix=".geo")
         with os.fdopen(handle, "w") as file:
             file.write(HANGER)
-        self.addCleanup(os.remove, mesh)
         names = {f"f{frequency}": frequency for frequency in FREQUENCIES}
         words = []
         for name, frequency in names.items():

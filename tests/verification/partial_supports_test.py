@@ -6,7 +6,6 @@ c^2 = E (1 - nu) / ((1 + nu) (1 - 2 nu) density), omega_k = 2 c / h sin((2 k - 1
 A slender beam on two pins: omega_k = (k pi / L)^2 (E I / (density A))^(1/2).
 """
 import math
-import os
 import shutil
 import unittest
 
@@ -20,10 +19,6 @@ class HalvesOfSymmetricDecks(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.shaking = write_sine(3.0, 7.0, 0.3)
-
-    @classmethod
-    def tearDownClass(cls):
-        os.remove(cls.shaking)
 
     def decks(self, whole, ranks=1, slab=0, more=()):
         words = ["-structures", "left,right", "-contacts", "joint", "-joint_secondary", "left:face",

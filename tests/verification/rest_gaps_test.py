@@ -6,7 +6,6 @@ one wider, or narrower, by that; everything that is said of the joint is said of
 """
 import os
 import re
-import shutil
 import tempfile
 import unittest
 
@@ -97,11 +96,8 @@ class GivenGap(unittest.TestCase):
         more = ["-over_initial_velocity", "0,0,-0.005", "-over_damping_uniform", 0.05]
         whole = Recorded(self, scene(*more, steps=200))
         folder = tempfile.mkdtemp()
-        try:
-            first = program.must_end(self, [*scene(*more, steps=200), "-checkpoint_steps", 100, "-output", folder])
-            again = Recorded(self, scene(*more, "-restart", os.path.join(folder, "checkpoint.h5"), steps=200))
-        finally:
-            shutil.rmtree(folder)
+        first = program.must_end(self, [*scene(*more, steps=200), "-checkpoint_steps", 100, "-output", folder])
+        again = Recorded(self, scene(*more, "-restart", os.path.join(folder, "checkpoint.h5"), steps=200))
         self.assertGreater(whole.summary["impacts"]["episodes"], 0)
         self.assertEqual(whole.summary["impacts"], again.summary["impacts"])
         self.assertEqual(whole.summary["contacts"], again.summary["contacts"])

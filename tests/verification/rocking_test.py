@@ -11,7 +11,6 @@ Its masses stand above its two edges, in 16 layers whose height is such that I i
 nodes of the base between the edges would take turns as pivots.
 """
 import math
-import os
 import unittest
 
 import numpy
@@ -116,7 +115,6 @@ class ShakenTower(unittest.TestCase):
 
     def shake(self, part, ranks, end=8.0, identity=1e-11):
         record = write_samples(self.ground(part, 1e-3 * numpy.arange(1501)), 1e-3)
-        self.addCleanup(os.remove, record)
         mesh = f"x0={-self.HALF_WIDTH},lx={2 * self.HALF_WIDTH},ly={2 * self.HALF_WIDTH},lz={self.HEIGHT},nz={self.LAYERS}"
         run = Recorded(self, [
             "-structures", "tower", "-tower_mesh", "tests/meshes/box.geo", "-tower_mesh_set", mesh, "-tower_clamp",

@@ -11,7 +11,6 @@ scheme is of first order at impacts; the program follows, step by step, what an 
 implementation of the scheme makes of the two masses.
 """
 import math
-import os
 import unittest
 
 import numpy
@@ -55,11 +54,6 @@ class SdofPounding(unittest.TestCase):
     def setUpClass(cls):
         cls.record = write_sine(ACCELERATION, FREQUENCY, 5.0)
         cls.earthquake = write_samples(earthquake.acceleration(), earthquake.STEP)
-
-    @classmethod
-    def tearDownClass(cls):
-        os.remove(cls.record)
-        os.remove(cls.earthquake)
 
     def test_frequencies_are_those_of_the_oscillators(self):
         _, summary = program.must_run(self, scene(0.05, 1e-3, self.record, 0.01) + ["-modes", 12])

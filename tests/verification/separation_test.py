@@ -58,10 +58,6 @@ class Oscillators(unittest.TestCase):
             numpy.sin(2 * numpy.pi * f * time + random.uniform(0, 6)) for f in (1.5, 2.3, 3.1, 4.2))
         cls.file = write_samples(cls.record, STEP)
 
-    @classmethod
-    def tearDownClass(cls):
-        os.remove(cls.file)
-
     def words(self, *more):
         return oscillators.scene(0.4, 1e-3, self.file, 0.01) + ["-modes", 12, "-resampling", "linear", *more]
 

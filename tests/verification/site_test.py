@@ -44,12 +44,9 @@ class Layer(unittest.TestCase):
         step = 1e-3
         times = step * numpy.arange(3001)
         record = write_samples(ormsby(times, self.SLOW), step)
-        try:
-            run = Recorded(self, [*SCENE, *self.ALONE, "-site_mesh_set", f"h={h}", "-time_step", step,
-                                  "-motion_x_record", record, "-motion_x_unit", "m/s2", "-free_field_at",
-                                  "-37.5,-37.5,0; 0,0,0", "-free_field_average", "false"], ranks)
-        finally:
-            os.remove(record)
+        run = Recorded(self, [*SCENE, *self.ALONE, "-site_mesh_set", f"h={h}", "-time_step", step,
+                              "-motion_x_record", record, "-motion_x_unit", "m/s2", "-free_field_at",
+                              "-37.5,-37.5,0; 0,0,0", "-free_field_average", "false"], ranks)
         waves = sum((-1)**n * 2 * self.displacement(run.time - (2 * n + 1) * HEIGHT / SPEED) for n in range(9))
         exact = waves - self.displacement(run.time)
         corner, middle = (run.displacement(f"free_field.{n}.x") for n in (1, 2))

@@ -11,7 +11,6 @@ Reference: an independent one-dimensional code. Here the bars are hexahedra with
 both have the section of the first, the second has its mass and stiffness per length by its material.
 """
 import math
-import os
 import unittest
 
 import numpy
@@ -87,10 +86,6 @@ class SlabPounding(unittest.TestCase):
     def setUpClass(cls):
         cls.record = write_sine(0.30 * 9.81, 2.6, END, 2.5e-5)
         cls.runs = {}
-
-    @classmethod
-    def tearDownClass(cls):
-        os.remove(cls.record)
 
     def run_of(self, name):
         if name not in self.runs:

@@ -7,7 +7,6 @@ an axis by the coupling of an arm. References: the published functions of a disk
 and of Wolf's cones, written here once more.
 """
 import math
-import os
 import tempfile
 import unittest
 
@@ -99,10 +98,6 @@ class Impedance(unittest.TestCase):
     def setUpClass(cls):
         cls.record = write_samples(pulse(), STEP)
         cls.omega = numpy.array(TESTED) * VELOCITY / RADIUS
-
-    @classmethod
-    def tearDownClass(cls):
-        os.remove(cls.record)
 
     def shaken(self, words, axes, ranks):
         motion = [word for axis in axes
@@ -302,7 +297,6 @@ class Stick(unittest.TestCase):
 
     def test_frequency_and_amplification(self):
         record = write_samples(pulse(int(self.TIME / STEP)), STEP)
-        self.addCleanup(os.remove, record)
         run = Recorded(self, self.on_soil("-motion_x_record", record, "-motion_x_unit", "m/s2",
                                           *clock(2e-4, self.TIME, STEP), *probes(it="stick:roof")), 2)
         self.assertLess(run.energy["relative_residual"], 1e-11)

@@ -4,7 +4,6 @@ Closed form: a free bar that turns about its middle goes on as it began, u = t v
 down here: a row of bricks, pulled out and let go, is a chain of masses and springs.
 """
 import os
-import shutil
 import tempfile
 import unittest
 
@@ -76,7 +75,6 @@ class Starts(unittest.TestCase):
 
     def test_a_stored_basis_has_it(self):
         folder = tempfile.mkdtemp()
-        self.addCleanup(shutil.rmtree, folder)
         words = bar("-bar_clamp", "x_min", *in_modes("bar", 12), "-bar_modal_basis", os.path.join(folder, "bar.h5"))
         first = Recorded(self, [*words, *self.stretched()])
         again = Recorded(self, [*words, *self.stretched()])

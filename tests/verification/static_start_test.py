@@ -6,7 +6,6 @@ bars. What starts at rest stays there, and small motions about it are those with
 """
 import math
 import os
-import shutil
 import tempfile
 import unittest
 
@@ -75,15 +74,12 @@ class HungBar(unittest.TestCase):
 
     def test_matrices_find_the_same(self):
         folder = tempfile.mkdtemp()
-        try:
-            self.hang("-export_matrices", folder)
-            read = self.hang("-bar_matrices", os.path.join(folder, "bar"))
-            self.assertLess(abs(read.displacement("foot.z") / -self.SAG - 1).max(), 1e-12)
-            # The files know nothing of the mass of clamped nodes.
-            rest = read.summary["equilibrium"]["structures"]["bar"]
-            self.assertAlmostEqual(rest["support"][2] / (self.WEIGHT * 0.95), 1, delta=1e-10)
-        finally:
-            shutil.rmtree(folder)
+        self.hang("-export_matrices", folder)
+        read = self.hang("-bar_matrices", os.path.join(folder, "bar"))
+        self.assertLess(abs(read.displacement("foot.z") / -self.SAG - 1).max(), 1e-12)
+        # The files know nothing of the mass of clamped nodes.
+        rest = read.summary["equilibrium"]["structures"]["bar"]
+        self.assertAlmostEqual(rest["support"][2] / (self.WEIGHT * 0.95), 1, delta=1e-10)
 
     def test_uniform_damping_leaves_the_rest_alone(self):
         uniform = ["-bar_damping_uniform", 0.05, "-bar_damping_reference", 100]
@@ -224,24 +220,21 @@ class Cantilever(unittest.TestCase):
                                             poisson=0.2), "-contacts", "floor", "-floor_secondary", "arm:z_min",
                  "-floor_primary", "wall", "-floor_gap", gap, "-end_time", 0.002, "-probes", "tip", "-tip_structure",
                  "arm", "-tip_group", "x_max", "-export_matrices", folder, *REST]
-        try:
-            for ranks in (1, 2, 3):
-                run = Recorded(self, words, ranks)
-                mass = self.matrix(folder, "arm/mass.mtx")[:, 0]
-                down = self.matrix(folder, "arm/influence.mtx")[:, 2]
-                rows = self.matrix(folder, "arm/contact.mtx")
-                displacement, force = self.solve(self.matrix(folder, "arm/stiffness.mtx"), -GRAVITY * mass * down,
-                                                 rows, numpy.full(len(rows), gap))
-                contact = run.summary["equilibrium"]["contacts"]["floor"]
-                self.assertGreater((force > 0).sum(), 1)
-                self.assertGreater((force == 0).sum(), 3)
-                self.assertEqual(contact["points"], (force > 0).sum())
-                self.assertAlmostEqual(contact["force"] / force.sum(), 1, delta=1e-9)
-                self.assertLess(abs(run.force("floor")[1:] / force.sum() - 1).max(), 1e-9)
-                tip = self.matrix(folder, "arm/probes.mtx")[2] @ displacement
-                self.assertLess(abs(run.displacement("tip.z") / tip - 1).max(), 1e-9)
-        finally:
-            shutil.rmtree(folder)
+        for ranks in (1, 2, 3):
+            run = Recorded(self, words, ranks)
+            mass = self.matrix(folder, "arm/mass.mtx")[:, 0]
+            down = self.matrix(folder, "arm/influence.mtx")[:, 2]
+            rows = self.matrix(folder, "arm/contact.mtx")
+            displacement, force = self.solve(self.matrix(folder, "arm/stiffness.mtx"), -GRAVITY * mass * down,
+                                             rows, numpy.full(len(rows), gap))
+            contact = run.summary["equilibrium"]["contacts"]["floor"]
+            self.assertGreater((force > 0).sum(), 1)
+            self.assertGreater((force == 0).sum(), 3)
+            self.assertEqual(contact["points"], (force > 0).sum())
+            self.assertAlmostEqual(contact["force"] / force.sum(), 1, delta=1e-9)
+            self.assertLess(abs(run.force("floor")[1:] / force.sum() - 1).max(), 1e-9)
+            tip = self.matrix(folder, "arm/probes.mtx")[2] @ displacement
+            self.assertLess(abs(run.displacement("tip.z") / tip - 1).max(), 1e-9)
 
 
 class OnSprings(unittest.TestCase):
@@ -302,10 +295,7 @@ class Portal(unittest.TestCase):
         record = write_sine(2.0, 3.0, 0.3)
         words = [*self.SCENE, "-motion_x_record", record, "-motion_x_unit", "m/s2", "-end_time", 0.3,
                  "-frame_damping_alpha", 1]
-        try:
-            return Recorded(self, words + list(more), ranks, identity=1e-11)
-        finally:
-            os.remove(record)
+        return Recorded(self, words + list(more), ranks, identity=1e-11)
 
     def test_stands_for_a_hundred_thousand_steps(self):
         """Clamped, under its weight, without damping."""

@@ -51,11 +51,6 @@ class Bases(unittest.TestCase):
         cls.pulse = Pulse(0.02, 0.5)
         cls.record = cls.pulse.file
 
-    @classmethod
-    def tearDownClass(cls):
-        shutil.rmtree(cls.folder)
-        os.remove(cls.record)
-
     def words(self, *more):
         return ["-structures", "a", "-a_mesh", self.mesh, "-a_mass_element", "point_mass", "-a_mass_mass", 5000,
                 "-a_column_element", "beam", "-a_column_material", "steel", "-a_column_section", "leg",

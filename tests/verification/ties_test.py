@@ -5,7 +5,6 @@ the face where there is a distance or the node turns, the bulge of edges that tu
 or as means over its cells with the shares dual to its own, which on a grid are products of those along its lines. T has B
 in the rows of what follows.
 """
-import os
 import unittest
 
 import numpy
@@ -203,36 +202,33 @@ class BesideDenseAlgebra(unittest.TestCase):
 
     def test_steps(self):
         record = write_sine(3.0, 40.0, 0.1)
-        try:
-            for name, (arguments, *_) in CASES.items():
-                dense = self.dense(name)
-                step = float(f"{min(0.9 * 2 / numpy.sqrt(dense.squared_frequencies()[-1]), 1e-4):.2g}")
-                count = 100
-                inverse = numpy.linalg.inv(dense.reduced_mass)
-                load = dense.motions.T @ (dense.mass * numpy.array([float(c == "y") for c in dense.component]))
-                place = numpy.zeros(len(dense.place))
-                place[dense.followers] = [dense.component[i] == "y" for i in dense.followers]
-                row = place / place.sum() @ dense.motions
-                u = numpy.zeros(len(inverse))
-                v = u.copy()
-                expected = []
-                for n in range(count):
-                    expected.append(row @ u)
-                    ground = numpy.interp(n * step, 1e-4 * numpy.arange(1001),
-                                          3.0 * numpy.sin(80e-4 * numpy.pi * numpy.arange(1001)))
-                    v = v + (step if n else step / 2) * inverse @ (-dense.reduced_stiffness @ u - load * ground)
-                    u = u + step * v
-                for ranks in (1, 2):
-                    with self.subTest(case=name, ranks=ranks):
-                        run = Recorded(self, [*arguments, *TIE, "-time_step", step, "-end_time", count * step,
-                                              "-output_interval", step, "-probes", "p", "-p_structure", "t", "-p_group",
-                                              "edge", "-motion_y_record", record, "-motion_y_unit", "m/s2"], ranks)
-                        found = run.displacement("p.y")[:count]
-                        size = abs(numpy.array(expected)).max()
-                        self.assertGreater(size, 0)
-                        self.assertLess(abs(found - expected).max() / size, 1e-9)
-        finally:
-            os.remove(record)
+        for name, (arguments, *_) in CASES.items():
+            dense = self.dense(name)
+            step = float(f"{min(0.9 * 2 / numpy.sqrt(dense.squared_frequencies()[-1]), 1e-4):.2g}")
+            count = 100
+            inverse = numpy.linalg.inv(dense.reduced_mass)
+            load = dense.motions.T @ (dense.mass * numpy.array([float(c == "y") for c in dense.component]))
+            place = numpy.zeros(len(dense.place))
+            place[dense.followers] = [dense.component[i] == "y" for i in dense.followers]
+            row = place / place.sum() @ dense.motions
+            u = numpy.zeros(len(inverse))
+            v = u.copy()
+            expected = []
+            for n in range(count):
+                expected.append(row @ u)
+                ground = numpy.interp(n * step, 1e-4 * numpy.arange(1001),
+                                      3.0 * numpy.sin(80e-4 * numpy.pi * numpy.arange(1001)))
+                v = v + (step if n else step / 2) * inverse @ (-dense.reduced_stiffness @ u - load * ground)
+                u = u + step * v
+            for ranks in (1, 2):
+                with self.subTest(case=name, ranks=ranks):
+                    run = Recorded(self, [*arguments, *TIE, "-time_step", step, "-end_time", count * step,
+                                          "-output_interval", step, "-probes", "p", "-p_structure", "t", "-p_group",
+                                          "edge", "-motion_y_record", record, "-motion_y_unit", "m/s2"], ranks)
+                    found = run.displacement("p.y")[:count]
+                    size = abs(numpy.array(expected)).max()
+                    self.assertGreater(size, 0)
+                    self.assertLess(abs(found - expected).max() / size, 1e-9)
 
     def test_rest_under_gravity(self):
         for name, (arguments, *_) in CASES.items():
@@ -500,7 +496,6 @@ class BesideOtherThings(unittest.TestCase):
     def shaken(self):
         """Two bricks shaken across."""
         record = write_sine(8.0, 10.0, 0.1)
-        self.addCleanup(os.remove, record)
         return [*BRICKS, *TIE, "-motion_y_record", record, "-motion_y_unit", "m/s2", "-output_interval", 1e-3,
                 "-end_time", 0.05, "-probes", "p", "-p_structure", "t", "-p_group", "edge"]
 

@@ -11,7 +11,6 @@ of a velocity of approach 1/(beta omega)^2 comes back, omega being its lowest fr
 deformation in its plane. The damping of its springs by beta is taken off their dashpots.
 """
 import math
-import os
 import unittest
 
 import numpy
@@ -95,10 +94,6 @@ class TorsionalSlabs(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.record = write_sine(ACCELERATION, FREQUENCY, END)
-
-    @classmethod
-    def tearDownClass(cls):
-        os.remove(cls.record)
 
     def pound(self, case, overdamping, ranks=1, end=END):
         return Recorded(self, scene(CASES[case][0], self.record, overdamping, end), ranks,
