@@ -7,6 +7,7 @@
 #include "common/error.h"
 #include "io/csv_file.h"
 #include "motion/accelerogram.h"
+#include "motion/oscillator_history.h"
 #include "motion/spectrum_shape.h"
 #include "scene/option_table.h"
 
@@ -64,6 +65,24 @@ bool is_dip(const Equipment& item, const TargetSpectrum& capacity, const TargetS
   return std::ranges::all_of(std::array{frequency / sixth, frequency * sixth}, [&](double beside) {
     return ratio_of(capacity.at(beside), required.at(beside)) >= needed;
   });
+}
+
+/// Spectrum of the absolute acceleration of the item's cabinet on the floor of a spectrum.
+ProbeSpectrum in_cabinet(const Scene& scene, const Equipment& item, const Recorder& recorder,
+                         const ProbeSpectrum& floor) {
+  const auto probe = std::ranges::find(recorder.probes(), item.probe, &ResolvedProbe::name);
+  const auto d = std::ranges::find(direction_names, floor.direction) - direction_names.begin();
+  const std::size_t channel =
+      3 * static_cast<std::size_t>(probe - recorder.probes().begin()) + static_cast<std::size_t>(d);
+  std::vector<double> moved = recorder.acceleration(channel);
+  const std::size_t first = recorder.first_record_from(scene.spectra.start);
+  moved.erase(moved.begin(),
+              moved.begin() + static_cast<std::ptrdiff_t>(std::min(first, moved.size())));
+  ProbeSpectrum spectrum = floor;
+  spectrum.points = response_spectrum(
+      oscillator_history(moved, recorder.interval(), item.cabinet_frequency, item.cabinet_damping),
+      recorder.interval(), scene.spectra.frequencies, item.damping, AfterRecord::ignored);
+  return spectrum;
 }
 
 EquipmentDemand demand_of(const Equipment& item, const TargetSpectrum& capacity,
@@ -125,7 +144,8 @@ std::vector<TargetSpectrum> read_capacities(const Scene& scene) {
 
 std::vector<EquipmentVerdict> judge_equipment(const Scene& scene,
                                               std::span<const TargetSpectrum> capacities,
-                                              std::span<const ProbeSpectrum> spectra) {
+                                              std::span<const ProbeSpectrum> spectra,
+                                              const Recorder& recorder) {
   std::vector<EquipmentVerdict> verdicts;
   for (std::size_t i = 0; i < scene.equipment.size(); ++i) {
     const Equipment& item = scene.equipment[i];
@@ -134,7 +154,9 @@ std::vector<EquipmentVerdict> judge_equipment(const Scene& scene,
       const auto d = std::ranges::find(direction_names, spectrum.direction);
       if (spectrum.probe == item.probe && std::abs(spectrum.damping_ratio - item.damping) < 1e-9 &&
           item.directions[d - direction_names.begin()]) {
-        verdict.demands.push_back(demand_of(item, capacities[i], spectrum));
+        verdict.demands.push_back(demand_of(
+            item, capacities[i],
+            item.cabinet_frequency > 0 ? in_cabinet(scene, item, recorder, spectrum) : spectrum));
       }
     }
   }
@@ -197,6 +219,9 @@ Facts equipment_facts(const Scene& scene, std::span<const EquipmentVerdict> verd
     facts.text += sentence("{:9.3f}", {1 + item.margin});
     facts.text += std::isfinite(high) ? sentence("   {:9.3f}", {high}) : "           -";
     facts.text += "   " + item.probe + "\n";
+    if (item.cabinet_frequency > 0) {
+      of["cabinet"] = {{"frequency", item.cabinet_frequency}, {"damping", item.cabinet_damping}};
+    }
     facts.values["equipment"][item.name] = std::move(of);
   }
   return facts;

@@ -38,11 +38,15 @@ std::vector<TargetSpectrum> read_capacities(const Scene& scene);
 
 /// Every item of the scene beside the spectrum of its probe at its damping ratio: widened to both
 /// sides, capacity over required from the frequencies that both have and the item's band contains.
+/// In a cabinet the spectrum is that of the cabinet's absolute acceleration, an oscillator on the
+/// floor. Rank 0, after the recorder finished.
+///
 /// It passes in a direction where the ratio is 1 + margin everywhere; `dip` of that may lack where
-/// the frequencies a sixth of an octave below and above have all of it. Serial.
+/// the frequencies a sixth of an octave below and above have all of it.
 std::vector<EquipmentVerdict> judge_equipment(const Scene& scene,
                                               std::span<const TargetSpectrum> capacities,
-                                              std::span<const ProbeSpectrum> spectra);
+                                              std::span<const ProbeSpectrum> spectra,
+                                              const Recorder& recorder);
 
 /// `equipment.csv`: required and capacity by item, direction and frequency. Throws UserError if it
 /// cannot be written.

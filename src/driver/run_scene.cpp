@@ -158,7 +158,8 @@ void run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
       append(peak_warnings(scene, statistics.peaks, loop.recorder()), statistics.warnings);
     }
     statistics.wall_time = MPI_Wtime() - start;
-    const std::vector<EquipmentVerdict> equipment = judge_equipment(scene, capacities, spectra);
+    const std::vector<EquipmentVerdict> equipment =
+        judge_equipment(scene, capacities, spectra, loop.recorder());
     if (!equipment.empty()) {
       write_equipment(scene.output + "/equipment.csv", scene, equipment, scene.csv_digits);
     }

@@ -19,6 +19,8 @@ struct Equipment {
   std::array<double, 2> band{0, 1e300};     ///< of the frequencies that count [Hz]
   std::array<double, 2> high_band{20, 40};  ///< whose ratio is reported apart [Hz]
   double dip = 0;                           ///< allowed at single frequencies [-]
+  double cabinet_frequency = 0;             ///< of a cabinet between floor and item [Hz]; 0: none
+  double cabinet_damping = 0;               ///< ratio of the cabinet [-]
 };
 
 }  // namespace pounding

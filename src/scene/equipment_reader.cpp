@@ -61,6 +61,10 @@ Equipment read_equipment(OptionReader& options, const Scene& scene, const std::s
   }
   item.high_band = read_band(options, "<equipment>_high_band", name);
   item.dip = options.real("<equipment>_dip", {name});
+  if (options.given("<equipment>_cabinet_frequency", {name})) {
+    item.cabinet_frequency = options.real("<equipment>_cabinet_frequency", {name});
+    item.cabinet_damping = options.real("<equipment>_cabinet_damping", {name});
+  }
   return item;
 }
 

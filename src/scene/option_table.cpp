@@ -306,6 +306,9 @@ constexpr std::array option_rows{
     OptionRow{Block::equipment, "<equipment>_high_band", Kind::reals, "Hz", value("20,40"), positive, "two frequencies low,high", "frequencies whose smallest ratio is reported apart: relays and contactors chatter there"},
     OptionRow{Block::equipment, "<equipment>_dip", Kind::real, "-", value("0"), below_1, "", "part of the required ratio that may lack where the frequencies a sixth of an octave below and above have all of it"},
 
+    OptionRow{Block::equipment, "<equipment>_cabinet_frequency", Kind::real, "Hz", absent("left out: it is mounted on the floor"), positive, "", "frequency of the cabinet in which it is mounted, an oscillator on the floor"},
+    OptionRow{Block::equipment, "<equipment>_cabinet_damping", Kind::real, "-", value("0.05"), damping_ratio, "", "damping ratio of the cabinet"},
+
     OptionRow{Block::spectra, "spectra_damping", Kind::reals, "-", value("0.05"), damping_ratio, "a comma-separated list of numbers", "damping ratios of the oscillators"},
     OptionRow{Block::spectra, "spectra_frequencies", Kind::text, "Hz", value("0.5:400:200log"), positive, "start:stop:COUNTlog, start:stop:COUNTlin (COUNT 2 to 100000) or an increasing list", "frequencies of the oscillators"},
     OptionRow{Block::spectra, "spectra_start", Kind::real, "s", value("0"), not_negative, "", "time from which spectra and peak values count: the oscillators are at rest then"},

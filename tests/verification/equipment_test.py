@@ -2,13 +2,17 @@
 report that says which items fail because of the joint.
 
 Two small buildings for 1.2 s at a gap of 10 mm, where they hit, and without contacts."""
+import csv
 import html
+import os
 import re
+import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
 import numpy
+import scipy.signal
 
 import program
 import two_buildings
@@ -59,6 +63,27 @@ class Equipment(unittest.TestCase):
         self.assertAlmostEqual(one["directions"]["x"]["required_at_zero_period"] / self.required[-1], 1, delta=1e-7)
         high = self.required[(self.frequency >= 20) & (self.frequency <= 40)].max()
         self.assertAlmostEqual(one["high_band_ratio"] * high / 50, 1, delta=1e-7)
+
+    def test_in_a_cabinet(self):
+        """The spectrum of an oscillator on the recorded floor, by another integration of the same samples."""
+        item = {"flat": {"capacity": self.file("flat", [(.1, 50.0), (1000, 50.0)]), "cabinet_frequency": 12,
+                         "cabinet_damping": .03}}
+        run = self.run_with("cabinet", item, gap=.01)
+        time, floor = run.series("acceleration", "left_roof", "x")
+        omega, step = 2 * numpy.pi * 12, time[1] - time[0]
+        system = scipy.signal.cont2discrete((numpy.array([[0, 1], [-omega**2, -.06 * omega]]), numpy.array([[0.0], [-1]]),
+                                             numpy.array([[-omega**2, -.06 * omega]]), numpy.zeros((1, 1))), step, "foh")
+        history = scipy.signal.dlsim(system, floor)[1].ravel()
+        path = self.place / "inside.csv"
+        numpy.savetxt(path, numpy.column_stack([time - time[0], history]), delimiter=",", header="time,acceleration", comments="")
+        words = [os.path.join(program.BUILD, "pounding-spectra"), "--columns", "2", "--unit", "m/s2", "--after", "ignored",
+                 "--frequencies", ",".join(f"{one:.9g}" for one in self.frequency), str(path)]
+        found = subprocess.run(words, capture_output=True, text=True, check=True, cwd=program.SOURCE).stdout
+        rows = list(csv.DictReader(line for line in found.splitlines() if not line.startswith("#")))
+        values = numpy.array([float(row["pseudo_acceleration"]) for row in rows])
+        numpy.testing.assert_allclose(run.equipment["required"], widened(self.frequency, values, WIDTH), rtol=1e-5)
+        at_twelve = numpy.interp(12, self.frequency, run.equipment["required"])
+        self.assertGreater(at_twelve, 3 * numpy.interp(12, self.frequency, self.required))  # it resonates
 
     def test_rules(self):
         """Capacities that are the required spectrum times a factor, with what each rule is about."""
