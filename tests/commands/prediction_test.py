@@ -1,7 +1,6 @@
 """-predict_ranks: loads are those that so many ranks have, and the step is that of the model of run/scaling."""
 import math
 import os
-import shutil
 import sys
 import tempfile
 import unittest
@@ -21,7 +20,6 @@ LOADS = ("imbalance", "mean_dofs", "largest_dofs", "largest_elements", "largest_
 class Prediction(unittest.TestCase):
     def predict(self, ranks, *arguments):
         folder, summary = program.must_run(self, [*RUN, *arguments], ranks)
-        self.addCleanup(shutil.rmtree, folder)
         return summary
 
     def test_loads_are_those_of_the_ranks_when_they_are_there(self):
@@ -60,8 +58,7 @@ class Prediction(unittest.TestCase):
 
     def test_a_dry_run_prints_it(self):
         for ranks in (1, 2):
-            result = program.run([*RUN, "-dry_run", "-predict_ranks", 16], ranks)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            result = program.must_end(self, [*RUN, "-dry_run", "-predict_ranks", 16], ranks)
             table = result.stdout.partition("foreseen, by latency 2e-06 s, bandwidth 1e+10 B/s")[2].splitlines()
             self.assertEqual(table[1].split()[-2:], [str(ranks), "16"])
             step = next(line for line in table if line.startswith("  step [microseconds]")).split()

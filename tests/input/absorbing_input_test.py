@@ -79,8 +79,7 @@ class Refused(unittest.TestCase):
     def test_a_record_that_drifts_is_doubted(self):
         record = write_samples([0.0, 1.0, 0.0], 0.01)
         words = SITE + BELOW + BASE + ["-motion_y_record", record, "-motion_y_unit", "m/s2", "-dry_run"]
-        result = program.run(words, 2)
-        self.assertEqual(result.returncode, 0, result.stderr[-500:])
+        result = program.must_end(self, words, 2)
         self.assertIn("the site drifts off", result.stdout)
 
 

@@ -61,11 +61,8 @@ class Restart(RestartCase):
             check[5] = -check[5]  # a vector that points the other way
             file["structures/s1/basis_check"][...] = check
         self.assertEqual(program.command("seal", checkpoint(cut)).returncode, 0)
-        result = program.run(PAIR + END + ["-restart", checkpoint(cut), "-output", self.folder()], 2)
-        self.assertEqual(result.returncode, 1)
-        line, = program.error_lines(result)
-        for word in ("-restart", "s1", "another modal basis", "-s1_modal_basis"):
-            self.assertIn(word, line)
+        program.must_refuse(self, PAIR + END + ["-restart", checkpoint(cut), "-output", self.folder()], *("-restart",
+                            "s1", "another modal basis", "-s1_modal_basis"), ranks=2)
 
 
 class Basis(unittest.TestCase):
@@ -78,8 +75,7 @@ class Basis(unittest.TestCase):
 
     def run_case(self, *more, ranks=2):
         output = os.path.join(self.folder, "results")
-        result = program.run(self.case + list(more) + ["-output", output], ranks)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = program.must_end(self, self.case + list(more) + ["-output", output], ranks)
         with h5py.File(os.path.join(output, "history.h5")) as file:
             return result.stdout, file["velocity"][()]
 
@@ -120,10 +116,8 @@ class Basis(unittest.TestCase):
             with open(self.files["s1"], "rb") as file:
                 before = file.read()
             for ranks in (1, 2):
-                result = program.run(self.case + ["-output", self.folder], ranks)
-                self.assertEqual(result.returncode, 1)
-                line, = program.error_lines(result)
-                self.assertIn("-s1_modal_basis " + self.files["s1"], line)
+                program.must_refuse(self, self.case + ["-output", self.folder], "-s1_modal_basis " + self.files["s1"],
+                                    ranks=ranks)
             with open(self.files["s1"], "rb") as file:
                 self.assertEqual(file.read(), before)
 
@@ -132,11 +126,8 @@ class Basis(unittest.TestCase):
 
         def refuse(word):
             for ranks in (1, 2):
-                result = program.run(self.case + ["-output", self.folder], ranks)
-                self.assertEqual(result.returncode, 1)
-                line, = program.error_lines(result)
-                self.assertIn("-s1_modal_basis " + self.files["s1"], line)
-                self.assertIn(word, line)
+                program.must_refuse(self, self.case + ["-output", self.folder], "-s1_modal_basis " + self.files["s1"],
+                                    word, ranks=ranks)
 
         with h5py.File(self.files["s1"], "r+") as file:
             file["squared_frequency"][1] = float("nan")
@@ -154,9 +145,8 @@ class Basis(unittest.TestCase):
 
     def test_file_that_cannot_be_written(self):
         self.files["s1"] = os.path.join(self.folder, "nowhere", "s1.h5")
-        result = program.run(self.case + ["-s1_modal_basis", self.files["s1"]], 2)
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("-s1_modal_basis " + self.files["s1"], program.error_lines(result)[0])
+        program.must_refuse(self, self.case + ["-s1_modal_basis", self.files["s1"]],
+                            "-s1_modal_basis " + self.files["s1"], ranks=2)
 
 
 if __name__ == "__main__":

@@ -6,24 +6,23 @@ References: rest and beam theory; the impulse that stops two lumped masses at a 
 import unittest
 
 import program
+from decks import box_of, clock, contacts, material, section
 from recorded import Recorded
 
 YOUNG, DENSITY, THICKNESS, HEIGHT, INERTIA, AREA = 30e9, 2500.0, 0.2, 4.0, 2.1e-4, 0.05
-COLUMN = ["-c_stem_element", "beam", "-c_stem_material", "concrete", "-c_stem_section", "square", "-section_square_area",
-          AREA, "-section_square_inertia_y", INERTIA, "-section_square_inertia_z", INERTIA, "-section_square_torsion",
-          2 * INERTIA, "-section_square_z_axis", "1,0,0", "-material_concrete_young", YOUNG,
-          "-material_concrete_poisson", 0.2, "-material_concrete_density", DENSITY]
+COLUMN = ["-c_stem_element", "beam", "-c_stem_material", "concrete", "-c_stem_section", "square",
+          *section("square", AREA, INERTIA, INERTIA, 2 * INERTIA, "1,0,0"), *material("concrete", YOUNG, 0.2, DENSITY)]
 
 
 def scene(cells, level, elements, *more, y0=-0.5, gap=0.0):
     """A slab of cells x cells at a level of a column of so many elements."""
     return ["-structures", "s,c", "-s_mesh", "tests/meshes/floor.geo", "-s_mesh_set",
             f"z={level},n={cells},x0=-1.05,y0={y0}", "-s_plate_element", "shell", "-s_plate_material", "concrete",
-            "-s_plate_thickness", THICKNESS, "-s_clamp", "plate:y+z+rx+ry+rz", "-c_mesh",
-            "tests/meshes/cantilever.geo", "-c_mesh_set", f"height={HEIGHT},n={elements}", "-c_clamp", "base,top",
-            *COLUMN, "-contacts", "joint", "-joint_secondary", "s:edge", "-joint_primary", "c:stem", "-joint_gap", gap,
-            "-probes", "mid,edge", "-mid_structure", "c", "-mid_at", f"0,0,{HEIGHT * (elements // 2) / elements!r}", "-edge_structure", "s",
-            "-edge_at", f"-0.05,{y0},{level}", *more]
+            "-s_plate_thickness", THICKNESS, "-s_clamp", "plate:y+z+rx+ry+rz", "-c_mesh", "tests/meshes/cantilever.geo",
+            "-c_mesh_set", f"height={HEIGHT},n={elements}", "-c_clamp", "base,top", *COLUMN,
+            *contacts(joint=("s:edge", "c:stem", gap)), "-probes", "mid,edge", "-mid_structure", "c", "-mid_at",
+            f"0,0,{HEIGHT * (elements // 2) / elements!r}", "-edge_structure", "s", "-edge_at", f"-0.05,{y0},{level}",
+            *more]
 
 
 class AtRest(unittest.TestCase):
@@ -32,8 +31,7 @@ class AtRest(unittest.TestCase):
     def deflection(self, cells, elements, ranks, **place):
         """Of the column's middle over that of beam theory."""
         run = Recorded(self, scene(cells, HEIGHT / 2, elements, "-s_gravity", f"{self.PUSH},0,0", "-preload", "static",
-                                   "-time_step", 1e-6, "-end_time", 2e-6, "-output_interval", 1e-6,
-                                   **place), ranks, identity=1e-9)
+                                   *clock(1e-6, 2e-6), **place), ranks, identity=1e-9)
         weight = DENSITY * THICKNESS * self.PUSH
         force = run.force("joint")[run.time > 0]
         self.assertLess(abs(force / weight - 1).max(), 1e-6)
@@ -66,7 +64,7 @@ class Impacts(unittest.TestCase):
         """Nodes of the edge carry h^2 t rho / 2, those of the column the mass of an element."""
         for cells, elements, edge, column in ((3, 4, (0.5, 0.5), (1,)), (4, 4, (1,), (1,)), (3, 5, (0.5, 0.5), (0.5, 0.5)),
                                               (4, 5, (1,), (0.5, 0.5))):
-            run = self.impact(cells, elements, 2, "-time_step", 1e-9, "-end_time", 1e-9, "-output_interval", 1e-9)
+            run = self.impact(cells, elements, 2, *clock(1e-9, 1e-9))
             node = DENSITY * THICKNESS / cells**2 / 2
             bit = DENSITY * AREA * HEIGHT / elements
             compliance = sum(w**2 for w in edge) / node + sum(w**2 for w in column) / bit
@@ -84,12 +82,10 @@ class Impacts(unittest.TestCase):
         self.assertLess(max(runs[0].column("max_penetration")), 1.1 * self.SPEED * 1e-5)
 
     def bricks(self, secondary, primary):
-        return ["-structures", "b,c", "-b_mesh", "tests/meshes/box.geo", "-b_mesh_set",
-                 "x0=0.1,y0=-0.5,z0=0.9,lz=2.2,nz=2", "-b_body_element", "hex8", "-b_body_material", "concrete",
-                 "-b_initial_velocity", "-1,0,0", "-c_mesh", "tests/meshes/cantilever.geo", "-c_mesh_set",
-                 f"height={HEIGHT},n=8", "-c_clamp", "base,top", *COLUMN, "-contacts", "joint", "-joint_secondary",
-                 secondary, "-joint_primary", primary, "-joint_gap", 0.001, "-time_step", 1e-5, "-output_interval",
-                 1e-5, "-end_time", 0.02, "-probes", "mid", "-mid_structure", "c", "-mid_at", f"0,0,{HEIGHT / 2}"]
+        return ["-structures", "b,c", *box_of("b", "x0=0.1,y0=-0.5,z0=0.9,lz=2.2,nz=2", "concrete"),
+                "-b_initial_velocity", "-1,0,0", "-c_mesh", "tests/meshes/cantilever.geo", "-c_mesh_set",
+                f"height={HEIGHT},n=8", "-c_clamp", "base,top", *COLUMN, *contacts(joint=(secondary, primary, 0.001)),
+                *clock(1e-5, 0.02), "-probes", "mid", "-mid_structure", "c", "-mid_at", f"0,0,{HEIGHT / 2}"]
 
     def test_column_before_a_face_of_bricks(self):
         """Its nodes are kept out of the face, those that face it: between 1 and 3 m there are five of nine."""

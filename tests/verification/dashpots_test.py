@@ -15,6 +15,7 @@ import numpy
 import scipy.io
 
 import program
+from decks import contacts, in_modes, material
 from recorded import Recorded
 from springs_test import SPEED, chain, point, spring
 from tension_brace_test import scene as braces
@@ -125,7 +126,7 @@ class TwoMasses(unittest.TestCase):
         for dashpots, others in ((MILD, (1,)), (STRONG, (2, 3))):
             full = Recorded(self, words(dashpots), 1)
             for ranks in others:
-                run = Recorded(self, words(dashpots, "-chain_model", "modal", "-chain_modal_vectors", 6), ranks)
+                run = Recorded(self, words(dashpots, *in_modes("chain", 6)), ranks)
                 for name in ("one", "two"):
                     u, v = full.displacement(f"{name}.x"), run.displacement(f"{name}.x")
                     self.assertLess(abs(u - v).max(), 1e-9 * abs(u).max())
@@ -149,15 +150,14 @@ class AtAContact(unittest.TestCase):
 
     def test_energy_never_grows(self):
         for dashpot, ranks in ((1e4, 1), (1e6, 2), (1e7, 1)):
-            folder, summary = program.must_run(self, [
-                "-structures", "bar", "-bar_mesh", "tests/meshes/sprung_bar.geo",
-                "-bar_body_element", "hex8", "-bar_body_material", "steel",
-                "-material_steel_young", 2e11, "-material_steel_poisson", 0.3,
-                "-material_steel_density", 7800, "-bar_ends_element", "grounded_spring",
-                "-bar_ends_stiffness", "0,0,0", "-bar_ends_dashpot", f"{dashpot!r},{dashpot!r},0",
-                "-bar_ignore", "inner", "-bar_initial_velocity", "1,0,0", "-contacts", "hit",
-                "-hit_secondary", "bar:x_max", "-hit_primary", "wall", "-hit_gap", 1e-6,
-                "-end_time", 4e-2, "-energy_interval", 1, "-modes", 0], ranks)
+            folder, summary = program.must_run(self, ["-structures", "bar", "-bar_mesh", "tests/meshes/sprung_bar.geo",
+                                                      "-bar_body_element", "hex8", "-bar_body_material", "steel",
+                                                      *material("steel", 2e11, 0.3, 7800), "-bar_ends_element",
+                                                      "grounded_spring", "-bar_ends_stiffness", "0,0,0",
+                                                      "-bar_ends_dashpot", f"{dashpot!r},{dashpot!r},0", "-bar_ignore",
+                                                      "inner", "-bar_initial_velocity", "1,0,0",
+                                                      *contacts(hit=("bar:x_max", "wall", 1e-6)), "-end_time", 4e-2,
+                                                      "-energy_interval", 1, "-modes", 0], ranks)
             self.assertLess(summary["energy"]["relative_residual"], 1e-12)
             columns = program.read_csv(f"{folder}/energy.csv")
             total = [float(a) + float(b) for a, b in zip(columns["kinetic"], columns["strain"])]
@@ -175,7 +175,7 @@ class Braces(unittest.TestCase):
     def run_both(self, *more):
         arguments = braces(("left",), 3e4, 2e-3, 2.0) + list(more)
         return Recorded(self, arguments, 1), [
-            Recorded(self, arguments + ["-frame_model", "modal", "-frame_modal_vectors", 3], ranks)
+            Recorded(self, arguments + [*in_modes("frame", 3)], ranks)
             for ranks in (1, 2)]
 
     def test_same_as_the_finite_elements(self):
@@ -188,8 +188,7 @@ class Braces(unittest.TestCase):
             self.assertAlmostEqual(run.energy["strain"] / full.energy["strain"], 1, delta=1e-6)
 
     def test_with_uniform_damping_they_are_refused(self):
-        arguments = braces(("left",), 3e4, 2e-3, 2.0) + [
-            "-frame_model", "modal", "-frame_modal_vectors", 3, "-frame_damping_uniform", 0.02]
+        arguments = braces(("left",), 3e4, 2e-3, 2.0) + [*in_modes("frame", 3), "-frame_damping_uniform", 0.02]
         program.must_refuse(self, arguments, "-frame_left_tension_only", ranks=2)
 
 

@@ -15,6 +15,7 @@ import h5py
 import numpy
 
 import program
+from decks import box_of, in_modes, material, probes
 
 MESH = """$MeshFormat
 2.2 0 8
@@ -51,9 +52,8 @@ class Oscillators(unittest.TestCase):
 
     def words(self, frequencies, *more, end_time=10):
         return ["-structures", "a", "-a_mesh", self.mesh, "-a_m_element", "point_mass", "-a_m_mass", MASS,
-                "-a_k_element", "grounded_spring", "-a_k_stiffness", stiffness(*frequencies),
-                "-a_initial_velocity", f"{SPEED},0,0", "-probes", "p", "-p_structure", "a", "-p_at", "0,0,0",
-                "-modes", 3, "-end_time", end_time, *more]
+                "-a_k_element", "grounded_spring", "-a_k_stiffness", stiffness(*frequencies), "-a_initial_velocity",
+                f"{SPEED},0,0", *probes(p="a@0,0,0"), "-modes", 3, "-end_time", end_time, *more]
 
     def step(self, frequencies, *more, said=None):
         """The step of a dry run, which also says whence it is."""
@@ -67,7 +67,7 @@ class Oscillators(unittest.TestCase):
         return [line for line in summary["warnings"] if line.startswith("the time step")]
 
     def test_two_hertz_swing_as_far_and_as_often_as_they_should(self):
-        reduced = ["-a_model", "modal", "-a_modal_vectors", 3, "-output_interval", 0.05]
+        reduced = [*in_modes("a", 3), "-output_interval", 0.05]
         for more, ranks in (([], 1), ([], 2), (["-modes", 0], 1), (reduced, 1)):
             folder, summary = program.must_run(self, self.words((2, 2, 2), *more), ranks)
             with h5py.File(os.path.join(folder, "history.h5")) as file:
@@ -110,7 +110,7 @@ class Oscillators(unittest.TestCase):
         table = os.path.join(self.folder, "members.csv")
         with open(table, "w") as file:
             file.write("a_stiffness_factor\n1\n4\n")
-        reduced = ["-a_model", "modal", "-a_modal_vectors", 3, "-output_interval", 0.05, "-ensemble", table]
+        reduced = [*in_modes("a", 3), "-output_interval", 0.05, "-ensemble", table]
         step = self.step((2, 2, 2), *reduced, said="4 Hz, the highest mode of a up to 400 Hz")
         self.assertAlmostEqual(step / (0.268 / (8 * math.pi)), 1, delta=1e-5)
 
@@ -119,12 +119,10 @@ class StartOfRecords(unittest.TestCase):
     """A structure that starts with a velocity: what is held there has none, so no acceleration either."""
 
     def test_held_nodes_do_not_stop(self):
-        mesh = ["-structures", "bar", "-bar_mesh", "tests/meshes/box.geo", "-bar_mesh_set", "x0=0", "-bar_clamp", "x_min",
-                "-bar_body_element", "hex8", "-bar_body_material", "soft", "-material_soft_young", 1e6,
-                "-material_soft_poisson", 0, "-material_soft_density", 1000, "-bar_initial_velocity", "0.05,0,0",
-                "-probes", "foot,face", "-foot_structure", "bar", "-foot_group", "x_min", "-face_structure", "bar",
-                "-face_group", "x_max", "-end_time", 0.01, "-output_interval", 5e-5]
-        for more, ranks in (([], 1), ([], 2), (["-bar_model", "modal", "-bar_modal_vectors", 12], 1)):
+        mesh = ["-structures", "bar", *box_of("bar", "x0=0", "soft"), "-bar_clamp", "x_min",
+                *material("soft", 1e6, 0, 1000), "-bar_initial_velocity", "0.05,0,0",
+                *probes(foot="bar:x_min", face="bar:x_max"), "-end_time", 0.01, "-output_interval", 5e-5]
+        for more, ranks in (([], 1), ([], 2), ([*in_modes("bar", 12)], 1)):
             folder, summary = program.must_run(self, mesh + more, ranks)
             with h5py.File(os.path.join(folder, "history.h5")) as file:
                 names = [name.decode() for name in file["channels"]]

@@ -125,8 +125,7 @@ class Equipment(unittest.TestCase):
                  "anvil": {"capacity": self.file("anvil", [(.1, 1e4), (1000, 1e4)])}}
         run = self.run_with("joint", items, gap=.01)
         self.run_with("joint-without", items, contacts="none")
-        done = program.command("plot", run.folder)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = program.must_do(self, "plot", run.folder)
         page = (run.folder / "report.html").read_text(encoding="utf-8")
         answer = html.unescape(re.sub("<[^>]*>", " ", re.search(r'<div class="answer.*?</div>', page, re.DOTALL)[0]))
         self.assertTrue(answer.strip().startswith("Because of the joint 1 of 3 items of equipment fails: relay (capacity over "
@@ -135,8 +134,7 @@ class Equipment(unittest.TestCase):
         for name in items:
             self.assertTrue((run.folder / f"equipment_{name}.png").exists(), name)
             self.assertTrue(f"Equipment: {name}" in page, name)
-        both = program.command("compare", run.folder, self.place / "joint-without", "--out", self.place / "both")
-        self.assertEqual(both.returncode, 0, both.stderr)
+        both = program.must_do(self, "compare", run.folder, self.place / "joint-without", "--out", self.place / "both")
         self.assertRegex(both.stdout, r"relay.*NO.*yes")
 
     def test_refused(self):

@@ -16,6 +16,7 @@ import h5py
 import numpy
 
 import program
+from decks import box_of, clock, in_modes, material
 from nonlinear_springs_test import mass, spring
 from recorded import all_nodes, assert_continues, lumped_fractions, write_sine
 
@@ -57,12 +58,10 @@ class Shaken:
                        ((4.0, 40.0), (2.0, 25.0), (3.0, 60.0))]
 
     def words(self, *more):
-        words = ["-structures", "it", "-it_mesh", "tests/meshes/box.geo", "-it_mesh_set",
-                 "lx=2,ly=1,lz=3,nx=2,ny=2,nz=3", "-it_body_element", "hex8", "-it_body_material", "concrete",
-                 "-material_concrete_young", 3e9, "-material_concrete_poisson", 0.2, "-material_concrete_density",
-                 self.DENSITY, "-gravity", GRAVITY, "-preload", "static", "-time_step", self.STEP, "-output_interval",
-                 self.STEP, "-end_time", 0.03, "-probes", "all", *all_nodes("all", "it"),
-                 "-forces", "base,upper", "-base_structure", "it", "-base_kind", "reactions", "-base_about", ",".join(map(str, POINT)),
+        words = ["-structures", "it", *box_of("it", "lx=2,ly=1,lz=3,nx=2,ny=2,nz=3", "concrete"),
+                 *material("concrete", 3e9, 0.2, self.DENSITY), "-gravity", GRAVITY, "-preload", "static",
+                 *clock(self.STEP, 0.03), "-probes", "all", *all_nodes("all", "it"), "-forces", "base,upper",
+                 "-base_structure", "it", "-base_kind", "reactions", "-base_about", ",".join(map(str, POINT)),
                  "-upper_structure", "it", "-upper_kind", "storey", "-upper_level", 1.5]
         for axis, record in zip("xyz", self.records):
             words += [f"-motion_{axis}_record", record, f"-motion_{axis}_unit", "m/s2"]
@@ -243,12 +242,11 @@ class Portal(unittest.TestCase):
         ordinary = {"area": 0.1, "light": 20.0}
         whole = Forces(self, self.words(**ordinary), 1)
         for ranks in (1, 2):
-            run = Forces(self, self.words("-it_model", "modal", "-it_modal_vectors", 3, **ordinary), ranks)
+            run = Forces(self, self.words(*in_modes("it", 3), **ordinary), ranks)
             self.assertLess(run.summary["structures"]["it"]["modal"]["coordinates"], 6)
             for name, history in whole.force.items():
                 self.assertLess(abs(run.force[name][0] - history[0]), 1e-6 * abs(whole.total("base")[0]).max(), name)
-        stiffer = Forces(self, self.words("-it_model", "modal", "-it_modal_vectors", 3, "-it_stiffness_factor", 2,
-                                          **ordinary))
+        stiffer = Forces(self, self.words(*in_modes("it", 3), "-it_stiffness_factor", 2, **ordinary))
         for name, history in whole.force.items():  # at rest forces do not know the stiffness
             self.assertLess(abs(stiffer.force[name][0] - history[0]), 1e-6 * abs(whole.total("base")[0]).max(), name)
 
@@ -293,7 +291,7 @@ class Reduced(Shaken, unittest.TestCase):
                              "-preload", "none", *more)
 
     def differs(self, vectors, ranks, full, *more):
-        run = Forces(self, self.words("-it_model", "modal", "-it_modal_vectors", vectors, *more), ranks)
+        run = Forces(self, self.words(*in_modes("it", vectors), *more), ranks)
         return [abs(run.total(item) - full.total(item)).max() / abs(full.total(item)).max()
                 for item in ("base", "upper")]
 

@@ -9,6 +9,7 @@ import unittest
 
 import numpy
 
+from decks import box_of, clock, contacts, in_modes, material, probes, section
 from recorded import Recorded, assert_continues, write_sine
 
 GRAVITY = 10.0
@@ -17,13 +18,10 @@ LONG = 1e-11  # energy identity of runs of many steps
 
 def block(time_step, end_time, friction, *more, name="block", sample=None, mesh=""):
     """A stiff brick of 1 kg that stands on the ground, free to slide."""
-    return ["-structures", name, f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set",
-            f"x0=-0.5,y0=-0.5,lz=0.1{mesh}", f"-{name}_body_element", "hex8", f"-{name}_body_material", "stone",
-            "-material_stone_young", 1e6, "-material_stone_poisson", 0.2, "-material_stone_density", 10,
-            "-gravity", GRAVITY, "-contacts", "ground", "-ground_secondary", f"{name}:z_min", "-ground_primary",
-            "wall", "-ground_gap", 0, "-ground_friction", friction, "-time_step", repr(time_step), "-end_time",
-            repr(end_time), "-output_interval", repr(sample or time_step), "-energy_interval", 100,
-            "-probes", "one", "-one_structure", name, "-one_at", "-0.5,0.5,0", *more]
+    return ["-structures", name, *box_of(name, f"x0=-0.5,y0=-0.5,lz=0.1{mesh}", "stone"),
+            *material("stone", 1e6, 0.2, 10), "-gravity", GRAVITY, *contacts(ground=(f"{name}:z_min", "wall", 0)),
+            "-ground_friction", friction, *clock(repr(time_step), repr(end_time), repr(sample or time_step)),
+            "-energy_interval", 100, "-probes", "one", "-one_structure", name, "-one_at", "-0.5,0.5,0", *more]
 
 
 RIGID = ["-block_rigid", "body", "-material_stone_young", 1e3]
@@ -54,7 +52,7 @@ class MassOnASpring(unittest.TestCase):
 
     def test_reduced_block_is_the_same(self):
         full = self.run_(2)
-        reduced = self.run_(2, 1e-5, "-block_model", "modal", "-block_modal_vectors", 6)
+        reduced = self.run_(2, 1e-5, *in_modes("block", 6))
         self.assertLess(abs(reduced.displacement("one.x") - full.displacement("one.x")).max(), 1e-10)
 
 
@@ -79,16 +77,16 @@ class MatOfShells(unittest.TestCase):
     """A slab with four columns on it, or below it, beside a wall: that lies where the columns are not."""
 
     def table(self, up, push, ranks):
-        return Recorded(self, [
-            "-structures", "t", "-t_mesh", "tests/meshes/table.geo", "-t_mesh_set", f"slab=1,unit={-up}",
-            "-t_column_element", "beam", "-t_column_material", "steel", "-t_column_section", "tube",
-            "-section_tube_area", 0.01, "-section_tube_inertia_y", 1e-4, "-section_tube_inertia_z", 1e-4,
-            "-section_tube_torsion", 2e-4, "-section_tube_z_axis", "1,0,0", "-t_slab_element", "shell",
-            "-t_slab_material", "steel", "-t_slab_thickness", 0.2, "-material_steel_young", 200e9,
-            "-material_steel_poisson", 0.3, "-material_steel_density", 7800, "-t_gravity",
-            f"{push * GRAVITY},0,{-up * GRAVITY}", "-contacts", "ground", "-ground_secondary", "t:slab",
-            "-ground_primary", "wall", "-ground_gap", 0, "-ground_friction", 0.3, "-end_time", 0.2, "-output_interval",
-            1e-4, "-probes", "one", "-one_structure", "t", "-one_at", f"0,0,{-3 * up}"], ranks, LONG)
+        return Recorded(self, ["-structures", "t", "-t_mesh", "tests/meshes/table.geo",
+                               "-t_mesh_set", f"slab=1,unit={-up}", "-t_column_element", "beam",
+                               "-t_column_material", "steel", "-t_column_section", "tube",
+                               *section("tube", 0.01, 1e-4, 1e-4, 2e-4, "1,0,0"), "-t_slab_element", "shell",
+                               "-t_slab_material", "steel", "-t_slab_thickness", 0.2,
+                               *material("steel", 200e9, 0.3, 7800),
+                               "-t_gravity", f"{push * GRAVITY},0,{-up * GRAVITY}",
+                               *contacts(ground=("t:slab", "wall", 0)), "-ground_friction", 0.3, "-end_time", 0.2,
+                               "-output_interval", 1e-4, "-probes", "one", "-one_structure", "t",
+                               "-one_at", f"0,0,{-3 * up}"], ranks, LONG)
 
     def test_stands_sticks_and_slides(self):
         weight = GRAVITY * 7800 * (4 * 0.2 + 4 * 3 * 0.01)
@@ -144,21 +142,18 @@ class Stack(unittest.TestCase):
         cls.RECORD = write_sine(9.0, 3, 1)
 
     def words(self, *more, cells=3, friction=0.4):
-        words = ["-structures", "deck,block", "-deck_mesh", "tests/meshes/box.geo", "-deck_mesh_set",
-                 "x0=-0.2,y0=-0.2,z0=-0.4,lz=0.4,nx=5,ny=5,nz=2", "-deck_clamp", "z_min", "-block_mesh",
-                 "tests/meshes/box.geo", "-block_mesh_set",
-                 f"lx=0.6,ly=0.6,lz=0.6,nx={cells},ny={cells},nz=3", "-gravity", GRAVITY, "-preload", "static",
-                 "-contacts", "joint", "-joint_secondary", "block:z_min", "-joint_primary", "deck:z_max",
-                 "-joint_friction", friction, "-motion_x_record", self.RECORD, "-motion_x_unit", "m/s2",
-                 "-motion_y_record", self.RECORD, "-motion_y_unit", "m/s2", "-motion_y_scale", 0.5,
-                 "-time_step", 5e-4, "-end_time", 0.4, "-output_interval", 5e-4, "-energy_interval", 10, "-probes",
-                 "top,seat", "-top_structure", "block", "-top_at", "0.6,0.6,0.6", "-seat_structure", "deck",
-                 "-seat_at", "0.4,0.4,0"]
+        words = ["-structures", "deck,block", "-deck_mesh", "tests/meshes/box.geo",
+                 "-deck_mesh_set", "x0=-0.2,y0=-0.2,z0=-0.4,lz=0.4,nx=5,ny=5,nz=2", "-deck_clamp", "z_min",
+                 "-block_mesh", "tests/meshes/box.geo",
+                 "-block_mesh_set", f"lx=0.6,ly=0.6,lz=0.6,nx={cells},ny={cells},nz=3", "-gravity", GRAVITY,
+                 "-preload", "static", *contacts(joint=("block:z_min", "deck:z_max")), "-joint_friction", friction,
+                 "-motion_x_record", self.RECORD, "-motion_x_unit", "m/s2", "-motion_y_record", self.RECORD,
+                 "-motion_y_unit", "m/s2", "-motion_y_scale", 0.5, *clock(5e-4, 0.4), "-energy_interval", 10,
+                 *probes(top="block@0.6,0.6,0.6", seat="deck@0.4,0.4,0")]
         for name in ("deck", "block"):
             words += [f"-{name}_body_element", "hex8", f"-{name}_body_material", "rubber", f"-{name}_damping_alpha",
                       1]
-        return [*words, "-material_rubber_young", 5e6, "-material_rubber_poisson", 0.2, "-material_rubber_density",
-                1500, *more]
+        return [*words, *material("rubber", 5e6, 0.2, 1500), *more]
 
     def stack(self, ranks, *more, identity=1e-12, **values):
         return Recorded(self, self.words(*more, **values), ranks, identity)
@@ -198,13 +193,12 @@ class Stack(unittest.TestCase):
         full = self.stack(2)
         words = []
         for name, dofs in (("block", 3 * 4**3), ("deck", 3 * 6 * 6 * 2)):
-            words += [f"-{name}_model", "modal", f"-{name}_modal_vectors", dofs]
+            words += [*in_modes(name, dofs)]
         self.assert_alike(full, self.stack(2, *words, identity=1e-11), 1e-6)
 
     def test_few_modes_with_attachment_along_the_face(self):
         full = self.stack(2)
-        reduced = self.stack(2, "-block_model", "modal", "-block_modal_vectors", 30, "-deck_model", "modal",
-                             "-deck_modal_vectors", 30)
+        reduced = self.stack(2, *in_modes("block", 30), *in_modes("deck", 30))
         self.assertAlmostEqual(reduced.energy["friction"] / full.energy["friction"], 1, delta=0.05)
 
     def test_a_continued_run_is_the_uninterrupted_one(self):

@@ -15,10 +15,9 @@ import two_buildings
 class GapField(unittest.TestCase):
     def gaps(self, *words, ranks=2, contact="floor1"):
         with tempfile.TemporaryDirectory() as folder:
-            result = program.run(["-options_file", str(two_buildings.SCENE), "-modes", 0, "-dry_run", "-floor1_gap", .05,
-                                  "-left_damping_reference", 3, "-right_damping_reference", 4, "-export_matrices", folder,
-                                  *words], ranks)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            result = program.must_end(self, ["-options_file", str(two_buildings.SCENE), "-modes", 0, "-dry_run",
+                                      "-floor1_gap", .05, "-left_damping_reference", 3, "-right_damping_reference", 4,
+                                      "-export_matrices", folder, *words], ranks)
             columns = program.read_csv(os.path.join(folder, "left", "gaps.csv"))
         return numpy.array([float(gap) for name, gap in zip(columns["contact"], columns["initial_gap"]) if name == contact])
 

@@ -13,6 +13,7 @@ import h5py
 import numpy
 
 import program
+from decks import box_of, clock, in_modes, material, probes, section
 from recorded import Recorded, assert_follows, ensemble_of
 
 YOUNG, DENSITY, AREA, LENGTH = 2e9, 2500.0, 0.25, 2.0
@@ -22,12 +23,10 @@ LEDGER = 1e-11
 
 def bar(*more, cells=1, probe="end"):
     """A bar of bricks along x, clamped at its start, without Poisson's effect."""
-    return ["-structures", "bar", "-bar_mesh", "tests/meshes/box.geo", "-bar_mesh_set",
-            f"lx={LENGTH},ly=0.5,lz=0.5,nx={cells}", "-bar_clamp", "x_min", "-bar_body_element", "hex8",
-            "-bar_body_material", "stuff", "-material_stuff_young", YOUNG, "-material_stuff_poisson", 0,
-            "-material_stuff_density", DENSITY, "-time_step", STEP, "-output_interval", STEP,
-            "-probes", probe, f"-{probe}_structure", "bar", f"-{probe}_group", "x_max", "-loads", "push",
-            "-push_on", "bar:x_max", *more]
+    return ["-structures", "bar", *box_of("bar", f"lx={LENGTH},ly=0.5,lz=0.5,nx={cells}", "stuff"), "-bar_clamp",
+            "x_min", *material("stuff", YOUNG, 0, DENSITY), "-time_step", STEP, "-output_interval", STEP, "-probes",
+            probe, f"-{probe}_structure", "bar", f"-{probe}_group", "x_max", "-loads", "push", "-push_on", "bar:x_max",
+            *more]
 
 
 def stepped(function, force, steps):
@@ -93,7 +92,7 @@ class OneMass(unittest.TestCase):
         self.assertAlmostEqual(pressure.summary["loads"][0]["extent"], AREA, delta=1e-12)
 
     def test_reduced(self):
-        run = self.push("-bar_model", "modal", "-bar_modal_vectors", 12)
+        run = self.push(*in_modes("bar", 12))
         assert_follows(self, run.displacement("end.x"), stepped(lambda t: 1, self.FORCE, self.STEPS), 1e-9, "reduced")
 
     def test_ends_with_a_scaled_mass_and_uniform_damping(self):
@@ -130,7 +129,7 @@ class AtRest(unittest.TestCase):
         run = self.rest(words)
         self.assert_stays(run, "end.x", weight * LENGTH**2 / (2 * YOUNG))
         self.assertAlmostEqual(run.summary["loads"][0]["extent"], AREA * LENGTH, delta=1e-12)
-        reduced = self.rest(words, "-bar_model", "modal", "-bar_modal_vectors", 3)
+        reduced = self.rest(words, *in_modes("bar", 3))
         self.assert_stays(reduced, "end.x", weight * LENGTH**2 / (2 * YOUNG), 1e-7)
 
     def test_loads_that_set_in_with_the_run_leave_the_rest_alone(self):
@@ -145,12 +144,10 @@ class Cantilever(unittest.TestCase):
     def mast(self, *more, elements=1):
         return ["-structures", "mast", "-mast_mesh", "tests/meshes/cantilever.geo", "-mast_mesh_set", f"n={elements}",
                 "-mast_clamp", "base", "-mast_stem_element", "beam", "-mast_stem_material", "steel",
-                "-mast_stem_section", "tube", "-material_steel_young", YOUNG, "-material_steel_poisson", self.POISSON,
-                "-material_steel_density", DENSITY, "-section_tube_area", 0.04, "-section_tube_inertia_y", self.INERTIA,
-                "-section_tube_inertia_z", self.INERTIA, "-section_tube_torsion", 2 * self.INERTIA,
-                "-section_tube_z_axis", "0,1,0", "-section_tube_shear_area", f"{self.SHEAR},{self.SHEAR}",
-                "-probes", "top", "-top_structure", "mast", "-top_group", "top", "-time_step", STEP,
-                "-output_interval", STEP, "-end_time", 10 * STEP, "-preload", "static", "-loads", "push", *more]
+                "-mast_stem_section", "tube", *material("steel", YOUNG, self.POISSON, DENSITY),
+                *section("tube", 0.04, self.INERTIA, self.INERTIA, 2 * self.INERTIA, "0,1,0"),
+                "-section_tube_shear_area", f"{self.SHEAR},{self.SHEAR}", *probes(top="mast:top"),
+                *clock(STEP, 10 * STEP), "-preload", "static", "-loads", "push", *more]
 
     def sag(self, *more, elements=1):
         run = Recorded(self, self.mast(*more, elements=elements), identity=LEDGER)
@@ -190,13 +187,13 @@ class EveryRoom(unittest.TestCase):
 
     def test_all_modes_are_the_full_model(self):
         full = Recorded(self, self.words(), identity=LEDGER)
-        modal = Recorded(self, self.words("-bar_model", "modal", "-bar_modal_vectors", 200), identity=LEDGER)
+        modal = Recorded(self, self.words(*in_modes("bar", 200)), identity=LEDGER)
         for axis in "xyz":
             assert_follows(self, modal.displacement(f"end.{axis}"), full.displacement(f"end.{axis}"), 1e-8, axis)
 
     def test_a_stored_basis_has_them(self):
         with tempfile.TemporaryDirectory() as folder:
-            modal = ["-bar_model", "modal", "-bar_modal_vectors", 9, "-bar_modal_basis", f"{folder}/bar.h5"]
+            modal = [*in_modes("bar", 9), "-bar_modal_basis", f"{folder}/bar.h5"]
             first = Recorded(self, self.words(*modal), identity=LEDGER)
             again = Recorded(self, self.words(*modal), identity=LEDGER)
             self.assertGreater(abs(first.displacement("end.y")).max(), 1e-6)
@@ -235,7 +232,7 @@ class EveryRoom(unittest.TestCase):
                                        os.path.join(folder, "checkpoint.h5")], "motion")
 
     def test_members_of_an_ensemble(self):
-        words = self.words("-bar_model", "modal", "-bar_modal_vectors", 9, "-modes", 0, "-spectra_frequencies", "50,200")
+        words = self.words(*in_modes("bar", 9), "-modes", 0, "-spectra_frequencies", "50,200")
         peaks, residual = ensemble_of(self, words, "bar_stiffness_factor", (1, 1.3))
         self.assertLess(abs(residual).max(), LEDGER)
         for member, factor in enumerate((1, 1.3)):

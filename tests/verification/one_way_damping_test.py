@@ -13,6 +13,7 @@ import h5py
 import numpy
 
 import program
+from decks import clock
 from recorded import Recorded
 from uniform_damping_test import Filters, decay
 
@@ -76,8 +77,7 @@ class Held(unittest.TestCase):
         return scene(names, words, *more)
 
     def check(self, words, ranks):
-        run = Recorded(self, [*words, "-time_step", 4e-5, "-end_time", 5, "-output_interval", 4e-5,
-                              "-energy_interval", 100], ranks)
+        run = Recorded(self, [*words, *clock(4e-5, 5), "-energy_interval", 100], ranks)
         for frequency in FREQUENCIES:
             u = run.displacement(f"at_f{frequency}.z")
             sag = GRAVITY / (2 * math.pi * frequency)**2
@@ -100,7 +100,7 @@ class Held(unittest.TestCase):
     def test_are_springs_of_both_ways_in_second_order(self):
         errors = []
         for step in (4e-4, 2e-4):
-            runs = [Recorded(self, springs(way, "-time_step", step, "-end_time", 0.5, "-output_interval", step), 1)
+            runs = [Recorded(self, springs(way, *clock(step, 0.5)), 1)
                     for way in ("true", "false")]
             u, v = (run.displacement("at_f30.z") for run in runs)
             errors.append(abs(u - v).max() / abs(v - v[0]).max())
@@ -113,8 +113,7 @@ class Thrown(unittest.TestCase):
 
     def words(self, *more):
         body = spring("body", 3, "-body_support_compression_only", "true", "-body_initial_velocity", "0,0,2")
-        return scene(["body"], body, "-time_step", 1e-4, "-end_time", 4, "-output_interval", 1e-4, "-energy_interval", 1,
-                     *more)
+        return scene(["body"], body, *clock(1e-4, 4), "-energy_interval", 1, *more)
 
     def heights(self, damping):
         """Highest places of the first two flights, the law integrated apart: what presses on the mass is
@@ -171,7 +170,7 @@ class Thrown(unittest.TestCase):
     def test_stable_up_to_the_step_that_is_told(self):
         _, summary = program.must_run(self, self.words("-end_time", 1e-4), 1)
         step = 0.999 * summary["structures"]["body"]["stable_time_step"]
-        run = Recorded(self, self.words("-time_step", step, "-output_interval", step, "-end_time", 2000 * step))
+        run = Recorded(self, self.words(*clock(step, 2000 * step)))
         self.assertLess(abs(run.displacement("at_body.z")).max(), 1)
 
 

@@ -10,6 +10,7 @@ import shutil
 import unittest
 
 import program
+from decks import box_of, contacts, material, probes, section
 from recorded import Recorded, assert_follows, write_sine
 
 AREA, INERTIA = 40e-4, 1500e-8
@@ -21,17 +22,12 @@ class HalvesOfSymmetricDecks(unittest.TestCase):
         cls.shaking = write_sine(3.0, 7.0, 0.3)
 
     def decks(self, whole, ranks=1, slab=0, more=()):
-        words = ["-structures", "left,right", "-contacts", "joint", "-joint_secondary", "left:face",
-                 "-joint_primary", "right:face", "-joint_gap", 0.002, "-end_time", 0.1,
+        words = ["-structures", "left,right", *contacts(joint=("left:face", "right:face", 0.002)), "-end_time", 0.1,
                  "-output_interval", 1e-4, "-motion_x_record", self.shaking, "-motion_z_record", self.shaking,
-                 "-motion_x_unit", "m/s2", "-motion_z_unit", "m/s2", "-probes", "one,two",
-                 "-material_concrete_young", 30e9, "-material_concrete_poisson", 0.2,
-                 "-material_concrete_density", 2400, "-material_steel_young", 200e9,
-                 "-material_steel_poisson", 0.3, "-material_steel_density", 7800, "-section_profile_area", AREA,
-                 "-section_profile_inertia_y", 600e-8, "-section_profile_inertia_z", INERTIA,
-                 "-section_profile_torsion", 12e-8, "-section_profile_z_axis", "1,0,0.2",
-                 "-left_initial_velocity", "0.3,0,0", "-one_structure", "left", "-one_at", "1.2,0.75,1.5",
-                 "-two_structure", "right", "-two_at", "2.1,0,1.5"]
+                 "-motion_x_unit", "m/s2", "-motion_z_unit", "m/s2",
+                 *probes(one="left@1.2,0.75,1.5", two="right@2.1,0,1.5"), *material("concrete", 30e9, 0.2, 2400),
+                 *material("steel", 200e9, 0.3, 7800), *section("profile", AREA, 600e-8, INERTIA, 12e-8, "1,0,0.2"),
+                 "-left_initial_velocity", "0.3,0,0"]
         for name, x0, length, end in (("left", 0, 1.2, 1), ("right", 1.2, 0.9, 0)):
             words += [f"-{name}_mesh", "tests/meshes/deck.geo", f"-{name}_mesh_set",
                       f"whole={int(whole)},slab={slab},x0={x0},length={length},face_at_end={end}",
@@ -96,11 +92,11 @@ class RodsAndBeams(unittest.TestCase):
         speed = math.sqrt(young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson) * density))
         for element in ("hex8", "hex8_full"):
             for ranks in (1, 2, 3):
-                found = self.frequencies("rod", [
-                    "-modes", 4, "-rod_mesh", "tests/meshes/box.geo", "-rod_mesh_set",
-                    f"lx={length},nx={cells},ly=0.05,lz=0.05,ny=2,nz=2", "-rod_clamp", "x_min,body:y+z",
-                    "-rod_body_element", element, "-rod_body_material", "m", "-material_m_young", young,
-                    "-material_m_poisson", poisson, "-material_m_density", density], ranks)
+                found = self.frequencies("rod", ["-modes", 4,
+                                                 *box_of("rod", f"lx={length},nx={cells},ly=0.05,lz=0.05,ny=2,nz=2",
+                                                         "m", element),
+                                                 "-rod_clamp", "x_min,body:y+z",
+                                                 *material("m", young, poisson, density)], ranks)
                 axial = [speed * cells / length / math.pi * math.sin((2 * k - 1) * math.pi / (4 * cells))
                          for k in range(1, 4)]
                 for value in axial:
@@ -109,12 +105,11 @@ class RodsAndBeams(unittest.TestCase):
     def test_beam_on_pins(self):
         young, density, length, cells = 200e9, 7800, 6.0, 48
         for ranks in (1, 2):
-            found = self.frequencies("beam", [
-                "-modes", 4, "-beam_mesh", "tests/meshes/line.geo", "-beam_mesh_set", f"length={length},n={cells}",
-                "-beam_clamp", "x_min:x+y+z+rx,x_max:y+z", "-beam_line_element", "beam", "-beam_line_material", "m",
-                "-beam_line_section", "s", "-material_m_young", young, "-material_m_poisson", 0.3,
-                "-material_m_density", density, "-section_s_area", AREA, "-section_s_inertia_y", INERTIA,
-                "-section_s_inertia_z", INERTIA / 9, "-section_s_torsion", 1e-4, "-section_s_z_axis", "0,0,1"], ranks)
+            found = self.frequencies("beam", ["-modes", 4, "-beam_mesh", "tests/meshes/line.geo", "-beam_mesh_set",
+                                              f"length={length},n={cells}", "-beam_clamp", "x_min:x+y+z+rx,x_max:y+z",
+                                              "-beam_line_element", "beam", "-beam_line_material", "m",
+                                              "-beam_line_section", "s", *material("m", young, 0.3, density),
+                                              *section("s", AREA, INERTIA, INERTIA / 9, 1e-4, "0,0,1")], ranks)
             bending = [math.pi / (2 * length**2) * k**2 * math.sqrt(young * inertia / (density * AREA))
                        for k, inertia in ((1, INERTIA / 9), (2, INERTIA / 9), (1, INERTIA))]
             for value in bending:

@@ -14,12 +14,11 @@ import scipy.io
 import scipy.linalg
 
 import program
+from decks import box_of, clock, contacts, in_modes, material, probes, section
 from recorded import Recorded, write_sine
 
 GRAVITY = 9.81
-MATERIALS = ["-material_steel_young", 200e9, "-material_steel_poisson", 0.3, "-material_steel_density", 7800,
-             "-section_tube_area", 1e-2, "-section_tube_inertia_y", 1e-5, "-section_tube_inertia_z", 1e-5,
-             "-section_tube_torsion", 1e-5, "-section_tube_z_axis", "1,0,0"]
+MATERIALS = [*material("steel", 200e9, 0.3, 7800), *section("tube", 1e-2, 1e-5, 1e-5, 1e-5, "1,0,0")]
 TABLE = ["-structures", "t", "-t_mesh", "tests/meshes/table.geo", "-t_column_element", "euler_beam", "-t_column_material",
          "steel", "-t_column_section", "tube", "-t_slab_element", "shell", "-t_slab_material", "steel",
          "-t_slab_thickness", 0.05, *MATERIALS]
@@ -150,9 +149,8 @@ class RigidGroups(unittest.TestCase):
                 u = u + step * v
             for ranks in (1, 2):
                 with self.subTest(case=name, ranks=ranks):
-                    run = Recorded(self, [*arguments, *options, "-time_step", step, "-end_time", count * step,
-                                          "-output_interval", step, "-probes", "p", "-p_structure", "t", "-p_group",
-                                          "slab", "-motion_x_record", record, "-motion_x_unit", "m/s2"], ranks)
+                    run = Recorded(self, [*arguments, *options, *clock(step, count * step), *probes(p="t:slab"),
+                                          "-motion_x_record", record, "-motion_x_unit", "m/s2"], ranks)
                     found = run.displacement("p.x")[:count]
                     size = abs(numpy.array(expected)).max()
                     self.assertGreater(size, 0)
@@ -168,8 +166,7 @@ class RigidGroups(unittest.TestCase):
             for more in ([], ["-preload_solver", "iterative"]) if "mat" in name else ([],):
                 with self.subTest(case=name, more=more):
                     run = Recorded(self, [*arguments, *options, "-gravity", GRAVITY, "-preload", "static", "-end_time",
-                                          0.02, "-output_interval", 1e-3, "-probes", "p", "-p_structure", "t",
-                                          "-p_group", "slab", *more], 2)
+                                          0.02, "-output_interval", 1e-3, *probes(p="t:slab"), *more], 2)
                     found = run.displacement("p.z")
                     self.assertLess(abs(found / expected - 1).max(), 1e-7)
                     rest = run.summary["equilibrium"]["structures"]["t"]
@@ -181,8 +178,8 @@ class RigidGroups(unittest.TestCase):
             squares = self.dense(name).squared_frequencies()
             for count in (5, len(squares)) if "mat" in name else (5,):
                 with self.subTest(case=name, count=count):
-                    run = Recorded(self, [*arguments, *options, "-t_model", "modal", "-t_modal_vectors", count,
-                                          "-end_time", 1e-4, "-modes", count], 2)
+                    run = Recorded(self, [*arguments, *options, *in_modes("t", count), "-end_time", 1e-4, "-modes",
+                                          count], 2)
                     found = [mode["frequency"] for mode in run.summary["structures"]["t"]["frequencies"]]
                     wanted = numpy.sqrt(squares[:len(found)]) / (2 * numpy.pi)
                     self.assertGreaterEqual(len(found), min(count, 5))
@@ -197,11 +194,9 @@ class StruckPlate(unittest.TestCase):
     INERTIA = MASS * (LENGTH**2 * (1 + 2 / CELLS[0]**2) + WIDTH**2 * (1 + 2 / CELLS[1]**2)) / 12
 
     def scene(self, gap, *more):
-        return ["-structures", "b", "-b_mesh", "tests/meshes/box.geo", "-b_mesh_set", "lx=1,ly=2,lz=0.5,nx=2,ny=4",
-                "-b_body_element", "hex8", "-b_body_material", "c", "-material_c_young", 30e9, "-material_c_poisson",
-                0.2, "-material_c_density", 2400, "-b_rigid", "body", "-b_initial_velocity", f"{self.SPEED},0,0",
-                "-contacts", "w", "-w_secondary", "b:x_max", "-w_primary", "wall", "-w_gap", gap, "-end_time", 0.02,
-                "-time_step", 1e-5, *more]
+        return ["-structures", "b", *box_of("b", "lx=1,ly=2,lz=0.5,nx=2,ny=4", "c"), *material("c", 30e9, 0.2, 2400),
+                "-b_rigid", "body", "-b_initial_velocity", f"{self.SPEED},0,0", *contacts(w=("b:x_max", "wall", gap)),
+                "-end_time", 0.02, "-time_step", 1e-5, *more]
 
     def test_impulses(self):
         first = self.MASS * self.SPEED / (1 + self.MASS / self.INERTIA)
@@ -232,10 +227,10 @@ class PlantedBeam(unittest.TestCase):
             200e9 * self.INERTIA / (7800 * self.AREA))
         for ranks in (1, 2):
             run = Recorded(self, ["-structures", "b", "-b_mesh", "tests/meshes/planted_beam.geo", "-b_clamp", "back",
-                                  "-b_body_element", "hex8", "-b_body_material", "c", "-material_c_young", 30e9,
-                                  "-material_c_poisson", 0.2, "-material_c_density", 2400, "-b_beam_element", "beam",
-                                  "-b_beam_material", "steel", "-b_beam_section", "tube", "-b_rigid", "joint",
-                                  *MATERIALS[:-2], "-section_tube_z_axis", "0,0,1", "-end_time", 1e-4, "-modes", 2],
+                                  "-b_body_element", "hex8", "-b_body_material", "c", *material("c", 30e9, 0.2, 2400),
+                                  "-b_beam_element", "beam", "-b_beam_material", "steel", "-b_beam_section", "tube",
+                                  "-b_rigid", "joint", *MATERIALS[:-2], "-section_tube_z_axis", "0,0,1", "-end_time",
+                                  1e-4, "-modes", 2],
                            ranks)
             structure = run.summary["structures"]["b"]
             for mode in structure["frequencies"]:  # it bends in two planes
@@ -246,10 +241,8 @@ class PlantedBeam(unittest.TestCase):
 class JoinedAndPinned(unittest.TestCase):
     """A strip of slab on a beam below it bends as one section; a beam with a hinge as two cantilevers."""
     LENGTH, WIDTH, THICKNESS, OFFSET, YOUNG, DENSITY = 4.0, 0.4, 0.1, 0.3, 30e9, 2400.0
-    BEAM = ["-c_beam_element", "beam", "-c_beam_material", "c", "-c_beam_section", "rib", "-material_c_young", YOUNG,
-            "-material_c_poisson", 0, "-material_c_density", DENSITY, "-section_rib_area", 0.04,
-            "-section_rib_inertia_y", 1.2e-4, "-section_rib_inertia_z", 1.5e-4, "-section_rib_torsion", 1e-4,
-            "-section_rib_z_axis", "0,0,1", "-c_clamp", "end"]
+    BEAM = ["-c_beam_element", "beam", "-c_beam_material", "c", "-c_beam_section", "rib",
+            *material("c", YOUNG, 0, DENSITY), *section("rib", 0.04, 1.2e-4, 1.5e-4, 1e-4, "0,0,1"), "-c_clamp", "end"]
     SCENE = ["-structures", "c", "-c_mesh", "tests/meshes/composite.geo", *BEAM]
     REST = ["-gravity", GRAVITY, "-preload", "static", "-end_time", 1e-3, "-probes", "p", "-p_structure", "c"]
 
@@ -306,8 +299,7 @@ class Diaphragm(unittest.TestCase):
                 # E t^3 as before, E t a hundred times; the mass stays by the density.
                 for name, value in (("-t_slab_material", "stiff"), ("-t_slab_thickness", 0.005)):
                     scene[scene.index(name) + 1] = value
-                scene += ["-material_stiff_young", 200e12, "-material_stiff_poisson", 0.3,
-                          "-material_stiff_density", 78000]
+                scene += [*material("stiff", 200e12, 0.3, 78000)]
             run = Recorded(self, scene)
             structure = run.summary["structures"]["t"]
             found.append(numpy.array([mode["frequency"] for mode in structure["frequencies"]] +
@@ -389,10 +381,9 @@ class MasslessEnd(unittest.TestCase):
         square, modes = scipy.linalg.eigh(stiffness, mass)
         omega = numpy.sqrt(square)
         thrown = modes.T @ mass @ numpy.array([0.3, 1, -0.2, 0, 0, 0])
-        for more in ([], ["-t_model", "modal", "-t_modal_vectors", 6]):
-            run = Recorded(self, self.scene("-t_rigid", "arm", "-end_time", 0.1, "-t_initial_velocity", "0.3,1,-0.2",
-                                            "-time_step", 2e-5, "-output_interval", 1e-3, "-probes", "p", "-p_structure",
-                                            "t", "-p_group", "spring", *more), 2)
+        for more in ([], [*in_modes("t", 6)]):
+            run = Recorded(self, self.scene("-t_rigid", "arm", *clock(2e-5, 0.1, 1e-3), "-t_initial_velocity",
+                                            "0.3,1,-0.2", *probes(p="t:spring"), *more), 2)
             times = run.time
             motions = modes @ (thrown[:, None] * numpy.sin(numpy.outer(omega, times)) / omega[:, None])
             x, y, z = self.ARM
@@ -432,19 +423,16 @@ class LinksOnABody(unittest.TestCase):
     They are solved for by the motions of the body; in a structure reduced to all of its modes pair by pair.
     """
     SCENE = ["-structures", "m", "-m_mesh", "tests/meshes/mast.geo", "-m_beams_element", "beam", "-m_beams_material",
-             "stiff", "-m_beams_section", "s", "-material_stiff_young", 1e10, "-material_stiff_poisson", 0.3,
-             "-material_stiff_density", 1000, "-section_s_area", 1e-2, "-section_s_inertia_y", 1e-3,
-             "-section_s_inertia_z", 1e-3, "-section_s_torsion", 1e-3, "-section_s_z_axis", "0,1,0", "-m_load_element",
-             "point_mass", "-m_load_mass", 2000, "-m_load_rotary_inertia", "1e3,1e3,1e3", "-m_bed_element",
-             "grounded_spring", "-m_bed_stiffness", "1e6,1e6,1e6,1e5,0,1e5", "-m_bed_compression_only", "true",
-             "-m_rigid", "bed", "-gravity", GRAVITY, "-preload", "static", "-m_initial_velocity", "1.5,0.2,0",
-             "-time_step", 2e-5, "-end_time", 0.8, "-output_interval", 1e-3, "-probes", "top", "-top_structure", "m",
-             "-top_group", "load"]
+             "stiff", "-m_beams_section", "s", *material("stiff", 1e10, 0.3, 1000),
+             *section("s", 1e-2, 1e-3, 1e-3, 1e-3, "0,1,0"), "-m_load_element", "point_mass", "-m_load_mass", 2000,
+             "-m_load_rotary_inertia", "1e3,1e3,1e3", "-m_bed_element", "grounded_spring", "-m_bed_stiffness",
+             "1e6,1e6,1e6,1e5,0,1e5", "-m_bed_compression_only", "true", "-m_rigid", "bed", "-gravity", GRAVITY,
+             "-preload", "static", "-m_initial_velocity", "1.5,0.2,0", *clock(2e-5, 0.8, 1e-3), *probes(top="m:load")]
 
     def test_same_pair_by_pair(self):
         for dashpot in ("2e4,1e4,3e3,1e2,0,1e2", "1e9,1e9,3e3,0,0,0"):
             scene = [*self.SCENE, "-m_bed_dashpot", dashpot]
-            pairs = Recorded(self, [*scene, "-m_model", "modal", "-m_modal_vectors", 12], 1, identity=1e-9)
+            pairs = Recorded(self, [*scene, *in_modes("m", 12)], 1, identity=1e-9)
             for ranks in (1, 2, 3):
                 run = Recorded(self, scene, ranks, identity=1e-11)
                 self.assertLess(run.summary["contact_ratio"]["m"]["smallest"], 0.5)
@@ -457,7 +445,7 @@ class AllTermsTogether(unittest.TestCase):
     """A rigid mat on springs with dashpots below a diaphragm, under gravity and in motion: the ledger closes."""
     SCENE = [*TABLE, *SPRUNG, "-t_base_dashpot", "2e4,2e4,5e4,1e3,1e3,1e3", "-t_rigid", "base", "-t_diaphragm", "slab",
              "-gravity", GRAVITY, "-preload", "static", "-t_initial_velocity", "0.3,0.1,0", "-end_time", 0.1,
-             "-probes", "p", "-p_structure", "t", "-p_group", "slab"]
+             *probes(p="t:slab")]
 
     def test_ledger_with_rayleigh_and_uniform_damping(self):
         for more in (["-t_damping_alpha", 0.3, "-t_damping_beta", 1e-5], ["-t_damping_uniform", 0.04],

@@ -16,6 +16,7 @@ import unittest
 import numpy
 
 import program
+from decks import box_of, clock, contacts, in_modes, material
 from recorded import Recorded, write_samples
 
 GRAVITY, HALF_WIDTH, LAYERS = 9.81, 0.5, 16
@@ -33,16 +34,16 @@ class Rocking(unittest.TestCase):
     SPEED = RATE * ABOUT_EDGE / (HEIGHT / 2)
 
     def rock(self, time_step, ranks=program.RANKS):
-        return Recorded(self, [
-            "-structures", "block", "-block_mesh", "tests/meshes/box.geo", "-block_mesh_set",
-            f"x0={-HALF_WIDTH},lx={2 * HALF_WIDTH},ly=1,lz={HEIGHT!r},nz={LAYERS}", "-block_clamp", "z_min:x+y",
-            "-block_body_element", "hex8", "-block_body_material", "stone", "-material_stone_young", 30e9,
-            "-material_stone_poisson", 0.2, "-material_stone_density", 2500, "-block_model", "modal",
-            "-block_modal_vectors", 3, "-block_modal_attachment", "false", "-gravity", GRAVITY, "-preload", "static",
-            "-block_initial_velocity", f"{self.SPEED!r},0,0", "-contacts", "ground", "-ground_secondary", "block:z_min",
-            "-ground_primary", "wall", "-ground_gap", 0, "-time_step", time_step, "-end_time", 2, "-output_interval",
-            time_step, "-energy_interval", 10, "-probes", "edge,other", "-edge_structure", "block", "-edge_at",
-            f"{-HALF_WIDTH},0,0", "-other_structure", "block", "-other_at", f"{HALF_WIDTH},0,0"], ranks, identity=1e-11)
+        return Recorded(self, ["-structures", "block",
+                               *box_of("block",
+                                       f"x0={-HALF_WIDTH},lx={2 * HALF_WIDTH},ly=1,lz={HEIGHT!r},nz={LAYERS}", "stone"),
+                               "-block_clamp", "z_min:x+y", *material("stone", 30e9, 0.2, 2500), *in_modes("block", 3),
+                               "-block_modal_attachment", "false", "-gravity", GRAVITY, "-preload", "static",
+                               "-block_initial_velocity", f"{self.SPEED!r},0,0",
+                               *contacts(ground=("block:z_min", "wall", 0)), *clock(time_step, 2), "-energy_interval",
+                               10, "-probes", "edge,other", "-edge_structure", "block", "-edge_at",
+                               f"{-HALF_WIDTH},0,0", "-other_structure", "block", "-other_at",
+                               f"{HALF_WIDTH},0,0"], ranks, identity=1e-11)
 
     def turns(self, run):
         """Rates at which the block sets out about each edge in turn, the times at which it does, and its angle
@@ -116,15 +117,13 @@ class ShakenTower(unittest.TestCase):
     def shake(self, part, ranks, end=8.0, identity=1e-11):
         record = write_samples(self.ground(part, 1e-3 * numpy.arange(1501)), 1e-3)
         mesh = f"x0={-self.HALF_WIDTH},lx={2 * self.HALF_WIDTH},ly={2 * self.HALF_WIDTH},lz={self.HEIGHT},nz={self.LAYERS}"
-        run = Recorded(self, [
-            "-structures", "tower", "-tower_mesh", "tests/meshes/box.geo", "-tower_mesh_set", mesh, "-tower_clamp",
-            "z_min:x+y", "-tower_body_element", "hex8", "-tower_body_material", "stone", "-material_stone_young", 30e9,
-            "-material_stone_poisson", 0.2, "-material_stone_density", 2500, "-tower_model", "modal",
-            "-tower_modal_vectors", 3, "-tower_modal_attachment", "false", "-gravity", GRAVITY, "-preload", "static",
-            "-motion_x_record", record, "-motion_x_unit", "m/s2", "-contacts", "ground", "-ground_secondary",
-            "tower:z_min", "-ground_primary", "wall", "-ground_gap", 0, "-time_step", 1e-4, "-end_time", end,
-            "-output_interval", 1e-3, "-energy_interval", 100, "-probes", "left,right", "-left_structure", "tower",
-            "-left_at", f"{-self.HALF_WIDTH},0,0", "-right_structure", "tower", "-right_at", f"{self.HALF_WIDTH},0,0"],
+        run = Recorded(self, ["-structures", "tower", *box_of("tower", mesh, "stone"), "-tower_clamp", "z_min:x+y",
+                              *material("stone", 30e9, 0.2, 2500), *in_modes("tower", 3), "-tower_modal_attachment",
+                              "false", "-gravity", GRAVITY, "-preload", "static", "-motion_x_record", record,
+                              "-motion_x_unit", "m/s2", *contacts(ground=("tower:z_min", "wall", 0)),
+                              *clock(1e-4, end, 1e-3), "-energy_interval", 100, "-probes", "left,right",
+                              "-left_structure", "tower", "-left_at", f"{-self.HALF_WIDTH},0,0", "-right_structure",
+                              "tower", "-right_at", f"{self.HALF_WIDTH},0,0"],
             ranks, identity)
         lifts = run.displacement("left.z"), run.displacement("right.z")
         return run, (lifts[0] - lifts[1]) / (2 * self.HALF_WIDTH), numpy.maximum(*lifts)

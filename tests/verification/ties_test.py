@@ -12,6 +12,7 @@ import scipy.sparse
 import scipy.sparse.csgraph
 
 import program
+from decks import box_of, clock, contacts, in_modes, material, probes, section
 from recorded import Recorded, all_nodes, assert_continues, write_sine
 from rigid_groups_test import Dense
 
@@ -26,9 +27,7 @@ PLATES = [{"hex8": "shell"}.get(word, word) for word in BRICKS] + THICKNESS
 MIXED = BRICKS[:8] + [{"hex8": "shell"}.get(word, word) for word in BRICKS[8:]] + THICKNESS[2:]
 HELD = ["-t_clamp", "x_min"]
 TIE = ["-t_tie", "edge:face"]
-STEEL = ["-material_steel_young", 200e9, "-material_steel_poisson", 0.3, "-material_steel_density", 7800,
-         "-section_tube_area", 1e-2, "-section_tube_inertia_y", 1e-5, "-section_tube_inertia_z", 1e-5,
-         "-section_tube_torsion", 1e-5, "-section_tube_z_axis", "0,0,1"]
+STEEL = [*material("steel", 200e9, 0.3, 7800), *section("tube", 1e-2, 1e-5, 1e-5, 1e-5, "0,0,1")]
 
 
 def mesh(**parameters):
@@ -222,9 +221,8 @@ class BesideDenseAlgebra(unittest.TestCase):
                 u = u + step * v
             for ranks in (1, 2):
                 with self.subTest(case=name, ranks=ranks):
-                    run = Recorded(self, [*arguments, *TIE, "-time_step", step, "-end_time", count * step,
-                                          "-output_interval", step, "-probes", "p", "-p_structure", "t", "-p_group",
-                                          "edge", "-motion_y_record", record, "-motion_y_unit", "m/s2"], ranks)
+                    run = Recorded(self, [*arguments, *TIE, *clock(step, count * step), *probes(p="t:edge"),
+                                          "-motion_y_record", record, "-motion_y_unit", "m/s2"], ranks)
                     found = run.displacement("p.y")[:count]
                     size = abs(numpy.array(expected)).max()
                     self.assertGreater(size, 0)
@@ -239,8 +237,8 @@ class BesideDenseAlgebra(unittest.TestCase):
             for ranks, more in ((2, []), (3, ["-preload_solver", "iterative"])):
                 with self.subTest(case=name, ranks=ranks, more=more):
                     run = Recorded(self, [*arguments, *TIE, "-gravity", GRAVITY, "-preload", "static", "-end_time",
-                                          1e-3, "-output_interval", 1e-4, "-probes", "p", "-p_structure", "t",
-                                          "-p_group", "x_max", *more], ranks, identity=1e-10)
+                                          1e-3, "-output_interval", 1e-4, *probes(p="t:x_max"),
+                                          *more], ranks, identity=1e-10)
                     found = run.displacement("p.z")
                     self.assertLess(abs(found / numpy.mean(u[last]) - 1).max(), 1e-9)
                     self.assertLess(run.summary["equilibrium"]["structures"]["t"]["imbalance"], 1e-9)
@@ -251,8 +249,8 @@ class BesideDenseAlgebra(unittest.TestCase):
             squares = self.dense(name).squared_frequencies()
             for count in (5, len(squares)) if "bricks" not in name else (5,):
                 with self.subTest(case=name, count=count):
-                    run = Recorded(self, [*arguments, *TIE, "-t_model", "modal", "-t_modal_vectors", count,
-                                          "-end_time", 1e-5, "-modes", count], 2)
+                    run = Recorded(self, [*arguments, *TIE, *in_modes("t", count), "-end_time", 1e-5, "-modes",
+                                          count], 2)
                     found = [mode["frequency"] for mode in run.summary["structures"]["t"]["frequencies"]]
                     wanted = numpy.sqrt(squares[:count]) / (2 * numpy.pi)
                     self.assertGreaterEqual(len(found), count)
@@ -286,10 +284,9 @@ class PatchTest(unittest.TestCase):
         """Triangles beside squares: tetrahedra next to without weight hold bricks, which pull them alike everywhere."""
         for m1, m2, tie, ranks in ((3, 4, "edge:face", 1), (3, 4, "face:edge", 2), (4, 3, "edge:face", 3)):
             scene = [*BRICKS[:8], "-t_second_element", "tet4", "-t_second_material", "light", *CONCRETE,
-                     "-material_c_poisson", 0, "-material_light_young", YOUNG, "-material_light_poisson", 0,
-                     "-material_light_density", 1e-9 * DENSITY, "-t_clamp", "x_max", "-t_tie", tie,
-                     *mesh(m1=m1, m2=m2, tets=1), "-t_gravity", f"{-GRAVITY},0,0", "-preload", "static", "-end_time", 1e-9,
-                     "-output_interval", 1e-10, "-probes", "p,q", *all_nodes("p", "t", "first"),
+                     "-material_c_poisson", 0, *material("light", YOUNG, 0, 1e-9 * DENSITY), "-t_clamp", "x_max",
+                     "-t_tie", tie, *mesh(m1=m1, m2=m2, tets=1), "-t_gravity", f"{-GRAVITY},0,0", "-preload", "static",
+                     "-end_time", 1e-9, "-output_interval", 1e-10, "-probes", "p,q", *all_nodes("p", "t", "first"),
                      *all_nodes("q", "t", "second")]
             run = Recorded(self, scene, ranks, identity=1e-9)
             (near, names), (far, others) = run.nodes("p"), run.nodes("q")
@@ -339,7 +336,7 @@ class BesideMatchedMeshes(unittest.TestCase):
 
     def measured(self, scene, ranks=program.RANKS):
         more = [*TIE, *scene, "-gravity", GRAVITY, "-preload", "static", "-end_time", 1e-4, "-output_interval", 1e-4,
-                "-modes", 3, "-probes", "p", "-p_structure", "t", "-p_group", "x_max"]
+                "-modes", 3, *probes(p="t:x_max")]
         run = Recorded(self, more, ranks, identity=1e-9)
         frequencies = [mode["frequency"] for mode in run.summary["structures"]["t"]["frequencies"]]
         return numpy.array([*frequencies, -run.displacement("p.z")[0]])
@@ -397,13 +394,11 @@ class PlantedBeam(unittest.TestCase):
 class CompositeBeam(unittest.TestCase):
     """A strip of slab and the beam below it bend as one section, whichever follows and whatever their meshes."""
     LENGTH, WIDTH, THICKNESS, OFFSET, YOUNG = 4.0, 0.4, 0.1, 0.3, 30e9
-    SCENE = ["-structures", "c", "-c_mesh", "tests/meshes/composite.geo", "-c_beam_element", "beam",
-             "-c_beam_material", "c", "-c_beam_section", "rib", "-material_c_young", YOUNG, "-material_c_poisson", 0,
-             "-material_c_density", DENSITY, "-section_rib_area", 0.04, "-section_rib_inertia_y", 1.2e-4,
-             "-section_rib_inertia_z", 1.5e-4, "-section_rib_torsion", 1e-4, "-section_rib_z_axis", "0,0,1",
-             "-c_slab_element", "shell", "-c_slab_material", "c", "-c_slab_thickness", THICKNESS, "-c_clamp", "end",
-             "-gravity", GRAVITY, "-preload", "static", "-end_time", 1e-3, "-probes", "p", "-p_structure", "c",
-             "-p_group", "tip"]
+    SCENE = ["-structures", "c", "-c_mesh", "tests/meshes/composite.geo", "-c_beam_element", "beam", "-c_beam_material",
+             "c", "-c_beam_section", "rib", *material("c", YOUNG, 0, DENSITY),
+             *section("rib", 0.04, 1.2e-4, 1.5e-4, 1e-4, "0,0,1"), "-c_slab_element", "shell", "-c_slab_material", "c",
+             "-c_slab_thickness", THICKNESS, "-c_clamp", "end", "-gravity", GRAVITY, "-preload", "static", "-end_time",
+             1e-3, *probes(p="c:tip")]
 
     def test_bends_as_one_section(self):
         slab = self.WIDTH * self.THICKNESS
@@ -421,9 +416,8 @@ class CompositeBeam(unittest.TestCase):
 class Struck(unittest.TestCase):
     """Bricks tied to each other fly against a wall with sides that both have: nodes that follow, and followed ones."""
     SPEED = 0.5
-    SCENE = [*BRICKS, *TIE, "-t_initial_velocity", f"0.1,{-SPEED},0", "-contacts", "w", "-w_secondary", "t:y_min",
-             "-w_primary", "wall", "-w_gap", "1e-3", "-time_step", 2e-5, "-output_interval", 2e-5, "-end_time", 0.01,
-             "-probes", "p", "-p_structure", "t", "-p_group", "edge"]
+    SCENE = [*BRICKS, *TIE, "-t_initial_velocity", f"0.1,{-SPEED},0", *contacts(w=("t:y_min", "wall", "1e-3")),
+             *clock(2e-5, 0.01), *probes(p="t:edge")]
 
     def test_ledger_and_ranks(self):
         for parameters in (mesh(m1=2, m2=3), mesh(m1=2, m2=3, gap=0.05)):
@@ -440,11 +434,10 @@ class Struck(unittest.TestCase):
 
     def test_another_structure_with_damping_under_gravity(self):
         """A block flies against bricks that hang by a tie and are damped: the ledger with all of its terms."""
-        scene = [*BRICKS, *TIE, *HELD, *mesh(m1=2, m2=3, gap=0.02), "-b_mesh",
-                 "tests/meshes/box.geo", "-b_mesh_set", "x0=0.3,y0=-1.001,z0=0.1,lx=1.2,nx=2,ny=1,nz=2",
-                 "-b_body_element", "hex8", "-b_body_material", "c", "-b_initial_velocity", "0,1,0", "-contacts", "w",
-                 "-w_secondary", "b:y_max", "-w_primary", "t:y_min", "-end_time", 0.01, "-output_interval", 1e-4,
-                 "-gravity", GRAVITY, "-probes", "p", "-p_structure", "t", "-p_group", "edge"]
+        scene = [*BRICKS, *TIE, *HELD, *mesh(m1=2, m2=3, gap=0.02),
+                 *box_of("b", "x0=0.3,y0=-1.001,z0=0.1,lx=1.2,nx=2,ny=1,nz=2", "c"), "-b_initial_velocity", "0,1,0",
+                 *contacts(w=("b:y_max", "t:y_min")), "-end_time", 0.01, "-output_interval", 1e-4, "-gravity", GRAVITY,
+                 *probes(p="t:edge")]
         scene[scene.index("-structures") + 1] = "t,b"
         for more in (["-t_damping_alpha", 0.3, "-t_damping_beta", 1e-6], ["-t_damping_uniform", 0.04]):
             values = []
@@ -462,7 +455,7 @@ class Struck(unittest.TestCase):
     def test_reduced_to_all_of_its_modes(self):
         scene = [*self.SCENE, *HELD, *mesh(m1=2, m2=3), "-w_gap", "1e-4"]
         full = Recorded(self, scene, 2)
-        reduced = Recorded(self, [*scene, "-t_model", "modal", "-t_modal_vectors", 10000], 2)
+        reduced = Recorded(self, [*scene, *in_modes("t", 10000)], 2)
         u, v = full.displacement("p.y"), reduced.displacement("p.y")
         self.assertGreater(full.summary["impacts"]["total_impulse"], 0)
         self.assertLess(abs(u - v).max() / abs(u).max(), 1e-9)
@@ -497,7 +490,7 @@ class BesideOtherThings(unittest.TestCase):
         """Two bricks shaken across."""
         record = write_sine(8.0, 10.0, 0.1)
         return [*BRICKS, *TIE, "-motion_y_record", record, "-motion_y_unit", "m/s2", "-output_interval", 1e-3,
-                "-end_time", 0.05, "-probes", "p", "-p_structure", "t", "-p_group", "edge"]
+                "-end_time", 0.05, *probes(p="t:edge")]
 
     def test_absorbing_faces(self):
         """Waves leave through an end of two tied bricks."""
@@ -512,21 +505,20 @@ class BesideOtherThings(unittest.TestCase):
                                     (mesh(m1=2, m2=3, gap=0.05, shift=0.1), 4)):
             _, run = self.alike([*wall, *parameters], "friction")
             self.assertEqual(run.summary["contacts"]["w"]["carried_nodes"], carried)
-        block = [*rough, "-w_primary", "b:z_max", "-b_mesh", "tests/meshes/box.geo", "-b_mesh_set",
-                 "x0=-0.5,y0=-0.5,z0=-1,lx=3,ly=2,lz=1,nx=4,ny=3,nz=1", "-b_body_element", "hex8", "-b_body_material", "c",
-                 "-b_clamp", "z_min", *mesh(m1=2, m2=3), "-w_passes", 2]
+        block = [*rough, "-w_primary", "b:z_max",
+                 *box_of("b", "x0=-0.5,y0=-0.5,z0=-1,lx=3,ly=2,lz=1,nx=4,ny=3,nz=1", "c"), "-b_clamp", "z_min",
+                 *mesh(m1=2, m2=3), "-w_passes", 2]
         block[block.index("-structures") + 1] = "t,b"
         self.alike(block, "friction", (1, 3))
 
     def test_friction_below_matched_parts(self):
         """Parts tied node by node slide as the one mesh does that has these nodes once."""
-        wall = ["-gravity", GRAVITY, "-preload", "static", "-contacts", "w", "-w_secondary", "t:z_min", "-w_gap", 0,
-                "-w_friction", 0.3, "-w_primary", "wall", "-p_group", "x_max", "-time_step", 2e-5]
+        wall = ["-gravity", GRAVITY, "-preload", "static", *contacts(w=("t:z_min", "wall", 0)), "-w_friction", 0.3,
+                "-p_group", "x_max", "-time_step", 2e-5]
         tied, run = self.alike([*self.shaken(), *mesh(m1=3, m2=3), *wall], "friction", (2,))
         self.assertEqual(run.summary["contacts"]["w"]["carried_nodes"], 4)
         shaking = self.shaken()[len(BRICKS) + len(TIE):]
-        one = ["-structures", "t", "-t_mesh", "tests/meshes/box.geo", "-t_mesh_set", "lx=2,nx=4,ny=3,nz=3",
-               "-t_body_element", "hex8", "-t_body_material", "c", *CONCRETE, "-material_c_poisson", POISSON]
+        one = ["-structures", "t", *box_of("t", "lx=2,nx=4,ny=3,nz=3", "c"), *CONCRETE, "-material_c_poisson", POISSON]
         found, _ = self.alike([*one, *shaking, *wall], "friction", (3,))
         self.assertLess(abs(tied - found).max() / abs(found).max(), 1e-8)
 
@@ -558,9 +550,8 @@ class LinksOnATie(unittest.TestCase):
         for more in (["-t_corner_compression_only", "true"], []):
             scene = [*PLATES, *HELD, *TIE, *mesh(m1=2, m2=3, plates=1), "-t_corner_element", "grounded_spring",
                      "-t_corner_stiffness", "1e6,1e6,1e7", "-t_corner_dashpot", "1e3,1e4,1e5", *more,
-                     "-t_initial_velocity", "0.1,0.2,0.5", "-time_step", 1e-5, "-output_interval", 1e-4, "-end_time",
-                     0.02, "-probes", "p", "-p_structure", "t", "-p_group", "corner"]
-            modes = Recorded(self, [*scene, "-t_model", "modal", "-t_modal_vectors", 10000], 1, identity=1e-9)
+                     "-t_initial_velocity", "0.1,0.2,0.5", *clock(1e-5, 0.02, 1e-4), *probes(p="t:corner")]
+            modes = Recorded(self, [*scene, *in_modes("t", 10000)], 1, identity=1e-9)
             for ranks in (1, 2, 3):
                 run = Recorded(self, scene, ranks, identity=1e-11)
                 self.assertGreater(run.energy["devices"], 1)

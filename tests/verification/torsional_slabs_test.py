@@ -15,6 +15,7 @@ import unittest
 
 import numpy
 
+from decks import contacts
 from recorded import Recorded, reference, write_sine
 
 WIDTH, HEIGHT = 2.5, 1.4
@@ -77,13 +78,11 @@ def slab(name, overdamping):
 
 def scene(gaps, record, overdamping, end):
     above, below = gaps
-    words = ["-structures", "left,right", "-contacts", "above,below", "-end_time", end,
-             "-above_secondary", "left:far_high", "-above_primary", "right:near_high",
-             "-above_gap", f"1,{above}", "-below_secondary", "left:far_low",
-             "-below_primary", "right:near_low", "-below_gap", f"{below},1",
-             "-motion_x_record", record, "-motion_x_unit", "m/s2", "-output_interval", 1e-4,
-             "-impact_merge_time", 1e-3,
-             "-probes", "left_above,left_below,right_above,right_below"]
+    words = ["-structures", "left,right",
+             *contacts(above=("left:far_high", "right:near_high", f"1,{above}"), below=("left:far_low",
+                       "right:near_low", f"{below},1")),
+             "-end_time", end, "-motion_x_record", record, "-motion_x_unit", "m/s2", "-output_interval", 1e-4,
+             "-impact_merge_time", 1e-3, "-probes", "left_above,left_below,right_above,right_below"]
     for name in SLABS:
         for place, y in (("above", WIDTH / 2), ("below", -WIDTH / 2)):
             words += [f"-{name}_{place}_structure", name, f"-{name}_{place}_at", f"0,{y},0"]

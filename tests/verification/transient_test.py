@@ -13,6 +13,7 @@ import unittest
 
 import numpy
 
+from decks import box_of, clock, material, probes, section
 from recorded import Recorded
 
 # Springs of 1e13 N/m leave a force by round-off.
@@ -26,15 +27,11 @@ class Bar(unittest.TestCase):
     def test_top_follows_the_waves(self):
         transit = self.LENGTH / self.SOUND
         time_step = 0.9 * transit / self.ELEMENTS
-        run = Recorded(self, [
-            "-structures", "bar", "-bar_mesh", "tests/meshes/box.geo", "-bar_mesh_set",
-            f"lz={self.LENGTH},nz={self.ELEMENTS}", "-bar_clamp", "z_min",
-            "-bar_body_element", "hex8_full", "-bar_body_material", "concrete",
-            "-material_concrete_young", self.YOUNG, "-material_concrete_poisson", 0,
-            "-material_concrete_density", self.DENSITY, "-bar_gravity", f"0,0,{self.GRAVITY}",
-            "-time_step", repr(time_step), "-end_time", repr(3 * transit),
-            "-output_interval", repr(time_step / 2), "-probes", "top", "-top_structure", "bar",
-            "-top_group", "z_max"])
+        run = Recorded(self, ["-structures", "bar",
+                              *box_of("bar", f"lz={self.LENGTH},nz={self.ELEMENTS}", "concrete", "hex8_full"),
+                              "-bar_clamp", "z_min", *material("concrete", self.YOUNG, 0, self.DENSITY), "-bar_gravity",
+                              f"0,0,{self.GRAVITY}", *clock(repr(time_step), repr(3 * transit), repr(time_step / 2)),
+                              *probes(top="bar:z_max")])
         t, u = run.time, run.displacement("top.z")
         late = numpy.maximum(0, t - transit)
         exact = self.GRAVITY * (t**2 / 2 - late**2)
@@ -61,22 +58,17 @@ class DeepBeam(unittest.TestCase):
 
     def bend(self, elements, end, alpha, ranks):
         hold = 1e13
-        return Recorded(self, [
-            "-structures", "beam", "-beam_mesh", "tests/meshes/line.geo",
-            "-beam_mesh_set", f"length=10,n={elements}", "-beam_line_element", "beam",
-            "-beam_line_material", "steel", "-beam_line_section", "square",
-            "-material_steel_young", self.YOUNG, "-material_steel_poisson", 0.3,
-            "-material_steel_density", self.DENSITY, "-section_square_area", self.AREA,
-            "-section_square_inertia_y", repr(self.INERTIA),
-            "-section_square_inertia_z", repr(self.INERTIA),
-            "-section_square_torsion", repr(2 * self.INERTIA), "-section_square_z_axis", "0,0,1",
-            "-beam_x_min_element", "grounded_spring", "-beam_x_max_element", "grounded_spring",
-            "-beam_x_min_stiffness", f"{hold},{hold},{hold},{hold},0,0",
-            "-beam_x_max_stiffness", f"0,{hold},{hold},0,0,0",
-            "-beam_gravity", f"0,{1e6 / (self.DENSITY * self.AREA)!r},0",
-            "-beam_damping_alpha", alpha, "-beam_damping_beta", 7.46e-5, "-end_time", end,
-            "-output_interval", 2e-5, "-probes", "middle", "-middle_structure", "beam",
-            "-middle_at", "5,0,0"], ranks, IDENTITY_WITH_STIFF_SUPPORTS)
+        return Recorded(self, ["-structures", "beam", "-beam_mesh", "tests/meshes/line.geo", "-beam_mesh_set",
+                               f"length=10,n={elements}", "-beam_line_element", "beam", "-beam_line_material", "steel",
+                               "-beam_line_section", "square", *material("steel", self.YOUNG, 0.3, self.DENSITY),
+                               *section("square", self.AREA, repr(self.INERTIA), repr(self.INERTIA),
+                                        repr(2 * self.INERTIA), "0,0,1"),
+                               "-beam_x_min_element", "grounded_spring", "-beam_x_max_element", "grounded_spring",
+                               "-beam_x_min_stiffness", f"{hold},{hold},{hold},{hold},0,0", "-beam_x_max_stiffness",
+                               f"0,{hold},{hold},0,0,0", "-beam_gravity", f"0,{1e6 / (self.DENSITY * self.AREA)!r},0",
+                               "-beam_damping_alpha", alpha, "-beam_damping_beta", 7.46e-5, "-end_time", end,
+                               "-output_interval", 2e-5,
+                               *probes(middle="beam@5,0,0")], ranks, IDENTITY_WITH_STIFF_SUPPORTS)
 
     def test_peak_and_static_deflection(self):
         run = self.bend(32, 0.02, 5.36, 2)
@@ -100,16 +92,12 @@ class Plate(unittest.TestCase):
 
     def bend(self, case, cells, ranks, alpha, end):
         thickness, pressure, _, beta, deflection, turn, factor = case[:7]
-        words = ["-structures", "plate", "-plate_mesh", "tests/meshes/quadrilateral.geo",
-                 "-plate_mesh_set", f"nx={cells},ny={cells}", "-plate_plate_element", "shell",
-                 "-plate_plate_material", "steel", "-plate_plate_thickness", thickness,
-                 "-plate_plate_rotary_inertia_factor", factor,
-                 "-material_steel_young", 200e9, "-material_steel_poisson", 0.3,
-                 "-material_steel_density", self.DENSITY,
-                 "-plate_gravity", f"0,0,{pressure / (self.DENSITY * thickness)!r}",
-                 "-plate_damping_alpha", alpha, "-plate_damping_beta", beta,
-                 "-end_time", end, "-output_interval", end / 1000, "-probes", "middle",
-                 "-middle_structure", "plate", "-middle_at", "5,0,0"]
+        words = ["-structures", "plate", "-plate_mesh", "tests/meshes/quadrilateral.geo", "-plate_mesh_set",
+                 f"nx={cells},ny={cells}", "-plate_plate_element", "shell", "-plate_plate_material", "steel",
+                 "-plate_plate_thickness", thickness, "-plate_plate_rotary_inertia_factor", factor,
+                 *material("steel", 200e9, 0.3, self.DENSITY), "-plate_gravity",
+                 f"0,0,{pressure / (self.DENSITY * thickness)!r}", "-plate_damping_alpha", alpha, "-plate_damping_beta",
+                 beta, "-end_time", end, "-output_interval", end / 1000, *probes(middle="plate@5,0,0")]
         for name, turns in (("corners", (1, 1)), ("x_edges", (1, 0)), ("y_edges", (0, 1))):
             values = [0, 0, deflection, turns[0] * turn, turns[1] * turn, 0]
             words += [f"-plate_{name}_element", "grounded_spring",

@@ -14,6 +14,7 @@ import unittest
 import numpy
 
 import program
+from decks import box_of, clock, contacts
 from recorded import IDENTITY_OF_A_FLIGHT, Recorded, assert_follows
 from references import chains
 
@@ -53,21 +54,19 @@ def step_of(bars, courant):
 
 def scene(bars, time_step, end_time, gap=GAP, area=0.01, more=(), abreast=1):
     """abreast: so many pairs of such bars side by side, grown together."""
-    words = ["-structures", "one,two", "-contacts", "joint", "-joint_secondary", "two:x_min",
-             "-joint_primary", "one:x_max", "-joint_gap", gap, "-time_step", repr(time_step),
-             "-end_time", repr(end_time), "-output_interval", repr(time_step / 2),
-             "-energy_interval", 1, "-impact_merge_time", 1e-4, "-one_initial_velocity", "1,0,0",
-             "-probes", "one_body,one_x_min,one_x_max,two_body,two_x_min,two_x_max"]
+    words = ["-structures", "one,two", *contacts(joint=("two:x_min", "one:x_max", gap)),
+             *clock(repr(time_step), repr(end_time), repr(time_step / 2)), "-energy_interval", 1, "-impact_merge_time",
+             1e-4, "-one_initial_velocity", "1,0,0", "-probes",
+             "one_body,one_x_min,one_x_max,two_body,two_x_min,two_x_max"]
     side = math.sqrt(area)
     for name, (length, material, n) in zip(("one", "two"), bars):
         start = -length if name == "one" else 0
         for group in ("body", "x_min", "x_max"):
             words += [f"-{name}_{group}_structure", name, f"-{name}_{group}_group", group]
-        words += [f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set",
-                  f"x0={start},lx={length},nx={n},ly={abreast * side!r},ny={abreast},lz={side!r}",
-                  f"-{name}_body_element", "hex8_full", f"-{name}_body_material", name,
-                  f"-material_{name}_young", material[0], f"-material_{name}_poisson", 0,
-                  f"-material_{name}_density", material[1]]
+        words += [*box_of(name, f"x0={start},lx={length},nx={n},ly={abreast * side!r},ny={abreast},lz={side!r}", name,
+                          "hex8_full"),
+                  f"-material_{name}_young", material[0], f"-material_{name}_poisson", 0, f"-material_{name}_density",
+                  material[1]]
     return words + list(more)
 
 

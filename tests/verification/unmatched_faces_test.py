@@ -9,6 +9,7 @@ import math
 import unittest
 
 import program
+from decks import box_of, clock, contacts, material
 from recorded import Recorded, all_nodes
 
 LENGTH, SIDE, YOUNG, DENSITY = 2.0, 0.3, 30e9, 2400.0
@@ -39,18 +40,13 @@ DISCRETE = [
 
 def scene(poisson, meshes, secondary, beta, time_step, passes):
     faces = {1: "one:x_max", 2: "two:x_min"}
-    words = ["-structures", "one,two", "-contacts", "joint",
-             "-joint_secondary", faces[secondary], "-joint_primary", faces[3 - secondary],
-             "-joint_gap", GAP, "-joint_passes", passes, "-time_step", repr(time_step),
-             "-end_time", 0.0028, "-output_interval", 8.5e-6, "-impact_merge_time", 1e-4,
-             "-one_initial_velocity", "1,0,0", "-probes", "all1,all2",
-             *all_nodes("all1", "one"), *all_nodes("all2", "two"),
-             "-material_concrete_young", YOUNG, "-material_concrete_poisson", poisson,
-             "-material_concrete_density", DENSITY]
+    words = ["-structures", "one,two", *contacts(joint=(faces[secondary], faces[3 - secondary], GAP)), "-joint_passes",
+             passes, *clock(repr(time_step), 0.0028, 8.5e-6), "-impact_merge_time", 1e-4, "-one_initial_velocity",
+             "1,0,0", "-probes", "all1,all2", *all_nodes("all1", "one"), *all_nodes("all2", "two"),
+             *material("concrete", YOUNG, poisson, DENSITY)]
     for name, start, (nx, ny, nz) in (("one", -LENGTH, meshes[0]), ("two", 0, meshes[1])):
-        words += [f"-{name}_mesh", "tests/meshes/box.geo", f"-{name}_mesh_set",
-                  f"x0={start},lx={LENGTH},ly={SIDE},lz={SIDE},nx={nx},ny={ny},nz={nz}",
-                  f"-{name}_body_element", "hex8_full", f"-{name}_body_material", "concrete",
+        words += [*box_of(name, f"x0={start},lx={LENGTH},ly={SIDE},lz={SIDE},nx={nx},ny={ny},nz={nz}", "concrete",
+                          "hex8_full"),
                   f"-{name}_damping_beta", repr(beta)]
     return words
 

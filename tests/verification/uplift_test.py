@@ -12,6 +12,7 @@ import unittest
 import numpy
 
 import program
+from decks import in_modes, material, probes, section
 from recorded import Recorded
 
 GRAVITY = 9.81
@@ -27,16 +28,15 @@ class Thrown(unittest.TestCase):
         return ["-structures", "body", "-body_mesh", "tests/meshes/braces.geo", "-body_ignore", "anchors,left,right",
                 "-body_mass_element", "point_mass", "-body_mass_mass", self.MASS, "-body_support_element",
                 "grounded_spring", "-body_support_stiffness", f"1e4,1e4,{self.STIFFNESS}",
-                "-body_support_compression_only", "true", "-probes", "body_at", "-body_at_structure", "body",
-                "-body_at_at", "0,0,0", "-time_step", 1e-5, "-output_interval", 1e-5, "-gravity", GRAVITY, "-preload",
-                "static", *more]
+                "-body_support_compression_only", "true", *probes(body_at="body@0,0,0"), "-time_step", 1e-5,
+                "-output_interval", 1e-5, "-gravity", GRAVITY, "-preload", "static", *more]
 
     def test_flies_and_comes_back_as_it_must(self):
         lift_off = math.asin(1 / 2.5) / self.OMEGA
         speed = self.SPEED * math.cos(lift_off * self.OMEGA)
         flight = 2 * speed / GRAVITY
         period = flight + (math.pi + 2 * lift_off * self.OMEGA) / self.OMEGA
-        for more in ([], ["-body_model", "modal", "-body_modal_vectors", 3]):
+        for more in ([], [*in_modes("body", 3)]):
             run = Recorded(self, self.scene("-end_time", 2 * period + lift_off / 2, "-body_initial_velocity", f"0,0,{self.SPEED}",
                                             "-energy_interval", 1, *more))
             u, time = run.displacement("body_at.z"), run.time
@@ -67,7 +67,7 @@ class Thrown(unittest.TestCase):
     def test_what_cannot_be_meant_is_refused(self):
         for more, why in ((["-body_support_stiffness", "1e4,1e4,0"], "its stiffness along z is 0"),
                           (["-body_support_element", "point_mass"], "compression_only"),
-                          (["-body_model", "modal", "-body_modal_vectors", 3, "-body_damping_uniform", 0.02],
+                          ([*in_modes("body", 3), "-body_damping_uniform", 0.02],
                            "leave one of the three out"),
                           (["-body_support_damping_beta", 1e-4], "take the damping of their structure"),
                           (["-export_matrices", tempfile.gettempdir() + "/none", "-dry_run"], "no matrix holds")):
@@ -117,14 +117,12 @@ class Overturned(unittest.TestCase):
         for slope, carrying, ranks in ((0.3, 9, 1), (0.55, None, 2), (0.7, None, 3)):
             force = self.rest(slope)
             words = ["-structures", "mat", "-mat_mesh", mesh, "-mat_ignore", "foot", "-mat_beams_element", "beam",
-                     "-mat_beams_material", "stiff", "-mat_beams_section", "s", "-material_stiff_young", 1e12,
-                     "-material_stiff_poisson", 0.3, "-material_stiff_density", 100, "-section_s_area", 1e-3,
-                     "-section_s_inertia_y", 1, "-section_s_inertia_z", 1, "-section_s_torsion", 1,
-                     "-section_s_z_axis", "0,1,0", "-mat_load_element", "point_mass", "-mat_load_mass", self.LOAD,
-                     "-mat_load_rotary_inertia", "1e4,1e4,1e4", "-mat_bed_element", "grounded_spring",
-                     "-mat_bed_stiffness", f"1e5,1e5,{self.STIFFNESS},1e3,0,1e3", "-mat_bed_compression_only",
-                     "true", "-mat_gravity", f"{slope * GRAVITY},0,{-GRAVITY}", "-preload", "static", "-end_time",
-                     1e-6, "-energy_interval", 1]
+                     "-mat_beams_material", "stiff", "-mat_beams_section", "s", *material("stiff", 1e12, 0.3, 100),
+                     *section("s", 1e-3, 1, 1, 1, "0,1,0"), "-mat_load_element", "point_mass", "-mat_load_mass",
+                     self.LOAD, "-mat_load_rotary_inertia", "1e4,1e4,1e4", "-mat_bed_element", "grounded_spring",
+                     "-mat_bed_stiffness", f"1e5,1e5,{self.STIFFNESS},1e3,0,1e3", "-mat_bed_compression_only", "true",
+                     "-mat_gravity", f"{slope * GRAVITY},0,{-GRAVITY}", "-preload", "static", "-end_time", 1e-6,
+                     "-energy_interval", 1]
             run = Recorded(self, words, ranks, identity=1e-6)
             rest = run.summary["equilibrium"]
             self.assertEqual(rest["acting_links"], (force > 0).sum())
@@ -203,10 +201,10 @@ class SlabOnSprings(unittest.TestCase):
             file.write(text)
         corners = [f"{x},{y},0" for y in (0, 2) for x in (0, 1)]
         for ranks in (1, 2, 3):
-            run = Recorded(self, ["-structures", "slab", "-slab_mesh", mesh, *words, "-material_stiff_young", 2e11,
-                                  "-material_stiff_poisson", 0.3, "-material_stiff_density", 1e-6, "-gravity", self.PULL,
-                                  "-preload", "static", "-end_time", 1e-6, "-probes", "at", "-at_structure", "slab",
-                                  "-at_at", "; ".join(corners), "-at_average", "false"], ranks)
+            run = Recorded(self, ["-structures", "slab", "-slab_mesh", mesh, *words,
+                                  *material("stiff", 2e11, 0.3, 1e-6), "-gravity", self.PULL, "-preload", "static",
+                                  "-end_time", 1e-6, "-probes", "at", "-at_structure", "slab", "-at_at",
+                                  "; ".join(corners), "-at_average", "false"], ranks)
             for corner, published in ((1, -3.532908705e-3), (2, -3.532908705e-3), (3, 1.149763188e-3), (4, 1.149763188e-3)):
                 self.assertAlmostEqual(run.displacement(f"at.{corner}.z")[0] / published, 1, delta=1e-6, msg="corners")
             rest = run.summary["equilibrium"]
