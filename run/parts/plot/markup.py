@@ -1,6 +1,8 @@
 """Pieces of pages in HTML: numbers, tables, figures, and the page around them, for screen and paper."""
 
 import base64
+import itertools
+import re
 from html import escape
 from pathlib import Path
 
@@ -8,6 +10,8 @@ import numpy as np
 
 from pounding.files import write_text
 
+HEADING = r"<h2([^>]*)>(.*?)</h2>"
+FEW = 4  # parts of a page that need no list
 SHORT = 25  # rows of a table that stays on one page of paper
 
 CSS = """
@@ -23,6 +27,7 @@ figcaption, .note, .from { color: #555; font-size: 0.9em; }
 .answer { border-left: 5px solid #08519C; padding: 0.1em 1.2em; background: #f4f7fb; }
 .answer.touched { border-color: #C0392B; background: #fdf5f4; }
 .answer p:first-child { font-size: 1.2em; font-weight: bold; }
+nav ul { columns: 3; padding-left: 1.2em; font-size: 0.9em; } nav a { color: #08519C; text-decoration: none; }
 code { overflow-wrap: anywhere; } .small table { font-size: 0.75em; }
 @page { size: A4; margin: 16mm 14mm 18mm 14mm;
   @bottom-right { content: counter(page) " / " counter(pages); font: 8pt sans-serif; color: #555; } }
@@ -93,10 +98,23 @@ def paragraphs(lines: list) -> str:
     return "".join(f"<p>{escape(line)}</p>\n" for line in lines)
 
 
+def with_contents(content: str) -> str:
+    """The content with a list of its parts, if there are more than a few: after the answer where it begins with one."""
+    titles = re.findall(HEADING, content)
+    if len(titles) < FEW:
+        return content
+    count = itertools.count(1)
+    content = re.sub(HEADING, lambda found: f'<h2{found[1]} id="part-{next(count)}">{found[2]}</h2>', content)
+    links = "".join(f'<li><a href="#part-{place}">{title}</a></li>\n' for place, (_, title) in enumerate(titles, 1))
+    answer = re.match(r'<div class="answer.*?</div>\n', content, re.DOTALL)
+    begin = answer.end() if answer else 0
+    return f'{content[:begin]}<nav><ul>\n{links}</ul></nav>\n{content[begin:]}'
+
+
 def write_page(path: Path, title: str, content: str, under: str = "") -> Path:
     """Writes a page of its own, its content in HTML, a line under its title, and returns the path."""
     title = escape(title)
     under = f'<p class="from">{escape(under)}</p>\n' if under else ""
     write_text(path, f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title>'
-                    f"<style>{CSS}</style></head>\n<body>\n<h1>{title}</h1>\n{under}{content}</body></html>\n")
+                    f"<style>{CSS}</style></head>\n<body>\n<h1>{title}</h1>\n{under}{with_contents(content)}</body></html>\n")
     return path
