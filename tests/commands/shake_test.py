@@ -50,8 +50,7 @@ class Made(unittest.TestCase):
 class Run(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        place = tempfile.mkdtemp(prefix="pounding-shake-")
-        cls.place = Path(place)
+        cls.place = Path(tempfile.mkdtemp(prefix="pounding-shake-"))
         cls.run_ = two_buildings.run(cls.place / "run", gap=0.01)
         cls.out = cls.place / "table.csv"
 

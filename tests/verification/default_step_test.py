@@ -7,7 +7,6 @@ highest mode not above the last frequency of the spectra, or of that frequency w
 import math
 import os
 import re
-import shutil
 import tempfile
 import unittest
 
@@ -72,7 +71,6 @@ class Oscillators(unittest.TestCase):
             folder, summary = program.must_run(self, self.words((2, 2, 2), *more), ranks)
             with h5py.File(os.path.join(folder, "history.h5")) as file:
                 x = file["displacement"][:, 0]
-            shutil.rmtree(folder)
             self.assertAlmostEqual(summary["time_step"] / (0.268 / (4 * math.pi)), 1, delta=1e-5)
             self.assertAlmostEqual(abs(x).max() / (SPEED / (4 * math.pi)), 1, delta=0.01)
             self.assertAlmostEqual(numpy.count_nonzero(numpy.diff(numpy.sign(x[x != 0]))), 40, delta=1)
@@ -96,14 +94,12 @@ class Oscillators(unittest.TestCase):
 
     def test_a_longer_step_is_doubted(self):
         folder, summary = program.must_run(self, self.words((2, 2, 2), "-time_step", 0.05, end_time=1), 2)
-        shutil.rmtree(folder)
         line, = self.doubts(summary)
         for part in ("the time step 0.05 s makes 2 Hz, the highest mode of a up to 400 Hz, 1.64 % too high",
                      "none up to 0.853 Hz by more than 0.3 %", "give -time_step 0.0213 or less"):
             self.assertIn(part, line)
         self.assertEqual(summary["time_step_source"], "as -time_step gives it")
         folder, summary = program.must_run(self, self.words((2, 2, 2), "-time_step", 0.0213, end_time=1))
-        shutil.rmtree(folder)
         self.assertEqual(self.doubts(summary), [])
 
     def test_members_of_an_ensemble_take_the_step_of_the_fastest(self):
@@ -127,7 +123,6 @@ class StartOfRecords(unittest.TestCase):
             with h5py.File(os.path.join(folder, "history.h5")) as file:
                 names = [name.decode() for name in file["channels"]]
                 first = file["acceleration"][0]
-            shutil.rmtree(folder)
             self.assertEqual(abs(first[[names.index(f"foot.{d}") for d in "xyz"]]).max(), 0)
             # The other face is braked by its spring alone, from nothing on.
             self.assertLess(abs(first[names.index("face.x")]), 1)

@@ -8,7 +8,6 @@
 import math
 import os
 import re
-import shutil
 import tempfile
 import unittest
 
@@ -39,7 +38,6 @@ class Forces:
         table = program.read_csv(os.path.join(folder, "forces.csv"))
         self.peaks = {(item, part, int(float(element))): (float(peak), float(time)) for item, part, element, peak, time
                       in zip(*(table[name] for name in ("item", "component", "element", "peak", "time")))}
-        shutil.rmtree(folder)
 
     def total(self, item):
         """Force and moment, shape (samples, 6)."""
@@ -320,7 +318,6 @@ class Floors(unittest.TestCase):
             with h5py.File(os.path.join(folder, "history.h5")) as file:
                 time, moved = file["time"][()], file["displacement"][()]
                 names = [name.decode() for name in file["channels"]]
-            shutil.rmtree(folder)
             for storey in summary["drifts"]:
                 at = [summary["probes"][name]["position"][2] if name != "base" else 0.0
                       for name in (storey["upper"], storey["lower"])]
