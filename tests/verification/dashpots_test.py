@@ -10,13 +10,12 @@ import os
 import tempfile
 import unittest
 
-import h5py
 import numpy
 import scipy.io
 
 import program
 from decks import contacts, in_modes, material
-from recorded import Recorded
+from recorded import Recorded, assert_continues
 from springs_test import SPEED, chain, point, spring
 from tension_brace_test import scene as braces
 
@@ -134,15 +133,7 @@ class TwoMasses(unittest.TestCase):
 
 
     def test_a_continued_run_is_the_uninterrupted_one(self):
-        folder, _ = program.must_run(self, words(STRONG, "-output_interval", 1e-3), 2)
-        with tempfile.TemporaryDirectory() as cut:
-            for more in (["-end_time", 0.05, "-checkpoint_steps", 300],
-                         ["-restart", os.path.join(cut, "checkpoint.h5")]):
-                result = program.must_end(self, words(STRONG, "-output_interval", 1e-3, *more, "-output", cut), 2)
-            with h5py.File(os.path.join(folder, "history.h5")) as whole, \
-                    h5py.File(os.path.join(cut, "history.h5")) as continued:
-                for name in ("displacement", "velocity", "acceleration"):
-                    self.assertTrue(numpy.array_equal(whole[name][()], continued[name][()]), name)
+        assert_continues(self, words(STRONG, "-output_interval", 1e-3), 0.05, 300, 2)
 
 
 class AtAContact(unittest.TestCase):

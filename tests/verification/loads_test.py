@@ -9,12 +9,11 @@ import os
 import tempfile
 import unittest
 
-import h5py
 import numpy
 
 import program
 from decks import box_of, clock, in_modes, material, probes, section
-from recorded import Recorded, assert_follows, ensemble_of
+from recorded import Recorded, assert_continues, assert_follows, ensemble_of
 
 YOUNG, DENSITY, AREA, LENGTH = 2e9, 2500.0, 0.25, 2.0
 STEP = 2e-5
@@ -204,18 +203,7 @@ class EveryRoom(unittest.TestCase):
             self.assertGreater(change, 0.1 * abs(first.displacement("end.y")).max())
 
     def test_restart_to_the_bit(self):
-        folders = []
-        for more in (["-end_time", 200 * STEP], ["-end_time", 120 * STEP, "-checkpoint_steps", 100]):
-            folder, _ = program.must_run(self, self.words("-modes", 0, *more))
-            folders.append(folder)
-        continued, _ = program.must_run(self, self.words("-modes", 0, "-restart",
-                                                         os.path.join(folders[1], "checkpoint.h5")))
-        with h5py.File(os.path.join(folders[0], "history.h5")) as one:
-            with h5py.File(os.path.join(continued, "history.h5")) as other:
-                for name in ("displacement", "velocity"):
-                    numpy.testing.assert_array_equal(one[name][()], other[name][()])
-        tables = [open(os.path.join(folder, "energy.csv")).read() for folder in (folders[0], continued)]
-        self.assertEqual(*tables)
+        assert_continues(self, self.words("-modes", 0, "-end_time", 200 * STEP), 120 * STEP, 100)
 
     def test_restart_with_another_table_is_refused(self):
         with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:

@@ -9,12 +9,11 @@ import os
 import tempfile
 import unittest
 
-import h5py
 import numpy
 
 import program
 from decks import clock
-from recorded import Recorded
+from recorded import Recorded, assert_continues
 from uniform_damping_test import Filters, decay
 
 FREQUENCIES = (1, 3, 10, 30, 100)  # Hz
@@ -157,15 +156,7 @@ class Thrown(unittest.TestCase):
         self.assertEqual(run.summary["contact_ratio"]["body"]["smallest"], 0)
 
     def test_a_continued_run_is_the_uninterrupted_one(self):
-        folder, _ = program.must_run(self, self.words("-end_time", 1), 2)
-        with tempfile.TemporaryDirectory() as cut:
-            for more in (["-end_time", 0.6, "-checkpoint_steps", 3300],
-                         ["-restart", os.path.join(cut, "checkpoint.h5"), "-end_time", 1]):
-                result = program.must_end(self, self.words(*more, "-output", cut), 2)
-            with h5py.File(os.path.join(folder, "history.h5")) as whole, \
-                    h5py.File(os.path.join(cut, "history.h5")) as continued:
-                for name in ("displacement", "velocity", "acceleration"):
-                    self.assertTrue(numpy.array_equal(whole[name][()], continued[name][()]), name)
+        assert_continues(self, self.words("-end_time", 1), 0.6, 3300, 2)
 
     def test_stable_up_to_the_step_that_is_told(self):
         _, summary = program.must_run(self, self.words("-end_time", 1e-4), 1)
