@@ -192,6 +192,10 @@ void read_cracking(OptionReader& options, const Names& names, Region& region) {
   }
   options.forbid("<structure>_<group>_shear_skeleton", names,
                  "not beside -" + option_name(force, names) + ": give one law or the other");
+  if (region.material.poisson < 0) {
+    options.refuse("material_<material>_poisson", {region.material.name},
+                   "group " + region.group + " cracks, whose energy wants one of 0 or above");
+  }
   ShellCracking law;
   law.force = options.real(force, names);
   law.moment =

@@ -143,6 +143,7 @@ class Wall(unittest.TestCase):
     def test_refusals(self):
         for more, said in ((["-w_model", "modal"], "-w_model full"),
                            (["-w_wall_cracked_tension", 1], "[0, 1)"),
+                           (["-material_concrete_poisson", -0.1], "whose energy wants"),
                            (["-w_wall_shear_skeleton", "1.2e-4,1.5e6"], "one law or the other"),
                            (["-export_matrices", "/tmp/nothing"], "elements that yield")):
             program.must_refuse(self, wall(*cracking(), *more, skeleton=None), said, ranks=1)
