@@ -42,7 +42,11 @@ Facts contact_facts(const Scene& scene, const Model& model, std::size_t c) {
                {"largest_slide", nullptr},
                {"slide_facet_size", nullptr},
                {"normal", report.normal}}};
-  if (contact.filler) {
+  if (contact.crushes()) {
+    facts.values["crushing"] = {{"area", report.filler_area},
+                                {"depth", contact.filler->thickness},
+                                {"strength", contact.filler->table.back().pressure}};
+  } else if (contact.filler) {
     facts.values["filler"] = {{"area", report.filler_area}, {"thickness", report.filler_thickness}};
   }
   if (contact.stop) return with_stop(*contact.stop, report, std::move(facts));
@@ -68,7 +72,11 @@ Facts contact_facts(const Scene& scene, const Model& model, std::size_t c) {
         "  of the meshes {geometric_gap:.4g mm} between surfaces, half a thickness off: "
         "{half_thickness/0:.4g [mm]} and {half_thickness/1:.4g mm}\n");
   }
-  if (report.filler_area > 0) {
+  if (contact.crushes()) {
+    facts.say(
+        "  faces of {crushing/area:.4g} m2 are crushed by {crushing/strength:.4g} Pa, hard after "
+        "{crushing/depth:.4g mm}\n");
+  } else if (report.filler_area > 0) {
     facts.say("  filler of {filler/area:.4g} m2, {filler/thickness:.4g mm} thick, in the gap\n");
   }
   return facts;
@@ -109,6 +117,24 @@ Facts joint_facts(const Scene& scene, const Model& model, const RunStatistics& r
       facts.text +=
           told("  {:-12s} stop pressed by at most {peak_force:.4g kN}, took {energy_lost:.4g} J\n",
                of["stop"], {contact.name});
+      continue;
+    }
+    if (contact.crushes()) {
+      of["crushing"].update({{"peak_pressure", filler.peak_pressure},
+                             {"peak_force", filler.peak_force},
+                             {"crushed_depth", filler.crushed_depth},
+                             {"crushed_place", filler.crushed_place},
+                             {"energy_lost", filler.loss}});
+      facts.text += told(
+          "  {:-12s} faces pressed by at most {peak_pressure:.4g kPa}, {peak_force:.4g kN} in all, "
+          "crushed by {crushed_depth:.4g mm}",
+          of["crushing"], {contact.name});
+      if (filler.crushed_depth > 0) {
+        facts.text += told(
+            " at ({crushed_place/0:.4g}, {crushed_place/1:.4g}) m, took {energy_lost:.4g} J",
+            of["crushing"]);
+      }
+      facts.text += '\n';
       continue;
     }
     of["filler"].update({{"peak_pressure", filler.peak_pressure},

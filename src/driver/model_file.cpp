@@ -128,7 +128,7 @@ Marks contact_marks(const Scene& scene, const Model& model,
     const interactions::Constraint& row = model.interface.constraints[r];
     if (row.initial_gap == interactions::open_gap) continue;
     const bool at_rest = scene.contacts[row.contact].gap_at_rest && !model.start_gaps.empty();
-    const double gap = at_rest ? model.start_gaps[r] : row.initial_gap;
+    const double gap = at_rest ? model.start_gaps[r] : row.of_faces(row.initial_gap);
     std::array<Vector3, 2> places{};  // of the two sides, weighted
     std::array<double, 2> weights{};
     const Vector3 normal = interactions::normal_of(row);

@@ -22,7 +22,7 @@ void take(double value, std::array<double, 2>& range) {
   range = {std::min(range[0], value), std::max(range[1], value)};
 }
 
-/// Width of the joint that the gap of hard contact leaves out, where a filler is dense [m].
+/// Width of the joint that the gap of its faces leaves out, where a filler is dense [m].
 double dense_width(const Contact& contact, const interactions::Constraint& row) {
   return contact.filler ? row.filler.thickness * (1 - contact.filler->dense()) : 0;
 }
@@ -57,11 +57,12 @@ std::vector<char> rows_open_at_rest(const Scene& scene, const interactions::Inte
   for (const interactions::Constraint& row : interface.constraints) {
     const Contact& contact = scene.contacts[row.contact];
     open.push_back(contact.gap_at_rest ? 1 : 0);
-    if (!contact.gap_at_rest || row.initial_gap >= -none_below * interface.model_size) continue;
+    const double gap = row.of_faces(row.initial_gap);
+    if (!contact.gap_at_rest || gap >= -none_below * interface.model_size) continue;
     throw UserError(sentence(
         "option -{}_gap_at rest: the meshes overlap by {:g mm} somewhere, and a joint is open or "
         "just closed at rest; give -{}_gap, or -{}_gap_at unloaded",
-        {contact.name, -row.initial_gap, contact.name, contact.name}));
+        {contact.name, -gap, contact.name, contact.name}));
   }
   return open;
 }
@@ -73,7 +74,7 @@ void find_start_gaps(const Scene& scene, Model& model) {
   model.start_gaps.clear();
   const std::vector<char> at_rest = rows_open_at_rest(scene, model.interface);
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    double start = rows[r].initial_gap;
+    double start = rows[r].of_faces(rows[r].initial_gap);
     if (is_paired(rows[r])) {
       const double opening = model.equilibrium ? model.equilibrium->opening[r] : 0;
       if (at_rest[r] != 0) {
@@ -83,7 +84,7 @@ void find_start_gaps(const Scene& scene, Model& model) {
       }
       const double width = dense_width(scene.contacts[rows[r].contact], rows[r]);
       JointGaps& gaps = model.joint_gaps[rows[r].contact];
-      take(rows[r].initial_gap + width, gaps.unloaded);
+      take(rows[r].of_faces(rows[r].initial_gap) + width, gaps.unloaded);
       take(start + width, gaps.at_rest);
     }
     model.start_gaps.push_back(start);

@@ -32,19 +32,19 @@ Solver::Solver(Parts parts) : parts_(std::move(parts)), contact_(make_contact(pa
     bounds_ = gap_bounds(parts_.comm, parts_.systems, parts_.energy_margins, parts_.time_step,
                          contact_.get(), parts_.progress_interval);
   }
-  has_stops_ = std::ranges::any_of(
-      parts_.interface->constraints,
-      [](const interactions::Constraint& row) { return row.filler.is_spring(); });
-  impulses_.resize(has_stops_ ? parts_.interface->constraints.size() : 0);
+  gives_way_ =
+      std::ranges::any_of(parts_.interface->constraints,
+                          [](const interactions::Constraint& row) { return row.filler.strikes(); });
+  impulses_.resize(gives_way_ ? parts_.interface->constraints.size() : 0);
   works_.resize(impulses_.size());
   make_stepper();
 }
 
 Solver::RowActions Solver::row_actions() {
-  if (!has_stops_) return {contact_->impulses(), contact_->works()};
+  if (!gives_way_) return {contact_->impulses(), contact_->works()};
   std::ranges::copy(contact_->impulses(), impulses_.begin());
   std::ranges::copy(contact_->works(), works_.begin());
-  fillers_->add_stops(impulses_, works_);
+  fillers_->add_strikes(impulses_, works_);
   return {impulses_, works_};
 }
 

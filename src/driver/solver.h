@@ -68,15 +68,15 @@ class Solver {
   }
   /// Impulses act in the step just made.
   bool touching() const { return unilateral_ != nullptr && unilateral_->touching(); }
-  /// Some row of the interface acts in it, hard contact or a stop that gives way; on the root of
-  /// the contacts.
-  bool rows_act() const { return touching() || (has_stops_ && fillers_->stops_act()); }
+  /// Some row of the interface acts in it, hard contact, faces that are crushed or a stop that
+  /// gives way; on the root of the contacts.
+  bool rows_act() const { return touching() || (gives_way_ && fillers_->strikes()); }
   /// Impulses and works per row of the interface in the step just made.
   struct RowActions {
     std::span<const double> impulses;  ///< [N s]
     std::span<const double> works;     ///< [J]
   };
-  /// Those of hard contact and of stops that give way; on the root of the contacts.
+  /// Those of hard contact, of crushing and of stops that give way; on the root of the contacts.
   RowActions row_actions();
   /// This rank holds the gaps and impulses of that step.
   bool interface_known() const { return unilateral_ != nullptr && unilateral_->interface_known(); }
@@ -102,8 +102,8 @@ class Solver {
   std::vector<interactions::InelasticElements*> inelastic_;  ///< per structure, of the stepper
   interactions::FillerRows* fillers_ = nullptr;              ///< of the stepper
   UnilateralContact* unilateral_ = nullptr;                  ///< of the stepper
-  bool has_stops_ = false;                                   ///< some stop gives way
-  std::vector<double> impulses_;  ///< see row_actions; room where there are stops
+  bool gives_way_ = false;        ///< some stop does, or some faces are crushed
+  std::vector<double> impulses_;  ///< see row_actions; room where something gives way
   std::vector<double> works_;
 };
 

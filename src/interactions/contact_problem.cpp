@@ -33,6 +33,8 @@ ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
   const std::size_t rows = interface.constraints.size();
   for (const Constraint& constraint : interface.constraints) {
     initial_gap_.push_back(constraint.initial_gap);
+    crushes_ = crushes_ || constraint.filler.depth > 0;
+    face_gap_.push_back(constraint.of_faces(constraint.initial_gap));
   }
   displacement_.assign(dofs, 0.0);
   velocities_.assign(InterfaceGather::max_fields * dofs, 0.0);
@@ -152,6 +154,7 @@ void ContactProblem::gather_displacements() {
     const std::size_t r = row;
     gap_[r] = initial_gap_[r] + interface_.rows().apply(row, displacement_);
     smallest_gap_ = std::min(smallest_gap_, gap_[r]);
+    if (crushes_) face_gap_[r] = constraints_[r].of_faces(gap_[r]);
   }
 }
 

@@ -73,10 +73,11 @@ class ContactProblem {
   /// [J]: that of the places that this rank knows.
   double support_work(std::size_t structure, std::span<const double> velocity);
 
-  /// Gaps of the last gather, per row. Members only.
-  const std::vector<double>& gaps() const { return gap_; }          ///< [m]
-  const std::vector<double>& impulses() const { return impulse_; }  ///< [N s]
-  const std::vector<double>& works() const { return work_; }        ///< 1/2 lambda L v- [J]
+  /// Gaps of the faces in the last gather, per row; below zero where they are crushed. Members
+  /// only.
+  const std::vector<double>& gaps() const { return crushes_ ? face_gap_ : gap_; }  ///< [m]
+  const std::vector<double>& impulses() const { return impulse_; }                 ///< [N s]
+  const std::vector<double>& works() const { return work_; }  ///< 1/2 lambda L v- [J]
   double smallest_gap() const { return smallest_gap_; }
   /// Contact work 1/2 lambda^T L v- of the last solve, that of friction apart [J].
   double total_work() const;
@@ -132,6 +133,8 @@ class ContactProblem {
   std::vector<double> displacement_;  ///< per interface dof
   std::vector<double> velocities_;    ///< shape (2, dofs): before, free
   std::vector<double> gap_;
+  bool crushes_ = false;          ///< strips of some faces are crushed
+  std::vector<double> face_gap_;  ///< then: gaps without them
   std::vector<double> impulse_;
   std::vector<double> previous_;  ///< impulses of the last solve: where the LCP starts
   std::vector<double> work_;

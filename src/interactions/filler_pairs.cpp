@@ -25,17 +25,17 @@ std::vector<FillerPairs::Pair> pairs_of(const Interface& interface) {
   std::vector<FillerPairs::Pair> pairs;
   for (std::size_t r = 0; r < interface.constraints.size(); ++r) {
     const Constraint& c = interface.constraints[r];
-    if (c.filler.area > 0) pairs.push_back({c.contact, r, c.filler});
+    if (c.filler.area > 0) pairs.push_back({c.contact, r, c.filler, c.place});
   }
   return pairs;
 }
 
-/// Terms of all rows where stops give way: whoever knows a contact knows their forces then, which
-/// its histories and its catalogue hold.
+/// Terms of all rows where stops give way or faces are crushed: whoever knows a contact knows their
+/// forces then, which its histories and its catalogue hold.
 std::vector<ConstraintTerm> terms_beside(const Interface& interface) {
   std::vector<ConstraintTerm> terms;
   if (std::ranges::none_of(interface.constraints,
-                           [](const Constraint& c) { return c.filler.is_spring(); })) {
+                           [](const Constraint& c) { return c.filler.strikes(); })) {
     return terms;
   }
   for (const Constraint& c : interface.constraints) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -27,6 +28,7 @@ class FillerPairs {
     int contact = 0;      ///< index into the scene's contacts
     std::size_t row = 0;  ///< among the constraints of the interface
     FillerPart part;      ///< its clearance that of the state at rest, where the run starts from it
+    std::array<double, 2> place{};  ///< on the tangent axes of the contact [m]
   };
   const std::vector<Pair>& all() const { return pairs_; }
   const InterfaceRows& rows() const { return rows_; }

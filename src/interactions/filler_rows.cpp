@@ -7,8 +7,9 @@
 namespace pounding::interactions {
 namespace {
 
+constexpr double round_off = 1e-12;  ///< of a crushed depth, over the thickness
 constexpr std::size_t saved_values = 4;
-constexpr std::size_t saved_totals = 4;
+constexpr std::size_t saved_totals = 7;
 
 std::vector<std::unique_ptr<LinkLaw>> filler_laws(const FillerPairs& pairs,
                                                   std::span<const Contact> contacts,
@@ -130,12 +131,16 @@ void FillerRows::push(const Step& step) {
 void FillerRows::note_peaks() {
   std::fill(contact_force_.begin(), contact_force_.end(), 0.0);
   for (std::size_t r = 0; r < laws_.size(); ++r) {
-    const auto& [contact, row, part] = pairs_.all()[r];
+    const auto& [contact, row, part, place] = pairs_.all()[r];
     FillerTotals& totals = totals_[contact];
     contact_force_[contact] += force_[r];
     if (part.is_spring()) continue;
     totals.peak_pressure = std::max(totals.peak_pressure, force_[r] / part.area);
     totals.crushed_strain = std::max(totals.crushed_strain, memory_[r][1] / part.thickness);
+    if (memory_[r][1] > std::max(totals.crushed_depth, round_off * part.thickness)) {
+      totals.crushed_depth = memory_[r][1];
+      totals.crushed_place = place;
+    }
   }
   for (std::size_t c = 0; c < totals_.size(); ++c) {
     totals_[c].peak_force = std::max(totals_[c].peak_force, contact_force_[c]);
@@ -157,17 +162,17 @@ void FillerRows::finish(const Step& step) {
   ledger.support_input += support_input_;
 }
 
-bool FillerRows::stops_act() const {
+bool FillerRows::strikes() const {
   for (std::size_t r = 0; r < laws_.size(); ++r) {
-    if (pairs_.all()[r].part.is_spring() && (force_[r] > 0 || row_loss_[r] != 0)) return true;
+    if (pairs_.all()[r].part.strikes() && (force_[r] > 0 || row_loss_[r] != 0)) return true;
   }
   return false;
 }
 
-void FillerRows::add_stops(std::span<double> impulses, std::span<double> works) const {
+void FillerRows::add_strikes(std::span<double> impulses, std::span<double> works) const {
   for (std::size_t r = 0; r < laws_.size(); ++r) {
     const FillerPairs::Pair& pair = pairs_.all()[r];
-    if (!pair.part.is_spring()) continue;
+    if (!pair.part.strikes()) continue;
     impulses[pair.row] += duration_ * force_[r];
     works[pair.row] -= row_loss_[r];
   }
@@ -192,7 +197,8 @@ void FillerRows::save(SavedState& saved) const {
   values.clear();
   for (const FillerTotals& totals : totals_) {
     values.insert(values.end(),
-                  {totals.peak_pressure, totals.peak_force, totals.crushed_strain, totals.loss});
+                  {totals.peak_pressure, totals.peak_force, totals.crushed_strain, totals.loss,
+                   totals.crushed_depth, totals.crushed_place[0], totals.crushed_place[1]});
   }
   saved.put("filler_totals", values, saved_totals);
   records_.save(record_names(), saved);
@@ -212,7 +218,7 @@ void FillerRows::load(const SavedState& saved) {
   saved.get("filler_totals", values);
   for (std::size_t c = 0; c < totals_.size(); ++c) {
     const double* const v = &values[saved_totals * c];
-    totals_[c] = {v[0], v[1], v[2], v[3]};
+    totals_[c] = {v[0], v[1], v[2], v[3], v[4], {v[5], v[6]}};
   }
   if (pairs_.rows().member()) records_.load(record_names(), saved);
   made_ = true;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -15,12 +16,15 @@
 
 namespace pounding::interactions {
 
-/// Largest load of the filler of a contact, and its loss.
+/// Largest load of the filler of a contact, of the strip of its faces that is crushed, or of the
+/// springs of a stop, and its loss.
 struct FillerTotals {
-  double peak_pressure = 0;   ///< of a pair [Pa]
-  double peak_force = 0;      ///< of all pairs together [N]
-  double crushed_strain = 0;  ///< largest that stays, of a pair [-]
-  double loss = 0;            ///< energy that it took and did not keep [J]
+  double peak_pressure = 0;               ///< of a pair [Pa]
+  double peak_force = 0;                  ///< of all pairs together [N]
+  double crushed_strain = 0;              ///< largest that stays, of a pair [-]
+  double loss = 0;                        ///< energy that it took and did not keep [J]
+  double crushed_depth = 0;               ///< largest that stays, of a pair [m]
+  std::array<double, 2> crushed_place{};  ///< of that pair, on the tangent axes [m]
 };
 
 /// Fillers of all contacts, pair by pair: between the step of the structures without them and
@@ -40,11 +44,12 @@ class FillerRows final : public Interaction {
   void save(SavedState& saved) const override;
   void load(const SavedState& saved) override;
 
-  /// Some stop presses in the step just made, or lost energy in the one before; members only.
-  bool stops_act() const;
-  /// Adds, per row of the interface, the impulses of stops in the step just made [N s], and takes
-  /// off what they lost in the one before from the works [J]. Members only.
-  void add_stops(std::span<double> impulses, std::span<double> works) const;
+  /// A stop or a strip that is crushed presses in the step just made, or lost energy in the one
+  /// before; members only.
+  bool strikes() const;
+  /// Adds, per row of the interface, the impulses of stops and strips in the step just made [N s],
+  /// and takes off what they lost in the one before from the works [J]. Members only.
+  void add_strikes(std::span<double> impulses, std::span<double> works) const;
   /// Per contact of the scene; members only.
   const std::vector<FillerTotals>& totals() const { return totals_; }
   const FillerPairs& pairs() const { return pairs_; }

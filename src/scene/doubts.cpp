@@ -28,6 +28,7 @@ constexpr Plausible bar_area{"area", 1e-6, 10, "m2", "is it in mm2 or cm2?"};
 constexpr Plausible mass_per_area{"mass_per_area", 1, 1e5, "kg/m2", "is it in t/m2?"};
 constexpr Plausible mass_per_length{"mass_per_length", 0.1, 1e6, "kg/m", "is it in t/m?"};
 constexpr Plausible filler_pressure{"its largest pressure", 1e3, 1e9, "Pa", "is it in MPa or kPa?"};
+constexpr Plausible crushing_strength{"its strength", 1e5, 1e9, "Pa", "is it in MPa or kPa?"};
 constexpr Plausible contact_friction{"friction", 0, 1.5, "-",
                                      "it is a coefficient; is it in percent or degrees?"};
 constexpr Plausible bearing_friction{"sliding_friction", 0, 1, "-",
@@ -116,7 +117,9 @@ void look_at_region(const std::string& structure, const Region& region, Doubts& 
 void look_at_contact(const Contact& contact, Doubts& doubts) {
   const std::string owner = "contact " + contact.name;
   doubts.look_at(owner, contact_friction, contact.friction);
-  if (contact.filler) {
+  if (contact.crushes()) {
+    doubts.look_at(owner + ", crushing", crushing_strength, contact.filler->table.back().pressure);
+  } else if (contact.filler) {
     doubts.look_at(owner + ", filler", filler_pressure, contact.filler->table.back().pressure);
   }
 }

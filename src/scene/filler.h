@@ -6,7 +6,8 @@ namespace pounding {
 
 /// Filler of a joint, foam, board or rubber between two faces, as the user gives it: its pressure
 /// under first loading, straight between points and from (0, 0) on, and the slope on which it
-/// unloads and loads again. It pushes only, and stays crushed.
+/// unloads and loads again. It pushes only, and stays crushed. Or a strip of the faces themselves
+/// that is crushed where they strike.
 struct Filler {
   struct Point {
     double strain = 0;    ///< of compression [-]
@@ -16,6 +17,7 @@ struct Filler {
   double unloading = 0;      ///< pressure over strain, no slope of the table is above it [Pa]
   double thickness = 0;      ///< [m]; 0: the joint's width at each pair
   double area = 0;           ///< of all pairs together [m2]; 0: that of the faces
+  bool in_faces = false;     ///< a strip of the faces: the joint is as wide as without it
 
   /// Strain at which it is dense: the faces are in hard contact there.
   double dense() const { return table.back().strain; }

@@ -10,6 +10,10 @@ namespace {
 
 constexpr std::string_view filler_option = "<contact>_filler";
 constexpr std::string_view unloading = "<contact>_filler_unloading";
+constexpr std::string_view crushing_option = "<contact>_crushing";
+constexpr std::string_view crushing_stiffness = "<contact>_crushing_stiffness";
+constexpr std::string_view crushing_depth = "<contact>_crushing_depth";
+constexpr std::string_view crushing_area = "<contact>_crushing_area";
 
 std::vector<Filler::Point> read_filler_table(OptionReader& options,
                                              const OptionReader::Names& names) {
@@ -35,19 +39,52 @@ std::vector<Filler::Point> read_filler_table(OptionReader& options,
   return points;
 }
 
+/// Refuses what goes with an option that is not given.
+void forbid_parts(const OptionReader& options, std::string_view option,
+                  const OptionReader::Names& names) {
+  for (const OptionRow& row : option_table()) {
+    if (row.pattern.starts_with(std::string(option) + "_")) {
+      options.forbid(row.pattern, names,
+                     "goes with -" + option_name(option, names) + ", which is not given");
+    }
+  }
+}
+
+/// A strip of the faces: elastic up to its strength, which it keeps until it is crushed to the last.
+std::optional<Filler> read_crushing(OptionReader& options, const OptionReader::Names& names) {
+  if (!options.given(crushing_option, names)) {
+    forbid_parts(options, crushing_option, names);
+    return std::nullopt;
+  }
+  const double strength = options.real(crushing_option, names);
+  const double stiffness = options.real(crushing_stiffness, names);
+  Filler strip;
+  strip.in_faces = true;
+  strip.thickness = options.real(crushing_depth, names);
+  if (!(strength / stiffness < strip.thickness)) {
+    std::ostringstream text;
+    text << "the strip is elastic for " << strength / stiffness
+         << " m, its strength over its stiffness; give more";
+    options.refuse(crushing_depth, names, text.str());
+  }
+  strip.table = {{strength / (stiffness * strip.thickness), strength}, {1, strength}};
+  strip.unloading = stiffness * strip.thickness;
+  if (options.given(crushing_area, names)) strip.area = options.real(crushing_area, names);
+  return strip;
+}
+
 }  // namespace
 
 std::optional<Filler> read_filler(OptionReader& options, const std::string& contact) {
   const OptionReader::Names names{contact};
   if (!options.given(filler_option, names) || options.text(filler_option, names) == "none") {
-    for (const OptionRow& row : option_table()) {
-      if (row.pattern.starts_with("<contact>_filler_")) {
-        options.forbid(row.pattern, names,
-                       "goes with -" + option_name(filler_option, names) + ", which is not given");
-      }
-    }
-    return std::nullopt;
+    forbid_parts(options, filler_option, names);
+    return read_crushing(options, names);
   }
+  options.forbid(crushing_option, names,
+                 "not beside -" + option_name(filler_option, names) +
+                     ": a joint has a filler, or faces that are crushed");
+  forbid_parts(options, crushing_option, names);
   Filler filler;
   filler.table = read_filler_table(options, names);
   filler.unloading = options.real(unloading, names);

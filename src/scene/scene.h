@@ -259,11 +259,13 @@ struct Contact {
   double friction = 0;           ///< Coulomb's coefficient [-]
   double sliding = 0;            ///< how far the faces may slide along each other, pairs being
                                  ///< found anew; 0: pairs stay those of the start [m]
-  std::optional<Filler> filler;  ///< between the faces until they meet
+  std::optional<Filler> filler;  ///< between the faces until they meet, or a strip of them
   std::optional<Stop> stop;      ///< its sides are nodes, not faces: one gap, or one each way
 
   /// A stop that gives way: its rows are springs, and none of hard contact.
   bool is_elastic() const { return stop && stop->stiffness > 0; }
+  /// A strip of its faces is crushed where they strike.
+  bool crushes() const { return filler && filler->in_faces; }
 };
 
 /// A recorded accelerogram in a file.

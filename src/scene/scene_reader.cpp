@@ -317,7 +317,9 @@ class SceneReader {
     const bool laid_in = contact.filler || contact.is_elastic();
     if (state == "unloaded" && laid_in && scene_.preload) {
       options_.refuse("<contact>_gap_at", {contact.name},
-                      std::string(contact.filler ? "the filler" : "a stop that gives way") +
+                      std::string(contact.crushes() ? "a strip that is crushed"
+                                  : contact.filler  ? "the filler"
+                                                    : "a stop that gives way") +
                           " is laid into the joint as it is at rest; leave it out");
     }
     const bool open =
@@ -376,12 +378,22 @@ class SceneReader {
     }
     if (contact.sliding > 0 && contact.filler) {
       options_.refuse("<contact>_sliding", {name},
-                      "contact " + name + " has a filler, which stays where it is");
+                      "contact " + name + " has a " +
+                          (contact.crushes() ? "strip that is crushed" : "filler") +
+                          ", which stays where it is");
     }
     if (contact.filler && !scene_.export_matrices.empty()) {
-      options_.refuse(
-          "export_matrices", {},
-          "contact " + name + " has a filler, which is no matrix; not with -" + name + "_filler");
+      const bool crushes = contact.crushes();
+      options_.refuse("export_matrices", {},
+                      "contact " + name + " has a " + (crushes ? "strip" : "filler") +
+                          ", which is no matrix; not with -" + name +
+                          (crushes ? "_crushing" : "_filler"));
+    }
+    if (contact.crushes() && contact.friction > 0) {
+      options_.refuse("<contact>_friction", {name},
+                      "not beside -" + name +
+                          "_crushing: friction acts in hard contact only, which begins where the "
+                          "strip is crushed to the last");
     }
     if (contact.sliding > 0 && !scene_.export_matrices.empty()) {
       options_.refuse("export_matrices", {},
@@ -430,7 +442,8 @@ class SceneReader {
       }
       if (!contact->filler && !contact->is_elastic()) {
         options_.refuse("loops", {},
-                        "contact " + item + " has no filler, and is no stop with a stiffness");
+                        "contact " + item +
+                            " has no filler, nothing to crush, and is no stop with a stiffness");
       }
       scene_.loops.push_back({item, "", "", item, points});
     }

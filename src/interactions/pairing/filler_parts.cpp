@@ -15,6 +15,14 @@ constexpr double thicker = 1e-9;
 void require_room(const Contact& contact, const Constraint& constraint) {
   const double thickness = contact.filler->thickness;
   const double width = constraint.initial_gap;
+  if (contact.crushes()) {
+    if (width >= 0) return;
+    std::ostringstream text;
+    text << "contact " << contact.name << ": the faces overlap by " << -width
+         << " m somewhere, and what is crushed is intact at the start; give -" << contact.name
+         << "_gap, or move a mesh";
+    throw UserError(text.str());
+  }
   if (width > 0 && thickness <= width * (1 + thicker)) return;
   std::ostringstream text;
   text << "contact " << contact.name << ": the joint is " << width << " m wide somewhere, ";
@@ -49,6 +57,12 @@ void fill_joint(const Contact& contact, Constraint& constraint) {
   require_room(contact, constraint);
   const Filler& filler = *contact.filler;
   FillerPart& part = constraint.filler;
+  if (contact.crushes()) {
+    part.thickness = part.depth = filler.thickness;
+    part.clearance = constraint.initial_gap;
+    constraint.initial_gap += part.depth;
+    return;
+  }
   part.thickness = filler.thickness > 0 ? filler.thickness : constraint.initial_gap;
   part.clearance = constraint.initial_gap - part.thickness;
   constraint.initial_gap -= part.thickness * (1 - filler.dense());
@@ -60,7 +74,7 @@ void lay_filler(const Contact& contact, bool lines, double common,
   if (lines && !(filler.area > 0)) {
     throw UserError("contact " + contact.name +
                     ": one of its faces is made of lines, which have no area: give -" +
-                    contact.name + "_filler_area");
+                    contact.name + (contact.crushes() ? "_crushing_area" : "_filler_area"));
   }
   double whole = 0;
   for (const Constraint& constraint : constraints) whole += constraint.filler.area;

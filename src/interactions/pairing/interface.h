@@ -27,21 +27,26 @@ struct ConstraintTerm {
   double coefficient = 0;
 };
 
-/// Filler of a joint at one pair of a contact, or the spring of a stop that gives way.
+/// Filler of a joint at one pair of a contact, the strip of its faces that is crushed there, or the
+/// spring of a stop that gives way.
 struct FillerPart {
   double area = 0;       ///< [m2], of a spring 1; 0: there is none
   double thickness = 0;  ///< [m], of a spring 0
   double clearance = 0;  ///< by which the joint closes before it is pressed [m]
+  double depth = 0;  ///< of a strip of the faces, beyond which contact is hard; 0: it is none [m]
 
   /// The row is no hard contact, however far it is pressed.
   bool is_spring() const { return area > 0 && thickness == 0; }
+  /// Its force is that of a strike of the contact.
+  bool strikes() const { return is_spring() || depth > 0; }
 };
 
 /// One row of L with its initial gap.
 struct Constraint {
   int contact = 0;  ///< index into the scene's contacts
   std::vector<ConstraintTerm> terms;
-  double initial_gap = 0;         ///< of hard contact: with a filler, until it is dense [m]
+  double initial_gap = 0;         ///< of hard contact: until a filler is dense or a strip
+                                  ///< crushed to the last [m]
   double geometric_gap = 0;       ///< as the meshes stand, between the surfaces of shells [m]
   double facet_size = 0;          ///< of the facet that it faces, or twice how far pairs may slide
                                   ///< where they are found anew; 0: a wall, endless [m]
@@ -49,6 +54,9 @@ struct Constraint {
   bool matched = false;           ///< faces one primary node exactly
   double friction = 0;            ///< Coulomb's coefficient [-]
   FillerPart filler;
+
+  /// Gap of the faces where hard contact has `gap` [m].
+  double of_faces(double gap) const { return gap - filler.depth; }
 };
 
 /// Place of a row on its secondary face, from 0 to 1 along the tangent axes; of a row of a stop
@@ -91,7 +99,7 @@ struct Interface {
   std::vector<std::string> warnings;  ///< what may not be meant; rank 0 only
 };
 
-/// Whether the joint of some contact has a filler.
+/// Whether some contact has a filler, a strip that is crushed, or a spring.
 bool has_fillers(const Interface& interface);
 
 /// Facing nodes, for the partition.
