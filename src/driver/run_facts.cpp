@@ -138,17 +138,20 @@ Facts energy_facts(const RunStatistics& run) {
                {"input", energy.input_work},
                {"gravity", energy.gravity_work},
                {"loads", energy.load_work},
-               {"devices", energy.device_work}}};
+               {"devices", energy.device_work},
+               {"plastic", energy.plastic_loss}}};
   facts.say(
       "\nenergy at the end [J]: kinetic {kinetic:.4g}, strain {strain:.4g}, damping loss "
       "{damping:.4g}, contact work {contact:.4g}, input work {input:.4g}\n");
   facts.say(
       "[  friction of contacts took {friction:.4g}\n]"
+      "[  what yields, is damaged or crushed took {plastic:.4g}\n]"
       "[  of the input work that of gravity {gravity:.4g}\n]"
       "[  of the input work that of loads {loads:.4g}\n]");
   if (std::abs(energy.device_work) > 1e-12 * std::abs(energy.energy())) {
     facts.say(
-        "  device work {devices:.4g}: of dashpots, one-way bars and springs, all that yields, and "
+        "  device work {devices:.4g}: of dashpots, one-way bars and springs, bearings that slide, "
+        "and "
         "of "
         "regions with damping\n  of their own beside that of their structure\n");
   }

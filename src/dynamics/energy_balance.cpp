@@ -40,7 +40,10 @@ void EnergyBalance::take_energies(std::span<const StepSums> sums) {
 void EnergyBalance::add_step(std::span<const StepSums> sums,
                              const std::array<double, 3>& ground_acceleration, bool with_energies) {
   if (with_energies) take_energies(sums);
-  for (const StepSums& structure : sums) open_.links += structure.link_loss_before;
+  for (const StepSums& structure : sums) {
+    open_.links += structure.link_loss_before;
+    open_.plastic += structure.plastic_loss_before;
+  }
   if (steps_ == 1) {
     initial_lagged_damping_ = lagged_damping_;
     initial_stored_work_ = stored_work_;
@@ -55,6 +58,7 @@ void EnergyBalance::add_step(std::span<const StepSums> sums,
     contact_.add(open_.contact);
     device_.add(open_.device);
     links_.add(open_.links);
+    plastic_.add(open_.plastic);
     gravity_.add(open_.gravity);
     loads_.add(open_.loads);
     friction_.add(open_.friction);
@@ -96,6 +100,7 @@ EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
     result.loads += time_step_ / 2 * sums[b].load;
     result.device += time_step_ / 2 * sums[b].device;
     result.links += sums[b].link_loss;
+    result.plastic += sums[b].plastic_loss;
     result.contact += sums[b].contact_work;
     result.friction += sums[b].friction_loss;
     result.input += sums[b].link_input + sums[b].support_input + sums[b].contact_support_input;
@@ -127,15 +132,16 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   }
   MPI_Allreduce(MPI_IN_PLACE, structures.data(), static_cast<int>(values * structures.size()),
                 MPI_DOUBLE, MPI_SUM, comm_);
-  std::array<double, 9> sums{initial_,
-                             damping_.total() - (stored_work_ - initial_stored_work_),
-                             contact_.total(),
-                             input_.total(),
-                             device_.total() + lagged_damping_ - initial_lagged_damping_,
-                             links_.total(),
-                             gravity_.total(),
-                             friction_.total(),
-                             loads_.total()};
+  std::array<double, 10> sums{initial_,
+                              damping_.total() - (stored_work_ - initial_stored_work_),
+                              contact_.total(),
+                              input_.total(),
+                              device_.total() + lagged_damping_ - initial_lagged_damping_,
+                              links_.total(),
+                              gravity_.total(),
+                              friction_.total(),
+                              loads_.total(),
+                              plastic_.total()};
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
                 comm_);
   EnergyLine line;
@@ -152,16 +158,18 @@ EnergyLine EnergyBalance::line(std::span<StructureEnergy> structures) const {
   line.gravity_work = sums[6];
   line.friction_loss = sums[7];
   line.load_work = sums[8];
+  line.plastic_loss = sums[9];
   line.device_work = sums[4] + line.link_loss;
-  line.residual = line.energy() - sums[0] + line.damping_loss + line.device_work -
-                  line.contact_work + line.friction_loss - line.input_work;
+  line.residual = line.energy() - sums[0] + line.damping_loss + line.device_work +
+                  line.plastic_loss - line.contact_work + line.friction_loss - line.input_work;
   return line;
 }
 
 template <typename Balance, typename Function>
 void EnergyBalance::for_each_sum(Balance& balance, Function&& function) {
-  for (auto* sum : {&balance.damping_, &balance.input_, &balance.contact_, &balance.device_,
-                    &balance.links_, &balance.gravity_, &balance.loads_, &balance.friction_}) {
+  for (auto* sum :
+       {&balance.damping_, &balance.input_, &balance.contact_, &balance.device_, &balance.links_,
+        &balance.plastic_, &balance.gravity_, &balance.loads_, &balance.friction_}) {
     function(sum->value);
     function(sum->correction);
   }
@@ -170,8 +178,8 @@ void EnergyBalance::for_each_sum(Balance& balance, Function&& function) {
   function(balance.initial_stored_work_);
   for (auto* work :
        {&balance.open_.damping, &balance.open_.input, &balance.open_.contact, &balance.open_.device,
-        &balance.open_.links, &balance.open_.gravity, &balance.open_.loads, &balance.open_.friction,
-        &balance.open_.contact_supports}) {
+        &balance.open_.links, &balance.open_.plastic, &balance.open_.gravity, &balance.open_.loads,
+        &balance.open_.friction, &balance.open_.contact_supports}) {
     function(*work);
   }
   for (auto& sum : balance.filtered_) {
@@ -206,8 +214,8 @@ void EnergyBalance::note(const EnergyLine& line) {
   largest_residual_ = std::max(largest_residual_, std::abs(line.residual));
   largest_term_ =
       std::max({largest_term_, std::abs(line.kinetic), std::abs(line.strain),
-                std::abs(line.device_work), line.damping_loss, std::abs(line.contact_work),
-                std::abs(line.input_work), line.friction_loss});
+                std::abs(line.device_work), std::abs(line.plastic_loss), line.damping_loss,
+                std::abs(line.contact_work), std::abs(line.input_work), line.friction_loss});
 }
 
 }  // namespace pounding

@@ -22,14 +22,15 @@ struct EnergyLine {
   double contact_work = 0;
   double input_work = 0;  ///< of ground motion, a wave from below and gravity
   /// Taken up by dashpots, by what regions with damping of their own have beside the structure's,
-  /// and by links.
+  /// and by links that do not yield.
   double device_work = 0;
-  double residual = 0;       ///< energy - initial energy + damping loss + device work
-                             ///< + friction loss - contact work - input work
-  double link_loss = 0;      ///< of links alone: what they took and did not keep
-  double slow_relief = 0;    ///< see StructureEnergy
-  double gravity_work = 0;   ///< of gravity alone, a part of the input work
-  double load_work = 0;      ///< of loads alone, a part of the input work
+  double plastic_loss = 0;  ///< taken by what yields, is damaged or crushed, and not kept
+  double residual = 0;      ///< energy - initial energy + damping loss + device work + plastic loss
+                            ///< + friction loss - contact work - input work
+  double link_loss = 0;     ///< of links in the device work: what they took and did not keep
+  double slow_relief = 0;   ///< see StructureEnergy
+  double gravity_work = 0;  ///< of gravity alone, a part of the input work
+  double load_work = 0;     ///< of loads alone, a part of the input work
   double friction_loss = 0;  ///< of Coulomb's friction in contacts, apart from the contact work
 
   double energy() const { return kinetic + strain; }
@@ -124,6 +125,7 @@ class EnergyBalance {
     double contact = 0;
     double device = 0;
     double links = 0;
+    double plastic = 0;
     double gravity = 0;  ///< part of the input
     double loads = 0;    ///< part of the input
     double friction = 0;
@@ -161,6 +163,7 @@ class EnergyBalance {
   Sum contact_;
   Sum device_;
   Sum links_;
+  Sum plastic_;
   Sum gravity_;
   Sum loads_;
   Sum friction_;

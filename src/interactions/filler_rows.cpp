@@ -80,13 +80,13 @@ void FillerRows::begin(const Step& step) {
 
 void FillerRows::close_step_before() {
   const auto& [before, now, free_after] = compression_;
-  loss_ = 0;
+  loss_ = plastic_loss_ = 0;
   for (std::size_t r = 0; r < laws_.size(); ++r) {
     const double held = laws_[r]->energy(before[r], now[r], memory_[r]);
     if (made_) {
       const double taken = force_before_[r] * time_step_ * (rate_[r] + rate_before_[r]) / 2;
       const double loss = taken - (held - held_[r]);
-      loss_ += loss;
+      (laws_[r]->loses_plastic_work() ? plastic_loss_ : loss_) += loss;
       row_loss_[r] = loss;
       totals_[pairs_.all()[r].contact].loss += loss;
     }
@@ -158,7 +158,10 @@ void FillerRows::finish(const Step& step) {
     const std::size_t r = records_.links()[k];
     records_.note(k, compression_.now[r], force_[r], laws_[r]->has_yielded(memory_[r]));
   }
-  if (counts_) ledger.link_loss_before += loss_;
+  if (counts_) {
+    ledger.link_loss_before += loss_;
+    ledger.plastic_loss_before += plastic_loss_;
+  }
   ledger.support_input += support_input_;
 }
 

@@ -79,7 +79,8 @@ class FillerRows final : public Interaction {
   std::vector<double> driven_;        ///< no wave drives a filler: zeros
   std::vector<double> impulse_;
   double support_input_ = 0;                   ///< work of supports against the fillers [J]
-  double loss_ = 0;                            ///< of the step before
+  double loss_ = 0;                            ///< of the step before, of stops [J]
+  double plastic_loss_ = 0;                    ///< likewise, of what is crushed
   bool made_ = false;                          ///< a step was
   double duration_ = 0;                        ///< of the forces in the step just made [s]
   std::vector<Before> before_step_;            ///< per structure

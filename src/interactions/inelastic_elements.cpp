@@ -134,7 +134,7 @@ void InelasticElements::finish(const Step& step) {
   }
   LedgerPart& ledger = *step.ledger[structure_];
   ledger.link_energy_before += held_before;
-  ledger.link_loss += work - (held - held_before);
+  ledger.plastic_loss += work - (held - held_before);
 }
 
 PartState InelasticElements::state_of(const Part& part) const {

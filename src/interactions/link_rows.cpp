@@ -217,8 +217,9 @@ void LinkRows::finish(const Step& step) {
     law.remember(before[b], now[b], after_[b], step.share(), memory);
     stretch_[b] = (after_[b] - before[b]) / 2;
     ledger.link_input += driven_[b] * stretch_[b] + given;
-    ledger.link_loss += (force_[b] + driven_[b]) * stretch_[b] -
-                        (law.energy(now[b], after_[b], memory) - held) + given;
+    (law.loses_plastic_work() ? ledger.plastic_loss : ledger.link_loss) +=
+        (force_[b] + driven_[b]) * stretch_[b] - (law.energy(now[b], after_[b], memory) - held) +
+        given;
     if (carried_.empty()) continue;
     double carried = 0;  // part of the stretch that the supports make
     add_columns(carried_[b], step.supports.velocity_mean, &carried, 1);

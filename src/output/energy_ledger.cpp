@@ -11,12 +11,13 @@ namespace {
 /// Lines that are kept at most.
 constexpr std::int64_t capacity = 5000;
 
-constexpr std::size_t ledger_columns = 11;
+constexpr std::size_t ledger_columns = 12;
 
 /// The numbers of a line in a table.
 constexpr auto line_members = [](auto& line, const auto& take) {
   take(line.time, line.kinetic, line.strain, line.damping_loss, line.contact_work, line.input_work,
-       line.device_work, line.residual, line.gravity_work, line.friction_loss, line.load_work);
+       line.device_work, line.residual, line.gravity_work, line.friction_loss, line.load_work,
+       line.plastic_loss);
 };
 
 }  // namespace
@@ -54,11 +55,11 @@ void write_energy(const std::string& path, const std::vector<EnergyLine>& lines,
   CsvFile file(path, digits);
   file.header(
       "time,kinetic,strain,damping_loss,contact_work,friction_loss,input_work,gravity_work,load_"
-      "work,device_work,residual");
+      "work,device_work,plastic_loss,residual");
   for (const EnergyLine& line : lines) {
     file.row("", {line.time, line.kinetic, line.strain, line.damping_loss, line.contact_work,
                   line.friction_loss, line.input_work, line.gravity_work, line.load_work,
-                  line.device_work, line.residual});
+                  line.device_work, line.plastic_loss, line.residual});
   }
   file.close();
 }

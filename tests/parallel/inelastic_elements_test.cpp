@@ -123,8 +123,8 @@ struct BodyRun {
       if (!counted) continue;
       line = stepper.energy().line(energies);
       stepper.energy().note(line);
-      EXPECT_GE(line.link_loss, lost - 1e-12 * stepper.energy().largest_term()) << n;
-      lost = line.link_loss;
+      EXPECT_GE(line.plastic_loss, lost - 1e-12 * stepper.energy().largest_term()) << n;
+      lost = line.plastic_loss;
     }
     return line;
   }
@@ -162,7 +162,7 @@ TEST(InelasticElements, AreLinearOnesWhileTheyAreElastic) {
       EXPECT_NEAR(line.kinetic, expected.kinetic, 1e-10 * most);
       EXPECT_NEAR(line.damping_loss, expected.damping_loss, 1e-10 * most);
     } else {  // what beta takes is a loss of the elements, not of the structure
-      EXPECT_GT(line.link_loss, 1e-6 * most);
+      EXPECT_GT(line.plastic_loss, 1e-6 * most);
       EXPECT_NEAR(line.kinetic, expected.kinetic, 1e-4 * most);
     }
     EXPECT_LT(marked.stepper.energy().relative_residual(), 1e-12);
@@ -182,7 +182,7 @@ TEST(InelasticElements, CloseTheLedgerWhereTheyFlow) {
   for (const bool uniform : {false, true}) {
     BodyRun marked(true, uniform, 2);
     const EnergyLine line = marked.run(600);
-    EXPECT_GT(line.link_loss, 0.01 * marked.stepper.energy().largest_term());
+    EXPECT_GT(line.plastic_loss, 0.01 * marked.stepper.energy().largest_term());
     EXPECT_LT(marked.stepper.energy().relative_residual(), 1e-12);
   }
 }

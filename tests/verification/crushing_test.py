@@ -107,7 +107,7 @@ class OneMass(unittest.TestCase):
         self.assertLess(run.displacement("one.x").max(), GAP + DEPTH + 1.01 * STEP * lock)
         # The part of hard contact is apart from that of the strip.
         self.assertAlmostEqual(-run.energy["contact"] / (MASS * lock**2 / 2), 1, delta=2e-3)
-        self.assertAlmostEqual(run.energy["devices"] / found["energy_lost"], 1, delta=1e-9)
+        self.assertAlmostEqual(run.energy["plastic"] / found["energy_lost"], 1, delta=1e-9)
 
     def test_second_order(self):
         speed = math.sqrt(1 + 2 * PUSH * GAP)

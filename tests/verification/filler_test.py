@@ -149,8 +149,8 @@ class OneMass(unittest.TestCase):
         self.assertAlmostEqual(filler_["peak_force"] / exact.first(d.max()), 1, delta=1e-6)
         self.assertAlmostEqual(filler_["peak_pressure"] / filler_["peak_force"], 1, delta=1e-12)
         self.assertAlmostEqual(filler_["crushed_strain"] * GAP / exact.crushed, 1, delta=1e-6)
-        # All that the filler took is in the column of devices, and nothing else is there.
-        self.assertAlmostEqual(filler_["energy_lost"] / run.energy["devices"], 1, delta=1e-9)
+        # All that the filler took is in the column of plastic work, and nothing else is there.
+        self.assertAlmostEqual(filler_["energy_lost"] / run.energy["plastic"], 1, delta=1e-9)
         again = Recorded(self, words, 2)
         self.assertTrue(numpy.array_equal(again.displacement("one.x"), x))
 
@@ -288,7 +288,7 @@ class TwoBlocks(unittest.TestCase):
         at = words.index("-time_step")
         run = Recorded(self, [*words[:at], *words[at + 2:], "-courant", 0.999, "-output_interval", 1e-3,
                               "-energy_interval", 1], 2)
-        self.assertGreater(run.energy["devices"], 0)
+        self.assertGreater(run.energy["plastic"], 0)
 
 
 def two_groups(folder, name, x0, groups):

@@ -48,7 +48,7 @@ class Loops:
 
     def ledger(self):
         """Energy that links hold and have lost, where nothing else holds or loses any."""
-        return self.energy["strain"] + self.energy["device_work"]
+        return self.energy["strain"] + self.energy["device_work"] + self.energy["plastic_loss"]
 
 
 def check_area(test, run, tolerance=1e-12):

@@ -38,7 +38,7 @@ class CrushedStop(unittest.TestCase):
         back = run.time[last] + 1e-3 * x[last] / (x[last] - x[last + 1])
         self.assertAlmostEqual(back / (math.pi / 6 + 2 * math.sqrt(3) + (math.pi + 6) / math.sqrt(2)), 1, delta=2e-5)
         self.assertAlmostEqual(run.velocity("one.x")[last], -math.sqrt(0.5), delta=2e-5)
-        self.assertAlmostEqual(run.energy["devices"], 2 - 0.25, delta=5e-5)
+        self.assertAlmostEqual(run.energy["plastic"], 2 - 0.25, delta=5e-5)
 
 
 class IsotropicSpring(unittest.TestCase):
@@ -177,7 +177,7 @@ class PeakOriented(unittest.TestCase):
         words = self.words(4e-4, record, "-loops", "chain:support", "-energy_interval", 1, "-end_time", 0.6)
         run = Loops(self, words)
         check_area(self, run, 1e-11)
-        self.assertGreater(run.energy["device_work"][-1], 10)
+        self.assertGreater(run.energy["plastic_loss"][-1], 10)
         modes = Loops(self, [*words, "-chain_model", "modal", "-chain_modal_vectors", 6])
         self.assertLess(abs(modes.elongation - run.elongation).max(), 1e-10)
         assert_continues(self, [*words, "-modes", 1, "-spectra_frequencies", 10], 0.4, 500)
@@ -216,7 +216,7 @@ class Brace(unittest.TestCase):
                 self.assertAlmostEqual(-x.min() / top, 1, delta=1e-5)
             found = run.summary["yielding"]["one:line:axial"]
             self.assertEqual((found["elements"], found["yielded"]), (1, 1))
-            self.assertAlmostEqual(found["energy_lost"] / run.energy["devices"], 1, delta=1e-5)
+            self.assertAlmostEqual(found["energy_lost"] / run.energy["plastic"], 1, delta=1e-5)
 
     def test_in_modes(self):
         full = Recorded(self, self.words(1.0), 1)

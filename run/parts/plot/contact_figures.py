@@ -121,7 +121,8 @@ def energy_balance(result: Result) -> list:
     terms = (("input_work", "work of the ground", "#222222"), ("kinetic", "kinetic", "#0072B2"),
              ("strain", "strain", "#009E73"), ("damping_loss", "damping", "#E69F00"),
              ("contact_work", "contact", "#C0392B"))
-    not_always = (("friction_loss", "friction", "#56B4E9"), ("device_work", "links and dashpots", "#CC79A7"))
+    not_always = (("friction_loss", "friction", "#56B4E9"), ("device_work", "links and dashpots", "#CC79A7"),
+                  ("plastic_loss", "yielding and crushing", "#7A5195"))
     terms += tuple(term for term in not_always if np.any(table.get(term[0], 0)))
     figure, (upper, lower) = plt.subplots(2, 1, figsize=(WIDTH, 5.4), sharex=True,
                                           height_ratios=(3, 2))

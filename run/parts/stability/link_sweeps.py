@@ -71,7 +71,7 @@ def passive_devices(bench: Bench) -> list:
             row = Row("passive devices", f"{name}, {ratio:g} of critical",
                       "takes energy at every step, to 1e-12 of the first", "", run.end, limit=1e-12)
             if run.runs:
-                taken = run.ledger["damping_loss"] + run.ledger["device_work"]
+                taken = run.ledger["damping_loss"] + run.ledger["device_work"] + run.ledger["plastic_loss"]
                 first = run.ledger["kinetic"][0] + run.ledger["strain"][0]
                 row.measure = max(max(0.0, -np.diff(taken).min()) / first, run.residual)
                 row.seen = f"{100 * taken[-1] / first:.3g} % taken"

@@ -43,6 +43,7 @@ class FillerLaw final : public LinkLaw {
   bool is_idle(double now, std::span<const double> memory = {}) const override {
     return now <= memory[0];
   }
+  bool loses_plastic_work() const override { return true; }
   bool has_yielded(std::span<const double> memory) const override { return memory[0] > 0; }
   /// Crushes it, whatever `kept` is: its table tells how far.
   void yield(double now, double kept, std::span<double> memory) const override;

@@ -30,6 +30,7 @@ class HystereticLink final : public LinkLaw {
   bool has_yielded(std::span<const double> memory) const override {
     return law_.ductility(memory) > 1;
   }
+  bool loses_plastic_work() const override { return true; }
   double ductility(std::span<const double> memory) const override { return law_.ductility(memory); }
   double lost(std::span<const double> memory) const override { return law_.lost(memory); }
   void yield(double now, double /*kept*/, std::span<double> memory) const override {

@@ -59,7 +59,8 @@ std::unique_ptr<LinkLaw> stiff_law(const LinkOrigin& origin, double time_step,
   }
   if (region.nonlinear.yields(component)) {
     return std::make_unique<YieldLaw>(stiffness, region.nonlinear.hardening,
-                                      region.nonlinear.yield_force[component]);
+                                      region.nonlinear.yield_force[component],
+                                      region.nonlinear.friction > 0);
   }
   // The elongation of a compression-only spring is how far it is pressed down.
   const double damping = origin.beta * stiffness + (spring ? origin.share * region.dashpot[2] : 0);

@@ -50,6 +50,8 @@ class LinkLaw {
   /// Whether it has left its straight line for good.
   virtual bool has_yielded(std::span<const double> /*memory*/) const { return false; }
 
+  /// Whether what it loses is plastic work: of what yields, is damaged or crushed.
+  virtual bool loses_plastic_work() const { return false; }
   /// Largest elongation over that of the first corner of its skeleton; below 0 without one.
   virtual double ductility(std::span<const double> /*memory*/) const { return -1; }
   /// Energy that a law with a skeleton lost so far [J].

@@ -34,6 +34,7 @@ class RelievingLaw final : public LinkLaw {
   bool has_yielded(std::span<const double> memory) const override {
     return link_->has_yielded(memory);
   }
+  bool loses_plastic_work() const override { return link_->loses_plastic_work(); }
   double ductility(std::span<const double> memory) const override {
     return link_->ductility(memory);
   }

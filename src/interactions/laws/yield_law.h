@@ -19,11 +19,12 @@ namespace pounding::interactions {
 /// change of Q in it.
 class YieldLaw final : public LinkLaw {
  public:
-  /// `stiffness` k [N/m], `hardening` r in [0, 1), `yield_force` F [N].
-  YieldLaw(double stiffness, double hardening, double yield_force)
+  /// `stiffness` k [N/m], `hardening` r in [0, 1), `yield_force` F [N]; `slides`: by friction.
+  YieldLaw(double stiffness, double hardening, double yield_force, bool slides = false)
       : after_(hardening * stiffness),
         elastic_((1 - hardening) * stiffness),
-        capacity_((1 - hardening) * yield_force) {}
+        capacity_((1 - hardening) * yield_force),
+        slides_(slides) {}
 
   double force(double before, double now, double after,
                std::span<const double> memory = {}) const override;
@@ -39,6 +40,7 @@ class YieldLaw final : public LinkLaw {
   }
   double capacity() const override { return capacity_; }
   bool has_yielded(std::span<const double> memory) const override { return memory[0] != 0; }
+  bool loses_plastic_work() const override { return !slides_; }
   void yield(double now, double kept, std::span<double> memory) const override;
   /// p of the end of the last step, and of the step that is being made.
   std::size_t memory_size() const override { return 2; }
@@ -49,6 +51,7 @@ class YieldLaw final : public LinkLaw {
   double after_;
   double elastic_;
   double capacity_;
+  bool slides_;
 };
 
 }  // namespace pounding::interactions
