@@ -130,9 +130,9 @@ Facts joint_facts(const Scene& scene, const Model& model, const RunStatistics& r
           "crushed by {crushed_depth:.4g mm}",
           of["crushing"], {contact.name});
       if (filler.crushed_depth > 0) {
-        facts.text += told(
-            " at ({crushed_place/0:.4g}, {crushed_place/1:.4g}) m, took {energy_lost:.4g} J",
-            of["crushing"]);
+        facts.text +=
+            told(" at ({crushed_place/0:.4g}, {crushed_place/1:.4g}) m, took {energy_lost:.4g} J",
+                 of["crushing"]);
       }
       facts.text += '\n';
       continue;

@@ -11,6 +11,7 @@
 #include "common/error.h"
 #include "common/matrix3.h"
 #include "common/parallel.h"
+#include "driver/element_middle.h"
 #include "driver/run_statistics.h"
 #include "system/links.h"
 
@@ -34,22 +35,6 @@ struct Candidate {
   auto key() const { return std::tuple(item, number, component, is_dashpot()); }
 };
 
-Vector3 middle_of(const Mesh& mesh, const std::string& group, std::int64_t tag) {
-  for (const ElementBlock& block : mesh.blocks) {
-    const auto found = std::ranges::find(block.tags, tag);
-    if (block.group != group || found == block.tags.end()) continue;
-    const auto element = static_cast<std::size_t>(found - block.tags.begin());
-    const std::size_t nodes = block.connectivity.size() / block.count();
-    Vector3 middle{};
-    for (std::size_t a = 0; a < nodes; ++a) {
-      const Vector3 x = mesh.position(block.connectivity[nodes * element + a]);
-      for (std::size_t d = 0; d < 3; ++d) middle[d] += x[d] / static_cast<double>(nodes);
-    }
-    return middle;
-  }
-  return {};
-}
-
 /// Links of this rank that an item means, wherever they are.
 void add_links(const Model& model, const Loop& loop, int item, int rank,
                std::vector<Candidate>& found) {
@@ -64,7 +49,7 @@ void add_links(const Model& model, const Loop& loop, int item, int rank,
       }
       found.push_back({item, origin.component, static_cast<int>(origin.part),
                        origin.length > 0 ? 1 : 0, links[b].number,
-                       middle_of(model.meshes[s], loop.group, links[b].number), rank,
+                       element_middle(model.meshes[s], loop.group, links[b].number), rank,
                        static_cast<int>(b)});
     }
   }
@@ -82,7 +67,8 @@ void add_section_laws(const Model& model, const Solver& solver, const Loop& loop
       if (block.group != loop.group) continue;
       const std::int64_t tag = block.tags[part.element];
       found.push_back({item, static_cast<int>(part.number), of_section, 0, tag,
-                       middle_of(model.meshes[s], loop.group, tag), rank, static_cast<int>(k)});
+                       element_middle(model.meshes[s], loop.group, tag), rank,
+                       static_cast<int>(k)});
     }
   }
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "driver/subject_facts.h"
 
@@ -26,18 +27,54 @@ Facts loop_facts(const RunStatistics& run) {
   return facts;
 }
 
+namespace {
+
+Json values_of(const YieldSum& sum) {
+  return {{"elements", sum.elements},
+          {"yielded", sum.yielded},
+          {"ductility", sum.ductility},
+          {"element", sum.element},
+          {"place", sum.place},
+          {"first_time", std::isfinite(sum.first_time) ? Json(sum.first_time) : Json()},
+          {"energy_lost", sum.lost}};
+}
+
+/// A line of the table of what yielded.
+std::string told_yielding(const std::string& name, const Json& of) {
+  return told("  {:-36s} {yielded:5d} of {elements:-5d} {ductility:10.4g} {element:9d}", of,
+              {name}) +
+         (of["first_time"].is_null() ? told(" {:12s}", nullptr, {"-"})
+                                     : told(" {first_time:12.4f}", of)) +
+         told(" {energy_lost:12.4g}  at {place:.4g} m\n", of);
+}
+
+}  // namespace
+
 Facts yield_facts(const RunStatistics& run) {
   Facts facts;
+  if (run.yielding.empty()) return facts;
+  double lost = 0;
+  int yielded = 0;
   for (const YieldReport& report : run.yielding) {
-    facts.add("yielding", report.name,
-              {{"elements", report.elements},
-               {"yielded", report.yielded},
-               {"ductility", report.ductility},
-               {"element", report.element},
-               {"energy_lost", report.lost}},
-              "  {:-30s} {yielded} of {elements} elements yielded, ductility at most "
-              "{ductility:.4g} in element {element}, {energy_lost:.4g} J lost\n",
-              {report.name});
+    lost += report.whole.lost;
+    yielded += report.whole.yielded;
+  }
+  if (yielded == 0) {
+    facts.say("\nnothing yielded; of the elongations of first corners there were at most\n");
+  } else {
+    facts.say("\nwhat yielded, and lost {:.4g} J by it\n", {lost});
+  }
+  facts.say(
+      "  law, storey                          yielded        ductility   element      first s "
+      "      J lost\n");
+  for (const YieldReport& report : run.yielding) {
+    Json of = values_of(report.whole);
+    facts.text += told_yielding(report.name, of);
+    for (const auto& [storey, sum] : report.storeys) {
+      of["storeys"][storey] = values_of(sum);
+      facts.text += told_yielding("  " + storey, of["storeys"][storey]);
+    }
+    facts.values["yielding"][report.name] = std::move(of);
   }
   return facts;
 }

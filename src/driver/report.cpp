@@ -85,10 +85,10 @@ void print_results(const FinishedRun& run) {
   const Scene& scene = run.scene;
   const RunStatistics& statistics = run.statistics;
   print("\n");
+  print(yield_facts(statistics));
   print(impact_facts(scene, statistics, run.impacts));
   print(joint_facts(scene, run.model, statistics));
   print(loop_facts(statistics));
-  print(yield_facts(statistics));
   print(contact_ratio_facts(scene, statistics));
   print(force_facts(statistics));
   print(drift_facts(run.recorder.drifts()));

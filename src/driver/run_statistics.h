@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/matrix3.h"
@@ -58,14 +59,24 @@ struct LoopReport {
   interactions::LinkTotals whole() const;
 };
 
-/// Laws of one kind of the elements of a group that yield by a skeleton.
-struct YieldReport {
-  std::string name;  ///< structure:group:part
+/// Yielding of some elements by laws of one kind.
+struct YieldSum {
   int elements = 0;
   int yielded = 0;           ///< of them went beyond the first corner
   double ductility = 0;      ///< the largest
   std::int64_t element = 0;  ///< that had it
-  double lost = 0;           ///< energy of all [J]
+  Vector3 place{};           ///< of that one [m]
+  /// Sample at which the first of them was beyond its first corner [s]; infinite: none was.
+  double first_time = std::numeric_limits<double>::infinity();
+  double lost = 0;  ///< energy of all [J]
+};
+
+/// Laws of one kind of the elements of a group that yield by a skeleton.
+struct YieldReport {
+  std::string name;  ///< structure:group:part
+  YieldSum whole{};
+  /// The same per storey in which there are any, from below, by the name of the storey.
+  std::vector<std::pair<std::string, YieldSum>> storeys{};
 };
 
 /// The value of a force that was largest in magnitude, and when.

@@ -1,12 +1,17 @@
 #include "driver/yield_table.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
 #include <tuple>
 
 #include "common/component_names.h"
 #include "common/gather_rows.h"
 #include "common/parallel.h"
+#include "driver/element_middle.h"
 #include "driver/run_statistics.h"
+#include "driver/storeys.h"
 #include "io/csv_file.h"
 #include "system/links.h"
 
@@ -17,10 +22,18 @@ namespace {
 constexpr std::size_t of_springs = 100;
 constexpr std::size_t axial = 200;
 
+constexpr double never_yielded = -1;
+
+/// Numbers by which an element's law is known on every rank: structure, region, element, part.
+using LawKey = std::array<double, 4>;
+
 /// State of one law of one element at the end of a run.
 struct YieldRow {
   std::string name;  ///< structure, group, part
+  std::size_t structure = 0;
   std::int64_t element = 0;
+  Vector3 place{};
+  double since = never_yielded;  ///< sample at which it was first beyond its first corner [s]
   double ductility = 0;
   double lost = 0;
   auto key() const { return std::tie(name, element); }
@@ -28,50 +41,131 @@ struct YieldRow {
 
 class YieldTable final : public Observer {
  public:
-  explicit YieldTable(const ObservedRun& run) : run_(run) {}
+  explicit YieldTable(const ObservedRun& run);
 
+  std::int64_t next_due(std::int64_t step) const override { return run_.next_record_step(step); }
+  void observe(const CdLagrange& stepper) override;
+  void save(SavedState& saved) override;
+  void load(const SavedState& saved) override;
   void report(RunStatistics& statistics) override;
 
  private:
-  /// Region, element, part, ductility and lost energy of each law of this rank.
-  std::vector<double> own_rows(std::size_t structure) const;
+  /// A law of an element of this rank.
+  struct Own {
+    LawKey key{};
+    std::size_t number = 0;  ///< among the parts of inelastic elements, or the links
+    bool is_link = false;
+    Vector3 place{};
+    double since = never_yielded;
+
+    std::size_t structure() const { return static_cast<std::size_t>(key[0]); }
+  };
+
+  void add(std::size_t structure, const std::string& group, std::int64_t element, std::size_t part,
+           Own law);
+  double ductility(const Own& law) const;
+  double lost(const Own& law) const;
   std::string part_name(std::size_t structure, int region, std::size_t part) const;
   /// Rows of all ranks. Collective.
   std::vector<YieldRow> rows() const;
+  /// The storey that a place is in, "roof over floor2"; empty where none is. `order`: its number.
+  std::string storey_of(const YieldRow& row, std::size_t& order) const;
 
   ObservedRun run_;
+  std::vector<Own> own_;
+  std::vector<Storey> storeys_;
 };
+
+/// Adds a row to a sum.
+void add_row(const YieldRow& row, YieldSum& sum) {
+  ++sum.elements;
+  sum.lost += row.lost;
+  if (row.ductility > 1) ++sum.yielded;
+  if (row.since != never_yielded) sum.first_time = std::min(sum.first_time, row.since);
+  if (row.ductility > sum.ductility) {
+    sum.ductility = row.ductility;
+    sum.element = row.element;
+    sum.place = row.place;
+  }
+}
 
 }  // namespace
 
-std::vector<double> YieldTable::own_rows(std::size_t structure) const {
+YieldTable::YieldTable(const ObservedRun& run)
+    : run_(run), storeys_(find_storeys(run.comm, run.scene, run.model)) {
+  for (std::size_t s = 0; s < run.model.systems.size(); ++s) {
+    if (const auto* const elements = run.solver.inelastic(s)) {
+      for (std::size_t k = 0; k < elements->parts().size(); ++k) {
+        const interactions::InelasticElements::Part& part = elements->parts()[k];
+        const ElementBlock& block = elements->block_of(part);
+        const Vector3 place = element_middle(run.model.meshes[s], block, part.element);
+        add(s, block.group, block.tags[part.element], part.number, {{}, k, false, place});
+      }
+    }
+    if (const auto* const links = run.solver.links(s)) {
+      const std::vector<Link>& all = run.model.systems[s].links->links();
+      for (std::size_t b = 0; b < all.size(); ++b) {
+        if (links->ductility(b) < 0) continue;
+        const std::size_t part =
+            all[b].origin.length > 0
+                ? axial
+                : of_springs + static_cast<std::size_t>(all[b].origin.component);
+        const std::string& group = all[b].origin.region->group;
+        const Vector3 place = element_middle(run.model.meshes[s], group, all[b].number);
+        add(s, group, all[b].number, part, {{}, b, true, place});
+      }
+    }
+  }
+}
+
+void YieldTable::add(std::size_t structure, const std::string& group, std::int64_t element,
+                     std::size_t part, Own law) {
+  const auto& regions = run_.scene.structures[structure].regions;
+  const auto region = std::ranges::find(regions, group, &Region::group) - regions.begin();
+  law.key = {static_cast<double>(structure), static_cast<double>(region),
+             static_cast<double>(element), static_cast<double>(part)};
+  own_.push_back(law);
+}
+
+double YieldTable::ductility(const Own& law) const {
+  if (law.is_link) return run_.solver.links(law.structure())->ductility(law.number);
+  const auto& elements = *run_.solver.inelastic(law.structure());
+  return elements.state_of(elements.parts()[law.number]).ductility;
+}
+
+double YieldTable::lost(const Own& law) const {
+  if (law.is_link) return run_.solver.links(law.structure())->lost(law.number);
+  const auto& elements = *run_.solver.inelastic(law.structure());
+  return elements.state_of(elements.parts()[law.number]).lost;
+}
+
+void YieldTable::observe(const CdLagrange& stepper) {
+  for (Own& law : own_) {
+    if (law.since == never_yielded && ductility(law) > 1) law.since = stepper.time();
+  }
+}
+
+void YieldTable::save(SavedState& saved) {
   std::vector<double> rows;
-  const auto add = [&](const std::string& group, std::int64_t element, std::size_t part,
-                       double ductility, double lost) {
-    const auto& regions = run_.scene.structures[structure].regions;
-    const auto region = std::ranges::find(regions, group, &Region::group) - regions.begin();
-    rows.insert(rows.end(), {static_cast<double>(region), static_cast<double>(element),
-                             static_cast<double>(part), ductility, lost});
-  };
-  if (const auto* const elements = run_.solver.inelastic(structure)) {
-    for (const interactions::InelasticElements::Part& part : elements->parts()) {
-      const ElementBlock& block = elements->block_of(part);
-      const interactions::PartState state = elements->state_of(part);
-      add(block.group, block.tags[part.element], part.number, state.ductility, state.lost);
-    }
+  for (const Own& law : own_) {
+    if (law.since == never_yielded) continue;
+    rows.insert(rows.end(), law.key.begin(), law.key.end());
+    rows.push_back(law.since);
   }
-  if (const auto* const links = run_.solver.links(structure)) {
-    const std::vector<Link>& all = run_.model.systems[structure].links->links();
-    for (std::size_t b = 0; b < all.size(); ++b) {
-      const double ductility = links->ductility(b);
-      if (ductility < 0) continue;
-      const std::size_t part = all[b].origin.length > 0
-                                   ? axial
-                                   : of_springs + static_cast<std::size_t>(all[b].origin.component);
-      add(all[b].origin.region->group, all[b].number, part, ductility, links->lost(b));
-    }
+  const std::vector<double> all = gather_rows(run_.comm, rows);
+  if (rank_of(run_.comm) == 0) saved.put("yielded_since", all, std::tuple_size_v<LawKey> + 1);
+}
+
+void YieldTable::load(const SavedState& saved) {
+  constexpr std::size_t keys = std::tuple_size_v<LawKey>;
+  const std::vector<double>& rows = saved.table("yielded_since", keys + 1);
+  std::map<LawKey, double> since;
+  for (std::size_t r = 0; r < rows.size(); r += keys + 1) {
+    since[{rows[r], rows[r + 1], rows[r + 2], rows[r + 3]}] = rows[r + keys];
   }
-  return rows;
+  for (Own& law : own_) {
+    if (const auto found = since.find(law.key); found != since.end()) law.since = found->second;
+  }
 }
 
 std::string YieldTable::part_name(std::size_t structure, int region, std::size_t part) const {
@@ -82,43 +176,77 @@ std::string YieldTable::part_name(std::size_t structure, int region, std::size_t
 }
 
 std::vector<YieldRow> YieldTable::rows() const {
+  std::vector<double> mine;
+  for (const Own& law : own_) {
+    mine.insert(mine.end(), law.key.begin(), law.key.end());
+    mine.insert(mine.end(), law.place.begin(), law.place.end());
+    mine.insert(mine.end(), {law.since, ductility(law), lost(law)});
+  }
+  const std::vector<double> table = gather_rows(run_.comm, mine);
+  constexpr std::size_t width = 10;
   std::vector<YieldRow> all;
-  for (std::size_t s = 0; s < run_.model.systems.size(); ++s) {
-    const std::vector<double> table = gather_rows(run_.comm, own_rows(s));
-    constexpr std::size_t width = 5;
-    for (std::size_t r = 0; r < table.size(); r += width) {
-      const auto region = static_cast<std::size_t>(table[r]);
-      const std::string part =
-          part_name(s, static_cast<int>(region), static_cast<std::size_t>(table[r + 2]));
-      all.push_back({run_.model.systems[s].name + ":" +
-                         run_.scene.structures[s].regions[region].group + ":" + part,
-                     static_cast<std::int64_t>(table[r + 1]), table[r + 3],
-                     table[r + 3] > 1 ? table[r + 4] : 0});  // round-off while it is elastic
-    }
+  for (std::size_t r = 0; r < table.size(); r += width) {
+    const double* const v = &table[r];
+    const auto s = static_cast<std::size_t>(v[0]);
+    const auto region = static_cast<std::size_t>(v[1]);
+    const std::string part = part_name(s, static_cast<int>(region), static_cast<std::size_t>(v[3]));
+    const double loss = v[8] > 1 ? v[9] : 0;  // round-off while it is elastic
+    all.push_back({run_.model.systems[s].name + ":" +
+                       run_.scene.structures[s].regions[region].group + ":" + part,
+                   s,
+                   static_cast<std::int64_t>(v[2]),
+                   {v[4], v[5], v[6]},
+                   v[7],
+                   v[8],
+                   loss});
   }
   std::ranges::sort(all, {}, &YieldRow::key);
   return all;
+}
+
+std::string YieldTable::storey_of(const YieldRow& row, std::size_t& order) const {
+  for (order = 0; order < storeys_.size(); ++order) {
+    const Storey& storey = storeys_[order];
+    if (storey.structure != run_.scene.structures[row.structure].name) continue;
+    const auto probe = static_cast<std::size_t>(storey.upper_probe);
+    const double top = run_.model.probes[probe].position[2];
+    const double small = 1e-9 * storey.height;
+    if (row.place[2] > top - storey.height - small && row.place[2] < top + small) {
+      return storey.upper + " over " + storey.lower;
+    }
+  }
+  return "";
 }
 
 void YieldTable::report(RunStatistics& statistics) {
   const std::vector<YieldRow> all = rows();
   on_rank0(run_.comm, [&] {
     CsvFile file(run_.scene.output + "/yielding.csv", run_.scene.csv_digits);
-    file.header("law,element,ductility,lost_J");
+    file.header("law,element,ductility,lost_J,x,y,z,first_time");
+    std::map<std::size_t, std::pair<std::string, YieldSum>> storeys;  // of the law at hand
+    const auto close = [&] {
+      for (auto& [order, storey] : storeys) {
+        statistics.yielding.back().storeys.push_back(std::move(storey));
+      }
+      storeys.clear();
+    };
     for (const YieldRow& row : all) {
-      file.row(row.name, {static_cast<double>(row.element), row.ductility, row.lost});
+      const bool never = row.since == never_yielded;
+      file.row(row.name, {static_cast<double>(row.element), row.ductility, row.lost, row.place[0],
+                          row.place[1], row.place[2],
+                          never ? std::numeric_limits<double>::quiet_NaN() : row.since});
       if (statistics.yielding.empty() || statistics.yielding.back().name != row.name) {
+        close();
         statistics.yielding.push_back({row.name});
       }
-      YieldReport& sum = statistics.yielding.back();
-      ++sum.elements;
-      sum.yielded += row.ductility > 1 ? 1 : 0;
-      sum.lost += row.lost;
-      if (row.ductility > sum.ductility) {
-        sum.ductility = row.ductility;
-        sum.element = row.element;
-      }
+      add_row(row, statistics.yielding.back().whole);
+      std::size_t order = 0;
+      const std::string storey = storey_of(row, order);
+      if (storey.empty()) continue;
+      storeys[order].first = storey;
+      add_row(row, storeys[order].second);
     }
+    close();
     file.close();
   });
 }
