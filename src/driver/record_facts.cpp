@@ -29,7 +29,7 @@ Facts loop_facts(const RunStatistics& run) {
 
 namespace {
 
-Json values_of(const YieldSum& sum) {
+Json values_of_yielding(const YieldSum& sum) {
   return {{"elements", sum.elements},
           {"yielded", sum.yielded},
           {"ductility", sum.ductility},
@@ -39,7 +39,7 @@ Json values_of(const YieldSum& sum) {
           {"energy_lost", sum.lost}};
 }
 
-/// A line of the table of what yielded.
+/// A line of the table of yielding.
 std::string told_yielding(const std::string& name, const Json& of) {
   return told("  {:-36s} {yielded:5d} of {elements:-5d} {ductility:10.4g} {element:9d}", of,
               {name}) +
@@ -62,16 +62,16 @@ Facts yield_facts(const RunStatistics& run) {
   if (yielded == 0) {
     facts.say("\nnothing yielded; of the elongations of first corners there were at most\n");
   } else {
-    facts.say("\nwhat yielded, and lost {:.4g} J by it\n", {lost});
+    facts.say("\nyielding, which took {:.4g} J\n", {lost});
   }
   facts.say(
       "  law, storey                          yielded        ductility   element      first s "
       "      J lost\n");
   for (const YieldReport& report : run.yielding) {
-    Json of = values_of(report.whole);
+    Json of = values_of_yielding(report.whole);
     facts.text += told_yielding(report.name, of);
     for (const auto& [storey, sum] : report.storeys) {
-      of["storeys"][storey] = values_of(sum);
+      of["storeys"][storey] = values_of_yielding(sum);
       facts.text += told_yielding("  " + storey, of["storeys"][storey]);
     }
     facts.values["yielding"][report.name] = std::move(of);

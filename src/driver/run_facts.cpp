@@ -145,7 +145,7 @@ Facts energy_facts(const RunStatistics& run) {
       "{damping:.4g}, contact work {contact:.4g}, input work {input:.4g}\n");
   facts.say(
       "[  friction of contacts took {friction:.4g}\n]"
-      "[  what yields, is damaged or crushed took {plastic:.4g}\n]"
+      "[  yielding, damage and crushing took {plastic:.4g}\n]"
       "[  of the input work that of gravity {gravity:.4g}\n]"
       "[  of the input work that of loads {loads:.4g}\n]");
   if (std::abs(energy.device_work) > 1e-12 * std::abs(energy.energy())) {

@@ -75,7 +75,7 @@ struct YieldSum {
 struct YieldReport {
   std::string name;  ///< structure:group:part
   YieldSum whole{};
-  /// The same per storey in which there are any, from below, by the name of the storey.
+  /// Per storey in which there are any, from below, by the name of the storey.
   std::vector<std::pair<std::string, YieldSum>> storeys{};
 };
 

@@ -82,7 +82,7 @@ void watch_passivity(const EnergyLine& line, double largest_term) {
   };
   const double allowed = given_energy * largest_term;
   if (line.link_loss < -allowed) refuse("links", line.link_loss);
-  if (line.plastic_loss < -allowed) refuse("what yields", line.plastic_loss);
+  if (line.plastic_loss < -allowed) refuse("yielding elements", line.plastic_loss);
   const double dashpots = line.device_work - line.link_loss;
   if (line.damping_loss + dashpots + std::abs(line.slow_relief) < -allowed) {
     refuse("damping", line.damping_loss + dashpots);

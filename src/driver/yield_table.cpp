@@ -231,10 +231,10 @@ void YieldTable::report(RunStatistics& statistics) {
       storeys.clear();
     };
     for (const YieldRow& row : all) {
-      const bool never = row.since == never_yielded;
+      const bool elastic = row.since == never_yielded;
       file.row(row.name, {static_cast<double>(row.element), row.ductility, row.lost, row.place[0],
                           row.place[1], row.place[2],
-                          never ? std::numeric_limits<double>::quiet_NaN() : row.since});
+                          elastic ? std::numeric_limits<double>::quiet_NaN() : row.since});
       if (statistics.yielding.empty() || statistics.yielding.back().name != row.name) {
         close();
         statistics.yielding.push_back({row.name});

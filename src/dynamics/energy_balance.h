@@ -24,10 +24,10 @@ struct EnergyLine {
   /// Taken up by dashpots, by what regions with damping of their own have beside the structure's,
   /// and by links that do not yield.
   double device_work = 0;
-  double plastic_loss = 0;  ///< taken by what yields, is damaged or crushed, and not kept
+  double plastic_loss = 0;  ///< taken by yielding, damage and crushing, and not kept
   double residual = 0;      ///< energy - initial energy + damping loss + device work + plastic loss
                             ///< + friction loss - contact work - input work
-  double link_loss = 0;     ///< of links in the device work: what they took and did not keep
+  double link_loss = 0;     ///< of links in the device work: taken and not kept
   double slow_relief = 0;   ///< see StructureEnergy
   double gravity_work = 0;  ///< of gravity alone, a part of the input work
   double load_work = 0;     ///< of loads alone, a part of the input work

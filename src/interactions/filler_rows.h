@@ -48,7 +48,7 @@ class FillerRows final : public Interaction {
   /// before; members only.
   bool strikes() const;
   /// Adds, per row of the interface, the impulses of stops and strips in the step just made [N s],
-  /// and takes off what they lost in the one before from the works [J]. Members only.
+  /// and takes off their loss in the one before from the works [J]. Members only.
   void add_strikes(std::span<double> impulses, std::span<double> works) const;
   /// Per contact of the scene; members only.
   const std::vector<FillerTotals>& totals() const { return totals_; }
@@ -80,7 +80,7 @@ class FillerRows final : public Interaction {
   std::vector<double> impulse_;
   double support_input_ = 0;                   ///< work of supports against the fillers [J]
   double loss_ = 0;                            ///< of the step before, of stops [J]
-  double plastic_loss_ = 0;                    ///< likewise, of what is crushed
+  double plastic_loss_ = 0;                    ///< likewise, of crushing
   bool made_ = false;                          ///< a step was
   double duration_ = 0;                        ///< of the forces in the step just made [s]
   std::vector<Before> before_step_;            ///< per structure

@@ -8,7 +8,7 @@ struct LedgerPart {
   double link_energy_before = 0;     ///< held between u_{n-1} and u_n [J]
   double link_loss = 0;              ///< taken in the step and not kept [J]
   double link_loss_before = 0;       ///< the same of the step before, of gathered rows [J]
-  double plastic_loss = 0;           ///< likewise of what yields, is damaged or crushed [J]
+  double plastic_loss = 0;           ///< likewise, by yielding, damage and crushing [J]
   double plastic_loss_before = 0;    ///< the same of the step before, of gathered rows [J]
   double link_input = 0;             ///< work of a wave from below [J]
   double support_input = 0;          ///< work of supports' motion and loads, contacts apart [J]

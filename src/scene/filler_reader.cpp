@@ -39,7 +39,7 @@ std::vector<Filler::Point> read_filler_table(OptionReader& options,
   return points;
 }
 
-/// Refuses what goes with an option that is not given.
+/// Refuses options that go with one that is not given.
 void forbid_parts(const OptionReader& options, std::string_view option,
                   const OptionReader::Names& names) {
   for (const OptionRow& row : option_table()) {
@@ -50,7 +50,7 @@ void forbid_parts(const OptionReader& options, std::string_view option,
   }
 }
 
-/// A strip of the faces: elastic up to its strength, which it keeps until it is crushed to the last.
+/// A strip of the faces: elastic up to its strength, which it keeps to its end.
 std::optional<Filler> read_crushing(OptionReader& options, const OptionReader::Names& names) {
   if (!options.given(crushing_option, names)) {
     forbid_parts(options, crushing_option, names);

@@ -124,7 +124,7 @@ def force_table(result: Result, twin: Result | None = None) -> str:
 def energy_table(result: Result) -> str:
     labels = (("input", "work of the ground [J]"), ("gravity", "of which gravity [J]"), ("damping", "damping [J]"),
               ("contact", "contact [J]"), ("friction", "friction of contacts [J]"), ("devices", "links and dashpots [J]"),
-              ("plastic", "what yields, is damaged or crushed [J]"),
+              ("plastic", "yielding, damage and crushing [J]"),
               ("relative_residual", "largest residual of the identity, part of the largest term"))
     energy = result.summary.get("energy", {})
     always = ("input", "damping", "contact", "relative_residual")

@@ -50,7 +50,7 @@ class LinkLaw {
   /// Whether it has left its straight line for good.
   virtual bool has_yielded(std::span<const double> /*memory*/) const { return false; }
 
-  /// Whether what it loses is plastic work: of what yields, is damaged or crushed.
+  /// Whether its loss is plastic work: of yielding, damage or crushing.
   virtual bool loses_plastic_work() const { return false; }
   /// Largest elongation over that of the first corner of its skeleton; below 0 without one.
   virtual double ductility(std::span<const double> /*memory*/) const { return -1; }

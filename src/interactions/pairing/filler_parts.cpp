@@ -19,7 +19,7 @@ void require_room(const Contact& contact, const Constraint& constraint) {
     if (width >= 0) return;
     std::ostringstream text;
     text << "contact " << contact.name << ": the faces overlap by " << -width
-         << " m somewhere, and what is crushed is intact at the start; give -" << contact.name
+         << " m somewhere, and the strip to crush is intact at the start; give -" << contact.name
          << "_gap, or move a mesh";
     throw UserError(text.str());
   }
