@@ -3,7 +3,9 @@
 One beam whose end only sways is a spring k = 1 / (L / G A + L^3 / (12 E I)) that yields at Q in shear: a mass that is
 thrown at it turns back where its energy is spent.
 """
+import math
 import os
+import shutil
 import unittest
 
 import numpy
@@ -159,6 +161,34 @@ class Stick(unittest.TestCase):
                            (["-export_matrices", "/tmp/nothing"], "elements that yield"),
                            (["-s_column_pinch", "0.2,0.5"], "goes with")):
             program.must_refuse(self, stick(*more), said, ranks=1)
+
+    def test_storeys_places_and_times(self):
+        floors = [word for i in range(1, 5) for word in (
+            f"-level{i}_structure", "s", f"-level{i}_at", f"0,0,{4 * i}", f"-level{i}_average", "true", f"-level{i}_floor", "true")]
+        words = [*stick(*self.motion), *floors, "-probes", "roof,level1,level2,level3,level4"]
+        runs = []
+        for ranks in (1, 2):
+            folder, summary = program.must_run(self, [*words, "-modes", 1, "-spectra_frequencies", 10], ranks)
+            self.addCleanup(shutil.rmtree, folder)
+            runs.append((summary["yielding"], program.read_csv(os.path.join(folder, "yielding.csv"))))
+        for law, of in runs[0][0].items():
+            storeys = of["storeys"]
+            self.assertEqual(list(storeys), ["level1 over base", *(f"level{i + 1} over level{i}" for i in (1, 2, 3))])
+            self.assertEqual(sum(storey["elements"] for storey in storeys.values()), of["elements"])
+            self.assertEqual(sum(storey["yielded"] for storey in storeys.values()), of["yielded"])
+            self.assertAlmostEqual(sum(storey["energy_lost"] for storey in storeys.values()), of["energy_lost"], delta=1e-6)
+            self.assertEqual(max(storey["ductility"] for storey in storeys.values()), of["ductility"])
+            first = [storey["first_time"] for storey in storeys.values() if storey["first_time"] is not None]
+            self.assertEqual(min(first), of["first_time"])
+            self.assertEqual(max(storeys.values(), key=lambda storey: storey["ductility"])["place"], of["place"])
+            other = runs[1][0][law]
+            self.assertAlmostEqual(other["ductility"], of["ductility"], delta=1e-8)
+            self.assertEqual((other["first_time"], other["place"]), (of["first_time"], of["place"]))
+        table = runs[0][1]
+        rows = [i for i, name in enumerate(table["law"]) if name == "s:column:shear_y"]
+        self.assertEqual(sorted(float(table["z"][i]) for i in rows), [1, 3, 5, 7, 9, 11, 13, 15])
+        for i in rows:
+            self.assertEqual(math.isnan(float(table["first_time"][i])), float(table["ductility"][i]) <= 1)
 
     def test_two_sticks_that_pound(self):
         """The shipped scene: rest under gravity, walls that yield, strikes, in one ledger."""
