@@ -102,4 +102,26 @@ std::optional<Filler> read_filler(OptionReader& options, const std::string& cont
   return filler;
 }
 
+void check_filler(const OptionReader& options, const Contact& contact, bool exports) {
+  const OptionReader::Names names{contact.name};
+  const bool crushes = contact.crushes();
+  const std::string owner = "contact " + contact.name + " has a ";
+  if (contact.sliding > 0) {
+    options.refuse(
+        "<contact>_sliding", names,
+        owner + (crushes ? "strip that is crushed" : "filler") + ", which stays where it is");
+  }
+  if (exports) {
+    options.refuse("export_matrices", {},
+                   owner + (crushes ? "strip" : "filler") + ", which is no matrix; not with -" +
+                       option_name(crushes ? crushing_option : filler_option, names));
+  }
+  if (crushes && contact.friction > 0) {
+    options.refuse("<contact>_friction", names,
+                   "not beside -" + option_name(crushing_option, names) +
+                       ": friction acts in hard contact only, which begins where the strip is "
+                       "crushed to the last");
+  }
+}
+
 }  // namespace pounding

@@ -376,25 +376,7 @@ class SceneReader {
     if (contact.sliding > 0 && contact.primary.is_wall()) {
       options_.refuse("<contact>_sliding", {name}, "a wall is endless; leave it out");
     }
-    if (contact.sliding > 0 && contact.filler) {
-      options_.refuse("<contact>_sliding", {name},
-                      "contact " + name + " has a " +
-                          (contact.crushes() ? "strip that is crushed" : "filler") +
-                          ", which stays where it is");
-    }
-    if (contact.filler && !scene_.export_matrices.empty()) {
-      const bool crushes = contact.crushes();
-      options_.refuse("export_matrices", {},
-                      "contact " + name + " has a " + (crushes ? "strip" : "filler") +
-                          ", which is no matrix; not with -" + name +
-                          (crushes ? "_crushing" : "_filler"));
-    }
-    if (contact.crushes() && contact.friction > 0) {
-      options_.refuse("<contact>_friction", {name},
-                      "not beside -" + name +
-                          "_crushing: friction acts in hard contact only, which begins where the "
-                          "strip is crushed to the last");
-    }
+    if (contact.filler) check_filler(options_, contact, !scene_.export_matrices.empty());
     if (contact.sliding > 0 && !scene_.export_matrices.empty()) {
       options_.refuse("export_matrices", {},
                       "the rows of contact " + name + " change; not with -" + name + "_sliding");

@@ -51,7 +51,7 @@ class OneElement(unittest.TestCase):
             # Back to the origin, and there into sound concrete.
             force = CRACKS["force"] * 3 * (1 + CRACKS["tension"] * (top / first - 1))
             lost = 1e5 * speed**2 / 2 - force * top / 2
-            self.assertAlmostEqual(run.energy["devices"] / lost, 1, delta=1e-4)
+            self.assertAlmostEqual(run.energy["plastic"] / lost, 1, delta=1e-4)
             bottom = ((force * top) / (YOUNG * THICKNESS))**0.5
             self.assertAlmostEqual(-z.min() / bottom, 1, delta=1e-4)
             found = run.summary["yielding"]["w:wall:cracking"]
