@@ -35,14 +35,16 @@ class Motion:
         return tuple(float(np.abs(one).max()) for one in (self.displacement, self.velocity, self.acceleration))
 
 
-def motion_of(run: Result, probe: str, way: str, above: float, below: float = np.inf, interval: float | None = None) -> Motion:
-    """The absolute acceleration of a probe, eased out over its last twentieth, 1/(2 above) s at most, since the floor
-    of a run that ends still moves; zeros of 2/above s before and after, in which the table settles; gains of a Butterworth filter of fourth order at
-    both ends, without phase; velocity and displacement by division by i omega. `interval`: of the instants [s], that of the
-    history or longer. Throws ResultError for a probe that was not recorded."""
+def motion_of(run: Result, probe: str, way: str, above: float, below: float = np.inf, interval: float = 0.0) -> Motion:
+    """The absolute acceleration of a probe, in means over the interval of the instants [s] (that of the history or longer),
+    eased out over its last twentieth, 1/(2 above) s at most, since the floor of a run that ends still moves; zeros of 2/above s
+    before and after, in which the table settles; gains of a Butterworth filter of fourth order at both ends, without phase;
+    velocity and displacement by division by i omega. Throws ResultError for a probe that was not recorded."""
     _, samples = run.series("acceleration", probe, way)
     step = float(run.summary["output_interval"])
-    samples = np.array(samples)
+    size = max(1, int(interval / step + 1e-6))
+    samples = np.array(samples)[:len(samples) // size * size].reshape(-1, size).mean(1)
+    step *= size
     ease = min(len(samples) // 20, int(round(0.5 / above / step)))
     samples[len(samples) - ease:] *= 0.5 * (1 + np.cos(np.pi * np.arange(1, ease + 1) / max(ease, 1)))
     pad = int(np.ceil(2 / above / step))
@@ -58,12 +60,7 @@ def motion_of(run: Result, probe: str, way: str, above: float, below: float = np
         spectrum *= 1 / (1 + (frequency / below) ** 8)
     spectrum[0] = 0
     columns = [np.fft.irfft(spectrum / (1j * omega) ** times, len(padded))[:count] for times in (0, 1, 2)]
-    time = step * np.arange(count)
-    if interval and interval > step:
-        wanted = np.arange(0, time[-1], interval)
-        columns = [np.interp(wanted, time, one) for one in columns]
-        time = wanted
-    return Motion(time, *columns, above, below)
+    return Motion(step * np.arange(count), *columns, above, below)
 
 
 def excess(motion: Motion, limits: list) -> str:
@@ -72,20 +69,25 @@ def excess(motion: Motion, limits: list) -> str:
                      in zip(NAMES, motion.peaks, limits, UNITS) if peak > limit)
 
 
-def lowest_within(run: Result, probe: str, way: str, below: float, limits: list) -> float:
+def lowest_within(run: Result, probe: str, way: str, below: float, interval: float, limits: list) -> float:
     """The lowest frequency [Hz], to a hundredth of it, from which on the motion keeps the limits of stroke and velocity.
     Throws ResultError where none up to HIGHEST does."""
     slow = [*limits[:2], np.inf]
+
+    def within(above: float) -> bool:
+        return not excess(motion_of(run, probe, way, above, below, interval), slow)
+
     low, high = LOWEST, HIGHEST
-    if excess(motion_of(run, probe, way, high, below), slow):
+    if not within(high):
         raise ResultError(f"{run.folder}: no motion of {probe} along {way} from {high:g} Hz on keeps within {limits[0]:g} m and "
                           f"{limits[1]:g} m/s")
-    if not excess(motion_of(run, probe, way, low, below), slow):
+    if within(low):
         return low
-    while high / low > 1.01:
+    while high / low > 1.005:
         middle = np.sqrt(low * high)
-        low, high = (middle, high) if excess(motion_of(run, probe, way, middle, below), slow) else (low, middle)
-    return float(f"{high:.3g}") if float(f"{high:.3g}") >= high else float(f"{high * 1.005:.3g}")
+        low, high = (low, middle) if within(middle) else (middle, high)
+    found = float(f"{high:.3g}")
+    return found if within(found) else float(f"{1.005 * high:.3g}")
 
 
 def write(motion: Motion, path: Path, comment: str) -> None:
