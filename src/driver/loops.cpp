@@ -19,12 +19,14 @@ namespace pounding {
 namespace {
 
 constexpr int of_section = -2;
+constexpr int of_section_link = -3;
 
 /// A link that an item of the option may mean, as it travels between ranks.
 struct Candidate {
   int item = 0;
   int component = 0;
-  int part = 0;             ///< of SpringPart; -1: a pair with filler; -2: of a section
+  int part = 0;             ///< of SpringPart; -1: a pair with filler; -2: of a section; -3: of
+                            ///< one in a reduced structure
   int bar = 0;              ///< 1: a bar, which has one component
   std::int64_t number = 0;  ///< of its element or pair
   Vector3 place{};          ///< middle of the element [m]
@@ -47,7 +49,10 @@ void add_links(const Model& model, const Loop& loop, int item, int rank,
           origin.part == interactions::SpringPart::gauge) {
         continue;
       }
-      found.push_back({item, origin.component, static_cast<int>(origin.part),
+      const int component =
+          origin.component - (origin.section ? interactions::first_section_component : 0);
+      found.push_back({item, component,
+                       origin.section ? of_section_link : static_cast<int>(origin.part),
                        origin.length > 0 ? 1 : 0, links[b].number,
                        element_middle(model.meshes[s], loop.group, links[b].number), rank,
                        static_cast<int>(b)});
@@ -121,13 +126,17 @@ void keep_nearest(const Loop& loop, int item, std::vector<Candidate>& all) {
 }
 
 /// Names of the parts of a region's law.
-std::vector<std::string> part_names(const Model& model, const Loop& loop) {
+std::vector<std::string> part_names(const Scene& scene, const Model& model, const Loop& loop) {
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
     for (const auto& [region, law] : model.systems[s].laws) {
       const bool meant = std::ranges::any_of(
           model.meshes[s].blocks,
           [&, of = region](const auto& b) { return b.region == of && b.group == loop.group; });
       if (model.systems[s].name == loop.structure && meant) return law->parts();
+    }
+    if (model.systems[s].name != loop.structure) continue;
+    for (const Region& region : scene.structures[s].regions) {
+      if (region.group == loop.group && yields_by_links(region)) return region.yielding.names();
     }
   }
   return {};
@@ -136,7 +145,8 @@ std::vector<std::string> part_names(const Model& model, const Loop& loop) {
 std::string name_of(const std::string& item, const Candidate& link,
                     const std::vector<std::string>& parts) {
   std::string name = item + "." + std::to_string(link.number);
-  if (link.part == of_section) return name + "." + parts[static_cast<std::size_t>(link.component)];
+  const bool section = link.part == of_section || link.part == of_section_link;
+  if (section) return name + "." + parts[static_cast<std::size_t>(link.component)];
   if (link.part < 0) return name;
   if (link.bar != 0) return name + ".axial";
   const std::string component(motion_names[static_cast<std::size_t>(link.component)]);
@@ -199,7 +209,7 @@ Loops::Loops(const ObservedRun& run) : run_(run) {
           " yields, slides, damps or acts in one direction only; name a group that does");
     }
     keep_nearest(scene.loops[i], item, all);
-    parts.push_back(part_names(model, scene.loops[i]));
+    parts.push_back(part_names(scene, model, scene.loops[i]));
   }
   std::vector<std::vector<std::size_t>> chosen(model.systems.size() + 1);  // the last: fillers
   std::vector<std::vector<std::size_t>> sections(model.systems.size());

@@ -69,7 +69,7 @@ std::unique_ptr<FieldWriter> make_fields(const ObservedRun& run) {
 bool has_skeletons(const Scene& scene) {
   return std::ranges::any_of(scene.structures, [](const Structure& structure) {
     return std::ranges::any_of(structure.regions, [](const Region& region) {
-      bool has_any = region.inelastic;
+      bool has_any = region.inelastic || yields_by_links(region);
       for (std::size_t c = 0; c < region.nonlinear.yield_force.size(); ++c) {
         has_any = has_any || region.nonlinear.is_hysteretic(c);
       }

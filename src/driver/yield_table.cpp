@@ -65,7 +65,7 @@ class YieldTable final : public Observer {
            Own law);
   double ductility(const Own& law) const;
   double lost(const Own& law) const;
-  std::string part_name(std::size_t structure, int region, std::size_t part) const;
+  std::string part_name(std::size_t structure, std::size_t region, std::size_t part) const;
   /// Rows of all ranks. Collective.
   std::vector<YieldRow> rows() const;
   /// The storey that a place is in, "roof over floor2"; empty where none is. `order`: its number.
@@ -106,10 +106,12 @@ YieldTable::YieldTable(const ObservedRun& run)
       const std::vector<Link>& all = run.model.systems[s].links->links();
       for (std::size_t b = 0; b < all.size(); ++b) {
         if (links->ductility(b) < 0) continue;
+        const interactions::LinkOrigin& origin = all[b].origin;
         const std::size_t part =
-            all[b].origin.length > 0
-                ? axial
-                : of_springs + static_cast<std::size_t>(all[b].origin.component);
+            origin.section
+                ? static_cast<std::size_t>(origin.component - interactions::first_section_component)
+            : origin.length > 0 ? axial
+                                : of_springs + static_cast<std::size_t>(origin.component);
         const std::string& group = all[b].origin.region->group;
         const Vector3 place = element_middle(run.model.meshes[s], group, all[b].number);
         add(s, group, all[b].number, part, {{}, b, true, place});
@@ -168,11 +170,15 @@ void YieldTable::load(const SavedState& saved) {
   }
 }
 
-std::string YieldTable::part_name(std::size_t structure, int region, std::size_t part) const {
+std::string YieldTable::part_name(std::size_t structure, std::size_t region,
+                                  std::size_t part) const {
   if (part == axial) return "axial";
   if (part >= of_springs) return std::string(motion_names[part - of_springs]);
+  const auto number = static_cast<int>(region);
   const auto& laws = run_.model.systems[structure].laws;
-  return std::ranges::find(laws, region, &interactions::RegionLaw::region)->law->parts()[part];
+  const auto law = std::ranges::find(laws, number, &interactions::RegionLaw::region);
+  if (law != laws.end()) return law->law->parts()[part];
+  return run_.scene.structures[structure].regions[region].yielding.names()[part];
 }
 
 std::vector<YieldRow> YieldTable::rows() const {
@@ -189,7 +195,7 @@ std::vector<YieldRow> YieldTable::rows() const {
     const double* const v = &table[r];
     const auto s = static_cast<std::size_t>(v[0]);
     const auto region = static_cast<std::size_t>(v[1]);
-    const std::string part = part_name(s, static_cast<int>(region), static_cast<std::size_t>(v[3]));
+    const std::string part = part_name(s, region, static_cast<std::size_t>(v[3]));
     const double loss = v[8] > 1 ? v[9] : 0;  // round-off while it is elastic
     all.push_back({run_.model.systems[s].name + ":" +
                        run_.scene.structures[s].regions[region].group + ":" + part,

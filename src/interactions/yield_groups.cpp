@@ -13,7 +13,8 @@ YieldGroups::YieldGroups(std::span<const Link> links) {
     const LinkOrigin& origin = links[b].origin;
     const auto component = static_cast<std::size_t>(origin.component);
     if (origin.part == SpringPart::gauge) gauges[links[b].number] = static_cast<int>(b);
-    if (origin.part != SpringPart::stiffness || origin.region == nullptr ||
+    if (origin.section) groups_.push_back({{b}});
+    if (origin.section || origin.part != SpringPart::stiffness || origin.region == nullptr ||
         !origin.region->nonlinear.yields(component)) {
       continue;
     }

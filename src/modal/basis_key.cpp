@@ -140,6 +140,7 @@ BasisKey basis_key(const Structure& structure, const GlobalMesh& mesh,
     vectors.add("patches");
     vectors.add(static_cast<double>(request.patches));
   }
+  if (!request.yielding_points.empty()) vectors.add(hash_of(request.yielding_points));
   std::vector<TracePoint> places = request.other_points;
   places.insert(places.end(), request.shown_points.begin(), request.shown_points.end());
   return {{"mesh", hash_of(mesh)},

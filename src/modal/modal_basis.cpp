@@ -255,7 +255,10 @@ class BasisMaker {
     for (std::size_t l = 0; system_.loads && l < system_.loads->loads.size(); ++l) {
       loads.append(scaled_load(system_.loads->loads[l]));
     }
-    if (request_.attachment) add_contact_loads(loads);
+    if (request_.attachment) {
+      add_contact_loads(loads);
+      add_yielding_loads(loads);
+    }
     space_.normalise(loads);
     return loads;
   }
@@ -283,6 +286,17 @@ class BasisMaker {
         const LocalIndex dof = dof_at(points[p]);
         if (dof >= 0) load[dof] = patch.size() == 1 ? 1 : std::sqrt(system_.inverse_mass[dof]);
       }
+      loads.append(load);
+    }
+  }
+
+  /// M^-1/2 times a force on each point of sections that yield.
+  void add_yielding_loads(DenseMatrix& loads) const {
+    const std::vector<std::uint8_t> exists = are_dofs(request_.yielding_points);
+    for (std::size_t p = 0; p < exists.size(); ++p) {
+      if (exists[p] == 0) continue;
+      std::vector<double> load(dofs_, 0.0);
+      if (const LocalIndex dof = dof_at(request_.yielding_points[p]); dof >= 0) load[dof] = 1;
       loads.append(load);
     }
   }
@@ -419,8 +433,8 @@ class BasisMaker {
 
   void add_rows(const DenseMatrix& rotation, ModalBasis& basis) const {
     std::set<TracePoint> known;
-    for (const auto* points :
-         {&request_.contact_points, &request_.other_points, &request_.shown_points}) {
+    for (const auto* points : {&request_.contact_points, &request_.yielding_points,
+                               &request_.other_points, &request_.shown_points}) {
       const std::vector<std::uint8_t> exists = are_dofs(*points);
       for (std::size_t p = 0; p < exists.size(); ++p) {
         const TracePoint& point = (*points)[p];

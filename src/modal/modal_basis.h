@@ -48,20 +48,21 @@ struct ModalRequest {
   int patches = 0;           ///< or per patch of them, so many in all; 0: per point
   Vector3 gravity{0, 0, 0};  ///< that the structure is to rest under [m/s2]; 0: no vector for it
   std::vector<TracePoint> contact_points;
-  std::vector<TracePoint> other_points;  ///< where the motion is wanted as well
-  std::vector<TracePoint> shown_points;  ///< and for pictures and forces, which choose no modes
-  std::vector<NodalLoad> loads;          ///< on the structure
-  std::vector<double> loads_at_rest;     ///< f of each before the run
-  NodalStart start;                      ///< of nodes that start differently
-  Vector3 start_displacement{0, 0, 0};   ///< of the others [m]
-  Vector3 start_velocity{0, 0, 0};       ///< of the others [m/s]
+  std::vector<TracePoint> yielding_points;  ///< of sections that yield, never in patches
+  std::vector<TracePoint> other_points;     ///< where the motion is wanted as well
+  std::vector<TracePoint> shown_points;     ///< and for pictures and forces, which choose no modes
+  std::vector<NodalLoad> loads;             ///< on the structure
+  std::vector<double> loads_at_rest;        ///< f of each before the run
+  NodalStart start;                         ///< of nodes that start differently
+  Vector3 start_displacement{0, 0, 0};      ///< of the others [m]
+  Vector3 start_velocity{0, 0, 0};          ///< of the others [m/s]
 };
 
 /// The lowest modes, and beside them the attachment vectors: static responses to gravity, where the
-/// run starts at rest under it, to the system's loads, and to unit forces at the contact points, so
-/// that forces there find all the flexibility of the structure and not only that of the modes
-/// (Craig and Chang, AIAA J. 15 (1977), 1009; residual flexibility). With Y the modes in y = M^1/2
-/// u and A = M^-1/2 K M^-1/2,
+/// run starts at rest under it, to the system's loads, and to unit forces at the contact points and
+/// at those of sections that yield, so that forces there find all the flexibility (Craig and Chang,
+/// AIAA J. 15 (1977), 1009; residual flexibility). With Y the modes in y = M^1/2 u and
+/// A = M^-1/2 K M^-1/2,
 ///
 ///     z_j = P (A - shift)^-1 P M^-1/2 e_j,      P = I - Y Y^T
 ///

@@ -70,8 +70,16 @@ ModalRequest request_of(MPI_Comm comm, const Scene& scene, int s, const GlobalMe
     }
   }
   std::vector<TracePoint> links;
-  if (rank_of(comm) == 0) links = link_points(scene.structures[s], mesh);
+  std::vector<TracePoint> sections;
+  if (rank_of(comm) == 0) {
+    links = link_points(scene.structures[s], mesh);
+    sections = section_points(scene.structures[s], mesh);
+  }
   broadcast_array(comm, links, 0);
+  broadcast_array(comm, sections, 0);
+  for (const TracePoint& point : sections) {
+    if (known.insert(point).second) request.yielding_points.push_back(point);
+  }
   for (const TracePoint& point : links) {
     if (known.insert(point).second) request.other_points.push_back(point);
   }

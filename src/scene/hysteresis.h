@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace pounding {
@@ -60,6 +61,8 @@ struct YieldingSection {
   std::array<std::optional<Hysteresis>, 2> shear;    ///< force [N] over shear strain
   std::array<std::optional<Hysteresis>, 2> bending;  ///< moment [N m] over curvature [1/m]
 
+  /// Names of its laws, "shear_y" say, in the order in which they are numbered.
+  std::vector<std::string> names() const;
   bool any() const { return shear[0] || shear[1] || bending[0] || bending[1]; }
   /// The option that gave the first of them.
   const char* option() const {

@@ -27,7 +27,9 @@ void refuse_couplings(const OptionReader& options, const Structure& structure) {
     const std::string remedy = "not in a structure with -" + option_name(model, {structure.name}) +
                                " modal; leave it out, or give -" +
                                option_name(model, {structure.name}) + " full";
-    if (region.inelastic) options.forbid(option_of_law(region), names, remedy);
+    if (region.inelastic && is_shell(region.element)) {
+      options.forbid(option_of_law(region), names, remedy);
+    }
     if (follows_law(region) && structure.uniform_damping) {
       options.forbid(
           option_of_law(region), names,

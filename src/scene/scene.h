@@ -76,7 +76,8 @@ struct Region {
   bool compression_only = false;      ///< grounded springs: along z they push up only
   NonlinearSpring nonlinear;          ///< springs and bars
   YieldingSection yielding;           ///< beams
-  /// Forces of its elements are those of an element law, not K u; see InelasticElements.
+  /// Forces of its elements are those of an element law, not K u; see InelasticElements. Not in
+  /// reduced structures, see yields_by_links.
   bool inelastic = false;
   std::optional<Rayleigh> damping;  ///< in place of the structure's
   /// Displacement [m] and velocity [m/s] of its nodes at t = 0, in place of the structure's.
@@ -100,9 +101,15 @@ inline bool follows_law(const Region& region) {
   return is_one_way(region) || region.nonlinear.yields() || region.inelastic;
 }
 
-/// The option that takes the stiffness of a region's elements out of K.
+/// Beams of a reduced structure whose sections yield: its modes hold them as elastic, and links the
+/// difference.
+inline bool yields_by_links(const Region& region) {
+  return region.yielding.any() && !region.inelastic;
+}
+
+/// The option that takes the stiffness of a region's elements out of K, or gives it a law beside.
 inline const char* law_option(const Region& region) {
-  if (region.inelastic) return region.yielding.option();
+  if (region.yielding.any()) return region.yielding.option();
   if (region.compression_only) return "<structure>_<group>_compression_only";
   if (region.nonlinear.friction > 0) return "<structure>_<group>_sliding_friction";
   return region.nonlinear.yields() ? "<structure>_<group>_yield_force"

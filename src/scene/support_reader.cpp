@@ -138,7 +138,7 @@ void require_plain(const OptionReader& options, const Scene& scene, const Suppor
                   "not with -export_matrices: no matrix holds the motion of supports");
   }
   for (const Region& region : structure.regions) {
-    if (region.inelastic) {
+    if (region.inelastic || yields_by_links(region)) {
       refuse_groups(options, support,
                     "structure " + structure.name + ": sections that yield need ground that " +
                         "moves as one; not with -" +

@@ -96,7 +96,8 @@ class Search {
           if (link.one_way) continue;
           const interactions::LinkOrigin& origin = link.link->origin;
           const NonlinearSpring& law = origin.region->nonlinear;
-          const double limit = law.yield_force[origin.component];
+          const double limit = origin.section ? origin.section->positive.breaks.front().force
+                                              : law.yield_force[origin.component];
           if (!(limit > 0)) continue;
           const std::string place = "element " + std::to_string(link.link->number) + " of group '" +
                                     origin.region->group + "'";

@@ -14,7 +14,7 @@ double tangent_of(const Link& link) {
 }
 
 bool is_one_way_link(const Link& link) {
-  return link.origin.region != nullptr && is_one_way(*link.origin.region) &&
+  return !link.origin.section && link.origin.region != nullptr && is_one_way(*link.origin.region) &&
          !link.origin.region->nonlinear.yields(static_cast<std::size_t>(link.origin.component));
 }
 

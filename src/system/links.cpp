@@ -11,6 +11,7 @@
 #include "elements/point.h"
 #include "mesh/location.h"
 #include "system/support_shapes.h"
+#include "system/yielding_beams.h"
 
 namespace pounding {
 namespace {
@@ -35,12 +36,16 @@ std::unique_ptr<Links> Links::build(const Structure& structure, const Mesh& mesh
   for (const ElementBlock& block : mesh.blocks) {
     if (!interactions::has_links(structure.regions[block.region])) continue;
     count += block.global_count;
-    found->hold_stiffness_ = found->hold_stiffness_ || follows_law(structure.regions[block.region]);
+    const Region& region = structure.regions[block.region];
+    found->hold_stiffness_ =
+        found->hold_stiffness_ || follows_law(region) || yields_by_links(region);
     for (std::size_t e = 0; e < block.count(); ++e) {
       if (block.type == ElementType::soil) {
         found->add_soil(structure, mesh, block, e);
       } else if (is_spring(block.type)) {
         found->add_springs(structure, mesh, block, e);
+      } else if (yields_by_links(region)) {
+        found->add_section(structure, mesh, block, e);
       } else {
         found->add_bar(structure, mesh, block, e);
       }
@@ -100,6 +105,28 @@ void Links::add_bar(const Structure& structure, const Mesh& mesh, const ElementB
     }
   }
   keep(mesh, block, element, link);
+}
+
+void Links::add_section(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
+                        std::size_t element) {
+  const Region& region = structure.regions[block.region];
+  const LocalIndex* nodes = &block.connectivity[2 * element];
+  int component = interactions::first_section_component;
+  for (SectionMotion& motion :
+       section_motions(region, mesh.position(nodes[0]), mesh.position(nodes[1]))) {
+    Link link;
+    link.number = block.tags[element];
+    link.origin = {&region, component++, 0, 0, true, interactions::SpringPart::stiffness};
+    link.origin.section = std::make_shared<const Hysteresis>(std::move(motion.law));
+    for (std::size_t i = 0; i < motion.shape.size(); ++i) {
+      const LocalIndex node = nodes[i / 6];
+      const int c = static_cast<int>(i % 6);
+      link.place[i] = mesh.dof(node, c);
+      link.weight[i] = motion.shape[i];
+      if (link.place[i] < 0) link.held.push_back({node, c, link.weight[i]});
+    }
+    keep(mesh, block, element, link);
+  }
 }
 
 void Links::add_springs(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
@@ -223,6 +250,17 @@ void Links::find_trace(const LinearSystem& system, const Mesh& mesh) {
   }
 }
 
+std::vector<TracePoint> section_points(const Structure& structure, const GlobalMesh& mesh) {
+  std::vector<TracePoint> points;
+  for (const ElementSet& set : mesh.regions) {
+    if (!yields_by_links(structure.regions[set.region])) continue;
+    for (const GlobalIndex node : set.connectivity) {
+      for (int c = 0; c < 6; ++c) points.push_back({node, c});
+    }
+  }
+  return points;
+}
+
 std::vector<TracePoint> link_points(const Structure& structure, const GlobalMesh& mesh) {
   std::vector<TracePoint> points;
   for (const ElementSet& set : mesh.regions) {
@@ -236,7 +274,7 @@ std::vector<TracePoint> link_points(const Structure& structure, const GlobalMesh
                                      (region.compression_only && c == 2) ||
                                      (region.nonlinear.friction > 0 &&
                                       region.nonlinear.circle[2] == static_cast<int>(c))
-                               : c < 3;
+                               : c < 3 || yields_by_links(region);
         if (pulls) points.push_back({node, c});
       }
     }

@@ -25,23 +25,26 @@ struct HeldEnd {
 
 /// A link between two nodes, or from one to the ground. This rank owns those that can move.
 struct Link {
+  static constexpr std::size_t most_places = 12;
   /// Places in the trace of all links, -1 where the end is held: a bar has three of each end, soil
-  /// up to six of its node.
-  std::array<int, 6> place{-1, -1, -1, -1, -1, -1};
-  std::array<double, 6> weight{};  ///< b: of each place in the elongation
-  std::vector<HeldEnd> held{};     ///< ends that may be on a support
+  /// up to six of its node, the section of a beam six of each end.
+  std::array<int, most_places> place;
+  std::array<double, most_places> weight{};  ///< b: of each place in the elongation
+  std::vector<HeldEnd> held{};               ///< ends that may be on a support
   std::vector<double> supports{};  ///< elongation by them, per column of SupportShapes; or empty
   Vector3 incident{};  ///< force along it of a wave from below, per its velocity [N s/m]
   interactions::LinkOrigin origin;
   std::int64_t number = 0;  ///< among the elements of its structure's file; its name in checkpoints
 
+  Link() { place.fill(-1); }
   /// b . w of a field w at the places of the trace: the second end's less the first one's [m, rad].
   double elongation(std::span<const double> field) const;
 };
 
 /// Links of a structure: devices between two nodes, or from one to the ground, with a law that is
 /// no part of K u. Today these are the bars that resist stretching only or yield, compression-only
-/// springs along z, springs that yield, the dashpots of springs, one for each component, the
+/// springs along z, springs that yield, sections of beams that yield in reduced structures, the
+/// dashpots of springs, one for each component, the
 /// dashpots and masses of soil in the six motions of a mat, and three dashpots at every node of
 /// absorbing faces. Links that share a node that can move live on one rank, with all that moves
 /// with their nodes (see `coupled_nodes`). Constant during a run; their state is with
@@ -71,6 +74,9 @@ class Links {
   void refuse_unpressed(const Structure& structure) const;
   void add_bar(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
                std::size_t element);
+  /// The laws of the section of a beam, beside modes that hold it as elastic.
+  void add_section(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
+                   std::size_t element);
   void add_springs(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
                    std::size_t element);
   void add_soil(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
@@ -86,6 +92,10 @@ class Links {
   std::vector<TracePoint> points_;  ///< per place of the trace
   std::unique_ptr<Trace> trace_;
 };
+
+/// Nodes of the beams of a reduced structure whose sections yield, each with its six components;
+/// some more than once.
+std::vector<TracePoint> section_points(const Structure& structure, const GlobalMesh& mesh);
 
 /// Nodes of a structure's links, and components along which these may pull; some more than once.
 std::vector<TracePoint> link_points(const Structure& structure, const GlobalMesh& mesh);

@@ -1,5 +1,6 @@
 #include "system/yielding_beams.h"
 
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -20,7 +21,6 @@ constexpr std::size_t of_node = 6;  ///< components
 
 /// A law of a section, and the plane in which it acts.
 struct Part {
-  std::string name;
   const Hysteresis* law = nullptr;
   bool shear = false;
   std::size_t axis = 0;  ///< 1: local y, 2: local z, along which or about which it acts
@@ -29,20 +29,15 @@ struct Part {
 std::vector<Part> parts_of(const YieldingSection& section) {
   std::vector<Part> parts;
   for (std::size_t axis = 1; axis < 3; ++axis) {
-    const std::string name(1, "xyz"[axis]);
-    if (const auto& law = section.shear[axis - 1]) {
-      parts.push_back({"shear_" + name, &*law, true, axis});
-    }
-    if (const auto& law = section.bending[axis - 1]) {
-      parts.push_back({"bending_" + name, &*law, false, axis});
-    }
+    if (const auto& law = section.shear[axis - 1]) parts.push_back({&*law, true, axis});
+    if (const auto& law = section.bending[axis - 1]) parts.push_back({&*law, false, axis});
   }
   return parts;
 }
 
 /// `part` of a beam between two nodes.
-LawMotion motion_of(const Part& part, const Segment& segment, const Matrix3& frame,
-                    const ElementProperties& p) {
+SectionMotion motion_of(const Part& part, const Segment& segment, const Matrix3& frame,
+                        const ElementProperties& p) {
   const double h = segment.length;
   Vector3 along{}, about{};  // of the sway, and of rotations
   const std::size_t turns = part.shear ? 3 - part.axis : part.axis;
@@ -62,31 +57,29 @@ LawMotion motion_of(const Part& part, const Segment& segment, const Matrix3& fra
     }
   }
   const Hysteresis own = scaled(*part.law, h, 1);
-  if (!part.shear) return {std::move(shape), rigidity / h, HystereticLaw(own)};
+  if (!part.shear) return {std::move(shape), rigidity / h, own};
   const double bends = 12 * rigidity / (h * h * h);
   const ShearFlexibility phi = shear_flexibility(p, h);
-  return {std::move(shape), bends / (1 + (part.axis == 1 ? phi.y : phi.z)),
-          HystereticLaw(in_series(own, bends))};
+  return {std::move(shape), bends / (1 + (part.axis == 1 ? phi.y : phi.z)), in_series(own, bends)};
 }
 
 /// Throws std::domain_error where the element cannot follow them.
-std::vector<LawMotion> motions_of(std::span<const Part> parts, std::span<const double> coordinates,
-                                  const ElementProperties& properties) {
+std::vector<SectionMotion> motions_of(std::span<const Part> parts,
+                                      std::span<const double> coordinates,
+                                      const ElementProperties& properties) {
   const Segment segment = segment_between(coordinates);
   const Matrix3 frame = local_frame(segment.direction, properties.z_axis);
-  std::vector<LawMotion> found;
+  std::vector<SectionMotion> found;
   for (const Part& part : parts) found.push_back(motion_of(part, segment, frame, properties));
   return found;
 }
 
-std::shared_ptr<MotionLaws> laws_of(std::span<const Part> parts) {
-  std::vector<std::string> names;
-  std::vector<const Hysteresis*> laws;
-  for (const Part& part : parts) {
-    names.push_back(part.name);
-    laws.push_back(part.law);
+std::vector<LawMotion> with_memories(std::vector<SectionMotion> sections) {
+  std::vector<LawMotion> found;
+  for (SectionMotion& motion : sections) {
+    found.push_back({std::move(motion.shape), motion.stiffness, HystereticLaw(motion.law)});
   }
-  return std::make_shared<MotionLaws>(std::move(names), laws);
+  return found;
 }
 
 }  // namespace
@@ -107,11 +100,19 @@ Hysteresis in_series(const Hysteresis& law, double elastic) {
   return result;
 }
 
+std::vector<SectionMotion> section_motions(const Region& region, const Vector3& first,
+                                           const Vector3& second) {
+  const std::array<double, 6> ends{first[0], first[1], first[2], second[0], second[1], second[2]};
+  return motions_of(parts_of(region.yielding), ends, element_properties(region));
+}
+
 std::shared_ptr<interactions::ElementLaw> yielding_beams(const Structure& structure,
                                                          const Mesh& mesh, int region) {
   const Region& own = structure.regions[static_cast<std::size_t>(region)];
   const std::vector<Part> parts = parts_of(own.yielding);
-  auto beams = laws_of(parts);
+  std::vector<const Hysteresis*> laws;
+  for (const Part& part : parts) laws.push_back(part.law);
+  auto beams = std::make_shared<MotionLaws>(own.yielding.names(), laws);
   const ElementProperties properties = element_properties(own);
   stiffness::ElementWork coordinates;
   for_each_element(
@@ -120,7 +121,8 @@ std::shared_ptr<interactions::ElementLaw> yielding_beams(const Structure& struct
       [&](const ElementBlock& block, std::size_t e, const ElementLayout&,
           const stiffness::ElementWork& work) {
         try {
-          beams->add(motions_of(parts, gather_coordinates(mesh, block, e, coordinates), properties),
+          beams->add(with_memories(motions_of(
+                         parts, gather_coordinates(mesh, block, e, coordinates), properties)),
                      {work.stiffness.data(), beam_size * beam_size});
         } catch (const std::domain_error& error) {
           throw UserError("structure " + structure.name + ": " + describe_element(mesh, block, e) +

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
+#include "common/matrix3.h"
 #include "interactions/laws/element_law.h"
 #include "mesh/mesh.h"
 #include "scene/scene.h"
@@ -20,6 +22,19 @@ namespace pounding {
 /// is K u. Throws UserError where an element is too long for a skeleton that falls. Local.
 std::shared_ptr<interactions::ElementLaw> yielding_beams(const Structure& structure,
                                                          const Mesh& mesh, int region);
+
+/// A motion of the nodes of a beam whose section yields, and the law that it follows in place of
+/// its part of K.
+struct SectionMotion {
+  std::vector<double> shape;  ///< of 12 numbers: its elongation is shape . u of both nodes [m, rad]
+  double stiffness = 0;       ///< of K [N/m, N m]
+  Hysteresis law;
+};
+
+/// Motions of a beam of a region between two places, in the order of YieldingSection::names.
+/// Throws std::domain_error as in_series does.
+std::vector<SectionMotion> section_motions(const Region& region, const Vector3& first,
+                                           const Vector3& second);
 
 /// Law in one dimension that a motion with the stiffness `elastic` [N/m] follows in series with
 /// `law`, whose elongations are those of its own part. Throws std::domain_error where the sum of

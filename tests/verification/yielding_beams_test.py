@@ -12,7 +12,7 @@ import numpy
 
 import program
 from loops_test import Loops
-from recorded import Recorded, assert_continues
+from recorded import Recorded, assert_continues, ensemble_of
 
 YOUNG, POISSON = 30e9, 0.2
 SHEAR = YOUNG / (2 * (1 + POISSON))
@@ -156,11 +156,58 @@ class Stick(unittest.TestCase):
         program.must_refuse(self, stick(*gravity, factor=0.2), "times beyond the first corner of its bending")
 
     def test_refusals(self):
-        for more, said in ((["-s_model", "modal"], "-s_model full"),
+        for more, said in ((["-s_model", "modal", "-s_modal_vectors", 5, "-s_damping_uniform", .04], "-s_damping_uniform"),
+                           (["-s_model", "modal", "-s_modal_vectors", 5, "-s_stiffness_factor", 2], "_skeleton_y"),
                            (["-s_column_bending_skeleton_y", "1,5e6"], "not on the line of the stiffness"),
                            (["-export_matrices", "/tmp/nothing"], "elements that yield"),
                            (["-s_column_pinch", "0.2,0.5"], "goes with")):
             program.must_refuse(self, stick(*more), said, ranks=1)
+
+    REDUCED = ["-s_model", "modal", "-time_step", repr(STICK_STEP / 2), "-s_gravity", "0,0,-9.81"]
+
+    def reduced(self, vectors, *more):
+        return [*stick(*self.motion), *self.REDUCED, "-s_modal_vectors", vectors, *more]
+
+    def test_reduced_keeps_what_yields(self):
+        """With all modes it is full order to round-off; with two, and vectors at what yields, near; without these far off."""
+        full = Recorded(self, [*stick(*self.motion), *self.REDUCED[2:]], 1)
+        largest = abs(full.displacement("roof.x")).max()
+        error = {}
+        for name, ranks, words in (("all", 2, self.reduced(10000)), ("two", 2, self.reduced(2)), ("one rank", 1, self.reduced(2)),
+                                   ("bare", 1, self.reduced(2, "-s_modal_attachment", "false"))):
+            run = Recorded(self, words, ranks)
+            error[name] = max(abs(run.displacement(c) - full.displacement(c)).max() for c in ("roof.x", "roof.y")) / largest
+            if name in ("all", "two"):
+                for part, of in full.summary["yielding"].items():
+                    found = run.summary["yielding"][part]
+                    self.assertAlmostEqual(found["energy_lost"] / of["energy_lost"], 1, delta=1e-6, msg=part)
+        self.assertLess(error["all"], 1e-9)
+        self.assertLess(error["two"], 1e-6)
+        self.assertAlmostEqual(error["one rank"], error["two"], delta=1e-9)
+        self.assertGreater(error["bare"], 0.01)
+        assert_continues(self, [*self.reduced(2), "-modes", 1, "-spectra_frequencies", 10, "-loops", "s:column"], 0.3, 4000)
+
+    def test_reduced_at_rest(self):
+        for more, said in (([], ""), (["-s_column_bending_skeleton_y", pairs(BENDS, 1e4)], "more than its yield force")):
+            words = self.reduced(2, "-s_gravity", "0.4,0,-9.81", "-preload", "static", "-motion_x_record", "none",
+                                 "-motion_y_record", "none", "-end_time", 0.05, *more)
+            if said:
+                program.must_refuse(self, words, said, "of group 'column'")
+                continue
+            x = Recorded(self, words, 2).displacement("roof.x")
+            self.assertGreater(abs(x[0]), 1e-4)
+            self.assertLess(abs(x - x[0]).max(), 1e-10 * abs(x[0]))
+
+    def test_members_are_single_runs(self):
+        words = self.reduced(2, "-output_interval", repr(STICK_STEP / 2), "-spectra_frequencies", 10)
+        values = ("0.3", "0.8", "1.2")
+        peaks, residual = ensemble_of(self, [*words, "-modes", 1], "motion_x_scale", values)
+        self.assertLess(residual.max(), 1e-11)
+        for k, value in enumerate(values):
+            run = Recorded(self, [*words, "-motion_x_scale", value], 2)
+            largest = abs(run.displacement("roof.x")).max()
+            self.assertLess(abs(peaks[k].ravel() - largest).min(), 1e-9 * largest)
+            self.assertGreater(run.summary["yielding"]["s:column:shear_y"]["ductility"], 1)
 
     def test_storeys_places_and_times(self):
         floors = [word for i in range(1, 5) for word in (

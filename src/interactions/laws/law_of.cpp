@@ -18,7 +18,8 @@
 namespace pounding::interactions {
 
 bool has_links(const Region& region) {
-  return (follows_law(region) && !region.inelastic) || region.foundation ||
+  return (follows_law(region) && !region.inelastic) || yields_by_links(region) ||
+         region.foundation ||
          (is_spring(region.element) &&
           std::ranges::any_of(region.dashpot, [](double rate) { return rate > 0; }));
 }
@@ -44,6 +45,7 @@ std::unique_ptr<LinkLaw> dashpot_of(const LinkOrigin& origin, double time_step) 
 /// Law of a bar, or of a component of a spring, whose stiffness is no part of K.
 std::unique_ptr<LinkLaw> stiff_law(const LinkOrigin& origin, double time_step,
                                    const UniformDamping* uniform) {
+  if (origin.section) return std::make_unique<HystereticLink>(*origin.section);
   const Region& region = *origin.region;
   const bool spring = is_spring(region.element);
   const double stiffness = spring ? origin.share * region.stiffness[origin.component]

@@ -15,6 +15,9 @@ bool has_links(const Region& region);
 /// gauge of its elongation.
 enum class SpringPart { dashpot, stiffness, gauge };
 
+/// Components of the links of sections are the numbers of their laws, from this one on.
+constexpr int first_section_component = 10;
+
 /// Origin of a link: what its law follows from.
 struct LinkOrigin {
   const Region* region = nullptr;  ///< borrowed from the structure; null of an absorbing face
@@ -25,6 +28,8 @@ struct LinkOrigin {
   SpringPart part = SpringPart::dashpot;
   double share = 1;      ///< of a grounded spring, see ElementSet
   double absorbing = 0;  ///< dashpot of an absorbing face [N s/m]
+  /// Law of a section of a beam over the motion of its ends; null: it is no section.
+  std::shared_ptr<const Hysteresis> section{};
 };
 
 /// Whether a link is the part along z of a compression-only spring.
