@@ -6,7 +6,7 @@ namespace pounding {
 namespace {
 
 EnergyLine line_at(int number) {
-  return {static_cast<double>(number), 1, 2, 3, 4, 5, 6, 7};
+  return {static_cast<double>(number), 1, 2, 3, 4, 5, 6, 7, 8};
 }
 
 TEST(EnergyLedger, ThinsALongRunOut) {
@@ -33,7 +33,7 @@ TEST(EnergyLedger, GoesOnAfterARestart) {
   EnergyLedger after(expected);
   after.load(saved);
   EXPECT_EQ(after.last().time, 6999);
-  EXPECT_EQ(after.last().residual, 7);
+  EXPECT_EQ(after.last().residual, 8);
   for (int i = 7000; i < expected; ++i) {
     whole.add(line_at(i));
     after.add(line_at(i));
