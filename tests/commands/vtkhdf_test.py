@@ -122,6 +122,9 @@ class Steps(unittest.TestCase):
         self.assertIsNone(process.poll())
         os.killpg(process.pid, signal.SIGKILL)
         process.wait()
+        subprocess.run(["pkill", "-KILL", "-f", folder], check=False)  # ranks have groups of their own
+        while subprocess.run(["pgrep", "-f", folder], stdout=subprocess.DEVNULL, check=False).returncode == 0:
+            time.sleep(0.02)
         steps = vtkhdf_file.read(path)
         self.assertGreaterEqual(len(steps), seen)
         for _, parts in steps[1:]:
