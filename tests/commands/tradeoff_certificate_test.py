@@ -237,7 +237,7 @@ class OwnScene(unittest.TestCase):
             done = program.command("tradeoff", *words)
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(part, done.stderr)
-        reduced = os.path.join(self.folder.name, "reduced.yaml")
+        reduced = os.path.join(self.folder, "reduced.yaml")
         with open(reduced, "w") as file:
             file.write(f"include: {self.scene}\nleft: {{model: modal, modal_vectors: 10}}\n")
         done = program.command("tradeoff", "--scene", reduced, "--target", "0.1", "--output", self.out + "-reduced")
