@@ -127,25 +127,25 @@ class Refused(unittest.TestCase):
         cls.said = cut(unittest.TestCase(), [*cls.SCENE, "-output", cls.place + "/nothing"], 2, cls.pieces)
 
     def run_on(self, folder, *more, ranks=2):
-        words = [*self.SCENE, "-mesh_pieces", folder, "-output", self.place.name + "/out", *more]
+        words = [*self.SCENE, "-mesh_pieces", folder, "-output", self.place + "/out", *more]
         return program.run(words, ranks)
 
     def refuse(self, folder, *parts, more=(), ranks=2):
-        program.must_refuse(self, [*self.SCENE, "-mesh_pieces", folder, "-output", self.place.name + "/out", *more],
+        program.must_refuse(self, [*self.SCENE, "-mesh_pieces", folder, "-output", self.place + "/out", *more],
                             "-mesh_pieces", *parts, ranks=ranks)
 
     def copy(self):
-        folder = tempfile.mkdtemp(dir=self.place.name)
+        folder = tempfile.mkdtemp(dir=self.place)
         return shutil.copytree(self.pieces, folder, dirs_exist_ok=True)
 
     def test_it_says_what_it_wrote(self):
         self.assertRegex(self.said, r"structure block: 681 nodes, 4086 dofs; \d+ to \d+ nodes in a piece")
         self.assertIn("pieces: 2 in ", self.said)
         self.assertEqual(sorted(os.listdir(self.pieces)), ["common.piece", "piece-00000.bin", "piece-00001.bin"])
-        self.assertFalse(os.path.exists(self.place.name + "/nothing"), "a run's results")
+        self.assertFalse(os.path.exists(self.place + "/nothing"), "a run's results")
 
     def test_the_same_pieces_however_many_ranks_cut(self):
-        other = self.place.name + "/by_two"
+        other = self.place + "/by_two"
         cut(self, self.SCENE, 2, other, on=2)
         for name in ("piece-00000.bin", "piece-00001.bin"):
             self.assertEqual(pathlib.Path(self.pieces, name).read_bytes(), pathlib.Path(other, name).read_bytes(), name)
@@ -165,7 +165,7 @@ class Refused(unittest.TestCase):
         self.refuse(self.pieces, "another model (option structures, option contacts, ", " more)", more=["-structures", "block", "-contacts", "none", "-probes", "none"])
 
     def test_another_geometry_under_the_same_name_is_refused(self):
-        folder = tempfile.mkdtemp(dir=self.place.name)
+        folder = tempfile.mkdtemp(dir=self.place)
         geometry = shutil.copy(os.path.join(program.SOURCE, "tests/meshes/column.geo"), folder)
         scene = [*column("-end_time", 1e-3, "-modes", 0), "-s_mesh", geometry, "-partition", "elements"]
         cut(self, scene, 2, f"{folder}/pieces")
@@ -179,7 +179,7 @@ class Refused(unittest.TestCase):
 
     def test_another_file_that_the_geometry_takes_in_is_refused(self):
         """Whatever its name is made of; also where geometry and pieces were moved together."""
-        folder = tempfile.mkdtemp(dir=self.place.name)
+        folder = tempfile.mkdtemp(dir=self.place)
         shutil.copy(os.path.join(program.SOURCE, "tests/meshes/column.geo"), f"{folder}/inner.geo")
         pathlib.Path(folder, "outer.geo").write_text('name = "inn";\nInclude StrCat(name, "er.geo");\n')
         scene = [*column("-end_time", 1e-3, "-modes", 0), "-partition", "elements"]
@@ -200,7 +200,7 @@ class Refused(unittest.TestCase):
             folder = self.copy()
             os.remove(os.path.join(folder, name))
             self.refuse(folder, name, "is not there")
-        self.refuse(self.place.name + "/none", "is not there", "-write_mesh_pieces")
+        self.refuse(self.place + "/none", "is not there", "-write_mesh_pieces")
 
     def test_damage_is_refused(self):
         for name in ("common.piece", "piece-00000.bin", "piece-00001.bin"):
@@ -214,7 +214,7 @@ class Refused(unittest.TestCase):
                     self.refuse(folder, name)
 
     def test_pieces_of_two_cuts_are_not_mixed(self):
-        other = self.place.name + "/other"
+        other = self.place + "/other"
         cut(self, [*self.SCENE, "-floor1_gap", 0.01], 2, other)
         folder = self.copy()
         shutil.copy(f"{other}/piece-00001.bin", folder)
@@ -235,7 +235,7 @@ class Refused(unittest.TestCase):
         self.refuse(self.pieces, "every structure is reduced", more=reduced)
 
     def test_a_run_on_pieces_continues_one_on_whole_meshes(self):
-        folder = self.place.name + "/continued"
+        folder = self.place + "/continued"
         first = program.must_end(self, [*self.SCENE, "-checkpoint_steps", 5, "-output", folder], 2)
         result = program.must_end(self, [*self.SCENE, "-mesh_pieces", self.pieces, "-end_time", 3e-3, "-restart",
                                          f"{folder}/checkpoint.h5", "-output", folder], 2)
