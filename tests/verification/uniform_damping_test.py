@@ -317,8 +317,10 @@ class Pair(unittest.TestCase):
             law = Filters(own.summary["structures"]["s1"]["damping"])
             self.assertEqual([float(rate) for rate in written["rate"]], list(law.rates))
             self.assertEqual([float(weight) for weight in written["weight"]], list(law.weights))
+            # Of round-off in K times the motion of the whole, one rank leaves 1.02e-11, two 4.6e-12, three 7.6e-12.
+            identity = 1e-11 if program.RANKS > 1 else IDENTITY_OF_A_FLIGHT
             read = Recorded(self, UNIFORM_PAIR + ["-time_step", 3.2e-5, "-s1_matrices", f"{folder}/s1",
-                                                  "-s2_matrices", f"{folder}/s2"], identity=2e-11)  # 1.02e-11 on one rank
+                                                  "-s2_matrices", f"{folder}/s2"], identity=identity)
             self.check_same(own, read, 1e-8)
 
     def test_all_modes_are_the_structure(self):
