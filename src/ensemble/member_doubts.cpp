@@ -124,7 +124,7 @@ void check_member_gaps(std::span<const MemberScene> members,
                        std::span<const interactions::GapShare> shares, MemberDoubts& doubts) {
   for (std::size_t m = 0; m < members.size(); ++m) {
     const Scene& scene = members[m].scene;
-    const interactions::GivenGaps gaps(scene.contacts);
+    const std::vector<interactions::GivenGap> gaps(scene.contacts.begin(), scene.contacts.end());
     std::vector<interactions::InterfaceReport> reports = interface.reports;
     for (interactions::InterfaceReport& report : reports) {
       report.smallest_gap = std::numeric_limits<double>::infinity();

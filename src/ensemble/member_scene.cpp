@@ -41,7 +41,7 @@ Model member_structures(const MemberScene& member, const EnsembleModel& shared) 
   Model model;
   model.interface.constraints = shared.model->interface.constraints;
   model.interface.model_size = shared.model->interface.model_size;
-  const interactions::GivenGaps gaps(scene.contacts);
+  const std::vector<interactions::GivenGap> gaps(scene.contacts.begin(), scene.contacts.end());
   for (std::size_t row = 0; row < model.interface.constraints.size(); ++row) {
     set_gap(scene, gaps, shared.gap_shares[row], model.interface.constraints[row]);
   }
@@ -133,10 +133,10 @@ StepLimits member_limits(const MemberScene& member, const EnsembleModel& shared)
   return limits;
 }
 
-double set_gap(const Scene& scene, const interactions::GivenGaps& gaps,
+double set_gap(const Scene& scene, std::span<const interactions::GivenGap> gaps,
                const interactions::GapShare& share, interactions::Constraint& row) {
   const Contact& contact = scene.contacts[row.contact];
-  const double gap = gaps.of(row, share);
+  const double gap = gaps[row.contact].of(row, share);
   row.initial_gap = gap;
   if (contact.filler || contact.is_elastic()) interactions::fill_joint(contact, row);
   return gap;

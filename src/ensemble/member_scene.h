@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,10 @@ MemberScene read_member(const OptionsDatabase& scene, const MemberTable& table, 
 /// Lays the foundations on soil that a scene got from its meshes into that of a member.
 void lay_foundations(const Scene& scene, MemberScene& member);
 
-/// Gives a row the initial gap of the scene of a member, or that of the meshes, and its filler.
-/// Throws UserError as fill_joint does. Returns the width of the joint there [m].
-double set_gap(const Scene& scene, const interactions::GivenGaps& gaps,
+/// Gives a row the initial gap of the scene of a member, or that of the meshes, and its filler;
+/// `gaps` are those of its contacts. Throws UserError as fill_joint does. Returns the width of the
+/// joint there [m].
+double set_gap(const Scene& scene, std::span<const interactions::GivenGap> gaps,
                const interactions::GapShare& share, interactions::Constraint& row);
 
 /// Model that the members share on a rank.

@@ -31,7 +31,6 @@ class PairFinder {
   PairFinder(const Scene& scene, std::span<const GlobalMesh> meshes, int contact,
              std::vector<GapShare>* shares)
       : shares_(shares),
-        contacts_(scene.contacts),
         contact_(scene.contacts[contact]),
         number_(contact),
         sides_(find_sides(scene, meshes, contact_)) {
@@ -270,7 +269,7 @@ class PairFinder {
   }
 
   void set_gaps(std::span<Constraint> constraints) {
-    const GivenGaps gaps(contacts_);
+    const GivenGap gap(contact_);
     std::array<double, 2> low{1e300, 1e300};
     std::array<double, 2> high{-1e300, -1e300};
     for (const GlobalIndex node : sides_.secondary.face.nodes) {
@@ -289,7 +288,7 @@ class PairFinder {
       for (std::size_t t = 0; t < 2; ++t) {
         s[t] = high[t] > low[t] ? (constraint.place[t] - low[t]) / (high[t] - low[t]) : 0;
       }
-      constraint.initial_gap = gaps.of(constraint, s);
+      constraint.initial_gap = gap.of(constraint, s);
       if (shares_ != nullptr) shares_->push_back(s);
       if (constraint.geometric_gap == open_gap) continue;
       report_.smallest_gap = std::min(report_.smallest_gap, constraint.initial_gap);
@@ -324,7 +323,6 @@ class PairFinder {
   }
 
   std::vector<GapShare>* shares_;  ///< of all constraints; null: not wanted
-  std::span<const Contact> contacts_;
   const Contact& contact_;
   int number_;
   std::size_t first_row_ = 0;  ///< of the contact, in the interface

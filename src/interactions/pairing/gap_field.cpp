@@ -51,14 +51,9 @@ double GapField::at(const std::array<double, 2>& place) const {
   return size_ * sum;
 }
 
-GivenGaps::GivenGaps(std::span<const Contact> contacts) : contacts_(contacts) {
-  for (const Contact& contact : contacts) fields_.emplace_back(contact);
-}
-
-double GivenGaps::of(const Constraint& row, const GapShare& share) const {
-  const std::vector<double>& gap = contacts_[row.contact].gap.values;
-  return (gap.empty() ? row.geometric_gap : given_gap(gap, share)) +
-         fields_[row.contact].at(row.place);
+double GivenGap::of(const Constraint& row, const GapShare& share) const {
+  const std::vector<double>& gap = contact_.gap.values;
+  return (gap.empty() ? row.geometric_gap : given_gap(gap, share)) + field_.at(row.place);
 }
 
 }  // namespace pounding::interactions

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include "interactions/pairing/interface.h"
@@ -32,18 +31,18 @@ class GapField {
   std::vector<Wave> waves_;
 };
 
-/// Initial gaps of the rows of a scene's contacts, as their options give them.
-class GivenGaps {
+/// Initial gaps of the rows of a contact, as its options give them. It borrows the contact.
+class GivenGap {
  public:
-  explicit GivenGaps(std::span<const Contact> contacts);
+  explicit GivenGap(const Contact& contact) : contact_(contact), field_(contact) {}
 
   /// Gap of a row [m]: that of the geometry or the given one at its share of the face, and the
   /// random part at its place.
   double of(const Constraint& row, const GapShare& share) const;
 
  private:
-  std::span<const Contact> contacts_;
-  std::vector<GapField> fields_;  ///< by contact
+  const Contact& contact_;
+  GapField field_;
 };
 
 }  // namespace pounding::interactions
