@@ -74,10 +74,8 @@ ProbeSpectrum in_cabinet(const Scene& scene, const Equipment& item, const Record
   const auto d = std::ranges::find(direction_names, floor.direction) - direction_names.begin();
   const std::size_t channel =
       3 * static_cast<std::size_t>(probe - recorder.probes().begin()) + static_cast<std::size_t>(d);
-  std::vector<double> moved = recorder.acceleration(channel);
-  const std::size_t first = recorder.first_record_from(scene.spectra.start);
-  moved.erase(moved.begin(),
-              moved.begin() + static_cast<std::ptrdiff_t>(std::min(first, moved.size())));
+  const std::vector<double> moved =
+      recorder.acceleration(channel, recorder.first_record_from(scene.spectra.start));
   ProbeSpectrum spectrum = floor;
   spectrum.points = response_spectrum(
       oscillator_history(moved, recorder.interval(), item.cabinet_frequency, item.cabinet_damping),
@@ -104,7 +102,7 @@ EquipmentDemand demand_of(const Equipment& item, const TargetSpectrum& capacity,
     demand.frequencies.push_back(frequency);
     demand.required.push_back(floor.ratio[i]);
     demand.capacity.push_back(capacity.at(frequency));
-    const double ratio = demand.ratio_at(demand.required.size() - 1);
+    const double ratio = ratio_of(demand.capacity.back(), demand.required.back());
     if (within(item.high_band, frequency)) demand.high_ratio = std::min(demand.high_ratio, ratio);
     if (!within(item.band, frequency)) continue;
     if (ratio < demand.ratio) {
@@ -123,10 +121,6 @@ Json finite_or_null(double value) {
 }
 
 }  // namespace
-
-double EquipmentDemand::ratio_at(std::size_t point) const {
-  return ratio_of(capacity[point], required[point]);
-}
 
 bool EquipmentVerdict::passes() const {
   return std::ranges::all_of(demands, &EquipmentDemand::passes);

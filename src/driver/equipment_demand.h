@@ -22,7 +22,6 @@ struct EquipmentDemand {
   double frequency = 0;   ///< at which [Hz]
   double high_ratio = 0;  ///< smallest in the item's high band [-]; infinite if that has no point
   bool passes = false;    ///< with the item's margin and dips
-  double ratio_at(std::size_t point) const;
 };
 
 /// The demands on an item in its directions, the most severe first decides.

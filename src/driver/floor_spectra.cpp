@@ -15,23 +15,16 @@ namespace {
 /// record `first` on.
 std::vector<std::vector<double>> share_accelerations(MPI_Comm comm, std::size_t channels,
                                                      const Recorder& recorder, std::size_t first) {
-  const auto counted = [&](std::size_t channel) {
-    std::vector<double> acceleration = recorder.acceleration(channel);
-    acceleration.erase(
-        acceleration.begin(),
-        acceleration.begin() + static_cast<std::ptrdiff_t>(std::min(first, acceleration.size())));
-    return acceleration;
-  };
   const std::size_t ranks = size_of(comm);
   std::vector<std::vector<double>> mine;
   for (std::size_t channel = 0; channel < channels; ++channel) {
     const auto worker = static_cast<int>(channel % ranks);
     if (rank_of(comm) == 0 && worker != 0) {
-      send_array(comm, worker, counted(channel));
+      send_array(comm, worker, recorder.acceleration(channel, first));
     } else if (rank_of(comm) == worker) {
       std::vector<double>& acceleration = mine.emplace_back();
       if (worker == 0) {
-        acceleration = counted(channel);
+        acceleration = recorder.acceleration(channel, first);
       } else {
         receive_array(comm, 0, acceleration);
       }

@@ -366,9 +366,10 @@ void Recorder::finish(bool complete) {
   });
 }
 
-std::vector<double> Recorder::acceleration(std::size_t channel) const {
+std::vector<double> Recorder::acceleration(std::size_t channel, std::size_t first_record) const {
   std::vector<double> samples;
-  for (std::size_t i = channel; i < accelerations_.size(); i += channels_.size()) {
+  for (std::size_t i = first_record * channels_.size() + channel; i < accelerations_.size();
+       i += channels_.size()) {
     samples.push_back(accelerations_[i]);
   }
   return samples;

@@ -73,9 +73,10 @@ class Recorder final : public Observer {
   /// Writes all records to the file and keeps what the next one needs. Collective.
   void save(SavedState& saved) override;
 
-  /// After finish, rank 0: names "probe.x", samples of absolute acceleration of a channel, peaks.
+  /// After finish, rank 0: names "probe.x", samples of absolute acceleration of a channel from a
+  /// record on, peaks.
   const std::vector<std::string>& channels() const { return channels_; }
-  std::vector<double> acceleration(std::size_t channel) const;
+  std::vector<double> acceleration(std::size_t channel, std::size_t first_record = 0) const;
   const std::vector<ChannelPeaks>& peaks() const { return peaks_; }
   /// Drifts of the records from `peaks_start` on, rank 0.
   const StoreyDrifts& drifts() const { return drifts_; }
