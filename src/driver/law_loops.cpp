@@ -11,7 +11,6 @@
 #include "common/parallel.h"
 #include "interactions/laws/hysteretic_law.h"
 #include "io/csv_file.h"
-#include "scene/shell_laws.h"
 
 namespace pounding {
 namespace {
@@ -33,16 +32,12 @@ void add_springs(const Region& region, const std::string& name, std::vector<Name
   }
 }
 
-void add_sections(const Region& region, const std::string& name, std::vector<NamedLaw>& laws) {
-  if (is_shell(region.element)) {
-    if (region.yielding.shear[0]) laws.push_back({name + ":shear", *region.yielding.shear[0]});
-    return;
+void add_yielding(const Region& region, const std::string& name, std::vector<NamedLaw>& laws) {
+  for (const YieldingSection::Law& law : region.yielding.laws()) {
+    laws.push_back({name + ":" + law.name, *law.law});
   }
-  constexpr const char* axes[] = {"y", "z"};
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    const auto& [shear, bending] = region.yielding;
-    if (shear[axis]) laws.push_back({name + ":shear_" + axes[axis], *shear[axis]});
-    if (bending[axis]) laws.push_back({name + ":bending_" + axes[axis], *bending[axis]});
+  if (region.yielding_shell.shear) {
+    laws.push_back({name + ":shear", *region.yielding_shell.shear});
   }
 }
 
@@ -52,7 +47,7 @@ std::vector<NamedLaw> laws_of(const Scene& scene) {
     for (const Region& region : structure.regions) {
       const std::string name = structure.name + ":" + region.group;
       add_springs(region, name, laws);
-      add_sections(region, name, laws);
+      add_yielding(region, name, laws);
     }
   }
   return laws;

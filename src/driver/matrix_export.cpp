@@ -23,7 +23,7 @@ struct Dof {
   GlobalIndex number = 0;  ///< PETSc's
   Vector3 position{0, 0, 0};
   double mass = 0;
-  std::size_t label = 0;  ///< among the labels of imported matrices
+  std::size_t label = 0;  ///< among the labels
 };
 
 /// All values on rank 0, in the order of the ranks. Collective.
@@ -112,7 +112,8 @@ class Export {
  private:
   PetscInt size() const { return static_cast<PetscInt>(dofs_.size()); }
 
-  /// Labels of the nodes of imported matrices, in the order of the ranks. Collective.
+  /// Labels of the nodes: those of imported matrices, in the order of the ranks, else the numbers
+  /// in the mesh file; none where the mesh came in pieces. Collective.
   void gather_labels() {
     std::vector<char> mine;
     for (const std::string& label : model_.systems[structure_].node_labels) {
@@ -122,27 +123,22 @@ class Export {
     for (std::size_t at = 0; at < all.size(); at += labels_.back().size() + 1) {
       labels_.emplace_back(&all[at]);
     }
-  }
-
-  /// Column of the node's label: that of imported matrices, else its number in the mesh file, and
-  /// none where the mesh came in pieces.
-  std::string label_column(const Dof& dof) const {
-    if (!labels_.empty()) return "," + labels_[dof.label];
-    if (model_.node_tags.empty()) return "";
-    return "," + std::to_string(model_.node_tags[structure_][dof.node]);
+    if (!labels_.empty() || model_.node_tags.empty()) return;
+    for (const Dof& dof : dofs_) {
+      labels_.push_back(std::to_string(model_.node_tags[structure_][dof.node]));
+    }
   }
 
   void write_dofs(const std::string& folder) const {
     CsvFile file(folder + "dofs.csv");
     file.comment("rows of the matrices of " + model_.systems[structure_].name + "; m");
-    const bool labelled = !labels_.empty() || !model_.node_tags.empty();
-    file.header(labelled ? "x,y,z,component,node" : "x,y,z,component");
+    file.header(labels_.empty() ? "x,y,z,component" : "x,y,z,component,node");
     std::vector<MatrixEntry> masses;
     for (const Dof& dof : dofs_) {
       char place[96];
       std::snprintf(place, sizeof place, "%.17g,%.17g,%.17g,%s", dof.position[0], dof.position[1],
                     dof.position[2], component_names[dof.component].data());
-      file.row(place + label_column(dof), {});
+      file.row(labels_.empty() ? place : place + ("," + labels_[dof.label]), {});
       masses.push_back({static_cast<PetscInt>(masses.size()), 0, dof.mass});
     }
     file.close();
@@ -263,7 +259,7 @@ class Export {
   std::size_t structure_;
   std::vector<Dof> dofs_;            ///< rank 0: by node in file order
   std::vector<PetscInt> place_;      ///< rank 0: of PETSc's numbers in dofs_
-  std::vector<std::string> labels_;  ///< rank 0: of imported matrices, else none
+  std::vector<std::string> labels_;  ///< rank 0: of the dofs' nodes, by Dof::label
 };
 
 /// Dashpots whose force is no matrix times the rates of their ends.

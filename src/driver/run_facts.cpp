@@ -151,9 +151,7 @@ Facts energy_facts(const RunStatistics& run) {
   if (std::abs(energy.device_work) > 1e-12 * std::abs(energy.energy())) {
     facts.say(
         "  device work {devices:.4g}: of dashpots, one-way bars and springs, bearings that slide, "
-        "and "
-        "of "
-        "regions with damping\n  of their own beside that of their structure\n");
+        "and of regions with damping\n  of their own beside that of their structure\n");
   }
   facts.say(
       "  largest residual of the energy identity: {relative_residual:.2e} of the largest term\n");

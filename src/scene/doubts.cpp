@@ -98,8 +98,7 @@ void look_at_region(const std::string& structure, const Region& region, Doubts& 
   if (takes(element, "thickness")) {
     doubts.look_at(owner, thickness, region.thickness);
   }
-  if (is_shell(region.element) && region.yielding.any() &&
-      region.drilling_factor > most_beside_yielding) {
+  if (region.yielding_shell.any() && region.drilling_factor > most_beside_yielding) {
     doubts.add(
         owner +
         ": it yields or cracks, and the stiffness against turning about its normal does not: "

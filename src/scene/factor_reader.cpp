@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "scene/shell_laws.h"
-
 namespace pounding {
 namespace {
 
@@ -26,7 +24,7 @@ std::string left_out(const Structure& structure) {
     return follows_law(region) || yields_by_links(region);
   });
   if (law == structure.regions.end()) return "";
-  return "not with -" + option_name(option_of_law(*law), {structure.name, law->group});
+  return "not with -" + option_name(law_option(*law), {structure.name, law->group});
 }
 
 }  // namespace

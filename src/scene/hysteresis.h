@@ -61,7 +61,16 @@ struct YieldingSection {
   std::array<std::optional<Hysteresis>, 2> shear;    ///< force [N] over shear strain
   std::array<std::optional<Hysteresis>, 2> bending;  ///< moment [N m] over curvature [1/m]
 
-  /// Names of its laws, "shear_y" say, in the order in which they are numbered.
+  /// One of its laws, and the plane in which it acts.
+  struct Law {
+    std::string name;  ///< "shear_y" say
+    const Hysteresis* law = nullptr;
+    bool shear = false;
+    std::size_t axis = 0;  ///< 1: local y, 2: local z, along which or about which it acts
+  };
+  /// Its laws in the order in which they are numbered.
+  std::vector<Law> laws() const;
+  /// Their names.
   std::vector<std::string> names() const;
   bool any() const { return shear[0] || shear[1] || bending[0] || bending[1]; }
   /// The option that gave the first of them.

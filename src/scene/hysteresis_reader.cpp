@@ -9,7 +9,6 @@
 #include <string>
 
 #include "scene/option_table.h"
-#include "scene/shell_laws.h"
 
 namespace pounding {
 namespace {
@@ -178,6 +177,19 @@ void read_paths(OptionReader& options, const Names& names, const std::string& ru
   }
 }
 
+/// Law with a skeleton that is the same both ways, whose first corner lies on a line of this slope.
+Hysteresis read_law(OptionReader& options, const Names& names, std::string_view skeleton,
+                    std::string_view rule, double first_slope) {
+  Hysteresis law;
+  law.rule = rule_of(options.choice(rule, names));
+  law.positive.breaks = read_corners(options, skeleton, names, first_slope);
+  law.negative = law.positive;
+  if (law.rule == HystereticRule::kinematic) {
+    check_sliders(options, names, skeleton, skeleton, law);
+  }
+  return law;
+}
+
 void read_cracking(OptionReader& options, const Names& names, Region& region) {
   constexpr std::string_view force = "<structure>_<group>_cracking_force";
   constexpr std::string_view moment = "<structure>_<group>_cracking_moment";
@@ -196,14 +208,13 @@ void read_cracking(OptionReader& options, const Names& names, Region& region) {
     options.refuse("material_<material>_poisson", {region.material.name},
                    "group " + region.group + " cracks, whose energy wants one of 0 or above");
   }
-  ShellCracking law;
+  ShellCracking& law = region.yielding_shell.cracking.emplace();
   law.force = options.real(force, names);
   law.moment =
       options.given(moment, names) ? options.real(moment, names) : law.force * region.thickness / 6;
   law.tension = options.real("<structure>_<group>_cracked_tension", names);
   law.compression = options.real("<structure>_<group>_cracked_compression", names);
   law.bending = options.given(bending, names) ? options.real(bending, names) : law.tension;
-  set_cracking(region, law);
 }
 
 }  // namespace
@@ -256,12 +267,8 @@ void read_yielding_section(OptionReader& options, const Names& names, Region& re
       options.refuse(option, names,
                      "the beam is not flexible in shear; give its section a shear_area");
     }
-    Hysteresis& made = law.emplace();
-    made.rule = rule_of(options.choice(prefix + "_rule", names));
-    made.positive.breaks = read_corners(options, option, names, first_slope);
-    made.negative = made.positive;
-    if (made.rule == HystereticRule::kinematic) check_sliders(options, names, option, option, made);
-    laws.push_back(&made);
+    law = read_law(options, names, option, prefix + "_rule", first_slope);
+    laws.push_back(&*law);
   };
   add("shear", 0, shear * section.shear_area_y, region.yielding.shear[0]);
   add("shear", 1, shear * section.shear_area_z, region.yielding.shear[1]);
@@ -286,20 +293,15 @@ void read_yielding_membrane(OptionReader& options, const Names& names, Region& r
   constexpr std::string_view rule = "<structure>_<group>_shear_rule";
   std::vector<Hysteresis*> laws;
   if (options.given(skeleton, names)) {
-    Hysteresis& law = region.yielding.shear[0].emplace();
-    law.rule = rule_of(options.choice(rule, names));
-    law.positive.breaks = read_corners(options, skeleton, names, shear_modulus(region.material));
-    law.negative = law.positive;
-    if (law.rule == HystereticRule::kinematic) {
-      check_sliders(options, names, skeleton, skeleton, law);
-    }
-    laws.push_back(&law);
+    region.yielding_shell.shear =
+        read_law(options, names, skeleton, rule, shear_modulus(region.material));
+    laws.push_back(&*region.yielding_shell.shear);
   } else {
     options.forbid(rule, names, "goes with -" + option_name(skeleton, names));
   }
   read_paths(options, names, "-" + option_name(rule, names), laws);
   read_cracking(options, names, region);
-  region.inelastic = region.yielding.any();
+  region.inelastic = region.yielding_shell.any();
 }
 
 }  // namespace pounding

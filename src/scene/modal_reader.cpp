@@ -4,7 +4,6 @@
 
 #include "common/error.h"
 #include "scene/factor_reader.h"
-#include "scene/shell_laws.h"
 
 namespace pounding {
 namespace {
@@ -28,11 +27,11 @@ void refuse_couplings(const OptionReader& options, const Structure& structure) {
                                " modal; leave it out, or give -" +
                                option_name(model, {structure.name}) + " full";
     if (region.inelastic && is_shell(region.element)) {
-      options.forbid(option_of_law(region), names, remedy);
+      options.forbid(law_option(region), names, remedy);
     }
     if (follows_law(region) && structure.uniform_damping) {
       options.forbid(
-          option_of_law(region), names,
+          law_option(region), names,
           "not with -" + option_name(model, {structure.name}) + " modal and -" + structure.name +
               "_damping_uniform, which would damp slack and yielding elements; leave one of "
               "the three out");

@@ -17,6 +17,7 @@
 #include "scene/nonlinear_spring.h"
 #include "scene/soil.h"
 #include "scene/uniform_damping.h"
+#include "scene/yielding_shell.h"
 
 /// Plain structs of the user's scene, in SI units, validated; made by scene/scene_reader and
 /// constant afterwards. Identical on every rank.
@@ -76,6 +77,7 @@ struct Region {
   bool compression_only = false;      ///< grounded springs: along z they push up only
   NonlinearSpring nonlinear;          ///< springs and bars
   YieldingSection yielding;           ///< beams
+  YieldingShell yielding_shell;       ///< shells
   /// Forces of its elements are those of an element law, not K u; see InelasticElements. Not in
   /// reduced structures, see yields_by_links.
   bool inelastic = false;
@@ -110,6 +112,7 @@ inline bool yields_by_links(const Region& region) {
 /// The option that takes the stiffness of a region's elements out of K, or gives it a law beside.
 inline const char* law_option(const Region& region) {
   if (region.yielding.any()) return region.yielding.option();
+  if (region.yielding_shell.any()) return region.yielding_shell.option();
   if (region.compression_only) return "<structure>_<group>_compression_only";
   if (region.nonlinear.friction > 0) return "<structure>_<group>_sliding_friction";
   return region.nonlinear.yields() ? "<structure>_<group>_yield_force"

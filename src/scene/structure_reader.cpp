@@ -19,7 +19,6 @@
 #include "scene/option_blocks.h"
 #include "scene/option_values.h"
 #include "scene/rigid_reader.h"
-#include "scene/shell_laws.h"
 #include "scene/soil_reader.h"
 #include "scene/spring_reader.h"
 #include "scene/standard_parts.h"
@@ -334,7 +333,7 @@ void forbid_rigid_groups(const OptionReader& options, const Structure& structure
 void forbid_laws(const OptionReader& options, const Structure& structure) {
   for (const Region& region : structure.regions) {
     if (!structure.matrices.empty() && follows_law(region)) {
-      options.refuse(option_of_law(region), {structure.name, region.group},
+      options.refuse(law_option(region), {structure.name, region.group},
                      "not with -" + structure.name + "_matrices");
     }
   }

@@ -7,7 +7,6 @@
 #include "scene/motion_reader.h"
 #include "scene/nearest_name.h"
 #include "scene/option_values.h"
-#include "scene/shell_laws.h"
 
 namespace pounding {
 namespace {
@@ -142,7 +141,7 @@ void require_plain(const OptionReader& options, const Scene& scene, const Suppor
       refuse_groups(options, support,
                     "structure " + structure.name + ": sections that yield need ground that " +
                         "moves as one; not with -" +
-                        option_name(option_of_law(region), {structure.name, region.group}));
+                        option_name(law_option(region), {structure.name, region.group}));
     }
     if (!region.nonlinear.yields() || all_ground) continue;
     if (std::ranges::any_of(structure.regions, [&](const Region& other) {
@@ -161,7 +160,7 @@ void require_plain(const OptionReader& options, const Scene& scene, const Suppor
     if (follows_law(region)) {
       refuse_groups(options, support,
                     "structure " + structure.name + " is reduced: not with -" +
-                        option_name(option_of_law(region), {structure.name, region.group}));
+                        option_name(law_option(region), {structure.name, region.group}));
     }
   }
 }

@@ -6,6 +6,7 @@
 #include "elements/shell_forces.h"
 #include "interactions/laws/cracking_shell.h"
 #include "system/each_element.h"
+#include "system/element_products.h"
 
 namespace pounding {
 namespace {
@@ -22,8 +23,8 @@ class CrackingShells final : public interactions::ElementLaw {
       : law_(shell), thickness_(thickness) {}
 
   void add(std::vector<double> strains, double area, std::span<const double> stiffness) {
-    elements_.push_back(
-        {std::move(strains), area, std::vector<double>(stiffness.begin(), stiffness.end())});
+    elements_.push_back({std::move(strains), area});
+    products_.add(stiffness);
   }
 
   std::size_t memory_size() const override { return CrackingLaw::memory_size(); }
@@ -32,12 +33,7 @@ class CrackingShells final : public interactions::ElementLaw {
                  std::span<double> memory, std::span<double> force) const override {
     const Element& own = elements_[element];
     const std::size_t size = displacement.size();
-    for (std::size_t i = 0; i < size; ++i) {
-      force[i] = 0;
-      for (std::size_t j = 0; j < size; ++j) {
-        force[i] += own.stiffness[i * size + j] * displacement[j];
-      }
-    }
+    products_.apply(element, displacement, force);
     ShellVector strains{};
     for (std::size_t c = 0; c < strains.size(); ++c) {
       const double* const row = &own.strains[c * size];
@@ -69,12 +65,12 @@ class CrackingShells final : public interactions::ElementLaw {
   struct Element {
     std::vector<double> strains;  ///< B, shape (6, dofs)
     double area = 0;              ///< [m2]
-    std::vector<double> stiffness;
   };
 
   CrackingLaw law_;
   double thickness_;
   std::vector<Element> elements_;
+  ElementProducts products_;
 };
 
 }  // namespace
@@ -82,21 +78,21 @@ class CrackingShells final : public interactions::ElementLaw {
 std::shared_ptr<interactions::ElementLaw> cracking_shells(const Structure& structure,
                                                           const Mesh& mesh, int region) {
   const Region& own = structure.regions[static_cast<std::size_t>(region)];
-  auto shells = std::make_shared<CrackingShells>(
-      CrackingShell(own.material.young, own.material.poisson, own.thickness, *cracking_of(own)),
-      own.thickness);
+  auto shells =
+      std::make_shared<CrackingShells>(CrackingShell(own.material.young, own.material.poisson,
+                                                     own.thickness, *own.yielding_shell.cracking),
+                                       own.thickness);
   const ElementProperties properties = element_properties(own);
   stiffness::ElementWork coordinates;
-  for_each_element(
-      structure, mesh,
-      [&](const ElementBlock& block, std::size_t) { return block.region == region; },
-      [&](const ElementBlock& block, std::size_t e, const ElementLayout& layout,
-          const stiffness::ElementWork& work) {
-        const auto x = gather_coordinates(mesh, block, e, coordinates);
-        const std::size_t size = layout.size();
-        shells->add(shell_strain_rows(block.type, x, properties), shell_area(block.type, x),
-                    {work.stiffness.data(), size * size});
-      });
+  for_each_element_of(structure, mesh, region,
+                      [&](const ElementBlock& block, std::size_t e, const ElementLayout& layout,
+                          const stiffness::ElementWork& work) {
+                        const auto x = gather_coordinates(mesh, block, e, coordinates);
+                        const std::size_t size = layout.size();
+                        shells->add(shell_strain_rows(block.type, x, properties),
+                                    shell_area(block.type, x),
+                                    {work.stiffness.data(), size * size});
+                      });
   return shells;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "common/error.h"
 #include "elements/geometric_stiffness.h"
 #include "mesh/element_properties.h"
@@ -37,6 +39,15 @@ void for_each_element(const Structure& structure, const Mesh& mesh, Wanted&& wan
       visit(block, e, layout, work);
     }
   }
+}
+
+/// Hands the elements of one region over as for_each_element does.
+template <typename Visit>
+void for_each_element_of(const Structure& structure, const Mesh& mesh, int region, Visit&& visit) {
+  for_each_element(
+      structure, mesh,
+      [region](const ElementBlock& block, std::size_t) { return block.region == region; },
+      std::forward<Visit>(visit));
 }
 
 }  // namespace pounding

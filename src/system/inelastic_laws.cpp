@@ -5,7 +5,6 @@
 
 #include "common/error.h"
 #include "common/parallel.h"
-#include "scene/shell_laws.h"
 #include "system/axial_forces.h"
 #include "system/cracking_shells.h"
 #include "system/each_element.h"
@@ -19,8 +18,8 @@ std::shared_ptr<interactions::ElementLaw> law_of_region(const Structure& structu
                                                         const Mesh& mesh, int region) {
   const Region& own = structure.regions[static_cast<std::size_t>(region)];
   if (!is_shell(own.element)) return yielding_beams(structure, mesh, region);
-  return cracking_of(own) ? cracking_shells(structure, mesh, region)
-                          : yielding_shells(structure, mesh, region);
+  return own.yielding_shell.cracking ? cracking_shells(structure, mesh, region)
+                                     : yielding_shells(structure, mesh, region);
 }
 
 }  // namespace
@@ -28,7 +27,7 @@ std::shared_ptr<interactions::ElementLaw> law_of_region(const Structure& structu
 std::vector<interactions::RegionLaw> inelastic_laws(const Structure& structure, const Mesh& mesh) {
   std::vector<interactions::RegionLaw> laws;
   for (std::size_t r = 0; r < structure.regions.size(); ++r) {
-    if (!structure.regions[r].yielding.any()) continue;
+    if (!structure.regions[r].inelastic) continue;
     const auto region = static_cast<int>(r);
     on_every_rank(mesh.comm, [&] {
       laws.push_back({region, law_of_region(structure, mesh, region)});

@@ -13,18 +13,12 @@ MotionLaws::MotionLaws(std::vector<std::string> names, std::span<const Hysteresi
 
 void MotionLaws::add(std::vector<LawMotion> own, std::span<const double> stiffness) {
   for (LawMotion& motion : own) motions_.push_back(std::move(motion));
-  place_.push_back(stiffness_.size());
-  stiffness_.insert(stiffness_.end(), stiffness.begin(), stiffness.end());
+  products_.add(stiffness);
 }
 
 double MotionLaws::respond(std::size_t element, std::span<const double> displacement,
                            std::span<double> memory, std::span<double> force) const {
-  const double* const k = &stiffness_[place_[element]];
-  const std::size_t size = displacement.size();
-  for (std::size_t i = 0; i < size; ++i) {
-    force[i] = 0;
-    for (std::size_t j = 0; j < size; ++j) force[i] += k[i * size + j] * displacement[j];
-  }
+  products_.apply(element, displacement, force);
   double lost = 0;
   for (std::size_t m = 0; m < names_.size(); ++m) {
     const LawMotion& motion = motions_[element * names_.size() + m];
@@ -32,7 +26,7 @@ double MotionLaws::respond(std::size_t element, std::span<const double> displace
     const double elongation = motion.elongation(displacement);
     motion.law.advance(elongation, own);
     const double less = motion.law.force(own) - motion.stiffness * elongation;
-    for (std::size_t i = 0; i < size; ++i) force[i] += less * motion.shape[i];
+    for (std::size_t i = 0; i < force.size(); ++i) force[i] += less * motion.shape[i];
     lost += motion.law.force(own) * elongation / 2 - motion.law.stored(own);
   }
   return lost;

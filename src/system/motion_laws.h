@@ -5,6 +5,7 @@
 
 #include "interactions/laws/element_law.h"
 #include "interactions/laws/hysteretic_law.h"
+#include "system/element_products.h"
 
 namespace pounding {
 
@@ -46,8 +47,7 @@ class MotionLaws final : public interactions::ElementLaw {
  private:
   std::vector<std::string> names_;
   std::vector<LawMotion> motions_;  ///< shape (elements, parts)
-  std::vector<double> stiffness_;   ///< row by row, of one element after another
-  std::vector<std::size_t> place_;  ///< of each element's first number there
+  ElementProducts products_;
   std::vector<std::size_t> begin_;  ///< of each part in a memory, and the end
 };
 

@@ -19,21 +19,7 @@ using interactions::HystereticLaw;
 constexpr std::size_t beam_size = 12;
 constexpr std::size_t of_node = 6;  ///< components
 
-/// A law of a section, and the plane in which it acts.
-struct Part {
-  const Hysteresis* law = nullptr;
-  bool shear = false;
-  std::size_t axis = 0;  ///< 1: local y, 2: local z, along which or about which it acts
-};
-
-std::vector<Part> parts_of(const YieldingSection& section) {
-  std::vector<Part> parts;
-  for (std::size_t axis = 1; axis < 3; ++axis) {
-    if (const auto& law = section.shear[axis - 1]) parts.push_back({&*law, true, axis});
-    if (const auto& law = section.bending[axis - 1]) parts.push_back({&*law, false, axis});
-  }
-  return parts;
-}
+using Part = YieldingSection::Law;
 
 /// `part` of a beam between two nodes.
 SectionMotion motion_of(const Part& part, const Segment& segment, const Matrix3& frame,
@@ -103,21 +89,20 @@ Hysteresis in_series(const Hysteresis& law, double elastic) {
 std::vector<SectionMotion> section_motions(const Region& region, const Vector3& first,
                                            const Vector3& second) {
   const std::array<double, 6> ends{first[0], first[1], first[2], second[0], second[1], second[2]};
-  return motions_of(parts_of(region.yielding), ends, element_properties(region));
+  return motions_of(region.yielding.laws(), ends, element_properties(region));
 }
 
 std::shared_ptr<interactions::ElementLaw> yielding_beams(const Structure& structure,
                                                          const Mesh& mesh, int region) {
   const Region& own = structure.regions[static_cast<std::size_t>(region)];
-  const std::vector<Part> parts = parts_of(own.yielding);
+  const std::vector<Part> parts = own.yielding.laws();
   std::vector<const Hysteresis*> laws;
   for (const Part& part : parts) laws.push_back(part.law);
   auto beams = std::make_shared<MotionLaws>(own.yielding.names(), laws);
   const ElementProperties properties = element_properties(own);
   stiffness::ElementWork coordinates;
-  for_each_element(
-      structure, mesh,
-      [&](const ElementBlock& block, std::size_t) { return block.region == region; },
+  for_each_element_of(
+      structure, mesh, region,
       [&](const ElementBlock& block, std::size_t e, const ElementLayout&,
           const stiffness::ElementWork& work) {
         try {

@@ -28,14 +28,13 @@ LawMotion shear_motion(ElementType type, std::span<const double> coordinates,
 std::shared_ptr<interactions::ElementLaw> yielding_shells(const Structure& structure,
                                                           const Mesh& mesh, int region) {
   const Region& own = structure.regions[static_cast<std::size_t>(region)];
-  const Hysteresis* const law = &*own.yielding.shear[0];
+  const Hysteresis* const law = &*own.yielding_shell.shear;
   auto shells = std::make_shared<MotionLaws>(std::vector<std::string>{"shear"},
                                              std::span<const Hysteresis* const>(&law, 1));
   const ElementProperties properties = element_properties(own);
   stiffness::ElementWork coordinates;
-  for_each_element(
-      structure, mesh,
-      [&](const ElementBlock& block, std::size_t) { return block.region == region; },
+  for_each_element_of(
+      structure, mesh, region,
       [&](const ElementBlock& block, std::size_t e, const ElementLayout& layout,
           const stiffness::ElementWork& work) {
         const std::size_t size = layout.size();

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "scene/shell_laws.h"
+#include "scene/yielding_shell.h"
 
 namespace pounding::interactions {
 

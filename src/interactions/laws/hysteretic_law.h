@@ -39,8 +39,6 @@ class HystereticLaw {
   double elongation(std::span<const double> memory) const { return memory[elongation_now]; }
   /// Sum of D_n [J].
   double lost(std::span<const double> memory) const { return memory[lost_so_far]; }
-  /// Force of the path itself, which `force` is but for single steps.
-  double path_force(std::span<const double> memory) const { return memory[on_path]; }
   /// Largest elongation over that of the first break of its direction; 0 before any.
   double ductility(std::span<const double> memory) const {
     return std::max(memory[most_plus], memory[most_minus]);

@@ -6,10 +6,11 @@
 #include <fstream>
 #include <string>
 #include <unistd.h>
+#include <utility>
 
 #include <gtest/gtest.h>
 
-#include "common/error.h"
+#include "support/refusal.h"
 #include "support/source_folder.h"
 
 namespace pounding::testing_support {
@@ -43,15 +44,9 @@ class MotionFiles : public ::testing::Test {
 /// The message of the UserError that `action` throws; it must be one line.
 template <class Action>
 std::string refusal(Action&& action) {
-  try {
-    action();
-  } catch (const UserError& error) {
-    const std::string message = error.what();
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    return message;
-  }
-  ADD_FAILURE() << "accepted";
-  return {};
+  const std::string message = refusal_of(std::forward<Action>(action));
+  if (message.empty()) ADD_FAILURE() << "accepted";
+  return message;
 }
 
 }  // namespace pounding::testing_support
