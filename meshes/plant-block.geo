@@ -1,9 +1,10 @@
 // Reinforced-concrete block of a plant: shear walls on a grid of 6.1 m, a basement, two storeys, and a
 // tower over the four central rooms. Shells in the middle of walls and slabs. Modules of half a room;
 // m: elements along a module, so that an element is about 3.05 / m wide. opening_* = 1 leaves a module
-// out of the slabs over the basement and the first storey, for stairs. post: height of a cabinet. The walls
-// that face neighbours are east_face (large x) and west_face.
-DefineConstant[ m = 6, opening = 1, post = 1.8 ];
+// out of the slabs over the basement and the first storey, for stairs. post: height of a cabinet. pipe: radius
+// of a penetration through a module of the slab over the first storey, 0: none; elements along its rim are
+// `finer` times smaller than the others. The walls that face neighbours are east_face (large x) and west_face.
+DefineConstant[ m = 6, opening = 1, post = 1.8, pipe = 0, finer = 8 ];
 
 module = 3.048;
 count = 8;               // modules along x and along y
@@ -66,8 +67,24 @@ For k In {0:levels-1}
       stairs = opening == 1 && (k == 1 || k == 2) && i == 6 && j == 1;
       If (exists && !stairs)
         l = newll; Line Loop(l) = {lx(n), ly(n+1), -lx(n+row), -ly(n)};
-        s = news; Plane Surface(s) = {l};
-        Transfinite Surface{s}; Recombine Surface{s};
+        s = news;
+        If (pipe > 0 && k == 2 && i == 3 && j == 5)
+          x = (i + .5) * module; y = (j + .5) * module; size = module / m / finer;
+          c = newp; Point(c) = {x, y, z(k)};
+          For quarter In {0:3}
+            Point(c + 1 + quarter) = {x + pipe * Cos(quarter * Pi / 2), y + pipe * Sin(quarter * Pi / 2), z(k), size};
+          EndFor
+          a = newl;
+          For quarter In {0:3}
+            Circle(a + quarter) = {c + 1 + quarter, c, c + 1 + (quarter + 1) % 4};
+          EndFor
+          rim = newll; Line Loop(rim) = {a : a + 3};
+          Plane Surface(s) = {l, rim};
+        Else
+          Plane Surface(s) = {l};
+          Transfinite Surface{s};
+        EndIf
+        Recombine Surface{s};
         roof = k == levels - 1 ||
                (k == tower_from && (i < first || i >= last || j < first || j >= last));
         If (k == 0) mat() += s; ElseIf (roof) roofs() += s; Else slabs() += s; EndIf

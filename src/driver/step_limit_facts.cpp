@@ -75,17 +75,19 @@ std::string told_remedies(const Building& building) {
         {cost, system.name, uniform->ratio, std::sqrt(uniform->at_once())});
   }
   const ScalingOffer& offer = system.scaling_offer;
-  const double gain = offer.time_step / stable;
-  if (offer.elements > 0 && gain > worth_a_word) {
+  const double gain = offer.allowed / stable;
+  if (offer.elements > 0 && gain > worth_a_word * offer.cost) {
     constexpr double frequency = 10;  // Hz
     const double beta = system.damping.beta;
     const double factor = offer.time_step / 4 * (2 * beta + system.stiffening() * offer.time_step);
     const double turn = 2 * std::numbers::pi * frequency;
     text += sentence(
-        "    {} elements of {} hold the step: -{}_mass_scaling {:.2g} would allow {:.2g} times it, "
-        "and move no frequency below {:.0f} Hz by more than {:.1g} %\n",
-        {offer.elements, offer.groups, system.name, offer.time_step, gain, frequency,
-         50 * factor * turn * turn});
+        "    {} elements of {} hold the step: -{}_mass_scaling {:.3g} would allow at least {:.2g} "
+        "times it, "
+        "couple {:.2g} % of the dofs, which makes a step {:.2g} times as expensive, and move no "
+        "frequency below {:.0f} Hz by more than {:.1g} %\n",
+        {offer.elements, offer.groups, system.name, offer.time_step, gain, 100 * offer.share,
+         offer.cost, frequency, 50 * factor * turn * turn});
   }
   return text;
 }

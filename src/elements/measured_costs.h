@@ -18,7 +18,9 @@ inline constexpr int beam = 14;           ///< from its local stiffness
 inline constexpr int small = 2;           ///< bars, springs, points
 
 /// A node of a cluster: its part in a solution instead of a division.
-inline constexpr int cluster_node = 36;
+inline constexpr int cluster_node = 36;             ///< of beams, bars, springs
+inline constexpr int cluster_node_of_shells = 400;  ///< whose factor fills in more
+inline constexpr int cluster_node_of_solids = 1500;
 
 /// Ranks that share a structure and wait for each other's values, per structure: on the two-storey
 /// pair and 2 ranks, the loss by the even cut.

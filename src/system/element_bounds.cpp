@@ -13,6 +13,7 @@
 #include "system/critical_time_step.h"
 #include "system/mass_scaling.h"
 #include "system/slivers.h"
+#include "system/step_costs.h"
 
 namespace pounding {
 namespace {
@@ -131,22 +132,23 @@ void ElementBounds::finish(LinearSystem& system) {
 }
 
 ScalingOffer ElementBounds::find_offer(const std::vector<std::vector<double>>& alone) const {
-  double least = infinity;  // of elements that cannot be scaled
+  StepCosts costs(mesh_);
   for (std::size_t b = 0; b < alone.size(); ++b) {
-    if (traits_of(mesh_.blocks[b].type).scalable) continue;
-    for (const double step : alone[b]) least = std::min(least, step);
+    for (std::size_t e = 0; e < alone[b].size(); ++e) costs.add(mesh_.blocks[b], e, alone[b][e]);
   }
-  MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, mesh_.comm);
-  const double unit = std::pow(10.0, std::floor(std::log10(least)) - 1);  // two digits
-  ScalingOffer offer{std::floor(least / unit) * unit, 0, ""};
-  for (std::size_t b = 0; std::isfinite(least) && b < alone.size(); ++b) {
+  ScalingOffer offer = costs.cheapest(longest_scaled_step(structure_.damping, stiffening_));
+  std::string last;  // group that was named
+  for (std::size_t b = 0; offer.time_step > 0 && b < alone.size(); ++b) {
     const ElementBlock& block = mesh_.blocks[b];
     GlobalIndex count = 0;
     for (std::size_t e = 0; traits_of(block.type).scalable && e < alone[b].size(); ++e) {
-      count += alone[b][e] < offer.time_step ? block.counted[e] : 0;
+      count += alone[b][e] < holding_part(block.type) * offer.time_step ? block.counted[e] : 0;
     }
     MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_INT64_T, MPI_SUM, mesh_.comm);
-    if (count > 0) offer.groups += (offer.groups.empty() ? "" : ", ") + block.group;
+    if (count > 0 && block.group != last) {
+      offer.groups += (last.empty() ? "" : ", ") + block.group;
+      last = block.group;
+    }
     offer.elements += count;
   }
   return offer;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -52,12 +53,16 @@ class Couplings {
     GlobalIndex first = -1;
     for (const GlobalIndex node : nodes) {
       const std::size_t n = node;
-      if (mesh_.free_components[n] == 0) continue;
+      if (!is_free(node)) continue;
       coupled_[n] = 1;
       scaled_[n] = scaled || scaled_[n] != 0;
       if (first >= 0) groups_.join(static_cast<std::size_t>(first), n);
-      if (first >= 0 && scaled) edges_.push_back({first, node});
-      first = node;
+      if (first < 0) first = node;
+    }
+    for (std::size_t a = 0; scaled && a < nodes.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        if (is_free(nodes[a]) && is_free(nodes[b])) edges_.push_back({nodes[a], nodes[b]});
+      }
     }
   }
 
@@ -82,6 +87,10 @@ class Couplings {
   }
 
  private:
+  bool is_free(GlobalIndex node) const {
+    return mesh_.free_components[static_cast<std::size_t>(node)] != 0;
+  }
+
   const GlobalMesh& mesh_;
   DisjointSets groups_;
   std::vector<char> coupled_;
@@ -101,6 +110,19 @@ bool fills_in(const Couplings::Group& group, std::size_t most_blocks) {
     neighbours[static_cast<std::size_t>(place(b))].insert(place(a));
   }
   return !eliminate(std::move(neighbours), most_blocks);
+}
+
+/// Largest row sum of |K_e| over the mass [1/s2], which no omega_e^2 exceeds; infinite where a dof
+/// that the element holds gets no mass from it.
+double row_bound(std::span<const double> stiffness, std::span<const double> lumped_mass) {
+  const std::size_t n = lumped_mass.size();
+  double bound = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    double sum = 0;
+    for (std::size_t j = 0; j < n; ++j) sum += std::abs(stiffness[i * n + j]);
+    if (sum > 0) bound = std::max(bound, sum / std::max(lumped_mass[i], 0.0));
+  }
+  return bound;
 }
 
 /// Whether an element of the whole mesh is scaled.
@@ -126,7 +148,8 @@ class Decision {
       return false;  // the assembly names it
     }
     return add_element_mass(structure_.mass_scaling, structure_.damping_of(region), stiffness, mass,
-                            {added_.data(), size * size}, structure_.stiffening()) > 0;
+                            {added_.data(), size * size}, structure_.stiffening(),
+                            holding_part(set.type)) > 0;
   }
 
  private:
@@ -147,6 +170,24 @@ double mass_scaling_factor(double time_step, const Rayleigh& damping, double fre
   return std::max(0.0, needed - (1 - time_step * damping.alpha / 2) / (frequency * frequency));
 }
 
+double longest_scaled_step(const Rayleigh& damping, double stiffening) {
+  constexpr double allowed = 0.01;
+  constexpr double circular_frequency = 2 * std::numbers::pi * 400;
+  const double factor = 2 * allowed / (circular_frequency * circular_frequency);
+  const double beta = damping.beta;
+  return 4 * factor / (beta + std::sqrt(beta * beta + 4 * stiffening * factor));
+}
+
+bool may_scale(const Structure& structure, ElementType type) {
+  const ElementTraits& traits = traits_of(type);
+  return structure.mass_scaling > 0 && traits.scalable &&
+         (!structure.step_target || traits.layout.nodes <= 2);
+}
+
+double holding_part(ElementType type) {
+  return traits_of(type).layout.nodes <= 2 ? 1 : 0.7;
+}
+
 bool holds_massless(std::span<const double> stiffness, std::span<const double> lumped_mass) {
   const std::size_t n = lumped_mass.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -157,19 +198,21 @@ bool holds_massless(std::span<const double> stiffness, std::span<const double> l
 
 double add_element_mass(double time_step, const Rayleigh& damping,
                         std::span<const double> stiffness, std::span<const double> lumped_mass,
-                        std::span<double> added, double stiffening) {
-  const bool has_mass = *std::max_element(lumped_mass.begin(), lumped_mass.end()) > 0;
-  const double frequency = has_mass && !holds_massless(stiffness, lumped_mass)
-                               ? std::sqrt(largest_eigenvalue(stiffness, lumped_mass))
-                               : std::numeric_limits<double>::infinity();
-  const double factor = mass_scaling_factor(time_step, damping, frequency, stiffening);
-  for (std::size_t i = 0; factor > 0 && i < added.size(); ++i) added[i] += factor * stiffness[i];
+                        std::span<double> added, double stiffening, double part) {
+  const auto factor_for = [&](double step, double square) {
+    return mass_scaling_factor(step, damping, std::sqrt(square), stiffening);
+  };
+  const double bound = row_bound(stiffness, lumped_mass);
+  if (factor_for(part * time_step, bound) == 0) return 0;
+  const double square = std::isinf(bound) ? bound : largest_eigenvalue(stiffness, lumped_mass);
+  if (factor_for(part * time_step, square) == 0) return 0;
+  const double factor = factor_for(time_step, square);
+  for (std::size_t i = 0; i < added.size(); ++i) added[i] += factor * stiffness[i];
   return factor;
 }
 
 std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalMesh& mesh,
                                        int structure_number, std::size_t most_blocks) {
-  const bool scaling = structure.mass_scaling > 0;
   Couplings couplings(mesh);
   Decision decision(structure, mesh);
   for (const Region& region : structure.regions) check_alpha(structure, region);
@@ -184,11 +227,11 @@ std::vector<NodeCluster> coupled_nodes(const Structure& structure, const GlobalM
   for (const ElementSet& set : mesh.regions) {
     const std::size_t width = element_layout(set.type).nodes;
     const bool links = width == 2 && interactions::has_links(structure.regions[set.region]);
-    const bool looked_at = links || (scaling && traits_of(set.type).scalable);
+    const bool scalable = is_linear(set.type) && may_scale(structure, set.type);
+    const bool looked_at = links || scalable;
     for (std::size_t e = 0; looked_at && e < set.tags.size(); ++e) {
       const std::span<const GlobalIndex> nodes(&set.connectivity[e * width], width);
-      const bool scaled =
-          is_linear(set.type) && scaling && !meets_rigid(nodes) && decision.scales(set, e, nodes);
+      const bool scaled = scalable && !meets_rigid(nodes) && decision.scales(set, e, nodes);
       if (links || scaled) couplings.join(nodes, scaled);
     }
   }

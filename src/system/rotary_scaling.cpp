@@ -233,7 +233,7 @@ StepPlan plan_step(const Structure& structure, const Mesh& mesh) {
                        element_properties(region, block.share_of(e)), stiffness, mass);
       if (is_shell(block.type)) {
         feasible = inertia.add(block, e, work);
-      } else if (traits_of(block.type).scalable) {
+      } else if (may_scale(structure, block.type)) {
         added.assign(size * size, 0.0);
         plan.largest_factor =
             std::max(plan.largest_factor,

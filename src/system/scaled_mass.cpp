@@ -17,11 +17,12 @@ double ScaledMass::add(const ElementBlock& block, std::size_t element, const Reg
     add_rows(block, element, stiffness);
     return 0;
   }
-  if (structure_.mass_scaling == 0 || !traits_of(block.type).scalable) return 0;
+  if (!may_scale(structure_, block.type)) return 0;
   const std::span<double> added(added_.data(), stiffness.size());
   std::fill(added.begin(), added.end(), 0.0);
-  const double factor = add_element_mass(structure_.mass_scaling, structure_.damping_of(region),
-                                         stiffness, mass, added, structure_.stiffening());
+  const double factor =
+      add_element_mass(structure_.mass_scaling, structure_.damping_of(region), stiffness, mass,
+                       added, structure_.stiffening(), holding_part(block.type));
   if (factor > 0) {
     report_.elements += block.counted[element];
     report_.largest_factor = std::max(report_.largest_factor, factor);

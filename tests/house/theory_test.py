@@ -217,6 +217,56 @@ class Elements(unittest.TestCase):
         foretold = squares * (1 - factor * squares * shares)
         numpy.testing.assert_allclose(numpy.sort(scaled.real), foretold, rtol=1e-8)
 
+    def test_scaled_mass_beside_local_steps(self):
+        """A bar of 100 elements with ten of a tenth of their length in the middle, at 0.9 of the others' step."""
+        length = numpy.r_[numpy.ones(50), numpy.full(10, 0.1), numpy.ones(50)]
+        fine = length < 0.5
+        size, dt, halvings, stabilisation = len(length), 0.9, 11, 0.01
+        stiffness, mass, scaled = numpy.zeros((size + 1, size + 1)), numpy.zeros(size + 1), numpy.zeros((size + 1,) * 2)
+        small = numpy.zeros(size + 1)
+        for e, l in enumerate(length):
+            element = numpy.array([[1, -1], [-1, 1]]) / l
+            stiffness[e:e + 2, e:e + 2] += element
+            mass[e:e + 2] += l / 2
+            scaled[e:e + 2, e:e + 2] += max(0, dt**2 / 4 - l**2 / 4) * element
+            small[e:e + 2] = numpy.maximum(small[e:e + 2], fine[e])
+        stiffness, mass, scaled, small = stiffness[1:, 1:], mass[1:], scaled[1:, 1:] + numpy.diag(mass[1:]), small[1:]
+
+        # Stabilised leap-frog with local steps: u_{n+1} = 2 z_p - u_{n-1} = 2 u_n - u_{n-1} - dt^2 M^-1 K_p u_n.
+        per_mass = stiffness / mass[:, None]
+        inner, outer = per_mass * small, per_mass * (1 - small)
+        delta = 1 + stabilisation / halvings**2
+        angle = numpy.arccosh(delta)
+        chebyshev = [numpy.cosh(m * angle) for m in range(halvings + 1)]
+        rate = 2 * halvings * numpy.sinh(halvings * angle) / numpy.sinh(angle) / chebyshev[halvings]
+        before = numpy.eye(size)
+        now = before - dt**2 / (rate * delta) * (outer + inner)
+        for m in range(1, halvings):
+            part, step = chebyshev[m - 1] / chebyshev[m + 1], chebyshev[m] / chebyshev[m + 1]
+            after = (1 + part) * now - part * before - 2 * dt**2 * step / rate * (outer + inner @ now)
+            before, now = now, after
+        local = 2 * mass[:, None] * (numpy.eye(size) - now) / dt**2
+        numpy.testing.assert_allclose(local, local.T, atol=1e-12 * abs(local).max())
+
+        def frequencies(k, m):
+            half = numpy.linalg.inv(numpy.linalg.cholesky(m))
+            return numpy.sqrt(numpy.linalg.eigvalsh(half @ (k + k.T) / 2 @ half.T))
+
+        diagonal = numpy.diag(mass)
+        exact, by_steps = frequencies(stiffness, diagonal), frequencies(local, diagonal)
+        by_mass = frequencies(stiffness, scaled)
+        self.assertLess(by_mass[-1] * dt, 2)
+        self.assertLess(by_steps[-1] * dt, 2)
+        move = 1 - by_mass[:20] / exact[:20]
+        nearest = [abs(by_steps / f - 1).min() for f in exact[:20]]
+        own = (exact[:20] * dt)**2 / 24  # by which the step itself moves a frequency
+        self.assertAlmostEqual(move[4], 1.93e-5, delta=1e-7)
+        self.assertAlmostEqual(nearest[4], 1.37e-5, delta=1e-7)
+        self.assertTrue((move < 0.04 * own).all())
+        # Modes of the small elements appear among the lowest of the bar.
+        self.assertGreater((by_steps < exact[19]).sum(), 20)
+        self.assertEqual((by_mass < exact[19]).sum(), 20)
+
     def test_coordinate_with_scaled_mass_has_the_wanted_limit(self):
         omega, alpha, beta, dt = 4e4, 0.2, 1e-5, 6e-5
         mass = (2 * dt * beta + dt**2) * omega**2 / (4 - 2 * dt * alpha)

@@ -38,7 +38,7 @@ inline std::vector<double> dense_mass(const DampedStructure& damped, const Dense
       const auto [x, dofs] = dense_element(damped.mesh, set, e, dense);
       element_matrices(set.type, x, element_properties(region), k, m);
       add_element_mass(damped.structure.mass_scaling, damped.structure.damping_of(region), k, m,
-                       added);
+                       added, 1, holding_part(set.type));
       for (std::size_t i = 0; i < size; ++i) {
         for (std::size_t j = 0; j < size; ++j) {
           if (dofs[i] < n && dofs[j] < n) mass[dofs[i] * n + dofs[j]] += added[i * size + j];

@@ -82,6 +82,50 @@ class NewLimit(unittest.TestCase):
         self.assertIn("the run diverged: structure b0", line)
 
 
+class Opening(unittest.TestCase):
+    """A pipe goes through a slab of the small plant pair: a few elements round it, a tenth of the others' size."""
+
+    PLANT = ["-options_file", "petsc-options/plant/small.yaml", "-block_mesh_set", "m=1,pipe=0.3,finer=12",
+             "-floor1_gap", 0.001, "-floor2_gap", 0.001, "-frame_initial_velocity", "-0.2,0,0", "-end_time", 0.2,
+             "-output_interval", 2e-4]
+    STEP = 8.5e-5  # s
+
+    @classmethod
+    def setUpClass(cls):
+        cls.plain = cls().run_of()
+        cls.scaled = cls().run_of("-block_mass_scaling", cls.STEP)
+
+    def run_of(self, *words, ranks=program.RANKS):
+        return Recorded(self, [*self.PLANT, "-modes", 6, *words], ranks)
+
+    def test_the_rest_holds_the_step(self):
+        plain, scaled = (run.summary["structures"]["block"] for run in (self.plain, self.scaled))
+        scaling = scaled["mass_scaling"]
+        self.assertGreater(scaled["stable_time_step"], self.STEP)
+        self.assertLess(plain["stable_time_step"], 0.4 * self.STEP)
+        self.assertGreater(scaling["coupled_dofs"], 0)
+        self.assertLess(scaling["coupled_dofs"], 0.15 * scaled["dofs"])
+        for before, after in zip(plain["frequencies"], scaled["frequencies"]):
+            change = 1 - (after["frequency"] / before["frequency"])**2
+            self.assertLess(change, scaling["largest_factor"] * (2 * math.pi * before["frequency"])**2)
+            self.assertGreater(change, -1e-9)
+
+    def test_impacts_and_histories_are_those_of_small_steps(self):
+        self.assertGreater(self.plain.summary["impacts"]["episodes"], 0)
+        self.assertEqual(self.plain.summary["impacts"]["episodes"], self.scaled.summary["impacts"]["episodes"])
+        for probe in ("block_floor.x", "tower_roof.x", "frame_floor2.x"):
+            expected = self.plain.displacement(probe)
+            found = numpy.interp(self.plain.time, self.scaled.time, self.scaled.displacement(probe))
+            self.assertLess(abs(found - expected).max() / abs(expected).max(), 2e-3, probe)
+
+    def test_on_any_ranks(self):
+        for ranks in (1, 3):
+            other = self.run_of("-block_mass_scaling", self.STEP, ranks=ranks)
+            for probe in ("block_floor.x", "frame_floor2.x"):
+                expected = self.scaled.displacement(probe)
+                self.assertLess(abs(other.displacement(probe) - expected).max(), 1e-9 * abs(expected).max())
+
+
 class Impact(unittest.TestCase):
     """The upper slabs of the coarse pair meet at 0.3 m/s, at nodes that beams couple."""
 

@@ -1,5 +1,6 @@
 #include "system/mass_scaling.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -18,15 +19,22 @@ namespace {
 constexpr std::size_t size = 12;
 constexpr Rayleigh damping{0.5, 1.2e-5};
 
-struct Beam {
-  std::vector<double> stiffness = std::vector<double>(size * size);
-  std::vector<double> mass = std::vector<double>(size);
+struct Matrices {
+  std::vector<double> stiffness;
+  std::vector<double> mass;
   double frequency() const { return std::sqrt(largest_eigenvalue(stiffness, mass)); }
 };
 
+Matrices matrices_of(ElementType type, const std::vector<double>& x,
+                     const ElementProperties& properties) {
+  const std::size_t n = element_layout(type).size();
+  Matrices result{std::vector<double>(n * n), std::vector<double>(n)};
+  element_matrices(type, x, properties, result.stiffness, result.mass);
+  return result;
+}
+
 /// A short, stiff beam of steel across the axes.
-Beam beam() {
-  Beam result;
+Matrices beam() {
   ElementProperties properties{.young = 200e9,
                                .poisson = 0.3,
                                .density = 7800,
@@ -34,13 +42,25 @@ Beam beam() {
                                .inertia_y = 1943e-8,
                                .inertia_z = 142.4e-8,
                                .torsion = 6.98e-8};
-  const std::vector<double> x{0, 0, 0, 0.1, 0.05, 0.02};
-  element_matrices(ElementType::beam, x, properties, result.stiffness, result.mass);
-  return result;
+  return matrices_of(ElementType::beam, {0, 0, 0, 0.1, 0.05, 0.02}, properties);
+}
+
+/// Slivers of concrete: a quadrangle and a triangle of shells, a hexahedron, a tetrahedron.
+std::vector<Matrices> slivers() {
+  const ElementProperties concrete{
+      .young = 30e9, .poisson = 0.2, .density = 2500, .thickness = 0.2};
+  return {
+      matrices_of(ElementType::shell4, {0, 0, 0, 0.5, 0, 0, 0.5, 0.05, 0, 0, 0.03, 0}, concrete),
+      matrices_of(ElementType::shell3, {0, 0, 0, 0.5, 0, 0, 0.2, 0.03, 0}, concrete),
+      matrices_of(ElementType::hex8, {0, 0, 0,   1, 0, 0,   1, .6, 0,   0, .5, 0,
+                                      0, 0, .05, 1, 0, .04, 1, .6, .05, 0, .5, .05},
+                  concrete),
+      matrices_of(ElementType::tet4, {0, 0, 0, 1, 0, 0, 0.2, 1, 0, 0.4, 0.3, 0.05}, concrete)};
 }
 
 /// The time step at which 4 (M + S) - 2 dt C - dt^2 K of a beam stops being positive semidefinite.
-double critical_step(const Beam& beam, const std::vector<double>& added) {
+double critical_step(const Matrices& element, const std::vector<double>& added) {
+  const std::size_t size = element.mass.size();
   double low = 1e-9;
   double high = 1;
   for (int i = 0; i < 200 && high > low * (1 + 1e-13); ++i) {
@@ -48,11 +68,11 @@ double critical_step(const Beam& beam, const std::vector<double>& added) {
     std::vector<double> pencil(size * size);
     for (std::size_t r = 0; r < size; ++r) {
       for (std::size_t c = 0; c < size; ++c) {
-        const double k = beam.stiffness[r * size + c];
-        const double m = r == c ? beam.mass[r] : 0;
+        const double k = element.stiffness[r * size + c];
+        const double m = r == c ? element.mass[r] : 0;
         pencil[r * size + c] = (4 * (m + added[r * size + c]) -
                                 2 * dt * (damping.alpha * m + damping.beta * k) - dt * dt * k) /
-                               std::sqrt(beam.mass[r] * beam.mass[c]);
+                               std::sqrt(element.mass[r] * element.mass[c]);
       }
     }
     const double smallest = testing_support::symmetric_eigenvalues(std::move(pencil), size).front();
@@ -61,23 +81,27 @@ double critical_step(const Beam& beam, const std::vector<double>& added) {
   return low;
 }
 
-TEST(MassScaling, GivesAnElementExactlyTheWantedStep) {
-  const Beam element = beam();
-  const std::vector<double> none(size * size, 0.0);
-  const double own = critical_step(element, none);
+void expect_exactly_the_wanted_step(const Matrices& element) {
+  const std::size_t entries = element.stiffness.size();
+  const double own = critical_step(element, std::vector<double>(entries, 0.0));
   const double square = element.frequency() * element.frequency();
   EXPECT_NEAR(own / critical_time_step(damping.alpha + damping.beta * square, square), 1, 1e-9);
-  for (const double part : {1.5, 5.0, 20.0}) {
-    std::vector<double> added(size * size, 0.0);
+  for (const double part : {0.999, 1.5, 5.0, 20.0}) {
+    std::vector<double> added(entries, 0.0);
     const double factor =
         add_element_mass(part * own, damping, element.stiffness, element.mass, added);
-    EXPECT_GT(factor, 0);
-    EXPECT_NEAR(critical_step(element, added) / (part * own), 1, 1e-8) << part;
+    EXPECT_EQ(factor > 0, part > 1);
+    EXPECT_NEAR(critical_step(element, added) / (std::max(1.0, part) * own), 1, 1e-8) << part;
   }
 }
 
+TEST(MassScaling, GivesAnElementExactlyTheWantedStep) {
+  expect_exactly_the_wanted_step(beam());
+  for (const Matrices& sliver : slivers()) expect_exactly_the_wanted_step(sliver);
+}
+
 TEST(MassScaling, LeavesAnElementAloneThatAllowsTheStep) {
-  const Beam element = beam();
+  const Matrices element = beam();
   std::vector<double> added(size * size, 0.0);
   const std::vector<double> none(size * size, 0.0);
   const double own = critical_step(element, none);
@@ -86,7 +110,7 @@ TEST(MassScaling, LeavesAnElementAloneThatAllowsTheStep) {
 }
 
 TEST(MassScaling, DoesNotMoveARigidBody) {
-  const Beam element = beam();
+  const Matrices element = beam();
   std::vector<double> added(size * size, 0.0);
   add_element_mass(2e-5, damping, element.stiffness, element.mass, added);
   double largest = 0;
