@@ -56,11 +56,11 @@ std::vector<std::string> machine_names(MPI_Comm comm) {
   return names;
 }
 
-/// Whether an option names a file that every run reads: not a table of members or of fidelity, nor
-/// a basis, which a run may write.
+/// Whether an option names a file that every run reads: not a table of members, nor a basis,
+/// which a run may write.
 bool is_read_by_a_run(const std::string& name) {
   if (name == "restart") return true;
-  return name != "fidelity_table" && !name.ends_with("_modal_basis") &&
+  return !name.ends_with("_modal_basis") &&
          std::ranges::any_of(option_table(), [&](const OptionRow& row) {
            const std::size_t own = row.pattern.rfind('>');  // behind the names of the user
            return row.unit == "file" && own != std::string_view::npos &&
@@ -104,13 +104,6 @@ std::vector<InputFile> input_files(const SceneOrigin& origin, const std::string&
   for (const std::string& file : origin.files) inputs.add("options_file", file);
   const auto values = resolved_values(resolved);
   for (const auto& [name, value] : values) inputs.add_option(name, value);
-  const auto value_of = [&](std::string_view wanted) {
-    const auto found =
-        std::ranges::find(values, wanted, &std::pair<std::string, std::string>::first);
-    return found == values.end() ? std::string() : found->second;
-  };
-  const bool has_target = !value_of("fidelity_target").empty();
-  if (has_target) inputs.add("fidelity_table", value_of("fidelity_table"));
   return std::move(inputs.files);
 }
 

@@ -34,7 +34,7 @@ struct Provenance {
 
 /// Notes what is known when a run begins: time, machines, and every file that its options name,
 /// with its hash: options files and what they include, geometries, meshes, matrices, records,
-/// targets, the table of a fidelity target, a checkpoint. `resolved`: the
+/// targets, a checkpoint. `resolved`: the
 /// options in force. Files that are not there are left to who reads them. Rank 0 reads; the result
 /// is on rank 0. Throws UserError on every rank alike. Collective.
 Provenance note_provenance(MPI_Comm comm, const SceneOrigin& origin, const std::string& resolved);

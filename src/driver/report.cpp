@@ -40,7 +40,7 @@ void print_title(const Scene& scene, const std::string& overrides, int ranks) {
       {program_version(), program_commit(), major, minor, subminor, ranks, ranks == 1 ? "" : "s"}));
   if (!scene.title.empty()) print(scene.title + "\n");
   if (!overrides.empty()) print("  " + overrides + "\n");
-  if (!scene.fidelity_note.empty()) print(scene.fidelity_note + "\n");
+  print(climb_facts(scene));
   print(warning_facts(scene.warnings));
 }
 
@@ -94,6 +94,7 @@ void print_results(const FinishedRun& run) {
   print(drift_facts(run.recorder.drifts()));
   print(probe_facts(scene, statistics, run.recorder, run.spectra));
   print(equipment_facts(scene, run.equipment));
+  print(fidelity_facts(scene, statistics));
   print("\n");
   print(warning_facts(statistics.warnings));
   print(energy_facts(statistics));
@@ -144,6 +145,7 @@ void write_summary(const std::string& path, const FinishedRun& run) {
   facts.add("drifts", drift_facts(run.recorder.drifts()));
   facts.add(probe_facts(scene, statistics, run.recorder, run.spectra));
   facts.add(equipment_facts(scene, run.equipment));
+  facts.add(fidelity_facts(scene, statistics));
   std::vector<std::string> warnings = scene.warnings;
   warnings.insert(warnings.end(), model.warnings.begin(), model.warnings.end());
   warnings.insert(warnings.end(), statistics.warnings.begin(), statistics.warnings.end());

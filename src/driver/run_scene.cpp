@@ -77,7 +77,8 @@ std::optional<SavedState> read_restart(MPI_Comm comm, const Scene& scene, const 
 
 }  // namespace
 
-void run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
+RunOutcome run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin,
+                     const FidelityEstimator& estimator) {
   Scene& scene = read.scene;
   const std::string& resolved = read.resolved;
   flush_subnormal_numbers();
@@ -100,8 +101,14 @@ void run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
   std::vector<TargetSpectrum> capacities;  // of equipment, on rank 0
   on_rank0(comm, [&] { capacities = read_capacities(scene); });
   if (root) print_title(scene, overrides_text(origin), size_of(comm));
-  if (!scene.law_cycles.empty()) return write_law_loops(comm, scene);
-  if (scene.write_mesh_pieces > 0) return write_mesh_pieces(comm, scene, profile);
+  if (!scene.law_cycles.empty()) {
+    write_law_loops(comm, scene);
+    return {};
+  }
+  if (scene.write_mesh_pieces > 0) {
+    write_mesh_pieces(comm, scene, profile);
+    return {};
+  }
   Provenance provenance;  // a dry run leaves no summary to tell it
   if (!scene.dry_run) provenance = note_provenance(comm, origin, resolved);
   if (!scene.restart.empty()) {
@@ -134,13 +141,16 @@ void run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
     profile.note_memory(Phase::step);
     const PhaseReport phases = report_phases(comm, profile, model.dofs());
     if (root) print(phase_facts(phases));
-    return;
+    return {};
   }
   const double step_start = MPI_Wtime();
   const int signal = loop.run(identity, restart ? &*restart : nullptr);
   statistics.step_time = MPI_Wtime() - step_start;
   loop.fill(statistics);
   if (signal != 0) stop(scene, model, signal, loop.step());
+  if (estimator) {
+    statistics.fidelity = estimator(scene, model, loop.impacts(), loop.recorder());
+  }
   std::vector<ProbeSpectrum> spectra = compute_floor_spectra(comm, scene, loop.recorder());
   on_rank0(comm, [&] {
     std::ranges::move(compute_ground_spectra(scene, *model.motion), std::back_inserter(spectra));
@@ -168,6 +178,12 @@ void run_scene(MPI_Comm comm, ReadScene read, const SceneOrigin& origin) {
     write_summary(scene.output + "/summary.json", finished);
     print_results(finished);
   });
+  RunOutcome outcome{MPI_Wtime() - start, 0, statistics.fidelity};
+  MPI_Bcast(&outcome.wall_time, 1, MPI_DOUBLE, 0, comm);
+  for (const Mesh& mesh : model.meshes) {
+    outcome.dofs = std::max(outcome.dofs, static_cast<std::size_t>(mesh.global_dofs));
+  }
+  return outcome;
 }
 
 }  // namespace pounding

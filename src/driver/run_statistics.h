@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/matrix3.h"
+#include "driver/fidelity_estimate.h"
 #include "driver/phase_report.h"
 #include "driver/rank_prediction.h"
 #include "driver/stated_peaks.h"
@@ -124,6 +125,7 @@ struct RunStatistics {
   std::vector<std::string> warnings;         ///< one line each: what the run came upon
   PhaseReport phases;                        ///< time and memory
   std::optional<RankPrediction> prediction;  ///< with -predict_ranks; rank 0
+  std::optional<FidelityEstimate> fidelity;  ///< with -fidelity_window; channels on rank 0
 };
 
 }  // namespace pounding

@@ -20,7 +20,8 @@ std::unique_ptr<interactions::ContactProblem> make_contact(const Solver::Parts& 
 }  // namespace
 
 Solver::Solver(Parts parts) : parts_(std::move(parts)), contact_(make_contact(parts_)) {
-  if (interactions::has_fillers(*parts_.interface) || !parts_.interface->sliding.empty()) {
+  if (parts_.carried || interactions::has_fillers(*parts_.interface) ||
+      !parts_.interface->sliding.empty()) {
     // Energy that a filler holds is no structure's, and the bounds are those of the first pairs:
     // gaps are looked at in every step.
     bounds_.resize(parts_.systems.size());

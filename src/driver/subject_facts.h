@@ -63,4 +63,9 @@ Facts drift_facts(const StoreyDrifts& drifts);
 Facts probe_facts(const Scene& scene, const RunStatistics& run, const Recorder& recorder,
                   const std::vector<ProbeSpectrum>& spectra);
 
+/// How the fidelity of a run was come to, none without an accepted error; and the error of its
+/// floor spectra beside full order, none where it was not estimated (fidelity_facts.cpp).
+Facts climb_facts(const Scene& scene);
+Facts fidelity_facts(const Scene& scene, const RunStatistics& run);
+
 }  // namespace pounding

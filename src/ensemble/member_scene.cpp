@@ -82,6 +82,9 @@ void require_ensemble_scene(const Scene& scene) {
   if (!scene.equipment.empty()) {
     refuse("equipment is set beside its floors' spectra", "give -equipment none");
   }
+  if (scene.fidelity_window > 0) {
+    refuse("-fidelity_window is about single runs", "leave it out");
+  }
   if (!scene.loops.empty()) refuse("loops are recorded", "give -loops none");
   if (scene.fields_interval > 0) refuse("fields are written", "give -fields_interval 0");
   if (!scene.restart.empty()) {

@@ -16,7 +16,6 @@
 #include "driver/folder_checks.h"
 #include "driver/report.h"
 #include "driver/run_progress.h"
-#include "driver/run_scene.h"
 #include "driver/stated_peaks.h"
 #include "driver/stop_signal.h"
 #include "driver/subject_facts.h"
@@ -27,6 +26,7 @@
 #include "ensemble/member_doubts.h"
 #include "ensemble/octet_group.h"
 #include "ensemble/stop_together.h"
+#include "fidelity/fidelity_climb.h"
 #include "io/new_file.h"
 #include "output/result_folder.h"
 
@@ -325,8 +325,10 @@ void run_ensemble(MPI_Comm comm, ReadScene read, const OptionsDatabase& database
 
 void run_as_asked(MPI_Comm comm, ReadScene read, const OptionsDatabase& database,
                   const SceneOrigin& origin) {
-  if (read.ensemble.empty()) {
-    run_scene(comm, std::move(read), origin);
+  if (read.scene.fidelity.target > 0) {
+    run_within_target(comm, read, database, origin);
+  } else if (read.ensemble.empty()) {
+    run_estimated(comm, std::move(read), origin);
   } else {
     run_ensemble(comm, std::move(read), database, origin);
   }

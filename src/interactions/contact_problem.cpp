@@ -18,6 +18,10 @@ constexpr double correction_threshold = 1e-12;
 /// Gap rates that are round-off, relative to the largest free one so far.
 constexpr double rate_roundoff = 1e-14;
 
+void add(std::span<const double> values, std::span<double> sum) {
+  for (std::size_t i = 0; i < values.size(); ++i) sum[i] += values[i];
+}
+
 }  // namespace
 
 ContactProblem::ContactProblem(MPI_Comm comm, const Interface& interface,
@@ -148,6 +152,7 @@ void ContactProblem::set_place_displacement(std::size_t structure, std::span<con
 
 void ContactProblem::gather_displacements() {
   interface_.gather(1, displacement_);
+  if (carried_ != nullptr) add(carried_->displacement, displacement_);
   if (sliding_.any() && sliding_.find(displacement_, constraints_)) take_new_pairs();
   smallest_gap_ = std::numeric_limits<double>::max();
   for (int row = 0; row < rows(); ++row) {
@@ -181,6 +186,10 @@ void ContactProblem::set_free_velocity(std::size_t structure, const double* velo
 
 void ContactProblem::gather_velocities() {
   interface_.gather(2, velocities_);
+  if (carried_ == nullptr) return;
+  const std::size_t dofs = displacement_.size();
+  add(carried_->velocity_before, {velocities_.data(), dofs});
+  add(carried_->velocity, {velocities_.data() + dofs, dofs});
 }
 
 void ContactProblem::solve_with_friction(const Component& component) {

@@ -50,6 +50,14 @@ class ContactProblem {
   /// u_n at the known places of the structure's trace, where it is at hand, in place of that over
   /// the dofs.
   void set_place_displacement(std::size_t structure, std::span<const double> places);
+  /// The places of dof_list() move beside what their structures do: displacement [m], and velocity
+  /// before and in the step [m/s], which the next gathers add. Members only.
+  struct Carried {
+    std::vector<double> displacement;
+    std::vector<double> velocity_before;
+    std::vector<double> velocity;
+  };
+  void carry(const Carried& carried) { carried_ = &carried; }
   /// Gathers the displacements, finds sliding pairs anew and computes the gaps. Members only,
   /// collective over them.
   void gather_displacements();
@@ -130,6 +138,7 @@ class ContactProblem {
   std::vector<double> diagonal_;  ///< H_ii
   std::vector<Component> components_;
   int coupled_rows_ = 0;
+  const Carried* carried_ = nullptr;  ///< null: nothing beside the structures
   std::vector<double> displacement_;  ///< per interface dof
   std::vector<double> velocities_;    ///< shape (2, dofs): before, free
   std::vector<double> gap_;

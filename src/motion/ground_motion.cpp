@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -226,6 +227,33 @@ void GroundMotion::count_times_from(double origin) {
     const std::size_t d = static_cast<std::size_t>(description.direction[0] - 'x');
     description.start = components_[d].start;
   }
+}
+
+GroundMotion GroundMotion::part(Part part, double from, double to) const {
+  GroundMotion result(*this);
+  for (Accelerogram& component : result.components_) {
+    for (std::size_t i = 0; i < component.acceleration.size(); ++i) {
+      const double t = component.start + static_cast<double>(i) * component.time_step;
+      const double share = std::clamp((t - from) / (to - from), 0.0, 1.0);
+      const double weight = (1 - std::cos(std::numbers::pi * share)) / 2;
+      component.acceleration[i] *= part == Part::sets_in ? weight : 1 - weight;
+    }
+  }
+  return result;
+}
+
+GroundMotion GroundMotion::times(double factor) const {
+  GroundMotion result(*this);
+  for (Accelerogram& component : result.components_) {
+    for (double& value : component.acceleration) value *= factor;
+  }
+  return result;
+}
+
+GroundMotion GroundMotion::counted_from(double origin) const {
+  GroundMotion result(*this);
+  for (Accelerogram& component : result.components_) component.start -= origin;
+  return result;
 }
 
 /// A record that sets in late by its own times beside one that has none.

@@ -79,6 +79,15 @@ class GroundMotion {
   /// t = 0 in the times of the files [s].
   double origin() const { return origin_; }
 
+  /// The part of the motion that sets in between two times [s], its samples times a weight that
+  /// rises from 0 to 1 as half a cosine; or what is left of it, so that both add up to the motion.
+  enum class Part { sets_in, leaves };
+  GroundMotion part(Part part, double from, double to) const;
+  /// The motion times a factor.
+  GroundMotion times(double factor) const;
+  /// The motion with `origin` [s] as t = 0.
+  GroundMotion counted_from(double origin) const;
+
   bool active(int direction) const { return !components_[direction].acceleration.empty(); }
 
   /// Samples applied in a direction; empty when it has no component.

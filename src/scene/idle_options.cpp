@@ -49,7 +49,6 @@ class IdleOptions {
     }
     needs("preload_solver", scene_.preload || !scene_.supports.empty(), "preload");
     needs("allow_unstable", scene_.time_step > 0, "time_step");
-    needs("fidelity_table", options_.given("fidelity_target"), "fidelity_target");
     const bool switched_off = std::ranges::any_of(direction_names, [&](const char* axis) {
       return options_.given("motion_<x|y|z>_record", {axis});
     });

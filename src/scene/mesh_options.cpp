@@ -47,7 +47,7 @@ constexpr auto of_no_effect = std::to_array<std::string_view>({"title",
                                                                "motion_level",
                                                                "resampling",
                                                                "fidelity_target",
-                                                               "fidelity_table",
+                                                               "fidelity_window",
                                                                "mesh_pieces",
                                                                "write_mesh_pieces"});
 

@@ -385,9 +385,25 @@ struct SpectraRequest {
   double peak_frequency = 0;           ///< of the low-pass before peaks of acceleration [Hz]
 };
 
+/// A reduction that was run for the sake of an accepted error, and had a larger one.
+struct TriedFidelity {
+  int modes = 0;         ///< of every reduced structure
+  double error = 0;      ///< estimated, rms of the logarithm of the floor spectra's ratio [-]
+  double wall_time = 0;  ///< estimate included [s]
+};
+
+/// How the program came to the fidelity of a run by an accepted error.
+struct FidelityClimb {
+  double target = 0;                 ///< that error, rms as above [-]; 0: none
+  int modes = 0;                     ///< of the structures in this run; 0: full order
+  std::vector<TriedFidelity> tried;  ///< before it
+  std::string reason;                ///< why it is at full order; empty where it is not
+};
+
 struct Scene {
   std::string title;
-  std::string fidelity_note;   ///< choice of -fidelity_target; empty without it
+  double fidelity_window = 0;  ///< at full order, by which errors are estimated [s]; 0: none
+  FidelityClimb fidelity;
   std::string structures_key;  ///< see scene/structures_key.h
   /// Options that cut meshes depend on, see scene/mesh_options.h.
   std::vector<std::pair<std::string, std::string>> mesh_options;

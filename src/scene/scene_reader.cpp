@@ -10,7 +10,6 @@
 #include "scene/doubts.h"
 #include "scene/equipment_reader.h"
 #include "scene/factor_reader.h"
-#include "scene/fidelity_target.h"
 #include "scene/filler_reader.h"
 #include "scene/force_reader.h"
 #include "scene/idle_options.h"
@@ -116,9 +115,9 @@ class SceneReader {
     scene_.end_time = options_.real("end_time");
     scene_.courant = options_.real("courant");
     if (options_.given("fidelity_target")) {
-      options_.real("fidelity_target");  // in force, and obeyed already
+      scene_.fidelity.target = options_.real("fidelity_target");
     }
-    options_.text("fidelity_table");
+    scene_.fidelity_window = options_.real("fidelity_window");
     scene_.time_step = options_.real("time_step");
     scene_.allow_unstable = options_.boolean("allow_unstable");
     scene_.omega_max_tolerance = options_.real("omega_max_tolerance");
@@ -471,14 +470,7 @@ class SceneReader {
 }  // namespace
 
 ReadScene read_scene(const OptionsDatabase& database) {
-  const OptionsDatabase whole = with_standard_parts(database);
-  ReadScene read = SceneReader(whole).read();
-  const ChosenFidelity chosen = choose_fidelity(whole, read.scene.structures_key);
-  if (!chosen.note.empty()) {
-    read = SceneReader(chosen.options).read();
-    read.scene.fidelity_note = chosen.note;
-  }
-  return read;
+  return SceneReader(with_standard_parts(database)).read();
 }
 
 }  // namespace pounding

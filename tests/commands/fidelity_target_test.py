@@ -1,97 +1,130 @@
-"""-fidelity_target through the program: the fastest setting of the shipped table within the error that is
-accepted, said aloud, and never against what the user asked for himself."""
-import csv
+"""The error of reduced structures that the program tells, beside the true one, and -fidelity_target, which takes as few
+modes as an accepted error allows."""
+import math
 import os
 import tempfile
 import unittest
 
+import numpy as np
+
 import program
+import two_buildings
+from two_buildings import pounding
 
-TABLE = os.path.join(program.SOURCE, "petsc-options", "azalee", "fidelity.csv")
-
-
-def settings():
-    with open(TABLE, newline="") as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+PIERS = ["-options_file", "petsc-options/plant/piers.yaml", "-modes", 1, "-end_time", 1.6,
+         "-spectra_frequencies", "1:400:131log"]
 
 
-def fastest(target):
-    return min((row for row in settings() if float(row["rms"]) <= target), key=lambda row: float(row["cost"]))
+def reduced(names, modes, window):
+    words = [word for name in names for word in (f"-{name}_model", "modal", f"-{name}_modal_vectors", modes)]
+    return [*words, "-fidelity_window", window]
 
 
-class FidelityTarget(unittest.TestCase):
-    """On a coarse mesh, with the shipped table as if it had been measured there."""
+def true_error(found, full):
+    """rms of the logarithm of the spectra's ratio over ln f, 1-400 Hz, of all channels that move."""
+    squares = []
+    for probe in full.spectrum_probes:
+        if probe == "ground":
+            continue
+        spectra = {axis: full.spectrum(probe, axis) for axis in "xyz"}
+        largest = max(values.max() for _, values in spectra.values())
+        for axis, (frequency, values) in spectra.items():
+            if values.max() <= 1e-3 * largest or values.min() <= 1e-9 * largest:
+                continue
+            inside = (frequency >= 1 - 1e-9) & (frequency <= 400.001)
+            ratio = np.log(found.spectrum(probe, axis)[1] / values)[inside]
+            logs = np.log(frequency[inside])
+            squares.append(np.trapz(ratio**2, logs) / (logs[-1] - logs[0]))
+    return math.sqrt(sum(squares) / len(squares))
+
+
+class Estimate(unittest.TestCase):
+    """The two piers and the two small buildings, each reduced and at full order."""
 
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp(prefix="pounding-")
-        result = program.run(program.COARSE_PAIR + ["-end_time", 1e-4, "-modes", 0, "-output", cls.folder], 1)
-        assert result.returncode == 0, result.stderr
-        key = program.summary(cls.folder)["structures_key"]
-        path = os.path.join(cls.folder, "table.csv")
-        with open(TABLE) as file, open(path, "w") as copy:
-            for line in file:
-                copy.write(f"# structures: {key} coarse pair\n" if line.startswith("# structures: ") else line)
-        cls.coarse = program.COARSE_PAIR + ["-fidelity_table", path]
+        cls.full = program.must_run(cls(), PIERS, 2)[0]
 
-    def test_table_has_full_order_and_faster_settings_for_every_class(self):
-        rows = {row["setting"]: row for row in settings()}
-        self.assertEqual(float(rows["full"]["rms"]), 0)
-        for target in (0.01, 0.03, 0.05, 0.1):
-            self.assertLess(float(fastest(target)["cost"]), float(rows["full"]["cost"]) / 2)
+    def estimate(self, words, ranks=2):
+        folder, summary = program.must_run(self, words, ranks)
+        return folder, summary["fidelity"]
 
-    def test_takes_the_fastest_within_the_target(self):
-        for target in (0.003, 0.05):
-            chosen = fastest(target)
-            for ranks in (1, 2):
-                folder, summary = program.must_run(
-                    self, self.coarse + ["-end_time", 0.02, "-modes", 1, "-fidelity_target", target], ranks)
-                for word in chosen["options"].split():
-                    name, value = word.split("=")
-                    names = [name[1:]] if name.startswith("-") else [f"s1_{name}", f"s2_{name}"]
-                    for option in names:
-                        found = summary["options"][option]
-                        self.assertTrue(found == value or float(found) == float(value), (option, found))
+    def test_it_is_within_a_factor_of_two(self):
+        for modes in (6, 20):
+            folder, told = self.estimate(PIERS + reduced(("tall", "low"), modes, 0.5))
+            ratio = told["rms"]["1-400"] / true_error(pounding.load(folder), pounding.load(self.full))
+            self.assertGreater(ratio, 0.5, (modes, told))
+            self.assertLess(ratio, 2, (modes, told))
+            self.assertGreater(told["impulse"], 0)
+            self.assertAlmostEqual(told["window"][1] - told["window"][0], 0.5, delta=0.001)
 
-    def test_probes_and_forces_are_no_part_of_the_key(self):
-        """Those of the pair have names that begin as the structures' do."""
-        base = ["-forces", "s1_base", "-s1_base_structure", "s1", "-s1_base_kind", "reactions"]
-        keys = {program.must_run(self, program.COARSE_PAIR + ["-end_time", 1e-4, "-modes", 0, *words], 1)[1]["structures_key"]
-                for words in ([], ["-probes", "none"], ["-s1_floor2_at", "0,0,5.22"], ["-s1_floor2_floor", "false"], base)}
-        self.assertEqual(len(keys), 1)
+    def test_frames_with_uniform_damping(self):
+        scene = two_buildings.own_scene(self.folder, "modes: 0\n")
+        words = ["-options_file", scene]
+        full = program.must_run(self, words, 2)[0]
+        folder, told = self.estimate(words + reduced(("left", "right"), 60, 0.4))
+        ratio = told["rms"]["1-400"] / true_error(pounding.load(folder), pounding.load(full))
+        self.assertGreater(ratio, 0.5, told)
+        self.assertLess(ratio, 2, told)
 
-    def test_says_what_it_took_and_why(self):
-        result = program.must_end(self, self.coarse + ["-dry_run", "-fidelity_target", 0.05], 2)
-        line, = [line for line in result.stdout.splitlines() if line.startswith("fidelity target")]
-        self.assertIn(f"'{fastest(0.05)['setting']}'", line)
-        plain = program.run(self.coarse + ["-dry_run"], 2)
-        self.assertNotIn("fidelity target", plain.stdout)
+    def test_a_basis_of_all_modes_is_exact(self):
+        """But for the time step, which is another one at full order: the window sees next to nothing."""
+        words = PIERS + ["-tall_mesh_set", "cells_x=1,cells_y=2,cells_z=9", "-low_mesh_set",
+                         "x0=0.604,thickness=0.5,height=7,cells_x=1,cells_y=2,cells_z=7", "-time_step", 2e-5]
+        _, told = self.estimate(words + reduced(("tall", "low"), 1000, 0.5))
+        self.assertLess(told["window_rms"]["1-400"], 0.004)
+
+    def test_ranks_and_repetition(self):
+        words = PIERS + reduced(("tall", "low"), 6, 0.2)
+        told = [self.estimate(words, ranks)[1] for ranks in (1, 2, 2)]
+        for band, value in told[0]["rms"].items():
+            self.assertAlmostEqual(told[1]["rms"][band] / value, 1, delta=1e-4, msg=band)
+            self.assertEqual(told[1]["rms"][band], told[2]["rms"][band])
+        self.assertEqual(list(told[0]["channels"]), list(told[1]["channels"]))
+
+    def test_scenes_that_it_cannot_tell_are_refused(self):
+        window = ["-fidelity_window", 0.2]
+        program.must_refuse(self, PIERS + window, "-fidelity_window", "no structure is reduced")
+        words = PIERS + reduced(("tall", "low"), 6, 0.2)
+        program.must_refuse(self, words + ["-tall_modal_damping", 0.03], "-fidelity_window", "ratios of modes of tall")
+        program.must_refuse(self, words + ["-joint_sliding", 0.1], "-fidelity_window", "faces of contact joint slide")
+
+
+class Target(unittest.TestCase):
+    """-fidelity_target on the two piers."""
+
+    def test_takes_the_first_modes_that_suffice(self):
+        result_folder, summary = program.must_run(self, PIERS + ["-fidelity_target", 0.05, "-fidelity_window", 0.3], 2)
+        climb = summary["fidelity_climb"]
+        self.assertEqual(climb["target"], 0.05)
+        self.assertEqual(summary["options"]["tall_modal_vectors"], str(climb["modes"]))
+        self.assertLessEqual(summary["fidelity"]["rms"]["1-400"], 0.05)
+        self.assertTrue(all(one["error"] > 0.05 for one in climb["tried"]))
+        self.assertNotIn("fidelity_target", pounding.load(result_folder).summary["options"])
+
+    def test_full_order_where_it_is_as_cheap_and_says_why(self):
+        words = PIERS + ["-fidelity_target", 1e-5, "-fidelity_window", 0.2]
+        result = program.must_end(self, words, 2)
+        self.assertIn("full order is taken, which", result.stdout)
+        self.assertIn("25 modes are", result.stdout)
 
     def test_what_the_user_gave_wins(self):
-        result = program.must_end(self, self.coarse + ["-dry_run", "-fidelity_target", 0.05, "-s1_model", "full"], 2)
-        line, = [line for line in result.stdout.splitlines() if line.startswith("fidelity target")]
-        self.assertNotIn("modal", line)
-        self.assertIn("mass_scaling", line)
+        _, summary = program.must_run(self, PIERS + ["-fidelity_target", 0.5, "-fidelity_window", 0.2, "-tall_model", "full"], 2)
+        self.assertEqual(summary["options"]["tall_model"], "full")
+        self.assertEqual(summary["options"]["low_model"], "modal")
 
-    def test_other_structures_than_those_measured_are_refused(self):
-        pair = ["-options_file", "petsc-options/azalee/gap2.yaml"]
-        for words in (program.COARSE_PAIR, ["-options_file", "petsc-options/azalee/b-gap2.yaml"],
-                      pair + ["-s1_brace1_area", 130e-6], pair + ["-material_concrete_young", 28e9]):
-            for ranks in (1, 2):
-                program.must_refuse(self, [*words, "-dry_run", "-fidelity_target", 0.05],
-                                    "measured on other structures", "pair.yaml", "docs/fidelity.md", ranks=ranks)
-
-    def test_shipped_cases_of_the_pair_are_those_measured(self):
-        for case in ("gap2", "demo"):
-            result = program.must_end(self, ["-options_file", f"petsc-options/azalee/{case}.yaml", "-dry_run",
-                                             "-fidelity_target", 0.0005, "-modes", 1], 2)
-            self.assertIn("'intervals'", result.stdout)
-
-    def test_wrong_words_are_one_line(self):
-        for words in (["-fidelity_target", -1], ["-fidelity_target", 0.05, "-fidelity_table", "nowhere.csv"]):
-            result = program.run(self.coarse + ["-dry_run"] + words, 2)
-            self.assertEqual(result.returncode, 1)
-            self.assertEqual(len(program.error_lines(result)), 1, result.stderr)
+    def test_mistakes_are_one_line(self):
+        for target in (0, -1, 1.5):
+            program.must_refuse(self, PIERS + ["-fidelity_target", target], "-fidelity_target")
+        words = PIERS + ["-fidelity_target", 0.05]
+        program.must_refuse(self, words + ["-low_model", "modal", "-low_modal_vectors", 9], "-fidelity_target",
+                            "reduced already")
+        program.must_refuse(self, words + ["-low_model", "full", "-tall_model", "full"], "-fidelity_target", "leave")
+        program.must_refuse(self, words + ["-probes", "none"], "-fidelity_target", "probe")
+        program.must_refuse(self, words + ["-ensemble", "many.csv"], "-fidelity_target", "-ensemble")
+        damped = ["-low_pier_damping_alpha", 0.1, "-low_pier_damping_beta", 1e-5]
+        program.must_refuse(self, words + damped, "-fidelity_target", "cannot be reduced")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""run/tradeoff --scene on a scene of one's own: its errors are those of its spectra, its table chooses a setting."""
+"""run/tradeoff --scene on a scene of one's own: its errors are those of its spectra, with estimates beside them."""
 import csv
 import math
 import os
@@ -18,7 +18,7 @@ class SceneStudy(unittest.TestCase):
         cls.folder = tempfile.mkdtemp(prefix="pounding-")
         cls.scene = two_buildings.own_scene(cls.folder, "modes: 0\n")
         cls.out = os.path.join(cls.folder, "study")
-        cls.words = ["tradeoff", "--scene", cls.scene, "--only", "modal-50", "--output", cls.out]
+        cls.words = ["tradeoff", "--scene", cls.scene, "--only", "modal-50", "--estimate", 0.3, "--output", cls.out]
         cls.done = program.command(*cls.words)
 
     def rows(self):
@@ -41,16 +41,9 @@ class SceneStudy(unittest.TestCase):
                 squares.append(sum(value**2 for value in logs) / len(logs))
         self.assertAlmostEqual(float(rows["modal-50"]["rms"]) / math.sqrt(sum(squares) / len(squares)), 1, delta=1e-3)
         self.assertLess(float(rows["noise-step"]["rms"]), float(rows["modal-50"]["rms"]))
-
-    def test_the_table_chooses_for_this_scene_only(self):
-        table = os.path.join(self.out, "fidelity.csv")
-        words = ["-options_file", self.scene, "-fidelity_table", table, "-fidelity_target", 10, "-end_time", 0.01]
-        for ranks in (1, 2):
-            summary = program.must_run(self, words, ranks)[1]
-            chosen = summary["options"]["left_model"]
-            self.assertIn(chosen, ("full", "modal"))
-        program.must_refuse(self, program.COARSE_PAIR + ["-fidelity_table", table, "-fidelity_target", 10],
-                            "-fidelity_target", "measured on other structures")
+        told = runs["modal-50"].summary["fidelity"]["rms"]["1-400"]
+        self.assertAlmostEqual(float(rows["modal-50"]["estimate"]) / told, 1, delta=1e-3)
+        self.assertEqual(rows["full"]["estimate"], "")
 
     def test_finished_runs_are_kept(self):
         path = os.path.join(self.out, "scene", "full", "summary.json")
@@ -66,7 +59,7 @@ class SceneStudy(unittest.TestCase):
 
     def test_mistakes_are_one_line(self):
         for words, part in ((("--scene", "nothing.yaml"), "no such file"), (("--scene", self.scene, "--gap", "gap2"), "--gap"),
-                            (("--only", "modal-51"), "none of")):
+                            (("--only", "modal-51"), "none of"), (("--estimate", "1"), "--scene")):
             done = program.command("tradeoff", *words)
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(part, done.stderr)

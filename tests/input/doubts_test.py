@@ -75,7 +75,7 @@ class WithoutEffect(Doubts):
             "impact_merge_time": "2e-3", "gap_tolerance": "1e-9", "preload_solver": "direct", "courant": "0.5",
             "motion_level": "2", "resampling": "band_limited", "spectra_damping": "0.02", "spectra_frequencies": "10",
             "peak_frequency": "30", "write_modes": "true", "m_damping_factor": "2", "m_link1_dashpot_exponent": "0.5",
-            "m_link1_hardening": "0.1", "fidelity_table": "none.csv"}
+            "m_link1_hardening": "0.1"}
 
     def test_each_is_named_once(self):
         words = [word for name, value in self.IDLE.items() for word in (f"-{name}", value)]

@@ -10,7 +10,7 @@ from pounding.runs import environment, finish, words_of
 from .metrics import GRID
 from .settings import Setting
 
-NEEDED = ("structures", "options", "impacts", "energy", "time_step", "steps", "peak_memory", "structures_key")
+NEEDED = ("structures", "options", "impacts", "energy", "time_step", "steps", "peak_memory")
 SOURCE = Path(__file__).resolve().parents[3]
 
 

@@ -31,22 +31,23 @@ def of_all(structures: list, option: str, value) -> tuple:
     return tuple((f"{name}_{option}", value) for name in structures)
 
 
-def of_scene(structures: list, dofs: int, time_step: float) -> list:
+def of_scene(structures: list, dofs: int, time_step: float, estimate: float | None = None) -> list:
     """Savings for any scene: `dofs` of its largest structure bound the modes, mass is scaled for multiples of its
-    `time_step` at full order [s]."""
+    `time_step` at full order [s]. `estimate`: seconds at full order by which reduced runs estimate their errors."""
     fast = (("courant", 0.99), RARE)
-    counts = [n for n in (50, 100, 200, 400, 800) if n < dofs]
+    counts = [n for n in (25, 50, 100, 200, 400, 800) if n < dofs]
     step = {factor: float(f"{factor * time_step:.3g}") for factor in (2, 4)}
     savings = [Setting("courant-0.99", "0.99 of the stable step", (("courant", 0.99),)),
                Setting("intervals", "gaps recorded every 0.01 s, energy ledger every 2000 steps",
                        (RARE, ("energy_interval", 2000)))]
     savings += [Setting(f"mass-{factor}", f"stiff members scaled for a step of {value:.3g} s",
                         of_all(structures, "mass_scaling", value)) for factor, value in step.items()]
+    told = (("fidelity_window", estimate),) if estimate else ()
     for n in counts:
-        reduced = (*of_all(structures, "model", "modal"), *of_all(structures, "modal_vectors", n))
+        reduced = (*of_all(structures, "model", "modal"), *of_all(structures, "modal_vectors", n), *told)
         savings.append(Setting(f"modal-{n}", f"{n} modes and attachment vectors, gaps every 0.01 s", (*reduced, RARE)))
     for n in counts:
-        reduced = (*of_all(structures, "model", "modal"), *of_all(structures, "modal_vectors", n))
+        reduced = (*of_all(structures, "model", "modal"), *of_all(structures, "modal_vectors", n), *told)
         savings.append(Setting(f"modal-{n}-fast", f"{n} modes, mass scaled for {step[4]:.3g} s, 0.99 of the stable step",
                                (*reduced, *of_all(structures, "mass_scaling", step[4]), *fast)))
     return savings

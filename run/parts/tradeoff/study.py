@@ -2,8 +2,6 @@
 
 from statistics import median
 
-from parts import called
-
 from .metrics import class_of, compare
 from .runs import Case, Outcome, run
 from .settings import NOISE, REFERENCE, Setting
@@ -43,7 +41,7 @@ def row_of(case: Case, setting: Setting, found: Outcome, reference: Outcome) -> 
            "speed_up": reference.per_second() / found.per_second(), "steps": found.summary["steps"],
            "time_step": found.summary["time_step"], "memory": found.summary["peak_memory"],
            "energy_residual": found.summary["energy"]["relative_residual"],
-           "structures_key": reference.summary["structures_key"],
+           "estimate": found.summary["fidelity"]["rms"]["1-400"] if "fidelity" in found.summary else None,
            "rms": rms, "max": largest, "class": class_of(rms, largest),
            "impulse": impacts["total_impulse"], "episodes": impacts["episodes"],
            "impulse_error": impacts["total_impulse"] / expected["total_impulse"] - 1
@@ -88,49 +86,11 @@ def summarised(rows: list) -> list:
         worst = {key: max(abs(row[key]) for row in mine)
                  for key in ("rms", "max", "rms 1-10", "rms 10-50", "rms 50-150", "rms 150-400",
                              "impulse_error", "drift_error", "energy_residual")}
-        result.append({"setting": name, "structures_key": mine[0]["structures_key"], "noise": mine[0]["noise"], "cases": len(mine), **mean, **worst,
+        told = [row["estimate"] for row in mine if row["estimate"] is not None]
+        result.append({"setting": name, "estimate": max(told, default=None), "noise": mine[0]["noise"], "cases": len(mine), **mean, **worst,
                        "median rms": median(row["rms"] for row in mine),
                        "class": class_of(worst["rms"], worst["max"])})
     return result
-
-
-def portable(setting: Setting, structures: tuple) -> str | None:
-    """The options of a setting as `-fidelity_table` has them: those that all structures share, and those of the run.
-    None if it has others."""
-    changes = {name: value for name, value in setting.changes if not name.endswith("_modal_basis")}
-    heads = tuple(f"{name}_" for name in structures)
-    words = []
-    for name, value in changes.items():
-        head = next((head for head in heads if name.startswith(head)), None)
-        if head is None:
-            words.append(f"-{name}={value}")
-            continue
-        option = name[len(head):]
-        if any(changes.get(other + option) != value for other in heads):
-            return None
-        if head == heads[0]:
-            words.append(f"{option}={value}")
-    return None if setting.shells else " ".join(words)
-
-
-PAIR = ("the two-storey pair", "floor 2, 1-400 Hz, in the worst case",
-        "the two-storey pair of petsc-options/azalee/pair.yaml")
-
-
-def fidelity_table(summary: list, settings: list, structures: tuple, what: tuple) -> str:
-    """What `-fidelity_table` reads: every setting that the structures share, with error and cost. `what`: on what it
-    was measured, which spectra, and which structures, in words."""
-    scene, spectra, key = what
-    lines = [f"# Settings measured by {called('run/tradeoff')} on {scene}: rms of ln(floor spectrum / full order) on",
-             f"# {spectra}, and wall time per second of motion. Read by -fidelity_target.",
-             f"# structures: {summary[0]['structures_key']} {key}",
-             "setting,rms,cost,options"]
-    for row in summary:
-        setting = next((one for one in settings if one.name == row["setting"]), None)
-        options = portable(setting, structures) if setting else None
-        if options is not None and not setting.noise:
-            lines.append(f"{setting.name},{row['rms']:.3g},{row['per_second']:.3g},{options}")
-    return "\n".join(lines) + "\n"
 
 
 def recommendations(summary: list) -> list:

@@ -28,6 +28,28 @@ class GroundMotionTest : public MotionFiles {
   const std::string shape = "0\n1\n-4\n2\n";
 };
 
+TEST_F(GroundMotionTest, PartsAddUpToTheMotion) {
+  const GroundMotion motion(Components{record(shape, 0.5), std::nullopt, std::nullopt},
+                            Resampling::linear);
+  const GroundMotion sets_in = motion.part(GroundMotion::Part::sets_in, 0.25, 1.25);
+  const GroundMotion leaves = motion.part(GroundMotion::Part::leaves, 0.25, 1.25);
+  for (const double t : {0.0, 0.2, 0.5, 0.7, 1.0, 1.3, 1.5}) {
+    EXPECT_NEAR(sets_in.acceleration(0, t) + leaves.acceleration(0, t), motion.acceleration(0, t),
+                1e-15);
+  }
+  const double share = (1 - std::cos(std::acos(-1.0) / 4)) / 2;  // a quarter of the way up
+  EXPECT_NEAR(sets_in.acceleration(0, 0.5), share * 1, 1e-15);
+  EXPECT_EQ(sets_in.acceleration(0, 1.5), 2);
+  EXPECT_EQ(leaves.acceleration(0, 1.5), 0);
+}
+
+TEST_F(GroundMotionTest, TimesCountFromAnOrigin) {
+  const GroundMotion motion(Components{record(shape, 0.5), std::nullopt, std::nullopt},
+                            Resampling::linear);
+  EXPECT_DOUBLE_EQ(motion.counted_from(0.4).acceleration(0, 0.1), motion.acceleration(0, 0.5));
+  EXPECT_EQ(motion.counted_from(1).acceleration(0, 0.75), 0);
+}
+
 TEST_F(GroundMotionTest, LinearBetweenSamplesAndZeroOutside) {
   const GroundMotion motion(Components{record(shape, 0.5), std::nullopt, std::nullopt},
                             Resampling::linear);
