@@ -10,32 +10,27 @@
 #include "driver/applied_loads.h"
 #include "driver/field_plan.h"
 #include "driver/filler_limit.h"
+#include "driver/full_order.h"
 #include "driver/mesh_pieces.h"
+#include "driver/modal_bases.h"
 #include "driver/model_doubts.h"
 #include "driver/model_file.h"
 #include "driver/report.h"
 #include "driver/rest.h"
 #include "driver/rest_gaps.h"
 #include "driver/separation.h"
-#include "driver/start_states.h"
 #include "driver/storeys.h"
 #include "driver/subject_facts.h"
 #include "driver/time_step.h"
 #include "driver/warnings.h"
 #include "driver/whole_meshes.h"
-#include "modal/buckling.h"
-#include "modal/definiteness.h"
+#include "mesh/start_states.h"
 #include "modal/reduced_system.h"
-#include "modal/reduction.h"
 #include "scene/factor_reader.h"
 #include "scene/soil_reader.h"
 #include "scene/support_reader.h"
 #include "stability/step_target.h"
 #include "stability/structure_limits.h"
-#include "statics/find_support_shapes.h"
-#include "system/axial_forces.h"
-#include "system/build_system.h"
-#include "system/links.h"
 #include "system/load_shapes.h"
 #include "system/start_state.h"
 
@@ -47,7 +42,7 @@ Progress begin(MPI_Comm comm, const Scene& scene, const Structure& structure, co
   return Progress(comm, structure.name + ": " + what, scene.progress_interval);
 }
 
-/// Tells every rank what rank 0 knows of the mat of a structure on soil. Collective.
+/// Shares the place of the mat of a structure on soil, which rank 0 has. Collective.
 void share_foundation(MPI_Comm comm, MatPlace place, Structure& structure) {
   if (!structure.soil) return;
   std::vector<double> numbers{place.node[0],   place.node[1],   place.node[2],  place.centre[0],
@@ -59,7 +54,7 @@ void share_foundation(MPI_Comm comm, MatPlace place, Structure& structure) {
   lay_foundation(place, structure);
 }
 
-/// Tells every rank what rank 0 found in the whole meshes. Collective.
+/// Shares the findings of rank 0 in the whole meshes. Collective.
 void share_findings(MPI_Comm comm, Scene& scene, WholeMeshes& whole,
                     const ContactsKnown& contacts_known, Model& model) {
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
@@ -76,7 +71,7 @@ void share_findings(MPI_Comm comm, Scene& scene, WholeMeshes& whole,
   broadcast_start_states(comm, model.starts);
 }
 
-/// Rank 0 reads the meshes, finds who faces whom, and sends every rank its part.
+/// Rank 0 reads the meshes, finds the faces in contact, and sends every rank its part.
 void share_meshes(MPI_Comm comm, Scene& scene, Profile& profile,
                   const ContactsKnown& contacts_known, WholeMeshes& whole, Model& model) {
   {
@@ -150,16 +145,17 @@ void build_meshes(MPI_Comm comm, Scene& scene, std::span<const double> stiffness
   if (scene.dry_run && scene.write_model) write_model(comm, scene, model);
   model.storey_bases = find_storey_bases(comm, scene, model);
   const Progress progress(comm, "modal bases", scene.progress_interval);
-  auto bases = find_bases(comm, scene, whole.meshes, model.interface, model.probes, model.forces,
-                          model.storey_bases, model.support_columns(), model.scene_loads(),
-                          model.starts, profile);
+  find_bases(comm, scene, whole.meshes, profile, model);
   for (std::size_t s = 0; s < count; ++s) {
-    if (bases[s]) {
-      scale_stiffness(stiffness_factors[s], *bases[s]);
-      scale_stiffness(stiffness_factors[s], scene.structures[s]);  // forces are of its elements
-    }
-    model.buildings[s].basis = std::move(bases[s]);
+    if (!model.buildings[s].basis) continue;
+    scale_stiffness(stiffness_factors[s], *model.buildings[s].basis);
+    scale_stiffness(stiffness_factors[s], scene.structures[s]);  // forces are of its elements
   }
+}
+
+/// Whether the damping of a structure refers to its first frequency.
+bool keeps_first_mode(const Structure& structure) {
+  return structure.uniform_damping && structure.uniform_damping->reference == 0;
 }
 
 EigenvalueEffort effort_of(const Scene& scene, Progress& progress) {
@@ -186,96 +182,86 @@ bool leans(const Structure& structure) {
   return structure.p_delta && !structure.modal;
 }
 
-/// How a structure at full order follows its supports, if these move on their own. Collective.
-void find_shapes(MPI_Comm comm, const Scene& scene, const Structure& structure, const Mesh& mesh,
-                 const Model& model, LinearSystem& system) {
-  if (!model.supports || !stands_on_moving_support(scene, structure)) return;
-  const Progress progress = begin(comm, scene, structure, "static responses to its supports");
-  system.supports =
-      find_support_shapes(structure, mesh, system, model.support_columns(), scene.preload_solver);
-  if (system.links) system.links->find_trace(system, mesh);
-}
-
-/// System and modes of a structure whose mesh is distributed and whose basis is known.
-/// `for_weight`: only what the equilibrium under its weight needs.
-void build_structure(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& profile,
-                     Model& model, bool for_weight = false) {
-  const Structure& wanted = scene.structures[s];
-  const Mesh& mesh = model.meshes[s];
+/// System of a structure in the coordinates of its basis.
+void build_reduced(MPI_Comm comm, const Scene& scene, std::size_t s, Model& model) {
+  const Structure& structure = scene.structures[s];
   Building& building = model.buildings[s];
   LinearSystem& system = model.systems[s];
-  building.structure = &wanted;
-  building.mesh = &mesh;
-  building.system = &system;
-  building.beams = beam_waves(comm, wanted, mesh);
-  if (building.basis) {
-    building.modal = modes_of_basis(*building.basis, scene.modes);
-    building.mode_gaps = modes_at_contacts(comm, model, s);  // before its rows go into the system
-    system = build_reduced_system(comm, owners_of_reduced(size_of(comm), scene)[s], wanted, mesh,
-                                  *building.basis, model.support_columns());
-    system.loads = shape_reduced_loads(model.scene_loads(), static_cast<int>(s),
-                                       building.basis->load_parts, system.owned_dofs() > 0);
-    system.start = shape_reduced_start(building.basis->start_parts, system.lumped_mass,
-                                       system.owned_dofs() > 0);
-    building.limits = limits_of(wanted, system, mesh, building.basis_or_null(), {});
-    return;
-  }
+  building.modal = modes_of_basis(*building.basis, scene.modes);
+  building.mode_gaps = modes_at_contacts(comm, model, s);  // before its rows go into the system
+  system = build_reduced_system(comm, owners_of_reduced(size_of(comm), scene)[s], structure,
+                                model.meshes[s], *building.basis, model.support_columns());
+  system.loads = shape_reduced_loads(model.scene_loads(), static_cast<int>(s),
+                                     building.basis->load_parts, system.owned_dofs() > 0);
+  system.start =
+      shape_reduced_start(building.basis->start_parts, system.lumped_mass, system.owned_dofs() > 0);
+  building.limits = limits_of(structure, system, model.meshes[s], building.basis_or_null(), {});
+}
+
+/// Assembles a structure at full order, with the design of its step if that has a target.
+void assemble(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& profile, Model& model) {
+  const Structure& wanted = scene.structures[s];
+  Building& building = model.buildings[s];
   if (wanted.step_target) {
     Progress progress = begin(comm, scene, wanted, "time step target");
-    building.design = design_for_target(wanted, mesh, scene.stiffness, effort_of(scene, progress));
+    building.design =
+        design_for_target(wanted, model.meshes[s], scene.stiffness, effort_of(scene, progress));
   }
-  const Structure& structure = building.design ? building.design->structure : wanted;
-  const bool exported = !scene.export_matrices.empty();
-  const bool keeps_first = structure.uniform_damping && structure.uniform_damping->reference == 0;
-  const int modes = std::max(for_weight ? 0 : scene.modes, keeps_first ? 1 : 0);
-  const bool with_matrix =
-      modes > 0 || exported || scene.preload || stands_on_moving_support(scene, wanted);
-  {
-    const ScopedTimer timer(profile, Phase::assembly);
-    const Progress progress = begin(comm, scene, structure, "assembly");
-    system = build_system(structure, mesh, scene.stiffness, with_matrix);
-    system.loads = shape_loads(model.scene_loads(), static_cast<int>(s), mesh);
-    system.start = shape_start(model.starts[s], system, mesh);
-  }
+  const ScopedTimer timer(profile, Phase::assembly);
+  const Progress progress = begin(comm, scene, wanted, "assembly");
+  const bool with_matrix = scene.modes > 0 || keeps_first_mode(building.full_order()) ||
+                           scene.preload || !scene.export_matrices.empty() ||
+                           stands_on_moving_support(scene, wanted);
+  model.systems[s] = assemble_structure(model, s, building.full_order(), model.meshes[s],
+                                        scene.stiffness, with_matrix);
+}
+
+/// System, modes and limits of a structure at full order.
+void build_full(MPI_Comm comm, const Scene& scene, std::size_t s, Profile& profile, Model& model) {
+  assemble(comm, scene, s, profile, model);
+  const Mesh& mesh = model.meshes[s];
+  Building& building = model.buildings[s];
+  const Structure& structure = building.full_order();
+  LinearSystem& system = model.systems[s];
+  const bool keeps_first = keeps_first_mode(structure);
   const ScopedTimer timer(profile, Phase::modes);
-  require_passive_matrices(structure, system);
-  if (building.compression) require_no_buckling(structure, mesh, system, *building.compression);
+  require_stable(structure, mesh, system, building.compression);
   {
     const Progress progress = begin(comm, scene, structure, "lowest modes");
     const bool with_shapes = scene.write_modes || !scene.contacts.empty();
-    building.modal = lowest_modes(system, mesh, modes, with_shapes, scene.modes_solver);
+    building.modal = lowest_modes(system, mesh, std::max(scene.modes, keeps_first ? 1 : 0),
+                                  with_shapes, scene.modes_solver);
   }
   if (keeps_first) {
     system.uniform_damping->reference = reference_frequency(structure, building.modal);
   }
-  if (for_weight) return;
-  find_shapes(comm, scene, structure, mesh, model, system);
+  {
+    const Progress progress = begin(comm, scene, structure, "static responses to its supports");
+    follow_supports(model, structure, mesh, scene.preload_solver, system);
+  }
   building.modal.modes.resize(std::min<std::size_t>(building.modal.modes.size(), scene.modes));
   if (!scene.contacts.empty()) building.mode_gaps = modes_at_contacts(comm, model, s);
   if (!scene.write_modes) {
     for (Mode& mode : building.modal.modes) mode.shape = {};
   }
-  if (!exported && !scene.preload) system.stiffness->release_matrix();
+  if (scene.export_matrices.empty() && !scene.preload) system.stiffness->release_matrix();
   Progress progress = begin(comm, scene, structure, "largest frequency and stable time step");
   building.limits = limits_of(structure, system, mesh, nullptr, effort_of(scene, progress));
 }
 
-/// Axial forces of the weight at rest, and the structures built anew with them.
+/// Axial forces of the weight at rest in structures that lean, which are assembled for it, while
+/// the others are built.
 void turn_weight_with_columns(MPI_Comm comm, const Scene& scene, Profile& profile, Model& model) {
   if (std::ranges::none_of(scene.structures, leans)) return;
-  std::vector<std::vector<double>> displacement;
-  {
-    const ScopedTimer timer(profile, Phase::assembly);
-    const Progress progress(comm, "static equilibrium for P-Delta", scene.progress_interval);
-    displacement = find_equilibrium(comm, model.systems, model.meshes, model.interface,
-                                    rows_open_at_rest(scene, model.interface), scene.preload_solver)
-                       .displacement;
-  }
+  const ScopedTimer timer(profile, Phase::assembly);
+  const Progress progress(comm, "static equilibrium for P-Delta", scene.progress_interval);
+  const Equilibrium rest =
+      find_equilibrium(comm, model.systems, model.meshes, model.interface,
+                       rows_open_at_rest(scene, model.interface), scene.preload_solver);
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     if (!leans(scene.structures[s])) continue;
     model.buildings[s].compression =
-        set_axial_forces(scene.structures[s], displacement[s], model.meshes[s]);
-    build_structure(comm, scene, s, profile, model);
+        set_axial_forces(scene.structures[s], rest.displacement[s], model.meshes[s]);
   }
 }
 
@@ -298,9 +284,24 @@ void add_warnings(MPI_Comm comm, const Scene& scene, Model& model) {
 /// Builds systems, modes, equilibrium and time step on meshes that are there. Collective.
 void build_structures(MPI_Comm comm, Scene& scene, Profile& profile, Model& model) {
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
-    build_structure(comm, scene, s, profile, model, leans(scene.structures[s]));
+    const Structure& structure = scene.structures[s];
+    Building& building = model.buildings[s];
+    building.structure = &structure;
+    building.mesh = &model.meshes[s];
+    building.system = &model.systems[s];
+    building.beams = beam_waves(comm, structure, model.meshes[s]);
+    if (structure.modal) {
+      build_reduced(comm, scene, s, model);
+    } else if (leans(structure)) {
+      assemble(comm, scene, s, profile, model);
+    } else {
+      build_full(comm, scene, s, profile, model);
+    }
   }
   turn_weight_with_columns(comm, scene, profile, model);
+  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+    if (leans(scene.structures[s])) build_full(comm, scene, s, profile, model);
+  }
   put_at_rest(comm, scene, model.meshes, profile, model);
   find_start_gaps(scene, model);
   on_rank0(comm, [&] { model.separations = find_separations(scene, model); });

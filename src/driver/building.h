@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "driver/beam_waves.h"
-#include "driver/spread_springs.h"
 #include "interactions/pairing/absorbing_faces.h"
 #include "mesh/connectivity.h"
 #include "mesh/divide_beams.h"
 #include "mesh/mesh.h"
 #include "mesh/mesh_files.h"
+#include "mesh/spread_springs.h"
 #include "modal/modal_analysis.h"
 #include "modal/modal_basis.h"
 #include "scene/scene.h"
@@ -33,7 +33,7 @@ struct MeshFindings {
 /// One structure of the scene as it was built: its mesh and its system, and all that was found out
 /// about them. Constant during a run.
 struct Building {
-  const Structure* structure = nullptr;     ///< what the user asked for; borrowed from the scene
+  const Structure* structure = nullptr;     ///< as the user asked for it; of the scene
   const Mesh* mesh = nullptr;               ///< this rank's part; borrowed from the model
   const LinearSystem* system = nullptr;     ///< borrowed from the model
   MeshFindings findings;                    ///< on rank 0 only
@@ -41,7 +41,7 @@ struct Building {
   std::vector<SpreadReport> spread;         ///< on rank 0 only
   std::optional<ModalBasis> basis;          ///< if the structure is reduced; no rows
   ModalResult modal;
-  std::vector<double> mode_gaps;     ///< of each mode, what it adds to the gap of each contact row,
+  std::vector<double> mode_gaps;     ///< change of the gap of each contact row by each mode,
                                      ///< shape (modes, rows), see modes_at_contacts
   std::vector<BeamWaves> beams;      ///< of its regions of beams
   std::optional<StepDesign> design;  ///< if its time step has a target
@@ -49,6 +49,8 @@ struct Building {
   StructureLimits limits;
   double energy_margin = 0;  ///< of the time step in force [-]
 
+  /// The structure at full order: the design for its step, if that has a target, else as asked for.
+  const Structure& full_order() const { return design ? design->structure : *structure; }
   const std::string& name() const { return system->name; }
   const ModalBasis* basis_or_null() const { return basis ? &*basis : nullptr; }
   /// Where the largest of a value per owned dof is: a place, or a generalised coordinate. The same

@@ -7,22 +7,21 @@
 #include "driver/mesh_checks.h"
 #include "driver/model_doubts.h"
 #include "driver/shear_doubts.h"
-#include "driver/start_states.h"
 #include "driver/warnings.h"
 #include "interactions/pairing/absorbing_faces.h"
 #include "mesh/find_supported_nodes.h"
 #include "mesh/gmsh_reader.h"
 #include "mesh/sliding_order.h"
 #include "mesh/soil_node.h"
-#include "modal/reduction.h"
+#include "mesh/start_states.h"
 #include "scene/soil_reader.h"
 #include "system/mass_scaling.h"
 
 namespace pounding {
 namespace {
 
-/// Refuses what cannot be meant in a mesh, keeps what is to be reported of it. Matrices from files
-/// hold and join as they like.
+/// Refuses faults of a mesh, keeps its findings for the report. Matrices from files hold and join
+/// as they like.
 void check_mesh(const Scene& scene, std::size_t s, const GlobalMesh& mesh, Model& model) {
   const Structure& structure = scene.structures[s];
   MeshFindings& findings = model.buildings[s].findings;
@@ -64,7 +63,7 @@ WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model) {
   if (std::ranges::any_of(model.buildings,
                           [](const Building& b) { return !b.findings.files.landlock; })) {
     model.warnings.emplace_back(
-        "this system has no Landlock: what the commands of a .geo file may do was held back by "
+        "this system has no Landlock: the commands of a .geo file were held back by "
         "seccomp alone");
   }
   const Progress progress(comm, "faces in contact and probes", scene.progress_interval);
@@ -77,6 +76,18 @@ WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model) {
   append(probe_warnings(model.probes, whole.meshes, model.interface), model.warnings);
   append(place_doubts(scene, whole.meshes, model.interface, model.probes), model.warnings);
   return whole;
+}
+
+std::vector<int> owners_of_reduced(int ranks, const Scene& scene) {
+  const auto count = static_cast<int>(std::ranges::count_if(
+      scene.structures, [](const Structure& structure) { return structure.modal.has_value(); }));
+  const int block = (count + ranks - 1) / ranks;
+  std::vector<int> owners;
+  int reduced = 0;
+  for (const Structure& structure : scene.structures) {
+    owners.push_back(structure.modal ? reduced++ / block : -1);
+  }
+  return owners;
 }
 
 Partition cut_meshes(const Scene& scene, std::span<const GlobalMesh> meshes,

@@ -13,7 +13,7 @@
 
 namespace pounding {
 
-/// The meshes of a scene as they stand on rank 0 before they are cut, and what they tell beside the
+/// The meshes of a scene as rank 0 has them before they are cut, and findings in them beside the
 /// model's own part.
 struct WholeMeshes {
   std::vector<GlobalMesh> meshes;                  ///< per structure
@@ -21,14 +21,18 @@ struct WholeMeshes {
   std::vector<interactions::GapShare> gap_shares;  ///< of the rows of the interface
 };
 
-/// Reads the mesh of a structure, lays its soil under the mat and finds what stands on absorbing
+/// Reads the mesh of a structure, lays its soil under the mat and finds its nodes on absorbing
 /// faces, spread springs and supports. `comm`: for lines of progress, rank 0 alone calls. Serial.
 /// Throws UserError.
 void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, WholeMeshes& whole, Model& model);
 
 /// The meshes of all structures, checked, with contacts, probes and forces found in them. Throws
-/// UserError for what cannot be meant. Rank 0.
+/// UserError for faults of meshes. Rank 0.
 WholeMeshes read_whole_meshes(MPI_Comm comm, Scene& scene, Model& model);
+
+/// Per structure the one of `ranks` ranks that has all generalised coordinates of a reduced one,
+/// else -1. No rank takes more than it must; neighbours in the scene's list stay together.
+std::vector<int> owners_of_reduced(int ranks, const Scene& scene);
 
 /// Shares the meshes out among `parts` ranks. Rank 0.
 Partition cut_meshes(const Scene& scene, std::span<const GlobalMesh> meshes,

@@ -1,4 +1,4 @@
-#include "driver/spread_springs.h"
+#include "mesh/spread_springs.h"
 
 namespace pounding {
 

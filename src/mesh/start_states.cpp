@@ -1,4 +1,4 @@
-#include "driver/start_states.h"
+#include "mesh/start_states.h"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ namespace pounding {
 namespace {
 
 /// Part of the mesh within which a place of the file is that of a node.
-constexpr double same_place = 1e-6;
+constexpr double node_margin = 1e-6;
 
 constexpr std::array<std::string_view, 4> place_names{"node", "x", "y", "z"};
 constexpr std::array<std::string_view, 12> value_names{"ux", "uy", "uz", "rx", "ry", "rz",
@@ -151,7 +151,7 @@ class StartMaker {
     if (by_x_.empty()) {
       for (GlobalIndex node = 0; node < mesh_.node_count(); ++node) by_x_.push_back(node);
       std::ranges::sort(by_x_, {}, [&](GlobalIndex node) { return mesh_.position(node)[0]; });
-      near_ = same_place * bounding_box({&mesh_, 1}).diagonal();
+      near_ = node_margin * bounding_box({&mesh_, 1}).diagonal();
     }
     const auto first = std::ranges::lower_bound(
         by_x_, x[0] - near_, {}, [&](GlobalIndex node) { return mesh_.position(node)[0]; });
