@@ -20,7 +20,7 @@
 namespace pounding {
 namespace {
 
-constexpr double shift = 1;  // sigma [1/s2]
+constexpr double proximal_shift = 1;  // sigma [1/s2]
 constexpr int most_gradient_steps = 500;
 /// Residual that round-off may leave, where light nodes hang on stiff elements.
 constexpr double largest_residual = 1e-4;
@@ -51,7 +51,7 @@ class Search {
         force_(rows_.size(), 0.0),
         is_tried_(rows_.size(), false) {
     for (std::size_t s = 0; s < systems.size(); ++s) {
-      stiffness_.push_back(make_static_stiffness(systems[s], meshes[s], shift, solver));
+      stiffness_.push_back(make_static_stiffness(systems[s], meshes[s], proximal_shift, solver));
       const std::size_t dofs = systems[s].lumped_mass.size();
       displacement_.emplace_back(dofs, 0.0);
       weight_.emplace_back(dofs, 0.0);
