@@ -55,13 +55,6 @@ void read_level(OptionReader& options, ForceItem& force) {
   }
 }
 
-ForceKind kind_of(const std::string& word) {
-  if (word == "reactions") return ForceKind::reactions;
-  if (word == "storey") return ForceKind::storey;
-  if (word == "shells") return ForceKind::shells;
-  return word == "cut" ? ForceKind::cut : ForceKind::members;
-}
-
 }  // namespace
 
 ForceItem read_force(OptionReader& options, const Scene& scene, const std::string& name) {
@@ -70,7 +63,7 @@ ForceItem read_force(OptionReader& options, const Scene& scene, const std::strin
   const Structure& structure = named_structure(options, scene, "<force>_structure", name,
                                                options.text("<force>_structure", {name}));
   force.structure = structure.name;
-  force.kind = kind_of(options.choice("<force>_kind", {name}));
+  force.kind = options.choice_of<ForceKind>("<force>_kind", {name});
   if (structure.modal && structure.p_delta && force.kind != ForceKind::shells) {
     options.refuse("<force>_kind", {name},
                    "structure " + structure.name +

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pounding {
@@ -19,6 +20,10 @@ enum class HystereticRule : std::uint8_t {
   bending,    ///< straight up to the second break, peak beyond
   pinching    ///< as peak, by way of a pinch
 };
+
+/// Words of the options for it, in its order.
+inline constexpr std::string_view rule_words =
+    "kinematic|isotropic|origin|peak|straight|bending|pinching";
 
 /// Corner of a skeleton, both positive.
 struct SkeletonBreak {

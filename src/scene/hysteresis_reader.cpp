@@ -30,12 +30,6 @@ double shear_modulus(const Material& material) {
   return material.young / (2 * (1 + material.poisson));
 }
 
-HystereticRule rule_of(const std::string& word) {
-  constexpr std::string_view words[] = {"kinematic", "isotropic", "origin",  "peak",
-                                        "straight",  "bending",   "pinching"};
-  return static_cast<HystereticRule>(std::ranges::find(words, word) - std::begin(words));
-}
-
 double slope_between(const SkeletonBreak& a, const SkeletonBreak& b) {
   return (b.force - a.force) / (b.elongation - a.elongation);
 }
@@ -181,7 +175,7 @@ void read_paths(OptionReader& options, const Names& names, const std::string& ru
 Hysteresis read_law(OptionReader& options, const Names& names, std::string_view skeleton,
                     std::string_view rule, double first_slope) {
   Hysteresis law;
-  law.rule = rule_of(options.choice(rule, names));
+  law.rule = options.choice_of<HystereticRule>(rule, names);
   law.positive.breaks = read_corners(options, skeleton, names, first_slope);
   law.negative = law.positive;
   if (law.rule == HystereticRule::kinematic) {
@@ -222,7 +216,7 @@ void read_cracking(OptionReader& options, const Names& names, Region& region) {
 void read_hysteresis(OptionReader& options, const Names& names,
                      const std::array<double, 6>& first_slopes, NonlinearSpring& spring) {
   Hysteresis& law = spring.law;
-  law.rule = rule_of(options.choice(rule_option, names));
+  law.rule = options.choice_of<HystereticRule>(rule_option, names);
   if (options.given(skeleton_option, names)) {
     read_skeleton(options, names, first_slopes, spring);
   } else {

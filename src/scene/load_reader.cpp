@@ -70,14 +70,6 @@ void read_values(OptionReader& options, const std::string& name, LoadFunction& f
   }
 }
 
-LoadFunction::Kind history_kind(const std::string& word) {
-  using Kind = LoadFunction::Kind;
-  return word == "constant" ? Kind::constant
-         : word == "step"   ? Kind::step
-         : word == "ramp"   ? Kind::ramp
-                            : Kind::harmonic;
-}
-
 /// Options that only some kinds of histories have.
 void read_kind(OptionReader& options, const std::string& name, LoadFunction& function) {
   using Kind = LoadFunction::Kind;
@@ -116,7 +108,7 @@ void read_function(OptionReader& options, const std::string& name, LoadFunction&
       read_values(options, name, function);
     }
   } else {
-    function.kind = history_kind(options.choice(kinds[0], {name}));
+    function.kind = options.choice_of<LoadFunction::Kind>(kinds[0], {name});
   }
   read_kind(options, name, function);
 }

@@ -99,8 +99,7 @@ std::optional<ModalModel> read_modal_model(OptionReader& options, const Structur
       }
     }
   }
-  const std::string file = options.text(basis, names);
-  modal.basis_file = file == "none" ? "" : file;
+  modal.basis_file = options.path(basis, names);
   modal.ranks = options.integer(ranks, names);
   if (modal.ranks > 1 && modal.basis_file.empty()) {
     options.refuse(

@@ -83,15 +83,25 @@ std::string OptionReader::text(std::string_view pattern, const Names& names) {
   return result;
 }
 
-std::string OptionReader::choice(std::string_view pattern, const Names& names) {
+std::string OptionReader::path(std::string_view pattern, const Names& names) {
+  std::string result = text(pattern, names);
+  return result == "none" ? "" : result;
+}
+
+std::size_t OptionReader::choice_number(std::string_view pattern, const Names& names) {
   const std::vector<std::string> words = split(option_row(pattern).form, '|');
-  std::string word = value(pattern, names);
-  if (std::ranges::find(words, word) == words.end()) {
+  const std::string word = value(pattern, names);
+  const auto found = std::ranges::find(words, word);
+  if (found == words.end()) {
     const auto near = nearest_name(word, words);
     refuse(pattern, names, near ? "did you mean " + *near + "?" : "not supported");
   }
   keep(pattern, names);
-  return word;
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+std::string OptionReader::choice(std::string_view pattern, const Names& names) {
+  return split(option_row(pattern).form, '|')[choice_number(pattern, names)];
 }
 
 double OptionReader::real(std::string_view pattern, const Names& names) {

@@ -22,7 +22,14 @@ class OptionReader {
   bool given(std::string_view pattern, const Names& names = {}) const;
 
   std::string text(std::string_view pattern, const Names& names = {});
+  /// Text of a file or a folder; empty if it is "none".
+  std::string path(std::string_view pattern, const Names& names = {});
   std::string choice(std::string_view pattern, const Names& names = {});
+  /// Choice as a value of an enumeration, whose values are in the order of its words.
+  template <typename Enumeration>
+  Enumeration choice_of(std::string_view pattern, const Names& names = {}) {
+    return static_cast<Enumeration>(choice_number(pattern, names));
+  }
   double real(std::string_view pattern, const Names& names = {});
   int integer(std::string_view pattern, const Names& names = {});
   bool boolean(std::string_view pattern, const Names& names = {});
@@ -49,6 +56,8 @@ class OptionReader {
   /// The value in force, trimmed.
   std::string value(std::string_view pattern, const Names& names) const;
   void keep(std::string_view pattern, const Names& names);
+  /// Place of a choice among its words.
+  std::size_t choice_number(std::string_view pattern, const Names& names);
 
   const OptionsDatabase& database_;
   std::vector<std::pair<std::string, std::string>> in_force_;

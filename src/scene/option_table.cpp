@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "elements/element_traits.h"
+#include "scene/hysteresis.h"
 
 namespace pounding {
 namespace {
@@ -172,16 +173,16 @@ constexpr std::array option_rows{
     OptionRow{Block::region, "<structure>_<group>_series_stiffness", Kind::reals, "N/m, N m", value("0,0,0,0,0,0"), not_negative, "six numbers along and about x, y, z", "spring in series with its spring and dashpot together; 0: none, it is rigid"},
     OptionRow{Block::region, "<structure>_<group>_yield_force", Kind::reals, "N, N m", value("0"), not_negative, "one number (bar), or three or six along and about x, y, z", "force at which it yields; 0: never"},
     OptionRow{Block::region, "<structure>_<group>_hardening", Kind::real, "-", value("0"), below_1, "", "stiffness after yield over that before"},
-    OptionRow{Block::region, "<structure>_<group>_rule", Kind::choice, "word", value("kinematic"), any, "kinematic|isotropic|origin|peak|straight|bending|pinching", "way back from the skeleton and towards it again of a spring or bar that yields, see docs/nonlinear.md"},
+    OptionRow{Block::region, "<structure>_<group>_rule", Kind::choice, "word", value("kinematic"), any, rule_words, "way back from the skeleton and towards it again of a spring or bar that yields, see docs/nonlinear.md"},
     OptionRow{Block::region, "<structure>_<group>_skeleton", Kind::reals, "m, N", absent("left out: yield_force and hardening"), not_negative, "pairs e1,f1,e2,f2,...", "corners of force over elongation (of a bar: over its strain), the first one on the line of the stiffness, the last one followed by hardening"},
     OptionRow{Block::region, "<structure>_<group>_skeleton_back", Kind::reals, "m, N", absent("left out: as skeleton"), not_negative, "pairs e1,f1,e2,f2,..., or 0", "corners in the other direction; 0: it carries nothing there and leaves a gap"},
     OptionRow{Block::region, "<structure>_<group>_shear_skeleton_y", Kind::reals, "-, N", absent("left out: elastic"), not_negative, "pairs g1,Q1,g2,Q2,...", "beam that yields in shear: corners of the force along local y over the shear strain, the first one on the line of G A"},
     OptionRow{Block::region, "<structure>_<group>_shear_skeleton_z", Kind::reals, "-, N", absent("left out: elastic"), not_negative, "pairs g1,Q1,g2,Q2,...", "likewise along local z"},
     OptionRow{Block::region, "<structure>_<group>_shear_skeleton", Kind::reals, "-, Pa", absent("left out: elastic"), not_negative, "pairs g1,t1,g2,t2,...", "shell that yields in shear in its plane: corners of the shear stress over the shear strain, the first one on the line of G"},
-    OptionRow{Block::region, "<structure>_<group>_shear_rule", Kind::choice, "word", value("straight"), any, "kinematic|isotropic|origin|peak|straight|bending|pinching", "its rule, see rule"},
+    OptionRow{Block::region, "<structure>_<group>_shear_rule", Kind::choice, "word", value("straight"), any, rule_words, "its rule, see rule"},
     OptionRow{Block::region, "<structure>_<group>_bending_skeleton_y", Kind::reals, "1/m, N m", absent("left out: elastic"), not_negative, "pairs k1,M1,k2,M2,...", "beam that yields in bending: corners of the moment about local y over the curvature, the first one on the line of E I"},
     OptionRow{Block::region, "<structure>_<group>_bending_skeleton_z", Kind::reals, "1/m, N m", absent("left out: elastic"), not_negative, "pairs k1,M1,k2,M2,...", "likewise about local z"},
-    OptionRow{Block::region, "<structure>_<group>_bending_rule", Kind::choice, "word", value("bending"), any, "kinematic|isotropic|origin|peak|straight|bending|pinching", "its rule, see rule"},
+    OptionRow{Block::region, "<structure>_<group>_bending_rule", Kind::choice, "word", value("bending"), any, rule_words, "its rule, see rule"},
     OptionRow{Block::region, "<structure>_<group>_cracking_force", Kind::real, "N/m", absent("left out: elastic"), positive, "", "shell that cracks by damage: force per length in tension along one axis at which it begins"},
     OptionRow{Block::region, "<structure>_<group>_cracking_moment", Kind::real, "N", absent("left out: cracking_force thickness / 6"), positive, "", "its moment per length about one axis at which damage begins"},
     OptionRow{Block::region, "<structure>_<group>_cracked_tension", Kind::real, "-", absent("required with cracking_force"), below_1, "", "slope of its force while it cracks in tension, over that of the sound shell"},

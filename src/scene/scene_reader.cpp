@@ -91,13 +91,6 @@ class SceneReader {
   }
 
  private:
-  SolverChoice read_solver(const char* name) {
-    const std::string solver = options_.choice(name);
-    return solver == "auto"     ? SolverChoice::automatic
-           : solver == "direct" ? SolverChoice::direct
-                                : SolverChoice::iterative;
-  }
-
   /// Gravity is a magnitude: its direction is given for single structures only.
   double read_gravity() {
     if (options_.given("gravity")) {
@@ -124,12 +117,12 @@ class SceneReader {
     scene_.progress_interval = options_.real("progress_interval");
     scene_.mesh_time_limit = options_.real("mesh_time_limit");
     scene_.modes = options_.integer("modes");
-    scene_.modes_solver = read_solver("modes_solver");
+    scene_.modes_solver = options_.choice_of<SolverChoice>("modes_solver");
     scene_.write_modes = options_.boolean("write_modes");
     scene_.write_model = options_.boolean("write_model");
     gravity_ = read_gravity();
     scene_.preload = options_.choice("preload") == "static";
-    scene_.preload_solver = read_solver("preload_solver");
+    scene_.preload_solver = options_.choice_of<SolverChoice>("preload_solver");
     scene_.gap_tolerance = options_.real("gap_tolerance");
     scene_.impact_merge_time = options_.real("impact_merge_time");
     scene_.force_window = options_.real("force_window");
@@ -147,33 +140,19 @@ class SceneReader {
     scene_.fields_interval = options_.real("fields_interval");
     scene_.fields_start = options_.real("fields_start");
     scene_.fields_end = options_.real("fields_end");
-    const std::string format = options_.choice("fields_format");
-    scene_.fields_format = format == "both"   ? FieldsFormat::both
-                           : format == "xdmf" ? FieldsFormat::xdmf
-                                              : FieldsFormat::vtkhdf;
+    scene_.fields_format = options_.choice_of<FieldsFormat>("fields_format");
     scene_.checkpoint_interval = options_.real("checkpoint_interval");
     scene_.checkpoint_steps = options_.integer("checkpoint_steps");
-    const std::string table = options_.text("ensemble");
-    ensemble_ = table == "none" ? "" : table;
-    const std::string folder = options_.text("export_matrices");
-    scene_.export_matrices = folder == "none" ? "" : folder;
-    const std::string restart = options_.text("restart");
-    scene_.restart = restart == "none" ? "" : restart;
-    const std::string shared = options_.choice("partition");
-    scene_.partition_by = shared == "auto"       ? PartitionBy::automatic
-                          : shared == "elements" ? PartitionBy::elements
-                                                 : PartitionBy::structures;
-    const std::string pieces = options_.text("mesh_pieces");
-    scene_.mesh_pieces = pieces == "none" ? "" : pieces;
+    ensemble_ = options_.path("ensemble");
+    scene_.export_matrices = options_.path("export_matrices");
+    scene_.restart = options_.path("restart");
+    scene_.partition_by = options_.choice_of<PartitionBy>("partition");
+    scene_.mesh_pieces = options_.path("mesh_pieces");
     scene_.write_mesh_pieces = options_.integer("write_mesh_pieces");
-    const std::string method = options_.choice("stiffness");
-    scene_.stiffness = method == "auto"        ? StiffnessMethod::automatic
-                       : method == "assembled" ? StiffnessMethod::assembled
-                                               : StiffnessMethod::element;
+    scene_.stiffness = options_.choice_of<StiffnessMethod>("stiffness");
     scene_.motion_from_below = options_.choice("motion_input") == "below";
     level_ = options_.real("motion_level");
-    scene_.resampling =
-        options_.choice("resampling") == "linear" ? Resampling::linear : Resampling::band_limited;
+    scene_.resampling = options_.choice_of<Resampling>("resampling");
   }
 
   /// A list of the user's names, none of them used before. Two that differ in upper and lower case

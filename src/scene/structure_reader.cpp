@@ -259,11 +259,6 @@ void require_elements(const OptionReader& options, const std::string& structure,
   }
 }
 
-std::string read_matrices(OptionReader& options, const std::string& structure) {
-  const std::string folder = options.text("<structure>_matrices", {structure});
-  return folder == "none" ? "" : folder;
-}
-
 /// Elements and generalised coordinates can be given mass, whole matrices can not.
 void forbid_mass_scaling(const OptionReader& options, const Structure& structure) {
   if (structure.mass_scaling > 0 && !structure.matrices.empty() && !structure.modal) {
@@ -385,12 +380,11 @@ Structure read_structure(OptionReader& options, const std::string& name) {
   structure.rigid_groups = read_rigid_groups(options, name);
   structure.ignored_groups = options.list("<structure>_ignore", {name});
   structure.allow_loose = options.boolean("<structure>_allow_loose", {name});
-  structure.matrices = read_matrices(options, name);
+  structure.matrices = options.path("<structure>_matrices", {name});
   structure.mass_scaling = options.real("<structure>_mass_scaling", {name});
   structure.initial_displacement = read_vector(options, "<structure>_initial_displacement", {name});
   structure.initial_velocity = read_vector(options, "<structure>_initial_velocity", {name});
-  const std::string state = options.text("<structure>_initial_state", {name});
-  structure.initial_state = state == "none" ? "" : state;
+  structure.initial_state = options.path("<structure>_initial_state", {name});
   if (options.given("<structure>_gravity", {name})) {
     structure.gravity = read_vector(options, "<structure>_gravity", {name});
   }

@@ -32,10 +32,10 @@ def source(name):
 
 
 def words_of(form):
-    """Words between quotes, or those of the constant of element_traits.h."""
+    """Words between quotes, or those of a constant of element_traits.h or hysteresis.h."""
     if form.startswith('"'):
         return form[1:-1]
-    return re.search(form + r'\s*=\s*"([^"]*)";', source("element_traits.h"))[1]
+    return re.search(form + r'\s*=\s*"([^"]*)";', source("element_traits.h") + source("hysteresis.h"))[1]
 
 
 def shown(preset):
