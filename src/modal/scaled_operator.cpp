@@ -93,14 +93,4 @@ void ScaledOperator::from_force(std::vector<double>& f) const {
   solve(f, Half::plain);
 }
 
-double ScaledOperator::quotient(std::vector<double>& y) const {
-  const VecHandle vector = wrap_vector(system_, y);
-  VecHandle product;
-  double value = 0;
-  POUNDING_PETSC(VecDuplicate(vector.get(), product.out()));
-  apply(vector.get(), product.get());
-  POUNDING_PETSC(VecDot(vector.get(), product.get(), &value));
-  return value;
-}
-
 }  // namespace pounding

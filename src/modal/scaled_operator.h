@@ -27,8 +27,6 @@ class ScaledOperator final : public SymmetricOperator {
   void to_motion(std::vector<double>& y) const;
   /// G^-1 f of a force over the owned dofs.
   void from_force(std::vector<double>& f) const;
-  /// y^T A y of a vector over the owned dofs. Collective.
-  double quotient(std::vector<double>& y) const;
 
  private:
   enum class Half { plain, transposed };

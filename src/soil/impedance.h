@@ -20,8 +20,6 @@ struct Impedance {
   double inner_mass = 0;     ///< m; 0: no internal mass and no c1 [kg, kg m2]
   double mass = 0;           ///< m3, which moves with the mat [kg, kg m2]
 
-  /// Whether it holds energy beside that of its spring.
-  bool holds_energy() const { return inner_mass > 0 || mass > 0; }
   /// Force over motion for motions exp(i omega t), omega in rad/s [N/m, N m].
   std::complex<double> at(double circular_frequency) const;
 };

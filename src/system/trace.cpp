@@ -20,8 +20,7 @@ int place_in_field(const CoupledMass& mass, int node, LocalIndex dof) {
 
 Trace::Trace(const LinearSystem& system, const Mesh& mesh, std::span<const TracePoint> places,
              bool impulses)
-    : coupled_(system.generalised != nullptr || system.mass_is_coupled()),
-      dense_(system.generalised != nullptr) {
+    : dense_(system.generalised != nullptr) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (mesh.owned_node(places[i].node) >= 0) known_.push_back(static_cast<int>(i));
   }

@@ -58,8 +58,6 @@ class Trace {
     return dense_ ||
            (coupled_mass_ != nullptr && own_dof_[k] >= 0 && field_place_[own_dof_[k]] >= 0);
   }
-  /// An impulse at one place may move others, on some rank.
-  bool is_coupled() const { return coupled_; }
 
  private:
   void take_unit_rows(const Mesh& mesh, std::span<const TracePoint> places);
@@ -74,7 +72,6 @@ class Trace {
   /// x += M^-1 force_.
   void add_solution(double* x);
 
-  bool coupled_ = false;
   bool dense_ = false;
   const CoupledMass* coupled_mass_ = nullptr;  ///< null: force_ meets a diagonal mass only
   CoupledMass::Parts coupled_parts_;           ///< that known places are in

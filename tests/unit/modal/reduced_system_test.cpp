@@ -77,7 +77,6 @@ TEST_F(ReducedSystem, TraceIsTheRowsOfTheBasis) {
   const std::size_t size = basis.size();
   ASSERT_EQ(trace.known().size(), places.size());
   ASSERT_EQ(trace.dofs().size(), size);
-  EXPECT_TRUE(trace.is_coupled());
   const std::vector<double> q = values(size);
   std::vector<double> u(2 * places.size(), 7.0);
   trace.apply(q.data(), u.data(), 2);
