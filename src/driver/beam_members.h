@@ -8,8 +8,8 @@
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"
 
-/// Straight members of the beams of a mesh: what bends as one between the places where it is held
-/// or joined. Serial, on a whole mesh.
+/// Straight members of the beams of a mesh, each of which bends as one between the places where it
+/// is held or joined. Serial, on a whole mesh.
 namespace pounding {
 
 /// A beam element with its local axes x, y, z as rows.
@@ -24,7 +24,7 @@ struct BeamPiece {
   double bending(const Vector3& axis) const;
   /// Shear stiffness G A of the whole section [N].
   double shear() const;
-  /// Mass with what is spread over its length [kg].
+  /// Mass with that spread over its length [kg].
   double mass() const;
 };
 

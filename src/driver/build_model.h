@@ -13,15 +13,15 @@
 
 namespace pounding {
 
-/// Work on every rank once it is known who faces whom, before bases are computed, with the places
-/// of the rows on their faces. The reports of the interface are on rank 0 only.
+/// Work on every rank once the faces in contact are known, before bases are computed, with the
+/// places of the rows on their faces. The reports of the interface are on rank 0 only.
 using ContactsKnown =
     std::function<void(const interactions::Interface&, const std::vector<interactions::GapShare>&)>;
 
 /// Reads, partitions, distributes and assembles; finds modes, omega_max and the time step. Soil
 /// gets its foundation from the mesh, and the scene keeps it. The model borrows from the scene.
 /// `stiffness_factors`: per structure, on the squared frequencies of a reduced one; Throws
-/// UserError on every rank alike, and what `contacts_known` throws. Collective.
+/// UserError on every rank alike, and the errors of `contacts_known`. Collective.
 Model build_model(MPI_Comm comm, Scene& scene, std::span<const double> stiffness_factors,
                   Profile& profile, const ContactsKnown& contacts_known = {});
 

@@ -7,7 +7,7 @@ namespace pounding {
 
 namespace {
 
-/// A stop between nodes, in place of what is said of faces.
+/// A stop between nodes, in place of the facts of faces.
 Facts with_stop(const Stop& stop, const interactions::InterfaceReport& report, Facts facts) {
   facts.values["stop"] = {{"stiffness", stop.stiffness > 0 ? Json(stop.stiffness) : Json()},
                           {"dashpot", stop.dashpot}};

@@ -52,7 +52,7 @@ std::string printed(const Json& value, const std::string& conversion, const Repo
   return printed(suits ? conversion : "g", value.get<double>() * unit.factor / unit.divisor);
 }
 
-/// Takes what is before the mark off a text, and the mark.
+/// Takes the part before the mark off a text, and the mark.
 std::string_view take_until(char mark, std::string_view& text) {
   const std::size_t end = std::min(text.find(mark), text.size());
   const std::string_view head = text.substr(0, end);

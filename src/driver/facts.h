@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 /// Sentence of the report about the values of an object in SI: "mass {mass:.0f} kg". A slot has the
 /// name of a value, or of one within it, "gap/0"; without a name it takes the next of `values`.
 /// After a colon come the conversion of printf (else %lld, %g or %s) and a unit into which an SI
-/// value is converted: mm, ms, %, kN, kPa or MB; the unit stands behind the value unless it is in
+/// value is converted: mm, ms, %, kN, kPa or MB; the unit is behind the value unless it is in
 /// brackets: "{gap:8.3f [mm]}". Two numbers are a range, "1 to 2", three a vector, "(1, 2, 3)". A
 /// part of the sentence in brackets is left out where the first value in it is nothing.
 std::string told(std::string_view pattern, const Json& object,
@@ -41,7 +41,7 @@ struct Facts {
   void say(std::string_view pattern, std::initializer_list<Json> more = {}) {
     text += told(pattern, values, more);
   }
-  /// Adds a fact, and a sentence in which it may be told.
+  /// Adds a fact, and a sentence that may have it.
   void add(const std::string& key, Json value, std::string_view pattern = "") {
     values[key] = std::move(value);
     say(pattern);

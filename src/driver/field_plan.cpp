@@ -93,7 +93,7 @@ std::vector<std::string> check_fields(MPI_Comm comm, const Scene& scene, const M
     doubts.push_back(text.str());
   }
   const double room = rank_of(comm) == 0 ? free_room(scene.output) : bytes;
-  if (bytes > room) {  // the writer refuses what does not fit, a dry run has none
+  if (bytes > room) {  // the writer refuses fields that do not fit, a dry run has none
     frames << ", and " << scene.output << " has " << room / 1e9
            << " GB left; give a longer interval, or -fields_start and -fields_end";
     doubts.push_back(frames.str());

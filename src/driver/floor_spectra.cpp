@@ -44,7 +44,8 @@ std::vector<ProbeSpectrum> compute_floor_spectra(MPI_Comm comm, const Scene& sce
   std::vector<std::vector<SpectrumPoint>> mine;  // per channel and damping ratio
   on_every_rank(comm, [&] {
     for (const std::vector<double>& acceleration : accelerations) {
-      // A run is cut, it does not end: the floor still moves, so nothing is said of what follows.
+      // A run is cut, it does not end: the floor still moves, so nothing is said of its motion
+      // afterwards.
       for (auto& spectrum :
            response_spectra(acceleration, recorder.interval(), scene.spectra.frequencies, ratios,
                             AfterRecord::ignored)) {

@@ -5,7 +5,7 @@
 
 #include "scene/scene.h"
 
-/// The folder of results before the work: whether it can be used, and what it holds.
+/// The folder of results before the work: whether it can be used, and its content.
 namespace pounding {
 
 /// Tries that the folder can be made and written, and leaves everything as it was. Throws

@@ -25,7 +25,7 @@ bool has_history(const ForceItem& force) {
   return !force.of_elements() || !force.points.empty();
 }
 
-/// Refuses a total of a reduced structure whose links stand beside modes that hold them at their
+/// Refuses a total of a reduced structure whose links are beside modes that hold them at their
 /// stiffest.
 void refuse_relieved(const ForceItem& force, const LinearSystem& system) {
   if (!system.generalised || !system.links || !system.links->hold_stiffness()) return;
@@ -244,7 +244,7 @@ void Forces::load(const SavedState& saved) {
            << ", one after the checkpoint, or start anew";
       throw UserError(text.str());
     }
-    std::ranges::fill(table, 0.0);  // what counts is all to come
+    std::ranges::fill(table, 0.0);  // summed up from zero
   }
   from_rows(table, peaks_, peak_members);
 }

@@ -15,7 +15,7 @@
 namespace pounding {
 namespace {
 
-/// A law with the name of what follows it.
+/// A law with the name of the part that follows it.
 struct NamedLaw {
   std::string name;  ///< structure:group:component
   Hysteresis law;
@@ -91,7 +91,7 @@ void write_loops(const NamedLaw& named, const std::vector<double>& amplitudes, C
 
 void write_law_loops(MPI_Comm comm, const Scene& scene) {
   on_rank0(comm, [&] {
-    constexpr double most = 1000;  // of steps, and of what is read
+    constexpr double most = 1000;  // of steps, and of numbers read
     if (std::ranges::any_of(scene.law_cycles, [](double x) { return x > most; })) {
       throw UserError("option -law_cycles: an amplitude above 1000 times the first corner");
     }

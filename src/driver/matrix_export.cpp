@@ -16,7 +16,7 @@
 namespace pounding {
 namespace {
 
-/// A free dof as it stands in dofs.csv.
+/// A free dof as it is in dofs.csv.
 struct Dof {
   GlobalIndex node = 0;  ///< file order
   int component = 0;

@@ -100,7 +100,7 @@ bool starts_in_motion(const Structure& structure) {
   return structure.starts_in_motion() || structure.starts_displaced();
 }
 
-/// A block that stands on another by its weight.
+/// A block that rests on another by its weight.
 bool may_rest(const Scene& scene, const Structure& structure) {
   const auto touches = [&](const Contact& contact) {
     return contact.secondary.structure == structure.name ||

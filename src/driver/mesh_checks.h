@@ -7,11 +7,12 @@
 #include "mesh/global_mesh.h"
 #include "scene/scene.h"
 
-/// Checks of a structure's mesh for what cannot be meant, in view of the whole scene. Serial; the
-/// thresholds are in docs/input-checks.md.
+/// Checks of a structure's mesh for faults, in view of the whole scene. Serial; the thresholds are
+/// in docs/input-checks.md.
 namespace pounding {
 
-/// Throws UserError where matrices are to be written of a structure that no matrix tells wholly.
+/// Throws UserError where matrices are to be written of a structure that matrices do not hold
+/// wholly.
 void check_export(const Scene& scene, const Structure& structure, const GlobalMesh& mesh);
 
 /// The groups of places that no option of the scene names. Throws UserError where elements are left

@@ -80,8 +80,8 @@ std::vector<Ingredient> ingredients_of(const Scene& scene,
   return list;
 }
 
-/// The first names of what one list has and the other has not, "mesh of b, option a and 3 more";
-/// empty if none.
+/// The first names that one list has and the other has not, "mesh of b, option a and 3 more"; empty
+/// if none.
 std::string differences(const std::vector<Ingredient>& one, const std::vector<Ingredient>& other) {
   constexpr std::size_t told = 4;
   std::vector<std::string> names;
@@ -102,7 +102,7 @@ std::string differences(const std::vector<Ingredient>& one, const std::vector<In
   return text;
 }
 
-/// Identity of a cut: of what the pieces are made and for how many ranks.
+/// Identity of a cut: the sources of the pieces and the number of ranks.
 std::string identity_of(const std::vector<Ingredient>& ingredients, int ranks) {
   Hash hash;
   hash.add(static_cast<double>(ranks));
@@ -326,7 +326,7 @@ void read_sealed_of(const Scene& scene, const std::string& path,
   }
 }
 
-/// Removes an earlier cut: what tells of it first, so that no half of one is taken for a whole.
+/// Removes an earlier cut, its common piece first, so that no half of one is taken for a whole.
 void remove_pieces(const Scene& scene) {
   fs::remove(common_path(scene));
   for (const fs::directory_entry& entry : fs::directory_iterator(scene.mesh_pieces)) {

@@ -14,11 +14,11 @@
 /// Meshes of a scene cut for a number of ranks, in a folder, so that no rank of a run holds one
 /// whole and none waits for Gmsh:
 ///
-///     common.piece       what the meshes tell as a whole: contacts, probes, checks, supports, ties
+///     common.piece       findings in the whole meshes: contacts, probes, checks, supports, ties
 ///     piece-00003.bin    that of rank 3: its part of every structure
 ///
 /// Sealed (io/file_seal.h), for machines of one kind and one version of the program; what they were
-/// made of stands in the first.
+/// made of is in the first.
 namespace pounding {
 
 /// Runs a scene up to the cut meshes and writes them for as many ranks as it asks for, of which it
@@ -32,7 +32,7 @@ double write_mesh_piece(const Scene& scene, int rank, const std::string& identit
 
 /// Part of the pieces that all ranks have in common.
 struct CommonPiece {
-  WholeMeshes whole;     ///< of the meshes only what is marked in them
+  WholeMeshes whole;     ///< of the meshes only the marks in them
   std::string identity;  ///< of the cut
 };
 

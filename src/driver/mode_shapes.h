@@ -4,7 +4,8 @@
 
 namespace pounding {
 
-/// `modes.h5` in the scene's output folder: per structure a group with what write_mesh() writes and
+/// `modes.h5` in the scene's output folder: per structure a group with the arrays of write_mesh()
+/// and
 ///     frequencies          (modes) [Hz]
 ///     shapes/0001 ...      (nodes, 3 or 6) x, y, z and the rotations about them, phi^T M phi = 1;
 ///                          0 where a node is clamped or has no rotation

@@ -42,7 +42,7 @@ struct Model {
   /// are exported and the mesh was read whole.
   std::vector<std::vector<std::int64_t>> node_tags;
   std::vector<LinearSystem> systems;  ///< per structure
-  std::vector<Building> buildings;    ///< per structure: these two and what is known of them
+  std::vector<Building> buildings;    ///< per structure: these two and findings about them
   interactions::Interface interface;  ///< reports on rank 0 only
   std::vector<ResolvedProbe> probes;
   std::vector<ResolvedForce> forces;
@@ -62,7 +62,7 @@ struct Model {
   double time_step = 0;                                               ///< in force [s]
   std::int64_t steps = 0;                                             ///< until the end time
   std::vector<Separation> separations;      ///< that the joints would need; on rank 0
-  std::vector<std::string> warnings;        ///< one line each, on rank 0: what may not be meant
+  std::vector<std::string> warnings;        ///< doubts, one line each, on rank 0
   std::vector<ResolvedProbe> storey_bases;  ///< see find_storey_bases
   StepLimits step_limits;
   StepSource step_source = StepSource::given;  ///< of the time step in force

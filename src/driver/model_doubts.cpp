@@ -81,7 +81,7 @@ class JointDoubts {
     return mesh_of(side).groups.at(side.group).nodes;
   }
 
-  /// Lines of beams stand for a building around them: what they face may be far.
+  /// Lines of beams are a building around them, so that faces before them may be far.
   bool is_of_beams(const ContactSide& side) const {
     const std::vector<GlobalIndex>& nodes = nodes_of(side);
     const std::set<GlobalIndex> face(nodes.begin(), nodes.end());

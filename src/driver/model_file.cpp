@@ -26,7 +26,7 @@ std::int32_t number_of(const std::string& name, std::vector<std::string>& names)
   return static_cast<std::int32_t>(names.size());
 }
 
-/// Adds what the regions say of the cells of a structure.
+/// Adds the properties that regions give the cells of a structure.
 class CellValues {
  public:
   CellValues(Hdf5File& file, const Structure& structure, const CellTable& cells, XdmfGrid& grid)

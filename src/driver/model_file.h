@@ -7,8 +7,8 @@
 
 namespace pounding {
 
-/// `model.h5` and `model.xdmf` in the scene's output folder: what the options made of the meshes,
-/// for ParaView. Beside what write_mesh() says of a structure, per cell
+/// `model.h5` and `model.xdmf` in the scene's output folder: the meshes as the options made them,
+/// for ParaView. Beside the arrays of write_mesh(), per cell
 ///
 ///     material, section      number in `materials`, in `sections`, from 1; 0: none
 ///     thickness, area [m, m2], young [Pa], density [kg/m3], mass [kg] of point masses

@@ -60,7 +60,7 @@ std::vector<std::string> probe_warnings(std::span<const ResolvedProbe> probes,
     if (share * in_contact >= probe.nodes.size()) {
       warnings.push_back(subject(probe, in_contact) +
                          " part of a contact: the accelerations hold the impulses that act on it, "
-                         "and what is sampled goes with 1/output_interval; for a floor take nodes "
+                         "and the samples go with 1/output_interval; for a floor take nodes "
                          "one element away");
     }
   }

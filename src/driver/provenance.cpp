@@ -30,7 +30,7 @@ std::string local_time() {
   return text.data();
 }
 
-/// Name of the processor as Linux tells it; empty elsewhere.
+/// Name of the processor by Linux; empty elsewhere.
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {
@@ -82,7 +82,7 @@ class Inputs {
     files.push_back({option, path, read == files.end() ? digest_of_file(path) : read->digest});
   }
 
-  /// Adds what an option in force names, if it is a file that a run reads.
+  /// Adds the file that an option in force names, if a run reads it.
   void add_option(const std::string& name, const std::string& value) {
     const auto ends = [&](std::string_view end) { return name.ends_with(end); };
     if (value.empty() || value == "none") return;

@@ -32,16 +32,16 @@ struct Provenance {
   std::vector<std::pair<std::string, std::string>> overrides;  ///< see SceneOrigin
 };
 
-/// Notes what is known when a run begins: time, machines, and every file that its options name,
-/// with its hash: options files and what they include, geometries, meshes, matrices, records,
-/// targets, a checkpoint. `resolved`: the
-/// options in force. Files that are not there are left to who reads them. Rank 0 reads; the result
-/// is on rank 0. Throws UserError on every rank alike. Collective.
+/// Notes of the beginning of a run: time, machines, and every file that its options name, with its
+/// hash: options files and files that they include, geometries, meshes, matrices, records, targets,
+/// a checkpoint. `resolved`: the options in force. Files that are not there are left to their
+/// readers. Rank 0 reads; the result is on rank 0. Throws UserError on every rank alike.
+/// Collective.
 Provenance note_provenance(MPI_Comm comm, const SceneOrigin& origin, const std::string& resolved);
 
-/// Adds what is known when the model is built: the files that Gmsh opened for the meshes, and the
-/// modal bases that are kept in files, as they were taken up or written. Rank 0 reads. Throws
-/// UserError on every rank alike. Collective.
+/// Notes of the built model: the files that Gmsh opened for the meshes, and the modal bases that
+/// are kept in files, as they were taken up or written. Rank 0 reads. Throws UserError on every
+/// rank alike. Collective.
 void note_model(MPI_Comm comm, const Scene& scene, std::span<const Building> buildings,
                 Provenance& provenance);
 

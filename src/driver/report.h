@@ -13,7 +13,7 @@
 #include "output/recorder.h"
 #include "scene/scene.h"
 
-/// Report that a run prints, and its summary.json: both tell the facts of the subjects (facts.h),
+/// Report that a run prints, and its summary.json: both have the facts of the subjects (facts.h),
 /// each in its order. For rank 0.
 namespace pounding {
 
@@ -22,7 +22,7 @@ void print_title(const Scene& scene, const std::string& overrides, int ranks);
 void print_model(const Scene& scene, const Model& model);
 /// `seconds_per_step`: measured, 0 if it was not.
 void print_time_step(const Scene& scene, const Model& model, double seconds_per_step);
-/// `files`: what was removed from the folder of results.
+/// `files`: those removed from the folder of results.
 void print_removed(const Scene& scene, std::span<const std::string> files);
 /// `step`: that of the checkpoint from which the run continues.
 void print_restart(const Scene& scene, const Model& model, std::int64_t step);

@@ -12,7 +12,7 @@
 namespace pounding {
 
 /// Lets the systems of a model start from their static equilibrium, where the scene asks for it,
-/// and keeps what was found. `meshes`: those of its structures. Collective.
+/// and keeps its results. `meshes`: those of its structures. Collective.
 void put_at_rest(MPI_Comm comm, const Scene& scene, std::span<const Mesh> meshes, Profile& profile,
                  Model& model);
 

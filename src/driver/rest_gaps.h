@@ -8,7 +8,7 @@
 
 namespace pounding {
 
-/// Per row of the interface, whether its gap is told of the rest (Contact::gap_at_rest): it is open
+/// Per row of the interface, whether its gap is that of the rest (Contact::gap_at_rest): it is open
 /// there, whatever the rest is. Throws UserError, alike on all ranks, where the meshes overlap and
 /// the gap of the rest is that of the meshes.
 std::vector<char> rows_open_at_rest(const Scene& scene, const interactions::Interface& interface);

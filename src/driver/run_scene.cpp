@@ -41,8 +41,8 @@ void create_output(const Scene& scene) {
   if (failure) throw UserError("option -output " + scene.output + ": the folder cannot be created");
 }
 
-/// Removes what an earlier run left; the resolved options are the first thing in the folder. Rank
-/// 0.
+/// Removes the results of an earlier run; the resolved options are the first thing in the folder.
+/// Rank 0.
 void begin_results(const Scene& scene, const std::string& resolved, const Provenance& provenance,
                    const ResultFolder& folder) {
   const std::vector<std::string> removed = folder.clear(scene.restart);

@@ -122,7 +122,7 @@ struct RunStatistics {
   std::vector<ContactRatio> contact_ratios;  ///< per structure; empty where nothing may lift off
   StatedPeaks peaks;                         ///< rank 0
   std::vector<std::string> overpressed;      ///< structures with a pendulum whose slope was cut
-  std::vector<std::string> warnings;         ///< one line each: what the run came upon
+  std::vector<std::string> warnings;         ///< of the run, one line each
   PhaseReport phases;                        ///< time and memory
   std::optional<RankPrediction> prediction;  ///< with -predict_ranks; rank 0
   std::optional<FidelityEstimate> fidelity;  ///< with -fidelity_window; channels on rank 0

@@ -115,7 +115,7 @@ void add_high_spectra(const Scene& scene, const Model& model, std::vector<std::s
     coarsest = std::max(coarsest, given_interval(model, direction));
   }
   add("samples of the motion", coarsest,
-      ": beyond, only what lies between the samples shows (-resampling)");
+      ": beyond, only motion between the samples shows (-resampling)");
 }
 
 }  // namespace

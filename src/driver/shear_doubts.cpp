@@ -15,7 +15,7 @@ namespace {
 constexpr double doubted = 0.05;  ///< flexibility by shear over that by bending
 
 /// Part of a section without shear areas that bears shear: that of a rectangle, more than flanged
-/// and hollow sections have: what is told of these is less than the effect.
+/// and hollow sections have: there the doubt says less than the effect.
 constexpr double shear_part = 5.0 / 6;
 
 /// Shear flexibility of a member that its beams leave out over its flexibility by bending, in one

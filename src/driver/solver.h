@@ -48,7 +48,7 @@ class Solver {
 
   /// Puts contact and scheme together, at t_0. Collective.
   explicit Solver(Parts parts);
-  /// Back to t_0: what was stepped is forgotten, the bounds of the gap rates are kept. Contact and
+  /// Back to t_0: all steps are forgotten, the bounds of the gap rates are kept. Contact and
   /// stepper are new objects. Collective.
   void restart();
 

@@ -8,7 +8,7 @@
 namespace pounding {
 namespace {
 
-/// Facts of the scaled mass that reaches the target of the time step, and what it costs.
+/// Facts of the scaled mass that reaches the target of the time step, and its cost.
 Facts step_target_facts(const Building& building) {
   const StepTarget& target = *building.structure->step_target;
   const StepDesign& design = *building.design;
@@ -60,7 +60,7 @@ Facts mass_scaling_facts(const Building& building) {
   return facts;
 }
 
-/// Causes that shorten the step, and what each remedy would give.
+/// Causes that shorten the step, and the gain of each remedy.
 std::string told_remedies(const Building& building) {
   constexpr double worth_a_word = 1.3;
   const LinearSystem& system = *building.system;

@@ -12,7 +12,7 @@
 #include "output/recorder.h"
 #include "scene/scene.h"
 
-/// Facts of each subject of a run, for rank 0: what the report prints and summary.json has.
+/// Facts of each subject of a run, for rank 0, as the report prints and summary.json has them.
 namespace pounding {
 
 /// Facts of the ground motion by direction as it was understood, null where there is none, and of
@@ -53,8 +53,8 @@ Facts energy_facts(const RunStatistics& run);
 Facts phase_facts(const PhaseReport& report);
 Facts warning_facts(std::span<const std::string> lines);
 
-/// Facts of what was recorded: loops, contact ratios of springs that press only, forces, drifts,
-/// probes; the report has the peaks of spectra too (record_facts.cpp).
+/// Facts of the records: loops, contact ratios of springs that press only, forces, drifts, probes;
+/// the report has the peaks of spectra too (record_facts.cpp).
 Facts loop_facts(const RunStatistics& run);
 Facts yield_facts(const RunStatistics& run);
 Facts contact_ratio_facts(const Scene& scene, const RunStatistics& run);

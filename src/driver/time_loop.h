@@ -21,8 +21,8 @@ class TimeLoop {
   /// `model` and `profile` must outlive this object. Collective.
   TimeLoop(MPI_Comm comm, const Scene& scene, const Model& model, Profile& profile);
 
-  /// Mean wall time of a step [s], measured on `steps` of them, nothing recorded; the loop stands
-  /// at t_0 after it as before. Collective.
+  /// Mean wall time of a step [s], measured on `steps` of them, nothing recorded; the loop is at
+  /// t_0 after it as before. Collective.
   double measure(int steps);
   /// Runs from t_0, or from after the step of `restart` unless it is null, to the end time;
   /// histories and checkpoints, which carry `identity`, into the scene's output folder. Returns 0,
@@ -35,7 +35,7 @@ class TimeLoop {
   const Recorder& recorder() const { return observers_->history; }
   /// The last step made.
   std::int64_t step() const { return solver_.stepper().state().step - 1; }
-  /// After `run`: findings of the steps and of the observers, who write their tables. Collective.
+  /// After `run`: findings of the steps and of the observers, which write their tables. Collective.
   void fill(RunStatistics& statistics) const;
 
  private:

@@ -21,7 +21,7 @@ bool has_reduced(const Scene& scene) {
       scene.structures, [](const Structure& structure) { return structure.modal.has_value(); });
 }
 
-/// The shortest of what stability, resolution and, of reduced structures, the samples allow.
+/// The shortest step that stability, resolution and, of reduced structures, the samples allow.
 void choose_automatically(const Scene& scene, const StepLimits& limits, Model& model) {
   model.time_step = round_down(scene.courant * limits.stable);
   model.step_source = StepSource::stability;
@@ -131,7 +131,7 @@ std::string step_source_text(const Scene& scene, const Model& model) {
       text << "set by the stable one, -courant " << scene.courant;
       break;
     case StepSource::resolution:
-      text << "set by what it resolves within 0.3 %: "
+      text << "set by the motion that it resolves within 0.3 %: "
            << frequency_text(scene, model.step_limits.resolved);
       break;
     case StepSource::samples:

@@ -30,10 +30,10 @@ void choose_time_step(const Scene& scene, const StepLimits& limits, Model& model
 /// Source of the time step in force, in words: "set by the stable one, -courant 0.9".
 std::string step_source_text(const Scene& scene, const Model& model);
 
-/// The step that versions took which did not ask what it resolves [s].
+/// The step that versions took which did not ask for its resolution [s].
 double earlier_time_step(const Scene& scene, const Model& model);
 
-/// A line if a step that was given does not resolve what the limits name.
+/// A line if a step that was given does not resolve the motion that the limits name.
 std::vector<std::string> long_step_warnings(const Scene& scene, const Model& model);
 
 }  // namespace pounding

@@ -13,7 +13,7 @@
 
 namespace pounding {
 
-/// The force of the ground on a structure, or what passes upwards through a level of it: minus the
+/// The force of the ground on a structure, or the force upwards through a level of it: minus the
 /// sum of all internal forces on the dofs above, those of springs, dashpots and links to the ground
 /// included. Elements between counted dofs push as much as they pull, so that only those count that
 /// end below the level, at clamps or in the ground. With the forces of the step to t_n,
@@ -21,12 +21,12 @@ namespace pounding {
 ///     R = - sum_i r_i ( K (u_n + beta v-) + D v- + b N )_i
 ///
 /// r_i the force and the moment that a unit force on dof i has, or the force that uniform damping
-/// filters in place of the first term. Exactly what the scheme has: R is the change of momentum of
-/// what is above, less what gravity, contacts and mass damping do to it.
+/// filters in place of the first term. Exact in the scheme: R is the change of momentum of the part
+/// above, less that by gravity, contacts and mass damping.
 class TotalForce {
  public:
-  /// Finds what it counts at full order; of a structure in generalised coordinates only what links
-  /// do. References must outlive this object. Local.
+  /// Finds its terms at full order; of a structure in generalised coordinates only those of links.
+  /// References must outlive this object. Local.
   TotalForce(const ForceItem& item, const LinearSystem& system, const Mesh& mesh);
 
   /// The owned dofs whose forces `add` asks for.

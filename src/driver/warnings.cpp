@@ -156,7 +156,7 @@ std::vector<std::string> slide_warnings(const Scene& scene, const RunStatistics&
     const std::string limit =
         sliding > 0
             ? sentence(
-                  "-{}_sliding {:.4g} m, from t = {:.4g} s on; what lies farther is not "
+                  "-{}_sliding {:.4g} m, from t = {:.4g} s on; parts farther off are not "
                   "looked for: give more",
                   {name, sliding, slide.since})
             : sentence(

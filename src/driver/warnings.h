@@ -50,13 +50,13 @@ std::vector<std::string> pendulum_warnings(const RunStatistics& statistics);
 /// move, a record that ends before the run does, a step longer than a sample. One line each.
 std::vector<std::string> run_warnings(const Scene& scene, const Model& model);
 
-/// The line about a step longer than what lies between two samples of `of`, both in s; none where
-/// it is not.
+/// The line about a step longer than the time between two samples of `of`, both in s; none where it
+/// is not.
 void add_long_step(const std::string& of, double sample, double step,
                    std::vector<std::string>& warnings);
 
-/// Probes that may record something else than what is meant: far from the points asked for, on
-/// clamped nodes, or on nodes of a contact. One line each. Serial, rank 0.
+/// Probes that may record another motion than was meant: far from the points asked for, on clamped
+/// nodes, or on nodes of a contact. One line each. Serial, rank 0.
 std::vector<std::string> probe_warnings(std::span<const ResolvedProbe> probes,
                                         std::span<const GlobalMesh> meshes,
                                         const interactions::Interface& interface);

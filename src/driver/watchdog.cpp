@@ -14,7 +14,7 @@ namespace {
 /// Part of the largest energy term beyond which the identity is broken.
 constexpr double broken_identity = 1e-6;
 
-/// Part of the largest energy term that what can only take energy may have given.
+/// Part of the largest energy term that damping and devices may have given.
 constexpr double given_energy = 1e-6;
 
 /// Round-off of u^T K u over omega_max^2 u^T M u, with a margin for sums over many steps.

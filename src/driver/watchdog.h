@@ -22,12 +22,12 @@ void watch_divergence(const Model& model, const State& state, const EnergyLine& 
 double energy_round_off(const Model& model, std::size_t structure, const StructureEnergy& energy);
 
 /// Throws DivergenceError if the energy identity, exact but for round-off, does not close: the
-/// state or the matrices are damaged. Round-off is that of the largest term [J] so far, of what one
-/// step of the load could do, and of the structures' energies.
+/// state or the matrices are damaged. Round-off is that of the largest term [J] so far, of the work
+/// that a step of the load could do, and of the structures' energies.
 void watch_identity(const Model& model, const EnergyLine& line,
                     std::span<const StructureEnergy> structures, double largest_term);
 
-/// Throws DivergenceError if what can only take energy has given some: damping and devices
+/// Throws DivergenceError if parts that can only take energy have given some: damping and devices
 /// together, or tension-only bars, by more than a millionth of the largest term [J] so far.
 void watch_passivity(const EnergyLine& line, double largest_term);
 

@@ -12,7 +12,7 @@ struct DofForces {
 };
 
 /// Brings a dof, which has settled with v_free, to v+ = `velocity` after contact, and corrects its
-/// sums; `before`: its state before the step. Returns what M s gains.
+/// sums; `before`: its state before the step. Returns the gain of M s.
 inline double correct_dof(const StepTerms<double>& terms, double mass,
                           const DofState<double>& before, double velocity, const DofForces& forces,
                           DofState<double>& dof, DofSums<double>& sums) {

@@ -10,7 +10,7 @@
 namespace pounding {
 namespace {
 
-/// More than what rounding can take from a sum of all coordinates.
+/// More than rounding can take from a sum of all coordinates.
 constexpr double above_round_off = 1 + 1e-9;
 
 }  // namespace
@@ -61,7 +61,7 @@ double CoordinateRates::rate(const StructureState& state) {
     double square = v * v + stiffness_over_a_[i] * (moved * moved);
     const double before = state.displacement[i] - time_step_ * v;  // u_{n-1}
     for (std::size_t b = 0; b < branch_over_a_.size(); ++b) {
-      // Z^n = k W^{n-1} + t Q_{n-1}; what W^{n-1} was does not matter if k is zero.
+      // Z^n = k W^{n-1} + t Q_{n-1}; W^{n-1} does not matter if k is zero.
       const auto& filter = filters_.filters[b];
       if (filter.keep == 0) continue;
       const double passed =

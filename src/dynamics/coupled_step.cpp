@@ -155,7 +155,7 @@ void CoupledStep::form_impulses(const StepTerms<double>& terms,
     }
     for (std::size_t c = 0; c < CoupledMass::width; ++c) {
       const std::size_t i = node.begin + c;
-      double impulse = 0;  // what is no dof stays at rest
+      double impulse = 0;  // components that are no dof stay at rest
       if (c < node.count) {
         const int direction = system_.direction[i];
         const double ground = direction < 0 ? 0 : ground_step[direction];

@@ -25,9 +25,9 @@ class CoupledStep {
 
   /// q of coupled dofs that follow each other, `place` the number of the first among them all.
   void keep(std::size_t place, std::size_t count, const double* force);
-  /// After every force of the step. `ground_step`: h (a_g - g) [m/s]; `known_step`: what supports
-  /// that move on their own and loads add to it per owned dof, empty without; `stiffness_velocity`:
-  /// see StepRequest. Adds to the sums.
+  /// After every force of the step. `ground_step`: h (a_g - g) [m/s]; `known_step`: motion that
+  /// supports that move on their own and loads add to it per owned dof, empty without;
+  /// `stiffness_velocity`: see StepRequest. Adds to the sums.
   void advance(const StepTerms<double>& terms, const std::array<double, 3>& ground_step,
                std::span<const double> known_step, const double* stiffness_velocity,
                DofSums<double>& dof_sums, DofEnergies<double>& dof_energies, StepSums& sums);

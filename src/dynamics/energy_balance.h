@@ -15,14 +15,14 @@ namespace pounding {
 
 /// One line of the ledger, all structures together [J].
 struct EnergyLine {
-  double time = 0;     ///< t_n; the energies stand half a step later
+  double time = 0;     ///< t_n; the energies are half a step later
   double kinetic = 0;  ///< 1/2 v^T (M + S - dt/2 C) v
   double strain = 0;   ///< 1/2 u_{n+1}^T K u_n, and the energy of links
   double damping_loss = 0;
   double contact_work = 0;
   double input_work = 0;  ///< of ground motion, a wave from below and gravity
-  /// Taken up by dashpots, by what regions with damping of their own have beside the structure's,
-  /// and by links that do not yield.
+  /// Taken up by dashpots, by the damping of regions beyond the structure's, and by links that do
+  /// not yield.
   double device_work = 0;
   double plastic_loss = 0;  ///< taken by yielding, damage and crushing, and not kept
   double residual = 0;      ///< energy - initial energy + damping loss + device work + plastic loss
@@ -45,10 +45,11 @@ struct StructureEnergy {
   double positive_part = 0;
   /// u^T M u [kg m2]; omega_max^2 times this bounds the parts of u^T K u, and so its round-off.
   double displacement_mass = 0;
-  /// Bound of what the structure holds, the branches of uniform damping included: its energy, and
-  /// all that the filters took since the start. About a rest u_0 that uniform damping leaves alone:
-  /// 1/2 v^T A v + s/2 d^T K d and the branches, d = ubar - u_0, which is no more than
-  /// E + what the filters took - (K u_0)^T (ubar - u_0 / 2), since loads do work against K u_0.
+  /// Bound of the energy that the structure holds, the branches of uniform damping included: its
+  /// energy, and all that the filters took since the start. About a rest u_0 that uniform damping
+  /// leaves alone: 1/2 v^T A v + s/2 d^T K d and the branches, d = ubar - u_0, which is no more
+  /// than E + energy that the filters took - (K u_0)^T (ubar - u_0 / 2), since loads do work
+  /// against K u_0.
   double held = 0;
   /// Part of the strain energy that uniform damping gives to a motion so slow that its branches
   /// have let go: (1 - s) / 2 u_{n+1}^T K u_n, or (1 - s) / 2 d^T K d about a rest.
@@ -62,15 +63,16 @@ struct StructureEnergy {
 ///     E_{n+1/2} - E_{n-1/2} = -dt vbar^T C vbar + dt vbar^T (f_n - x_n) + 1/2 lambda^T L v_{n-1/2}
 ///     E_{n+1/2}             = 1/2 v^T (M + S - dt/2 C) v + 1/2 u_{n+1}^T K u_n
 ///
-/// with S the mass that scaled elements are given, x the force of links, whose energy W_{n+1/2}
-/// stands beside the strain energy (see LinkLaw), and C all damping, alpha M + beta K
-/// + D. The forces of D lag like the others: they come as D v_{n-1/2}, and
+/// with S the mass that scaled elements are given, x the force of links, whose energy W_{n+1/2} is
+/// beside the strain energy (see LinkLaw), and C all damping, alpha M + beta K + D. The forces of D
+/// lag like the others: they come as D v_{n-1/2}, and
 ///
 ///     vbar^T D vbar = vbar^T D v- + (v+^T D v+ - v-^T D v-) / 4
 ///
 /// The steps leave all terms as sums over dofs; the energies of E_{n+1/2} come with the step after,
 /// and so does the balance of step n. The work of q = K (u_n + beta v-) goes into strain energy and
-/// damping, so that what beta took up to a line follows from it and from the energies there,
+/// damping, so that the energy that beta took up to a line follows from it and from the energies
+/// there,
 ///
 ///     dt beta sum vbar^T K vbar = dt sum vbar^T q - [ 1/2 u_n^T K u_{n+1} - dt/4 beta v+^T K v+ ]
 ///
@@ -78,8 +80,9 @@ struct StructureEnergy {
 /// themselves for that; without beta nothing is taken from the work of q.
 ///
 /// A contact's work is that of its normal impulses; its friction loses -1/2 lambda_t L_t (v- + v+).
-/// Uniform damping replaces K u_n by a filtered force f_n; then C = D and the damping loss is
-/// dt vbar^T (f_n - K u_n): what branches keep for a while counts as lost until they give it back.
+/// Uniform damping replaces K u_n by a filtered force f_n; then C = D and the damping loss is dt
+/// vbar^T (f_n - K u_n): energy that branches keep for a while counts as lost until they give it
+/// back.
 ///
 /// Sums are kept per rank and added up only when a line is asked for. The balance starts at E_{1/2}
 /// without the contact work of the first half step, which is the first that it counts.
@@ -95,7 +98,7 @@ class EnergyBalance {
   bool needs_energies() const { return steps_ == 1; }
 
   /// The ledger after the last closed step; the step after it was made with energies. `structures`
-  /// receives what each one holds. Collective.
+  /// receives the energy of each one. Collective.
   EnergyLine line(std::span<StructureEnergy> structures) const;
 
   /// Largest |residual| over the largest term (energies, losses, works) of all lines so far.
@@ -111,7 +114,7 @@ class EnergyBalance {
   void load(const SavedState& saved);
 
  private:
-  /// Sum that does not lose what is added over millions of steps (Neumaier).
+  /// Sum that does not lose small parts over millions of steps (Neumaier).
   struct Sum {
     double value = 0;
     double correction = 0;

@@ -50,7 +50,7 @@ class GapWatch {
   void energies_known(std::int64_t step, std::span<const StructureEnergy> energies,
                       std::span<const double> round_off);
 
-  /// Some structure is bounded by what `measure` reads; the same on all ranks.
+  /// Some structure is bounded by the sums that `measure` reads; the same on all ranks.
   bool measures() const { return measures_; }
   /// This rank's part of the bounds: add up over ranks before they go into `looked`.
   std::span<double> measure(std::span<const StructureState> structures);

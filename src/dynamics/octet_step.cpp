@@ -122,7 +122,7 @@ template <bool with_energies, bool filtered>
 void OctetStep::advance() {
   DofSums<Octet> sums;
   std::array<Octet, 3> momentum{};
-  // Copies stay in registers: the compiler cannot tell that no store of a state changes them.
+  // Copies stay in registers: the compiler does not see that no store of a state changes them.
   const StepTerms<Octet> terms = terms_;
   const std::array<Octet, 3> ground_step = ground_step_;
   const std::array<bool, 3> shaken = shaken_;

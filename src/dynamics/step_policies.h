@@ -9,8 +9,8 @@
 #include "dynamics/update.h"
 #include "system/linear_system.h"
 
-/// Policies by which vectors of dofs are brought one step on: where their masses stand, what the
-/// ground does to them, and whether uniform damping filters their forces. See StructureStep.
+/// Policies by which vectors of dofs are brought one step on: the place of their masses, the effect
+/// of the ground, and whether uniform damping filters their forces. See StructureStep.
 namespace pounding {
 
 /// Dofs in which directions repeat, three vectors of them.
@@ -153,8 +153,8 @@ class InfluenceGround {
   Lanes* momentum_;
 };
 
-/// The ground's part as `Ground` tells it, and that of supports which move on their own and of
-/// loads, told dof by dof: h ( sum_c iota_c r_c'' - M^-1 sum_l f_l p_l ).
+/// The ground's part as `Ground` gives it, and that of supports which move on their own and of
+/// loads, dof by dof: h ( sum_c iota_c r_c'' - M^-1 sum_l f_l p_l ).
 template <typename Ground>
 class LoadedGround {
  public:

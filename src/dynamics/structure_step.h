@@ -85,12 +85,12 @@ class StructureStep final : public stiffness::ForceReceiver, public interactions
   template <bool with_energies, typename Damping>
   void advance(const Segment& segment, LocalIndex begin, LocalIndex end, const double* force,
                const Damping& damping);
-  /// Dofs by vectors: policies tell their masses, what the ground does to them, and whether the
-  /// force is filtered.
+  /// Dofs by vectors: policies give their masses, the effect of the ground, and whether the force
+  /// is filtered.
   template <bool with_energies, typename Damping, typename Masses, typename Ground>
   void advance_vectors(std::size_t first, std::size_t end, const double* force,
                        const Damping& damping, Masses masses, Ground& ground);
-  /// Dofs by vectors, with what loads do, and supports where they move on their own.
+  /// Dofs by vectors, with loads, and with supports where they move on their own.
   template <bool with_energies, typename Damping, typename Masses, typename Ground>
   void advance_with_known(std::size_t first, std::size_t end, const double* force,
                           const Damping& damping, Masses masses, Ground& ground);
@@ -99,7 +99,7 @@ class StructureStep final : public stiffness::ForceReceiver, public interactions
   void advance_dofs(std::size_t first, std::size_t end, const double* force);
   /// h ((a_g - g) iota + sum_c iota_c r_c'' - M^-1 sum_l f_l p_l) of a dof.
   double ground_step_at(std::size_t dof) const;
-  /// Adds to iota_d^T M s, and to the work of supports and loads, what M s is at a dof.
+  /// Adds to iota_d^T M s, and to the work of supports and loads, M s at a dof.
   void add_momentum(std::size_t dof, double momentum);
   /// sum_l f_l p_l^T v of the velocities as they are [W].
   double load_power() const;
@@ -129,7 +129,7 @@ class StructureStep final : public stiffness::ForceReceiver, public interactions
   DofSums<double> dof_sums_;
   DofEnergies<Lanes> vector_energies_;
   DofEnergies<double> dof_energies_;
-  StepSums sums_;  ///< what single dofs add beside dof_sums_
+  StepSums sums_;  ///< parts of single dofs beside dof_sums_
 };
 
 }  // namespace pounding

@@ -53,7 +53,7 @@ struct DofSums {
 constexpr std::size_t max_filters = 9;
 
 /// Numbers of the filters of uniform damping that all dofs of a structure share. With Q_n = K u_n,
-/// beta = 0, c_i = omega_i dt / 2 and W_i what filter i passes,
+/// beta = 0, c_i = omega_i dt / 2 and W_i the part that filter i passes,
 ///
 ///     W_i^n = k_i W_i^{n-1} + t_i (Q_n + Q_{n-1}),      k_i = (1 - c_i) / (1 + c_i)
 ///     f     = s ( Q_n + sum_i a_i (Q_n - W_i^n) ),      t_i = c_i / (1 + c_i)

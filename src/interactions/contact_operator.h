@@ -10,7 +10,7 @@
 
 namespace pounding::interactions {
 
-/// A dof of the interface, by what does not depend on the partition.
+/// A dof of the interface, by numbers that do not depend on the partition.
 struct InterfaceDof {
   int structure = 0;
   GlobalIndex node = 0;  ///< file order

@@ -50,7 +50,7 @@ class ContactProblem {
   /// u_n at the known places of the structure's trace, where it is at hand, in place of that over
   /// the dofs.
   void set_place_displacement(std::size_t structure, std::span<const double> places);
-  /// The places of dof_list() move beside what their structures do: displacement [m], and velocity
+  /// The places of dof_list() move beside their structures: displacement [m], and velocity
   /// before and in the step [m/s], which the next gathers add. Members only.
   struct Carried {
     std::vector<double> displacement;
@@ -73,7 +73,7 @@ class ContactProblem {
   void gather_velocities();
   /// Impulses of the active rows, 0 elsewhere.
   void solve_impulse();
-  /// No impulse anywhere: what solve_impulse() says of an empty active set.
+  /// No impulse anywhere, as of solve_impulse() with an empty active set.
   void clear_impulse();
   /// v += M^-1 T^T L^T lambda over the dofs of the structure's trace.
   void add_velocity_change(std::size_t structure, double* velocity);

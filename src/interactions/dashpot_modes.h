@@ -17,8 +17,8 @@ namespace pounding::interactions {
 ///     w+ = w_free - U diag(g) U^T (w_free + w-),     g = h lambda / (1 + h lambda),     h = dt/2
 ///
 /// (half of that h where forces act for half a step). Mats are stiff: hundreds of dashpots under
-/// one brake some dozens of motions. What changes less than round-off is left out. Local; nothing
-/// allocates after construction.
+/// one brake some dozens of motions. Changes below round-off are left out. Local; nothing allocates
+/// after construction.
 class DashpotModes {
  public:
   /// `rows`: B over the coordinates, shape (dashpots, coordinates); `strengths`: c [N s/m, N m s].

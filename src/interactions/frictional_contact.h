@@ -36,7 +36,7 @@ class FrictionalContact {
   /// Takes over rows that are coupled with each other and with nothing else, some with friction.
   /// Returns the number of the component.
   std::size_t add(std::vector<int> rows, DelassusPattern& pattern);
-  /// Room for what solve() needs; after the last add().
+  /// Room for the arrays of solve(); after the last add().
   void reserve();
 
   /// Forgets the impulses, keeping them as the next guess.

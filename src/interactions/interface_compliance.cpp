@@ -32,7 +32,7 @@ KnownRows known_rows(std::span<const std::vector<int>> structure_dofs, std::span
   return mine;
 }
 
-/// The rows of all ranks, those of rank 0 first, and where those of each dof stand; -1: nowhere.
+/// The rows of all ranks, those of rank 0 first, and the place of those of each dof; -1: nowhere.
 /// Collective.
 SparseRows rows_of_all(MPI_Comm comm, const KnownRows& mine, std::span<int> row_of) {
   const int count = static_cast<int>(mine.dof.size());

@@ -45,7 +45,7 @@ InterfaceGather::~InterfaceGather() {
   if (member()) MPI_Comm_free(&comm_);
 }
 
-/// Puts what is known of the gathered dofs from `first` on in their places.
+/// Puts values of the gathered dofs from `first` on in their places.
 void InterfaceGather::spread(int fields, std::size_t first, std::size_t end, const double* values,
                              std::span<double> all) const {
   const std::size_t dofs = order_.size();

@@ -12,8 +12,8 @@ namespace pounding::interactions {
 
 /// Brings the values of all interface dofs to every rank that knows one. Those ranks form a
 /// communicator of their own; the others never take part. Since values travel, not partial sums,
-/// what is computed from them does not depend on the partition. On one node they travel through
-/// common memory, else in messages.
+/// results from them do not depend on the partition. On one node they travel through common memory,
+/// else in messages.
 class InterfaceGather {
  public:
   /// `mine`: interface dofs whose values this rank knows, in the order of its values; each is known

@@ -12,7 +12,7 @@ namespace pounding::interactions {
 
 /// Links of a structure that yield, mostly one by one; the two horizontal components of a bearing
 /// yield together, by the resultant of their trials, and those of a sliding one at a capacity that
-/// follows from what presses on it. Local.
+/// follows from the force on it. Local.
 class YieldGroups {
  public:
   explicit YieldGroups(std::span<const Link> links);
@@ -24,7 +24,7 @@ class YieldGroups {
  private:
   struct Group {
     std::vector<std::size_t> links;
-    int gauge = -1;       ///< link that tells how hard a sliding bearing is pressed; -1: none
+    int gauge = -1;       ///< link whose force presses a sliding bearing; -1: none
     double friction = 0;  ///< of such a bearing: capacity over minus the gauge's elongation [N/m]
     double pressing = 0;  ///< force that presses on it, over the same [N/m]
   };

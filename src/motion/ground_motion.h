@@ -80,7 +80,7 @@ class GroundMotion {
   double origin() const { return origin_; }
 
   /// The part of the motion that sets in between two times [s], its samples times a weight that
-  /// rises from 0 to 1 as half a cosine; or what is left of it, so that both add up to the motion.
+  /// rises from 0 to 1 as half a cosine; or the rest of it, so that both add up to the motion.
   enum class Part { sets_in, leaves };
   GroundMotion part(Part part, double from, double to) const;
   /// The motion times a factor.

@@ -11,7 +11,7 @@
 #include "system/linear_system.h"
 
 /// `checkpoint.h5`: all that a run needs to go on as if it had never stopped. The file says nothing
-/// about ranks but for the parts of sums, so any number of them may read it. What nodes have is
+/// about ranks but for the parts of sums, so any number of them may read it. Values of nodes are
 /// written and read by all ranks, a block of nodes each (file_blocks.h), the rest by rank 0.
 ///
 ///     /                            attributes: format "pounding checkpoint", schema (io/schema.h),

@@ -27,15 +27,15 @@ inline GlobalIndex element_count(const Mesh& mesh) {
   return count;
 }
 
-/// Mark that tells one basis of generalised coordinates from another, per coordinate [kg^-1/2]: a
-/// sum of its rows and participation factors with weights of their own. Owned dofs.
+/// Mark in which bases of generalised coordinates differ, per coordinate [kg^-1/2]: a sum of its
+/// rows and participation factors with weights of their own. Owned dofs.
 std::vector<double> basis_check(const LinearSystem& system);
 
 /// Largest part of the largest value by which such numbers of one basis may differ.
 inline constexpr double basis_tolerance = 1e-6;
 
-/// Runs `work` on rank 0; what goes wrong becomes one UserError that begins with `prefix`, on every
-/// rank. Collective.
+/// Runs `work` on rank 0; its errors become one UserError that begins with `prefix`, on every rank.
+/// Collective.
 void on_rank0_for_user(MPI_Comm comm, const std::string& prefix, const std::function<void()>& work);
 
 /// Runs `work`, which must not communicate, on every rank; failures as of on_rank0_for_user.

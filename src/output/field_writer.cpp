@@ -27,7 +27,7 @@ std::vector<TracePoint> owned_places(const Mesh& mesh, int first) {
   return places;
 }
 
-/// Whether a picture of the structure tells rotations. Collective.
+/// Whether a picture of the structure has rotations. Collective.
 bool shows_rotations(const LinearSystem& system, const Mesh& mesh) {
   const bool rotates = component_columns(mesh) > 3;
   return rotates && !system.generalised;
@@ -231,7 +231,7 @@ void FieldWriter::observe(const CdLagrange& stepper) {
     }
     for (Quantity& quantity : fields.quantities) {
       fields.blocks.to_file(quantity.owned, 3, fields.block);
-      on_every_rank(layout_.comm, [&] {  // what nothing is written to is 0
+      on_every_rank(layout_.comm, [&] {  // places without a value are 0
         if (!has_value(fields.block)) return;
         constexpr std::int64_t bytes = 3 * sizeof(double);
         const std::int64_t place = quantity.places[static_cast<std::size_t>(frames_)];

@@ -42,10 +42,10 @@ struct ContactPlace {
 ///     rotation          of t_n, where nodes rotate and the structure is not reduced [rad]
 ///     contact_impulse   that contacts brought to the node since the frame before [N s]
 ///
-/// the first two to the bit what the history says of the same node. The arrays take their places in
-/// the file at the beginning; then every rank fills its part of them (FileBlocks) as the run goes.
+/// the first two to the bit as in the history of the same node. The arrays take their places in the
+/// file at the beginning; then every rank fills its part of them (FileBlocks) as the run goes.
 /// `frames` is the number of whole frames, written after them, and `fields.xdmf` and
-/// `fields.vtkhdf`, whole files at any moment, list these; what lies behind is no motion. A frame
+/// `fields.vtkhdf`, whole files at any moment, list these; places behind are no motion. A frame
 /// allocates nothing but the line of the list.
 class FieldWriter final : public Observer {
  public:
@@ -134,7 +134,7 @@ class FieldWriter final : public Observer {
   std::int64_t frames_ = 0;
 
   // Rank 0
-  std::vector<XdmfGrid> grids_;          ///< of the structures, without what moves
+  std::vector<XdmfGrid> grids_;          ///< of the structures, without motions
   std::vector<std::size_t> cell_nodes_;  ///< of all cells of each structure together
   std::int64_t frames_place_ = 0;        ///< of their number in the file [bytes]
   std::string text_;                     ///< of the frames so far

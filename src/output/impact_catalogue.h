@@ -26,10 +26,10 @@ struct Impact {
   double max_penetration = 0;     ///< largest -gap met [m]
   std::array<double, 2> place{};  ///< mean of the points, weighted with their impulses [m]
   double contact_time = 0;        ///< sum of the steps with an impulse [s]
-  /// Share of the impulse at points below the middle of the face along each tangent axis; what acts
-  /// at the middle counts half: 0 is one end of the face, 1 the other, 0.5 a centred impact.
+  /// Share of the impulse at points below the middle of the face along each tangent axis; one at
+  /// the middle counts half: 0 is one end of the face, 1 the other, 0.5 a centred impact.
   std::array<double, 2> low_share{};
-  double tangential_impulse = 0;  ///< of friction: magnitudes of what all points together have in a
+  double tangential_impulse = 0;  ///< of friction: magnitudes of the sum of all points in a
                                   ///< step, summed over the steps [N s]
   double slip = 0;                ///< path of the point that slid farthest while it touched [m]
   double friction_loss = 0;       ///< [J]

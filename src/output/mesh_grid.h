@@ -10,7 +10,7 @@
 
 namespace pounding {
 
-/// How groups and contacts are told in pictures of a scene. The same on every rank.
+/// How groups and contacts are marked in pictures of a scene. The same on every rank.
 struct MeshLabels {
   std::vector<std::string> groups;  ///< of all structures, "left:slab"; their numbers from 1
   std::vector<std::size_t> first;   ///< per structure, of its regions among these
@@ -24,7 +24,7 @@ struct MeshLabels {
 ///     coordinates            (nodes, 3) [m], nodes in file order
 ///     topology               cells as in CellTable
 ///     group, element, rank   (cells) number in `groups`, number in the mesh file, owner
-///     clamped                (nodes) 1 for x, 2 for y, 4 for z: the sum of what is held
+///     clamped                (nodes) 1 for x, 2 for y, 4 for z: the sum of held components
 ///     contact_NAME           (nodes) 1 in a pair of the contact, for each that the structure has
 ///
 /// and returns the grid that shows it. `file` is read on rank 0, where `cells` are. Throws

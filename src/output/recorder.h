@@ -70,7 +70,7 @@ class Recorder final : public Observer {
   void flush() override;
   /// Flushes and closes the file. Collective.
   void finish(bool complete) override;
-  /// Writes all records to the file and keeps what the next one needs. Collective.
+  /// Writes all records to the file and keeps the values that the next one needs. Collective.
   void save(SavedState& saved) override;
 
   /// After finish, rank 0: names "probe.x", samples of absolute acceleration of a channel from a

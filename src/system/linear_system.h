@@ -86,8 +86,8 @@ struct LinearSystem {
   /// Per owned dof, whether an inelastic element acts on it; empty if no rank has one.
   std::vector<char> inelastic;
   MassScaling mass_scaling;
-  /// Owned dofs without a mass of their own, which follow as what holds them lets them, and how
-  /// many there are on all ranks.
+  /// Owned dofs without a mass of their own, which follow the parts that hold them, and how many
+  /// there are on all ranks.
   std::vector<LocalIndex> condensed;
   GlobalIndex condensed_dofs = 0;
   RotaryScaling rotary_scaling;               ///< in `lumped_mass` already

@@ -29,7 +29,7 @@ class Refused(unittest.TestCase):
         self.refused(["-site_absorbing", "bottmo"], "-site_absorbing bottmo", "no surface", on=(1, 2))
         self.refused(["-site_absorbing", "rock"], "-site_absorbing rock", "no surface")
         self.refused(["-site_absorbing", "joint"], "-site_absorbing joint", "lies between two solids", on=(1, 2))
-        self.refused(["-site_absorbing", "sides,x_min"], "-site_absorbing x_min", "stands in two absorbing groups")
+        self.refused(["-site_absorbing", "sides,x_min"], "-site_absorbing x_min", "is in two absorbing groups")
         self.refused(BELOW + BASE + ["-site_absorbing", "bottom"], "-site_absorbing bottom", "absorbing_base")
         self.refused(["-site_absorbing", "bottom", "-site_matrices", "there"], "-site_absorbing bottom", "_matrices")
         self.refused(["-site_absorbing", "bottom", *in_modes("site", 3)],

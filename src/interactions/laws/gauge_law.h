@@ -4,7 +4,7 @@
 
 namespace pounding::interactions {
 
-/// Law of a gauge: it tells an elongation and carries nothing.
+/// Law of a gauge: it has an elongation and carries nothing.
 class GaugeLaw final : public LinkLaw {
  public:
   double force(double /*before*/, double /*now*/, double /*after*/,

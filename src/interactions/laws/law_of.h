@@ -18,7 +18,7 @@ enum class SpringPart { dashpot, stiffness, gauge };
 /// Components of the links of sections are the numbers of their laws, from this one on.
 constexpr int first_section_component = 10;
 
-/// Origin of a link: what its law follows from.
+/// Origin of a link, from which its law follows.
 struct LinkOrigin {
   const Region* region = nullptr;  ///< borrowed from the structure; null of an absorbing face
   int component = 0;          ///< along or about which a spring's dashpot or soil acts; 0 of a bar
@@ -35,9 +35,9 @@ struct LinkOrigin {
 /// Whether a link is the part along z of a compression-only spring.
 bool is_pressed(const LinkOrigin& origin);
 
-/// Law of a link by what the options of its region say: the only place that chooses among laws.
-/// `time_step` [s]. `uniform`: damping of its structure, its reference known, which what acts in
-/// one direction has as well; may be null.
+/// Law of a link by the options of its region: the only place that chooses among laws. `time_step`
+/// [s]. `uniform`: damping of its structure, its reference known, which what acts in one direction
+/// has as well; may be null.
 std::unique_ptr<LinkLaw> law_of(const LinkOrigin& origin, double time_step,
                                 const UniformDamping* uniform = nullptr);
 

@@ -12,8 +12,8 @@ namespace pounding::interactions {
 /// for any elongations, cannot make a step unstable.
 ///
 /// N_n must not fall as e_{n+1} grows: then a step has one solution. What a law remembers, a
-/// plastic elongation say, stands in `memory`, which the step keeps for each link and the
-/// checkpoint stores. Pure functions: no MPI, no PETSc.
+/// plastic elongation say, is in `memory`, which the step keeps for each link and the checkpoint
+/// stores. Pure functions: no MPI, no PETSc.
 class LinkLaw {
  public:
   virtual ~LinkLaw() = default;
@@ -25,14 +25,14 @@ class LinkLaw {
   /// `compliance` = dt^2 b^T M^-1 b [m/N], not negative.
   virtual double solve(double before, double now, double free_after, double compliance,
                        std::span<const double> memory = {}) const = 0;
-  /// W_{n+1/2} [J], what the link holds between two elongations one step apart.
+  /// W_{n+1/2} [J], the energy that the link holds between two elongations one step apart.
   virtual double energy(double now, double after, std::span<const double> memory = {}) const = 0;
   /// Largest dN/de [N/m], that of the element in the matrix that sets the stable step.
   virtual double tangent() const = 0;
   /// Whether it pulls at no elongation that it can reach in this step: it need not be looked at.
   virtual bool is_idle(double now, std::span<const double> memory = {}) const = 0;
 
-  /// Force at e_n [N] that K of its structure holds already: what it pulls in all is N_n and this.
+  /// Force at e_n [N] that K of its structure holds already: in all it pulls N_n and this.
   virtual double counted(double /*now*/) const { return 0; }
   /// Whether `full` and `holds_down_to` are known: unless it lets go in a step, its force follows
   /// from e_n alone.

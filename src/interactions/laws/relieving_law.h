@@ -8,7 +8,7 @@
 namespace pounding::interactions {
 
 /// Law of a link whose tangent k is part of K already, as in a structure reduced to the modes that
-/// it has with every link at its stiffest: what the link itself pulls, less k e_n, so that both
+/// it has with every link at its stiffest: the pull of the link itself, less k e_n, so that both
 /// together are the link. Its energy likewise, less 1/2 k e_n e_{n+1}: it is negative where K
 /// counts more than the link holds.
 class RelievingLaw final : public LinkLaw {

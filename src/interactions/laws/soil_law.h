@@ -8,8 +8,8 @@ namespace pounding::interactions {
 /// Law of the soil under a mat in one of its motions e, but for its spring, which belongs to K: a
 /// dashpot c to the ground, an internal mass m behind a dashpot c1, and a mass m3 that moves with
 /// the mat. With the rates r+ = (e_{n+1} - e_n) / dt and r- = (e_n - e_{n-1}) / dt, their mean r,
-/// and the rate y- of the internal mass, which is what the law remembers, over a time d (dt, and
-/// half of it in the first step):
+/// and the rate y- of the internal mass, which the law remembers, over a time d (dt, and half of it
+/// in the first step):
 ///
 ///     F   = c1 (r - (y- + y+) / 2),  m (y+ - y-) = d F,  so F = (r - y-) c1 / (1 + c1 d / (2 m))
 ///     N_n = c r + F + m3 (r+ - r-) / d

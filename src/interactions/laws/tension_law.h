@@ -13,7 +13,7 @@ struct MaxwellBranch {
   double rate = 0;       ///< omega [1/s]
 };
 
-/// Law of a tension-only bar: it pulls so that its energy can be told at every half step. With the
+/// Law of a tension-only bar: it pulls so that its energy is known at every half step. With the
 /// elongations e_{n-1}, e_n, e_{n+1}, less its slack, the stiffness k, e+ = max(0, e), and the
 /// force D_n of its damping while e_n > 0,
 ///
@@ -62,7 +62,7 @@ class TensionLaw final : public LinkLaw {
   double slack(std::span<const double> memory) const override {
     return memory.empty() ? slack_ : slack_ + memory.back();
   }
-  /// q of the branches, and what a rest adds to the slack.
+  /// q of the branches, and the part of the slack by a rest.
   std::size_t memory_size() const override { return branches_.empty() ? 0 : branches_.size() + 1; }
   void rest(double now, std::span<double> memory) const override;
   void remember(double before, double now, double after, double share,

@@ -80,7 +80,7 @@ void require_level(const Structure& structure, const AbsorbingFace& face, const 
   }
 }
 
-/// The columns of the Cholesky factor of C, and what a wave does along them.
+/// The columns of the Cholesky factor of C, and the effect of a wave along them.
 AbsorbingNode dashpots_of(GlobalIndex node, const NodeSums& sums) {
   Matrix3 factor{};  // lower
   for (std::size_t i = 0; i < 3; ++i) {
@@ -143,7 +143,7 @@ AbsorbingReport find_absorbing_nodes(const Scene& scene, const Structure& struct
       const Facet& facet = facets[f];
       const Backing& behind = solid_behind(structure, face, mesh, facet, backings[f]);
       if (!seen.insert({facet.corners().begin(), facet.corners().end()}).second) {
-        refuse(structure, face, place_of(mesh, facet) + " stands in two absorbing groups");
+        refuse(structure, face, place_of(mesh, facet) + " is in two absorbing groups");
       }
       const Vector3 normal = normalised(behind.area);
       if (face.is_base) {

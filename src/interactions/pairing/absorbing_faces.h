@@ -15,8 +15,8 @@ struct AbsorbingReport {
 
 /// Finds the nodes of a structure's absorbing faces, with the elements behind these, and puts them
 /// into its mesh. Throws UserError (one line) for a group that is not in the mesh or has no facets,
-/// a facet that is no outer face of a solid or stands in two of the groups, a base that is not
-/// level or does not look down, and a motion along which every node of the base is clamped. Serial.
+/// a facet that is no outer face of a solid or is in two of the groups, a base that is not level or
+/// does not look down, and a motion along which every node of the base is clamped. Serial.
 AbsorbingReport find_absorbing_nodes(const Scene& scene, const Structure& structure,
                                      GlobalMesh& mesh);
 

@@ -11,7 +11,7 @@ namespace {
 /// Shares of a carrier that are none.
 constexpr double nothing = 1e-9;
 
-/// Whether a carrier displaces what follows it where it stands, apart from turning it.
+/// Whether a carrier displaces its follower at its own place, apart from turning it.
 bool displaces(const Carrier& carrier) {
   return std::ranges::any_of(std::array{0, 7, 14},
                              [&](std::size_t k) { return std::abs(carrier.block[k]) > nothing; });

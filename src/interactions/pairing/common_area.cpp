@@ -30,7 +30,7 @@ Sums sums_of(const std::vector<OverlapPlace>& places) {
   return sums;
 }
 
-/// Shares of a facet's corners in what it has in common with the other side.
+/// Shares of a facet's corners in its area in common with the other side.
 std::array<double, 4> shares_of(const FaceSide& side, std::size_t f, const FaceSide& other,
                                 const FacetFinder& finder) {
   const Facet& facet = side.face.facets[f];

@@ -9,7 +9,7 @@ namespace {
 
 // Shares of the model's longest side.
 constexpr double round_off = 1e-9;         ///< an overlap below is none
-constexpr double deepest_overlap = 0.002;  ///< what lies deeper in each other was not meant to
+constexpr double deepest_overlap = 0.002;  ///< deeper ones were not meant
 constexpr double other_unit = 0.5;         ///< by which a gap given may exceed that of the meshes
 
 /// Checks one contact.
@@ -76,7 +76,7 @@ class ContactCheck {
     if (overlap > round_off * model_size_) {
       warn() << "the bodies overlap by up to " << 1000 * overlap << " mm at the start, at "
              << report_.overlapping << " of " << report_.pairs
-             << " pairs; contact stops what closes and pushes nothing out";
+             << " pairs; contact stops closing faces and pushes nothing out";
       keep();
     }
   }

@@ -15,8 +15,8 @@ namespace pounding::interactions {
 /// overlap that is too deep).
 void check_contacts(const Scene& scene, Interface& interface);
 
-/// The checks of a contact that are about its gaps: what `report` tells of them may not be meant,
-/// one line each. Throws UserError (an overlap that is too deep).
+/// The checks of a contact that are about its gaps: those of `report` may not be meant, one line
+/// each. Throws UserError (an overlap that is too deep).
 std::vector<std::string> check_gaps(const Contact& contact, const InterfaceReport& report,
                                     double model_size);
 

@@ -58,7 +58,7 @@ void align_shells(ContactFace& face) {
   }
 }
 
-/// Everything of the nodes, from what is known of the facets.
+/// All values of the nodes, from those of the facets.
 void settle_nodes(const GlobalMesh& mesh, ContactFace& face) {
   settle_normals(face);
   std::map<GlobalIndex, double> half_thickness;

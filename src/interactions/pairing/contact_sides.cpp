@@ -113,7 +113,7 @@ class SideFinder {
                       "floor alone");
     }
     decide(side, contact_.secondary, side.face.mean_normal);
-    // Shells have two sides: a mat stands on the wall, what it carries is on the other one.
+    // Shells have two sides: a mat is on the wall, its load on the other one.
     const Vector3 body = centre_of_body(contact_.secondary);
     if (leaves_plane(side, body)) turn_towards(side.face, behind(side.face, body));
   }

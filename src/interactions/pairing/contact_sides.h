@@ -9,7 +9,7 @@
 
 namespace pounding::interactions {
 
-/// One side of a contact with what is known of its structure.
+/// One side of a contact with the findings about its structure.
 struct FaceSide {
   int structure = 0;
   const GlobalMesh* mesh = nullptr;  ///< null: a rigid wall

@@ -77,7 +77,7 @@ void prefer_faces(FacetBacking& behind) {
   }
 }
 
-/// A solid tells which side of a facet is outside; a shell that lies on it does not.
+/// A solid gives the outer side of a facet; a shell that lies on it does not.
 void prefer_solids(FacetBacking& behind) {
   std::vector<Backing>& elements = behind.elements;
   if (std::ranges::any_of(elements, [](const Backing& b) { return !b.two_sided; })) {

@@ -8,7 +8,7 @@
 
 namespace pounding::interactions {
 
-/// A solid, shell or beam that holds all nodes of a facet, and what the facet is as its border.
+/// A solid, shell or beam that holds all nodes of a facet, and the facet as its border.
 struct Backing {
   int region = 0;          ///< of the element, in its structure
   bool solid = false;      ///< it is no shell

@@ -11,7 +11,7 @@ namespace pounding::interactions {
 struct FacedFacet {
   std::size_t facet = 0;  ///< of the face
   FacetPoint point;       ///< where the normal through the node meets it
-  double gap = 0;         ///< between the surfaces: without what shells reach beyond both [m]
+  double gap = 0;         ///< between the surfaces: without the parts of shells beyond both [m]
 };
 
 /// Finds the facets of a face that nodes face; bounding boxes of the facets across the normal let

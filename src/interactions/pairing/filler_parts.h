@@ -16,7 +16,7 @@ std::vector<double> node_areas(const ContactFace& face);
 /// Lays the filler of a contact into the joint between its pairs, whose initial gap is the joint's
 /// width until then and that of hard contact afterwards. `common`: area of the filler where none is
 /// told [m2], shared out in proportion to what the pairs' fillers have of it so far. `lines`: some
-/// face holds lines, which have no area. Throws UserError where that is not told, where faces have
+/// face holds lines, which have no area. Throws UserError where that is not given, where faces have
 /// none in common, where a joint is closed, and where it is thinner than its filler.
 void lay_filler(const Contact& contact, bool lines, double common,
                 std::span<Constraint> constraints, InterfaceReport& report);

@@ -302,7 +302,7 @@ class PairFinder {
     }
   }
 
-  /// Gaps given count from where the faces stand; a row that faces nothing yet gets the mean.
+  /// Gaps given count from the places of the faces; a row that faces nothing yet gets the mean.
   void set_offsets(std::span<Constraint> constraints, SlidingFaces& sliding) const {
     const auto is_open = [](const Constraint& row) { return row.geometric_gap == open_gap; };
     double sum = 0;

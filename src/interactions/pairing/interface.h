@@ -10,8 +10,8 @@
 #include "mesh/global_mesh.h"
 #include "mesh/node_links.h"
 
-/// Contact geometry: which secondary node faces which place of the primary face, along what normal,
-/// at what initial gap.
+/// Contact geometry: which secondary node faces which place of the primary face, along which
+/// normal, at which initial gap.
 ///
 /// Signs, for the whole program: the normal n points from the secondary side outwards, to the
 /// primary. The gap is g = g0 + L u with L u = n . (u_primary - u_secondary); g > 0 is open. The
@@ -47,7 +47,7 @@ struct Constraint {
   std::vector<ConstraintTerm> terms;
   double initial_gap = 0;         ///< of hard contact: until a filler is dense or a strip
                                   ///< crushed to the last [m]
-  double geometric_gap = 0;       ///< as the meshes stand, between the surfaces of shells [m]
+  double geometric_gap = 0;       ///< of the meshes, between the surfaces of shells [m]
   double facet_size = 0;          ///< of the facet that it faces, or twice how far pairs may slide
                                   ///< where they are found anew; 0: a wall, endless [m]
   std::array<double, 2> place{};  ///< secondary node on the tangent axes [m]
@@ -74,7 +74,7 @@ struct InterfaceReport {
   int unmatched_nodes = 0;  ///< secondary nodes that face nothing
   double smallest_gap = 0;  ///< initial [m]
   double largest_gap = 0;
-  std::array<double, 2> geometric_gap{};     ///< smallest and largest as the meshes stand, not
+  std::array<double, 2> geometric_gap{};     ///< smallest and largest of the meshes, not
                                              ///< numbers for a wall [m]
   std::array<double, 2> half_thickness{};    ///< of the shells at the faces of the secondary and of
                                              ///< the primary, the largest [m]
@@ -96,7 +96,7 @@ struct Interface {
   std::vector<InterfaceReport> reports;
   SlidingFaces sliding;
   double model_size = 0;              ///< largest extent of the scene [m]
-  std::vector<std::string> warnings;  ///< what may not be meant; rank 0 only
+  std::vector<std::string> warnings;  ///< doubts; rank 0 only
 };
 
 /// Whether some contact has a filler, a strip that is crushed, or a spring.

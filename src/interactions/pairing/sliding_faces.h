@@ -12,7 +12,7 @@
 namespace pounding::interactions {
 
 /// The parts of the faces of a scene along which pairs are found anew as they slide, as the meshes
-/// stand: rows of the interface, the facets that each may come to face and the nodes of both.
+/// are: rows of the interface, the facets that each may come to face and the nodes of both.
 struct SlidingFaces {
   struct Node {
     int structure = 0;

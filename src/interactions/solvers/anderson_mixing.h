@@ -23,7 +23,7 @@ class AndersonMixing {
   /// Begins anew: the next step has no history.
   void forget();
   /// The next x, of shape (n), from x and its image g(x); false, with x the image and the history
-  /// forgotten, where the last steps do not tell. `weight` of each value's change, >= 0.
+  /// forgotten, where the last steps say nothing. `weight` of each value's change, >= 0.
   bool mix(std::span<const double> weight, std::span<const double> image, std::span<double> x);
 
  private:

@@ -347,7 +347,7 @@ void FrictionSolver::add_momentum(std::size_t round, std::span<const double> ima
   const auto& [most, growth] = momenta[round % momenta.size()];
   const std::size_t n = impulse.size();
   double size = 0;
-  double against = 0;  // of the last step and of what the sweep changes now
+  double against = 0;  // of the last step and of the present change
   for (std::size_t i = 0; i < n; ++i) {
     const double change = weight_[i] * (image[i] - impulse[i]);
     size += change * change;

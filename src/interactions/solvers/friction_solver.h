@@ -93,7 +93,7 @@ class FrictionSolver {
   std::vector<double> jacobian_;
   std::vector<double> step_;
   std::vector<int> pivots_;
-  std::vector<double> weight_;  ///< of impulses in what a sweep changes
+  std::vector<double> weight_;  ///< of impulses in the change by a sweep
   std::vector<double> image_;   ///< of a mixed sweep
   std::vector<double> least_;   ///< impulses that a mixed sweep changed least
   std::vector<double> best_;    ///< impulses of the least residual of all rounds

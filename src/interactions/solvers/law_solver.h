@@ -117,7 +117,7 @@ class LawSolver {
   std::vector<Block> blocks_;
   std::vector<std::size_t> others_;  ///< rows without a rate
   std::vector<double> reach_;        ///< sum of the moduli of a row's compliances [m/N]; empty
-                                     ///< where `hold` cannot tell
+                                     ///< where `hold` does not give it
   std::vector<Motion> pull_;         ///< per body: sum of W^T b N of rows without a rate on it
   std::vector<Motion> block_pull_;   ///< the same of those with a rate
   double share_ = 0;                 ///< of a step, for which forces act

@@ -21,8 +21,8 @@ struct LcpResult {
   int dependent_rows = 0;   ///< closed rows that follow from other closed rows (singular H)
   int infeasible_rows = 0;  ///< zero rows of H with b < 0: no impulse can open them
   double residual = 0;      ///< complementarity_residual of the answer [-]
-  /// Round-off of H lambda over max |b| [-]: what a double cannot resolve. Above 1e-12 (mass ratios
-  /// beyond 1e3) LcpSolver::correct() brings the gap rates down to round-off.
+  /// Round-off of H lambda over max |b| [-], which a double cannot resolve. Above 1e-12 (mass
+  /// ratios beyond 1e3) LcpSolver::correct() brings the gap rates down to round-off.
   double roundoff = 0;
 };
 
@@ -82,10 +82,10 @@ class PrincipalFactor {
 ///    objective falls in every round, so it ends whatever the mass ratio or the rank of H.
 ///
 /// H singular: lambda is not unique (it depends on the start); L v+ and L^T lambda are. Rows that
-/// differ by less than about 1e-7 of their size cannot be told from dependent ones by H.
-/// Every tolerance is relative; b is first scaled by a power of two. So the same input gives the
-/// same bits, and scaling b, or H, by a power of two scales the impulse exactly.
-/// Not collective, no allocation after construction.
+/// differ by less than about 1e-7 of their size are dependent ones for H. Every tolerance is
+/// relative; b is first scaled by a power of two. So the same input gives the same bits, and
+/// scaling b, or H, by a power of two scales the impulse exactly. Not collective, no allocation
+/// after construction.
 class LcpSolver {
  public:
   explicit LcpSolver(int max_size);
@@ -97,10 +97,10 @@ class LcpSolver {
   LcpResult solve(std::span<const double> delassus, std::span<const double> free_rate,
                   std::span<double> impulse);
 
-  /// Removes what round-off left after the last solve(). `gap_rate` = L v+ with
-  /// v+ = v_free + M^-1 L^T impulse; `increment` [N s], of either sign, is added to `impulse` and
-  /// to be applied by the caller: v+ += M^-1 L^T increment. The delassus of the last solve() must
-  /// still be there. An impulse does not turn negative.
+  /// Removes the round-off of the last solve(). `gap_rate` = L v+ with v+ = v_free + M^-1 L^T
+  /// impulse; `increment` [N s], of either sign, is added to `impulse` and to be applied by the
+  /// caller: v+ += M^-1 L^T increment. The delassus of the last solve() must still be there. An
+  /// impulse does not turn negative.
   void correct(std::span<const double> gap_rate, std::span<double> impulse,
                std::span<double> increment);
 

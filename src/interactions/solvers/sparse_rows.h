@@ -25,7 +25,7 @@ struct SparseRows {
     column.push_back(to_column);
     value.push_back(entry);
   }
-  /// Ends a row: what was added since the last end is in it.
+  /// Ends a row: it has all that was added since the last end.
   void end_row() { begin.push_back(column.size()); }
   void clear() {
     begin.resize(1);
