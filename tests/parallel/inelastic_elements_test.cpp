@@ -188,7 +188,7 @@ TEST(InelasticElements, CloseTheLedgerWhereTheyFlow) {
 }
 
 TEST(InelasticElements, MoveAlikeOnAnyRanks) {
-  constexpr double of_one_rank = 7.3565833742436559e-09;
+  constexpr double of_one_rank = 1.3779114879708663e-08;
   BodyRun marked(true, false, 2);
   marked.run(300);
   EXPECT_NEAR(marked.squares(), of_one_rank, 1e-11 * of_one_rank);

@@ -12,7 +12,7 @@
 namespace pounding::testing {
 
 /// Bricks on springs with dashpots, and a chain of stiff bars along the lower edges of the body,
-/// all of whose springs and bars have their mass scaled.
+/// all of whose springs and bars, and most of whose bricks, have their mass scaled.
 inline DampedStructure scaled_structure(unsigned seed) {
   DampedStructure damped = random_structure(seed);
   Region& ties = add_region(damped, "ties", ElementType::bar, {0, 1, 1, 2, 2, 3, 3, 7});
