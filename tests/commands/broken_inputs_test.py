@@ -151,7 +151,7 @@ class Arguments(unittest.TestCase):
         for part, words in (("no closing quotation", ("sweep", scene, "--set", "end_time=1", "--options", "-a '")),
                             ("no closing quotation", ("plant", "--options", '"')),
                             ("not finite", ("plant", "--seconds", "inf")),
-                            ("above 1, which", ("tradeoff", "--scene", scene, "--target", 5)),
+                            ("is not above 0", ("tradeoff", "--scene", scene, "--estimate", 0)),
                             ("structures is not a mapping", ("plot", self.place / "odd")),
                             ("structures is not a mapping", ("compare", self.place / "odd", self.place / "cut")),
                             ("history.h5 cannot be read", ("plot", self.place / "cut")),
