@@ -80,8 +80,7 @@ Facts fidelity_facts(const Scene& scene, const RunStatistics& run) {
       "\nfloor spectra of the reduced structures beside full order ({fidelity/full_dofs} dofs), "
       "estimated by {fidelity/window:.4g} s at full order,\n"
       "  {fidelity/window_reason}, and by the motion changed by {fidelity/disturbance:.2g %}; rms "
-      "of "
-      "the logarithm of their ratio\n"
+      "of the logarithm of their ratio\n"
       "  in %, and the largest in the window\n");
   std::string head = sentence("  {:-24s}", {"Hz"});
   for (const FrequencyBand& band : compared_bands) head += sentence("{:10s}", {band_name(band)});

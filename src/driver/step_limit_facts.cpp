@@ -83,9 +83,8 @@ std::string told_remedies(const Building& building) {
     const double turn = 2 * std::numbers::pi * frequency;
     text += sentence(
         "    {} elements of {} hold the step: -{}_mass_scaling {:.3g} would allow at least {:.2g} "
-        "times it, "
-        "couple {:.2g} % of the dofs, which makes a step {:.2g} times as expensive, and move no "
-        "frequency below {:.0f} Hz by more than {:.1g} %\n",
+        "times it, couple {:.2g} % of the dofs, which makes a step {:.2g} times as expensive, and "
+        "move no frequency below {:.0f} Hz by more than {:.1g} %\n",
         {offer.elements, offer.groups, system.name, offer.time_step, gain, 100 * offer.share,
          offer.cost, frequency, 50 * factor * turn * turn});
   }

@@ -56,8 +56,8 @@ class Couplings {
       if (!is_free(node)) continue;
       coupled_[n] = 1;
       scaled_[n] = scaled || scaled_[n] != 0;
-      if (first >= 0) groups_.join(static_cast<std::size_t>(first), n);
       if (first < 0) first = node;
+      groups_.join(static_cast<std::size_t>(first), n);
     }
     for (std::size_t a = 0; scaled && a < nodes.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
@@ -185,7 +185,7 @@ bool may_scale(const Structure& structure, ElementType type) {
 }
 
 double holding_part(ElementType type) {
-  return traits_of(type).layout.nodes <= 2 ? 1 : 0.7;
+  return traits_of(type).layout.nodes <= 2 ? 1 : holding_part_of_meshes;
 }
 
 bool holds_massless(std::span<const double> stiffness, std::span<const double> lumped_mass) {

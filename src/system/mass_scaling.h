@@ -56,8 +56,11 @@ double longest_scaled_step(const Rayleigh& damping, double stiffening);
 /// step beams, bars and springs alone.
 bool may_scale(const Structure& structure, ElementType type);
 
-/// Part of the wanted step that an element of a type must not allow by itself to be scaled. Shells
-/// and solids of a regular mesh allow together up to 1.3 times the step of each.
+/// Part of the wanted step that shells and solids must not allow by themselves to be scaled: those
+/// of a regular mesh allow together up to 1.3 times the step of each.
+inline constexpr double holding_part_of_meshes = 0.7;
+
+/// That part for elements of a type; all of the step for beams, bars and springs.
 double holding_part(ElementType type);
 
 /// Whether an element holds a dof to which it gives no mass: it has no frequency of its own.

@@ -79,7 +79,7 @@ ScalingOffer StepCosts::cheapest(double most) const {
   std::array<double, candidates> allowed{};
   for (std::size_t k = 0; k < candidates; ++k) {
     const double step = candidate(k);
-    const auto left = std::ranges::lower_bound(steps, holding_part(ElementType::hex8) * step);
+    const auto left = std::ranges::lower_bound(steps, holding_part_of_meshes * step);
     allowed[k] = left == steps.end() ? step : std::min(step, *left);
   }
   MPI_Allreduce(MPI_IN_PLACE, allowed.data(), candidates, MPI_DOUBLE, MPI_MIN, mesh_.comm);
