@@ -29,6 +29,7 @@ class Part:
     dots: dict    # group -> (k,)
     clamped: np.ndarray
     contacts: dict  # name -> nodes
+    bars: dict      # number of an element of two nodes in the mesh file -> its two ends
 
     def used(self) -> np.ndarray:
         """Nodes of what is seen, increasing."""
@@ -53,9 +54,12 @@ def _cells(topology: np.ndarray) -> list:
 
 
 def _part(name: str, group: h5py.Group) -> Part:
-    faces, lines, dots, outside = {}, {}, {}, {}
-    for number, (code, nodes) in zip(group["group"][()].tolist(), _cells(group["topology"][()])):
+    faces, lines, dots, outside, cuts = {}, {}, {}, {}, {}
+    for number, element, (code, nodes) in zip(group["group"][()].tolist(), group["element"][()].tolist(),
+                                              _cells(group["topology"][()])):
         if code not in FACES:
+            if len(nodes) == 2:
+                cuts.setdefault(element, []).append(nodes)
             kind = lines if len(nodes) == 2 else dots
             kind.setdefault(number, []).append(nodes)
             continue
@@ -72,7 +76,8 @@ def _part(name: str, group: h5py.Group) -> Part:
                 for key in group if key.startswith("contact_") and isinstance(group[key], h5py.Dataset)}
     return Part(name, group["coordinates"][()], faces, {key: np.array(value) for key, value in lines.items()},
                 {key: np.ravel(value) for key, value in dots.items()},
-                np.flatnonzero(group["clamped"][()] == 7), contacts)
+                np.flatnonzero(group["clamped"][()] == 7), contacts,
+                {element: (pieces[0][0], pieces[-1][1]) for element, pieces in cuts.items()})
 
 
 def load(folder) -> tuple:

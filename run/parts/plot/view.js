@@ -11,6 +11,8 @@ function unpack(text, Type) {
 }
 
 const style = `#view{border:1px solid #bbb}#view canvas{width:100%;height:30em;display:block;background:#fff;cursor:grab}
+#view canvas.gaps{height:9em;border-top:1px solid #ddd;cursor:pointer}#view .scale{width:8em;height:.8em;margin:0 .4em;display:inline-block;
+vertical-align:middle;background:linear-gradient(90deg,#440054,#21918c,#fde725)}
 #view .bar{padding:.4em .6em;border-top:1px solid #ddd;font-size:.85em;display:flex;flex-wrap:wrap;gap:.3em 1em;align-items:center}
 #view .swatch{display:inline-block;width:.9em;height:.9em;margin:0 .3em;vertical-align:-.1em}`;
 make("style", document.head, {textContent: style});
@@ -25,12 +27,19 @@ const points = unpack(data.points, Float32Array);
 const count = points.length / 3;
 const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
 points.forEach((x, i) => { low[i % 3] = Math.min(low[i % 3], x); high[i % 3] = Math.max(high[i % 3], x); });
-const centre = low.map((x, d) => (x + high[d]) / 2);
 const size = Math.hypot(...low.map((x, d) => high[d] - x)) || 1;
 const modes = data.modes.map((mode) => ({...mode, values: unpack(mode.values, Int16Array)}));
 const motion = data.motion.times ? {...data.motion, values: unpack(data.motion.values, Int16Array)} : null;
+const components = ["N", "Vy", "Vz", "T", "My", "Mz"].filter((name) => data.members.some((beam) => beam.values[name]));
 
-const state = {turn: -0.9, tilt: 0.35, zoom: 1, shift: [0, 0], show: "model", time: 0, playing: false, factor: 1};
+const state = {turn: -0.9, tilt: 0.35, zoom: 1, shift: [0, 0], show: "model", time: 0, playing: false, factor: 1, colours: true,
+  force: ""};
+const still = () => state.show === "model";
+const clock = () => {  // of the motion [s]
+  const last = motion.times.length - 1, before = Math.min(Math.floor(state.time), Math.max(last - 1, 0));
+  const after = Math.min(before + 1, last);
+  return motion.times[before] + (state.time - before) * (motion.times[after] - motion.times[before]);
+};
 
 function program(vertex, fragment) {
   const made = gl.createProgram();
@@ -47,13 +56,15 @@ function program(vertex, fragment) {
   return made;
 }
 const shading = program(`#version 300 es
-in vec3 place, moved; uniform mat4 view; uniform float factor, large, nearer; out vec3 at;
-void main() { at = place + factor * moved; gl_Position = view * vec4(at, 1.0); gl_Position.z -= nearer; gl_PointSize = large; }`,
+in vec3 place, moved; uniform mat4 view; uniform float factor, large, nearer, most; out vec3 at; out float share;
+void main() { at = place + factor * moved; share = most > 0.0 ? min(length(moved) / most, 1.0) : -1.0; gl_Position = view * vec4(at, 1.0); gl_Position.z -= nearer; gl_PointSize = large; }`,
 `#version 300 es
-precision highp float; in vec3 at; uniform vec3 colour, eye; uniform bool lit; out vec4 seen;
+precision highp float; in vec3 at; in float share; uniform vec3 colour, eye; uniform bool lit; out vec4 seen;
 void main() { float light = lit ? 0.55 + 0.45 * abs(dot(normalize(cross(dFdx(at), dFdy(at))), eye)) : 1.0;
-seen = vec4(colour * light, 1.0); }`);
-const where = Object.fromEntries(["view", "factor", "large", "nearer", "colour", "eye", "lit"].map(
+vec3 low = vec3(0.267, 0.0, 0.329), middle = vec3(0.129, 0.569, 0.549), high = vec3(0.992, 0.906, 0.145);
+vec3 own = share < 0.0 ? colour : share < 0.5 ? mix(low, middle, 2.0 * share) : mix(middle, high, 2.0 * share - 1.0);
+seen = vec4(own * light, 1.0); }`);
+const where = Object.fromEntries(["view", "factor", "large", "nearer", "most", "colour", "eye", "lit"].map(
   (name) => [name, gl.getUniformLocation(shading, name)]));
 
 function buffer(target, values, use = gl.STATIC_DRAW) {
@@ -68,7 +79,7 @@ function attribute(place, values, use) {
   gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 0, 0);
   return made;
 }
-attribute(0, points);
+const placeBuffer = attribute(0, points);
 const moved = new Float32Array(points.length);
 const movedBuffer = attribute(1, moved, gl.DYNAMIC_DRAW);
 const rgb = (text) => [1, 3, 5].map((i) => parseInt(text.slice(i, i + 2), 16) / 255);
@@ -99,10 +110,69 @@ function move() {
   gl.bufferSubData(gl.ARRAY_BUFFER, 0, moved);
 }
 
+// Diagrams of the forces of the beams that were recorded, as triangles, and the largest value at either end now.
+const diagram = gl.createBuffer();
+function forces() {
+  const places = [], shown = {value: 0, name: "", ever: false}, of = motion && state.show === "motion";
+  let most = 0;
+  const beams = data.members.filter((beam) => beam.values[state.force]);
+  for (const beam of beams) for (const end of beam.values[state.force]) most = Math.max(most, Math.abs(end.largest));
+  for (const beam of beams) {
+    const ends = beam.nodes.map((node) => [0, 1, 2].map((d) => points[3 * node + d] + state.factor * moved[3 * node + d]));
+    const way = ["Vy", "Mz"].includes(state.force) ? beam.y : beam.z;
+    const values = beam.values[state.force].map((end) => of && end.at ? end.at[Math.round(state.time)] : end.largest);
+    if (!of || !beam.values[state.force].every((end) => end.at)) shown.ever = true;
+    for (const value of values) if (Math.abs(value) > Math.abs(shown.value)) Object.assign(shown, {value, name: beam.name});
+    const tips = ends.map((end, i) => end.map((x, d) => x + 0.12 * size * way[d] * values[i] / (most || 1)));
+    for (const corner of [ends[0], ends[1], tips[1], ends[0], tips[1], tips[0]]) places.push(...corner);
+  }
+  return {places: new Float32Array(places), ...shown};
+}
+function drawForces() {
+  const {places} = forces();
+  gl.bindBuffer(gl.ARRAY_BUFFER, diagram);
+  gl.bufferData(gl.ARRAY_BUFFER, places, gl.DYNAMIC_DRAW);
+  gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
+  gl.disableVertexAttribArray(1);
+  gl.vertexAttrib3f(1, 0, 0, 0);
+  gl.uniform1f(where.most, 0);
+  gl.uniform1f(where.nearer, 6e-3);
+  gl.uniform1i(where.lit, 0);
+  gl.uniform3fv(where.colour, rgb("#c2410c"));
+  gl.drawArrays(gl.TRIANGLES, 0, places.length / 3);
+  gl.bindBuffer(gl.ARRAY_BUFFER, placeBuffer);
+  gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
+  gl.enableVertexAttribArray(1);
+}
+
+// Gap of a contact now [mm]: that of the picture's curve at the time or just before; at rest the first.
+function gapNow(gap) {
+  const time = state.show === "motion" ? clock() : -Infinity;
+  let i = 0;
+  while (i + 1 < gap.times.length && gap.times[i + 1] <= time) ++i;
+  return gap.gap[i];
+}
+
 // Orthographic: right, up and towards the eye, of a turn about the vertical and a tilt.
 function axes() {
   const [c, s, ct, st] = [Math.cos(state.turn), Math.sin(state.turn), Math.cos(state.tilt), Math.sin(state.tilt)];
   return [[-s, c, 0], [-c * st, -s * st, ct], [c * ct, s * ct, st]];
+}
+// Middle and half of what the model takes along an axis of the picture [m].
+function extent(axis) {
+  let least = Infinity, most = -Infinity;
+  for (let i = 0; i < points.length; i += 3) {
+    const x = axis[0] * points[i] + axis[1] * points[i + 1] + axis[2] * points[i + 2];
+    least = Math.min(least, x);
+    most = Math.max(most, x);
+  }
+  return {middle: (least + most) / 2, half: Math.max((most - least) / 2, 1e-3 * size)};
+}
+// The canvas as tall as the picture of the model asks for, within bounds.
+function shape() {
+  const [right, up] = axes();
+  const tall = canvas.clientWidth * extent(up).half / extent(right).half;
+  canvas.style.height = `${Math.round(Math.min(Math.max(tall, 240), 0.62 * Math.max(window.innerHeight, 480)))}px`;
 }
 function draw() {
   const ratio = window.devicePixelRatio || 1;
@@ -115,14 +185,15 @@ function draw() {
   gl.depthFunc(gl.LEQUAL);
   gl.useProgram(shading);
   const [right, up, eye] = axes();
-  const tall = 2 * state.zoom / size, wide = tall * canvas.height / canvas.width;
-  const along = (axis, scale, shift) => [...axis.map((x) => x * scale),
-    shift - scale * axis.reduce((sum, x, d) => sum + x * centre[d], 0)];
-  const rows = [along(right, wide, state.shift[0]), along(up, tall, state.shift[1]), along(eye, -0.5 / size, 0), [0, 0, 0, 1]];
+  const [across, height] = [extent(right), extent(up)], aspect = canvas.width / canvas.height;
+  const tall = 0.88 * state.zoom * Math.min(1 / height.half, aspect / across.half), wide = tall / aspect;
+  const along = (axis, scale, shift, middle) => [...axis.map((x) => x * scale), shift - scale * middle];
+  const rows = [along(right, wide, state.shift[0], across.middle), along(up, tall, state.shift[1], height.middle),
+    along(eye, -0.5 / size, 0, extent(eye).middle), [0, 0, 0, 1]];
   gl.uniformMatrix4fv(where.view, false, [0, 1, 2, 3].flatMap((column) => rows.map((row) => row[column])));
   gl.uniform1f(where.factor, state.factor);
   gl.uniform3fv(where.eye, eye);
-  const shape = (list, kind, colour, nearer, dot) => {  // nearer: drawn before what it lies on
+  const put = (list, kind, colour, nearer, dot) => {  // nearer: drawn before what it lies on
     if (list.length === 0) return;
     gl.uniform3fv(where.colour, colour);
     gl.uniform1i(where.lit, kind === gl.TRIANGLES ? 1 : 0);
@@ -131,14 +202,63 @@ function draw() {
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, list.buffer);
     gl.drawElements(kind, list.length, gl.UNSIGNED_INT, 0);
   };
+  const most = state.colours && !still() ? (state.show === "motion" ? motion.largest : 1) : 0;
+  gl.uniform1f(where.most, most);
   for (const group of groups.filter((one) => one.on)) {
-    shape(group.triangles, gl.TRIANGLES, group.rgb, 0, 1);
-    shape(group.edges, gl.LINES, group.rgb.map((x) => 0.6 * x), 1, 1);
-    shape(group.lines, gl.LINES, group.rgb.map((x) => 0.8 * x), 2, 1);
-    shape(group.dots, gl.POINTS, group.rgb.map((x) => 0.7 * x), 3, 7);
+    put(group.triangles, gl.TRIANGLES, group.rgb, 0, 1);
+    put(group.edges, gl.LINES, group.rgb.map((x) => 0.6 * x), 1, 1);
+    put(group.lines, gl.LINES, group.rgb.map((x) => 0.8 * x), 2, 1);
+    put(group.dots, gl.POINTS, group.rgb.map((x) => 0.7 * x), 3, 7);
   }
-  for (const mark of marks.filter((one) => one.on)) shape(mark.nodes, gl.POINTS, mark.rgb, 4, 5);
+  gl.uniform1f(where.most, 0);
+  for (const mark of marks.filter((one) => one.on)) {
+    const gap = data.gaps.find((one) => mark.name === `contact ${one.name}`);
+    const closed = !gap || gapNow(gap) <= 0;
+    put(mark.nodes, gl.POINTS, closed ? mark.rgb : rgb("#2f4f6f"), 4, closed ? 7 : 5);
+  }
+  if (state.force) drawForces();
 }
+
+// The gaps over time, and where the motion is.
+const curves = data.gaps.length ? make("canvas", holder, {className: "gaps", title: "gaps over time: click for the instant"}) : null;
+const first = Math.min(...data.gaps.map((gap) => gap.times[0])), end = Math.max(...data.gaps.map((gap) => gap.times.at(-1)));
+function drawGaps() {
+  if (!curves) return;
+  const ratio = window.devicePixelRatio || 1, pen = curves.getContext("2d");
+  curves.width = Math.round(curves.clientWidth * ratio);
+  curves.height = Math.round(curves.clientHeight * ratio);
+  pen.scale(ratio, ratio);
+  const [width, height] = [curves.clientWidth, curves.clientHeight];
+  const most = Math.max(...data.gaps.map((gap) => Math.max(...gap.gap))), least = Math.min(0, ...data.gaps.map((gap) => Math.min(...gap.gap)));
+  const x = (time) => 50 + (width - 60) * (time - first) / (end - first || 1);
+  const y = (gap) => height - 22 - (height - 44) * (gap - least) / (most - least || 1);
+  pen.font = "12px sans-serif";
+  pen.fillStyle = "#555";
+  pen.fillText("gap [mm]", 4, 12);
+  for (const value of [0, most]) pen.fillText(value.toPrecision(3), 4, y(value) + 4);
+  pen.fillText(`${end.toPrecision(3)} s`, width - 44, height - 6);
+  pen.strokeStyle = "#999";
+  pen.strokeRect(50, y(0), width - 60, 0);
+  data.gaps.forEach((gap, i) => {
+    pen.strokeStyle = pen.fillStyle = gap.colour;
+    pen.fillText(gap.name, 90 + 110 * i, 12);
+    pen.beginPath();
+    gap.times.forEach((time, k) => pen.lineTo(x(time), y(gap.gap[k])));
+    pen.stroke();
+  });
+  if (state.show === "motion") {
+    pen.strokeStyle = "#d01c1c";
+    pen.strokeRect(x(clock()), 16, 0, height - 34);
+  }
+}
+if (curves && motion) curves.onclick = (event) => {
+  if (state.show !== "motion") show("motion");
+  const time = first + (end - first) * (event.offsetX - 50) / (curves.clientWidth - 60);
+  const after = motion.times.findIndex((one) => one >= time);
+  state.time = after < 0 ? motion.times.length - 1 : after;
+  state.playing = false;
+  refresh();
+};
 
 // The bar under the picture.
 const bar = make("div", holder, {className: "bar"});
@@ -155,9 +275,19 @@ for (const [name, turn, tilt] of [["from the side", -0.9, 0.35], ["plan", -Math.
                                   ["elevation x-z", -Math.PI / 2, 0], ["elevation y-z", 0, 0]]) {
   make("button", bar, {textContent: name, onclick: () => {
     Object.assign(state, {turn, tilt, shift: [0, 0], zoom: 1});
+    shape();
     draw();
   }});
 }
+const paint = make("label", bar);
+make("input", paint, {type: "checkbox", checked: true, onchange: (event) => { state.colours = event.target.checked; refresh(); }});
+paint.append("colours of displacement: 0");
+make("span", paint, {className: "scale"});
+const largest = make("span", paint);
+const pick = make("select", bar, {title: "force diagram", hidden: components.length === 0});
+make("option", pick, {value: "", textContent: "no force diagram"});
+for (const name of components) make("option", pick, {value: name, textContent: `diagram of ${name}`});
+pick.onchange = () => { state.force = pick.value; refresh(); };
 const note = make("div", holder, {className: "bar"});
 const legend = make("div", holder, {className: "bar"});
 for (const item of [...groups, ...marks]) {
@@ -170,18 +300,28 @@ for (const item of [...groups, ...marks]) {
 function refresh() {
   move();
   draw();
+  drawGaps();
   slider.value = state.time;
-  const still = state.show === "model";
-  for (const part of [play, slider, factor]) part.disabled = still;
+  for (const part of [play, slider, factor]) part.disabled = still();
+  paint.hidden = still();
+  largest.textContent = state.show === "motion" ? `${(1000 * motion.largest).toPrecision(3)} mm` : "largest";
   play.textContent = state.playing ? "stop" : "play";
-  let text = "As it was meshed; drag to turn, Shift-drag to move, wheel to zoom.";
+  let text = data.sag > 0 ? `At rest under its weight, which moves it by ${(1000 * data.sag).toPrecision(3)} mm at most. ` : "At rest. ";
+  text += "Drag to turn, Shift-drag to move, wheel to zoom.";
   if (state.show === "motion") {
     const frame = Math.round(state.time);
     text = `t = ${motion.times[frame].toFixed(4)} s; impulse since the frame before ${motion.impulse[frame].toPrecision(3)} N s` +
-      (motion.stride > 1 ? ` (every frame counted, one in ${motion.stride} shown)` : "") + ". Displacements are relative to the ground" +
+      (motion.stride > 1 ? ` (every frame counted, one in ${motion.stride} shown)` : "") + ". Displacements are those since the rest, relative to the ground" +
       (state.factor === 1 ? "." : `, times ${state.factor}: gaps are not amplified, so that parts seem to overlap where none do.`);
-  } else if (!still) {
+  } else if (!still()) {
     text = `Largest displacement drawn: ${state.factor} m. Signs and sizes of modes have no meaning.`;
+  }
+  if (data.gaps.length && (still() || state.show === "motion")) {
+    text += ` Gaps: ${data.gaps.map((gap) => `${gap.name} ${gapNow(gap) <= 0 ? "closed" : `${gapNow(gap).toPrecision(3)} mm`}`).join(", ")}.`;
+  }
+  if (state.force) {
+    const {value, name, ever} = forces(), unit = "TM".includes(state.force[0]) ? "kN m" : "kN";
+    text += ` ${state.force}: ${(value / 1000).toPrecision(3)} ${unit} in ${name}${ever ? ", of the largest of the samples" : ""}.`;
   }
   note.textContent = text;
 }
@@ -229,12 +369,14 @@ canvas.onpointermove = (event) => {
   }
   draw();
 };
+canvas.style.touchAction = "none";
 canvas.onwheel = (event) => { event.preventDefault(); state.zoom *= Math.exp(-0.001 * event.deltaY); draw(); };
-window.addEventListener("resize", draw);
+window.addEventListener("resize", () => { shape(); draw(); drawGaps(); });
+shape();
 show("model");
 
 // For tests: what is drawn, as the part of the picture that is not white and a sum that tells pictures apart.
-window.poundingView = {state, show, strike, modes: modes.length, frames: motion ? motion.times.length : 0, nodes: count,
+window.poundingView = {state, show, strike, refresh, forces, modes: modes.length, frames: motion ? motion.times.length : 0, nodes: count,
   picture() {
     draw();
     const pixels = new Uint8Array(4 * canvas.width * canvas.height);

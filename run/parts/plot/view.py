@@ -9,8 +9,12 @@ import numpy as np
 
 from pounding.results import Missing, Result
 from . import scene_mesh
+from .style import contact_colour, envelope
 
 MOST_NODES = 60000     # shown in a page; ParaView takes any number
+GAP_BINS = 600         # of the curve of a gap
+HOLDS, FAILS = "#1b7837", "#d01c1c"  # colours of equipment
+SIDES = {"N": "z", "T": "z", "Vy": "y", "Vz": "z", "My": "z", "Mz": "y"}  # axis along which a component is drawn
 MOST_BYTES = 12000000  # of the frames in a page, before base64
 COLOURS = ("#9bb7d4", "#d9a066", "#8fbf8f", "#c99bc4", "#d98c8c", "#b8b86a", "#7fc4c4", "#a89a86", "#8c8cd9", "#c4c4c4")
 
@@ -62,28 +66,91 @@ class _Scene:
                           "lines": _packed(lines, "<u4"), "dots": _packed(dots, "<u4")})
         return shown
 
+    def motion_of(self, file, frame: int) -> np.ndarray:
+        """Displacements of the seen nodes in a frame [m]."""
+        return self.rows([file[part.name]["displacement"][f"{frame:06d}"][()] for part in self.parts])
+
+    def rest(self, folder: Path) -> np.ndarray:
+        """Displacements of the seen nodes at the start, under the weight where the run begins at rest under it [m]."""
+        nothing = np.zeros((self.first[-1], 3))
+        path = folder / "fields.h5"
+        if not path.exists():
+            return nothing
+        with h5py.File(path, "r") as file:
+            if int(file["frames"][0]) == 0 or file["time"][0] > 0:
+                return nothing
+            return self.motion_of(file, 0)
+
     def marks(self, folder: Path) -> list:
         clamped = [self.number(p, part.clamped) for p, part in enumerate(self.parts)]
         shown = [{"name": "supports", "colour": "#1a1a1a", "nodes": _packed(np.concatenate(clamped), "<u4")}]
         for name in sorted({name for part in self.parts for name in part.contacts}):
             nodes = [self.number(p, part.contacts[name]) for p, part in enumerate(self.parts) if name in part.contacts]
             shown.append({"name": f"contact {name}", "colour": "#d01c1c", "nodes": _packed(np.concatenate(nodes), "<u4")})
-        probes = self._probes(folder)
-        if len(probes):
-            shown.append({"name": "probes", "colour": "#0a6e0a", "nodes": _packed(probes, "<u4")})
+        probes = self.probes(folder)
+        if probes:
+            nodes = [node for own in probes.values() for node in own]
+            shown.append({"name": "probes", "colour": "#0a6e0a", "nodes": _packed(nodes, "<u4")})
         return shown
 
-    def _probes(self, folder: Path) -> np.ndarray:
-        """The seen nodes at the places of the probes, which model.h5 has."""
-        path = folder / "model.h5"
+    def probes(self, folder: Path) -> dict:
+        """Probe -> the seen nodes at its places, which model.h5 has."""
+        path, found = folder / "model.h5", {}
         if not path.exists():
-            return np.array([])
+            return found
         with h5py.File(path, "r") as file:
             if "marks/probes/points" not in file:
-                return np.array([])
-            places = file["marks/probes/points"][()]
+                return found
+            places, numbers = file["marks/probes/points"][()], file["marks/probes/probe"][()]
+            names = [name.decode().strip("\0 ") for name in file["probes"][()]]
         points = self.rows([part.points for part in self.parts])
-        return np.array([int(np.argmin(((points - place)**2).sum(1))) for place in places])
+        for place, number in zip(places, numbers):
+            found.setdefault(names[number - 1], []).append(int(np.argmin(((points - place)**2).sum(1))))
+        return found
+
+    def capacities(self, result: Result) -> list:
+        """Items of equipment at their places, with demand over capacity: above 1 the item fails."""
+        probes, shown = self.probes(result.folder), []
+        for name, one in result.summary.get("equipment", {}).items():
+            if one["ratio"] and one["probe"] in probes:
+                demand = one["needed"] / one["ratio"]
+                shown.append({"name": f"{name}: {demand:.2f} of its capacity", "colour": FAILS if demand > 1 else HOLDS,
+                              "nodes": _packed(probes[one["probe"]], "<u4")})
+        return shown
+
+    def members(self, result: Result, times: list) -> list:
+        """Beams whose forces were recorded: ends, axes, and for each component at both ends the largest of the samples and,
+        where there is a history, its values at the times [N, N m]."""
+        shown, table = {}, result.forces
+        options, history = result.summary.get("options", {}), result.history.get("forces", [])
+        for item, component, element, peak in zip(*(table.get(key, ()) for key in ("item", "component", "element", "peak"))):
+            structure = options.get(f"{item}_structure")
+            part = next((i for i, part in enumerate(self.parts) if part.name == structure), None)
+            quantity, end = (component[:-1], int(component[-1]) - 1) if component[-1] in "12" else (component, None)
+            if part is None or quantity not in SIDES or int(element) not in self.parts[part].bars:
+                continue
+            beam = shown.setdefault((item, element), self._beam(result, item, part, int(element)))
+            name, at = f"{item}.{int(element)}.{component}", None
+            if name in history:
+                at = np.interp(times, result.history["time"], result.history["force"][:, history.index(name)]).tolist()
+            values = beam["values"].setdefault(quantity, [None, None])
+            for i in (0, 1) if end is None else (end,):
+                values[i] = {"largest": float(peak), "at": at}
+        return list(shown.values())
+
+    def _beam(self, result: Result, item: str, part: int, element: int) -> dict:
+        """A beam with the axes of its section."""
+        one = self.parts[part]
+        nodes = one.bars[element]
+        along = one.points[nodes[1]] - one.points[nodes[0]]
+        along = along / (np.linalg.norm(along) or 1)
+        group = result.summary["options"].get(f"{item}_group")
+        section = result.summary["structures"][one.name]["regions"].get(group, {}).get("section", {})
+        z = np.asarray(section.get("z_axis", np.eye(3)[int(np.argmin(np.abs(along)))]), float)
+        z = z - (z @ along) * along
+        z = z / (np.linalg.norm(z) or 1)
+        return {"name": f"{item}, element {element}", "nodes": self.number(part, list(nodes)).tolist(),
+                "y": np.cross(z, along).tolist(), "z": z.tolist(), "values": {}}
 
     def modes(self, folder: Path) -> list:
         path = folder / "modes.h5"
@@ -114,8 +181,7 @@ class _Scene:
             stride = -(-frames * int(self.first[-1]) * 6 // MOST_BYTES)
             strongest = int(impulse.argmax())
             kept = list(range(strongest % stride, frames, stride))
-            moved = np.stack([self.rows([file[part.name]["displacement"][f"{frame:06d}"][()] for part in self.parts])
-                              for frame in kept])
+            moved = np.stack([self.motion_of(file, frame) for frame in kept]) - self.rest(folder)
             times = file["time"][()][kept]
         return {"times": times.tolist(), "impulse": impulse[kept].tolist(), "strongest": kept.index(strongest),
                 "stride": stride, **_scaled(moved)}
@@ -128,18 +194,35 @@ class _Scene:
         return float(np.linalg.norm(file[part.name]["contact_impulse"][f"{frame:06d}"][()], axis=1).sum())
 
 
-def data(folder: Path) -> dict:
-    """All that the view shows. Throws Missing if there is no mesh, or one too large for a page."""
+def _gaps(result: Result) -> list:
+    """The smallest gap of each contact over time [s, mm], as much of it as a picture holds."""
+    shown = []
+    for column, name in enumerate(result.contacts if "gap" in result.history else []):
+        gap = result.history["gap"][:, column]
+        known = np.isfinite(gap)
+        if known.any():
+            times, values = envelope(result.history["time"][known], 1e3 * gap[known], GAP_BINS)
+            shown.append({"name": name, "colour": contact_colour(result.contacts, name),
+                          "times": np.round(times, 6).tolist(), "gap": np.round(values, 4).tolist()})
+    return shown
+
+
+def data(result: Result) -> dict:
+    """All that the view shows, displacements since the rest. Throws Missing if there is no mesh, or one too large for a
+    page."""
+    folder = result.folder
     scene = _Scene(*scene_mesh.load(folder))
-    points = scene.rows([part.points for part in scene.parts])
-    return {"points": _packed(points, "<f4"), "groups": scene.shapes(), "marks": scene.marks(folder),
-            "modes": scene.modes(folder), "motion": scene.motion(folder)}
+    motion, rest = scene.motion(folder), scene.rest(folder)
+    points = scene.rows([part.points for part in scene.parts]) + rest
+    return {"points": _packed(points, "<f4"), "sag": float(np.abs(rest).max(initial=0.0)), "groups": scene.shapes(),
+            "marks": scene.marks(folder) + scene.capacities(result), "modes": scene.modes(folder), "motion": motion,
+            "gaps": _gaps(result), "members": scene.members(result, motion.get("times", []))}
 
 
 def html(result: Result) -> str:
     """The view for the page, with its script and its numbers in it."""
     try:
-        numbers = json.dumps(data(result.folder), separators=(",", ":")).replace("</", "<\\/")
+        numbers = json.dumps(data(result), separators=(",", ":")).replace("</", "<\\/")
     except (OSError, KeyError, ValueError, IndexError) as error:
         raise Missing(f"a file with the mesh or its motion cannot be read: {' '.join(str(error).split())}") from error
     script = (Path(__file__).parent / "view.js").read_text(encoding="utf-8")
