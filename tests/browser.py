@@ -13,10 +13,10 @@ PROBE = """<body><script>document.body.textContent = document.createElement("can
 : "no pictures in three dimensions";</script></body>"""
 
 
-def open_page(browser, page):
-    """The page as the browser has it after its scripts ran, in stdout."""
+def open_page(browser, page, *more):
+    """The page as the browser has it after its scripts ran, in stdout; `more` flags."""
     with tempfile.TemporaryDirectory() as profile:
-        return subprocess.run([browser, *FLAGS, f"--user-data-dir={profile}", "--dump-dom", Path(page).as_uri()],
+        return subprocess.run([browser, *FLAGS, *more, f"--user-data-dir={profile}", "--dump-dom", Path(page).as_uri()],
                               capture_output=True, text=True, timeout=120, check=False)
 
 

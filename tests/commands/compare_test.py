@@ -88,7 +88,10 @@ class Compare(unittest.TestCase):
         for word in ("floor2_gap", "Impacts", "Peaks", "left_roof"):
             self.assertIn(word, page)
         self.assertIn("floor2_gap", self.done.stdout)
-        opening = f"narrow beside wide: {len(self.narrow.impacts['impulse'])} impacts in place of 0; the floor spectra (5 %) grow"
+        count = len(self.narrow.impacts["impulse"])
+        opening = (f"The joint closes in 1 of 2 runs (wide: floor2 of 60 mm stays open with a margin of "
+                   f"{self.wide.closing_factors()['floor2']:.3g} on the motion; narrow: floor2 of 10 mm closes, with {count} impacts "
+                   "in all and no margin); one motion in one joint each gives no confidence.")
         self.assertTrue(self.done.stdout.startswith(opening), self.done.stdout[:300])
         self.assertLess(page.index(opening), page.index("<table"))
 

@@ -168,6 +168,8 @@ class Study(unittest.TestCase):
             self.assertTrue((out / name).read_bytes().startswith(b"\x89PNG"), name)
         page = (out / "fragility.html").read_text()
         self.assertIn("<table", page)
+        self.assertLess(page.index('<div class="answer'), page.index("So that no joint closes"))
+        self.assertLess(page.index("So that no joint closes"), page.index("<nav>"))
         rows = [row for row in rows_of(out / "joint.csv") if row["joint"] == "any"]
         widths = " mm at 2 m/s2 .*; ".join(f"{1e3 * float(row['5 % [m]']):.3g}" for row in rows)
         self.assertRegex(page, f"So that no joint closes in 95 % of the cases it must be as wide as {widths} mm at 5 m/s2")

@@ -2,7 +2,9 @@
 console and the files say, and paper.
 
 Two small buildings for 1.2 s: at a gap of 10 mm they hit, at 60 mm they do not, and without contacts they are alone."""
+import csv
 import html
+import json
 import os
 import re
 import shlex
@@ -81,6 +83,9 @@ class Report(unittest.TestCase):
         impacts = self.hit.impacts
         strongest = impacts["impulse"].argmax()
         self.assertGreater(len(impacts["impulse"]), 0)
+        self.assertTrue(said.split(">")[-1].strip().startswith(
+            f"The joint floor2 of 10 mm closes, with {len(impacts['impulse'])} impacts in all and no margin; one motion in "
+            "one joint gives no confidence."), said[:200])
         self.assertIn(f"The buildings touched: {len(impacts['impulse'])} impact", said)
         self.assertIn(f"The hardest came at {impacts['start'][strongest]:.4g} s at {impacts['contact'][strongest]}: "
                       f"{markup.readable(impacts['impulse'][strongest])} N s", said)
@@ -117,6 +122,9 @@ class Report(unittest.TestCase):
         said = answer_of(self.place / "wide")
         gap = self.wide.history["gap"]
         row, column = numpy.unravel_index(numpy.nanargmin(gap), gap.shape)
+        first = min(self.wide.closing_factors(), key=self.wide.closing_factors().get)
+        self.assertIn(f"The joint {first} of 60 mm stays open with a margin of {self.wide.closing_factors()[first]:.3g} on the "
+                      "motion; one motion in one joint gives no confidence.", said)
         self.assertIn("The buildings did not touch.", said)
         smallest, rest = gap[row, column], 0.06
         self.assertIn(f"The smallest gap was {1e3 * smallest:.3g} mm at {self.wide.contacts[column]} at "
@@ -295,6 +303,28 @@ class Report(unittest.TestCase):
         sizes = set(re.findall(rb"/MediaBox \[0 0 (\d+)[.\d]* (\d+)", content))
         self.assertTrue(all(abs(int(w) - 595) <= 1 and abs(int(h) - 842) <= 1 for w, h in sizes) and sizes, sizes)
         self.assertGreater(content.count(b"/MediaBox"), 4)  # pages of paper
+        whole = page(self.place / "hit")
+        self.assertRegex(whole, r'<details class="screen"><summary>All options in force')  # behind a click, and not on paper
+        self.assertIn(".screen { display: none; }", whole[whole.index("@media print"):])
+
+    def test_no_table_leaves_the_page(self):
+        """On a screen and on a telephone: what is wider than its page is moved within it."""
+        script = """<script>
+        const wide = [...document.querySelectorAll("body *")].filter((one) => !one.closest(".rows") && one.tagName !== "CANVAS"
+          && one.getBoundingClientRect().right > document.documentElement.clientWidth + 1);
+        const line = document.createElement("pre");
+        line.id = "seen";
+        line.textContent = JSON.stringify([document.documentElement.scrollWidth, document.documentElement.clientWidth, wide.length]);
+        document.body.append(line);</script></body>"""
+        used = browser.needed(self)
+        for width in (1280, 500):  # a window is not narrower
+            with tempfile.TemporaryDirectory() as folder:
+                path = Path(folder, "page.html")
+                path.write_text(page(self.place / "hit").replace("</body>", script), encoding="utf-8")
+                seen = browser.open_page(used, path, f"--window-size={width},800").stdout
+            scrolled, shown, beyond = json.loads(html.unescape(re.search(r'<pre id="seen">(.*?)</pre>', seen)[1]))
+            self.assertLess(abs(shown - width), 20)
+            self.assertEqual((scrolled, beyond), (shown, 0), width)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@ import csv
 import os
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -11,6 +12,9 @@ from pathlib import Path
 import program
 import two_buildings
 from two_buildings import pounding
+
+sys.path.insert(0, os.path.join(program.SOURCE, "run"))
+from parts.sweep import members, table  # noqa: E402
 
 FIXED = " ".join(f"-{name} {value}" for name, value in two_buildings.SHORT.items()) + " -probes left_roof"
 GAPS = "floor1_gap,floor2_gap=0.01,0.06"
@@ -56,6 +60,16 @@ class Sweep(unittest.TestCase):
         self.assertGreater(int(rows[0]["impacts"]), 0)
         self.assertEqual(int(rows[1]["impacts"]), 0)
         self.assertTrue((self.place / "out" / "sweep.png").read_bytes().startswith(b"\x89PNG"))
+        page = (self.place / "out" / "sweep.html").read_text()
+        wide = pounding.load(self.place / "out" / rows[1]["folder"])
+        margin = min(wide.closing_factors().values())
+        self.assertAlmostEqual(float(rows[1]["closing factor"]) / margin, 1, delta=1e-9)
+        self.assertEqual(rows[0]["closing factor"], "")
+        opening = (f"The joint floor1_gap,floor2_gap: at motion_x_pga 4 it closes up to 10 mm and stays open from 60 mm with a "
+                   f"margin of {margin:.3g} on the motion; one motion gives no confidence.")
+        self.assertIn(opening, page)
+        self.assertIn(opening, done.stdout)
+        self.assertLess(page.index(opening), page.index("<table"))
         before = self.times()
         # One more value, on another number of ranks: the finished ones stay.
         again = sweep(self.place, GAPS + ",0.03", "motion_x_pga=4")
@@ -68,6 +82,19 @@ class Sweep(unittest.TestCase):
                 file.write("// changed\n" if name.endswith(".geo") else "# changed\n")
             self.assertIn("1 runs, 0 finished before", sweep(self.place, "floor1_gap,floor2_gap=0.06",
                                                              "motion_x_pga=4").stdout)
+
+    def test_several_motions_have_a_confidence(self):
+        """Rows as of a sweep: of four motions one closes the joint of 10 mm."""
+        axes = [members.read_axis("floor1_gap=0.01,0.02"), members.read_axis("motion_x_seed=1,2,3,4")]
+        rows = [{"floor1_gap": gap, "motion_x_seed": seed, "status": "ok", "impacts": int((gap, seed) == ("0.01", "3")),
+                 "closing factor": 1.5 if gap == "0.01" else 3.0} for gap in axes[0].values for seed in axes[1].values]
+        said, = table.sentences(rows, axes)
+        self.assertEqual(said, "The joint floor1_gap: closes up to 10 mm in 1 of 4 motions (0.63 to 81 % at 95 % confidence) and "
+                               "stays open from 20 mm with a margin of 3 on the motion.")
+        said, = table.sentences(rows[:4], axes[1:])
+        self.assertEqual(said, "The buildings touch in 1 of 4 motions (0.63 to 81 % at 95 % confidence) with a margin of 1.5 on "
+                               "the motion.")
+        self.assertEqual(table.sentences([{**row, "status": "failed"} for row in rows], axes), [])
 
     def test_a_failed_member_is_told_and_stops_no_other(self):
         done = sweep(self.place, "floor1_gap=0.06,wide,0.05")

@@ -7,7 +7,7 @@ import numpy as np
 
 from parts.tables import markdown, write_csv
 from parts.plot import answer
-from parts.plot.markup import html_figure, html_table, write_page
+from parts.plot.markup import answer_box, html_figure, html_table, write_page
 from parts.plot.style import WIDTH, log_scale, plt, save
 from pounding.files import write_text
 
@@ -63,8 +63,10 @@ def _parts(runs: Runs) -> list:
 
 
 def answers(runs: Runs) -> list:
-    """A sentence per run beside the first: impacts, the floor spectrum that changes most, equipment that changes sides."""
-    first, found = runs.results[0], []
+    """Joint, margin and confidence of all runs, and a sentence per run beside the first: impacts, the floor spectrum that
+    changes most, equipment that changes sides."""
+    first = runs.results[0]
+    found = [*filter(None, [answer.headline(dict(zip(runs.labels, runs.results)))])]
     for label, run in zip(runs.labels[1:], runs.results[1:]):
         counts = [one.summary.get("impacts", {}).get("episodes", 0) for one in (run, first)]
         line = f"{label} beside {runs.labels[0]}: {counts[0]} impacts in place of {counts[1]}"
@@ -88,7 +90,7 @@ def text(runs: Runs) -> str:
 
 
 def body(runs: Runs, folder: Path) -> str:
-    """Writes CSV files and figures into the folder and returns what a page says of them, in HTML."""
+    """Writes CSV files and figures into the folder and returns the parts of a page about them, in HTML."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, rows in (("spectra", tables.spectra(runs)), ("impacts", tables.impacts(runs)),
                        ("peaks", tables.peaks(runs)), ("options", tables.options(runs))):
@@ -97,13 +99,18 @@ def body(runs: Runs, folder: Path) -> str:
         else:
             write_text(folder / f"{name}.csv", "option\n")  # no option differs
     figures = [page for probe in runs.probes for page in spectra_figure(runs, probe, folder)]
-    found = '<div class="answer">\n' + "".join(f"<p>{escape(line)}</p>\n" for line in answers(runs)) + "</div>\n"
-    found += "".join(f'<p class="note">{escape(note)}</p>\n' for note in runs.notes)
+    found = "".join(f'<p class="note">{escape(note)}</p>\n' for note in runs.notes)
+    found += '<h2>Floor response spectra</h2>\n' + "".join(html_figure(folder, page, 3) for page in figures)
     for caption, rows in _parts(runs):
-        found += html_table(caption, *_cells(rows)) if rows else f"<p>{escape(caption)}: none.</p>\n"
-    return found + "".join(html_figure(folder, page) for page in figures)
+        found += f"<h2>{escape(caption)}</h2>\n" + (html_table("", *_cells(rows)) if rows else "<p>None.</p>\n")
+    return found
+
+
+def box(runs: Runs, more: str = "") -> str:
+    """The answer with which a page of the runs opens; `more`: HTML in it."""
+    return answer_box(answers(runs), any(answer.touched(run) for run in runs.results), more)
 
 
 def write(runs: Runs, folder: Path) -> Path:
     """Writes everything into the folder and returns the page's path."""
-    return write_page(folder / "comparison.html", " beside ".join(runs.labels), body(runs, folder))
+    return write_page(folder / "comparison.html", " beside ".join(runs.labels), box(runs) + body(runs, folder))

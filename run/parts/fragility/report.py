@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 
 from parts.tables import markdown, write_csv
-from parts.plot.markup import html_figure, html_table, paragraphs, write_page
+from parts.plot.markup import answer_box, html_figure, html_table, write_page
 from pounding.files import written_beside
 from pounding.fragility import Fragility, binomial_interval
 
 from . import figures
-from .analysis import CONTACT, EXCEEDED, TOLERANCE, Analysis, fit_row, gap_text
+from .analysis import CONTACT, EXCEEDED, TOLERANCE, Analysis, fit_row, gap_text, name_of
 from .outcomes import Outcomes
 
 PLACES = ("gap [m]", "pga [m/s2]")
@@ -99,10 +99,11 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
              (f"Members that the mean of any spectrum needs, within {100 * TOLERANCE:g} %",
               enough_summary(enough_rows)), ("Repeats at full order: ln-ratio of the spectra", repeats_summary(tables["full_order"]))]
     lines = told(analysis, fits, full, tables) + notes
-    content = paragraphs(lines)
-    for caption, rows in parts:
-        content += html_table(caption, *_cells(rows), text=(0,))
+    content = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))
     content += "".join(html_figure(folder, page) for page in pages)
+    for caption, rows in parts:
+        if rows:
+            content += f"<h2>{escape(caption)}</h2>\n" + html_table("", *_cells(rows), text=(0,))
     names = ", ".join(f"{name}.csv" for name, rows in tables.items() if rows)
     content += (f"<p>Tables beside this page: {escape(names)}, design.csv, motions.csv, correlation.csv, "
                 "spectra/*.csv.</p>\n")

@@ -49,9 +49,9 @@ def write(runs: Runs, folder: Path) -> Path:
         links += (f'<li><a href="{escape(str(link))}">{escape(label)}</a></li>\n' if not why else
                   f"<li>{escape(label)}: {escape(why)}</li>\n")
     apart = next((one for one in runs.results if not one.summary.get("contacts")), None)
-    content = "".join(f"<h3>{escape(label)}</h3>\n{answer.html(result, apart, '')}"
-                      for label, result in zip(runs.labels, runs.results) if result is not apart)
-    content += f"<p>Reports of the runs, with pictures of the model:</p>\n<ul>\n{links}</ul>\n"
-    content += page.body(runs, folder / "comparison") + html_table("What it cost", COST, cost_rows(runs))
+    content = page.box(runs, f"<p>Reports of the runs, with pictures of the model:</p>\n<ul>\n{links}</ul>\n")
+    content += "".join(f"<h2>The answer of {escape(label)}</h2>\n{answer.html(result, apart, '')}"
+                       for label, result in zip(runs.labels, runs.results) if result is not apart)
+    content += page.body(runs, folder / "comparison") + "<h2>What it cost</h2>\n" + html_table("", COST, cost_rows(runs))
     title = runs.results[0].summary.get("title") or "The plant pair"
     return write_page(folder / "plant.html", title, content)

@@ -8,7 +8,7 @@ import numpy as np
 from pounding.results import DIRECTIONS, Result
 from . import equipment
 from . import twin as twins
-from .markup import readable
+from .markup import answer_box, readable
 
 HEARD = 0.05  # of the largest floor spectrum of the run: what is below it is not looked at
 FELT = 0.01   # of the largest one without pounding: below it nothing moved, and a ratio says nothing
@@ -119,6 +119,48 @@ def smallest_gaps(run: Result) -> dict:
             at = int(np.nanargmin(gap))
             found[name] = (float(gap[at]), float(run.history["time"][at]), float(rest[0]))
     return found
+
+
+def decisive(run: Result) -> str | None:
+    """Contact of the largest impulse, else the one that a stronger motion closes first, else that of the smallest gap."""
+    if run.impacts and len(run.impacts["impulse"]):
+        name = str(run.impacts["contact"][int(np.argmax(run.impacts["impulse"]))])
+        return name if name in run.contacts else None
+    factors = run.closing_factors()
+    if factors:
+        return min(factors, key=factors.get)
+    gaps = smallest_gaps(run)
+    return min(gaps, key=lambda name: gaps[name][0], default=None)
+
+
+def verdict(run: Result) -> str:
+    """The joint that decides, whether it closes, and its margin: "floor2 of 10 mm closes, with 2 impacts in all and no margin"; nothing of a
+    run without contacts."""
+    name = decisive(run) or next(iter(run.summary.get("contacts", {})), None)
+    if name is None:
+        return ""
+    low, high = (1e3 * gap for gap in run.summary["contacts"][name].get("initial_gap") or [float("nan")] * 2)
+    width = f"{low:.3g} mm" if abs(high - low) < 1e-3 * abs(high) else f"{low:.3g} to {high:.3g} mm"
+    if touched(run):
+        asked = run.summary.get("separations", {}).get(name, {}).get("srss")
+        margin = f", where response spectra ask for {_millimetres(asked)} (SRSS)" if asked else " and no margin"
+        return f"{name} of {width} closes, with {_plural(run.summary['impacts']['episodes'], 'impact')} in all{margin}"
+    factor = run.closing_factors().get(name)
+    margin = f" with a margin of {factor:.3g} on the motion" if factor else ""
+    return f"{name} of {width} stays open{margin}"
+
+
+def headline(runs: dict) -> str:
+    """Joint, margin and confidence of runs by their labels, in one sentence; nothing where none has contacts."""
+    told = {label: verdict(run) for label, run in runs.items() if run.summary.get("contacts")}
+    if not told:
+        return ""
+    if len(told) == 1:
+        return f"The joint {next(iter(told.values()))}; one motion in one joint gives no confidence."
+    closed = sum(touched(runs[label]) for label in told)
+    how = "all" if closed == len(told) else "none" if closed == 0 else f"{closed}"
+    listed = "; ".join(f"{label}: {words}" for label, words in told.items())
+    return f"The joint closes in {how} of {len(told)} runs ({listed}); one motion in one joint each gives no confidence."
 
 
 def _touched(run: Result) -> list:
@@ -236,7 +278,7 @@ def sentences(run: Result, twin: Result | None, why: str = "") -> list:
     """The answer, its first line alone enough for who reads no further. Nothing of a folder without summary.json."""
     if not run.summary:
         return []
-    held = equipment.sentences(run, twin)
+    held = [*equipment.sentences(run, twin), *filter(None, [headline({"": run})])]
     if touched(run):
         return [*held, *_touched(run), *_floors(run, twin, why), *_margin(run), *checks(run)]
     if not run.summary.get("contacts"):
@@ -248,7 +290,6 @@ def html(run: Result, twin: Result | None, why: str) -> str:
     lines = sentences(run, twin, why)
     if not lines:
         return ""
-    text = "".join(f"<p>{escape(line)}</p>\n" for line in lines)
-    if touched(run) and twin is None:
-        text += f"<p>The run without pounding: <code>{escape(twins.command(run))}</code></p>\n"
-    return f'<div class="answer{" touched" if touched(run) else ""}">\n{text}</div>\n'
+    wanted = touched(run) and twin is None
+    more = f"<p>The run without pounding: <code>{escape(twins.command(run))}</code></p>\n" if wanted else ""
+    return answer_box(lines, touched(run), more)

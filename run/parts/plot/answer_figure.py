@@ -8,18 +8,6 @@ from .spectra_figures import draw_spectrum
 from .style import WIDTH, contact_colour, legend_above, plot_series, plt, save
 
 
-def _decisive(result: Result) -> str | None:
-    """Contact of the largest impulse, else the one that a stronger motion closes first, else that of the smallest gap."""
-    if result.impacts and len(result.impacts["impulse"]):
-        name = str(result.impacts["contact"][int(np.argmax(result.impacts["impulse"]))])
-        return name if name in result.contacts else None
-    factors = result.closing_factors()
-    if factors:
-        return min(factors, key=factors.get)
-    gaps = answer.smallest_gaps(result)
-    return min(gaps, key=lambda name: gaps[name][0], default=None)
-
-
 def _gap(axes, result: Result, name: str) -> None:
     time, gap = result.history["time"], 1e3 * result.history["gap"][:, result.contacts.index(name)]
     known = np.isfinite(gap)
@@ -58,7 +46,7 @@ def _floor(result: Result, along: tuple) -> tuple | None:
 
 
 def picture(result: Result) -> list:
-    name = _decisive(result) if "gap" in result.history and len(result.history["time"]) else None
+    name = answer.decisive(result) if "gap" in result.history and len(result.history["time"]) else None
     floor = _floor(result, _across(result, name))
     if not name and not floor:
         raise Missing("neither gaps nor spectra")

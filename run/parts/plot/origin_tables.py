@@ -1,9 +1,7 @@
 """Where a report comes from: date, machine, program and libraries, the inputs with their hashes, and all options."""
 
-from html import escape
-
 from pounding.results import Result
-from .markup import html_table
+from .markup import folded, html_table
 
 SHOWN_OVERRIDES = 6  # in a title
 
@@ -57,9 +55,9 @@ def tables(result: Result) -> str:
 
 
 def options(result: Result) -> str:
-    """All options in force, small."""
+    """All options in force, small, behind a click and not on paper: resolved.yaml has them."""
     rows = list(result.summary.get("options", {}).items())
     if not rows:
         return ""
-    table = html_table("", ["option", "value"], rows, text=(1,)).replace(f"<caption>{escape('')}</caption>\n", "")
-    return f'<h2 class="page">All options in force</h2>\n<div class="small">{table}</div>\n'
+    table = html_table("", ["option", "value"], rows, text=(1,))
+    return folded("All options in force, as resolved.yaml has them", f'<div class="small">{table}</div>\n', printed=False)

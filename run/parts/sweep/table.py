@@ -4,11 +4,15 @@ from pathlib import Path
 
 from matplotlib.ticker import MaxNLocator
 
+from parts.plot import answer
+from parts.plot.markup import answer_box, html_figure, html_table, write_page
 from parts.plot.style import WIDTH, plt, probe_colour, save
+from pounding.fragility import binomial_interval
 from pounding.results import DIRECTIONS, Result
 
 from .members import Member
 
+CONFIDENCE = 0.95  # of intervals
 
 def _probe_columns(result: Result) -> dict:
     """Peak acceleration [m/s2], displacement [m] and spectrum per probe and direction: of the smallest damping ratio the
@@ -44,19 +48,22 @@ def row_of(axes: list, member: Member, result: Result | None, failure: str) -> d
         if isinstance(one, dict):
             row[f"impacts {name}"] = one.get("episodes", 0)
             row[f"strongest impulse {name} [N s]"] = one.get("largest_impulse", 0.0)
+    row["closing factor"] = "" if answer.touched(result) else min(result.closing_factors().values(), default="")
     row.update(_probe_columns(result))
     row.update({"wall time [s]": result.summary.get("wall_time"), "commit": result.summary.get("commit", "")})
     return row
 
 
 def shown(rows: list, axes: list) -> tuple:
-    """Header and cells of what the terminal shows: impacts, and the largest spectrum of any direction by probe."""
+    """Header and cells of what terminal and page show: impacts, how many times as strong a motion closes a joint that is
+    open, and the largest spectrum of any direction by probe."""
     probes = probes_of(rows)
-    head = [*(axis.title for axis in axes), "impacts", "strongest [N s]", *(f"PSA {probe}" for probe in probes), ""]
+    head = [*(axis.title for axis in axes), "impacts", "closing factor", "strongest [N s]", *(f"PSA {probe}" for probe in probes), ""]
     cells = []
     for row in rows:
         failed = row["status"] != "ok"
         cells.append([*(row[axis.title] for axis in axes), "" if failed else row["impacts"],
+                      "" if failed else row["closing factor"],
                       "" if failed else row["strongest impulse [N s]"],
                       *("" if failed else psa_of(row, probe) for probe in probes),
                       row["status"] if failed else ""])
@@ -120,3 +127,66 @@ def draw(rows: list, axes: list, folder: Path) -> list:
     if any(groups):
         panels[0][0].legend(loc="best", fontsize=7)
     return save(figure, folder, "sweep.png", "Sweep", "Strongest impulse and largest floor spectrum.")
+
+
+def _is_joint(axis) -> bool:
+    return all(name.endswith("_gap") for name in axis.names) and all(_number(value) is not None for value in axis.values)
+
+
+def _is_motion(axis) -> bool:
+    return any(name.endswith(("_seed", "_record")) for name in axis.names)
+
+
+def _margin(rows: list) -> str:
+    """The least factor by which a motion closes joints that are open."""
+    factors = [row["closing factor"] for row in rows if row["closing factor"] != ""]
+    return f" with a margin of {min(factors):.3g} on the motion" if factors else ""
+
+
+def _share(rows: list, motions: int) -> str:
+    """How many of the rows touch; of several motions the interval of the probability as well."""
+    count = sum(row["impacts"] > 0 for row in rows)
+    if motions < 2:
+        return f"{count} of {len(rows)} members"
+    low, high = binomial_interval(count, len(rows), CONFIDENCE)
+    return (f"{count} of {len(rows)} motions ({100 * float(low):.2g} to {100 * float(high):.2g} % at "
+            f"{100 * CONFIDENCE:g} % confidence)")
+
+
+def sentences(rows: list, axes: list) -> list:
+    """Joint, margin and confidence of a sweep: which joints close at which values of the other options."""
+    ended = [row for row in rows if row["status"] == "ok"]
+    motions = max((len(axis.values) for axis in axes if _is_motion(axis)), default=1)
+    joint = next((axis for axis in axes if _is_joint(axis) and len(axis.values) > 1), None)
+    others = [axis for axis in axes if axis is not joint and not _is_motion(axis)]
+    groups = {}
+    for row in ended:
+        groups.setdefault(", ".join(f"{axis.title} {row[axis.title]}" for axis in others), []).append(row)
+    sure = "" if motions > 1 else "; one motion gives no confidence"
+    if joint is None:
+        told = [f"{_share(group, motions)}{f' at {label}' if label else ''}{_margin(group)}" for label, group in groups.items()]
+        return [f"The buildings touch in {'; '.join(told)}{sure}."] if ended else []
+    told = []
+    for label, group in groups.items():
+        by_width = {width: [row for row in group if _number(row[joint.title]) == width]
+                    for width in sorted({_number(row[joint.title]) for row in group})}
+        closes = [width for width, own in by_width.items() if any(row["impacts"] for row in own)]
+        opens = [width for width in by_width if not closes or width > max(closes)]
+        own = by_width[max(closes)] if closes else []
+        words = [f"closes up to {1e3 * max(closes):g} mm{f' in {_share(own, motions)}' if len(own) > 1 else ''}"] if own else []
+        words += [f"stays open from {1e3 * min(opens):g} mm{_margin(by_width[min(opens)])}"] if opens else []
+        told.append(f"{f'at {label} it ' if label else ''}{' and '.join(words)}")
+    return [f"The joint {joint.title}: {'; '.join(told)}{sure}."] if ended else []
+
+
+def write(rows: list, axes: list, title: str, folder: Path) -> Path:
+    """Draws the figure, writes sweep.html and returns its path."""
+    failed = sum(row["status"] != "ok" for row in rows)
+    lines = sentences(rows, axes) + [f"{len(rows)} members, {failed} failed."]
+    content = answer_box(lines, any(row.get("impacts") for row in rows))
+    head, cells = shown(rows, axes)
+    content += html_table("Impacts, the factor on the motion that closes the joint where it is open, and the largest floor "
+                          "spectra [m/s²]", head, cells)
+    content += "".join(html_figure(folder, page) for page in draw(rows, axes, folder))
+    content += "<p>Tables beside this page: sweep.csv, and a folder with the results of each member.</p>\n"
+    return write_page(folder / "sweep.html", title, content)
