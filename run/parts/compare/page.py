@@ -8,19 +8,19 @@ import numpy as np
 from parts.tables import markdown, write_csv
 from parts.plot import answer
 from parts.plot.markup import answer_box, html_figure, html_table, write_page
-from parts.plot.style import WIDTH, log_scale, plt, save
+from parts.plot.style import WIDTH, g_axis, log_scale, plt, run_colours, save
 from pounding.files import write_text
 
 from . import tables
 from .runs import Runs
 
-COLOURS = ("#000000", "#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 STYLES = ("-", "--", "-.", ":")
 
 
 def spectra_figure(runs: Runs, probe: str, folder: Path) -> list:
     """Spectra of one probe over each other, one column per direction, and below them their ratio to the first."""
     damping = runs.dampings[0]
+    colours = run_colours([bool(run.summary.get("contacts")) for run in runs.results])
     ways, floor = runs.moving(probe, damping), runs.round_off(probe, damping)
     figure, grid = plt.subplots(2, len(ways), figsize=(max(WIDTH, 4.0 * len(ways)), 5.6), squeeze=False, sharex=True,
                                 sharey="row", height_ratios=(3, 2))
@@ -32,7 +32,7 @@ def spectra_figure(runs: Runs, probe: str, folder: Path) -> list:
             log_scale(axes, "x", runs.frequency)
         log_scale(upper, "y", max(values, key=max))
         for index, (label, own) in enumerate(zip(runs.labels, values)):
-            look = {"color": COLOURS[index % len(COLOURS)], "ls": STYLES[index % len(STYLES)], "lw": 1.5}
+            look = {"color": colours[index], "ls": STYLES[index % len(STYLES)], "lw": 1.5}
             upper.plot(runs.frequency, np.where(own > floor, own, np.nan), label=label, **look)
             lower.plot(runs.frequency[held], own[held] / values[0][held], **look)
         if not held.any():
@@ -42,6 +42,7 @@ def spectra_figure(runs: Runs, probe: str, folder: Path) -> list:
     log_scale(grid[1, 0], "y", [0.1, 10])
     grid[0, 0].legend(loc="best")
     grid[0, 0].set_ylabel("pseudo-acceleration [m/s²]")
+    g_axis(grid[0, -1])
     grid[1, 0].set_ylabel(f"over {runs.labels[0]}")
     return save(figure, folder, f"spectra_{probe}.png", f"Floor response spectra of {probe}",
                 f"Pseudo-acceleration at {100 * damping:g} % damping, and its ratio to that of {runs.labels[0]}.")

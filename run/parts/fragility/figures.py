@@ -5,12 +5,11 @@ from pathlib import Path
 import numpy as np
 from scipy import stats
 
-from parts.plot.style import WIDTH, log_scale, plt, save
+from parts.plot.style import WIDTH, WITH, WITHOUT, g_axis, log_scale, plt, save
 from pounding.fragility import Fragility, binomial_interval, moments
 
 from .analysis import CONTACT, EXCEEDED, Analysis, gap_text, name_of
 
-WITH, WITHOUT = "#B2182B", "#08519C"
 COLOURS = ("#08519C", "#0072B2", "#009E73", "#E69F00", "#D55E00", "#B2182B", "#762A83")
 STEPS = 40  # contours of the map between two levels
 
@@ -47,6 +46,7 @@ def draw_floor(axes, analysis: Analysis) -> str:
     axes.set_ylabel("pseudo-acceleration [m/s²]")
     axes.set_title(f"{found.channels[channel]}, joint {1e3 * gap:g} mm, {level / 9.81:.2g} g")
     axes.legend(loc="upper left")
+    g_axis(axes)
     return (f"Median and 16-84 % band of {analysis.study.samples} members, {100 * found.damping[damping]:g} % damping: "
             f"{found.channels[channel]}, nominal joint of {1e3 * gap:g} mm, peak ground acceleration {level:g} m/s².")
 

@@ -4,8 +4,7 @@ import numpy as np
 
 from pounding.results import Missing, Result
 from .markup import html_table
-from .spectra_figures import WITH, WITHOUT
-from .style import G, WIDTH, log_scale, plt, save
+from .style import WIDTH, WITH, WITHOUT, g_axis, log_scale, plt, save
 
 CAPACITY = "#222222"
 
@@ -107,8 +106,7 @@ def _figure(run: Result, name: str, one: dict) -> list:
     grid[0, 0].set_ylabel("acceleration [m/s²]")
     grid[1, 0].set_ylabel("capacity over required")
     grid[0, 0].legend(loc="best", fontsize=8)
-    in_g = grid[0, -1].secondary_yaxis("right", functions=(lambda a: a / G, lambda a: a * G))
-    in_g.set_ylabel("[g]")
+    g_axis(grid[0, -1])
     return save(figure, run.folder, f"equipment_{name}.png", f"Equipment: {name}",
                 f"Spectrum that the floor at {one['probe']} asks for ({100 * one['damping']:g} % damping, widened by "
                 f"{100 * one['broadening']:g} %) beside the capacity; below their ratio, of which {one['needed']:.3g} (dotted) "

@@ -3,7 +3,7 @@
 import numpy as np
 
 from pounding.results import DIRECTIONS, Missing, Result, low_pass
-from .style import DIRECTION_COLOURS, G, has_signal, legend_above, plot_series, probe_colour, save, stacked
+from .style import DIRECTION_COLOURS, G, OF_GROUND, WITH, WITHOUT, g_axis, has_signal, legend_above, plot_series, save, stacked
 
 
 def ground_motion(result: Result) -> list:
@@ -15,10 +15,11 @@ def ground_motion(result: Result) -> list:
         raise Missing("the ground does not move")
     figure, rows = stacked(len(shown), 1.7, sharey=True)
     for axes, i in zip(rows, shown):
-        plot_series(axes, time, ground[:, i], color=DIRECTION_COLOURS[DIRECTIONS[i]], lw=0.8)
+        plot_series(axes, time, ground[:, i], color=OF_GROUND, lw=0.8)
         peak = np.nanmax(np.abs(ground[:, i]))
         axes.set_title(f"ground, {DIRECTIONS[i]}: peak {peak:.3g} m/s² ({peak / G:.3g} g)")
         axes.set_ylabel("acceleration [m/s²]")
+        g_axis(axes)
     rows[-1].set_xlabel("time [s]")
     return save(figure, result.folder, "ground_motion.png", "Ground motion",
                 "Acceleration of the ground, as applied at the output samples.")
@@ -55,6 +56,12 @@ def drifts(result: Result) -> list:
                 "the lowest floor against the base of its structure.")
 
 
+def _beside(result: Result, probe: str, direction: str, cut: float | None) -> tuple | None:
+    """Times and accelerations of the probe in the run without pounding, if there is one that recorded it."""
+    found = result.without.series_if_any("acceleration", probe, direction) if result.without else None
+    return (found[0], low_pass(found[1], found[0], cut)) if found and cut else found
+
+
 def accelerations(result: Result) -> list:
     result.need("acceleration", "channels")
     cut = result.summary.get("peak_frequency")
@@ -71,10 +78,15 @@ def accelerations(result: Result) -> list:
             continue
         figure, rows = stacked(len(series), 1.6)
         for axes, (probe, (time, values)) in zip(rows, series.items()):
-            plot_series(axes, time, values, color=probe_colour(result.probes, probe), lw=0.7)
+            other = _beside(result, probe, direction, cut)
+            plot_series(axes, time, values, color=WITH, lw=0.8, label="with pounding" if other else None)
+            if other:
+                plot_series(axes, *other, color=WITHOUT, lw=0.8, label="without pounding")
+                legend_above(axes, columns=2)
             peak = np.nanmax(np.abs(values), initial=0.0)
             axes.set_title(f"{probe}, {direction}: peak {below} {peak:.3g} m/s² ({peak / G:.3g} g)")
             axes.set_ylabel("[m/s²]")
+            g_axis(axes)
         rows[-1].set_xlabel("time [s]")
         made += save(figure, result.folder, f"accelerations_{direction}.png",
                      f"Absolute accelerations, {direction}",

@@ -3,10 +3,9 @@
 import numpy as np
 
 from pounding.results import DIRECTIONS, GROUND, Missing, Result
-from .style import G, WIDTH, log_scale, plt, save
+from .style import OF_GROUND, WIDTH, WITH, WITHOUT, g_axis, log_scale, plt, save
 
 MODE_SHARE = 0.02  # modes drawn on the spectra carry this share of the mass, or more
-WITH, WITHOUT, BELOW = "#08519C", "#D55E00", "#777777"
 _DEPTH = 1e-4      # of the largest value drawn: below it curves are left out
 _ROWS = 3          # probes of a figure, as many as a page of paper holds
 _MOST_FIGURES = 8
@@ -32,7 +31,7 @@ def _curves(result: Result, probe: str, way: str, dampings: list) -> list:
         own = result.spectrum_if_any(probe, way, damping)
         other = result.without.spectrum_if_any(probe, way, damping) if beside else None
         ground = result.spectrum_if_any(GROUND, way, damping) if probe != GROUND else None
-        for run, label, look in ((ground, "ground", {"color": BELOW, "lw": 1.0}),
+        for run, label, look in ((ground, "ground", {"color": OF_GROUND, "lw": 1.0}),
                                  (other, "without pounding", {"color": WITHOUT, "lw": 1.3, "ls": "--"}),
                                  (own, "with pounding" if beside else "floor", {"color": WITH, "lw": 1.5})):
             if run:
@@ -55,9 +54,7 @@ def draw_spectrum(axes, result: Result, probe: str, way: str, dampings: list, in
     _mode_lines(axes, result, probe, way)
     axes.grid(True, which="minor", lw=0.3)
     if in_g:
-        beside = axes.secondary_yaxis("right", functions=(lambda a: a / G, lambda a: a * G))
-        beside.yaxis.set_major_formatter(axes.yaxis.get_major_formatter())
-        beside.set_ylabel("[g]")
+        g_axis(axes)
 
 
 def _moving(result: Result, probe: str, damping: float) -> list:

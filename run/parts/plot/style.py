@@ -1,6 +1,7 @@
 """The look of every figure, and drawing of long series without losing their extremes."""
 
 import io
+import itertools
 from pathlib import Path
 
 import matplotlib
@@ -16,8 +17,12 @@ from pounding.files import file_name, written_beside  # noqa: E402
 G = 9.81  # [m/s2]
 WIDTH = 9.0  # of a figure [in]
 
+# One colour for each run in all figures: with pounding, without, the ground; of more runs one each.
+WITH, WITHOUT, OF_GROUND = "#08519C", "#D55E00", "#777777"
+_RUN_COLOURS = (WITH, "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+
 DIRECTION_COLOURS = {"x": "#0072B2", "y": "#E69F00", "z": "#009E73"}
-_PROBE_COLOURS = ("#7FB0D9", "#08519C", "#F4A582", "#B2182B", "#A6D96A", "#1B7837", "#C2A5CF",
+_PROBE_COLOURS = ("#7FB0D9", "#4A6FA5", "#F4A582", "#B2182B", "#A6D96A", "#1B7837", "#C2A5CF",
                   "#762A83")
 _CONTACT_COLOURS = ("#3B7D3B", "#9C2C77", "#B8860B", "#2F4F6F")
 
@@ -39,6 +44,12 @@ plt.rcParams.update({
     "legend.fontsize": 9,
     "agg.path.chunksize": 20000,
 })
+
+
+def run_colours(pounding: list) -> list:
+    """Colour of each run of a list that says whether it has contacts; those without are of one colour."""
+    own = itertools.cycle(_RUN_COLOURS)
+    return [next(own) if one else WITHOUT for one in pounding]
 
 
 def probe_colour(probes: list, name: str) -> str:
@@ -88,6 +99,14 @@ def log_scale(axes, which: str, values, plain: bool = True) -> None:
         # Below one decade the only labels may be those of the minor ticks.
         narrow = positive.max() < 10 * positive.min()
         axis.set_minor_formatter(number if narrow else NullFormatter())
+
+
+def g_axis(axes) -> None:
+    """A second axis on the right of one in m/s2, in g."""
+    beside = axes.secondary_yaxis("right", functions=(lambda a: a / G, lambda a: a * G))
+    if axes.get_yscale() == "log":
+        beside.yaxis.set_major_formatter(axes.yaxis.get_major_formatter())
+    beside.set_ylabel("[g]")
 
 
 def legend_above(axes, columns: int = 1) -> None:
