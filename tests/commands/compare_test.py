@@ -93,7 +93,14 @@ class Compare(unittest.TestCase):
                    f"{self.wide.closing_factors()['floor2']:.3g} on the motion; narrow: floor2 of 10 mm closes, with {count} impacts "
                    "in all and no margin); one motion in one joint each gives no confidence.")
         self.assertTrue(self.done.stdout.startswith(opening), self.done.stdout[:300])
-        self.assertLess(page.index(opening), page.index("<table"))
+        second = f"narrow beside wide: {count} impacts in place of 0; the floor spectra (5 %) grow"
+        self.assertLess(page.index(opening), page.index(second))
+        self.assertLess(page.index(second), page.index("<nav>"))
+        self.assertLess(page.index("<nav>"), page.index("<table"))
+        rows = rows_of(self.out / "floor_spectra.csv")
+        self.assertTrue(rows)
+        for row in rows:
+            self.assertEqual(float(row["PSA envelope [m/s2]"]), max(float(row[f"PSA {run} [m/s2]"]) for run in ("wide", "narrow")))
 
     def test_three_runs_and_another_number_of_ranks(self):
         two_buildings.run(self.place / "alone", ranks=1, gap=0.01, probes="left_roof")

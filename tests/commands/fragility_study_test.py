@@ -1,6 +1,7 @@
 """run/fragility over two small buildings: members, tables, parts, going on, repeats at full order, mistakes."""
 import csv
 import os
+import re
 import signal
 import subprocess
 import tempfile
@@ -170,6 +171,14 @@ class Study(unittest.TestCase):
         self.assertIn("<table", page)
         self.assertLess(page.index('<div class="answer'), page.index("So that no joint closes"))
         self.assertLess(page.index("So that no joint closes"), page.index("<nav>"))
+        caption = re.search(r"<caption>84 % of the members in a joint of (\S+) mm at (\S+) m/s², 5 % damping, widened by 15 %.*?</table>",
+                            page, re.DOTALL)
+        cell = rows_of(out / "spectra" / f"gap-{float(caption[1]) / 1e3:g}_pga-{caption[2]}.csv")
+        widened = {f"{float(row['frequency']):g}": float(row["p84_widened"]) for row in cell
+                   if row["channel"] == "left_roof x" and row["damping"] == "0.05"}
+        head = re.findall("<th[^>]*>(.*?)</th>", caption[0])[1:]
+        shown = re.search("<td>left_roof x, with pounding</td>(.*?)</tr>", caption[0])[1]
+        self.assertEqual(re.findall("<td>(.*?)</td>", shown), [f"{widened[f]:.3g}" for f in head])
         rows = [row for row in rows_of(out / "joint.csv") if row["joint"] == "any"]
         widths = " mm at 2 m/s2 .*; ".join(f"{1e3 * float(row['5 % [m]']):.3g}" for row in rows)
         self.assertRegex(page, f"So that no joint closes in 95 % of the cases it must be as wide as {widths} mm at 5 m/s2")

@@ -23,7 +23,7 @@ import two_buildings
 from two_buildings import pounding
 
 sys.path.insert(0, os.path.join(program.SOURCE, "run"))
-from parts.plot import answer, force_figures, markup, model_tables, twin  # noqa: E402
+from parts.plot import answer, design_spectra, force_figures, markup, model_tables, twin  # noqa: E402
 
 MORE = {"modes": 4, "spectra_damping": "0.02,0.05", "forces": "base,corner", "base_structure": "left",
         "base_kind": "reactions", "corner_structure": "left", "corner_kind": "members", "corner_group": "columns",
@@ -108,6 +108,29 @@ class Report(unittest.TestCase):
         whole = page(self.place / "hit")
         self.assertLess(whole.index('class="answer'), whole.index("<table"))
         self.assertLess(whole.index("In one picture"), whole.index("<table"))
+
+    def test_floor_spectra_stand_at_regulatory_frequencies(self):
+        at = design_spectra.frequencies(0.1, 500)
+        self.assertEqual(len(at), 28 + 4 + 7 + 12 + 14 + 3 + 2 + 4 + 1 + len(design_spectra.BEYOND))
+        self.assertEqual(len(set(at)), len(at))
+        for frequency in (0.2, 3.0, 3.15, 3.6, 5.0, 8.0, 14.5, 17.0, 20.0, 31.0, 34.0, 400.0):
+            self.assertIn(frequency, at)
+        with open(self.place / "hit" / "floor_spectra.csv", newline="") as file:
+            rows = [row for row in csv.DictReader(file) if (row["probe"], row["direction"], row["damping"]) == ("left_roof", "x", "0.05")]
+        f, own = self.hit.spectrum("left_roof", "x", 0.05)
+        _, other = self.alone.spectrum("left_roof", "x", 0.05)
+        fine = numpy.exp(numpy.linspace(numpy.log(f[0]), numpy.log(f[-1]), 20001))
+        for row in rows:
+            near = (fine >= float(row["frequency"]) / 1.15) & (fine <= float(row["frequency"]) / 0.85)
+            for name, spectrum in (("PSA with pounding [m/s2]", own), ("PSA without [m/s2]", other)):
+                largest = numpy.exp(numpy.interp(numpy.log(fine[near]), numpy.log(f), numpy.log(spectrum))).max()
+                self.assertAlmostEqual(float(row[name]) / largest, 1, delta=0.03, msg=row["frequency"])  # between the spectra's own
+            self.assertEqual(float(row["PSA envelope [m/s2]"]), max(float(row[name]) for name in list(row)[4:6]))
+        shown = table(page(self.place / "hit"), "Envelope of the runs, widened by 15 %, 5 % damping")
+        there = {row[0]: dict(zip(shown[0][1:], row[1:])) for row in shown[1:]}
+        envelope = {f"{float(row['frequency']):g}": float(row["PSA envelope [m/s2]"]) for row in rows}
+        for frequency, value in there["left_roof, x"].items():
+            self.assertEqual(value, f"{envelope[frequency]:.3g}")
 
     def test_checks_that_do_not_close_are_said(self):
         summary = {**self.hit.summary, "energy": {"relative_residual": 1e-3}, "warnings": ["odd"],

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from parts.tables import markdown, write_csv
-from parts.plot import answer
+from parts.plot import answer, design_spectra
 from parts.plot.markup import answer_box, html_figure, html_table, write_page
 from parts.plot.style import WIDTH, g_axis, log_scale, plt, run_colours, save
 from pounding.files import write_text
@@ -102,6 +102,7 @@ def body(runs: Runs, folder: Path) -> str:
     figures = [page for probe in runs.probes for page in spectra_figure(runs, probe, folder)]
     found = "".join(f'<p class="note">{escape(note)}</p>\n' for note in runs.notes)
     found += '<h2>Floor response spectra</h2>\n' + "".join(html_figure(folder, page, 3) for page in figures)
+    found += design_spectra.write(dict(zip(runs.labels, runs.results)), runs.probes, runs.dampings, folder)
     for caption, rows in _parts(runs):
         found += f"<h2>{escape(caption)}</h2>\n" + (html_table("", *_cells(rows)) if rows else "<p>None.</p>\n")
     return found

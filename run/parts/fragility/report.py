@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from parts.tables import markdown, write_csv
+from parts.plot import design_spectra
 from parts.plot.markup import answer_box, html_figure, html_table, write_page
 from pounding.files import written_beside
-from pounding.fragility import Fragility, binomial_interval
+from pounding.fragility import Fragility, binomial_interval, moments
 
 from . import figures
 from .analysis import CONTACT, EXCEEDED, TOLERANCE, Analysis, fit_row, gap_text, name_of
@@ -101,6 +102,7 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
     lines = told(analysis, fits, full, tables) + notes
     content = answer_box(lines, any(row["hits"] for row in tables["probability"] if row["event"] == name_of(CONTACT)))
     content += "".join(html_figure(folder, page) for page in pages)
+    content += f"<h2>Floor spectra</h2>\n{floor_table(analysis)}"
     for caption, rows in parts:
         if rows:
             content += f"<h2>{escape(caption)}</h2>\n" + html_table("", *_cells(rows), text=(0,))
@@ -110,6 +112,22 @@ def write(analysis: Analysis, full: Outcomes | None, rules: dict, notes: list, f
     text = "\n".join(f"{line}" for line in lines) + "\n\n" + "\n".join(
         markdown(caption, *_cells(rows)) for caption, rows in parts if rows)
     return write_page(folder / "fragility.html", study.title, content, f"study {study.path.name}"), text
+
+
+def floor_table(analysis: Analysis) -> str:
+    """Floor spectra of the cell that the figures show, with and without pounding: 84 % of the members, widened."""
+    found = analysis.outcomes
+    gap, level, _, damping = figures.shown(analysis)
+    at = np.array([f for f in design_spectra.SHOWN if found.frequency[0] <= f <= found.frequency[-1]], float)
+    rows = []
+    for channel in analysis.main(found.spectra[analysis.of(gap, level)]):
+        name = found.channels[channel]
+        for cell, words in ((gap, "with pounding"), (None, "without")):
+            high = moments(found.spectra[analysis.of(cell, level)][:, channel, damping]).high
+            rows.append((f"{name}, {words}", *(f"{value:.3g}" for value in design_spectra.design_spectrum(found.frequency, high, at))))
+    return html_table(f"84 % of the members in a joint of {1e3 * gap:g} mm at {level:g} m/s², {100 * found.damping[damping]:g} % damping, "
+                      f"widened by {100 * design_spectra.BROADENING:g} % [m/s²], by frequency [Hz]",
+                      ["", *(f"{f:g}" for f in at)], rows)
 
 
 def needed_joint(rows: list, study) -> str:

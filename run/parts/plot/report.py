@@ -4,8 +4,8 @@ from html import escape
 from pathlib import Path
 
 from pounding.results import Missing, Result
-from . import (answer, answer_figure, contact_figures, damping_figure, equipment, floor_figures, force_figures, link_figures,
-               model_tables, origin_tables, place_figure, result_tables, spectra_figures, view)
+from . import (answer, answer_figure, contact_figures, damping_figure, design_spectra, equipment, floor_figures,
+               force_figures, link_figures, model_tables, origin_tables, place_figure, result_tables, spectra_figures, view)
 from .markup import html_figure, write_page
 
 
@@ -34,11 +34,18 @@ def _part(title: str, content: str, page: bool = True) -> str:
     return f"<h2{kind}>{escape(title)}</h2>\n{content}" if content else ""
 
 
+def _design_spectra(result: Result) -> str:
+    if not result.spectrum_probes:
+        return ""
+    runs = {"with pounding": result, "without": result.without} if result.without else {"floor": result}
+    return design_spectra.write(runs, result.spectrum_probes, sorted(set(result.spectra["damping"])), result.folder)
+
+
 def _found(result: Result, drawn: _Drawn) -> str:
     twin = result.without
     joints = (result_tables.impact_tables(result) + result_tables.joint_table(result)
               + drawn.html(*contact_figures.JOINT, *place_figure.ALL))
-    floors = (result_tables.probe_table(result, twin) + drawn.html(*spectra_figures.ALL)
+    floors = (result_tables.probe_table(result, twin) + drawn.html(*spectra_figures.ALL) + _design_spectra(result)
               + result_tables.drift_table(result) + drawn.html(*floor_figures.ALL))
     items = equipment.table(result, twin) + drawn.html(*equipment.ALL) if equipment.items(result) else ""
     forces = result_tables.force_table(result, twin) + drawn.html(*force_figures.ALL, *link_figures.ALL)
