@@ -197,7 +197,8 @@ class View(unittest.TestCase):
         for name, picture in seen.items():
             self.assertGreater(picture["part"], 0.02, name)
             self.assertEqual(picture["error"], 0, name)
-        self.assertGreater(seen["model"]["part"], 0.2)  # it fills its canvas
+        for name in ("model", "plan", "mode 1"):  # it fills its canvas
+            self.assertGreater(max(seen[name]["across"], seen[name]["tall"]), 0.85, name)
         self.assertEqual(seen["model"], seen["model again"])
         self.assertLess(seen["without the first slab"]["part"], 0.8 * seen["model"]["part"])
         different = [picture["sum"] for name, picture in seen.items() if name != "model again"]

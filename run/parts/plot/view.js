@@ -375,17 +375,24 @@ window.addEventListener("resize", () => { shape(); draw(); drawGaps(); });
 shape();
 show("model");
 
-// For tests: what is drawn, as the part of the picture that is not white and a sum that tells pictures apart.
+// For tests: what is drawn, as the part of the picture that is not white, how much of its width and height that takes, and a
+// sum by which pictures differ.
 window.poundingView = {state, show, strike, refresh, forces, modes: modes.length, frames: motion ? motion.times.length : 0, nodes: count,
   picture() {
     draw();
     const pixels = new Uint8Array(4 * canvas.width * canvas.height);
     gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
     let drawn = 0, sum = 0;
+    const columns = new Set(), lines = new Set();
     for (let i = 0; i < pixels.length; i += 4) {
-      if (pixels[i] + pixels[i + 1] + pixels[i + 2] < 765) ++drawn;
+      if (pixels[i] + pixels[i + 1] + pixels[i + 2] < 765) {
+        ++drawn;
+        columns.add(i / 4 % canvas.width);
+        lines.add(Math.floor(i / 4 / canvas.width));
+      }
       sum = (sum * 31 + pixels[i] + 7 * pixels[i + 1] + 13 * pixels[i + 2]) % 2147483647;
     }
-    return {part: drawn / (canvas.width * canvas.height), sum, error: gl.getError()};
+    const span = (places, whole) => (Math.max(...places) - Math.min(...places)) / whole;
+    return {part: drawn / (canvas.width * canvas.height), across: span(columns, canvas.width), tall: span(lines, canvas.height), sum, error: gl.getError()};
   }};
 })();
