@@ -139,8 +139,8 @@ def verdict(run: Result) -> str:
     name = decisive(run) or next(iter(run.summary.get("contacts", {})), None)
     if name is None:
         return ""
-    low, high = (1e3 * gap for gap in run.summary["contacts"][name].get("initial_gap") or [float("nan")] * 2)
-    width = f"{low:.3g} mm" if abs(high - low) < 1e-3 * abs(high) else f"{low:.3g} to {high:.3g} mm"
+    low, high = (1e3 * (gap or 0) for gap in run.summary.get("contacts", {}).get(name, {}).get("initial_gap") or (0, 0))
+    width = f"{low:.3g} mm" if abs(high - low) <= 1e-3 * abs(high) else f"{low:.3g} to {high:.3g} mm"
     if touched(run):
         asked = run.summary.get("separations", {}).get(name, {}).get("srss")
         margin = f", where response spectra ask for {_millimetres(asked)} (SRSS)" if asked else " and no margin"
