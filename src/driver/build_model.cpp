@@ -42,9 +42,22 @@ Progress begin(MPI_Comm comm, const Scene& scene, const Structure& structure, co
   return Progress(comm, structure.name + ": " + what, scene.progress_interval);
 }
 
+/// Shares the fit to the table of a structure's soil, which rank 0 has. Collective.
+void share_fit(MPI_Comm comm, Soil& soil) {
+  if (soil.table.empty()) return;
+  if (!soil.fitted) soil.fitted.emplace();
+  std::vector<double> numbers{soil.fitted->band[0], soil.fitted->band[1], soil.fitted->left_out};
+  broadcast_array(comm, numbers, 0);
+  soil.fitted->band = {numbers[0], numbers[1]};
+  soil.fitted->left_out = numbers[2];
+  broadcast_array(comm, soil.fitted->parts, 0);
+  broadcast_array(comm, soil.fitted->blocks, 0);
+}
+
 /// Shares the place of the mat of a structure on soil, which rank 0 has. Collective.
 void share_foundation(MPI_Comm comm, MatPlace place, Structure& structure) {
   if (!structure.soil) return;
+  share_fit(comm, *structure.soil);
   std::vector<double> numbers{place.node[0],   place.node[1],   place.node[2],  place.centre[0],
                               place.centre[1], place.centre[2], place.sides[0], place.sides[1]};
   broadcast_array(comm, numbers, 0);

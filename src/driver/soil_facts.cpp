@@ -4,6 +4,7 @@
 
 #include "common/component_names.h"
 #include "driver/subject_facts.h"
+#include "scene/impedance_reader.h"
 
 namespace pounding {
 namespace {
@@ -34,12 +35,8 @@ double largest_soil_frequency(const Soil& soil, const Foundation& foundation) {
          (2 * std::numbers::pi * foundation.footprint.half_width());
 }
 
-}  // namespace
-
-Facts soil_facts(const Structure& structure) {
-  const Soil& soil = *structure.soil;
-  const Foundation& foundation =
-      *std::ranges::find(structure.regions, ElementType::soil, &Region::element)->foundation;
+/// Soil of a half-space.
+Facts half_space_facts(const Soil& soil, const Foundation& foundation) {
   const bool disk = foundation.footprint.disk;
   Facts facts{{{"mat", soil.mat},
                {"shape", disk ? "disk" : "rectangle"},
@@ -58,7 +55,7 @@ Facts soil_facts(const Structure& structure) {
       "            stiffness      dashpot  inner dashpot     inner mass  moving mass\n",
       {soil.ground.shear_velocity, soil.ground.density, soil.ground.poisson, largest_a0});
   for (std::size_t c = 0; c < foundation.impedances.size(); ++c) {
-    const Impedance& mode = foundation.impedances[c];
+    const Impedance& mode = foundation.impedances[c].impedance;
     facts.values["stiffness"].push_back(mode.stiffness);
     facts.values["dashpot"].push_back(mode.dashpot);
     facts.values["inner_dashpot"].push_back(mode.inner_dashpot);
@@ -69,6 +66,65 @@ Facts soil_facts(const Structure& structure) {
                mode.mass});
   }
   return facts;
+}
+
+/// Springs, dashpots and masses fitted to the table of a mat's impedances.
+Facts fit_facts(const Soil& soil, const Region& region) {
+  const ImpedanceFit& fit = *soil.fitted;
+  Facts facts{{{"mat", soil.mat},
+               {"table", soil.table},
+               {"centre", region.foundation->centre},
+               {"band", fit.band},
+               {"left_out", fit.left_out},
+               {"stiffness", region.stiffness},
+               {"dashpot", region.dashpot},
+               {"blocks", Json::array()},
+               {"parts", Json::array()}}};
+  facts.say(
+      "  soil under {mat}: {table}, {band/0:.4g} to {band/1:.4g} Hz, its middle at {centre:.6g}\n"
+      "    passive springs, dashpots and masses fitted to it; terms over those of the diagonal\n");
+  for (const BlockFit& block : fit.blocks) {
+    Json values{{"motions", names_of_motions(block.motions)},
+                {"cells", block.cells},
+                {"largest_misfit", block.largest},
+                {"largest_misfit_at", block.largest_at},
+                {"mean_misfit", block.mean},
+                {"least_damping_of_table", block.table_damping},
+                {"least_damping", block.damping},
+                {"least_damping_at", block.damping_at},
+                {"margin", block.margin},
+                {"margin_at", block.margin_at}};
+    facts.text += told(
+        "    {motions}: {cells} internal parts, misfit {largest_misfit:.2g %} at most, at "
+        "{largest_misfit_at:.3g} Hz, {mean_misfit:.2g %} in the mean; least damping "
+        "{least_damping:.3g} at {least_damping_at:.3g} Hz, of the table "
+        "{least_damping_of_table:.3g}; at any frequency {margin:.2g} or more\n",
+        values);
+    facts.values["blocks"].push_back(std::move(values));
+  }
+  facts.say("[    coupled by up to {left_out:.2g %} of the diagonals, and taken as not coupled\n]");
+  for (std::size_t c = 0; c < region.stiffness.size(); ++c) {
+    facts.say("    {:-4s} stiffness {:12.4e}, dashpot {:12.4e}\n",
+              {motion_names[c], region.stiffness[c], region.dashpot[c]});
+  }
+  for (const DirectedImpedance& part : fit.parts) {
+    facts.values["parts"].push_back({{"motion", part.motion},
+                                     {"stiffness", part.impedance.stiffness},
+                                     {"dashpot", part.impedance.dashpot},
+                                     {"moving_mass", part.impedance.mass},
+                                     {"inner_stiffness", part.impedance.inner_stiffness},
+                                     {"inner_dashpot", part.impedance.inner_dashpot},
+                                     {"inner_mass", part.impedance.inner_mass}});
+  }
+  return facts;
+}
+
+}  // namespace
+
+Facts soil_facts(const Structure& structure) {
+  const Soil& soil = *structure.soil;
+  const Region& region = *std::ranges::find(structure.regions, ElementType::soil, &Region::element);
+  return soil.fitted ? fit_facts(soil, region) : half_space_facts(soil, *region.foundation);
 }
 
 Facts spread_facts(const Building& building) {

@@ -14,6 +14,7 @@
 #include "mesh/sliding_order.h"
 #include "mesh/soil_node.h"
 #include "mesh/start_states.h"
+#include "scene/impedance_reader.h"
 #include "scene/soil_reader.h"
 #include "system/mass_scaling.h"
 
@@ -39,6 +40,8 @@ void read_whole_mesh(MPI_Comm comm, Scene& scene, std::size_t s, WholeMeshes& wh
   Structure& structure = scene.structures[s];
   GlobalMesh& mesh = whole.meshes[s];
   const Progress progress(comm, structure.name + ": mesh", scene.progress_interval);
+  fit_soil(structure);
+  append(fit_doubts(structure), model.warnings);
   MeshRead read = read_mesh(structure, scene.mesh_time_limit);
   mesh = std::move(read.mesh);
   model.buildings[s].findings.files = std::move(read.files);

@@ -47,7 +47,7 @@ void element_dashpots(ElementType type, const ElementProperties& properties,
   const ElementLayout layout = element_layout(type);
   require_size(damping.size(), layout.size() * layout.size(), "damping");
   if (type == ElementType::soil) {
-    offset_spring_matrix(properties.dashpot, properties.arm, damping);
+    ground_spring_matrix(properties.ground_springs, &GroundSpring::dashpot, damping);
   } else if (is_spring(type)) {
     spring_matrix(layout, properties.dashpot, damping);
   } else {

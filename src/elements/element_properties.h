@@ -16,6 +16,13 @@ class ElementError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Spring and dashpot to the ground along one motion of a node with rotations.
+struct GroundSpring {
+  std::array<double, 6> motion{};  ///< elongation per displacement and rotation of the node
+  double stiffness = 0;
+  double dashpot = 0;
+};
+
 /// Everything an element needs to know besides its coordinates; properties that it does not use
 /// stay 0. [SI]
 struct ElementProperties {
@@ -38,7 +45,7 @@ struct ElementProperties {
   Vector3 rotary_inertia{0, 0, 0};    ///< of a point, about x, y, z
   std::array<double, 6> stiffness{};  ///< of a spring: along x, y, z, about x, y, z
   std::array<double, 6> dashpot{};    ///< of its dashpot, in the same order [N s/m, N m s]
-  Vector3 arm{0, 0, 0};               ///< of soil, from its node to the point that it acts on [m]
+  std::span<const GroundSpring> ground_springs{};  ///< of soil; borrowed from its region
 };
 
 /// Number of nodes, and of components (3 or 6) at each of them.

@@ -47,7 +47,7 @@ void spring_stiffness(Coordinates, const Properties& properties, Matrix stiffnes
 }
 
 void soil_stiffness(Coordinates, const Properties& properties, Matrix stiffness) {
-  offset_spring_matrix(properties.stiffness, properties.arm, stiffness);
+  ground_spring_matrix(properties.ground_springs, &GroundSpring::stiffness, stiffness);
 }
 
 void point_mass(Coordinates, const Properties& properties, Matrix lumped_mass) {

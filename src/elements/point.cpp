@@ -32,13 +32,14 @@ std::array<std::array<double, 6>, 6> motion_at(const Vector3& arm) {
   return motion;
 }
 
-void offset_spring_matrix(const std::array<double, 6>& values, const Vector3& arm,
+void ground_spring_matrix(std::span<const GroundSpring> springs, double GroundSpring::*value,
                           std::span<double> matrix) {
-  const auto motion = motion_at(arm);
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = 0; j < 6; ++j) {
       double sum = 0;
-      for (std::size_t c = 0; c < 6; ++c) sum += motion[c][i] * values[c] * motion[c][j];
+      for (const GroundSpring& spring : springs) {
+        sum += spring.*value * (spring.motion[i] * spring.motion[j]);
+      }
       matrix[6 * i + j] = sum;
     }
   }

@@ -23,9 +23,9 @@ void spring_matrix(const ElementLayout& layout, const std::array<double, 6>& val
 /// u + theta x arm, and theta.
 std::array<std::array<double, 6>, 6> motion_at(const Vector3& arm);
 
-/// Matrix of six springs (or dashpots) `values` to the ground along and about x, y, z of a point at
-/// the end of a rigid arm [m] of a node: shape (6, 6), row-major, of the node's motion.
-void offset_spring_matrix(const std::array<double, 6>& values, const Vector3& arm,
+/// Matrix of springs to the ground, or of their dashpots, of the motion of the node: shape (6, 6),
+/// row-major. `value`: &GroundSpring::stiffness or &GroundSpring::dashpot.
+void ground_spring_matrix(std::span<const GroundSpring> springs, double GroundSpring::*value,
                           std::span<double> matrix);
 
 }  // namespace pounding

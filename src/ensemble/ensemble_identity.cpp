@@ -24,7 +24,8 @@ bool counts(const std::string& name) {
 }
 
 bool names_content(const std::string& name) {
-  return name.ends_with("_mesh") || name.ends_with("_record") || name.ends_with("_target");
+  return name.ends_with("_mesh") || name.ends_with("_record") || name.ends_with("_target") ||
+         name.ends_with("_soil_table");
 }
 
 }  // namespace

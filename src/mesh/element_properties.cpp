@@ -20,7 +20,7 @@ ElementProperties element_properties(const Region& region, double share) {
     const bool series = region.nonlinear.dashpot_stiffness[c] > 0;
     properties.dashpot[c] = series ? 0 : share * region.dashpot[c];
   }
-  if (region.foundation) properties.arm = region.foundation->arm;
+  if (region.foundation) properties.ground_springs = region.foundation->springs;
   for (std::size_t c = 0; is_spring(region.element) && c < properties.stiffness.size(); ++c) {
     if (region.nonlinear.yields(c)) properties.stiffness[c] = 0;  // a law holds it
   }

@@ -82,6 +82,7 @@ void add_soil(const Structure& structure, GlobalMesh& mesh) {
   set.tags = {0};
   set.connectivity = {carrying_node(structure, mesh, found->second.nodes)};
   mesh.regions.push_back(std::move(set));
+  if (!structure.soil->table.empty()) return;
   const MatPlace place = mat_place(structure, mesh);
   const std::array<double, 2> sides = sides_of(*structure.soil, place);
   if (!(sides[0] > 0) || !(sides[1] > 0)) {

@@ -86,7 +86,10 @@ std::string hash_of(const std::vector<Region>& regions) {
     }
     if (p.added_mass != 0) hash.add(p.added_mass);
     if (p.drilling_factor != 1) hash.add(p.drilling_factor);
-    if (region.foundation) hash.add_all(region.foundation->arm);
+    for (const GroundSpring& spring : p.ground_springs) {
+      hash.add(spring.stiffness);
+      hash.add_all(spring.motion);
+    }
   }
   return hash.text();
 }

@@ -194,7 +194,7 @@ std::vector<std::string> scene_doubts(const Scene& scene) {
       look_at_region("structure " + structure.name, region, doubts);
       look_at_weight(structure, region, doubts);
     }
-    if (structure.soil) {
+    if (structure.soil && structure.soil->table.empty()) {
       doubts.look_at("structure " + structure.name, soil_velocity,
                      structure.soil->ground.shear_velocity);
       doubts.look_at("structure " + structure.name, soil_density, structure.soil->ground.density);

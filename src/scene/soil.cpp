@@ -2,7 +2,36 @@
 
 #include <algorithm>
 
+#include "elements/point.h"
+
 namespace pounding {
+namespace {
+
+/// Impedances of a half-space along and about the axes.
+std::vector<DirectedImpedance> along_axes(const Soil& soil, const Footprint& footprint) {
+  Impedances modes = impedances_of(soil.ground, footprint);
+  if (!soil.frequency_dependence) {
+    modes = without_frequency_dependence(modes, soil.ground, footprint);
+  }
+  std::vector<DirectedImpedance> impedances(modes.size());
+  for (std::size_t c = 0; c < modes.size(); ++c) {
+    impedances[c].motion[c] = 1;
+    impedances[c].impedance = modes[c];
+  }
+  return impedances;
+}
+
+/// A motion of the centre, from that of the node at the other end of the arm.
+std::array<double, 6> over_arm(const std::array<double, 6>& motion, const Vector3& arm) {
+  const auto centre = motion_at(arm);
+  std::array<double, 6> of_node{};
+  for (std::size_t c = 0; c < 6; ++c) {
+    for (std::size_t i = 0; i < 6; ++i) of_node[i] += motion[c] * centre[c][i];
+  }
+  return of_node;
+}
+
+}  // namespace
 
 std::array<double, 2> sides_of(const Soil& soil, const MatPlace& place) {
   if (soil.sides) return *soil.sides;
@@ -13,13 +42,18 @@ std::array<double, 2> sides_of(const Soil& soil, const MatPlace& place) {
 
 Foundation foundation_of(const Soil& soil, const MatPlace& place) {
   Foundation foundation;
-  foundation.footprint = {soil.disk, sides_of(soil, place), soil.embedment};
   foundation.centre = place.centre;
-  for (std::size_t d = 0; d < 3; ++d) foundation.arm[d] = place.centre[d] - place.node[d];
-  foundation.impedances = impedances_of(soil.ground, foundation.footprint);
-  if (!soil.frequency_dependence) {
-    foundation.impedances =
-        without_frequency_dependence(foundation.impedances, soil.ground, foundation.footprint);
+  Vector3 arm{};
+  for (std::size_t d = 0; d < 3; ++d) arm[d] = place.centre[d] - place.node[d];
+  if (soil.fitted) {
+    foundation.impedances = soil.fitted->parts;
+  } else {
+    foundation.footprint = {soil.disk, sides_of(soil, place), soil.embedment};
+    foundation.impedances = along_axes(soil, foundation.footprint);
+  }
+  for (const DirectedImpedance& part : foundation.impedances) {
+    foundation.springs.push_back(
+        {over_arm(part.motion, arm), part.impedance.stiffness, part.impedance.dashpot});
   }
   return foundation;
 }

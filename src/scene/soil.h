@@ -2,13 +2,17 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/types.h"
+#include "elements/element_properties.h"
 #include "soil/foundation.h"
+#include "soil/impedance_fit.h"
 
 namespace pounding {
 
-/// Soil under the rigid mat of a structure, as the user gives it.
+/// Soil under the rigid mat of a structure, as the user gives it: a half-space, or a table of
+/// impedances over the frequency.
 struct Soil {
   std::string mat;  ///< physical group of its nodes
   HalfSpace ground;
@@ -16,6 +20,8 @@ struct Soil {
   std::optional<std::array<double, 2>> sides;  ///< full, along x and y [m]; empty: the group's own
   double embedment = 0;                        ///< [m]
   bool frequency_dependence = true;
+  std::string table;                   ///< file; empty: a half-space
+  std::optional<ImpedanceFit> fitted;  ///< to the table, once it is read; see fit_soil
 };
 
 /// Place of a mat in its mesh.
@@ -27,10 +33,10 @@ struct MatPlace {
 
 /// Soil under a mat as the mesh places it: springs of an element of one node, and links.
 struct Foundation {
-  Footprint footprint;
-  Vector3 centre{0, 0, 0};  ///< of the underside, where the impedances act [m]
-  Vector3 arm{0, 0, 0};     ///< from the element's node to the centre [m]
-  Impedances impedances;
+  Footprint footprint;                        ///< of a half-space
+  Vector3 centre{0, 0, 0};                    ///< of the underside, where the impedances act [m]
+  std::vector<DirectedImpedance> impedances;  ///< about the centre
+  std::vector<GroundSpring> springs;          ///< likewise, of the node over the arm
 };
 
 /// Sides of a mat's underside along x and y [m]: as given, or the group's own; of a disk both are

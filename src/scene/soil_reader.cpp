@@ -42,6 +42,21 @@ std::optional<Soil> read_soil(OptionReader& options, const Structure& structure)
   }
   Soil soil;
   soil.mat = options.text(mat, names);
+  constexpr std::string_view table = "<structure>_soil_table";
+  soil.table = options.text(table, names);
+  if (soil.table == "none") soil.table.clear();
+  if (!soil.table.empty()) {
+    for (const OptionRow& row : option_table()) {
+      if (!row.pattern.starts_with("<structure>_soil_") || row.pattern == mat ||
+          row.pattern == table) {
+        continue;
+      }
+      options.forbid(row.pattern, names,
+                     "is of a half-space, and -" + option_name(table, names) +
+                         " gives impedances in its place; leave one of them out");
+    }
+    return soil;
+  }
   soil.ground.shear_velocity = options.real("<structure>_soil_vs", names);
   soil.ground.density = options.real("<structure>_soil_density", names);
   soil.ground.poisson = options.real("<structure>_soil_poisson", names);
@@ -68,9 +83,13 @@ Region soil_region(const Soil& soil) {
 void lay_foundation(const MatPlace& place, Structure& structure) {
   const auto region = std::ranges::find(structure.regions, ElementType::soil, &Region::element);
   region->foundation = foundation_of(*structure.soil, place);
-  for (std::size_t c = 0; c < 6; ++c) {
-    region->stiffness[c] = region->foundation->impedances[c].stiffness;
-    region->dashpot[c] = region->foundation->impedances[c].dashpot;
+  region->stiffness = {};
+  region->dashpot = {};
+  for (const DirectedImpedance& part : region->foundation->impedances) {
+    for (std::size_t c = 0; c < part.motion.size(); ++c) {
+      region->stiffness[c] += part.motion[c] * part.impedance.stiffness * part.motion[c];
+      region->dashpot[c] += part.motion[c] * part.impedance.dashpot * part.motion[c];
+    }
   }
 }
 

@@ -8,8 +8,12 @@ namespace pounding {
 std::complex<double> Impedance::at(double circular_frequency) const {
   const std::complex<double> i_omega(0, circular_frequency);
   std::complex<double> inner = 0;
-  if (inner_mass > 0) inner = inner_dashpot / (1.0 + inner_dashpot / (i_omega * inner_mass));
-  if (circular_frequency == 0) inner = 0;
+  if (inner_dashpot > 0 && circular_frequency != 0) {
+    std::complex<double> slip = 1;
+    if (inner_mass > 0) slip += inner_dashpot / (i_omega * inner_mass);
+    if (inner_stiffness > 0) slip += i_omega * (inner_dashpot / inner_stiffness);
+    inner = inner_dashpot / slip;
+  }
   return stiffness + i_omega * (dashpot + inner + i_omega * mass);
 }
 

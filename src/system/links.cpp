@@ -8,7 +8,6 @@
 #include "common/error.h"
 #include "common/parallel.h"
 #include "elements/element.h"
-#include "elements/point.h"
 #include "mesh/location.h"
 #include "system/support_shapes.h"
 #include "system/yielding_beams.h"
@@ -173,18 +172,20 @@ void Links::add_springs(const Structure& structure, const Mesh& mesh, const Elem
 void Links::add_soil(const Structure& structure, const Mesh& mesh, const ElementBlock& block,
                      std::size_t element) {
   const Region& region = structure.regions[block.region];
-  const auto motion = motion_at(region.foundation->arm);
-  for (std::size_t c = 0; c < motion.size(); ++c) {
+  const Foundation& foundation = *region.foundation;
+  for (std::size_t c = 0; c < foundation.impedances.size(); ++c) {
+    if (foundation.impedances[c].impedance.is_spring()) continue;
+    const auto& motion = foundation.springs[c].motion;
     Link link;
     link.number = block.tags[element];
     link.origin = {&region, static_cast<int>(c), 0, 0, false};
     for (std::size_t i = 0; i < motion.size(); ++i) {
-      if (motion[c][i] == 0) continue;
+      if (motion[i] == 0) continue;
       const LocalIndex node = block.connectivity[element];
       const auto component = static_cast<int>(i);
       link.place[i] = mesh.dof(node, component);
-      link.weight[i] = motion[c][i];
-      if (link.place[i] >= 0) link.held.push_back({node, component, -motion[c][i], true});
+      link.weight[i] = motion[i];
+      if (link.place[i] >= 0) link.held.push_back({node, component, -motion[i], true});
     }
     keep(mesh, block, element, link);
   }

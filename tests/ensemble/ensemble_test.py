@@ -13,6 +13,7 @@ import numpy as np
 
 import program
 import two_buildings  # noqa: F401  (puts python on the path)
+from soil_table_test import coupled, write_table
 
 import pounding
 
@@ -266,6 +267,10 @@ class Kinds(unittest.TestCase):
     def test_soil_under_a_mat(self):
         self.check("-left_clamp", "none", "-left_rigid", "base", "-left_soil_mat", "base", "-left_soil_size", "6,4",
                    "-left_soil_vs", "200", "-left_soil_density", "1900", "-left_soil_poisson", "0.35")
+
+    def test_soil_from_a_table(self):
+        self.check("-left_clamp", "none", "-left_rigid", "base", "-left_soil_mat", "base", "-left_soil_table",
+                   write_table(coupled))
 
     def test_filled_joints(self):
         words = [word for floor in ("floor1", "floor2") for word in (

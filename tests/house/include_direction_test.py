@@ -12,7 +12,7 @@ MAY_INCLUDE = {
     "common": set(),
     "io": {"common"},
     "scene": {"common", "elements", "soil"},
-    "soil": set(),
+    "soil": {"common"},
     "elements": {"common"},
     "mesh": {"common", "scene", "elements"},
     "motion/records": {"common", "scene"},

@@ -86,7 +86,8 @@ std::unique_ptr<LinkLaw> law_of(const LinkOrigin& origin, double time_step,
   }
   const Region& region = *origin.region;
   if (region.foundation) {
-    return std::make_unique<SoilLaw>(region.foundation->impedances[origin.component], time_step);
+    return std::make_unique<SoilLaw>(region.foundation->impedances[origin.component].impedance,
+                                     time_step);
   }
   if (origin.part == SpringPart::gauge) return std::make_unique<GaugeLaw>();
   if (is_spring(region.element) && origin.part == SpringPart::dashpot) {

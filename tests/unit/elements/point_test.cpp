@@ -82,8 +82,11 @@ TEST(Soil, ArmTurnsWithItsNode) {
 /// Springs and dashpots of soil are those of the end of the arm: forces on the node that do the
 /// same work, for any motion of it.
 TEST(Soil, ActsAtTheEndOfItsArm) {
-  ElementProperties properties{
-      .stiffness = {7, 11, 13, 17, 19, 23}, .dashpot = {1, 2, 3, 4, 5, 6}, .arm = {2, 3, 5}};
+  constexpr std::array stiffnesses{7., 11., 13., 17., 19., 23.};
+  const auto motion = motion_at({2, 3, 5});
+  std::vector<GroundSpring> ground;
+  for (std::size_t c = 0; c < 6; ++c) ground.push_back({motion[c], stiffnesses[c], 1. + double(c)});
+  const ElementProperties properties{.ground_springs = ground};
   std::array<double, 36> stiffness{};
   std::array<double, 36> damping{};
   std::array<double, 6> mass{};
@@ -104,11 +107,30 @@ TEST(Soil, ActsAtTheEndOfItsArm) {
   double springs = 0;
   double dashpots = 0;
   for (std::size_t c = 0; c < 6; ++c) {
-    springs += properties.stiffness[c] * end[c] * end[c];
-    dashpots += properties.dashpot[c] * end[c] * end[c];
+    springs += ground[c].stiffness * end[c] * end[c];
+    dashpots += ground[c].dashpot * end[c] * end[c];
   }
   EXPECT_NEAR(work(stiffness), springs, 1e-12 * springs);
   EXPECT_NEAR(work(damping), dashpots, 1e-12 * dashpots);
+}
+
+/// A motion that is a mixture of several couples them, and the matrix is symmetric to the last bit.
+TEST(Soil, MixedMotionsAreCoupled) {
+  const std::array<GroundSpring, 1> ground{{{{0.3, -0.7, 0, 1.1, 0.9, 0}, 7, 5}}};
+  const ElementProperties properties{.ground_springs = ground};
+  std::array<double, 36> stiffness{};
+  std::array<double, 36> damping{};
+  std::array<double, 6> mass{};
+  element_matrices(ElementType::soil, std::array{0., 0., 0.}, properties, stiffness, mass);
+  element_dashpots(ElementType::soil, properties, damping);
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      const double product = ground[0].motion[i] * ground[0].motion[j];
+      EXPECT_DOUBLE_EQ(stiffness[6 * i + j], 7 * product);
+      EXPECT_DOUBLE_EQ(damping[6 * i + j], 5 * product);
+      EXPECT_EQ(stiffness[6 * i + j], stiffness[6 * j + i]);
+    }
+  }
 }
 
 }  // namespace
