@@ -39,7 +39,23 @@ double free_room(const std::string& folder) {
   return static_cast<double>(space.available);
 }
 
+bool has_skeleton(const Region& region) {
+  bool any = region.inelastic || yields_by_links(region);
+  for (std::size_t c = 0; c < region.nonlinear.yield_force.size(); ++c) {
+    any = any || region.nonlinear.is_hysteretic(c);
+  }
+  return any;
+}
+
 }  // namespace
+
+std::vector<char> yielding_structures(const Scene& scene) {
+  std::vector<char> yields;
+  for (const Structure& structure : scene.structures) {
+    yields.push_back(std::ranges::any_of(structure.regions, has_skeleton) ? 1 : 0);
+  }
+  return yields;
+}
 
 int record_stride(const Scene& scene, const Model& model) {
   return static_cast<int>(whole(model, scene.output_interval / model.time_step));
@@ -76,8 +92,8 @@ std::optional<FieldSteps> planned_fields(const Scene& scene, const Model& model)
 std::vector<std::string> check_fields(MPI_Comm comm, const Scene& scene, const Model& model) {
   const auto steps = planned_fields(scene, model);
   if (!steps) return {};
-  const double bytes =
-      FieldWriter::size(*steps, model.systems, model.meshes, !scene.contacts.empty());
+  const double bytes = FieldWriter::size(*steps, model.systems, model.meshes,
+                                         !scene.contacts.empty(), yielding_structures(scene));
   const double every = static_cast<double>(steps->stride) * model.time_step;
   std::vector<std::string> doubts;
   std::ostringstream frames;
@@ -106,8 +122,8 @@ std::vector<std::string> check_fields(MPI_Comm comm, const Scene& scene, const M
 void print_fields(MPI_Comm comm, const Scene& scene, const Model& model) {
   const auto steps = planned_fields(scene, model);
   if (!steps) return;
-  const double bytes =
-      FieldWriter::size(*steps, model.systems, model.meshes, !scene.contacts.empty());
+  const double bytes = FieldWriter::size(*steps, model.systems, model.meshes,
+                                         !scene.contacts.empty(), yielding_structures(scene));
   if (rank_of(comm) != 0) return;
   std::printf("fields for ParaView: %lld frames every %.4g s from t = %.4g s, up to %.3g MB\n",
               static_cast<long long>(steps->count),

@@ -27,4 +27,7 @@ std::vector<std::string> check_fields(MPI_Comm comm, const Scene& scene, const M
 /// Prints how many frames there will be and the room that they take. Collective.
 void print_fields(MPI_Comm comm, const Scene& scene, const Model& model);
 
+/// Per structure of a scene, whether elements of it yield by a law with a skeleton, or crack.
+std::vector<char> yielding_structures(const Scene& scene);
+
 }  // namespace pounding

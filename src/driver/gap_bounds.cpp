@@ -80,8 +80,9 @@ std::vector<GapWatch::Bound> gap_bounds(MPI_Comm comm, std::span<const LinearSys
   for (std::size_t s = 0; contact != nullptr && s < bounds.size(); ++s) {
     const LinearSystem& system = systems[s];
     // The energy of soil is in that of its structure; that of one-way links in modes may be
-    // negative, and nothing bounds the motion by a wave from below, supports of its own or loads.
-    if (system.supports || system.loads ||
+    // negative, and nothing bounds the motion by a wave from below, supports of its own or loads,
+    // nor about a rest that yielded.
+    if (system.supports || system.loads || !system.rest_law_force.empty() ||
         (system.links && (system.links->hold_stiffness() || system.links->driven())) ||
         !(energy_margins[s] > 0)) {
       bounds[s].rate_norm = std::numeric_limits<double>::infinity();

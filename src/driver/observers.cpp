@@ -53,6 +53,8 @@ std::unique_ptr<FieldWriter> make_fields(const ObservedRun& run) {
   layout.steps = planned_fields(run.scene, run.model).value();
   layout.xdmf = run.scene.fields_format != FieldsFormat::vtkhdf;
   layout.vtkhdf = run.scene.fields_format != FieldsFormat::xdmf;
+  layout.yields = yielding_structures(run.scene);
+  layout.yielding = [run](std::size_t structure) { return yielding_elements(run, structure); };
   layout.labels = mesh_labels(run.scene, run.model.interface);
   layout.impulse_root = std::max(run.contact_root(), 0);
   if (run.contact_root() >= 0) {
@@ -64,18 +66,6 @@ std::unique_ptr<FieldWriter> make_fields(const ObservedRun& run) {
     };
   }
   return std::make_unique<FieldWriter>(std::move(layout), run.model.systems, run.model.meshes);
-}
-
-bool has_skeletons(const Scene& scene) {
-  return std::ranges::any_of(scene.structures, [](const Structure& structure) {
-    return std::ranges::any_of(structure.regions, [](const Region& region) {
-      bool has_any = region.inelastic || yields_by_links(region);
-      for (std::size_t c = 0; c < region.nonlinear.yield_force.size(); ++c) {
-        has_any = has_any || region.nonlinear.is_hysteretic(c);
-      }
-      return has_any;
-    });
-  });
 }
 
 bool may_lift_off(const Scene& scene) {
@@ -97,7 +87,8 @@ RunObservers make_observers(const ObservedRun& run, Profile& profile) {
   if (run.contact_root() >= 0) all.add(make_slide_watch(run));
   all.add(make_energy_watch(run));
   if (may_lift_off(run.scene)) all.add(make_uplift_watch(run));
-  if (has_skeletons(run.scene)) all.add(make_yield_table(run));
+  const std::vector<char> yields = yielding_structures(run.scene);
+  if (std::ranges::count(yields, 0) < std::ssize(yields)) all.add(make_yield_table(run));
   all.add(make_progress_watch(run, impacts.catalogue()));
   return {std::move(all), impacts, history};
 }

@@ -7,7 +7,6 @@
 #include "common/progress.h"
 #include "driver/facts.h"
 #include "driver/rest_gaps.h"
-#include "system/inelastic_laws.h"
 
 namespace pounding {
 namespace {
@@ -37,11 +36,12 @@ void put_at_rest(MPI_Comm comm, const Scene& scene, std::span<const Mesh> meshes
       find_equilibrium(comm, model.systems, meshes, model.interface,
                        rows_open_at_rest(scene, model.interface), scene.preload_solver);
   for (std::size_t s = 0; s < model.systems.size(); ++s) {
-    require_elastic_rest(model.systems[s].laws, meshes[s], model.equilibrium->displacement[s]);
     model.systems[s].rest_displacement = std::move(model.equilibrium->displacement[s]);
+    model.systems[s].rest_law_force = std::move(model.equilibrium->law_force[s]);
     if (scene.export_matrices.empty()) model.systems[s].stiffness->release_matrix();
   }
   model.equilibrium->displacement.clear();
+  model.equilibrium->law_force.clear();
 }
 
 std::vector<std::string> rest_warnings(const Model& model) {

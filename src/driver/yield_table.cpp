@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "common/component_names.h"
 #include "common/gather_rows.h"
@@ -61,8 +63,6 @@ class YieldTable final : public Observer {
     std::size_t structure() const { return static_cast<std::size_t>(key[0]); }
   };
 
-  void add(std::size_t structure, const std::string& group, std::int64_t element, std::size_t part,
-           Own law);
   double ductility(const Own& law) const;
   double lost(const Own& law) const;
   std::string part_name(std::size_t structure, std::size_t region, std::size_t part) const;
@@ -89,44 +89,88 @@ void add_row(const YieldRow& row, YieldSum& sum) {
   }
 }
 
-}  // namespace
+/// A law of an element of this rank that may yield.
+struct FoundLaw {
+  std::size_t region = 0;
+  std::int64_t element = 0;  ///< its number in the mesh file
+  std::size_t part = 0;
+  std::size_t number = 0;  ///< among the parts of inelastic elements, or the links
+  bool is_link = false;
+  std::function<Vector3()> place;
+};
 
-YieldTable::YieldTable(const ObservedRun& run)
-    : run_(run), storeys_(find_storeys(run.comm, run.scene, run.model)) {
-  for (std::size_t s = 0; s < run.model.systems.size(); ++s) {
-    if (const auto* const elements = run.solver.inelastic(s)) {
-      for (std::size_t k = 0; k < elements->parts().size(); ++k) {
-        const interactions::InelasticElements::Part& part = elements->parts()[k];
-        const ElementBlock& block = elements->block_of(part);
-        const Vector3 place = element_middle(run.model.meshes[s], block, part.element);
-        add(s, block.group, block.tags[part.element], part.number, {{}, k, false, place});
-      }
+/// Calls `visit` with each of a structure.
+template <typename Visit>
+void for_each_law(const ObservedRun& run, std::size_t s, Visit&& visit) {
+  const Mesh& mesh = run.model.meshes[s];
+  const auto& regions = run.scene.structures[s].regions;
+  const auto region_of = [&](const std::string& group) {
+    return static_cast<std::size_t>(std::ranges::find(regions, group, &Region::group) -
+                                    regions.begin());
+  };
+  if (const auto* const elements = run.solver.inelastic(s)) {
+    for (std::size_t k = 0; k < elements->parts().size(); ++k) {
+      const interactions::InelasticElements::Part& part = elements->parts()[k];
+      const ElementBlock& block = elements->block_of(part);
+      visit(FoundLaw{static_cast<std::size_t>(block.region), block.tags[part.element], part.number,
+                     k, false, [&] { return element_middle(mesh, block, part.element); }});
     }
-    if (const auto* const links = run.solver.links(s)) {
-      const std::vector<Link>& all = run.model.systems[s].links->links();
-      for (std::size_t b = 0; b < all.size(); ++b) {
-        if (links->ductility(b) < 0) continue;
-        const interactions::LinkOrigin& origin = all[b].origin;
-        const std::size_t part =
-            origin.section
-                ? static_cast<std::size_t>(origin.component - interactions::first_section_component)
-            : origin.length > 0 ? axial
-                                : of_springs + static_cast<std::size_t>(origin.component);
-        const std::string& group = all[b].origin.region->group;
-        const Vector3 place = element_middle(run.model.meshes[s], group, all[b].number);
-        add(s, group, all[b].number, part, {{}, b, true, place});
-      }
+  }
+  if (const auto* const links = run.solver.links(s)) {
+    const std::vector<Link>& all = run.model.systems[s].links->links();
+    for (std::size_t b = 0; b < all.size(); ++b) {
+      if (links->ductility(b) < 0) continue;
+      const interactions::LinkOrigin& origin = all[b].origin;
+      const std::size_t part =
+          origin.section
+              ? static_cast<std::size_t>(origin.component - interactions::first_section_component)
+          : origin.length > 0 ? axial
+                              : of_springs + static_cast<std::size_t>(origin.component);
+      const std::string& group = origin.region->group;
+      visit(FoundLaw{region_of(group), all[b].number, part, b, true,
+                     [&] { return element_middle(mesh, group, all[b].number); }});
     }
   }
 }
 
-void YieldTable::add(std::size_t structure, const std::string& group, std::int64_t element,
-                     std::size_t part, Own law) {
-  const auto& regions = run_.scene.structures[structure].regions;
-  const auto region = std::ranges::find(regions, group, &Region::group) - regions.begin();
-  law.key = {static_cast<double>(structure), static_cast<double>(region),
-             static_cast<double>(element), static_cast<double>(part)};
-  own_.push_back(law);
+}  // namespace
+
+std::vector<double> yielding_elements(const ObservedRun& run, std::size_t structure) {
+  std::map<std::pair<std::size_t, std::int64_t>, std::array<double, 3>> found;
+  for_each_law(run, structure, [&](const FoundLaw& law) {
+    interactions::PartState state;
+    if (law.is_link) {
+      state.ductility = run.solver.links(structure)->ductility(law.number);
+      state.lost = run.solver.links(structure)->lost(law.number);
+    } else {
+      const auto& elements = *run.solver.inelastic(structure);
+      state = elements.state_of(elements.parts()[law.number]);
+    }
+    if (state.ductility == 0) return;
+    auto& [ductility, damage, lost] = found[{law.region, law.element}];
+    ductility = std::max(ductility, state.ductility);
+    damage = std::max(damage, state.damage);
+    if (state.ductility > 1) lost += state.lost;  // round-off before
+  });
+  std::vector<double> rows;
+  for (const auto& [key, values] : found) {
+    rows.insert(rows.end(), {static_cast<double>(key.first), static_cast<double>(key.second)});
+    rows.insert(rows.end(), values.begin(), values.end());
+  }
+  return rows;
+}
+
+YieldTable::YieldTable(const ObservedRun& run)
+    : run_(run), storeys_(find_storeys(run.comm, run.scene, run.model)) {
+  for (std::size_t s = 0; s < run.model.systems.size(); ++s) {
+    for_each_law(run, s, [&](const FoundLaw& law) {
+      own_.push_back({{static_cast<double>(s), static_cast<double>(law.region),
+                       static_cast<double>(law.element), static_cast<double>(law.part)},
+                      law.number,
+                      law.is_link,
+                      law.place()});
+    });
+  }
 }
 
 double YieldTable::ductility(const Own& law) const {

@@ -92,6 +92,7 @@ EnergyBalance::Works EnergyBalance::works(std::span<const StepSums> sums,
     const Rayleigh& damping = systems_[b].damping;
     result.damping += time_step_ / 4 * mass_damping_[b] * sums[b].mass_sum;
     if (damping.beta != 0) result.damping += time_step_ / 2 * sums[b].stiffness_work;
+    result.damping += sums[b].damping_loss;
     for (std::size_t d = 0; d < 3; ++d) {
       result.input +=
           time_step_ / 2 * (systems_[b].gravity[d] - ground_acceleration[d]) * sums[b].momentum[d];

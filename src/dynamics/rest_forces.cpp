@@ -19,12 +19,6 @@ std::vector<double> rest_forces(const LinearSystem& system) {
   std::vector<double> forces(system.rest_displacement.size());
   stiffness::StoredForces store(forces.data());
   system.stiffness->apply({rest, rest, 0}, store);
-  if (system.inelastic_stiffness) {
-    std::vector<double> more(forces.size());
-    stiffness::StoredForces store_more(more.data());
-    system.inelastic_stiffness->apply({rest, rest, 0}, store_more);
-    for (std::size_t i = 0; i < forces.size(); ++i) forces[i] += more[i];
-  }
   return forces;
 }
 

@@ -53,7 +53,10 @@ void start_filters(const LinearSystem& system, double time_step, StructureState&
   }
   const double kept = 1 - system.uniform_damping->at_rest();
   const std::vector<double> held = rest_forces(system);
-  for (std::size_t i = 0; i < held.size(); ++i) state.filtered.back()[i] = kept * held[i];
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const double yielded = system.rest_law_force.empty() ? 0 : system.rest_law_force[i];
+    state.filtered.back()[i] = kept * (held[i] + yielded);
+  }
 }
 
 StructureStep::StructureStep(const LinearSystem& system, StructureState& state, double time_step)

@@ -61,8 +61,8 @@ void nothing(Coordinates, const Properties&, Matrix result) {
 constexpr std::string_view of_solid = "material";
 constexpr std::string_view of_beam =
     "material section mass_per_length divide shear_skeleton_y shear_skeleton_z shear_rule "
-    "bending_skeleton_y bending_skeleton_z bending_rule unloading_exponent unloading_least pinch "
-    "deterioration";
+    "bending_skeleton_y bending_skeleton_z bending_rule bending_axial unloading_exponent "
+    "unloading_least pinch deterioration";
 constexpr std::string_view of_bar =
     "material area tension_only slack yield_force hardening mass_per_length rule skeleton "
     "skeleton_back unloading_exponent unloading_least pinch deterioration";

@@ -7,6 +7,7 @@
 #include "common/gather_rows.h"
 #include "elements/element_traits.h"
 #include "mesh/ghost_dofs.h"
+#include "system/support_shapes.h"
 
 namespace pounding::interactions {
 InelasticElements::InelasticElements(std::size_t structure, const Mesh& mesh,
@@ -19,8 +20,6 @@ InelasticElements::InelasticElements(std::size_t structure, const Mesh& mesh,
       laws_(std::move(laws)),
       halo_(std::make_unique<Halo>(mesh.comm, mesh.first_owned_dof, mesh.owned_dofs,
                                    ghost_dofs(mesh))),
-      displacement_(mesh.dof_count, 0.0),
-      force_(mesh.owned_dofs, 0.0),
       state_(0) {
   for (LocalIndex dof = 0; dof < mesh.owned_dofs; ++dof) {
     if (system.inelastic[dof] != 0) dofs_.push_back(dof);
@@ -42,19 +41,59 @@ InelasticElements::InelasticElements(std::size_t structure, const Mesh& mesh,
           parts_.push_back({groups_.size() - 1, e, p});
         }
       }
-      for (const LocalIndex node : block.connectivity) {
-        for (int c = 0; c < group.layout.components; ++c) {
-          group.places.push_back(mesh.dof(node, c));
-        }
+      const auto components = static_cast<std::size_t>(group.layout.components);
+      for (std::size_t k = 0; k < block.connectivity.size() * components; ++k) {
+        const std::size_t size = group.layout.size();
+        const bool acts = group.law->acts_on(group.first + k / size, k % size);
+        const LocalIndex node = block.connectivity[k / components];
+        group.places.push_back(acts ? place_of(node, static_cast<int>(k % components)) : -1);
       }
     }
   }
+  displacement_.assign(mesh.dof_count + held_.size(), 0.0);
+  force_ = displacement_;
+  find_carried();
   now_.assign(dofs_.size(), 0.0);
   before_ = acting_ = now_;
   state_ = Before(dofs_.size());
 }
 
-void InelasticElements::exchange(const SteppedStructure& structure, double back) {
+LocalIndex InelasticElements::place_of(LocalIndex node, int component) {
+  const LocalIndex dof = mesh_.dof(node, component);
+  if (dof >= 0 || !system_.supports) return dof;
+  const auto moves = [&](const SupportColumn& column) {
+    return support_displacement(column, mesh_, node, component) != 0;
+  };
+  if (std::ranges::none_of(system_.supports->columns, moves)) return -1;
+  const auto found = std::ranges::find(held_, std::pair(node, component));
+  const auto place = static_cast<LocalIndex>(found - held_.begin());
+  if (found == held_.end()) held_.emplace_back(node, component);
+  return static_cast<LocalIndex>(mesh_.dof_count) + place;
+}
+
+void InelasticElements::find_carried() {
+  if (!system_.supports) return;
+  const SupportShapes& supports = *system_.supports;
+  for (std::size_t c = 0; c < supports.columns.size(); ++c) {
+    std::vector<double>& carried = carried_.emplace_back(mesh_.dof_count + held_.size(), 0.0);
+    std::vector<double> owned = supports.shape[c];
+    owned.resize(mesh_.owned_dofs, 0.0);
+    halo_->begin(owned);
+    std::ranges::copy(owned, carried.begin());
+    halo_->end();
+    for (std::size_t g = 0; g < halo_->ghost_count(); ++g) {
+      carried[mesh_.owned_dofs + g] = halo_->ghosts()[halo_->place(g)];
+    }
+    for (std::size_t k = 0; k < held_.size(); ++k) {
+      const auto& [node, component] = held_[k];
+      carried[mesh_.dof_count + k] =
+          support_displacement(supports.columns[c], mesh_, node, component);
+    }
+  }
+}
+
+void InelasticElements::exchange(const Step& step, double back) {
+  const SteppedStructure& structure = *step.structures[structure_];
   const stiffness::StiffnessArgument moved{structure.displacement().data(),
                                            structure.velocity().data(), -back};
   halo_->begin(moved);
@@ -63,13 +102,24 @@ void InelasticElements::exchange(const SteppedStructure& structure, double back)
   for (std::size_t g = 0; g < halo_->ghost_count(); ++g) {
     displacement_[mesh_.owned_dofs + g] = halo_->ghosts()[halo_->place(g)];
   }
+  if (carried_.empty()) return;
+  std::fill_n(displacement_.begin() + static_cast<std::ptrdiff_t>(mesh_.dof_count), held_.size(),
+              0.0);
+  for (std::size_t c = 0; c < carried_.size(); ++c) {
+    const double along = step.supports.displacement[c] - back * step.supports.velocity_before[c];
+    for (const LocalIndex dof : dofs_) displacement_[dof] += along * carried_[c][dof];
+    for (std::size_t i = mesh_.owned_dofs; i < displacement_.size(); ++i) {
+      displacement_[i] += along * carried_[c][i];
+    }
+  }
 }
 
 double InelasticElements::respond() {
   double offset = 0;
   for (const LocalIndex dof : dofs_) force_[dof] = 0;
+  std::fill(force_.begin() + static_cast<std::ptrdiff_t>(mesh_.dof_count), force_.end(), 0.0);
   std::array<double, max_element_size> u{};
-  std::array<double, max_element_size> f{};
+  std::array<double, max_element_size> g{};
   for (Group& group : groups_) {
     const std::size_t size = group.layout.size();
     const std::size_t numbers = group.law->memory_size();
@@ -77,12 +127,17 @@ double InelasticElements::respond() {
     for (std::size_t e = 0; e < block.count(); ++e) {
       const LocalIndex* const place = &group.places[e * size];
       for (std::size_t i = 0; i < size; ++i) u[i] = place[i] < 0 ? 0 : displacement_[place[i]];
-      const double held =
+      const ElementLaw::Response response =
           group.law->respond(group.first + e, {u.data(), size},
-                             {group.memory.data() + e * numbers, numbers}, {f.data(), size});
-      if (block.counted[e] != 0) offset += held;
+                             {group.memory.data() + e * numbers, numbers}, {g.data(), size});
+      if (!response.acts) continue;
+      if (block.counted[e] != 0) offset += response.offset;
       for (std::size_t i = 0; i < size; ++i) {
-        if (place[i] >= 0 && place[i] < mesh_.owned_dofs) force_[place[i]] += f[i];
+        const bool held = place[i] >= static_cast<LocalIndex>(mesh_.dof_count);
+        const bool own =
+            held ? block.counted[e] != 0 : place[i] >= 0 && place[i] < mesh_.owned_dofs;
+        if (own) force_[place[i]] += g[i];
+        g[i] = 0;
       }
     }
   }
@@ -94,10 +149,10 @@ void InelasticElements::begin(const Step& step) {
   SteppedStructure& structure = *step.structures[structure_];
   structure.remember(dofs_, state_);
   const bool first = step.number == 0;
-  if (first) {  // f_{-1}, of which no history is kept
+  if (first) {  // g_{-1}, of which no history is kept
     std::vector<std::vector<double>> kept;
     for (const Group& group : groups_) kept.push_back(group.memory);
-    exchange(structure, time_step_);
+    exchange(step, time_step_);
     offset_ = respond();
     for (std::size_t k = 0; k < dofs_.size(); ++k) now_[k] = force_[dofs_[k]];
     for (std::size_t g = 0; g < groups_.size(); ++g) groups_[g].memory = kept[g];
@@ -107,7 +162,7 @@ void InelasticElements::begin(const Step& step) {
   for (std::size_t k = 0; k < taken_.size(); ++k) {
     taken_[k] = state_of(parts_[records_.links()[k]]).taken;
   }
-  exchange(structure, 0);
+  exchange(step, 0);
   offset_ = respond();
   for (std::size_t k = 0; k < taken_.size(); ++k) {
     const PartState part = state_of(parts_[records_.links()[k]]);
@@ -122,19 +177,49 @@ void InelasticElements::begin(const Step& step) {
   structure.act(dofs_, acting_, first);
 }
 
+InelasticElements::Carried InelasticElements::carried(const Step& step, std::size_t place) const {
+  Carried sum;
+  for (std::size_t c = 0; c < carried_.size(); ++c) {
+    const double shape = carried_[c][place];
+    sum.now += shape * step.supports.displacement[c];
+    sum.next += shape * (step.supports.displacement[c] + time_step_ * step.supports.velocity[c]);
+    sum.way += shape * time_step_ * step.supports.velocity_mean[c];
+  }
+  return sum;
+}
+
+double InelasticElements::held_by_supports(const Step& step) const {
+  double energy = 0;
+  for (std::size_t place = mesh_.dof_count; place < force_.size(); ++place) {
+    energy += force_[place] * carried(step, place).next / 2;
+  }
+  return energy;
+}
+
 void InelasticElements::finish(const Step& step) {
   const std::vector<double>& velocity = step.structures[structure_]->velocity();
-  double work = 0, held_before = -offset_before_, held = -offset_;
+  double work = 0, input = 0, damped = 0, held_before = -offset_before_;
+  offset_ -= held_by_supports(step);
+  double held = -offset_;
   for (std::size_t k = 0; k < dofs_.size(); ++k) {
+    const auto [now, next, by_supports] = carried(step, dofs_[k]);
     const double u = state_.displacement[k];
     const double moved = time_step_ * velocity[dofs_[k]];
-    work += acting_[k] * (moved + time_step_ * state_.velocity[k]) / 2;
-    held_before += before_[k] * u / 2;
-    held += now_[k] * (u + moved) / 2;
+    const double way = (moved + time_step_ * state_.velocity[k]) / 2;
+    work += now_[k] * way;
+    input += now_[k] * by_supports;
+    damped += (acting_[k] - now_[k]) * way;
+    held_before += before_[k] * (u + now) / 2;
+    held += now_[k] * (u + moved + next) / 2;
+  }
+  for (std::size_t place = mesh_.dof_count; place < force_.size(); ++place) {
+    input += force_[place] * carried(step, place).way;
   }
   LedgerPart& ledger = *step.ledger[structure_];
   ledger.link_energy_before += held_before;
-  ledger.plastic_loss += work - (held - held_before);
+  ledger.plastic_loss += work + input - (held - held_before);
+  ledger.damping_loss += damped;
+  ledger.support_input += input;
 }
 
 PartState InelasticElements::state_of(const Part& part) const {

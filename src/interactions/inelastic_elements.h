@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "elements/element.h"
@@ -14,18 +15,21 @@
 
 namespace pounding::interactions {
 
-/// Elements of one structure whose forces follow an element law in place of K u, those of regions
-/// marked inelastic: known from u_n and their history, they act with K u in the free step,
+/// Elements of one structure that follow an element law, those of regions marked inelastic. What
+/// they resist with beside K u, g_n, is known from u_n and their history and acts with K u in the
+/// free step,
 ///
-///     f_n + beta (f_n - f_{n-1}) / dt
+///     g_n + beta (g_n - g_{n-1}) / dt
 ///
 /// so that Rayleigh's beta damps the elastic part of their motion alone, and uniform damping
-/// filters f_n with K u_n. A rank computes every element that touches a node of its own, the same
-/// force as its neighbours. The ledger's part is
+/// filters g_n with K u_n. A rank computes every element that touches a node of its own, the same
+/// force as its neighbours. The ledger's part, beside that of K, is
 ///
-///     E_{n+1/2} = 1/2 f_n . u_{n+1} - W_n,      loss = f_n . (u_{n+1} - u_{n-1}) / 2 - change of E
+///     E_{n+1/2} = 1/2 g_n . u_{n+1} - W_n,      loss = g_n . (u_{n+1} - u_{n-1}) / 2 - change of E
 ///
-/// over the owned dofs, W_n of counted elements (ElementLaw). Allocates nothing in a step.
+/// over the owned dofs, W_n of counted elements (ElementLaw). On supports that move on their own u
+/// is the whole displacement here, and their work on g_n is an input; the work of the second term
+/// of beta is one of damping. Allocates nothing in a step.
 class InelasticElements final : public Interaction {
  public:
   /// Elements of structure number `structure` of the step. Mesh and system must outlive this
@@ -65,14 +69,26 @@ class InelasticElements final : public Interaction {
     std::size_t first = 0;  ///< of its elements, among those of the law
     ElementLayout layout;
     const ElementLaw* law = nullptr;
-    std::vector<LocalIndex> places;  ///< of their dofs in displacement_, -1 where held
+    std::vector<LocalIndex> places;  ///< of their dofs in displacement_, -1 where none counts
     std::vector<double> memory;      ///< shape (elements, numbers of the law)
   };
 
-  /// f over the places out of `displacement_`, histories brought there; returns W of the elements
+  /// g over the places out of `displacement_`, histories brought there; returns W of the elements
   /// that this rank counts.
   double respond();
-  void exchange(const SteppedStructure& structure, double back);
+  /// Brings `displacement_` to u_n less so much time times its rate.
+  void exchange(const Step& step, double back);
+  /// Finds how far a unit of each column of the supports' motion carries every place.
+  void find_carried();
+  /// Place of a component: its local dof, one beyond these where supports move it, -1 if held.
+  LocalIndex place_of(LocalIndex node, int component);
+  /// How far the supports carry a place: at t_n and t_{n+1}, and in the mean of the ways to both.
+  struct Carried {
+    double now = 0, next = 0, way = 0;
+  };
+  Carried carried(const Step& step, std::size_t place) const;
+  /// 1/2 g_n . u_{n+1} of held components, which is kept with W_n.
+  double held_by_supports(const Step& step) const;
   std::string name_of(const Group& group, const char* numbers) const;
   std::vector<std::string> record_names() const;
 
@@ -83,13 +99,16 @@ class InelasticElements final : public Interaction {
   std::vector<RegionLaw> laws_;
   std::vector<Group> groups_;
   std::unique_ptr<Halo> halo_;
-  std::vector<LocalIndex> dofs_;      ///< owned dofs that these elements act on, increasing
-  std::vector<double> displacement_;  ///< over the local dofs, set at dofs_ and ghosts [m, rad]
-  std::vector<double> force_;         ///< f over the owned dofs, set at dofs_ [N, N m]
-  std::vector<double> now_;           ///< f_n over dofs_
-  std::vector<double> before_;        ///< f_{n-1} likewise
+  std::vector<LocalIndex> dofs_;  ///< owned dofs that these elements act on, increasing
+  /// Held components that supports move: node, component. Their places are behind the local dofs.
+  std::vector<std::pair<LocalIndex, int>> held_;
+  std::vector<std::vector<double>> carried_;  ///< per column of the supports, over the places
+  std::vector<double> displacement_;  ///< over the places, set at dofs_, ghosts, held_ [m, rad]
+  std::vector<double> force_;         ///< g over the places likewise; of held_ of counted elements
+  std::vector<double> now_;           ///< g_n over dofs_
+  std::vector<double> before_;        ///< g_{n-1} likewise
   std::vector<double> acting_;        ///< the force of the step
-  double offset_ = 0;                 ///< W_n [J]
+  double offset_ = 0;                 ///< W_n, at the end of a step less held_by_supports [J]
   double offset_before_ = 0;          ///< W_{n-1} [J]
   Before state_;                      ///< u_n and v- over dofs_
   std::vector<Part> parts_;

@@ -37,7 +37,7 @@ class SteppedStructure {
   /// in steps whose interaction says `corrects` alone.
   virtual void watch(std::span<const LocalIndex> dofs, bool always) = 0;
   virtual void remember(std::span<const LocalIndex> dofs, Before& before) const = 0;
-  /// Forces against the motion in this step, of elements that are no part of K, at these dofs of
+  /// Forces against the motion in this step, of elements beside K u, at these dofs of
   /// LinearSystem::inelastic; in `begin`, each dof once. Uniform damping filters them with K u.
   /// `from_rest`: as if they had acted for ever, in the first step.
   virtual void act(std::span<const LocalIndex> dofs, std::span<const double> force,

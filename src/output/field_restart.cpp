@@ -49,7 +49,7 @@ void FieldWriter::load(const SavedState& saved) {
         for (const Quantity& quantity : fields.quantities) {
           if (frames_ == 0 || !same) continue;
           const std::string last = path_of(fields, quantity, frames_ - 1);
-          same = file.extent(last) == std::vector<std::size_t>{fields.nodes, 3};
+          same = file.extent(last) == fields.shape_of(quantity);
         }
       }
       if (!same) {
@@ -94,9 +94,10 @@ void FieldWriter::copy_frames(const std::string& to) const try {
   for (const StructureFields& fields : structures_) {
     for (const Quantity& quantity : fields.quantities) {
       for (std::int64_t frame = 0; frame < frames_; ++frame) {
-        copy_numbers(from, old.place(path_of(fields, quantity, frame)), into,
-                     quantity.places[static_cast<std::size_t>(frame)],
-                     static_cast<std::int64_t>(fields.nodes) * 3);
+        copy_numbers(
+            from, old.place(path_of(fields, quantity, frame)), into,
+            quantity.places[static_cast<std::size_t>(frame)],
+            static_cast<std::int64_t>(quantity.of_cells ? fields.cells : 3 * fields.nodes));
       }
     }
   }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/error.h"
+#include "common/gather_rows.h"
 #include "common/parallel.h"
 #include "io/new_file.h"
 #include "io/schema.h"
@@ -33,6 +34,12 @@ bool shows_rotations(const LinearSystem& system, const Mesh& mesh) {
   return rotates && !system.generalised;
 }
 
+std::size_t cells_of(const Mesh& mesh) {
+  GlobalIndex count = 0;
+  for (const ElementBlock& block : mesh.blocks) count += block.global_count;
+  return static_cast<std::size_t>(count);
+}
+
 bool has_value(std::span<const double> values) {
   return std::ranges::any_of(values, [](double value) { return value != 0; });
 }
@@ -53,7 +60,8 @@ FieldWriter::FieldWriter(Layout layout, std::span<const LinearSystem> systems,
   for (std::size_t s = 0; s < meshes.size(); ++s) {
     structures_.push_back(fields_of(systems[s], meshes[s], s));
   }
-  const double bytes = size(layout_.steps, systems, meshes, !layout_.places.empty());
+  const double bytes =
+      size(layout_.steps, systems, meshes, !layout_.places.empty(), layout_.yields);
   on_rank0(layout_.comm, [&] {
     std::error_code failure;
     const auto space = std::filesystem::space(layout_.folder, failure);
@@ -74,6 +82,7 @@ FieldWriter::StructureFields FieldWriter::fields_of(const LinearSystem& system, 
   const bool rotations = shows_rotations(system, mesh);
   StructureFields fields{mesh.structure,
                          static_cast<std::size_t>(mesh.global_nodes),
+                         cells_of(mesh),
                          Trace(system, mesh, owned_places(mesh, 0), false),
                          {},
                          FileBlocks(mesh),
@@ -91,8 +100,13 @@ FieldWriter::StructureFields FieldWriter::fields_of(const LinearSystem& system, 
     fields.rotation.emplace(system, mesh, owned_places(mesh, 3), false);
     add("rotation", "rad");
   }
-  if (layout_.places.empty()) return fields;
-  add("contact_impulse", "N s");
+  if (!layout_.places.empty()) add("contact_impulse", "N s");
+  if (layout_.yields[structure] != 0) {
+    for (const auto& [name, unit] :
+         {std::pair{"ductility", "-"}, {"damage", "-"}, {"lost_energy", "J"}}) {
+      fields.quantities.push_back({name, unit, {}, {}, true});
+    }
+  }
   for (std::size_t i = 0; i < layout_.places.size(); ++i) {
     const ContactPlace& place = layout_.places[i];
     if (place.structure != static_cast<int>(structure)) continue;
@@ -105,13 +119,17 @@ FieldWriter::StructureFields FieldWriter::fields_of(const LinearSystem& system, 
 }
 
 double FieldWriter::size(const FieldSteps& steps, std::span<const LinearSystem> systems,
-                         std::span<const Mesh> meshes, bool contacts) {
+                         std::span<const Mesh> meshes, bool contacts,
+                         std::span<const char> yields) {
   double bytes = 0;
   for (std::size_t s = 0; s < meshes.size(); ++s) {
     const int quantities =
         2 + (shows_rotations(systems[s], meshes[s]) ? 1 : 0) + (contacts ? 1 : 0);
     bytes += static_cast<double>(steps.count) * static_cast<double>(meshes[s].global_nodes) * 3 *
              sizeof(double) * quantities;
+    if (yields[s] == 0) continue;
+    bytes += static_cast<double>(steps.count) * static_cast<double>(cells_of(meshes[s])) * 3 *
+             sizeof(double);
   }
   return bytes;
 }
@@ -142,6 +160,9 @@ void FieldWriter::create(const std::string& path) {
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     const CellTable cells = gather_cells(meshes_[s]);
     grids_.push_back(write_mesh(file ? &*file : nullptr, meshes_[s], cells, s, layout_.labels));
+    for (std::size_t cell = 0; layout_.yields[s] != 0 && cell < cells.count(); ++cell) {
+      structures_[s].cell_places[{cells.region[cell], cells.element[cell]}] = cell;
+    }
     if (!layout_.vtkhdf) continue;
     on_rank0(layout_.comm,
              [&] { cell_nodes_.push_back(write_vtk_cells(*file, structures_[s].name, cells)); });
@@ -166,7 +187,7 @@ std::vector<std::int64_t> FieldWriter::reserve(Hdf5File& file) const {
   for (const StructureFields& fields : structures_) {
     for (const Quantity& quantity : fields.quantities) {
       for (std::int64_t frame = 0; frame < layout_.steps.count; ++frame) {
-        places.push_back(file.reserve(path_of(fields, quantity, frame), {fields.nodes, 3}));
+        places.push_back(file.reserve(path_of(fields, quantity, frame), fields.shape_of(quantity)));
       }
       const std::string group = fields.name + "/" + quantity.name;
       file.write_attribute(group, "unit", quantity.unit);
@@ -226,10 +247,11 @@ void FieldWriter::observe(const CdLagrange& stepper) {
     StructureFields& fields = structures_[s];
     fields.displacement.apply(state.structures[s].velocity.data(),
                               fields.quantities[1].owned.data(), 1, state.supports.velocity);
-    for (const auto& [value, place] : fields.contact) {
-      fields.quantities.back().owned[value] = impulses_[place];
-    }
+    const auto impulse = std::ranges::find(fields.quantities, "contact_impulse", &Quantity::name);
+    for (const auto& [value, place] : fields.contact) impulse->owned[value] = impulses_[place];
+    if (layout_.yields[s] != 0) write_cells(s);
     for (Quantity& quantity : fields.quantities) {
+      if (quantity.of_cells) continue;
       fields.blocks.to_file(quantity.owned, 3, fields.block);
       on_every_rank(layout_.comm, [&] {  // places without a value are 0
         if (!has_value(fields.block)) return;
@@ -248,14 +270,36 @@ void FieldWriter::observe(const CdLagrange& stepper) {
   ++frames_;
 }
 
+void FieldWriter::write_cells(std::size_t structure) {
+  constexpr std::size_t width = 5;
+  const std::vector<double> rows = gather_rows(layout_.comm, layout_.yielding(structure));
+  on_rank0(layout_.comm, [&] {
+    StructureFields& fields = structures_[structure];
+    std::size_t column = 2;
+    for (const Quantity& quantity : fields.quantities) {
+      if (!quantity.of_cells) continue;
+      std::vector<double> values(fields.cells, 0.0);
+      for (std::size_t r = 0; r < rows.size(); r += width) {
+        const std::pair key{static_cast<std::int32_t>(rows[r]),
+                            static_cast<std::int32_t>(rows[r + 1])};
+        values[fields.cell_places.at(key)] = rows[r + column];
+      }
+      ++column;
+      if (!has_value(values)) continue;
+      file_->write(quantity.places[static_cast<std::size_t>(frames_)], values);
+    }
+  });
+}
+
 std::string FieldWriter::frame_text(std::int64_t frame) const {
   std::string grids;
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     const StructureFields& fields = structures_[s];
     XdmfGrid grid = grids_[s];
     for (const Quantity& quantity : fields.quantities) {
-      grid.node_values.push_back(
-          {quantity.name, path_of(fields, quantity, frame), false, {fields.nodes, 3}});
+      (quantity.of_cells ? grid.cell_values : grid.node_values)
+          .push_back(
+              {quantity.name, path_of(fields, quantity, frame), false, fields.shape_of(quantity)});
     }
     grids += xdmf_grid(file_name, grid);
   }
@@ -270,7 +314,7 @@ void FieldWriter::list_for_vtk() const {
       auto array = std::ranges::find(arrays, quantity.name, &VtkhdfArray::name);
       if (array == arrays.end()) {
         const double offset = quantity.name == "velocity" ? layout_.time_step / 2 : 0;
-        array = arrays.insert(array, {quantity.name, quantity.unit, offset, {}});
+        array = arrays.insert(array, {quantity.name, quantity.unit, offset, {}, quantity.of_cells});
         array->paths.resize(structures_.size());
       }
       for (std::int64_t frame = 0; frame < frames_; ++frame) {

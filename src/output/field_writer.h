@@ -1,10 +1,14 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/placed_file.h"
@@ -42,6 +46,12 @@ struct ContactPlace {
 ///     rotation          of t_n, where nodes rotate and the structure is not reduced [rad]
 ///     contact_impulse   that contacts brought to the node since the frame before [N s]
 ///
+/// and, where elements yield, arrays of shape (cells), of t_n:
+///
+///     ductility         the largest of the laws of an element so far
+///     damage            of shells that crack, d / (1 + d) of the worse face
+///     lost_energy       by the element so far [J]
+///
 /// the first two to the bit as in the history of the same node. The arrays take their places in the
 /// file at the beginning; then every rank fills its part of them (FileBlocks) as the run goes.
 /// `frames` is the number of whole frames, written after them, and `fields.xdmf` and
@@ -64,15 +74,19 @@ class FieldWriter final : public Observer {
     /// Adds the impulses of contacts in the step just made, per place [N s], on ranks that know
     /// them.
     std::function<void(std::span<double>)> add_impulses;
+    std::vector<char> yields;  ///< per structure, whether elements of it may
+    /// Region, number in the mesh file, ductility, damage and lost energy of each element of a
+    /// structure that this rank counts and that yields. Local.
+    std::function<std::vector<double>(std::size_t)> yielding;
   };
 
   /// Creates the files, unless the run is a continued one. Throws UserError on every rank alike (no
   /// space). Collective.
   FieldWriter(Layout layout, std::span<const LinearSystem> systems, std::span<const Mesh> meshes);
 
-  /// Bytes that the arrays take. Collective.
+  /// Bytes that the arrays take; `yields` as in the layout. Collective.
   static double size(const FieldSteps& steps, std::span<const LinearSystem> systems,
-                     std::span<const Mesh> meshes, bool contacts);
+                     std::span<const Mesh> meshes, bool contacts, std::span<const char> yields);
 
   /// Takes the frames over that `continued` knows from the file continued, which may be the one
   /// that is then replaced. Throws UserError on every rank alike. Collective.
@@ -98,18 +112,27 @@ class FieldWriter final : public Observer {
   struct Quantity {
     std::string name;
     const char* unit;
-    std::vector<double> owned;           ///< shape (owned_nodes, 3)
+    std::vector<double> owned;           ///< shape (owned_nodes, 3); of cells empty
     std::vector<std::int64_t> places{};  ///< of its arrays in the file, per frame [bytes]
+    bool of_cells = false;
   };
   struct StructureFields {
     std::string name;
     std::size_t nodes = 0;  ///< of all ranks
+    std::size_t cells = 0;  ///< of all ranks
     Trace displacement;
     std::optional<Trace> rotation;
     FileBlocks blocks;
     std::vector<double> block;  ///< values of this rank's block
     std::vector<Quantity> quantities;
     std::vector<std::array<std::size_t, 2>> contact;  ///< value of the impulse, place in impulses
+    /// Rank 0: place of each cell by its region and its number in the mesh file.
+    std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> cell_places{};
+
+    std::vector<std::size_t> shape_of(const Quantity& quantity) const {
+      if (quantity.of_cells) return {cells};
+      return {nodes, 3};
+    }
   };
 
   StructureFields fields_of(const LinearSystem& system, const Mesh& mesh, std::size_t structure);
@@ -119,6 +142,7 @@ class FieldWriter final : public Observer {
   /// Name of an array in the file.
   static std::string path_of(const StructureFields& fields, const Quantity& quantity,
                              std::int64_t frame);
+  void write_cells(std::size_t structure);
   void open();
   void copy_frames(const std::string& to) const;
   std::string frame_text(std::int64_t frame) const;

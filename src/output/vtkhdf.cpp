@@ -61,6 +61,7 @@ class VtkhdfWriter {
       offsets.add(grid.name + "/offsets", grid.cells + 1);
       types.add(grid.name + "/types", grid.cells);
       nodes_ += nodes_of(grid);
+      cells_ += grid.cells;
     }
     file_.write_long_integers("VTKHDF/NumberOfPoints", points);
     file_.write_long_integers("VTKHDF/NumberOfCells", cells);
@@ -102,15 +103,17 @@ class VtkhdfWriter {
     StackedRows rows;
     for (std::size_t step = 0; step < steps; ++step) {
       for (std::size_t g = 0; g < grids_.size(); ++g) {
+        const std::size_t count = array.of_cells ? grids_[g].cells : nodes_of(grids_[g]);
         if (array.paths[g].empty()) {
-          rows.skip(nodes_of(grids_[g]));
+          rows.skip(count);
         } else {
-          rows.add(array.paths[g][step], nodes_of(grids_[g]));
+          rows.add(array.paths[g][step], count);
         }
       }
     }
-    const std::string name = "VTKHDF/PointData/" + array.name;
-    rows.write(file_, name, H5T_NATIVE_DOUBLE, 3, source_);
+    const std::string name =
+        (array.of_cells ? "VTKHDF/CellData/" : "VTKHDF/PointData/") + array.name;
+    rows.write(file_, name, H5T_NATIVE_DOUBLE, array.of_cells ? 0 : 3, source_);
     file_.write_attribute(name, "unit", array.unit);
     if (array.time_offset != 0) file_.write_attribute(name, "time_offset", array.time_offset);
   }
@@ -119,9 +122,10 @@ class VtkhdfWriter {
   void write_steps(std::span<const VtkhdfArray> arrays, const std::vector<double>& times) {
     const std::vector<std::int64_t> first(times.size(), 0);
     const std::vector<std::int64_t> parts(times.size(), static_cast<std::int64_t>(grids_.size()));
-    std::vector<std::int64_t> moving;
+    std::vector<std::int64_t> at_nodes, of_cells;
     for (std::size_t step = 0; step < times.size(); ++step) {
-      moving.push_back(static_cast<std::int64_t>(step * nodes_));
+      at_nodes.push_back(static_cast<std::int64_t>(step * nodes_));
+      of_cells.push_back(static_cast<std::int64_t>(step * cells_));
     }
     const std::string steps = "VTKHDF/Steps/";
     file_.write_array(steps + "Values", 0, times);
@@ -137,7 +141,9 @@ class VtkhdfWriter {
       file_.write_long_integers(steps + "PointDataOffsets/" + name, first);
     }
     for (const VtkhdfArray& array : arrays) {
-      file_.write_long_integers(steps + "PointDataOffsets/" + array.name, moving);
+      file_.write_long_integers(
+          steps + (array.of_cells ? "CellDataOffsets/" : "PointDataOffsets/") + array.name,
+          array.of_cells ? of_cells : at_nodes);
     }
     file_.write_attribute("VTKHDF/Steps", "NSteps",
                           std::vector{static_cast<std::int64_t>(times.size())});
@@ -149,6 +155,7 @@ class VtkhdfWriter {
   std::span<const XdmfGrid> grids_;
   std::span<const std::size_t> cell_nodes_;
   std::size_t nodes_ = 0;  ///< of all grids
+  std::size_t cells_ = 0;  ///< of all grids
   std::vector<std::string> cell_numbers_;
   std::vector<std::string> node_numbers_;
 };

@@ -14,13 +14,15 @@
 /// the arrays of another HDF5 file, so that no number is in two files.
 namespace pounding {
 
-/// A vector at the nodes that changes from step to step.
+/// A vector at the nodes, or a number of the cells, that changes from step to step.
 struct VtkhdfArray {
   std::string name;
   std::string unit;
   double time_offset = 0;  ///< of its values after the time of the step [s]
-  /// Per grid, the datasets of shape (nodes, 3), one per step; empty where it is 0 all the time.
+  /// Per grid, the datasets of shape (nodes, 3) or (cells), one per step; empty where it is 0 all
+  /// the time.
   std::vector<std::vector<std::string>> paths;
+  bool of_cells = false;
 };
 
 /// Adds the cells of a grid to a file as VTK codes them: GRID/connectivity (nodes in file order,

@@ -110,7 +110,7 @@ std::optional<Rayleigh> read_region_damping(OptionReader& options, const Names& 
   bool given = false;
   for (const std::string_view pattern : {region_damping.alpha, region_damping.beta,
                                          region_damping.ratio, region_damping.frequencies}) {
-    if (follows_law(region)) {
+    if (is_nonlinear(region)) {
       options.forbid(
           pattern, names,
           "elements with tension_only or compression_only take the damping of their structure, "

@@ -20,9 +20,7 @@ std::string left_out(const Structure& structure) {
   if (series != structure.regions.end()) {
     return "the springs in series with dashpots of " + series->group + " are none of K";
   }
-  const auto law = std::ranges::find_if(structure.regions, [](const Region& region) {
-    return follows_law(region) || yields_by_links(region);
-  });
+  const auto law = std::ranges::find_if(structure.regions, is_nonlinear);
   if (law == structure.regions.end()) return "";
   return "not with -" + option_name(law_option(*law), {structure.name, law->group});
 }

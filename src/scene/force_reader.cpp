@@ -33,7 +33,7 @@ void read_group(OptionReader& options, const Structure& structure, ForceItem& fo
   }
   const std::string reason = reason_against(force.kind, region->element);
   if (!reason.empty()) options.refuse("<force>_group", {force.name}, reason);
-  if (follows_law(*region) || yields_by_links(*region)) {
+  if (is_nonlinear(*region)) {
     options.refuse("<force>_group", {force.name},
                    "its elements follow a law: give -loops " + structure.name + ":" + force.group +
                        " instead");

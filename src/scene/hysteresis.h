@@ -65,6 +65,9 @@ struct Hysteresis {
 struct YieldingSection {
   std::array<std::optional<Hysteresis>, 2> shear;    ///< force [N] over shear strain
   std::array<std::optional<Hysteresis>, 2> bending;  ///< moment [N m] over curvature [1/m]
+  /// N_y [N] and a: an axial force N leaves 1 - (|N| / N_y)^a of the strength in bending; 0: all.
+  double axial_strength = 0;
+  double axial_exponent = 1;
 
   /// One of its laws, and the plane in which it acts.
   struct Law {

@@ -184,6 +184,24 @@ Hysteresis read_law(OptionReader& options, const Names& names, std::string_view 
   return law;
 }
 
+/// Strength in bending that an axial force leaves.
+void read_axial(OptionReader& options, const Names& names, YieldingSection& section) {
+  constexpr std::string_view axial = "<structure>_<group>_bending_axial";
+  if (!options.given(axial, names)) return;
+  const auto follows = [](const std::optional<Hysteresis>& law) {
+    return law && law->rule == HystereticRule::kinematic;
+  };
+  if (!follows(section.bending[0]) && !follows(section.bending[1])) {
+    options.refuse(axial, names,
+                   "goes with -" + option_name("<structure>_<group>_bending_rule", names) +
+                       " kinematic, the one rule whose strength may change");
+  }
+  const std::vector<double> values = options.reals(axial, names);
+  if (values.size() > 2) options.refuse(axial, names, "more than two numbers");
+  section.axial_strength = values[0];
+  if (values.size() == 2) section.axial_exponent = values[1];
+}
+
 void read_cracking(OptionReader& options, const Names& names, Region& region) {
   constexpr std::string_view force = "<structure>_<group>_cracking_force";
   constexpr std::string_view moment = "<structure>_<group>_cracking_moment";
@@ -275,6 +293,7 @@ void read_yielding_section(OptionReader& options, const Names& names, Region& re
     options.forbid(prefix + "_rule", names,
                    "goes with -" + option_name(prefix + "_skeleton_y", names) + " or _z");
   }
+  read_axial(options, names, region.yielding);
   read_paths(options, names,
              "-" + option_name("<structure>_<group>_shear_rule", names) + " or -" +
                  option_name("<structure>_<group>_bending_rule", names),

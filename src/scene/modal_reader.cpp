@@ -29,7 +29,8 @@ void refuse_couplings(const OptionReader& options, const Structure& structure) {
     if (region.inelastic && is_shell(region.element)) {
       options.forbid(law_option(region), names, remedy);
     }
-    if (follows_law(region) && structure.uniform_damping) {
+    options.forbid("<structure>_<group>_bending_axial", names, remedy);
+    if (is_nonlinear(region) && structure.uniform_damping) {
       options.forbid(
           law_option(region), names,
           "not with -" + option_name(model, {structure.name}) + " modal and -" + structure.name +

@@ -184,6 +184,7 @@ constexpr std::array option_rows{
     OptionRow{Block::region, "<structure>_<group>_bending_skeleton_y", Kind::reals, "1/m, N m", absent("left out: elastic"), not_negative, "pairs k1,M1,k2,M2,...", "beam that yields in bending: corners of the moment about local y over the curvature, the first one on the line of E I"},
     OptionRow{Block::region, "<structure>_<group>_bending_skeleton_z", Kind::reals, "1/m, N m", absent("left out: elastic"), not_negative, "pairs k1,M1,k2,M2,...", "likewise about local z"},
     OptionRow{Block::region, "<structure>_<group>_bending_rule", Kind::choice, "word", value("bending"), any, rule_words, "its rule, see rule"},
+    OptionRow{Block::region, "<structure>_<group>_bending_axial", Kind::reals, "N, -", absent("left out: none"), positive, "N_y or N_y,a", "an axial force N leaves 1 - (|N| / N_y)^a of the strength in bending, a 1 unless given; with bending_rule kinematic"},
     OptionRow{Block::region, "<structure>_<group>_cracking_force", Kind::real, "N/m", absent("left out: elastic"), positive, "", "shell that cracks by damage: force per length in tension along one axis at which it begins"},
     OptionRow{Block::region, "<structure>_<group>_cracking_moment", Kind::real, "N", absent("left out: cracking_force thickness / 6"), positive, "", "its moment per length about one axis at which damage begins"},
     OptionRow{Block::region, "<structure>_<group>_cracked_tension", Kind::real, "-", absent("required with cracking_force"), below_1, "", "slope of its force while it cracks in tension, over that of the sound shell"},

@@ -78,8 +78,8 @@ struct Region {
   NonlinearSpring nonlinear;          ///< springs and bars
   YieldingSection yielding;           ///< beams
   YieldingShell yielding_shell;       ///< shells
-  /// Forces of its elements are those of an element law, not K u; see InelasticElements. Not in
-  /// reduced structures, see yields_by_links.
+  /// An element law adds to the forces K u of its elements; see InelasticElements. Not in reduced
+  /// structures, see yields_by_links.
   bool inelastic = false;
   std::optional<Rayleigh> damping;  ///< in place of the structure's
   /// Displacement [m] and velocity [m/s] of its nodes at t = 0, in place of the structure's.
@@ -98,9 +98,15 @@ inline bool is_flexible_in_shear(const Region& region) {
   return region.element == ElementType::beam && region.section->shear_area_y > 0;
 }
 
-/// Elements whose stiffness, or some of it, is no part of K: one-way ones and those that yield.
+/// Elements whose stiffness, or some of it, is no part of K: one-way ones, springs and bars that
+/// yield.
 inline bool follows_law(const Region& region) {
-  return is_one_way(region) || region.nonlinear.yields() || region.inelastic;
+  return is_one_way(region) || region.nonlinear.yields();
+}
+
+/// Elements whose force is not K u, whether or not K holds their first slope.
+inline bool is_nonlinear(const Region& region) {
+  return follows_law(region) || region.yielding.any() || region.yielding_shell.any();
 }
 
 /// Beams of a reduced structure whose sections yield: its modes hold them as elastic, and links the
@@ -109,7 +115,7 @@ inline bool yields_by_links(const Region& region) {
   return region.yielding.any() && !region.inelastic;
 }
 
-/// The option that takes the stiffness of a region's elements out of K, or gives it a law beside.
+/// The option that makes a region nonlinear.
 inline const char* law_option(const Region& region) {
   if (region.yielding.any()) return region.yielding.option();
   if (region.yielding_shell.any()) return region.yielding_shell.option();

@@ -40,7 +40,8 @@ void forbid_others(const OptionReader& options, const std::string& element, cons
       "dashpot_per_length tension_only thickness yield_circle yield_force rule skeleton "
       "skeleton_back unloading_exponent unloading_least pinch deterioration shear_skeleton "
       "shear_skeleton_y shear_skeleton_z shear_rule bending_skeleton_y bending_skeleton_z "
-      "bending_rule cracking_force cracking_moment cracked_tension cracked_compression "
+      "bending_rule bending_axial cracking_force cracking_moment cracked_tension "
+      "cracked_compression "
       "cracked_bending";
   for (const std::string& property : split(properties, ' ')) {
     if (!takes(traits_of(element_of_word(element)), property)) {
@@ -327,7 +328,7 @@ void forbid_rigid_groups(const OptionReader& options, const Structure& structure
 /// Matrices do not know which of their rows buckle, lift off or yield.
 void forbid_laws(const OptionReader& options, const Structure& structure) {
   for (const Region& region : structure.regions) {
-    if (!structure.matrices.empty() && follows_law(region)) {
+    if (!structure.matrices.empty() && is_nonlinear(region)) {
       options.refuse(law_option(region), {structure.name, region.group},
                      "not with -" + structure.name + "_matrices");
     }

@@ -137,12 +137,6 @@ void require_plain(const OptionReader& options, const Scene& scene, const Suppor
                   "not with -export_matrices: no matrix holds the motion of supports");
   }
   for (const Region& region : structure.regions) {
-    if (region.inelastic || yields_by_links(region)) {
-      refuse_groups(options, support,
-                    "structure " + structure.name + ": sections that yield need ground that " +
-                        "moves as one; not with -" +
-                        option_name(law_option(region), {structure.name, region.group}));
-    }
     if (!region.nonlinear.yields() || all_ground) continue;
     if (std::ranges::any_of(structure.regions, [&](const Region& other) {
           return structure.damping_of(other).alpha > 0;
@@ -157,7 +151,7 @@ void require_plain(const OptionReader& options, const Scene& scene, const Suppor
   if (!structure.modal) return;
   if (!structure.modal->basis_file.empty()) refuse_with("_modal_basis");
   for (const Region& region : structure.regions) {
-    if (follows_law(region)) {
+    if (is_nonlinear(region)) {
       refuse_groups(options, support,
                     "structure " + structure.name + " is reduced: not with -" +
                         option_name(law_option(region), {structure.name, region.group}));

@@ -164,12 +164,6 @@ void AssembledStatics::apply(const std::vector<double>& u, std::vector<double>& 
   q.resize(u.size());
   stiffness::StoredForces store(q.data());
   system_.stiffness->apply({u.data(), u.data(), 0}, store);
-  if (system_.inelastic_stiffness) {
-    std::vector<double> more(u.size());
-    stiffness::StoredForces store_more(more.data());
-    system_.inelastic_stiffness->apply({u.data(), u.data(), 0}, store_more);
-    for (std::size_t i = 0; i < q.size(); ++i) q[i] += more[i];
-  }
   for (const LinkTerms& link : linear_links_) {
     const double force = link.stiffness * link.elongation(u);
     for (std::size_t k = 0; k < link.dofs.size(); ++k) {

@@ -5,16 +5,20 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <sstream>
 
+#include "common/dense_solver.h"
 #include "common/error.h"
 #include "common/parallel.h"
 #include "interactions/solvers/lcp.h"
 #include "mesh/location.h"
 #include "statics/link_terms.h"
 #include "statics/make_static_stiffness.h"
+#include "statics/rest_links.h"
 #include "statics/unilateral_rows.h"
 #include "system/admissible_motions.h"
+#include "system/inelastic_laws.h"
 #include "system/load_shapes.h"
 
 namespace pounding {
@@ -26,8 +30,16 @@ constexpr int most_gradient_steps = 500;
 constexpr double largest_residual = 1e-4;
 /// Iterations in a row that gain nothing, after which nothing will.
 constexpr int most_idle_iterations = 20;
+/// Steps in a row without a gain, after which nothing will, where elements yield.
+constexpr int most_idle_yielded = 60;
+/// Iterations without a gain after which a small residual is round-off, where elements yield.
+constexpr int settled = 3;
 /// Residual below which the iteration goes on only as long as it gains.
 constexpr double small_residual = 1e-8;
+/// Steps that the iteration goes on from where elements yield.
+constexpr std::size_t most_trials = 12;
+/// Added to the diagonal of their products, over the largest.
+constexpr double of_products = 1e-14;
 /// Negative opening of a row that counts as violated, relative to the largest opening.
 constexpr double violation = 1e-13;
 
@@ -54,6 +66,8 @@ class Search {
       stiffness_.push_back(make_static_stiffness(systems[s], meshes[s], proximal_shift, solver));
       const std::size_t dofs = systems[s].lumped_mass.size();
       displacement_.emplace_back(dofs, 0.0);
+      law_force_.emplace_back(dofs, 0.0);
+      links_.emplace_back(systems[s]);
       weight_.emplace_back(dofs, 0.0);
       for (std::size_t d = 0; d < 3; ++d) {
         const std::vector<double> iota = systems[s].influence(static_cast<int>(d));
@@ -67,52 +81,54 @@ class Search {
 
   Equilibrium find() {
     double best = std::numeric_limits<double>::infinity();
+    double last = best;
     int idle = 0;
     residual_ = weight_;
     update_correction();
     weight_size_ = size_of_residual();
     for (iterations_ = 1;; ++iterations_) {
+      std::optional<Trial> from_yielded;
+      if (yielded_) from_yielded = Trial{residual_, correction_, {}, {}};
       iterate();
       const double left = relative_residual();
-      if (left == 0 || (left < small_residual && left > best / 2)) break;
+      if (left == 0 || (left < small_residual && left > best / 2 && !ever_yielded_)) break;
       idle = left < 0.9 * best ? 0 : idle + 1;
+      if (left < small_residual && idle >= settled) break;
+      if (left > 2 * last) trials_.clear();  // other elements yield
+      last = left;
+      if (from_yielded && yielded_) {
+        from_yielded->displacement = displacement_;
+        from_yielded->force = force_;
+        accelerate(std::move(*from_yielded));
+      }
       best = std::min(best, left);
-      if (idle == most_idle_iterations && left < largest_residual) break;  // round-off
-      if (iterations_ == most_gradient_steps || idle == most_idle_iterations ||
-          !std::isfinite(left)) {
+      const double enough = ever_yielded_ ? small_residual : largest_residual;
+      const int most_idle = ever_yielded_ ? most_idle_yielded : most_idle_iterations;
+      if (idle == most_idle && left < enough) break;  // round-off
+      if (iterations_ == most_gradient_steps || idle == most_idle || !std::isfinite(left)) {
         refuse(left);
       }
     }
-    refuse_yielded();
+    refuse_sliders();
     return describe();
   }
 
  private:
-  /// A link beyond its yield force would jump as soon as the run begins.
-  void refuse_yielded() const {
+  /// Sliders whose strength follows a pressure, or that yield on a circle, have no law of their own
+  /// at rest: beyond their yield force they would jump as soon as the run begins.
+  void refuse_sliders() const {
     on_every_rank(comm_, [&] {
       for (std::size_t s = 0; s < systems_.size(); ++s) {
         for (const LinkTerms& link : link_terms(systems_[s])) {
-          if (link.one_way) continue;
           const interactions::LinkOrigin& origin = link.link->origin;
-          const NonlinearSpring& law = origin.region->nonlinear;
-          const double limit = origin.section ? origin.section->positive.breaks.front().force
-                                              : law.yield_force[origin.component];
-          if (!(limit > 0)) continue;
-          const std::string place = "element " + std::to_string(link.link->number) + " of group '" +
-                                    origin.region->group + "'";
-          const double pull = link.stiffness * link.elongation(displacement_[s]);
-          const double force = std::abs(pull);
-          if (law.has_skeleton() && law.law.negative.breaks.empty() && pull < 0) {
-            throw UserError("option -preload static: " + place + " of structure " +
-                            systems_[s].name +
-                            " would hold its direction in which it carries nothing at rest; give "
-                            "it a skeleton_back, or leave -preload out");
-          }
-          if (force <= limit) continue;
+          if (link.one_way || !slides(origin)) continue;
+          const double limit = origin.region->nonlinear.yield_force[origin.component];
+          const double force = std::abs(link.stiffness * link.elongation(displacement_[s]));
+          if (!(limit > 0) || force <= limit) continue;
           std::ostringstream text;
-          text << "option -preload static: " << place << " of structure " << systems_[s].name
-               << " holds " << force << " N at rest, more than its yield force of " << limit
+          text << "option -preload static: element " << link.link->number << " of group '"
+               << origin.region->group << "' of structure " << systems_[s].name << " holds "
+               << force << " N at rest, more than its yield force of " << limit
                << " N; give a larger one, or leave -preload out";
           throw UserError(text.str());
         }
@@ -134,6 +150,54 @@ class Search {
       }
     }
     displacement_ = std::move(trial);
+    update_residual();
+  }
+
+  /// One step of the iteration: from where the residual and its correction were, to where it came.
+  struct Trial {
+    Fields residual;
+    Fields correction;
+    Fields displacement;
+    std::vector<double> force;
+  };
+
+  /// Where elements yield, K corrects too little. Goes on from the mean of the last steps' ends
+  /// whose corrections d cancel best in the norm of K + sigma M (Anderson, J. ACM 12 (1965), 547):
+  /// while the same elements yield, that finds the rest of as many of them in as many steps.
+  void accelerate(Trial step) {
+    if (trials_.size() == most_trials) trials_.erase(trials_.begin());
+    trials_.push_back(std::move(step));
+    const std::size_t n = trials_.size();
+    std::vector<double> products(n * n);  // d_i^T (K + sigma M) d_j
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) {
+        for (std::size_t s = 0; s < systems_.size(); ++s) {
+          products[i * n + j] +=
+              std::inner_product(trials_[i].residual[s].begin(), trials_[i].residual[s].end(),
+                                 trials_[j].correction[s].begin(), 0.0);
+        }
+      }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, products.data(), static_cast<int>(n * n), MPI_DOUBLE, MPI_SUM,
+                  comm_);
+    double size = 0;
+    for (std::size_t i = 0; i < n; ++i) size = std::max(size, products[i * n + i]);
+    for (std::size_t i = 0; i < n; ++i) products[i * n + i] += of_products * size;
+    std::vector<double> weights(n, size);
+    if (!solve_dense(products, weights)) weights.assign(n, 0.0);
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    if (!(sum > 0)) return;
+    displacement_ = zeros();
+    std::ranges::fill(force_, 0.0);
+    for (std::size_t k = 0; k < n; ++k) {
+      const double part = weights[k] / sum;
+      for (std::size_t s = 0; s < systems_.size(); ++s) {
+        for (std::size_t i = 0; i < displacement_[s].size(); ++i) {
+          displacement_[s][i] += part * trials_[k].displacement[s][i];
+        }
+      }
+      for (std::size_t i = 0; i < force_.size(); ++i) force_[i] += part * trials_[k].force[i];
+    }
     update_residual();
   }
 
@@ -203,13 +267,20 @@ class Search {
   void update_residual() {
     const Fields forces = row_forces(0, rows_.size());
     std::vector<double> product;
+    int yielded = 0;
     for (std::size_t s = 0; s < systems_.size(); ++s) {
+      law_force_[s] = forces_of_laws(systems_[s].laws, meshes_[s], displacement_[s]);
+      const bool links = links_[s].add_forces(displacement_[s], law_force_[s]);
+      if (links || std::ranges::any_of(law_force_[s], [](double g) { return g != 0; })) yielded = 1;
       stiffness_[s]->apply(displacement_[s], product);
       for (std::size_t i = 0; i < product.size(); ++i) {
-        residual_[s][i] = weight_[s][i] + forces[s][i] - product[i];
+        residual_[s][i] = weight_[s][i] + forces[s][i] - product[i] - law_force_[s][i];
       }
       take_up_by_constraints(systems_[s], residual_[s]);
     }
+    MPI_Allreduce(MPI_IN_PLACE, &yielded, 1, MPI_INT, MPI_MAX, comm_);
+    yielded_ = yielded != 0;
+    ever_yielded_ = ever_yielded_ || yielded_;
     update_correction();
   }
 
@@ -268,7 +339,8 @@ class Search {
     text << "option -preload static: structure " << systems_[static_cast<std::size_t>(worst)].name
          << " finds no rest under its weight and loads, " << left << " of it is left after "
          << iterations_
-         << " iterations: nothing holds it, or less than 0.1 Hz; clamp it, give it springs or a "
+         << " iterations: " << (ever_yielded_ ? "its yielding elements carry less, or " : "")
+         << "nothing holds it, or less than 0.1 Hz; clamp it, give it springs or a "
             "contact below"
          << (any_open_at_rest_
                  ? " (a contact with a positive gap is open at rest: give -<contact>_gap "
@@ -291,6 +363,10 @@ class Search {
       ++(force_[i] > 0 ? result.acting_links : result.idle_links);
     }
     for (std::size_t s = 0; s < systems_.size(); ++s) {
+      result.law_force.emplace_back();
+      if (yielded_ && !systems_[s].laws.empty()) {
+        result.law_force.back() = forces_of_laws(systems_[s].laws, meshes_[s], displacement_[s]);
+      }
       result.gravity_potential -=
           std::inner_product(weight_[s].begin(), weight_[s].end(), displacement_[s].begin(), 0.0);
       result.structures.push_back(describe_structure(s));
@@ -330,7 +406,9 @@ class Search {
     std::vector<double> force;
     stiffness_[s]->apply(displacement_[s], force);
     const Fields bars = row_forces(rows_.contacts(), rows_.size());
-    for (std::size_t i = 0; i < force.size(); ++i) force[i] = bars[s][i] - force[i];
+    for (std::size_t i = 0; i < force.size(); ++i) {
+      force[i] = bars[s][i] - force[i] - law_force_[s][i];
+    }
     const std::vector<double> contact = row_forces(0, rows_.contacts())[s];
     const Vector3 free_support = total(s, force);
     const Vector3 free_weight = total(s, weight_[s]);
@@ -379,8 +457,13 @@ class Search {
   UnilateralRows rows_;
   std::vector<std::unique_ptr<StaticStiffness>> stiffness_;  ///< per structure
   Fields weight_;                                            ///< and loads as they are at rest
+  std::vector<RestLinks> links_;                             ///< per structure
   Fields displacement_;
-  Fields residual_;             ///< M g + p + R^T f - K u
+  Fields law_force_;            ///< g of `displacement_`, of elements and links that yield
+  bool yielded_ = false;        ///< any of them, on any rank
+  bool ever_yielded_ = false;   ///< in any iterate
+  std::vector<Trial> trials_;   ///< the last ones, where elements yield
+  Fields residual_;             ///< M g + p + R^T f - K u - g
   Fields correction_;           ///< (K + sigma M)^-1 of it
   double weight_size_ = 0;      ///< see size_of_residual, of the weight
   std::vector<double> force_;   ///< f per row [N]

@@ -31,6 +31,9 @@ struct StructureRest {
 /// The scene at rest under its gravity.
 struct Equilibrium {
   std::vector<std::vector<double>> displacement;  ///< u_0 per structure, owned dofs [m, rad]
+  /// Forces of element laws beside K u_0 likewise [N, N m]; empty where none is beyond its first
+  /// corner.
+  std::vector<std::vector<double>> law_force;
   std::vector<StructureRest> structures;
   std::vector<double> contact_force;  ///< p_0 per row of the interface, the same on all ranks [N]
   std::vector<double> opening;        ///< L u_0 likewise: by how much it is wider than unloaded [m]
@@ -47,23 +50,25 @@ struct Equilibrium {
 /// Static equilibrium of all structures with their contacts, tension-only bars and
 /// compression-only springs (see UnilateralRows):
 ///
-///     K u_0 = M g + p + R^T f,      0 <= f _|_ w0 + R u_0 + c f >= 0
+///     K u_0 + g(u_0) = M g + p + R^T f,      0 <= f _|_ w0 + R u_0 + c f >= 0
 ///
-/// by the proximal point method (Rockafellar, SIAM J. Control Optim. 14 (1976), 877), which needs
-/// no stiffness that holds by itself, so that blocks which only rest on each other pass:
+/// g(u_0) the forces beside K u_0 of elements and links that yield, whose history goes from nothing
+/// to u_0 at once: weight and loads come together, in proportion. By the proximal point method
+/// (Rockafellar, SIAM J. Control Optim. 14 (1976), 877), which needs no stiffness that holds by
+/// itself, so that blocks which only rest on each other pass:
 ///
-///     (K + sigma M) d = M g + p + R^T f - K u,       u <- u + d,
+///     (K + sigma M) d = M g + p + R^T f - K u - g(u),       u <- u + d,
 ///     with f such that the rows are fulfilled by u + d
 ///
 /// with p the loads as they are before the run (LoadShapes).
 /// sigma = 1 / s2 shrinks the error by 1 / (1 + omega^2 / sigma) at a held frequency omega, and
-/// refines the solution like any correction by its residual. Forces are measured by their energy
-/// f^T (K + sigma M)^-1 f, in which a moment on the small rotary inertia of a thin shell counts by
-/// the bending that it causes. Rows that no iterate violates are never solved for. A structure that
-/// nothing holds against its weight falls on for ever: UserError naming it. Systems need their
-/// matrix.
-/// `open_rows`: per row of the interface, whether the contact is open whatever its gap is, which
-/// is given for the rest. Collective.
+/// refines the solution like any correction by its residual. Slopes of laws lie between 0 and those
+/// of K, with which it converges as well, sped up by the last steps together. Forces are measured
+/// by their energy f^T (K + sigma M)^-1 f, in which a moment on the small rotary inertia of a thin
+/// shell counts by the bending that it causes. Rows that no iterate violates are never solved for.
+/// A structure that nothing holds against its weight falls on for ever: UserError naming it.
+/// Systems need their matrix. `open_rows`: per row of the interface, whether the contact is open
+/// whatever its gap is, which is given for the rest. Collective.
 Equilibrium find_equilibrium(MPI_Comm comm, std::span<const LinearSystem> systems,
                              std::span<const Mesh> meshes, const interactions::Interface& interface,
                              std::span<const char> open_rows, SolverChoice solver);

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "interactions/laws/link_law.h"
 #include "system/linear_system.h"
 #include "system/links.h"
 
@@ -27,5 +29,11 @@ struct LinkTerms {
 /// Tension-only bars, compression-only springs and yielding elements of this rank: links that hold
 /// a force at rest, which dashpots do not. They borrow the system's links. Local.
 std::vector<LinkTerms> link_terms(const LinearSystem& system);
+
+/// Law of a link, whether or not K holds its tangent already.
+std::unique_ptr<interactions::LinkLaw> law_at_rest(const Link& link);
+
+/// Whether a link yields by friction or on a circle, with others.
+bool slides(const interactions::LinkOrigin& origin);
 
 }  // namespace pounding

@@ -54,7 +54,6 @@ ElementSorter::ElementSorter(const Structure& structure, const Mesh& mesh,
 
 void ElementSorter::sort() {
   for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
-    if (structure_.regions[mesh_.blocks[b].region].inelastic) continue;
     if (has_shape(mesh_.blocks[b].type)) {
       sort_shapes(b);
     } else if (is_linear(mesh_.blocks[b].type)) {

@@ -1,12 +1,12 @@
 #include "system/cracking_shells.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "elements/shell_forces.h"
 #include "interactions/laws/cracking_shell.h"
 #include "system/each_element.h"
-#include "system/element_products.h"
 
 namespace pounding {
 namespace {
@@ -22,24 +22,23 @@ class CrackingShells final : public interactions::ElementLaw {
   CrackingShells(const CrackingShell& shell, double thickness)
       : law_(shell), thickness_(thickness) {}
 
-  void add(std::vector<double> strains, double area, std::span<const double> stiffness) {
+  void add(std::vector<double> strains, double area) {
     elements_.push_back({std::move(strains), area});
-    products_.add(stiffness);
   }
 
   std::size_t memory_size() const override { return CrackingLaw::memory_size(); }
 
-  double respond(std::size_t element, std::span<const double> displacement,
-                 std::span<double> memory, std::span<double> force) const override {
+  Response respond(std::size_t element, std::span<const double> displacement,
+                   std::span<double> memory, std::span<double> force) const override {
     const Element& own = elements_[element];
     const std::size_t size = displacement.size();
-    products_.apply(element, displacement, force);
     ShellVector strains{};
     for (std::size_t c = 0; c < strains.size(); ++c) {
       const double* const row = &own.strains[c * size];
       for (std::size_t i = 0; i < size; ++i) strains[c] += row[i] * displacement[i];
     }
     law_.advance(strains, memory);
+    if (law_.is_sound(memory)) return {};
     const ShellVector sound = law_.shell().sound_forces(strains);
     const ShellVector acting = law_.forces(memory);
     double work = 0;
@@ -48,7 +47,7 @@ class CrackingShells final : public interactions::ElementLaw {
       const double less = own.area * (acting[c] - sound[c]);
       for (std::size_t i = 0; i < size; ++i) force[i] += less * own.strains[c * size + i];
     }
-    return own.area * (work / 2 - law_.stored(memory));
+    return {own.area * (work / 2 - law_.stored(memory)), true};
   }
 
   std::vector<std::string> parts() const override { return {"cracking"}; }
@@ -57,8 +56,14 @@ class CrackingShells final : public interactions::ElementLaw {
                                std::span<const double> memory) const override {
     const double area = elements_[element].area;
     const double lost = area * law_.lost(memory);
-    return {law_.strains(memory)[of_shear], law_.forces(memory)[of_shear] / thickness_,
-            law_.loading(memory), lost, lost + area * law_.stored(memory)};
+    const auto [lower, upper] = law_.damage(memory);
+    const double worse = std::max(lower, upper);
+    return {law_.strains(memory)[of_shear],
+            law_.forces(memory)[of_shear] / thickness_,
+            law_.loading(memory),
+            lost,
+            lost + area * law_.stored(memory),
+            worse / (1 + worse)};
   }
 
  private:
@@ -70,7 +75,6 @@ class CrackingShells final : public interactions::ElementLaw {
   CrackingLaw law_;
   double thickness_;
   std::vector<Element> elements_;
-  ElementProducts products_;
 };
 
 }  // namespace
@@ -85,13 +89,11 @@ std::shared_ptr<interactions::ElementLaw> cracking_shells(const Structure& struc
   const ElementProperties properties = element_properties(own);
   stiffness::ElementWork coordinates;
   for_each_element_of(structure, mesh, region,
-                      [&](const ElementBlock& block, std::size_t e, const ElementLayout& layout,
-                          const stiffness::ElementWork& work) {
+                      [&](const ElementBlock& block, std::size_t e, const ElementLayout&,
+                          const stiffness::ElementWork&) {
                         const auto x = gather_coordinates(mesh, block, e, coordinates);
-                        const std::size_t size = layout.size();
                         shells->add(shell_strain_rows(block.type, x, properties),
-                                    shell_area(block.type, x),
-                                    {work.stiffness.data(), size * size});
+                                    shell_area(block.type, x));
                       });
   return shells;
 }

@@ -9,9 +9,9 @@
 namespace pounding {
 
 /// Law of the shells of a region that crack. Their mean membrane strains and curvatures e, those at
-/// the centre, follow a CrackingShell with forces N(e) per length; all else is K u,
+/// the centre, follow a CrackingShell with forces N(e) per length in place of those of K,
 ///
-///     f = K u + A B^T (N(B u) - D0 B u),        W_n = A (1/2 N . e - S)
+///     g = A B^T (N(B u) - D0 B u),        W_n = A (1/2 N . e - S)
 ///
 /// A the area and S the energy that the law holds per area. K less A B^T D0 B is positive or zero,
 /// since the energy of mean strains is at most that of all, and the modes of shell4 have no mean.

@@ -46,10 +46,6 @@ class Assembly {
       if (follows_law(structure.regions[block.region]) && taut_.get() == nullptr) {
         taut_ = stiffness::create_matrix(mesh);
       }
-      if (is_inelastic(block) != 0 && inelastic_.get() == nullptr) {
-        inelastic_ = stiffness::create_matrix(
-            mesh, [this](const ElementBlock& other) { return is_inelastic(other) != 0; });
-      }
       if (has_extra_damping(block) && extra_damping_.get() == nullptr) {
         extra_damping_ = stiffness::create_matrix(
             mesh, [this](const ElementBlock& other) { return has_extra_damping(other); });
@@ -59,9 +55,6 @@ class Assembly {
 
   void run() {
     system_.lumped_mass.assign(mesh_.owned_dofs, 0.0);
-    if (std::ranges::any_of(structure_.regions, &Region::inelastic)) {
-      system_.inelastic.assign(mesh_.owned_dofs, 0);
-    }
     numbers_ = stiffness::global_numbers(mesh_);
     on_every_rank(mesh_.comm, [&] {
       for_each_element(
@@ -74,7 +67,6 @@ class Assembly {
     });
     system_.stiffness = finished(std::move(matrix_));
     system_.taut = finished(std::move(taut_));
-    system_.inelastic_stiffness = finished(std::move(inelastic_));
     system_.extra_damping = finished(std::move(extra_damping_));
     bounds_.finish(system_);
     for (const auto& [dof, mass] : lent_) system_.lumped_mass[dof] = mass;
@@ -102,7 +94,6 @@ class Assembly {
       columns[i] = dof >= 0 ? numbers_[dof] : -1;
       rows[i] = owned ? columns[i] : -1;
       if (owned) system_.lumped_mass[dof] += work.mass[i];
-      if (owned && !system_.inelastic.empty()) system_.inelastic[dof] |= is_inelastic(block);
       if (block.counted[element] != 0 && static_cast<int>(i) % layout.components == 0) {
         system_.total_mass += work.mass[i];
       }
@@ -113,10 +104,9 @@ class Assembly {
           MatSetValues(matrix.get(), n, rows.data(), n, columns.data(), values, ADD_VALUES));
     };
     const Region& region = structure_.regions[block.region];
-    if (matrix_.get() != nullptr && is_linear(block.type) && !region.inelastic) {
+    if (matrix_.get() != nullptr && is_linear(block.type)) {
       insert(matrix_, work.stiffness.data());
     }
-    if (region.inelastic) insert(inelastic_, work.stiffness.data());
     add_law_stiffness(region, block.share_of(element), layout, work);
     if (taut_.get() != nullptr) insert(taut_, work.stiffness.data());
     const double scaling = added_mass_.add(block, element, region, stiffness, mass);
@@ -143,7 +133,7 @@ class Assembly {
   /// lend_to_held.
   void note_holding(const ElementBlock& block, double scaling, std::span<const double> stiffness,
                     std::span<const double> mass, std::span<const LocalIndex> dofs) {
-    if (follows_law(structure_.regions[block.region])) return;
+    if (is_nonlinear(structure_.regions[block.region])) return;
     const double factor = scaling > 0 ? held_part * scaling : held_in_modes;
     if (!(scaling > 0) && !structure_.modal) return;
     for (std::size_t i = 0; i < dofs.size(); ++i) {
@@ -199,10 +189,6 @@ class Assembly {
     const Rayleigh own = structure_.damping_of(structure_.regions[block.region]);
     const bool linear = !follows_law(structure_.regions[block.region]);
     return {own.alpha - structure_.damping.alpha, linear ? own.beta - structure_.damping.beta : 0};
-  }
-
-  char is_inelastic(const ElementBlock& block) const {
-    return structure_.regions[block.region].inelastic ? 1 : 0;
   }
 
   bool has_extra_damping(const ElementBlock& block) const {
@@ -284,9 +270,8 @@ class Assembly {
   LinearSystem& system_;
   std::vector<LentMass> lent_;
   std::map<LocalIndex, double> held_;  ///< mass that may be lent to a dof that springs hold
-  MatHandle matrix_;  ///< linear elements; these four are null if nobody wants them
+  MatHandle matrix_;  ///< linear elements; these three are null if nobody wants them
   MatHandle taut_;    ///< one-way elements as well
-  MatHandle inelastic_;
   MatHandle extra_damping_;
   std::vector<PetscInt> numbers_;
   ElementBounds bounds_;
@@ -327,6 +312,7 @@ LinearSystem build_finite_element_system(const Structure& structure, const Mesh&
   const bool for_modes = with_matrix && std::ranges::none_of(structure.regions, follows_law);
   Assembly(structure, mesh, !by_element || for_modes, system).run();
   system.laws = inelastic_laws(structure, mesh);
+  system.inelastic = dofs_of_laws(system.laws, mesh);
   system.stiffness_method = "assembled";
   if (by_element) {
     auto product =

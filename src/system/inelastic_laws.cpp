@@ -1,9 +1,8 @@
 #include "system/inelastic_laws.h"
 
 #include <array>
-#include <sstream>
+#include <span>
 
-#include "common/error.h"
 #include "common/parallel.h"
 #include "system/axial_forces.h"
 #include "system/cracking_shells.h"
@@ -22,6 +21,24 @@ std::shared_ptr<interactions::ElementLaw> law_of_region(const Structure& structu
                                      : yielding_shells(structure, mesh, region);
 }
 
+/// Calls `visit(law, number of the element in its law, dofs)` with every element of this rank that
+/// follows a law.
+template <typename Visit>
+void for_each_law_element(const std::vector<interactions::RegionLaw>& laws, const Mesh& mesh,
+                          Visit&& visit) {
+  for (const auto& [region, law] : laws) {
+    std::size_t element = 0;
+    for (const ElementBlock& block : mesh.blocks) {
+      if (block.region != region) continue;
+      const ElementLayout layout = element_layout(block.type);
+      for (std::size_t e = 0; e < block.count(); ++e, ++element) {
+        const auto dofs = stiffness::element_dofs(mesh, block, e, layout);
+        visit(*law, element, {dofs.data(), static_cast<std::size_t>(layout.size())});
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<interactions::RegionLaw> inelastic_laws(const Structure& structure, const Mesh& mesh) {
@@ -36,38 +53,38 @@ std::vector<interactions::RegionLaw> inelastic_laws(const Structure& structure, 
   return laws;
 }
 
-void require_elastic_rest(const std::vector<interactions::RegionLaw>& laws, const Mesh& mesh,
-                          const std::vector<double>& displacement) {
-  if (laws.empty()) return;
+std::vector<char> dofs_of_laws(const std::vector<interactions::RegionLaw>& laws, const Mesh& mesh) {
+  if (laws.empty()) return {};
+  std::vector<char> acted_on(mesh.owned_dofs, 0);
+  for_each_law_element(laws, mesh,
+                       [&](const interactions::ElementLaw& law, std::size_t element,
+                           std::span<const LocalIndex> dofs) {
+                         for (std::size_t i = 0; i < dofs.size(); ++i) {
+                           const bool owned = dofs[i] >= 0 && dofs[i] < mesh.owned_dofs;
+                           if (owned && law.acts_on(element, i)) acted_on[dofs[i]] = 1;
+                         }
+                       });
+  return acted_on;
+}
+
+std::vector<double> forces_of_laws(const std::vector<interactions::RegionLaw>& laws,
+                                   const Mesh& mesh, const std::vector<double>& displacement) {
+  std::vector<double> forces(mesh.owned_dofs, 0.0);
+  if (laws.empty()) return forces;
   const std::vector<double> all = with_ghosts(mesh, displacement);
-  on_every_rank(mesh.comm, [&] {
-    for (const auto& [region, law] : laws) {
-      std::size_t first = 0;
-      for (const ElementBlock& block : mesh.blocks) {
-        if (block.region != region) continue;
-        const ElementLayout layout = element_layout(block.type);
-        for (std::size_t e = 0; e < block.count(); ++e) {
-          std::array<double, max_element_size> u{}, f{};
-          const auto dofs = stiffness::element_dofs(mesh, block, e, layout);
-          const std::size_t size = layout.size();
-          for (std::size_t i = 0; i < size; ++i) u[i] = dofs[i] < 0 ? 0 : all[dofs[i]];
-          std::vector<double> memory(law->memory_size(), 0.0);
-          law->respond(first + e, {u.data(), size}, memory, {f.data(), size});
-          for (std::size_t p = 0; p < law->parts().size(); ++p) {
-            const double ductility = law->part(first + e, p, memory).ductility;
-            if (ductility <= 1) continue;
-            std::ostringstream text;
-            text << "option -preload static: " << describe_element(mesh, block, e)
-                 << " of structure " << mesh.structure << " is at rest " << ductility
-                 << " times beyond the first corner of its " << law->parts()[p]
-                 << "; give a stronger skeleton, or leave -preload out";
-            throw UserError(text.str());
-          }
+  for_each_law_element(
+      laws, mesh,
+      [&](const interactions::ElementLaw& law, std::size_t element,
+          std::span<const LocalIndex> dofs) {
+        std::array<double, max_element_size> u{}, g{};
+        for (std::size_t i = 0; i < dofs.size(); ++i) u[i] = dofs[i] < 0 ? 0 : all[dofs[i]];
+        std::vector<double> memory(law.memory_size(), 0.0);
+        law.respond(element, {u.data(), dofs.size()}, memory, {g.data(), dofs.size()});
+        for (std::size_t i = 0; i < dofs.size(); ++i) {
+          if (dofs[i] >= 0 && dofs[i] < mesh.owned_dofs) forces[dofs[i]] += g[i];
         }
-        first += block.count();
-      }
-    }
-  });
+      });
+  return forces;
 }
 
 }  // namespace pounding

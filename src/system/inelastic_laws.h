@@ -13,9 +13,12 @@ namespace pounding {
 /// them. Collective over the mesh's communicator.
 std::vector<interactions::RegionLaw> inelastic_laws(const Structure& structure, const Mesh& mesh);
 
-/// Throws UserError on every rank, naming the element, where one of them is beyond a first corner
-/// under the displacements of the owned dofs at rest [m, rad]. Collective likewise.
-void require_elastic_rest(const std::vector<interactions::RegionLaw>& laws, const Mesh& mesh,
-                          const std::vector<double>& displacement);
+/// Per owned dof, whether one of them may act on it; empty where no rank has any.
+std::vector<char> dofs_of_laws(const std::vector<interactions::RegionLaw>& laws, const Mesh& mesh);
+
+/// Forces g beside K u over the owned dofs [N, N m] of elements whose history goes from nothing to
+/// these displacements of the owned dofs [m, rad] at once. Collective likewise.
+std::vector<double> forces_of_laws(const std::vector<interactions::RegionLaw>& laws,
+                                   const Mesh& mesh, const std::vector<double>& displacement);
 
 }  // namespace pounding

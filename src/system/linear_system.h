@@ -70,20 +70,18 @@ struct LinearSystem {
   std::vector<std::string> node_labels;
   /// Null for a model whose dofs are components of nodes.
   std::unique_ptr<GeneralisedCoordinates> generalised;
-  std::unique_ptr<stiffness::Stiffness> stiffness;  ///< K of the linear elements
+  std::unique_ptr<stiffness::Stiffness> stiffness;  ///< K of all elements that hold a stiffness
   std::string stiffness_method;                     ///< how it is applied, for the report
-  std::unique_ptr<stiffness::Stiffness>
-      taut;  ///< K with links and inelastic elements at their stiffest; null without any
-  std::shared_ptr<Links> links;  ///< null if there are none
-  /// K of the inelastic elements as long as they are elastic; null without any.
-  std::unique_ptr<stiffness::Stiffness> inelastic_stiffness;
-  std::vector<interactions::RegionLaw> laws;  ///< of the inelastic elements
+  std::unique_ptr<stiffness::Stiffness> taut;  ///< K with links at their stiffest; null without
+  std::shared_ptr<Links> links;                ///< null if there are none
+  /// Laws by which elements yield or break: their forces beside K u.
+  std::vector<interactions::RegionLaw> laws;
   /// How it follows supports that move on their own; null where the ground moves as one.
   std::shared_ptr<const SupportShapes> supports;
   /// Loads with a history of their own; null where none acts on it.
   std::shared_ptr<const LoadShapes> loads;
   std::unique_ptr<stiffness::Stiffness> extra_damping;  ///< D [N s/m, N m s]; null if there is none
-  /// Per owned dof, whether an inelastic element acts on it; empty if no rank has one.
+  /// Per owned dof, whether a law of `laws` may act on it; empty without any.
   std::vector<char> inelastic;
   MassScaling mass_scaling;
   /// Owned dofs without a mass of their own, which follow the parts that hold them, and how many
@@ -101,6 +99,8 @@ struct LinearSystem {
   Vector3 gravity{0, 0, 0};  ///< constant body acceleration [m/s2]
   /// u_0 of the static equilibrium, of the owned dofs, or empty: added to initial_displacement.
   std::vector<double> rest_displacement;
+  /// Forces of the element laws there, beside K u_0 [N, N m]; empty without any.
+  std::vector<double> rest_law_force;
   double total_mass = 0;  ///< clamped nodes included [kg]
   /// Upper bound of omega_max from single elements, and its element: the one with the largest omega
   /// of its own. Infinite if an element has stiffness but no mass (springs).
@@ -117,7 +117,7 @@ struct LinearSystem {
   bool mass_is_coupled() const { return mass_scaling.elements > 0 || !rigid_bodies.empty(); }
   /// Dofs over all ranks; rigid bodies count by their motions, followers of a tie do not count.
   GlobalIndex independent_dofs() const;
-  /// K for eigenvalues: every link and inelastic element at its stiffest.
+  /// K for eigenvalues: every link at its stiffest.
   const stiffness::Stiffness& stiffest() const { return taut ? *taut : *stiffness; }
   Mat stiffest_matrix() const { return stiffest().matrix(); }
   /// Factor of K for the fastest motions [-].
@@ -135,7 +135,7 @@ LinearSystem describe_system(const Structure& structure, const Mesh& mesh);
 /// Once the lumped mass is complete: its inverse, and the directions of the dofs.
 void finish_system(const Mesh& mesh, LinearSystem& system);
 
-/// Per owned dof, whether the extra damping or an inelastic element may act on it.
+/// Per owned dof, whether the extra damping or an element law may act on it.
 std::vector<char> dofs_of_extra_forces(const LinearSystem& system);
 
 /// Distributed vector over the owned dofs that uses `storage` as its memory (size: owned_dofs).

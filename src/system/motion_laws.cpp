@@ -1,8 +1,26 @@
 #include "system/motion_laws.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace pounding {
+namespace {
+
+constexpr double least_strength = 1e-3;
+
+double dot(std::span<const double> a, std::span<const double> b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+}  // namespace
+
+double AxialWeakening::left(std::span<const double> displacement) const {
+  const double part = std::abs(dot(shape, displacement)) / strength;
+  return std::max(least_strength, 1 - std::pow(part, exponent));
+}
 
 MotionLaws::MotionLaws(std::vector<std::string> names, std::span<const Hysteresis* const> laws)
     : names_(std::move(names)), begin_{0} {
@@ -11,25 +29,36 @@ MotionLaws::MotionLaws(std::vector<std::string> names, std::span<const Hysteresi
   }
 }
 
-void MotionLaws::add(std::vector<LawMotion> own, std::span<const double> stiffness) {
+void MotionLaws::add(std::vector<LawMotion> own, std::optional<AxialWeakening> axial) {
   for (LawMotion& motion : own) motions_.push_back(std::move(motion));
-  products_.add(stiffness);
+  if (axial) axial_.push_back(std::move(*axial));
 }
 
-double MotionLaws::respond(std::size_t element, std::span<const double> displacement,
-                           std::span<double> memory, std::span<double> force) const {
-  products_.apply(element, displacement, force);
-  double lost = 0;
+bool MotionLaws::acts_on(std::size_t element, std::size_t dof) const {
+  for (std::size_t m = 0; m < names_.size(); ++m) {
+    if (motions_[element * names_.size() + m].shape[dof] != 0) return true;
+  }
+  return !axial_.empty() && axial_[element].shape[dof] != 0;
+}
+
+interactions::ElementLaw::Response MotionLaws::respond(std::size_t element,
+                                                       std::span<const double> displacement,
+                                                       std::span<double> memory,
+                                                       std::span<double> force) const {
+  Response response;
+  const double left = axial_.empty() ? 1 : axial_[element].left(displacement);
   for (std::size_t m = 0; m < names_.size(); ++m) {
     const LawMotion& motion = motions_[element * names_.size() + m];
     const std::span<double> own = memory.subspan(begin_[m], begin_[m + 1] - begin_[m]);
-    const double elongation = motion.elongation(displacement);
-    motion.law.advance(elongation, own);
-    const double less = motion.law.force(own) - motion.stiffness * elongation;
+    const double elongation = dot(motion.shape, displacement);
+    motion.law.advance(elongation, own, motion.weakened ? left : 1);
+    if (motion.law.is_elastic(own)) continue;
+    const double less = motion.law.force(own) - motion.law.tangent() * elongation;
     for (std::size_t i = 0; i < force.size(); ++i) force[i] += less * motion.shape[i];
-    lost += motion.law.force(own) * elongation / 2 - motion.law.stored(own);
+    response.offset += motion.law.force(own) * elongation / 2 - motion.law.stored(own);
+    response.acts = true;
   }
-  return lost;
+  return response;
 }
 
 interactions::PartState MotionLaws::part(std::size_t element, std::size_t number,

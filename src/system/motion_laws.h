@@ -1,54 +1,61 @@
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "interactions/laws/element_law.h"
 #include "interactions/laws/hysteretic_law.h"
-#include "system/element_products.h"
 
 namespace pounding {
 
 /// A motion of the nodes of an element, and the law in one dimension that it follows.
 struct LawMotion {
-  std::vector<double> shape;  ///< its elongation is shape . u, in the units of `law`
-  double stiffness = 0;       ///< that K has for it, with which the element's energy holds it apart
-  interactions::HystereticLaw law;
-  double measure = 1;  ///< force of the law over that of PartState
-
-  double elongation(std::span<const double> u) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < shape.size(); ++i) sum += shape[i] * u[i];
-    return sum;
-  }
+  std::vector<double> shape;        ///< its elongation is shape . u, in the units of `law`
+  interactions::HystereticLaw law;  ///< its first slope is the stiffness that K has for the motion
+  double measure = 1;               ///< force of the law over that of PartState
+  bool weakened = false;            ///< by the axial force
 };
 
-/// Elements of K u of which some motions b_m follow a law in one dimension each instead,
+/// Axial force that takes from the strength of other motions of an element.
+struct AxialWeakening {
+  std::vector<double> shape;  ///< N = shape . u [N/m]
+  double strength = 0;        ///< N_y [N]
+  double exponent = 1;        ///< a
+
+  double left(std::span<const double> displacement) const;
+};
+
+/// Elements of which some motions b_m follow a law in one dimension each, where K has a stiffness
+/// k_m,
 ///
-///     f = K u + sum b_m (N_m(b_m . u) - k_m b_m . u),        W_n = sum (1/2 N_m e_m - S_m)
+///     g = sum b_m (N_m(b_m . u) - k_m b_m . u),        W_n = sum (1/2 N_m e_m - S_m)
 ///
-/// S_m the energy that the law holds. K less all of the k_m b_m b_m^T must be positive semidefinite
-/// for the stable step to be that of K.
+/// S_m the energy that the law holds. Where elements have an axial force N, some of the laws follow
+/// their strength by 1 - (|N| / N_y)^a, a thousandth at least. K less all of the k_m b_m b_m^T must
+/// be positive semidefinite for the stable step to be that of K.
 class MotionLaws final : public interactions::ElementLaw {
  public:
   /// Laws by name, the same ones of each element to come; only the rules of `laws` count.
   MotionLaws(std::vector<std::string> names, std::span<const Hysteresis* const> laws);
 
-  /// Adds an element with one motion per name, whose K is `stiffness`, of any size.
-  void add(std::vector<LawMotion> own, std::span<const double> stiffness);
+  /// Adds an element with one motion per name. `axial`: of every element, or of none.
+  void add(std::vector<LawMotion> own, std::optional<AxialWeakening> axial = {});
 
   std::size_t memory_size() const override { return begin_.back(); }
-  double respond(std::size_t element, std::span<const double> displacement,
-                 std::span<double> memory, std::span<double> force) const override;
+  bool acts_on(std::size_t element, std::size_t dof) const override;
+  Response respond(std::size_t element, std::span<const double> displacement,
+                   std::span<double> memory, std::span<double> force) const override;
   std::vector<std::string> parts() const override { return names_; }
   interactions::PartState part(std::size_t element, std::size_t number,
                                std::span<const double> memory) const override;
 
  private:
   std::vector<std::string> names_;
-  std::vector<LawMotion> motions_;  ///< shape (elements, parts)
-  ElementProducts products_;
-  std::vector<std::size_t> begin_;  ///< of each part in a memory, and the end
+  std::vector<LawMotion> motions_;     ///< shape (elements, parts)
+  std::vector<AxialWeakening> axial_;  ///< per element, or empty
+  std::vector<std::size_t> begin_;     ///< of each part in a memory, and the end
 };
 
 }  // namespace pounding

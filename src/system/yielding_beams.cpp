@@ -1,6 +1,8 @@
 #include "system/yielding_beams.h"
 
 #include <array>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -60,12 +62,28 @@ std::vector<SectionMotion> motions_of(std::span<const Part> parts,
   return found;
 }
 
-std::vector<LawMotion> with_memories(std::vector<SectionMotion> sections) {
+std::vector<LawMotion> with_memories(std::vector<SectionMotion> sections,
+                                     std::span<const Part> parts) {
   std::vector<LawMotion> found;
-  for (SectionMotion& motion : sections) {
-    found.push_back({std::move(motion.shape), motion.stiffness, HystereticLaw(motion.law)});
+  for (std::size_t m = 0; m < sections.size(); ++m) {
+    found.push_back(
+        {std::move(sections[m].shape), HystereticLaw(sections[m].law), 1, !parts[m].shear});
   }
   return found;
+}
+
+/// Axial force that weakens the bending of a beam; nothing where it does not.
+std::optional<AxialWeakening> axial_of(const YieldingSection& section,
+                                       std::span<const double> coordinates,
+                                       const ElementProperties& properties) {
+  if (section.axial_strength == 0) return std::nullopt;
+  const Segment segment = segment_between(coordinates);
+  std::vector<double> shape(beam_size, 0.0);
+  for (std::size_t d = 0; d < 3; ++d) {
+    shape[of_node + d] = properties.young * properties.area / segment.length * segment.direction[d];
+    shape[d] = -shape[of_node + d];
+  }
+  return AxialWeakening{std::move(shape), section.axial_strength, section.axial_exponent};
 }
 
 }  // namespace
@@ -104,11 +122,11 @@ std::shared_ptr<interactions::ElementLaw> yielding_beams(const Structure& struct
   for_each_element_of(
       structure, mesh, region,
       [&](const ElementBlock& block, std::size_t e, const ElementLayout&,
-          const stiffness::ElementWork& work) {
+          const stiffness::ElementWork&) {
         try {
-          beams->add(with_memories(motions_of(
-                         parts, gather_coordinates(mesh, block, e, coordinates), properties)),
-                     {work.stiffness.data(), beam_size * beam_size});
+          const auto x = gather_coordinates(mesh, block, e, coordinates);
+          beams->add(with_memories(motions_of(parts, x, properties), parts),
+                     axial_of(own.yielding, x, properties));
         } catch (const std::domain_error& error) {
           throw UserError("structure " + structure.name + ": " + describe_element(mesh, block, e) +
                           ": " + error.what() +

@@ -19,7 +19,9 @@ namespace pounding {
 ///
 /// M over r / h follows the law of the section in bending, and Q over the part of w / h that is
 /// shear its law in shear, in series with the bending of that motion, which stays elastic. All else
-/// is K u. Throws UserError where an element is too long for a skeleton that falls. Local.
+/// is K u. With an axial strength the laws in bending follow 1 - (|N| / N_y)^a of theirs, N the
+/// axial force E A / h times the axial elongation. Throws UserError where an element is too long
+/// for a skeleton that falls. Local.
 std::shared_ptr<interactions::ElementLaw> yielding_beams(const Structure& structure,
                                                          const Mesh& mesh, int region);
 

@@ -14,12 +14,11 @@ namespace {
 LawMotion shear_motion(ElementType type, std::span<const double> coordinates,
                        const ElementProperties& properties, const Hysteresis& law) {
   constexpr std::size_t g12 = 2;
-  const double shear = properties.young / (2 * (1 + properties.poisson));
   const double volume = shell_area(type, coordinates) * properties.thickness;
   const std::vector<double> strains = shell_strain_rows(type, coordinates, properties);
   const auto size = static_cast<std::ptrdiff_t>(element_layout(type).size());
   const auto begin = strains.begin() + g12 * size;
-  return {std::vector<double>(begin, begin + size), shear * volume,
+  return {std::vector<double>(begin, begin + size),
           interactions::HystereticLaw(scaled(law, 1, volume)), volume};
 }
 
@@ -35,13 +34,12 @@ std::shared_ptr<interactions::ElementLaw> yielding_shells(const Structure& struc
   stiffness::ElementWork coordinates;
   for_each_element_of(
       structure, mesh, region,
-      [&](const ElementBlock& block, std::size_t e, const ElementLayout& layout,
-          const stiffness::ElementWork& work) {
-        const std::size_t size = layout.size();
+      [&](const ElementBlock& block, std::size_t e, const ElementLayout&,
+          const stiffness::ElementWork&) {
         std::vector<LawMotion> motion;
         motion.push_back(shear_motion(block.type, gather_coordinates(mesh, block, e, coordinates),
                                       properties, *law));
-        shells->add(std::move(motion), {work.stiffness.data(), size * size});
+        shells->add(std::move(motion));
       });
   return shells;
 }

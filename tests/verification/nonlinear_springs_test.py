@@ -110,7 +110,10 @@ class Bilinear(unittest.TestCase):
                      9.81, "-preload", "static", "-chain_clamp", "second")
         run = Recorded(self, words)
         self.assertAlmostEqual(run.displacement("one.z")[-1] / (-MASS * 9.81 / STIFFNESS), 1, delta=1e-10)
-        program.must_refuse(self, [*words, "-chain_support_yield_force", "0,0,400"], "yield force of 400 N")
+        hardens = Recorded(self, [*words, "-chain_support_yield_force", "0,0,400", "-chain_support_hardening", 0.2])
+        yielded = -(400 + (MASS * 9.81 - 400) / 0.2) / STIFFNESS
+        self.assertLess(abs(hardens.displacement("one.z") / yielded - 1).max(), 1e-10)
+        program.must_refuse(self, [*words, "-chain_support_yield_force", "0,0,400"], "yielding elements carry less")
 
 
 class SlidingBearing(unittest.TestCase):

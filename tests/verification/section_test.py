@@ -68,6 +68,11 @@ class Section(unittest.TestCase):
         found = [float(value) for value in re.search(r'shear_skeleton: "([^"]*)"', result.stdout)[1].split(",")]
         for one, other in zip(found, expected):
             self.assertAlmostEqual(one / other, 1, delta=2e-6)
+        known = section("--strength", 30e6, "--steel", 0.008, "--yield", 400e6, "--thickness", 0.3, "--pressure", 1e6,
+                        "--cracking", 1.4e6).stdout
+        found = [float(value) for value in re.search(r'shear_skeleton: "([^"]*)"', known)[1].split(",")]
+        for one, other in zip(found, [1.4 / shear, 1.4e6, 4.2 / shear, 1.89e6, *expected[4:]]):
+            self.assertAlmostEqual(one / other, 1, delta=5e-6)
 
     def test_cracking_pasted(self):
         result = section("--strength", 30e6, "--steel", 0.008, "--yield", 400e6, "--thickness", 0.3)

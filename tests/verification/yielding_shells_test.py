@@ -5,12 +5,15 @@ A panel whose head only sways is a spring k = G t w / h that yields at the stres
 it turns back where its energy is spent.
 """
 import os
+import shutil
 import tempfile
 import unittest
 
 import numpy
 
 import program
+import vtkhdf_file
+import xdmf_file
 from loops_test import Loops
 from recorded import Recorded, assert_continues
 
@@ -140,8 +143,29 @@ class Wall(unittest.TestCase):
             x = Recorded(self, wall(*gravity, *damping), 2).displacement("head.x")
             self.assertGreater(abs(x[0]), 1e-6)
             self.assertLess(abs(x - x[0]).max(), 1e-10 * abs(x[0]))
-        program.must_refuse(self, wall("-w_gravity", "40,0,-9.81", "-preload", "static"),
-                            "times beyond the first corner of its shear")
+        for damping in (["-w_damping_beta", 1e-5], ["-w_damping_uniform", 0.04]):
+            run = Recorded(self, wall("-w_gravity", "40,0,-9.81", *gravity[2:], *damping), 2, identity=5e-12)
+            x = run.displacement("head.x")
+            self.assertGreater(run.summary["yielding"]["w:wall:shear"]["ductility"], 1.5)
+            self.assertLess(abs(x - x[0]).max(), 1e-9 * x[0])
+
+    def test_fields_have_what_the_table_says(self):
+        words = wall(*self.motion, "-fields_interval", 0.1, "-csv_digits", 17, "-modes", 1, "-spectra_frequencies", 10, end=0.2)
+        for ranks in (1, 2):
+            folder, _ = program.must_run(self, words, ranks)
+            self.addCleanup(shutil.rmtree, folder)
+            table = program.read_csv(os.path.join(folder, "yielding.csv"))
+            frames = xdmf_file.read(os.path.join(folder, "fields.xdmf"))
+            steps = vtkhdf_file.read(os.path.join(folder, "fields.vtkhdf"))
+            self.assertEqual(abs(frames[0][1]["w"].cell_data["lost_energy"]).max(), 0)
+            for data in (frames[-1][1]["w"].cell_data, steps[-1][1][0].cell_data):
+                place = {int(number): i for i, number in enumerate(data["element"])}
+                cells = [place[int(float(number))] for number in table["element"]]
+                self.assertEqual(data["ductility"][cells].tolist(), list(map(float, table["ductility"])))
+                self.assertEqual(data["lost_energy"][cells].tolist(), list(map(float, table["lost_J"])))
+                self.assertGreater(data["ductility"].max(), 1.5)
+                self.assertEqual(sum(data["ductility"] > 0), len(cells))
+                self.assertEqual(abs(data["damage"]).max(), 0)
 
     def test_laws_by_name(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -187,6 +187,18 @@ double CrackingShell::loading(const ShellVector& strains) const {
   return std::sqrt((membrane + bending) / threshold_);
 }
 
+double CrackingShell::loading_bound(const ShellVector& e) const {
+  const auto trace = [&](std::size_t i) { return square(e[i] + e[i + 1]); };
+  const auto squares = [&](std::size_t i) {
+    return square(e[i]) + square(e[i + 1]) + square(e[i + 2]) / 2;
+  };
+  const double membrane =
+      lambda_ / 4 * square(sum_of_strains(1, 1)) * trace(0) + mu_ / 2 * squares(0);
+  const double bending = lambda_f_ / 2 * trace(3) + mu_f_ * squares(3);
+  return ((1 - std::min(tension_, compression_)) * membrane + (1 - bending_) / alpha_ * bending) /
+         threshold_;
+}
+
 ShellVector CrackingShell::sound_forces(const ShellVector& e) const {
   const double plane = 2 * mu_ * lambda_ / (2 * mu_ + lambda_);
   const double all = plane * (e[0] + e[1]), turned = lambda_f_ * (e[3] + e[4]);
@@ -205,6 +217,14 @@ double CrackingShell::complementary(const ShellVector& a, const ShellVector& b) 
 }
 
 void CrackingLaw::advance(const ShellVector& strains, std::span<double> memory) const {
+  if (const double bound = shell_.loading_bound(strains); is_sound(memory) && bound < 1) {
+    std::ranges::copy(strains, memory.begin() + strains_now);
+    std::ranges::copy(shell_.sound_forces(strains), memory.begin() + forces_now);
+    if (bound > square(memory[most])) {
+      memory[most] = std::max(memory[most], shell_.loading(strains));
+    }
+    return;
+  }
   const ShellVector forces_before = vector(memory, forces_now);
   const ShellVector strains_before = vector(memory, strains_now);
   const CrackingShell::Damage damage = shell_.grown(strains, this->damage(memory));

@@ -45,6 +45,8 @@ class CrackingShell {
   ShellVector forces(const ShellVector& strains, const Damage& damage) const;
   /// Strains over those, in their proportion, at which damage begins; 1 at the threshold.
   double loading(const ShellVector& strains) const;
+  /// Upper bound of its square, without principal values.
+  double loading_bound(const ShellVector& strains) const;
 
   /// Forces of the sound shell, D0 e.
   ShellVector sound_forces(const ShellVector& strains) const;
@@ -93,6 +95,8 @@ class CrackingLaw {
   double stored(std::span<const double> memory) const;
   double lost(std::span<const double> memory) const { return memory[lost_so_far]; }
   double loading(std::span<const double> memory) const { return memory[most]; }
+  /// Whether nothing is damaged: N_n = D0 e_n.
+  bool is_sound(std::span<const double> memory) const { return !damage(memory).any(); }
   CrackingShell::Damage damage(std::span<const double> memory) const {
     return {memory[damage_now], memory[damage_now + 1]};
   }

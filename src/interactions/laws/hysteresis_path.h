@@ -24,8 +24,9 @@ class HysteresisPath {
   virtual ~HysteresisPath() = default;
   /// Numbers that it remembers; they start at 0.
   virtual std::size_t memory_size() const = 0;
-  /// Goes from elongation `from` to `to` [m], `from` being where it went last.
-  virtual State follow(double from, double to, std::span<double> memory) const = 0;
+  /// Goes from elongation `from` to `to` [m], `from` being where it went last. `strength`: of the
+  /// forces of the skeleton beyond its first line, which sliders alone can follow; 1 of all others.
+  virtual State follow(double from, double to, std::span<double> memory, double strength) const = 0;
 };
 
 }  // namespace pounding::interactions

@@ -29,10 +29,28 @@ double HystereticLaw::elastic_energy(double now, double after) const {
   return stiffness_ * pulled(now) * pulled(after) / 2;
 }
 
-void HystereticLaw::advance(double elongation, std::span<double> memory) const {
+void HystereticLaw::advance(double elongation, std::span<double> memory, double strength) const {
+  const bool was_elastic = is_elastic(memory);
+  const auto note = [&](double first, double reached, double& most) {
+    if (first > 0) most = std::max(most, reached / (strength * first));
+  };
+  note(first_plus_, elongation, memory[most_plus]);
+  note(first_minus_, -elongation, memory[most_minus]);
+  if (is_elastic(memory)) {
+    memory[force_now] = memory[on_path] = stiffness_ * elongation;
+  } else {
+    // The path begins where it leaves its first line.
+    if (was_elastic) path_->follow(0, memory[elongation_now], memory.subspan(of_the_law), 1);
+    yield(elongation, memory, strength);
+  }
+  memory[elongation_now] = elongation;
+  memory[moved] = 1;
+}
+
+void HystereticLaw::yield(double elongation, std::span<double> memory, double strength) const {
   const double way = elongation - memory[elongation_now];
   const auto [wanted, stored] =
-      path_->follow(memory[elongation_now], elongation, memory.subspan(of_the_law));
+      path_->follow(memory[elongation_now], elongation, memory.subspan(of_the_law), strength);
   const double before = memory[force_now];
   const double elastic = before + stiffness_ * way;
   const double extra = std::max(0.0, stored - wanted * wanted / (2 * stiffness_));
@@ -54,12 +72,6 @@ void HystereticLaw::advance(double elongation, std::span<double> memory) const {
   memory[beyond] = kept;
   memory[force_now] = force;
   memory[on_path] = wanted;
-  memory[elongation_now] = elongation;
-  memory[moved] = 1;
-  if (first_plus_ > 0) memory[most_plus] = std::max(memory[most_plus], elongation / first_plus_);
-  if (first_minus_ > 0) {
-    memory[most_minus] = std::max(memory[most_minus], -elongation / first_minus_);
-  }
 }
 
 }  // namespace pounding::interactions

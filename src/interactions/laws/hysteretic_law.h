@@ -27,8 +27,8 @@ class HystereticLaw {
 
   /// Numbers of one memory.
   std::size_t memory_size() const { return of_the_law + path_->memory_size(); }
-  /// Brings a memory to an elongation e_n [m].
-  void advance(double elongation, std::span<double> memory) const;
+  /// Brings a memory to an elongation e_n [m]; `strength`: that of the path in this step.
+  void advance(double elongation, std::span<double> memory, double strength = 1) const;
 
   /// Force f_n of a memory [N], after `advance` like all that follow.
   double force(std::span<const double> memory) const { return memory[force_now]; }
@@ -39,10 +39,13 @@ class HystereticLaw {
   double elongation(std::span<const double> memory) const { return memory[elongation_now]; }
   /// Sum of D_n [J].
   double lost(std::span<const double> memory) const { return memory[lost_so_far]; }
-  /// Largest elongation over that of the first break of its direction; 0 before any.
+  /// Largest elongation over that of the first break of its direction, by the strength of its step;
+  /// 0 before any.
   double ductility(std::span<const double> memory) const {
     return std::max(memory[most_plus], memory[most_minus]);
   }
+  /// Whether it never went beyond the first break of a direction: f_n = k0 e_n.
+  bool is_elastic(std::span<const double> memory) const { return within(ductility(memory)); }
   double tangent() const { return stiffness_; }
   /// Whether no `advance` has moved it.
   bool is_untouched(std::span<const double> memory) const { return memory[moved] == 0; }
@@ -61,6 +64,12 @@ class HystereticLaw {
     moved,  ///< 1 after the first `advance`
     of_the_law
   };
+
+  bool within(double ductility) const {
+    return first_plus_ > 0 && first_minus_ > 0 && ductility <= 1;
+  }
+  /// `advance` beyond the first corner.
+  void yield(double elongation, std::span<double> memory, double strength) const;
 
   double stiffness_;
   double first_plus_ = 0;  ///< elongations of the first breaks; 0: carries nothing

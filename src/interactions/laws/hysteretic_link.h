@@ -38,6 +38,10 @@ class HystereticLink final : public LinkLaw {
     std::ranges::copy(last, memory.begin() + static_cast<std::ptrdiff_t>(last.size()));
     law_.advance(now, memory.last(law_.memory_size()));
   }
+  void rest(double now, std::span<double> memory) const override {
+    yield(now, 1, memory);
+    std::ranges::copy(next(memory), memory.begin());
+  }
   /// The memory of the law at the end of the last step, and in the step that is being made.
   std::size_t memory_size() const override { return 2 * law_.memory_size(); }
   void remember(double /*before*/, double /*now*/, double /*after*/, double /*share*/,

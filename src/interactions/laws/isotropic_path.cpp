@@ -40,8 +40,8 @@ double IsotropicPath::return_to(const Side& side, double way, double trial) cons
   return way + (trial - strength) / (stiffness_ + side.last_slope);
 }
 
-HysteresisPath::State IsotropicPath::follow(double /*from*/, double to,
-                                            std::span<double> memory) const {
+HysteresisPath::State IsotropicPath::follow(double /*from*/, double to, std::span<double> memory,
+                                            double /*strength*/) const {
   double& plastic = memory[0];
   double& way = memory[1];
   double force = stiffness_ * (to - plastic);

@@ -19,7 +19,7 @@ class IsotropicPath final : public HysteresisPath {
 
   /// p and k.
   std::size_t memory_size() const override { return 2; }
-  State follow(double from, double to, std::span<double> memory) const override;
+  State follow(double from, double to, std::span<double> memory, double strength) const override;
 
  private:
   struct Point {

@@ -18,8 +18,7 @@
 namespace pounding::interactions {
 
 bool has_links(const Region& region) {
-  return (follows_law(region) && !region.inelastic) || yields_by_links(region) ||
-         region.foundation ||
+  return follows_law(region) || yields_by_links(region) || region.foundation ||
          (is_spring(region.element) &&
           std::ranges::any_of(region.dashpot, [](double rate) { return rate > 0; }));
 }

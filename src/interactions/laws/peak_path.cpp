@@ -121,7 +121,8 @@ void PeakPath::pass_through_zero(int side, std::span<double> memory) const {
   memory[lost_since] = 0;
 }
 
-HysteresisPath::State PeakPath::follow(double from, double to, std::span<double> memory) const {
+HysteresisPath::State PeakPath::follow(double from, double to, std::span<double> memory,
+                                       double /*strength*/) const {
   const int direction = to > from ? 1 : -1;
   if (memory[side_now] == 0 && to != from) {
     memory[side_now] = carries(direction) ? direction : -direction;

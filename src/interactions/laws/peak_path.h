@@ -24,7 +24,7 @@ class PeakPath final : public HysteresisPath {
   explicit PeakPath(const Hysteresis& law);
 
   std::size_t memory_size() const override { return numbers; }
-  State follow(double from, double to, std::span<double> memory) const override;
+  State follow(double from, double to, std::span<double> memory, double strength) const override;
 
  private:
   /// Places in the memory. Of a pair the first is of negative forces.

@@ -18,14 +18,14 @@ SliderPath::SliderPath(const Hysteresis& law) : last_slope_(law.positive.last_sl
   }
 }
 
-HysteresisPath::State SliderPath::follow(double /*from*/, double to,
-                                         std::span<double> memory) const {
+HysteresisPath::State SliderPath::follow(double /*from*/, double to, std::span<double> memory,
+                                         double strength) const {
   State state{last_slope_ * to, last_slope_ * to * to / 2};
   for (std::size_t i = 0; i < sliders_.size(); ++i) {
     const Slider& slider = sliders_[i];
     double force = slider.stiffness * (to - memory[i]);
-    if (force > slider.most || force < slider.least) {
-      force = std::clamp(force, slider.least, slider.most);
+    if (force > strength * slider.most || force < strength * slider.least) {
+      force = std::clamp(force, strength * slider.least, strength * slider.most);
       memory[i] = to - force / slider.stiffness;
     }
     state.force += force;

@@ -38,7 +38,7 @@ void expect_table(const Hysteresis& law, const Table& table) {
   double at = 0;
   double lost = 0;
   for (const auto& [elongation, force] : table) {
-    EXPECT_NEAR(path->follow(at, elongation, of_path).force, force, 1e-12) << elongation;
+    EXPECT_NEAR(path->follow(at, elongation, of_path, 1).force, force, 1e-12) << elongation;
     const int steps = static_cast<int>(std::ceil(std::abs(elongation - at) * 1024));
     for (int i = 1; i <= steps; ++i) {
       stepped.advance(at + (elongation - at) * i / steps, memory);
@@ -256,6 +256,26 @@ TEST(HystereticLaw, NeverGivesEnergyOnRandomWalks) {
   }
 }
 
+TEST(HystereticLaw, GivesNoEnergyWhereItsStrengthChanges) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> way(0, 0.7);
+  std::uniform_real_distribution<double> part(0.001, 1);
+  const HystereticLaw law(three_slopes(Rule::kinematic));
+  std::vector<double> memory(law.memory_size(), 0.0);
+  double elongation = 0, lost = 0, largest = 0;
+  for (int i = 0; i < 200000; ++i) {
+    elongation = 0.95 * elongation + way(random);
+    law.advance(elongation, memory, part(random));
+    largest = std::max(largest, law.stored(memory));
+    ASSERT_GE(law.lost(memory), lost - 1e-13 * largest) << i;
+    lost = law.lost(memory);
+  }
+  EXPECT_GT(lost, 1e4);
+  // Beyond both corners, weakened to a quarter: a quarter of 2.
+  law.advance(elongation + 100, memory, 0.25);
+  EXPECT_NEAR(law.force(memory), 0.5, 1e-12);
+}
+
 TEST(HystereticLaw, IsNowhereStifferThanAtFirstAndFallsOnlyWhereItsSkeletonDoes) {
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
@@ -274,7 +294,7 @@ TEST(HystereticLaw, IsNowhereStifferThanAtFirstAndFallsOnlyWhereItsSkeletonDoes)
       double at = 0, force = 0;
       for (int n = 0; n < 3000; ++n) {
         const double to = n % 5 == 0 ? 2 * normal(random) : at + 0.05 * normal(random);
-        const double next = path->follow(at, to, memory).force;
+        const double next = path->follow(at, to, memory, 1).force;
         const double most = stiffness * std::abs(to - at);
         const double small = 1e-11 * (std::abs(force) + stiffness * (std::abs(at) + std::abs(to)));
         const double rise = to > at ? next - force : force - next;
