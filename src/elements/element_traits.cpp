@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <ranges>
 #include <stdexcept>
 #include <string>
 
@@ -176,6 +177,18 @@ ElementType element_of_word(std::string_view word) {
 
 bool takes(const ElementTraits& element, std::string_view property) {
   return contains_word(element.properties, ' ', property);
+}
+
+std::set<std::string_view> properties_of_elements() {
+  std::set<std::string_view> all;
+  for (std::string_view left : table | std::views::transform(&ElementTraits::properties)) {
+    while (!left.empty()) {
+      const std::size_t end = std::min(left.find(' '), left.size());
+      all.insert(left.substr(0, end));
+      left.remove_prefix(std::min(end + 1, left.size()));
+    }
+  }
+  return all;
 }
 
 int shared_by_neighbours(ElementType type) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <span>
 #include <string_view>
 
@@ -85,6 +86,9 @@ ElementType element_of_word(std::string_view word);
 
 /// Whether a region of the element has the option that ends so ("thickness").
 bool takes(const ElementTraits& element, std::string_view property);
+
+/// Last words of the options that belong to some elements only, in no order that counts.
+std::set<std::string_view> properties_of_elements();
 
 /// Nodes that two elements share at least if they meet in a face: those of the smallest face of a
 /// solid, one for everything else.

@@ -30,22 +30,9 @@ using Names = OptionReader::Names;
 
 /// Options that belong to some elements only: refused beside the others.
 void forbid_others(const OptionReader& options, const std::string& element, const Names& names) {
-  constexpr std::string_view properties =
-      "area dashpot dashpot_exponent dashpot_stiffness series_stiffness divide drilling_factor "
-      "hardening mass mass_per_area "
-      "mass_per_length "
-      "material "
-      "rotary_inertia rotary_inertia_factor section compression_only slack sliding_friction "
-      "pendulum_radius stiffness stiffness_per_area stiffness_per_length dashpot_per_area "
-      "dashpot_per_length tension_only thickness yield_circle yield_force rule skeleton "
-      "skeleton_back unloading_exponent unloading_least pinch deterioration shear_skeleton "
-      "shear_skeleton_y shear_skeleton_z shear_rule bending_skeleton_y bending_skeleton_z "
-      "bending_rule bending_axial cracking_force cracking_moment cracked_tension "
-      "cracked_compression "
-      "cracked_bending";
-  for (const std::string& property : split(properties, ' ')) {
+  for (const std::string_view property : properties_of_elements()) {
     if (!takes(traits_of(element_of_word(element)), property)) {
-      options.forbid("<structure>_<group>_" + property, names,
+      options.forbid("<structure>_<group>_" + std::string(property), names,
                      "not for the element " + element + " of this group; leave it out");
     }
   }
