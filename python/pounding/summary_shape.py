@@ -26,7 +26,7 @@ STRUCTURE = {"dofs": NUMBER, "nodes": NUMBER, "mass": LOOSE, "groups": {"*": ANY
                                                        "uniform": LOOSE, "reference_frequency": LOOSE}, NONE),
              "frequencies": [MODE], "omega_max": LOOSE, "stable_time_step": LOOSE, "stable_time_step_undamped": LOOSE}
 SUMMARY = {
-    **dict.fromkeys(("title", "version", "commit", "started", "ended", "structures_key"), TEXT),
+    **dict.fromkeys(("title", "version", "commit", "started", "ended"), TEXT),
     **dict.fromkeys(("time_step", "stable_time_step", "steps", "end_time", "output_interval", "ranks", "wall_time",
                      "microseconds_per_step", "peak_memory"), LOOSE),
     "machine": {"names": [TEXT], "processor": TEXT, "folder": TEXT},

@@ -117,7 +117,6 @@ void write_summary(const std::string& path, const FinishedRun& run) {
   for (const Building& building : model.buildings) {
     facts.values["structures"][building.name()] = structure_facts(building).values;
   }
-  facts.add("structures_key", scene.structures_key);
   if (model.equilibrium) facts.add("equilibrium", rest_facts(scene, model));
   facts.add("motion", motion_facts(*model.motion));
   if (model.supports) facts.add("supports", support_facts(*model.supports));

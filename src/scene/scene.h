@@ -410,7 +410,6 @@ struct Scene {
   std::string title;
   double fidelity_window = 0;  ///< at full order, by which errors are estimated [s]; 0: none
   FidelityClimb fidelity;
-  std::string structures_key;  ///< see scene/structures_key.h
   /// Options that cut meshes depend on, see scene/mesh_options.h.
   std::vector<std::pair<std::string, std::string>> mesh_options;
   std::vector<std::string> warnings;  ///< one line each: options that may not be meant

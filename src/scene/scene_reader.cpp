@@ -24,7 +24,6 @@
 #include "scene/standard_parts.h"
 #include "scene/stop_reader.h"
 #include "scene/structure_reader.h"
-#include "scene/structures_key.h"
 #include "scene/support_reader.h"
 #include "scene/unknown_options.h"
 
@@ -84,7 +83,6 @@ class SceneReader {
     for (const auto& doubts : {idle_options(options_, scene_, listed_), scene_doubts(scene_)}) {
       scene_.warnings.insert(scene_.warnings.end(), doubts.begin(), doubts.end());
     }
-    scene_.structures_key = structures_key(options_.in_force());
     scene_.mesh_options = mesh_options(options_.in_force(), scene_);
     check_pieces();
     return {scene_, resolved_yaml(options_), stiffness_factors_, ensemble_};
