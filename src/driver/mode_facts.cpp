@@ -38,7 +38,8 @@ Facts reduction_facts(const Building& building) {
 
 namespace {
 
-Facts mode_facts(const Mode& mode, const std::optional<UniformDamping>& uniform, int number) {
+Facts mode_facts(const Mode& mode, const Building& building, int number) {
+  const std::optional<UniformDamping>& uniform = building.system->uniform_damping;
   const auto& mass = mode.effective_modal_mass;
   Facts facts{{{"frequency", mode.frequency},
                {"direction", mode.direction},
@@ -59,6 +60,11 @@ Facts mode_facts(const Mode& mode, const std::optional<UniformDamping>& uniform,
     facts.say(", damped {damped_frequency:.3f} Hz ({:+.1f %}) at {:.3f %}",
               {moved / mode.frequency - 1, uniform->ratio_at(2 * std::numbers::pi * moved)});
   }
+  if (mode.region.region >= 0) {
+    const auto region = static_cast<std::size_t>(mode.region.region);
+    facts.add("group", building.full_order().regions[region].group);
+    facts.add("group_share", mode.region.share, ", {group} has {group_share:.1f %} of the motion");
+  }
   facts.say("\n");
   return facts;
 }
@@ -74,7 +80,7 @@ Facts mode_facts(const Building& building) {
             "  mode  frequency  direction  effective mass, share of it\n");
   int number = 0;
   for (const Mode& mode : building.modal.modes) {
-    const Facts of = mode_facts(mode, building.system->uniform_damping, ++number);
+    const Facts of = mode_facts(mode, building, ++number);
     facts.values["frequencies"].push_back(of.values);
     facts.text += of.text;
   }

@@ -1,8 +1,11 @@
 #include "mesh/location.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
+#include <vector>
 
 #include "common/parallel.h"
 #include "elements/element.h"
@@ -75,6 +78,40 @@ std::string locate_largest(const Mesh& mesh, std::span<const double> values) {
   std::vector<char> bytes(mine.begin(), mine.end());
   broadcast_array(mesh.comm, bytes, largest.rank);
   return {bytes.begin(), bytes.end()};
+}
+
+RegionShare busiest_region(const Mesh& mesh, std::span<const double> values) {
+  std::vector<double> square(mesh.owned_nodes);
+  for (LocalIndex node = 0; node < mesh.owned_nodes; ++node) {
+    for (int c = 0; c < 6; ++c) {
+      const LocalIndex dof = mesh.dof(node, c);
+      if (dof >= 0) square[node] += values[dof] * values[dof];
+    }
+  }
+  int regions = 0;
+  for (const ElementBlock& block : mesh.blocks) regions = std::max(regions, block.region + 1);
+  MPI_Allreduce(MPI_IN_PLACE, &regions, 1, MPI_INT, MPI_MAX, mesh.comm);
+  std::vector<double> sums(regions + 1);
+  sums[regions] = std::accumulate(square.begin(), square.end(), 0.0);
+  std::vector<int> counted(mesh.owned_nodes, -1);  // region that had the node last
+  for (int region = 0; region < regions; ++region) {
+    for (const ElementBlock& block : mesh.blocks) {
+      if (block.region != region) continue;
+      for (const LocalIndex node : block.connectivity) {
+        if (node >= mesh.owned_nodes || counted[node] == region) continue;
+        counted[node] = region;
+        sums[region] += square[node];
+      }
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), regions + 1, MPI_DOUBLE, MPI_SUM, mesh.comm);
+  RegionShare found;
+  constexpr double equal = 1e-9;  // difference of two shares that is round-off
+  for (int region = 0; region < regions; ++region) {
+    const double share = sums[regions] > 0 ? sums[region] / sums[regions] : 0;
+    if (share > found.share + equal) found = {region, share};
+  }
+  return found;
 }
 
 }  // namespace pounding

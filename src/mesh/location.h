@@ -17,4 +17,15 @@ std::string describe_element(const Mesh& mesh, const ElementBlock& block, std::s
 /// Collective.
 std::string locate_largest(const Mesh& mesh, std::span<const double> values);
 
+/// Part of a field in the nodes of a region.
+struct RegionShare {
+  int region = -1;   ///< index into the structure's regions; -1: none
+  double share = 0;  ///< of the sum of the squared values over all nodes
+};
+
+/// The region whose nodes have the largest part of a field over the owned dofs, by the squares of
+/// its values; a node belongs to every region with an element there, and of equal parts the first
+/// region has it. The same on all ranks. Collective.
+RegionShare busiest_region(const Mesh& mesh, std::span<const double> values);
+
 }  // namespace pounding

@@ -208,6 +208,7 @@ ModalResult lowest_modes(const LinearSystem& system, const Mesh& mesh, int count
     result.modes.push_back(
         describe_mode(pair.value, motions.participation(field.data()), motions.inertia()));
     result.modes.back().shape = std::move(shape);
+    result.modes.back().region = busiest_region(mesh, field);
     if (pair.value < bound) result.modes.back().location = locate_largest(mesh, field);
     field = {};
   }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/location.h"
 #include "mesh/mesh.h"
 #include "modal/lanczos.h"
 #include "system/linear_system.h"
@@ -18,6 +19,7 @@ struct Mode {
                                   ///< the centre of mass [kg m2]
   std::string direction;          ///< "x" ... "rz": where most of the mass moves
   double direction_fraction = 0;  ///< of the mass (rotary inertia) in that direction
+  RegionShare region;             ///< with most of its kinetic energy; none of a reduced structure
   std::string location;           ///< where it moves most, of modes near zero only
   std::vector<double> shape;      ///< phi over the owned dofs; empty unless asked
 };

@@ -259,6 +259,9 @@ class Report(unittest.TestCase):
             self.assertEqual(len(console), 4)
             for line, row in zip(console, shown):
                 self.assertEqual(row[:4] + [row[4].replace("²", "2"), row[5], row[2], row[6]], list(line))
+            groups = re.findall(r"(\w+) has ([\d.]+) % of the motion$", part, re.MULTILINE)[:4]
+            self.assertEqual([row[7] for row in shown], [f"{group}, {share} %" for group, share in groups])
+            self.assertEqual(groups[0][0], "slabs")  # which carry the mass
 
     def test_damping_is_that_of_the_console(self):
         shown = numpy.array(model_tables.SHOWN)

@@ -444,9 +444,10 @@ class Labels(unittest.TestCase):
             for number, mode in enumerate(of["frequencies"], 1):
                 way = mode["direction"]
                 kind = f"kg m2 about {way[1]}" if way[0] == "r" else f"kg along {way}"
-                row = numbers(rf"\n +{number} +# +{way} +# {kind}, +# % about/along {way}\n", text)
+                row = numbers(rf"\n +{number} +# +{way} +# {kind}, +# % about/along {way}, body has # % of the motion\n", text)
                 mass = mode["effective_modal_mass"][("x", "y", "z", "rx", "ry", "rz").index(way)]
-                numpy.testing.assert_allclose(row, [mode["frequency"], mass, 100 * mode["fraction"]], atol=0.51, rtol=1e-3)
+                self.assertEqual((mode["group"], round(mode["group_share"], 9)), ("body", 1))  # the only one
+                numpy.testing.assert_allclose(row, [mode["frequency"], mass, 100 * mode["fraction"], 100], atol=0.51, rtol=1e-3)
                 self.assertEqual(mode["effective_mass"], max(mode["effective_modal_mass"][:3]))
         places = {"near": ([0, 0, 1], math.hypot(0.01, 0.02)), "right_face": ([0, 0.5, 0.5], 0)}
         for name, (place, distance) in places.items():

@@ -132,7 +132,8 @@ def material_tables(result: Result) -> str:
 
 def mode_rows(structure: dict) -> list:
     """The console's table of modes: number, frequency [Hz], direction, effective mass along it [kg] or about it [kg m2],
-    its unit and axis, and the share of what moves along or about the direction [%]."""
+    its unit and axis, the share of what moves along or about the direction [%], the damped frequency [Hz], and the group
+    with most of the motion, with its share."""
     rows = []
     for number, mode in enumerate(structure.get("frequencies", []), 1):
         masses, way = mode.get("effective_modal_mass") or [], mode.get("direction") or ""
@@ -141,7 +142,8 @@ def mode_rows(structure: dict) -> list:
         axis = f"{'kg m² about' if way.startswith('r') else 'kg along'} {way[-1]}" if known else None
         share = mode.get("fraction")
         rows.append((number, mode.get("frequency"), mode.get("direction"), mass, axis,
-                     None if share is None else 100 * share, mode.get("damped_frequency")))
+                     None if share is None else 100 * share, mode.get("damped_frequency"),
+                     f"{mode['group']}, {100 * mode['group_share']:.1f} %" if "group" in mode else None))
     return rows
 
 
@@ -149,15 +151,16 @@ def mode_tables(result: Result) -> str:
     text = ""
     for name, structure in result.summary.get("structures", {}).items():
         rows = [(number, None if f is None else f"{f:.3f}", way, None if mass is None else f"{mass:.0f}", axis,
-                 None if share is None else f"{share:.1f}", None if moved is None else f"{moved:.3f}")
-                for number, f, way, mass, axis, share, moved in mode_rows(structure)]
+                 None if share is None else f"{share:.1f}", None if moved is None else f"{moved:.3f}", group)
+                for number, f, way, mass, axis, share, moved, group in mode_rows(structure)]
         header = ["mode", "frequency [Hz]", "direction", "effective mass", "", "share of the direction [%]",
-                  "damped [Hz]"]
-        width = 7 if any(row[6] for row in rows) else 6
-        text += html_table(f"Modes of {name}", header[:width], [row[:width] for row in rows])
+                  "damped [Hz]", "group that moves"]
+        shown = [i for i in range(8) if i < 6 or any(row[i] for row in rows)]
+        text += html_table(f"Modes of {name}", [header[i] for i in shown], [[row[i] for i in shown] for row in rows])
     if text:
         text += ('<p class="note">Effective mass: along the direction named, or rotary inertia about it. Share: of all that can move along the '
-                 "direction named (mass), or about it (rotary inertia), as on the console.</p>\n")
+                 "direction named (mass), or about it (rotary inertia), as on the console. Group that moves: the one whose nodes have most of the "
+                 "kinetic energy; nodes that groups share count for each.</p>\n")
     return text
 
 
