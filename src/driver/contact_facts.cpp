@@ -54,6 +54,11 @@ Facts contact_facts(const Scene& scene, const Model& model, std::size_t c) {
       "\ncontact {}: {pairs} pairs ({matched} node to node), {unmatched_nodes} secondary nodes "
       "face nothing, initial gap {:.4g [mm]} to {:.4g mm}, normal {normal:.3g}\n",
       {report.contact, report.smallest_gap, report.largest_gap});
+  for (std::size_t p = 0; p < report.patch_pairs.size(); ++p) {
+    const Json patch{{"gap", contact.gap.patches[p].gap}, {"pairs", report.patch_pairs[p]}};
+    facts.values["gap_patches"].push_back(patch);
+    facts.text += told("  patch {}: {pairs} pairs with a gap of {gap:.4g mm}\n", patch, {p + 1});
+  }
   if (model.equilibrium) {
     facts.say("  gap at rest {initial_gap:.4g mm}, unloaded {unloaded_gap:.4g mm}\n");
   }

@@ -179,6 +179,7 @@ void pass_interface(Stream& stream, AnyInterface& interface) {
     stream(report.inner_facets);
     stream(report.normal);
     stream(report.tangent_axes);
+    stream.array(report.patch_pairs);
     stream(report.filler_area);
     stream(report.filler_thickness);
   });

@@ -146,6 +146,10 @@ void check_member_gaps(std::span<const MemberScene> members,
       require_same_ways(scene, interface, shares);
       if (scene.preload) rows_open_at_rest(scene, own);
       for (std::size_t c = 0; c < reports.size(); ++c) {
+        count_patches(scene.contacts[c],
+                      std::ranges::equal_range(own.constraints, static_cast<int>(c), {},
+                                               &interactions::Constraint::contact),
+                      reports[c]);
         doubts.add(m,
                    interactions::check_gaps(scene.contacts[c], reports[c], interface.model_size));
       }

@@ -32,7 +32,7 @@ std::vector<std::string> free_options(const std::vector<std::string>& structures
   }
   for (const std::string& contact : contacts) {
     for (const char* pattern : {"<contact>_gap", "<contact>_gap_deviation", "<contact>_gap_length",
-                                "<contact>_gap_seed"}) {
+                                "<contact>_gap_seed", "<contact>_gap_patches"}) {
       names.push_back(option_name(pattern, {contact}));
     }
   }
@@ -81,12 +81,13 @@ void check_columns(const MemberTable& table, const std::vector<std::string>& str
   std::set<std::string> seen;
   for (const std::string& column : table.columns) {
     if (std::ranges::find(free, column) == free.end()) {
-      throw UserError(table.file + ": column '" + column +
-                      "' is no option that may differ from run to run; those are motion_..., "
-                      "motion_level, <contact>_gap, _gap_deviation, _gap_length and _gap_seed, "
-                      "<structure>_damping_factor, _stiffness_factor "
-                      "and _modal_damping" +
-                      suggestion(column, free));
+      throw UserError(
+          table.file + ": column '" + column +
+          "' is no option that may differ from run to run; those are motion_..., "
+          "motion_level, <contact>_gap, _gap_deviation, _gap_length, _gap_seed and _gap_patches, "
+          "<structure>_damping_factor, _stiffness_factor "
+          "and _modal_damping" +
+          suggestion(column, free));
     }
     if (!seen.insert(column).second) {
       throw UserError(table.file + ": two columns are called '" + column + "'");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -245,15 +246,31 @@ struct ContactSide {
   bool is_wall() const { return structure == "wall"; }
 };
 
+/// A part of a face, on the tangent axes, where the joint has a gap of its own: debris or formwork
+/// left in.
+struct GapPatch {
+  std::array<double, 2> low{};   ///< corner of a rectangle, or the middle of a disc [m]
+  std::array<double, 2> high{};  ///< corner beyond it, or the same middle [m]
+  double radius = 0;             ///< of a disc [m]; 0: a rectangle
+  double gap = 0;                ///< in place of all that the joint has elsewhere [m]
+
+  /// Whether a place on the tangent axes [m] is in it; its border is.
+  bool holds(const std::array<double, 2>& place) const {
+    if (radius > 0) return std::hypot(place[0] - low[0], place[1] - low[1]) <= radius;
+    return low[0] <= place[0] && place[0] <= high[0] && low[1] <= place[1] && place[1] <= high[1];
+  }
+};
+
 /// Initial gap: from the geometry, one number, two values (linear along the first tangent axis) or
 /// four (the corners of the face, going round). Tangent axes: the global axes other than the one
 /// closest to the contact normal, in the order x, y, z. Corners: (min t1, min t2), (max t1, min
 /// t2), (max t1, max t2), (min t1, max t2).
 struct InitialGap {
-  std::vector<double> values;  ///< empty: from geometry; else 1, 2 or 4 values [m]
-  double deviation = 0;        ///< of a random part over the face [m]; 0: none
-  double length = 1;           ///< over which that part is correlated [m]
-  int seed = 1;                ///< of that part
+  std::vector<double> values;     ///< empty: from geometry; else 1, 2 or 4 values [m]
+  double deviation = 0;           ///< of a random part over the face [m]; 0: none
+  double length = 1;              ///< over which that part is correlated [m]
+  int seed = 1;                   ///< of that part
+  std::vector<GapPatch> patches;  ///< of two that share a place the last counts
 };
 
 /// Makes a contact a stop between nodes of its sides.

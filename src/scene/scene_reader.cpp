@@ -12,6 +12,7 @@
 #include "scene/factor_reader.h"
 #include "scene/filler_reader.h"
 #include "scene/force_reader.h"
+#include "scene/gap_reader.h"
 #include "scene/idle_options.h"
 #include "scene/load_reader.h"
 #include "scene/mesh_options.h"
@@ -298,10 +299,13 @@ class SceneReader {
                                                     : "a stop that gives way") +
                           " is laid into the joint as it is at rest; leave it out");
     }
-    const bool open =
-        !values.empty() && std::ranges::all_of(values, above_zero) && !contact.primary.is_wall();
-    const bool open_in_part =
-        !open && std::ranges::any_of(values, above_zero) && !contact.primary.is_wall();
+    const auto is_open = [](const GapPatch& patch) { return patch.gap > 0; };
+    const bool faces = !contact.primary.is_wall();
+    const bool open = faces && !values.empty() && std::ranges::all_of(values, above_zero) &&
+                      std::ranges::all_of(contact.gap.patches, is_open);
+    const bool open_in_part = faces && !open &&
+                              (std::ranges::any_of(values, above_zero) ||
+                               std::ranges::any_of(contact.gap.patches, is_open));
     if (state == "auto" && scene_.preload && open_in_part && !laid_in) {
       options_.refuse("<contact>_gap", {contact.name},
                       "open in one part and not in another, under -preload static; say with -" +
@@ -320,27 +324,12 @@ class SceneReader {
     contact.primary = options_.text("<contact>_primary", {name}) == "wall"
                           ? ContactSide{"wall", ""}
                           : read_side("<contact>_primary", name);
-    const bool from_geometry = options_.text("<contact>_gap", {name}) == "geometry";
     contact.passes = options_.integer("<contact>_passes", {name});
     contact.friction = options_.real("<contact>_friction", {name});
-    if (contact.primary.is_wall() && from_geometry) {
-      options_.refuse("<contact>_gap", {name}, "a wall has no geometry, give its distance");
-    }
     if (contact.primary.is_wall() && contact.passes != 1) {
       options_.refuse("<contact>_passes", {name}, "a wall has no nodes");
     }
-    if (!from_geometry) {
-      contact.gap.values = options_.reals("<contact>_gap", {name});
-      const std::size_t count = contact.gap.values.size();
-      if (count != 1 && count != 2 && count != 4) {
-        options_.refuse("<contact>_gap", {name}, "wrong count of numbers");
-      }
-    }
-    contact.gap.deviation = options_.real("<contact>_gap_deviation", {name});
-    if (contact.gap.deviation > 0) {
-      contact.gap.length = options_.real("<contact>_gap_length", {name});
-      contact.gap.seed = options_.integer("<contact>_gap_seed", {name});
-    }
+    contact.gap = read_gap(options_, name, contact.primary.is_wall());
     contact.stop = read_stop(options_, name);
     if (contact.stop) {
       check_stop(options_, contact, !scene_.export_matrices.empty());

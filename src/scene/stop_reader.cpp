@@ -50,10 +50,10 @@ std::optional<Stop> read_stop(OptionReader& options, const std::string& contact)
 void check_stop(const OptionReader& options, const Contact& contact, bool exports) {
   const OptionReader::Names names{contact.name};
   for (const char* option :
-       {"<contact>_passes", "<contact>_gap_deviation", "<contact>_sliding", "<contact>_filler",
-        "<contact>_filler_unloading", "<contact>_filler_thickness", "<contact>_filler_area",
-        "<contact>_crushing", "<contact>_crushing_stiffness", "<contact>_crushing_depth",
-        "<contact>_crushing_area"}) {
+       {"<contact>_passes", "<contact>_gap_deviation", "<contact>_gap_patches", "<contact>_sliding",
+        "<contact>_filler", "<contact>_filler_unloading", "<contact>_filler_thickness",
+        "<contact>_filler_area", "<contact>_crushing", "<contact>_crushing_stiffness",
+        "<contact>_crushing_depth", "<contact>_crushing_area"}) {
     options.forbid(option, names,
                    "-" + option_name(stop_along, names) +
                        " makes it a stop between nodes, which have no faces");

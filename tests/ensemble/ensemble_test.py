@@ -283,6 +283,10 @@ class Kinds(unittest.TestCase):
                    "-floor2_gap_deviation", ".001", columns="motion_x_seed,motion_x_pga,floor1_gap_deviation,floor2_gap_seed",
                    rows=["1,3.5,0,1", "2,6,0.001,2", "3,6,0.002,3"])
 
+    def test_joints_bridged_in_places(self):
+        self.check(columns="motion_x_seed,motion_x_pga,floor1_gap_patches,floor2_gap_patches",
+                   rows=["1,3.5,none,none", '2,6,"2,3,0.5,0","0,5.9,1.1,6.1,0.001"', '3,6,none,"2,6,0.5,0.002"'])
+
     def refuse_thick(self, words):
         """Before any basis is computed, as a single run does."""
         output = tempfile.mkdtemp(prefix="pounding-ensemble-")

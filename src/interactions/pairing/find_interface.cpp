@@ -297,6 +297,7 @@ class PairFinder {
       report_.geometric_gap = {std::min(report_.geometric_gap[0], constraint.geometric_gap),
                                std::max(report_.geometric_gap[1], constraint.geometric_gap)};
     }
+    count_patches(contact_, constraints, report_);
     if (contact_.primary.is_wall()) {
       report_.geometric_gap.fill(std::numeric_limits<double>::quiet_NaN());
     }

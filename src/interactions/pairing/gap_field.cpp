@@ -1,9 +1,13 @@
 #include "interactions/pairing/gap_field.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <sstream>
+
+#include "common/error.h"
 
 namespace pounding::interactions {
 namespace {
@@ -51,7 +55,41 @@ double GapField::at(const std::array<double, 2>& place) const {
   return size_ * sum;
 }
 
+int patch_at(const Contact& contact, const Constraint& row) {
+  int found = static_cast<int>(contact.gap.patches.size()) - 1;
+  while (found >= 0 && !contact.gap.patches[found].holds(row.place)) --found;
+  return found;
+}
+
+void count_patches(const Contact& contact, std::span<const Constraint> rows,
+                   InterfaceReport& report) {
+  report.patch_pairs.assign(contact.gap.patches.size(), 0);
+  for (const Constraint& row : rows) {
+    if (row.geometric_gap == open_gap) continue;
+    if (const int patch = patch_at(contact, row); patch >= 0) ++report.patch_pairs[patch];
+  }
+  const auto empty = std::ranges::find(report.patch_pairs, 0);
+  if (empty == report.patch_pairs.end()) return;
+  std::array<double, 2> low = rows.front().place;
+  std::array<double, 2> high = low;
+  for (const Constraint& row : rows) {
+    for (std::size_t t = 0; t < 2; ++t) {
+      low[t] = std::min(low[t], row.place[t]);
+      high[t] = std::max(high[t], row.place[t]);
+    }
+  }
+  const auto axis = [&](std::size_t t) { return "xyz"[report.tangent_axes[t]]; };
+  std::ostringstream text;
+  text << "option -" << contact.name << "_gap_patches: patch "
+       << empty - report.patch_pairs.begin() + 1
+       << " holds no pair that another does not hold after it; the pairs lie between " << low[0]
+       << " and " << high[0] << " m along " << axis(0) << ", " << low[1] << " and " << high[1]
+       << " m along " << axis(1) << "; move it or make it larger";
+  throw UserError(text.str());
+}
+
 double GivenGap::of(const Constraint& row, const GapShare& share) const {
+  if (const int patch = patch_at(contact_, row); patch >= 0) return contact_.gap.patches[patch].gap;
   const std::vector<double>& gap = contact_.gap.values;
   return (gap.empty() ? row.geometric_gap : given_gap(gap, share)) + field_.at(row.place);
 }

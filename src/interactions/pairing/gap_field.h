@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "interactions/pairing/interface.h"
@@ -31,13 +32,21 @@ class GapField {
   std::vector<Wave> waves_;
 };
 
+/// Patch of the gap of a contact in which the place of a row is; -1: in none.
+int patch_at(const Contact& contact, const Constraint& row);
+
+/// Notes how many of the rows of a contact each of its patches has. Throws UserError where one has
+/// none.
+void count_patches(const Contact& contact, std::span<const Constraint> rows,
+                   InterfaceReport& report);
+
 /// Initial gaps of the rows of a contact, as its options give them. It borrows the contact.
 class GivenGap {
  public:
   explicit GivenGap(const Contact& contact) : contact_(contact), field_(contact) {}
 
-  /// Gap of a row [m]: that of the geometry or the given one at its share of the face, and the
-  /// random part at its place.
+  /// Gap of a row [m]: that of the patch in which its place is, else that of the geometry or the
+  /// given one at its share of the face, and the random part at its place.
   double of(const Constraint& row, const GapShare& share) const;
 
  private:

@@ -87,6 +87,7 @@ struct InterfaceReport {
   int inner_facets = 0;                      ///< facets with elements on both of their sides
   Vector3 normal{0, 0, 0};                   ///< mean
   std::array<int, 2> tangent_axes{};         ///< global axes of `place`
+  std::vector<int> patch_pairs;              ///< pairs in each patch of the gap
   double filler_area = 0;                    ///< of all pairs [m2]; 0: no filler
   std::array<double, 2> filler_thickness{};  ///< smallest and largest [m]
 };
