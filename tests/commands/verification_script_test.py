@@ -3,6 +3,7 @@ import json
 import os
 import tempfile
 import unittest
+import unittest.mock
 
 import program
 
@@ -56,7 +57,9 @@ class Verification(unittest.TestCase):
         text = PROBLEM.format(delta=0.5).replace("assertEqual(2, 2)", "assertEqual(program.RANKS, 3)")
         self.write("good", text.replace("import unittest", "import unittest\n\nimport program"))
         self.assertEqual(self.verify("--ranks", "3").returncode, 0)
-        self.assertEqual(self.verify().returncode, 1)
+        with unittest.mock.patch.dict(os.environ):
+            os.environ.pop("POUNDING_RANKS", None)
+            self.assertEqual(self.verify().returncode, 1)
 
     def test_failing_assertion_fails(self):
         self.write("bad", PROBLEM.format(delta=0.1))
