@@ -12,6 +12,7 @@
 #include "io/hdf5_reader.h"
 #include "io/new_file.h"
 #include "io/schema.h"
+#include "scene/option_values.h"
 
 namespace pounding {
 namespace {
@@ -134,7 +135,7 @@ std::string difference(const std::vector<std::string>& before,
   for (std::size_t i = 0; i < std::max(before.size(), now.size()); ++i) {
     const std::string was = i < before.size() ? before[i] : "nothing";
     const std::string is = i < now.size() ? now[i] : "nothing";
-    if (was != is) return "there: " + was + "; now: " + is;
+    if (was != is) return "there: " + shown_value(was) + "; now: " + shown_value(is);
   }
   return "";
 }
