@@ -83,9 +83,11 @@ class Report(unittest.TestCase):
         impacts = self.hit.impacts
         strongest = impacts["impulse"].argmax()
         self.assertGreater(len(impacts["impulse"]), 0)
+        asked = 1e3 * self.hit.summary["separations"]["floor2"]["srss"]
+        self.assertGreater(asked, 10)
         self.assertTrue(said.split(">")[-1].strip().startswith(
-            f"The joint floor2 of 10 mm closes, with {len(impacts['impulse'])} impacts in all and no margin; one motion in "
-            "one joint gives no confidence."), said[:200])
+            f"The joint floor2 of 10 mm closes, with {len(impacts['impulse'])} impacts in all, where response spectra ask for "
+            f"{asked:.3g} mm (SRSS); one motion in one joint gives no confidence."), said[:200])
         self.assertIn(f"The buildings touched: {len(impacts['impulse'])} impact", said)
         self.assertIn(f"The hardest came at {impacts['start'][strongest]:.4g} s at {impacts['contact'][strongest]}: "
                       f"{markup.readable(impacts['impulse'][strongest])} N s", said)
